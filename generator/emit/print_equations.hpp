@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// An EquationSet for people and programs.
+#pragma once
+
+#include "expression/equation_set.hpp"
+
+namespace lagen {
+
+[[nodiscard]] std::string print_text(const EquationSet& equations);  ///< UTF-8, aligned, at most 120 columns where terms allow
+[[nodiscard]] std::string print_latex(const EquationSet& equations); ///< a compilable fragment: align* blocks (amsmath)
+[[nodiscard]] std::string print_json(const EquationSet& equations);
+
+/// One tree as UTF-8 mathematics / LaTeX.
+[[nodiscard]] std::string latex_of(const Tree& tree, const EquationSet& symbols);
+
+} // namespace lagen

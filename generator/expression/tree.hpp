@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// The syntax tree of the expression language: what a user wrote, with exact numbers and positions.
+/// Trees are immutable and shared, so a definition that is used twice is one tree with two parents; every walk over
+/// trees memoises by address or it could take exponential time.
+#pragma once
+
+#include "diagnostic.hpp"
+
+#include <gmpxx.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace lagen {
+
+using Rational = mpq_class; ///< always canonical
+
+/// Functions built into the language. `minimum`, `maximum`, `sign` and `select` (spelled min max sign if) are not smooth:
+/// legal in forces, observables and events only.
+enum class Function {
+    sin, cos, tan, asin, acos, atan, atan2, sinh, cosh, tanh, exp, log, sqrt, abs,
+    minimum, maximum, sign, select,
+};
+
+struct FunctionEntry {
+    Function function;
+    const char* name;
+    std::size_t arity;
+    bool smooth; ///< false: allowed in observables, forces and events only
+};
+
+/// Every built-in function, in the order of the enumeration.
+[[nodiscard]] std::span<const FunctionEntry> function_table();
+[[nodiscard]] const FunctionEntry* find_function(std::string_view name); ///< nullptr where there is none
+[[nodiscard]] const FunctionEntry& entry_of(Function function);
+
+enum class Comparison { less, less_equal, greater, greater_equal, equal, not_equal };
+
+enum class TreeKind {
+    number,   ///< `number`
+    pi,       ///< the constant, where the model declares no symbol "pi"
+    name,     ///< a symbol: coordinate, parameter, time, or (before expansion) a definition
+    negate,   ///< -arguments[0]
+    add,      ///< arguments[0] + arguments[1] + ... (n-ary; a - b is add(a, negate(b)))
+    multiply, ///< arguments[0] * arguments[1] * ... (n-ary)
+    divide,   ///< arguments[0] / arguments[1]
+    power,    ///< arguments[0] ^ arguments[1]
+    call,     ///< built-in `function` of the arguments
+    apply,    ///< a function of the model, `name`(arguments); gone after expansion
+    compare,  ///< arguments[0] `comparison` arguments[1]; in domains and in the condition of if(c, a, b)
+};
+
+struct TreeNode;
+using Tree = std::shared_ptr<const TreeNode>;
+
+struct TreeNode {
+    TreeKind kind = TreeKind::number;
+    Rational number;                            ///< of `number`
+    std::string name;                           ///< of `name` and `apply`
+    Function function = Function::sin;          ///< of `call`
+    Comparison comparison = Comparison::less;   ///< of `compare`
+    std::vector<Tree> arguments;
+    SourceRange where;                          ///< the text of this very sub-expression
+};
+
+// Builders, for tests and for the stages that make trees. They do not simplify.
+[[nodiscard]] Tree number(Rational value, SourceRange where = {});
+[[nodiscard]] Tree name(std::string symbol, SourceRange where = {});
+[[nodiscard]] Tree negate(Tree a);
+[[nodiscard]] Tree add(std::vector<Tree> terms);
+[[nodiscard]] Tree multiply(std::vector<Tree> factors);
+[[nodiscard]] Tree divide(Tree a, Tree b);
+[[nodiscard]] Tree power(Tree base, Tree exponent);
+[[nodiscard]] Tree call(Function function, std::vector<Tree> arguments);
+[[nodiscard]] Tree compare(Comparison comparison, Tree a, Tree b);
+
+/// The text of a tree in the expression language, with the fewest parentheses: parse(to_text(t)) has the value of t.
+/// A number prints as an integer, a fraction p/q, or a finite decimal where that is shorter.
+[[nodiscard]] std::string to_text(const Tree& tree);
+
+/// The names that occur in a tree, in order of first occurrence (depth first, left to right).
+[[nodiscard]] std::vector<std::string> names_in(const Tree& tree);
+
+/// Same structure, numbers and names (positions aside).
+[[nodiscard]] bool same_tree(const Tree& a, const Tree& b);
+
+} // namespace lagen

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// The structure equations and the other claims of a model, each proved, refuted or undecided.
+///   antisymmetry  C^c_ab + C^c_ba = 0                                       (where both orders are given)
+///   anchor        rho_a(rho^i_b) - rho_b(rho^i_a) - rho^i_c C^c_ab = 0       a < b, all i
+///   jacobi        sum_cyc(a,b,c) [ rho_a(C^v_bc) + C^m_bc C^v_am ] = 0       a < b < c, all v
+///   tangency      rho_a(h) = 0 on M for each base constraint h
+///   casimir       rho_a(f) = 0
+///   invariant     df/dt = 0 along the equations of motion
+#pragma once
+
+#include "geometry/algebroid.hpp"
+#include "proof/decide.hpp"
+
+namespace lagen {
+
+struct Check {
+    std::string name;                 ///< "anchor", "jacobi", ...
+    std::vector<std::string> indices; ///< names, e.g. {"w1", "w2", "g3"} for anchor (a, b, i); {"w1","w2","w3","w1"} for jacobi (a, b, c, v)
+    Decision decision;
+    std::string hint;                 ///< may be empty
+};
+
+enum class Verdict { valid, invalid, undecided };
+[[nodiscard]] const char* to_text(Verdict verdict);
+
+/// Of the fibre Hessian W = d2L/dy2.
+struct Regularity {
+    enum class Kind { regular, generically_regular, degenerate, absent, undecided } kind = Kind::absent;
+    std::size_t rank = 0;                 ///< generic rank, by a witness
+    bool positive_definite = false;       ///< proved on the whole domain
+    std::vector<std::vector<std::pair<std::string, std::string>>> singular_at; ///< known singular points
+};
+
+struct VerifiedAlgebroid {
+    Algebroid algebroid;
+    std::vector<Check> checks;
+    std::size_t trivial = 0; ///< residuals that are zero by structure: counted, not listed
+    Verdict verdict = Verdict::undecided;
+    Regularity regularity;
+    std::string note; ///< e.g. "no regular point was found: ..."
+};
+
+/// Runs every check that the model calls for, on extra invariants (closed trees from the command line) too.
+[[nodiscard]] VerifiedAlgebroid verify(const Model& model, const std::vector<NamedTree>& extra_invariants = {});
+
+} // namespace lagen

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// The record of a model file: names in the order of the file, exact numbers, closed trees, positions.
+/// It knows no geometry: the bracket of a `tangent` algebroid is simply absent here.
+/// Names of families, sizes, groupoids and control blocks have their place in the file format and join this record
+/// with the features that use them.
+#pragma once
+
+#include "expression/scope.hpp"
+#include "expression/tree.hpp"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace lagen {
+
+/// A declared symbol. `text`, `unit` and `latex` come from [about] and may be empty.
+struct Symbol {
+    std::string name;
+    SourceRange where;
+    std::string text;
+    std::string unit;
+    std::string latex;
+};
+
+/// A name with a closed tree: an observable, an invariant, a Casimir, an initial value.
+struct NamedTree {
+    std::string name;
+    Tree value;
+    SourceRange where; ///< of the name
+};
+
+struct Parameter {
+    Symbol symbol;
+    Tree value; ///< closed over the other parameters; acyclic
+};
+
+struct Base {
+    std::vector<Symbol> coordinates;  ///< x^i; empty where M is a point
+    std::vector<Tree> constraints;    ///< closed trees over x and parameters; M is their common zero set
+    std::vector<NamedTree> casimirs;  ///< claimed rho_a(f) = 0
+    std::vector<Tree> domain;         ///< strict comparisons (<, >, !=) that hold on M
+};
+
+struct Fibre {
+    std::vector<Symbol> coordinates; ///< y^a, one a frame section e_a
+    std::vector<Symbol> momenta;     ///< mu_a; default names "p_" + coordinate
+};
+
+/// rho(e_section) contains value * d/d(coordinate).
+struct AnchorEntry {
+    std::size_t section;
+    std::size_t coordinate;
+    Tree value;
+    SourceRange where;
+};
+
+/// [e_a, e_b] contains value * e_c, with a and b in the order in which the file has them.
+struct BracketEntry {
+    std::size_t a, b, c;
+    Tree value;
+    SourceRange where;
+};
+
+enum class AlgebroidKind { general, tangent, lie_algebra, action };
+
+struct AlgebroidBlock {
+    AlgebroidKind kind = AlgebroidKind::general;
+    std::string algebra;                ///< a named Lie algebra (lie_algebra, action), or empty
+    SourceRange algebra_where;
+    std::vector<std::size_t> over;      ///< tangent: the base coordinates that move, in order
+    std::vector<AnchorEntry> anchor;    ///< general, action
+    std::vector<BracketEntry> bracket;  ///< general, lie_algebra, action
+    SourceRange where;
+};
+
+enum class Direction { rising, falling, any };
+
+/// `when` crosses zero in `direction`; a run ends at the count-th crossing where `stop`.
+struct Event {
+    std::string name;
+    Tree when; ///< closed over t, x, y, momenta, parameters
+    Direction direction = Direction::any;
+    bool stop = false;
+    long count = 1;
+    SourceRange where;
+};
+
+/// Where rows are wanted: every `interval`, `count` even ones, or at these times. None: 201 even ones.
+struct Sampling {
+    enum class Kind { standard, interval, count, at } kind = Kind::standard;
+    Tree interval;
+    std::size_t count = 201;
+    std::vector<Tree> at;
+};
+
+/// One set-up to simulate; `like` is resolved already. All values are trees over the parameters.
+struct Scene {
+    std::string name;
+    SourceRange where;
+    std::vector<NamedTree> initial; ///< base coordinates, and fibre coordinates or momenta
+    bool rest = false;              ///< fibre coordinates left out are zero
+    bool project = false;           ///< move the start onto the constraints
+    Tree start;                     ///< null: 0
+    Tree duration;                  ///< null where the scene gives none
+    std::vector<NamedTree> parameters;
+    std::string form;               ///< empty: the default for the model
+    std::string method;             ///< empty: the default for the form
+    SourceRange method_where;
+    Tree step, tolerance, relative, absolute; ///< null where absent
+    Sampling sampling;
+    std::optional<std::vector<NamedTree>> observe; ///< absent: all states
+    std::vector<Event> events;
+};
+
+struct Model {
+    std::string name; ///< a C++ identifier
+    SourceRange name_where;
+    std::string title;
+    std::shared_ptr<const SourceFile> file;
+
+    std::vector<Parameter> parameters;
+    Base base;
+    Fibre fibre;
+    AlgebroidBlock algebroid;
+    std::vector<Definition> definitions; ///< as written, for documentation
+    Tree lagrangian;                     ///< closed over t, x, y, parameters; null where absent
+    SourceRange lagrangian_where;
+    std::vector<NamedTree> observables;
+    std::vector<NamedTree> invariants;
+    std::vector<Scene> scenes;           ///< in the order of the file
+
+    Scope scope;            ///< symbols and definitions: what expressions from the command line may use
+};
+
+/// The scene called `name`; with an empty name `default`, else the first. Throws ModelError where there is none.
+[[nodiscard]] const Scene& find_scene(const Model& model, const std::string& name);
+
+/// All parameter names, then base, fibre: the names that an expression in L may use besides t.
+[[nodiscard]] std::vector<std::string> symbol_names(const Model& model);
+
+} // namespace lagen

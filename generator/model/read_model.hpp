@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// TOML to Model. Unknown keys are errors, the order of the file is kept, floats are re-read from their text.
+#pragma once
+
+#include "model/model.hpp"
+
+namespace lagen {
+
+/// A parameter changed on the command line, `--set name=value`. It replaces the file's value before anything is derived
+/// from it (so "mgl = 'm*g*l'" follows m).
+struct Setting {
+    std::string name;
+    Excerpt value;
+};
+
+/// Reads and checks a model file. A missing or unreadable file, a folder, invalid UTF-8, a file above 16 MiB, TOML errors, unknown
+/// keys, unknown names, names declared twice and expressions in error throw ModelError.
+[[nodiscard]] Model read_model(const std::string& path, const std::vector<Setting>& settings = {});
+
+/// The same from a text in memory; `name` stands in messages for the path.
+[[nodiscard]] Model read_model_text(const std::string& name, std::string text, const std::vector<Setting>& settings = {});
+
+} // namespace lagen

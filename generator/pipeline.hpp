@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// The whole story in one place; pipeline.cpp is the only file besides the commands that knows every stage.
+///
+///   model file --read_model--> Model --verify--> VerifiedAlgebroid
+///                                     --derive_lagrange--> EquationSet --print_text/latex/json--> what a person reads
+///                                     --lagrange_kernels--> KernelModule --print_header--> header --> runtime
+#pragma once
+
+#include "equations/lagrange.hpp"
+#include "geometry/verify.hpp"
+#include "graph/kernel.hpp"
+#include "kernels/lagrange_kernels.hpp"
+#include "model/read_model.hpp"
+
+namespace lagen {
+
+/// A model with its verdict, as every command but `check` needs it.
+struct CheckedModel {
+    Model model;
+    VerifiedAlgebroid verified;
+    std::vector<std::string> warnings; ///< undecided, or refuted but asked to go on
+};
+
+/// Reads and verifies; a refuted model throws MathematicsError unless `unchecked`.
+[[nodiscard]] CheckedModel load(const std::string& path, const std::vector<Setting>& settings, bool unchecked);
+
+struct GenerateRequest {
+    std::string form;              ///< empty: "lagrange"
+    std::vector<std::string> only; ///< kernels; empty: all
+    const Scene* scene = nullptr;  ///< for `run`: this scene's events and observed expressions
+};
+
+/// The header text, and the module that it was printed from.
+struct Generated {
+    KernelModule module;
+    std::string header;
+};
+[[nodiscard]] Generated generate(const CheckedModel& checked, const GenerateRequest& request);
+
+} // namespace lagen

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+/// What a step or a kernel answers instead of throwing.
+#pragma once
+
+#include <cstdint>
+
+namespace lagen {
+
+/// Outcome of a kernel, a step or a run. Names as `lagen run` prints them.
+enum class Status : std::uint8_t {
+    ok = 0,
+    singular_mass_matrix, ///< a factorisation met a (numerically) singular matrix
+    newton_diverged,
+    left_domain,          ///< a strict inequality of the model's domain was violated
+    step_too_small,
+    non_finite,           ///< a state or a derivative is not a number or infinite
+    too_many_steps,
+    stopped_by_event,     ///< not a failure: an event with stop = true
+    interrupted,
+};
+
+/// True where the computation may go on or ended as asked.
+[[nodiscard]] constexpr bool is_success(Status status) noexcept
+{
+    return status == Status::ok || status == Status::stopped_by_event;
+}
+
+[[nodiscard]] constexpr const char* to_text(Status status) noexcept
+{
+    switch (status) {
+    case Status::ok: return "ok";
+    case Status::singular_mass_matrix: return "singular_mass_matrix";
+    case Status::newton_diverged: return "newton_diverged";
+    case Status::left_domain: return "left_domain";
+    case Status::step_too_small: return "step_too_small";
+    case Status::non_finite: return "non_finite";
+    case Status::too_many_steps: return "too_many_steps";
+    case Status::stopped_by_event: return "stopped_by_event";
+    case Status::interrupted: return "interrupted";
+    }
+    return "unknown";
+}
+
+} // namespace lagen
