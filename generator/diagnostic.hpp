@@ -43,6 +43,29 @@ struct Excerpt {
 /// The whole of `text` as an excerpt of a pseudo-file called `name`.
 [[nodiscard]] Excerpt whole_text(std::string name, std::string text);
 
+/// One decoded character. `length` counts its bytes; 0 means that the bytes are not UTF-8 (or that the text ends).
+struct CodePoint {
+    char32_t value = 0;
+    std::size_t length = 0;
+};
+
+/// The character that starts at byte `at` of `text`. Overlong forms, surrogates and values above U+10FFFF are refused
+/// [RFC 3629].
+[[nodiscard]] CodePoint decode_utf8(std::string_view text, std::size_t at);
+
+/// The first byte of `text` that is not part of valid UTF-8, or npos.
+[[nodiscard]] std::size_t find_invalid_utf8(std::string_view text);
+
+/// `text` in single quotes for a message: cut to 40 characters with "...", control characters and bytes that are not
+/// UTF-8 shown as '?', so that no input can write on the terminal.
+[[nodiscard]] std::string quote(std::string_view text);
+
+/// "file:line:column" of the beginning of a range, "" where the file is unknown.
+[[nodiscard]] std::string place(const SourceRange& range);
+
+/// The text of a range, "" where the file is unknown.
+[[nodiscard]] std::string source_text(const SourceRange& range);
+
 /// Process exit codes (the interface; see README).
 enum class ExitCode : int {
     done = 0,

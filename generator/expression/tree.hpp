@@ -62,6 +62,8 @@ struct TreeNode {
     Comparison comparison = Comparison::less;   ///< of `compare`
     std::vector<Tree> arguments;
     SourceRange where;                          ///< the text of this very sub-expression
+
+    ~TreeNode(); ///< iterative: a deep tree does not overflow the stack when it goes
 };
 
 // Builders, for tests and for the stages that make trees. They do not simplify.
@@ -74,9 +76,15 @@ struct TreeNode {
 [[nodiscard]] Tree power(Tree base, Tree exponent);
 [[nodiscard]] Tree call(Function function, std::vector<Tree> arguments);
 [[nodiscard]] Tree compare(Comparison comparison, Tree a, Tree b);
+[[nodiscard]] Tree constant_pi(SourceRange where = {});
+[[nodiscard]] Tree application(std::string function, std::vector<Tree> arguments); ///< TreeKind::apply
+
+/// "<", "<=", ">", ">=", "==", "!=".
+[[nodiscard]] const char* spelling(Comparison comparison);
 
 /// The text of a tree in the expression language, with the fewest parentheses: parse(to_text(t)) has the value of t.
-/// A number prints as an integer, a fraction p/q, or a finite decimal where that is shorter.
+/// A number prints as an integer, a fraction p/q, or a finite decimal where that is shorter. Brackets that only regroup
+/// a sum or a product are dropped. A text above 10^6 characters (a shared tree written out) is cut and ends with "...".
 [[nodiscard]] std::string to_text(const Tree& tree);
 
 /// The names that occur in a tree, in order of first occurrence (depth first, left to right).

@@ -28,6 +28,8 @@ struct Regularity {
     enum class Kind { regular, generically_regular, degenerate, absent, undecided } kind = Kind::absent;
     std::size_t rank = 0;                 ///< generic rank, by a witness
     bool positive_definite = false;       ///< proved on the whole domain
+    bool for_given_parameters = false;    ///< `regular` and `positive_definite` rest on the parameter values of the file
+    std::string evidence;                 ///< why `undecided`; may be empty
     std::vector<std::vector<std::pair<std::string, std::string>>> singular_at; ///< known singular points
 };
 

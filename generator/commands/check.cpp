@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// `lagen check`: decides every claim of the models named.
+#include "commands/command.hpp"
+#include "commands/options.hpp"
+#include "commands/report_check.hpp"
+#include "commands/write_file.hpp"
+#include "expression/parse.hpp"
+
+#include <fmt/core.h>
+
+namespace lagen {
+
+namespace {
+
+const CommandSyntax syntax{
+    "check",
+    "MODEL...",
+    "Decides the structure equations, tangency, Casimirs and invariants: each proved, refuted at a point, or undecided.",
+    {{"invariant", "EXPR", "decide also whether this function is conserved (may be repeated)"},
+     {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
+     {"format,f", "FORMAT", "text or json", "text"}}};
+
+std::vector<NamedTree> extra_invariants(const Options& options, const Model& model)
+{
+    std::vector<NamedTree> invariants;
+    std::vector<std::string> momenta;
+    for (const Symbol& momentum : model.fibre.momenta) momenta.push_back(momentum.name);
+    const Scope scope = model.scope.with(momenta);
+    for (const std::string& text : options.all("invariant")) {
+        const Tree tree = parse_expression(whole_text("<--invariant>", text));
+        invariants.push_back({text, scope.close(tree), tree->where});
+    }
+    return invariants;
+}
+
+ExitCode code_of(Verdict verdict)
+{
+    switch (verdict) {
+    case Verdict::valid: return ExitCode::done;
+    case Verdict::invalid: return ExitCode::refuted;
+    case Verdict::undecided: return ExitCode::undecided;
+    }
+    return ExitCode::undecided;
+}
+
+/// One model: its report to `text` or `json`; what is wrong with the file goes to standard error.
+ExitCode check_one(const std::string& path, const Options& options, std::string& text, JsonWriter* json)
+{
+    try {
+        const Model model = read_model(path, options.settings());
+        const VerifiedAlgebroid verified = verify(model, extra_invariants(options, model));
+        if (json != nullptr) {
+            report_json(*json, model.name, verified);
+        } else {
+            text += report_text(model.name, verified);
+        }
+        return code_of(verified.verdict);
+    } catch (const Error& error) {
+        fmt::print(stderr, "{}{}", error.what(), std::string_view(error.what()).ends_with('\n') ? "" : "\n");
+        if (json != nullptr)
+            json->begin_object().key("model").value(path).key("verdict").value("error").key("message").value(error.what()).end_object();
+        return error.code();
+    }
+}
+
+} // namespace
+
+ExitCode worst(ExitCode a, ExitCode b)
+{
+    for (const ExitCode code : {ExitCode::interrupted, ExitCode::machine, ExitCode::usage, ExitCode::model_error,
+                                ExitCode::refuted, ExitCode::undecided})
+        if (a == code || b == code) return code;
+    return ExitCode::done;
+}
+
+ExitCode run_check(Arguments arguments)
+{
+    const Options options(syntax, arguments);
+    if (options.help()) return ExitCode::done;
+    const bool as_json = options.choice("format", {"text", "json"}) == "json";
+    const bool list = options.positional().size() > 1;
+    JsonWriter json;
+    std::string text;
+    ExitCode code = ExitCode::done;
+    if (as_json && list) json.begin_array();
+    for (const std::string& path : options.positional())
+        code = worst(code, check_one(path, options, text, as_json ? &json : nullptr));
+    if (as_json && list) json.end_array();
+    write_standard_output(as_json ? json.text() + "\n" : text);
+    return code;
+}
+
+} // namespace lagen

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// The subcommands of `lagen`: one function a file. Each parses its own arguments, writes its result to standard output
+/// and everything else to standard error, and answers an exit code.
+#pragma once
+
+#include "diagnostic.hpp"
+
+#include <span>
+#include <string>
+
+namespace lagen {
+
+using Arguments = std::span<const std::string>;
+
+[[nodiscard]] ExitCode run_check(Arguments arguments);
+[[nodiscard]] ExitCode run_derive(Arguments arguments);
+[[nodiscard]] ExitCode run_generate(Arguments arguments);
+[[nodiscard]] ExitCode run_run(Arguments arguments);
+[[nodiscard]] ExitCode run_models(Arguments arguments);
+[[nodiscard]] ExitCode run_methods(Arguments arguments);
+
+/// Exit code of several outcomes together: 5, 4, 3, 1, 2, 0 in this order of precedence (130 above all).
+[[nodiscard]] ExitCode worst(ExitCode a, ExitCode b);
+
+} // namespace lagen

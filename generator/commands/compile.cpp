@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/compile.hpp"
+
+#include "commands/places.hpp"
+#include "commands/process.hpp"
+#include "commands/write_file.hpp"
+#include "content_hash.hpp"
+#include "diagnostic.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+#include <unistd.h>
+
+namespace lagen {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> words(const char* text)
+{
+    std::istringstream stream(text == nullptr ? "" : text);
+    std::vector<std::string> list;
+    for (std::string word; stream >> word;) list.push_back(word);
+    return list;
+}
+
+/// The compiler with its own arguments; the program is found in PATH.
+std::vector<std::string> find_compiler()
+{
+    std::vector<std::string> named = words(std::getenv("CXX"));
+    if (!named.empty()) {
+        if (!find_program(named[0]).empty()) return named;
+        throw MachineError(fmt::format("error: the C++ compiler '{}' (from CXX) was not found\nhint: `run` compiles the generated header; "
+                                       "unset CXX or name a C++20 compiler",
+                                       named[0]));
+    }
+    for (const char* candidate : {"c++", "g++", "clang++"})
+        if (!find_program(candidate).empty()) return {candidate};
+    throw MachineError("error: no C++ compiler was found (tried c++, g++, clang++)\nhint: `run` compiles the generated header; install g++ or set CXX");
+}
+
+/// Every header of the runtime, by path: a change to any of them is a new key.
+void add_runtime(ContentHash& hash, const std::string& folder)
+{
+    std::vector<fs::path> files;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(fs::path(folder) / "lagen"))
+        if (entry.is_regular_file() && entry.path().extension() == ".hpp") files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    for (const fs::path& file : files) hash.add(fs::relative(file, folder).string()).add(read_file(file.string()));
+}
+
+void add_compiler(ContentHash& hash, const std::vector<std::string>& command)
+{
+    std::error_code ignored;
+    const fs::path program = fs::canonical(find_program(command[0]), ignored);
+    hash.add(program.string()).add(std::to_string(fs::file_size(program, ignored)));
+    hash.add(std::to_string(fs::last_write_time(program, ignored).time_since_epoch().count()));
+    for (const std::string& word : command) hash.add(word);
+}
+
+/// A folder that is removed with everything in it.
+class ScratchFolder {
+  public:
+    explicit ScratchFolder(const std::string& parent) : path_(parent + "/build-XXXXXX")
+    {
+        if (::mkdtemp(path_.data()) == nullptr) throw MachineError(fmt::format("error: cannot make a folder in '{}'", parent));
+    }
+    ~ScratchFolder()
+    {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
+    [[nodiscard]] const std::string& path() const { return path_; }
+
+  private:
+    std::string path_;
+};
+
+void call_compiler(std::vector<std::string> command, const std::string& source, const std::string& program)
+{
+    command.insert(command.end(), {source, "-o", program});
+    const ProcessResult result = run_process(command);
+    if (result.interrupted) throw Error(ExitCode::interrupted, "lagen: interrupted while compiling");
+    if (!result.started)
+        throw MachineError(fmt::format("error: the C++ compiler '{}' could not be started: {}", command[0], result.error));
+    if (result.exit_code == 0) return;
+    std::string line;
+    for (const std::string& word : command) line += (line.empty() ? "" : " ") + word;
+    throw MachineError(fmt::format("error: the C++ compiler failed with exit code {}\n{}\n{}{}", result.exit_code, line, result.error, result.output));
+}
+
+} // namespace
+
+Compiled compile_program(const std::string& header, const std::string& main)
+{
+    std::vector<std::string> command = find_compiler();
+    const std::string runtime = runtime_folder();
+    command.insert(command.end(), {"-std=c++20", "-O2", "-I" + runtime, "-isystem", eigen_folder()});
+    for (const std::string& flag : words(std::getenv("CXXFLAGS"))) command.push_back(flag);
+    ContentHash hash;
+    hash.add(header).add(main);
+    add_runtime(hash, runtime);
+    add_compiler(hash, command);
+
+    const std::string cache = cache_folder();
+    Compiled compiled{fmt::format("{}/{}", cache, hash.hex32()), true, 0};
+    if (::access(compiled.program.c_str(), X_OK) == 0) return compiled;
+    const auto start = std::chrono::steady_clock::now();
+    const ScratchFolder scratch(cache);
+    write_file(scratch.path() + "/model.hpp", header);
+    write_file(scratch.path() + "/main.cpp", main);
+    call_compiler(command, scratch.path() + "/main.cpp", scratch.path() + "/program");
+    // Renamed into place whole: two runs at once may both compile, neither sees half a program.
+    std::error_code error;
+    fs::rename(scratch.path() + "/program", compiled.program, error);
+    if (error) throw MachineError(fmt::format("error: cannot write '{}': {}", compiled.program, error.message()));
+    compiled.cached = false;
+    compiled.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return compiled;
+}
+
+} // namespace lagen

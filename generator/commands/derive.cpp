@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// `lagen derive`: the equations, for a person.
+#include "commands/command.hpp"
+#include "commands/options.hpp"
+#include "commands/write_file.hpp"
+#include "emit/print_equations.hpp"
+#include "pipeline.hpp"
+
+namespace lagen {
+
+namespace {
+
+const CommandSyntax syntax{"derive",
+                           "MODEL",
+                           "Prints the equations of motion.",
+                           {{"form", "FORM", "lagrange", "lagrange"},
+                            {"output,o", "FILE", "write there instead of to standard output"},
+                            {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
+                            {"format,f", "FORMAT", "text, latex or json", "text"}}};
+
+} // namespace
+
+ExitCode run_derive(Arguments arguments)
+{
+    const Options options(syntax, arguments);
+    if (options.help()) return ExitCode::done;
+    const std::string format = options.choice("format", {"text", "latex", "json"});
+    (void)options.choice("form", {"lagrange"});
+    const Model model = read_model(options.positional()[0], options.settings());
+    const EquationSet equations = derive_lagrange(model, build_algebroid(model));
+    const std::string text = format == "text" ? print_text(equations) : format == "latex" ? print_latex(equations) : print_json(equations);
+    write_file(options.has("output") ? options.get("output") : "-", text.ends_with('\n') ? text : text + "\n");
+    return ExitCode::done;
+}
+
+} // namespace lagen

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/methods.hpp"
+
+#include "commands/command.hpp"
+#include "commands/options.hpp"
+#include "commands/write_file.hpp"
+#include "emit/json.hpp"
+
+#include <fmt/core.h>
+
+#include <array>
+
+namespace lagen {
+
+namespace {
+
+constexpr std::array entries{
+    MethodEntry{"euler", "Euler", "1", false, false, "explicit Euler"},
+    MethodEntry{"midpoint", "Midpoint", "2", false, false, "explicit midpoint (Runge 1895)"},
+    MethodEntry{"heun", "Heun", "2", false, false, "explicit trapezoidal rule (Heun 1900)"},
+    MethodEntry{"kutta3", "Kutta3", "3", false, false, "Kutta's third-order method (1901)"},
+    MethodEntry{"rk4", "Rk4", "4", false, false, "the classical Runge-Kutta method (Kutta 1901)"},
+    MethodEntry{"rk38", "Rk38", "4", false, false, "the 3/8 rule (Kutta 1901)"},
+    MethodEntry{"dopri5", "Dopri5", "5(4)", true, false, "Dormand and Prince 1980, dense output of order 4"},
+    MethodEntry{"tsit5", "Tsit5", "5(4)", true, false, "Tsitouras 2011, dense output of order 4"},
+    MethodEntry{"dop853", "Dop853", "8(5,3)", true, false, "Hairer, Norsett and Wanner 1993, dense output of order 7"},
+    MethodEntry{"leapfrog_dkd", "LeapfrogDkd", "2", false, true, "Stoermer-Verlet, drift-kick-drift"},
+    MethodEntry{"leapfrog_kdk", "LeapfrogKdk", "2", false, true, "Stoermer-Verlet, kick-drift-kick"},
+    MethodEntry{"mclachlan4", "McLachlan4", "4", false, true, "McLachlan and Atela 1992, four stages, kick first"},
+    MethodEntry{"yoshida6", "Yoshida6", "6", false, true, "Yoshida 1990, solution A, kick-drift-kick"},
+};
+
+const CommandSyntax syntax{"methods", "", "Lists the integrators.", {{"format,f", "FORMAT", "text or json", "text"}}};
+
+void method_json(JsonWriter& json, const MethodEntry& entry)
+{
+    json.begin_object().key("name").value(entry.name).key("order").value(entry.order).key("adaptive").value(entry.adaptive);
+    json.key("separable_only").value(entry.separable_only).key("text").value(entry.text).end_object();
+}
+
+} // namespace
+
+std::span<const MethodEntry> method_table() { return entries; }
+
+const MethodEntry* find_method(const std::string& name)
+{
+    for (const MethodEntry& entry : entries)
+        if (name == entry.name) return &entry;
+    return nullptr;
+}
+
+std::span<const std::string> method_names()
+{
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> list;
+        for (const MethodEntry& entry : entries) list.emplace_back(entry.name);
+        return list;
+    }();
+    return names;
+}
+
+ExitCode run_methods(Arguments arguments)
+{
+    const Options options(syntax, arguments);
+    if (options.help()) return ExitCode::done;
+    if (options.choice("format", {"text", "json"}) == "json") {
+        JsonWriter json;
+        json.begin_array();
+        for (const MethodEntry& entry : entries) method_json(json, entry);
+        json.end_array();
+        write_standard_output(json.text() + "\n");
+        return ExitCode::done;
+    }
+    std::string text;
+    for (const MethodEntry& entry : entries) {
+        text += fmt::format("{:<14}order {:<8}{:<10}{}{}\n", entry.name, entry.order, entry.adaptive ? "tolerance" : "step", entry.text,
+                            entry.separable_only ? " (for x' = f(y), y' = g(x) only)" : "");
+    }
+    write_standard_output(text);
+    return ExitCode::done;
+}
+
+} // namespace lagen

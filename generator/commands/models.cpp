@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// `lagen models`: the example models, with their scenes.
+#include "commands/command.hpp"
+#include "commands/options.hpp"
+#include "commands/places.hpp"
+#include "commands/write_file.hpp"
+#include "emit/json.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace lagen {
+
+namespace {
+
+const CommandSyntax syntax{"models", "", "Lists the example models and their scenes.", {{"format,f", "FORMAT", "text or json", "text"}}};
+
+std::vector<std::string> model_files(const std::string& folder)
+{
+    std::vector<std::string> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        if (entry.path().extension() == ".toml") files.push_back(entry.path().string());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+void model_json(JsonWriter& json, const std::string& file, const Model& model)
+{
+    json.begin_object().key("model").value(model.name).key("title").value(model.title).key("file").value(file);
+    json.key("scenes").begin_array();
+    for (const Scene& scene : model.scenes) json.value(scene.name);
+    json.end_array().end_object();
+}
+
+} // namespace
+
+ExitCode run_models(Arguments arguments)
+{
+    const Options options(syntax, arguments);
+    if (options.help()) return ExitCode::done;
+    const bool as_json = options.choice("format", {"text", "json"}) == "json";
+    const std::string folder = models_folder();
+    if (folder.empty()) throw MachineError("error: the example models were not found\nhint: set LAGEN_MODELS to their folder");
+    JsonWriter json;
+    json.begin_array();
+    std::string text = fmt::format("in {}:\n", folder);
+    for (const std::string& file : model_files(folder)) {
+        const Model model = read_model(file);
+        model_json(json, file, model);
+        std::string scenes;
+        for (const Scene& scene : model.scenes) scenes += (scenes.empty() ? "" : ", ") + scene.name;
+        text += fmt::format("  {:<22}{} [{}]\n", model.name, model.title, scenes);
+    }
+    json.end_array();
+    write_standard_output(as_json ? json.text() + "\n" : text);
+    return ExitCode::done;
+}
+
+} // namespace lagen

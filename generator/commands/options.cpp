@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/options.hpp"
+
+#include <boost/program_options.hpp>
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace lagen {
+
+namespace {
+
+namespace po = boost::program_options;
+
+std::string long_name(const OptionEntry& entry)
+{
+    const std::string name = entry.name;
+    return name.substr(0, name.find(','));
+}
+
+po::options_description describe(const CommandSyntax& syntax)
+{
+    po::options_description description("options", 110);
+    for (const OptionEntry& entry : syntax.options) {
+        std::string help = entry.help;
+        if (entry.standard != nullptr) help += fmt::format(" [{}]", entry.standard);
+        if (entry.value == nullptr) {
+            description.add_options()(entry.name, help.c_str());
+        } else {
+            description.add_options()(
+                entry.name, po::value<std::vector<std::string>>()->value_name(entry.value)->composing(), help.c_str());
+        }
+    }
+    description.add_options()("help,h", "print this text");
+    return description;
+}
+
+void print_help(const CommandSyntax& syntax, const po::options_description& description)
+{
+    std::ostringstream text;
+    text << description;
+    fmt::print("lagen {} {}\n\n{}\n\n{}", syntax.command, syntax.positional, syntax.purpose, text.str());
+}
+
+void check_positional(const CommandSyntax& syntax, const std::vector<std::string>& positional)
+{
+    const std::string shape = syntax.positional;
+    const bool several = shape.ends_with("...");
+    const std::size_t least = shape.empty() ? 0 : 1;
+    if (positional.size() < least)
+        throw UsageError(fmt::format("lagen {}: {} is missing (see lagen {} --help)", syntax.command, shape, syntax.command));
+    if (positional.size() > least && !several) {
+        throw UsageError(
+            fmt::format("lagen {}: unexpected argument '{}' (see lagen {} --help)", syntax.command, positional[least], syntax.command));
+    }
+}
+
+} // namespace
+
+Options::Options(const CommandSyntax& syntax, std::span<const std::string> arguments) : command_(syntax.command)
+{
+    const po::options_description description = describe(syntax);
+    po::options_description everything;
+    everything.add(description).add_options()("positional", po::value<std::vector<std::string>>()->composing());
+    po::positional_options_description order;
+    order.add("positional", -1);
+    po::variables_map map;
+    try {
+        const int style = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
+        po::store(po::command_line_parser(std::vector<std::string>(arguments.begin(), arguments.end()))
+                      .options(everything)
+                      .positional(order)
+                      .style(style)
+                      .run(),
+                  map);
+    } catch (const po::error& error) {
+        throw UsageError(fmt::format("lagen {}: {} (see lagen {} --help)", command_, error.what(), command_));
+    }
+    if (map.count("help") > 0) {
+        print_help(syntax, description);
+        help_ = true;
+        return;
+    }
+    for (const OptionEntry& entry : syntax.options) {
+        const std::string name = long_name(entry);
+        if (entry.standard != nullptr) standards_[name] = entry.standard;
+        if (map.count(name) == 0) continue;
+        values_[name] = entry.value == nullptr ? std::vector<std::string>{} : map[name].as<std::vector<std::string>>();
+    }
+    if (map.count("positional") > 0) positional_ = map["positional"].as<std::vector<std::string>>();
+    check_positional(syntax, positional_);
+}
+
+std::string Options::get(const std::string& name) const
+{
+    const auto found = values_.find(name);
+    if (found != values_.end() && !found->second.empty()) return found->second.back();
+    const auto standard = standards_.find(name);
+    return standard == standards_.end() ? std::string() : standard->second;
+}
+
+std::vector<std::string> Options::all(const std::string& name) const
+{
+    const auto found = values_.find(name);
+    return found == values_.end() ? std::vector<std::string>{} : found->second;
+}
+
+std::string Options::choice(const std::string& name, const std::vector<std::string>& allowed) const
+{
+    const std::string value = get(name);
+    if (std::find(allowed.begin(), allowed.end(), value) != allowed.end()) return value;
+    std::string list;
+    for (const std::string& entry : allowed) list += (list.empty() ? "" : ", ") + entry;
+    const std::string nearest = nearest_name(value, allowed);
+    throw UsageError(fmt::format("lagen {}: --{} is '{}', it must be one of {}{}", command_, name, value, list,
+                                 nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest)));
+}
+
+std::vector<Setting> Options::settings() const
+{
+    std::vector<Setting> settings;
+    for (const std::string& text : all("set")) {
+        const std::size_t equals = text.find('=');
+        if (equals == std::string::npos || equals == 0)
+            throw UsageError(fmt::format("lagen {}: --set needs name=value, found '{}'", command_, text));
+        settings.push_back({text.substr(0, equals), whole_text("<--set " + text.substr(0, equals) + ">", text.substr(equals + 1))});
+    }
+    return settings;
+}
+
+std::vector<std::string> split_list(const std::string& text)
+{
+    std::vector<std::string> entries(1);
+    int depth = 0;
+    for (const char c : text) {
+        depth += c == '(' ? 1 : c == ')' ? -1 : 0;
+        if (c == ',' && depth == 0) {
+            entries.emplace_back();
+        } else if (c != ' ' || !entries.back().empty()) {
+            entries.back() += c;
+        }
+    }
+    for (std::string& entry : entries) entry.erase(entry.find_last_not_of(' ') + 1);
+    if (entries.size() == 1 && entries[0].empty()) entries.clear();
+    return entries;
+}
+
+} // namespace lagen

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Command-line options: a thin wrapper that keeps Boost.Program_options out of every other file.
+#pragma once
+
+#include "diagnostic.hpp"
+#include "model/read_model.hpp"
+
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace lagen {
+
+/// The command line is wrong (exit code 4).
+class UsageError : public Error {
+  public:
+    explicit UsageError(const std::string& text) : Error(ExitCode::usage, text) {}
+};
+
+struct OptionEntry {
+    const char* name;  ///< "output,o": long name and, after the comma, a letter
+    const char* value; ///< what its value is called in the help; nullptr: a flag
+    const char* help;
+    const char* standard = nullptr; ///< shown in the help and returned where the option is absent
+};
+
+struct CommandSyntax {
+    const char* command;    ///< "check"
+    const char* positional; ///< "MODEL..." as shown; a final "..." allows several; "" allows none
+    const char* purpose;    ///< one sentence
+    std::vector<OptionEntry> options;
+};
+
+class Options {
+  public:
+    /// Throws UsageError. `--help` prints to standard output and makes help() true.
+    Options(const CommandSyntax& syntax, std::span<const std::string> arguments);
+
+    [[nodiscard]] bool help() const { return help_; }
+    [[nodiscard]] bool has(const std::string& name) const { return values_.contains(name); }
+    [[nodiscard]] std::string get(const std::string& name) const; ///< the last value, or the standard, or ""
+    [[nodiscard]] std::vector<std::string> all(const std::string& name) const;
+    [[nodiscard]] const std::vector<std::string>& positional() const { return positional_; }
+
+    /// The value of `name`, which must be one of `allowed`.
+    [[nodiscard]] std::string choice(const std::string& name, const std::vector<std::string>& allowed) const;
+    /// The `--set name=value` entries.
+    [[nodiscard]] std::vector<Setting> settings() const;
+
+  private:
+    std::string command_;
+    bool help_ = false;
+    std::map<std::string, std::vector<std::string>> values_;
+    std::map<std::string, std::string> standards_;
+    std::vector<std::string> positional_;
+};
+
+/// "a,b , c" as {"a", "b", "c"}; commas inside parentheses do not separate.
+[[nodiscard]] std::vector<std::string> split_list(const std::string& text);
+
+} // namespace lagen

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Where things are on this machine: the runtime's headers, the example models, the cache.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace lagen {
+
+/// Folders for -I: the runtime's headers (LAGEN_INCLUDE, else beside the executable, else the source tree that it was
+/// built from) and Eigen. Throws MachineError where the runtime's headers are nowhere.
+[[nodiscard]] std::string runtime_folder();
+[[nodiscard]] std::string eigen_folder();
+
+/// The folder of the example models (LAGEN_MODELS, else the installed one, else the source tree), or "".
+[[nodiscard]] std::string models_folder();
+
+/// A folder for compiled scenes: LAGEN_CACHE, else XDG_CACHE_HOME/lagen, else ~/.cache/lagen; made if missing. Where none of these
+/// can be written, a private folder below TMPDIR.
+[[nodiscard]] std::string cache_folder();
+
+} // namespace lagen

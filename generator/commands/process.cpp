@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/process.hpp"
+
+#include "diagnostic.hpp"
+
+#include <fmt/core.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char** environ;
+
+namespace lagen {
+
+namespace {
+
+volatile std::sig_atomic_t interrupts = 0;
+volatile pid_t running_child = 0;
+
+extern "C" void on_interrupt_of_child(int)
+{
+    interrupts = interrupts + 1;
+    if (running_child > 0) ::kill(running_child, interrupts > 1 ? SIGKILL : SIGINT);
+}
+
+/// SIGINT and SIGTERM go to the child while this lives; a second one kills it.
+class InterruptsForwarded {
+  public:
+    InterruptsForwarded()
+    {
+        interrupts = 0;
+        struct sigaction action {};
+        action.sa_handler = on_interrupt_of_child;
+        sigaction(SIGINT, &action, &before_int_);
+        sigaction(SIGTERM, &action, &before_term_);
+    }
+    ~InterruptsForwarded()
+    {
+        running_child = 0;
+        sigaction(SIGINT, &before_int_, nullptr);
+        sigaction(SIGTERM, &before_term_, nullptr);
+    }
+    InterruptsForwarded(const InterruptsForwarded&) = delete;
+    InterruptsForwarded& operator=(const InterruptsForwarded&) = delete;
+
+  private:
+    struct sigaction before_int_ {};
+    struct sigaction before_term_ {};
+};
+
+struct Pipe {
+    std::array<int, 2> ends{-1, -1};
+    Pipe()
+    {
+        if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw MachineError(fmt::format("error: cannot make a pipe: {}", std::strerror(errno)));
+    }
+    ~Pipe()
+    {
+        close_end(0);
+        close_end(1);
+    }
+    Pipe(const Pipe&) = delete;
+    Pipe& operator=(const Pipe&) = delete;
+    void close_end(std::size_t end)
+    {
+        if (ends[end] >= 0) ::close(ends[end]);
+        ends[end] = -1;
+    }
+};
+
+pid_t spawn(const std::string& program, const std::vector<std::string>& arguments, const Pipe& output, const Pipe& error, int& failure)
+{
+    std::vector<char*> pointers;
+    for (const std::string& argument : arguments) pointers.push_back(const_cast<char*>(argument.c_str()));
+    pointers.push_back(nullptr);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_adddup2(&actions, output.ends[1], STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, error.ends[1], STDERR_FILENO);
+    // Its own process group: ctrl-C on the terminal reaches lagen alone, which passes it on once.
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
+    sigset_t defaults;
+    sigemptyset(&defaults);
+    for (const int signal : {SIGINT, SIGTERM, SIGPIPE}) sigaddset(&defaults, signal);
+    posix_spawnattr_setsigdefault(&attributes, &defaults);
+    pid_t child = 0;
+    failure = ::posix_spawn(&child, program.c_str(), &actions, &attributes, pointers.data(), environ);
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&actions);
+    return child;
+}
+
+/// Reads both pipes until both are closed.
+void drain(Pipe& output, Pipe& error, ProcessResult& result, const std::function<void(const char*, std::size_t)>& sink)
+{
+    std::array<char, 65536> buffer;
+    while (output.ends[0] >= 0 || error.ends[0] >= 0) {
+        std::array<pollfd, 2> waiting{pollfd{output.ends[0], POLLIN, 0}, pollfd{error.ends[0], POLLIN, 0}};
+        if (::poll(waiting.data(), waiting.size(), -1) < 0) {
+            if (errno == EINTR) continue;
+            throw MachineError(fmt::format("error: cannot wait for a child process: {}", std::strerror(errno)));
+        }
+        for (std::size_t k = 0; k < 2; ++k) {
+            if (waiting[k].revents == 0) continue;
+            const ssize_t count = ::read(waiting[k].fd, buffer.data(), buffer.size());
+            if (count < 0 && errno == EINTR) continue;
+            if (count <= 0) {
+                (k == 0 ? output : error).close_end(0);
+            } else if (k == 0 && sink) {
+                sink(buffer.data(), static_cast<std::size_t>(count));
+            } else {
+                (k == 0 ? result.output : result.error).append(buffer.data(), static_cast<std::size_t>(count));
+            }
+        }
+    }
+}
+
+} // namespace
+
+ProcessResult run_process(const std::vector<std::string>& arguments, const std::function<void(const char*, std::size_t)>& sink)
+{
+    ProcessResult result;
+    const std::string program = find_program(arguments.at(0));
+    if (program.empty()) {
+        result.started = false;
+        result.error = "not found";
+        return result;
+    }
+    Pipe output;
+    Pipe error;
+    const InterruptsForwarded forwarded;
+    int failure = 0;
+    const pid_t child = spawn(program, arguments, output, error, failure);
+    if (failure != 0) {
+        result.started = false;
+        result.error = std::strerror(failure);
+        return result;
+    }
+    running_child = child;
+    if (interrupts > 0) ::kill(child, SIGINT);
+    output.close_end(1);
+    error.close_end(1);
+    drain(output, error, result, sink);
+    int status = 0;
+    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {}
+    result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    result.interrupted = interrupts > 0;
+    return result;
+}
+
+std::string find_program(const std::string& name)
+{
+    if (name.empty()) return "";
+    if (name.find('/') != std::string::npos) return ::access(name.c_str(), X_OK) == 0 ? name : "";
+    const char* path = std::getenv("PATH");
+    const std::string folders = path == nullptr ? "/usr/local/bin:/usr/bin:/bin" : path;
+    for (std::size_t begin = 0; begin <= folders.size();) {
+        const std::size_t end = std::min(folders.find(':', begin), folders.size());
+        const std::string folder = end > begin ? folders.substr(begin, end - begin) : ".";
+        const std::string candidate = folder + "/" + name;
+        if (::access(candidate.c_str(), X_OK) == 0) return candidate;
+        begin = end + 1;
+    }
+    return "";
+}
+
+} // namespace lagen

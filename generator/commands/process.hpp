@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Child processes: no shell in between, so that no name or path is ever interpreted.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace lagen {
+
+struct ProcessResult {
+    int exit_code = 0;    ///< 128 + signal where it was killed
+    bool started = true;  ///< false: the program was not found or could not be executed
+    std::string output;   ///< standard output, unless a sink took it
+    std::string error;    ///< standard error
+    bool interrupted = false; ///< SIGINT or SIGTERM reached lagen while the child ran
+};
+
+/// Runs `arguments[0]` (looked up in PATH) and waits. `sink` receives standard output piece by piece where given. An
+/// interrupt is passed to the child (once; it may finish its report), then noted.
+[[nodiscard]] ProcessResult run_process(const std::vector<std::string>& arguments,
+                                        const std::function<void(const char*, std::size_t)>& sink = {});
+
+/// The full path of a program in PATH, or "" (a name with a slash is taken as it is).
+[[nodiscard]] std::string find_program(const std::string& name);
+
+} // namespace lagen

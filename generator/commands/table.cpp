@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/table.hpp"
+
+namespace lagen {
+
+namespace {
+
+/// The pieces of `text` between separators; a final separator ends the last piece.
+std::vector<std::string_view> pieces(std::string_view text, char separator)
+{
+    std::vector<std::string_view> list;
+    while (!text.empty()) {
+        const std::size_t end = text.find(separator);
+        list.push_back(text.substr(0, end));
+        text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    }
+    return list;
+}
+
+std::string quoted(const std::string& field)
+{
+    if (field.find_first_of(",\"\r\n") == std::string::npos) return field;
+    std::string text = "\"";
+    for (const char c : field) text += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return text + "\"";
+}
+
+} // namespace
+
+std::vector<std::string_view> Table::lines() const { return pieces(rows, '\n'); }
+
+std::vector<std::string_view> fields(std::string_view line) { return pieces(line, ','); }
+
+std::string to_csv(const Table& table)
+{
+    std::string text;
+    for (const std::string& column : table.columns) text += (text.empty() ? "" : ",") + quoted(column);
+    text += "\r\n";
+    text.reserve(text.size() + table.rows.size() + table.count);
+    for (const std::string_view line : table.lines()) text.append(line).append("\r\n");
+    return text;
+}
+
+} // namespace lagen

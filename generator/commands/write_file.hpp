@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Output files: written beside their place under a temporary name, then renamed, so that a reader never sees half a
+/// file and a failure leaves what was there before.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace lagen {
+
+/// Writes `content` to `path` ("-" is standard output). A device or a pipe is written directly. Throws MachineError with the
+/// reason (disk full, no such folder, ...); no temporary is left behind, on a signal neither.
+void write_file(const std::string& path, std::string_view content);
+
+/// Writes to standard output and reports failure (a closed pipe, a full disk) as MachineError.
+void write_standard_output(std::string_view content);
+
+/// The whole content of a file; MachineError where it cannot be read.
+[[nodiscard]] std::string read_file(const std::string& path);
+
+} // namespace lagen

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Lowering: closed trees to nodes, with an explicit stack.
+#include "graph/lower.hpp"
+
+#include <array>
+#include <utility>
+
+namespace lagen {
+namespace {
+
+constexpr std::array<std::pair<Function, Op>, 18> function_ops{{
+    {Function::sin, Op::sin},         {Function::cos, Op::cos},         {Function::tan, Op::tan},
+    {Function::asin, Op::asin},       {Function::acos, Op::acos},       {Function::atan, Op::atan},
+    {Function::atan2, Op::atan2},     {Function::sinh, Op::sinh},       {Function::cosh, Op::cosh},
+    {Function::tanh, Op::tanh},       {Function::exp, Op::exp},         {Function::log, Op::log},
+    {Function::sqrt, Op::sqrt},       {Function::abs, Op::abs},         {Function::minimum, Op::minimum},
+    {Function::maximum, Op::maximum}, {Function::sign, Op::sign},       {Function::select, Op::select},
+}};
+
+Op op_of(Function function)
+{
+    for (const auto& [key, op] : function_ops)
+        if (key == function) return op;
+    throw InternalError("a built-in function without an operation");
+}
+
+Op op_of(Comparison comparison)
+{
+    switch (comparison) {
+    case Comparison::less: return Op::less;
+    case Comparison::less_equal: return Op::less_equal;
+    case Comparison::greater: return Op::greater;
+    case Comparison::greater_equal: return Op::greater_equal;
+    case Comparison::equal: return Op::equal;
+    case Comparison::not_equal: return Op::not_equal;
+    }
+    throw InternalError("a comparison without an operation");
+}
+
+/// The text of a sub-expression as the user wrote it, cut for a message.
+std::string quoted(const Tree& tree)
+{
+    constexpr std::size_t limit = 60;
+    const SourceRange& where = tree->where;
+    if (!where.file || where.end <= where.begin || where.end - where.begin > limit) return "";
+    return " `" + where.file->text.substr(where.begin, where.end - where.begin) + "`";
+}
+
+NodeId lower_divide(Graph& graph, const TreeNode& tree, NodeId a, NodeId b)
+{
+    if (graph.is_zero(b))
+        throw ModelError("division by zero: the divisor" + quoted(tree.arguments[1]) +
+                             " is 0 everywhere, a divisor that is not identically zero is required",
+                         tree.where, "check the divisor for terms that cancel");
+    return graph.divide(a, b);
+}
+
+NodeId lower_power(Graph& graph, const TreeNode& tree, NodeId base, NodeId exponent)
+{
+    if (graph.is_zero(base) && graph.is_constant(exponent) && sgn(graph.value(exponent)) <= 0)
+        throw ModelError("0^" + graph.value(exponent).get_str() +
+                             " has no value: the base" + quoted(tree.arguments[0]) +
+                             " is 0 everywhere, a positive exponent is required",
+                         tree.where, "check the base for terms that cancel");
+    return graph.apply(Op::real_power, base, exponent);
+}
+
+NodeId lower_call(Graph& graph, const TreeNode& tree, std::span<const NodeId> arguments)
+{
+    const Op op = op_of(tree.function);
+    switch (arguments.size()) {
+    case 1: return graph.apply(op, arguments[0]);
+    case 2: return graph.apply(op, arguments[0], arguments[1]);
+    default: return graph.select(arguments[0], arguments[1], arguments[2]);
+    }
+}
+
+/// The node of a tree from the nodes of its arguments.
+NodeId combine(Graph& graph, const TreeNode& tree, std::span<const NodeId> arguments, const Binding& binding)
+{
+    switch (tree.kind) {
+    case TreeKind::number: return graph.constant(tree.number);
+    case TreeKind::pi: return graph.pi();
+    case TreeKind::name: {
+        const auto bound = binding.find(tree.name);
+        return bound != binding.end() ? bound->second : graph.input(tree.name);
+    }
+    case TreeKind::negate: return graph.negate(arguments[0]);
+    case TreeKind::add: return graph.sum(arguments);
+    case TreeKind::multiply: return graph.product(arguments);
+    case TreeKind::divide: return lower_divide(graph, tree, arguments[0], arguments[1]);
+    case TreeKind::power: return lower_power(graph, tree, arguments[0], arguments[1]);
+    case TreeKind::call: return lower_call(graph, tree, arguments);
+    case TreeKind::compare: return graph.apply(op_of(tree.comparison), arguments[0], arguments[1]);
+    case TreeKind::apply: break;
+    }
+    throw InternalError("lowering wants a closed tree, found a use of the model's function " + tree.name);
+}
+
+} // namespace
+
+NodeId Lowering::operator()(const Tree& tree)
+{
+    struct Visit {
+        const Tree* tree;
+        std::size_t next;
+    };
+    alive_.push_back(tree);
+    std::vector<Visit> stack{{&tree, 0}};
+    std::vector<NodeId> arguments;
+    while (!stack.empty()) {
+        Visit& visit = stack.back();
+        const TreeNode* node = visit.tree->get();
+        if (done_.contains(node)) {
+            stack.pop_back();
+        } else if (visit.next < node->arguments.size()) {
+            const Tree* child = &node->arguments[visit.next++];
+            stack.push_back({child, 0});
+        } else {
+            arguments.clear();
+            for (const Tree& argument : node->arguments) arguments.push_back(done_.at(argument.get()));
+            done_.emplace(node, combine(graph_, *node, arguments, binding_));
+            stack.pop_back();
+        }
+    }
+    return done_.at(tree.get());
+}
+
+} // namespace lagen

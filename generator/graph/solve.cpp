@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Linear systems as nodes: split into blocks that do not touch, one factorisation a block.
+#include "graph/graph.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace lagen {
+namespace {
+
+/// Rows and columns of one connected part of the sparsity pattern, ascending.
+struct Block {
+    std::vector<std::size_t> rows;
+    std::vector<std::size_t> columns;
+};
+
+/// The connected parts of the graph rows - columns with an edge for every entry that is not the constant 0, by
+/// smallest row. One block with everything where some part is not square (the matrix is singular by structure).
+std::vector<Block> connected_blocks(const Graph& graph, std::span<const NodeId> matrix, std::size_t n)
+{
+    std::vector<std::size_t> parent(2 * n); // rows, then columns
+    std::iota(parent.begin(), parent.end(), std::size_t{0});
+    const auto root = [&](std::size_t k) {
+        while (parent[k] != k) k = parent[k] = parent[parent[k]];
+        return k;
+    };
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j < n; ++j)
+            if (!graph.is_zero(matrix[i * n + j])) {
+                const std::size_t a = root(i);
+                const std::size_t b = root(n + j);
+                parent[std::max(a, b)] = std::min(a, b);
+            }
+    std::vector<Block> blocks;
+    std::vector<std::size_t> block_of(2 * n, SIZE_MAX);
+    for (std::size_t k = 0; k < 2 * n; ++k) {
+        std::size_t& index = block_of[root(k)];
+        if (index == SIZE_MAX) {
+            index = blocks.size();
+            blocks.emplace_back();
+        }
+        (k < n ? blocks[index].rows : blocks[index].columns).push_back(k < n ? k : k - n);
+    }
+    if (std::ranges::all_of(blocks, [](const Block& b) { return b.rows.size() == b.columns.size(); })) return blocks;
+    Block whole;
+    whole.rows.resize(n);
+    std::iota(whole.rows.begin(), whole.rows.end(), std::size_t{0});
+    whole.columns = whole.rows;
+    return {whole};
+}
+
+} // namespace
+
+std::vector<std::vector<NodeId>> Graph::solve(std::span<const NodeId> matrix,
+                                              const std::vector<std::vector<NodeId>>& columns, MatrixStructure structure)
+{
+    const std::size_t n = columns.empty() ? 0 : columns.front().size();
+    for (const auto& column : columns)
+        if (column.size() != n || matrix.size() != n * n)
+            throw InternalError("solve() wants n*n entries of the matrix and n of every right-hand side");
+    std::vector<std::vector<NodeId>> result(columns.size(), std::vector<NodeId>(n, constant(0)));
+    const std::vector<NodeId> entries(matrix.begin(), matrix.end());
+    for (const Block& block : connected_blocks(*this, entries, n)) {
+        const std::size_t size = block.rows.size();
+        if (size == 1) {
+            const NodeId divisor = entries[block.rows[0] * n + block.columns[0]];
+            for (std::size_t k = 0; k < columns.size(); ++k)
+                result[k][block.columns[0]] = divide(columns[k][block.rows[0]], divisor);
+            continue;
+        }
+        std::vector<NodeId> part;
+        for (const std::size_t i : block.rows)
+            for (const std::size_t j : block.columns) part.push_back(entries[i * n + j]);
+        const auto kept = block.rows == block.columns ? structure : MatrixStructure::general;
+        const NodeId factor = intern(Op::factor, part, static_cast<std::uint32_t>(kept));
+        for (std::size_t k = 0; k < columns.size(); ++k) {
+            std::vector<NodeId> operands{factor};
+            for (const std::size_t i : block.rows) operands.push_back(columns[k][i]);
+            if (std::all_of(operands.begin() + 1, operands.end(), [&](NodeId b) { return is_zero(b); })) continue;
+            const NodeId solution[] = {intern(Op::solve, operands, 0)};
+            for (std::size_t j = 0; j < size; ++j)
+                result[k][block.columns[j]] = intern(Op::component, solution, static_cast<std::uint32_t>(j));
+        }
+    }
+    return result;
+}
+
+std::vector<NodeId> Graph::solve(std::span<const NodeId> matrix, std::span<const NodeId> right,
+                                 MatrixStructure structure)
+{
+    const std::vector<NodeId> column(right.begin(), right.end());
+    return solve(matrix, std::vector<std::vector<NodeId>>{column}, structure).front();
+}
+
+} // namespace lagen

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// main: options to a command, errors to standard error and an exit code. No mathematics.
+#include "commands/command.hpp"
+#include "commands/options.hpp"
+
+#include <fmt/core.h>
+
+#include <array>
+#include <csignal>
+#include <cstdio>
+#include <new>
+#include <unistd.h>
+
+namespace {
+
+using namespace lagen;
+
+struct CommandEntry {
+    const char* name;
+    const char* purpose;
+    ExitCode (*run)(Arguments);
+};
+
+constexpr std::array commands{
+    CommandEntry{"check", "prove or refute the structure equations and the other claims of a model", run_check},
+    CommandEntry{"derive", "print the equations of motion", run_derive},
+    CommandEntry{"generate", "write the C++ header of a model", run_generate},
+    CommandEntry{"run", "generate, compile and integrate a scene of a model", run_run},
+    CommandEntry{"models", "list the example models", run_models},
+    CommandEntry{"methods", "list the integrators", run_methods},
+};
+
+constexpr const char* closing = R"(
+`lagen COMMAND --help` shows the options of a command. Exit codes: 0 done or proved, 1 the mathematics says no,
+2 undecided, 3 the model file is wrong, 4 usage, 5 the machine (no compiler, disk full, ...), 130 interrupted.
+)";
+
+void print_help()
+{
+    fmt::print("lagen: mechanics and control on Lie algebroids, from a model file to proved equations and fast C++\n\n"
+               "usage: lagen COMMAND MODEL [options]\n\n");
+    for (const CommandEntry& entry : commands) fmt::print("  {:<10}{}\n", entry.name, entry.purpose);
+    fmt::print("{}", closing);
+}
+
+ExitCode dispatch(const std::vector<std::string>& arguments)
+{
+    if (arguments.empty() || arguments[0] == "--help" || arguments[0] == "-h" || arguments[0] == "help") {
+        print_help();
+        return arguments.empty() ? ExitCode::usage : ExitCode::done;
+    }
+    if (arguments[0] == "--version") {
+        fmt::print("lagen {}\n", LAGEN_VERSION);
+        return ExitCode::done;
+    }
+    std::vector<std::string> names;
+    for (const CommandEntry& entry : commands) {
+        if (arguments[0] == entry.name) return entry.run(Arguments(arguments).subspan(1));
+        names.emplace_back(entry.name);
+    }
+    const std::string nearest = nearest_name(arguments[0], names);
+    throw UsageError(fmt::format("lagen: unknown command '{}'{} (see lagen --help)", arguments[0],
+                                 nearest.empty() ? "" : fmt::format(", did you mean '{}'?", nearest)));
+}
+
+extern "C" void on_interrupt(int)
+{
+    constexpr char text[] = "\nlagen: interrupted\n";
+    [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text, sizeof text - 1);
+    ::_exit(static_cast<int>(ExitCode::interrupted));
+}
+
+int report(const std::string& text, ExitCode code)
+{
+    std::fflush(stdout);
+    fmt::print(stderr, "{}{}", text, text.ends_with('\n') ? "" : "\n");
+    return static_cast<int>(code);
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    std::signal(SIGINT, on_interrupt);
+    std::signal(SIGTERM, on_interrupt);
+    std::signal(SIGPIPE, SIG_IGN);
+    try {
+        const ExitCode code = dispatch(std::vector<std::string>(argv + 1, argv + argc));
+        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+            return report("error: cannot write to standard output", ExitCode::machine);
+        return static_cast<int>(code);
+    } catch (const Error& error) {
+        return report(error.what(), error.code());
+    } catch (const std::bad_alloc&) {
+        return report("error: out of memory", ExitCode::machine);
+    } catch (const std::exception& error) {
+        return report(InternalError(error.what()).what(), ExitCode::machine);
+    }
+}

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Declarations and their clashes.
+#include "model/names.hpp"
+
+#include "expression/parse.hpp"
+#include "expression/tree.hpp"
+#include "model/table_reader.hpp"
+
+#include <fmt/format.h>
+
+namespace lagen {
+
+const char* role_text(Role role)
+{
+    switch (role) {
+    case Role::time: return "the time";
+    case Role::parameter: return "a parameter";
+    case Role::base: return "a base coordinate";
+    case Role::fibre: return "a fibre coordinate";
+    case Role::momentum: return "a momentum";
+    case Role::definition: return "a definition";
+    case Role::casimir: return "a Casimir";
+    case Role::observable: return "an observable";
+    case Role::built_in: return "a built-in quantity";
+    }
+    return "a name";
+}
+
+std::string place_text(const SourceRange& where)
+{
+    if (!where.file) return "an unknown place";
+    std::size_t line = 1;
+    std::size_t column = 1;
+    const std::string& text = where.file->text;
+    for (std::size_t k = 0; k < where.begin && k < text.size(); ++k) {
+        if (text[k] == '\n') {
+            ++line;
+            column = 1;
+        } else if ((static_cast<unsigned char>(text[k]) & 0xC0U) != 0x80U) {
+            ++column;
+        }
+    }
+    return fmt::format("line {}, column {}", line, column);
+}
+
+void Names::declare(const std::string& name, Role role, const SourceRange& where)
+{
+    constexpr std::size_t most_names = 4096;
+    require_identifier(name, where, role == Role::momentum ? "the name of a momentum" : "a name");
+    if (name == "t") {
+        throw ModelError(fmt::format("'t' is the time and cannot be {}", role_text(role)), where, "choose another name");
+    }
+    if (find_function(name) != nullptr) {
+        throw ModelError(fmt::format("'{}' is a built-in function and cannot be {}", name, role_text(role)), where,
+                         "choose another name");
+    }
+    const auto [place, fresh] = entries_.try_emplace(name, Entry{role, where});
+    if (!fresh) {
+        const Entry& first = place->second;
+        const bool momentum = role == Role::momentum;
+        throw ModelError(fmt::format("'{}' is declared twice: as {} at {} and as {} at {}", name, role_text(first.role),
+                                     place_text(first.where), role_text(role), place_text(where)),
+                         where, momentum ? "name the momenta: [fibre] momenta = [..]" : "rename one of them");
+    }
+    order_.push_back(name);
+    if (order_.size() > most_names) {
+        throw ModelError(fmt::format("the model declares more than {} names", most_names), where);
+    }
+}
+
+const Names::Entry* Names::find(const std::string& name) const
+{
+    const auto place = entries_.find(name);
+    return place == entries_.end() ? nullptr : &place->second;
+}
+
+std::vector<std::string> Names::of(Role role) const
+{
+    std::vector<std::string> out;
+    for (const std::string& name : order_) {
+        if (entries_.at(name).role == role) out.push_back(name);
+    }
+    return out;
+}
+
+void require_identifier(const std::string& name, const SourceRange& where, const char* what)
+{
+    if (is_identifier(name)) return;
+    if (name.find('[') != std::string::npos) {
+        throw ModelError(fmt::format("'{}' is a family; families of names belong to the model format, but this version of "
+                                     "lagen does not read them",
+                                     name),
+                         where);
+    }
+    throw ModelError(fmt::format("'{}' cannot be {}: letters, digits and '_' are allowed, and no digit first", name, what),
+                     where);
+}
+
+} // namespace lagen

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Everything that a model names, with the part that it plays and the place where it was declared.
+#pragma once
+
+#include "diagnostic.hpp"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace lagen {
+
+enum class Role { time, parameter, base, fibre, momentum, definition, casimir, observable, built_in };
+
+/// "a base coordinate", ...: how messages call a role.
+[[nodiscard]] const char* role_text(Role role);
+
+/// Line and column (both from 1, columns in characters) of the start of `where`, as "line 3, column 5".
+[[nodiscard]] std::string place_text(const SourceRange& where);
+
+class Names {
+  public:
+    struct Entry {
+        Role role;
+        SourceRange where;
+    };
+
+    /// Throws ModelError: a name declared twice (both places are named), the reserved name t, a name of a built-in
+    /// function, no identifier, more than 4096 names.
+    void declare(const std::string& name, Role role, const SourceRange& where);
+
+    [[nodiscard]] const Entry* find(const std::string& name) const;
+    [[nodiscard]] const std::vector<std::string>& order() const { return order_; }
+
+    /// The names of one role, in order of declaration.
+    [[nodiscard]] std::vector<std::string> of(Role role) const;
+
+  private:
+    std::map<std::string, Entry> entries_;
+    std::vector<std::string> order_;
+};
+
+/// Throws ModelError unless `name` is an identifier (ASCII or Unicode letters, digits, _).
+void require_identifier(const std::string& name, const SourceRange& where, const char* what);
+
+/// Throws ModelError unless `name` can be the name of a C++ class: ASCII letters, digits and _, no keyword, nothing that
+/// C++ reserves for itself.
+void require_class_name(const std::string& name, const SourceRange& where, bool from_file_name);
+
+} // namespace lagen

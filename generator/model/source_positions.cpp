@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Lines, columns and UTF-8.
+#include "model/source_positions.hpp"
+
+#include <algorithm>
+
+namespace lagen {
+
+namespace {
+
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
+unsigned byte(std::string_view text, std::size_t at) { return static_cast<unsigned char>(text[at]); }
+
+/// Bytes of the sequence that `lead` opens; 0 where it opens none.
+std::size_t sequence_length(unsigned lead)
+{
+    if (lead < 0x80) return 1;
+    if (lead >= 0xC2 && lead < 0xE0) return 2;
+    if (lead >= 0xE0 && lead < 0xF0) return 3;
+    if (lead >= 0xF0 && lead < 0xF5) return 4;
+    return 0;
+}
+
+bool is_control(char32_t c)
+{
+    return c < 0x20 || (c >= 0x7F && c < 0xA0) || c == 0x2028 || c == 0x2029 || (c >= 0x202A && c <= 0x202E) ||
+           (c >= 0x2066 && c <= 0x2069);
+}
+
+} // namespace
+
+SourcePositions::SourcePositions(std::string_view text) : text_(text)
+{
+    lines_.push_back(text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
+    for (std::size_t k = 0; k < text.size(); ++k) {
+        if (text[k] == '\n') lines_.push_back(k + 1);
+    }
+}
+
+std::size_t SourcePositions::byte_of(std::size_t line, std::size_t column) const
+{
+    if (line == 0) return 0;
+    if (line > lines_.size()) return text_.size();
+    std::size_t at = lines_[line - 1];
+    for (std::size_t k = 1; k < column && at < text_.size() && text_[at] != '\n'; ++k) {
+        at += std::max<std::size_t>(1, sequence_length(byte(text_, at)));
+    }
+    return std::min(at, text_.size());
+}
+
+std::size_t first_invalid_utf8(std::string_view text)
+{
+    std::size_t at = 0;
+    while (at < text.size()) {
+        const unsigned lead = byte(text, at);
+        const std::size_t length = sequence_length(lead);
+        if (length == 0 || at + length > text.size()) return at;
+        for (std::size_t k = 1; k < length; ++k) {
+            if ((byte(text, at + k) & 0xC0U) != 0x80U) return at;
+        }
+        const unsigned second = length > 1 ? byte(text, at + 1) : 0;
+        const bool overlong = (lead == 0xE0 && second < 0xA0) || (lead == 0xF0 && second < 0x90);
+        const bool outside = (lead == 0xED && second >= 0xA0) || (lead == 0xF4 && second >= 0x90);
+        if (overlong || outside) return at;
+        at += length;
+    }
+    return at;
+}
+
+CodePoint code_point_at(std::string_view text, std::size_t at)
+{
+    const unsigned lead = byte(text, at);
+    const std::size_t length = std::max<std::size_t>(1, sequence_length(lead));
+    char32_t value = length == 1 ? lead : lead & (0xFFU >> (length + 1));
+    for (std::size_t k = 1; k < length; ++k) value = (value << 6U) | (byte(text, at + k) & 0x3FU);
+    return {value, at + length};
+}
+
+std::size_t first_control_character(std::string_view text)
+{
+    std::size_t at = 0;
+    while (at < text.size()) {
+        const CodePoint point = code_point_at(text, at);
+        if (is_control(point.value)) return at;
+        at = point.next;
+    }
+    return at;
+}
+
+} // namespace lagen

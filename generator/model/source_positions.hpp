@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// From (line, column in code points), as a TOML parser counts, to bytes of the file.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+namespace lagen {
+
+class SourcePositions {
+  public:
+    /// `text` must outlive this object.
+    explicit SourcePositions(std::string_view text);
+
+    /// The byte where the character at `line`, `column` (both from 1) starts; past the end of a line its end, past the
+    /// end of the text the text's end.
+    [[nodiscard]] std::size_t byte_of(std::size_t line, std::size_t column) const;
+
+  private:
+    std::string_view text_;
+    std::vector<std::size_t> lines_; ///< first byte of each line
+};
+
+/// The first byte that is not part of valid UTF-8 (overlong forms, surrogates and values above U+10FFFF are invalid), or
+/// the text's size where all is well.
+[[nodiscard]] std::size_t first_invalid_utf8(std::string_view text);
+
+/// The code point that starts at `byte` of valid UTF-8, and the byte after it.
+struct CodePoint {
+    char32_t value;
+    std::size_t next;
+};
+[[nodiscard]] CodePoint code_point_at(std::string_view text, std::size_t byte);
+
+/// The first byte of `text` at which a control character stands: C0, DEL, C1, line and paragraph separators and the marks that
+/// reverse the direction of writing; the text's size where there is none.
+[[nodiscard]] std::size_t first_control_character(std::string_view text);
+
+} // namespace lagen
