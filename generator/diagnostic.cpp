@@ -230,8 +230,8 @@ std::string render(const Diagnostic& diagnostic)
     std::string text;
     if (diagnostic.where.file) text = place(diagnostic.where) + ": ";
     text += fmt::format("{}: {}", spelling(diagnostic.severity), diagnostic.message);
-    if (diagnostic.where.file) text += "\n" + show_line(diagnostic.where);
-    if (!diagnostic.hint.empty()) text += "\nhint: " + diagnostic.hint;
+    if (diagnostic.where.file) text += fmt::format("\n{}", show_line(diagnostic.where));
+    if (!diagnostic.hint.empty()) text += fmt::format("\nhint: {}", diagnostic.hint);
     return text;
 }
 

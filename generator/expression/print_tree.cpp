@@ -3,8 +3,9 @@
 /// doublings has 2^40 characters.
 #include "expression/tree.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cstdint>
 
 namespace lagen {
 
@@ -29,8 +30,8 @@ std::string finite_decimal(const Rational& value)
     const mpz_class scaled = abs(value.get_num()) * (scale / value.get_den());
     std::string digits = scaled.get_str();
     if (digits.size() <= decimals) digits.insert(0, decimals + 1 - digits.size(), '0');
-    digits.insert(digits.size() - decimals, ".");
-    return value < 0 ? "-" + digits : digits;
+    const std::size_t point = digits.size() - decimals;
+    return fmt::format("{}{}.{}", value < 0 ? "-" : "", digits.substr(0, point), digits.substr(point));
 }
 
 struct NumberText {
@@ -48,6 +49,13 @@ NumberText number_text(const Rational& value)
     return {fraction, Tightness::product};
 }
 
+/// Products and quotients, and numbers written as one.
+bool reads_as_product(const TreeNode& node)
+{
+    if (node.kind == TreeKind::number) return number_text(node.number).tightness == Tightness::product;
+    return node.kind == TreeKind::divide || (node.kind == TreeKind::multiply && !node.arguments.empty());
+}
+
 Tightness tightness_of(const TreeNode& node)
 {
     switch (node.kind) {
@@ -56,10 +64,24 @@ Tightness tightness_of(const TreeNode& node)
     case TreeKind::add: return node.arguments.empty() ? Tightness::atom : Tightness::sum;
     case TreeKind::multiply: return node.arguments.empty() ? Tightness::atom : Tightness::product;
     case TreeKind::divide: return Tightness::product;
-    case TreeKind::negate: return Tightness::sign;
+    // -a*b stands for -(a*b): the same value, but x/-a*b is not x/(-(a*b)).
+    case TreeKind::negate: return reads_as_product(*node.arguments[0]) ? Tightness::product : Tightness::sign;
     case TreeKind::power: return Tightness::power;
     default: return Tightness::atom;
     }
+}
+
+const char* spaced(Comparison comparison)
+{
+    switch (comparison) {
+    case Comparison::less: return " < ";
+    case Comparison::less_equal: return " <= ";
+    case Comparison::greater: return " > ";
+    case Comparison::greater_equal: return " >= ";
+    case Comparison::equal: return " == ";
+    case Comparison::not_equal: return " != ";
+    }
+    return " ? ";
 }
 
 /// What is still to be printed: a sub-tree that must hold together at least as tightly as `least`, or (null) a text.
@@ -90,26 +112,78 @@ class Printer {
     }
 
   private:
-    void print_node(const TreeNode& node, Tightness least)
+    void print_node(const TreeNode& node, Tightness least);
+    void open(const TreeNode& node);
+
+    /// Leaves `node`'s arguments to be printed, separated.
+    void list(const TreeNode& node, const char* separator, Tightness least)
     {
-        const bool enclosed = tightness_of(node) < least;
-        std::vector<Pending> parts;
-        if (enclosed) parts.push_back({nullptr, least, "("});
-        add_parts(node, parts);
-        if (enclosed) parts.push_back({nullptr, least, ")"});
-        // A leaf has written itself into `leaf_`, which must appear now, between the parentheses.
-        for (auto part = parts.rbegin(); part != parts.rend(); ++part) pending_.push_back(*part);
+        for (std::size_t k = node.arguments.size(); k-- > 0;) {
+            pending_.push_back({node.arguments[k].get(), least, ""});
+            if (k > 0) pending_.push_back({nullptr, least, separator});
+        }
     }
 
-    void add_parts(const TreeNode& node, std::vector<Pending>& parts);
-    void add_list(const TreeNode& node, std::vector<Pending>& parts, Tightness least, const char* separator);
-    void append(std::string_view text);
+    void pair(const TreeNode& node, const char* separator, Tightness left, Tightness right)
+    {
+        pending_.push_back({node.arguments[1].get(), right, ""});
+        pending_.push_back({nullptr, right, separator});
+        pending_.push_back({node.arguments[0].get(), left, ""});
+    }
+
+    void append(std::string_view text)
+    {
+        const bool negative_term = text.starts_with('-') && text_.ends_with(" + ");
+        if (negative_term) { // a + -b reads a - b
+            text_.replace(text_.size() - 2, 2, "- ");
+            text.remove_prefix(1);
+        }
+        text_ += text;
+    }
 
     std::string text_;
     std::vector<Pending> pending_;
-    std::vector<std::string> leaves_;
 };
 
+void Printer::print_node(const TreeNode& node, Tightness least)
+{
+    const bool enclosed = tightness_of(node) < least;
+    if (enclosed) {
+        append("(");
+        pending_.push_back({nullptr, least, ")"});
+    }
+    open(node);
+}
+
+/// Prints what comes before the first argument, and leaves the rest to be printed.
+void Printer::open(const TreeNode& node)
+{
+    switch (node.kind) {
+    case TreeKind::number: append(number_text(node.number).text); break;
+    case TreeKind::pi: append("pi"); break;
+    case TreeKind::name: append(node.name); break;
+    case TreeKind::negate:
+        append("-");
+        pending_.push_back({node.arguments[0].get(),
+                            reads_as_product(*node.arguments[0]) ? Tightness::product : Tightness::sign, ""});
+        break;
+    case TreeKind::add: node.arguments.empty() ? append("0") : list(node, " + ", Tightness::sum); break;
+    case TreeKind::multiply: node.arguments.empty() ? append("1") : list(node, "*", Tightness::product); break;
+    case TreeKind::divide: pair(node, "/", Tightness::product, Tightness::sign); break;
+    case TreeKind::power: pair(node, "^", Tightness::atom, Tightness::sign); break;
+    case TreeKind::compare: pair(node, spaced(node.comparison), Tightness::sum, Tightness::sum); break;
+    case TreeKind::call:
+    case TreeKind::apply:
+        append(node.kind == TreeKind::call ? entry_of(node.function).name : node.name);
+        append("(");
+        pending_.push_back({nullptr, Tightness::atom, ")"});
+        list(node, ", ", Tightness::comparison);
+        break;
+    }
+}
+
 } // namespace
+
+std::string to_text(const Tree& tree) { return Printer().print(*tree); }
 
 } // namespace lagen

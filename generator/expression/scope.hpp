@@ -10,6 +10,8 @@
 
 namespace lagen {
 
+class Expansion;
+
 /// `name = body` or `name(parameters) = body`.
 struct Definition {
     std::string name;
@@ -33,17 +35,30 @@ class Scope {
     /// among definitions (the cycle is listed), an expansion of more than 10^6 distinct nodes or deeper than 2000.
     [[nodiscard]] Tree close(const Tree& tree, bool nonsmooth = false) const;
 
-    /// A scope with these extra symbols (as for events and observables, which may also use momenta).
+    /// A scope with these extra symbols (as for events and observables, which may also use momenta). A name that this
+    /// scope has already keeps its meaning: what a model declares wins.
     [[nodiscard]] Scope with(const std::vector<std::string>& symbols) const;
 
+    /// Closes every definition, the bodies of functions with their parameters as symbols, so that a mistake in one that
+    /// nobody uses is found. Functions that are not smooth are accepted here: where they are used decides.
+    void check_definitions() const;
+
   private:
+    friend class Expansion;
     struct Symbol {
         std::string name;
         SourceRange where;
     };
+    void require_new(const std::string& name, const SourceRange& where) const;
+    [[nodiscard]] const Definition* find_definition(const std::string& name) const;
+
     std::vector<Symbol> symbols_;
     std::vector<Definition> definitions_;
-    mutable std::map<std::string, Tree> closed_; ///< expansions of the definitions without parameters
+    std::map<std::string, std::size_t> symbol_index_;
+    std::map<std::string, std::size_t> definition_index_;
+    /// What has been expanded so far. It depends on the names above alone, so that copies may share it; a scope drops
+    /// its hold on it when a name joins.
+    mutable std::shared_ptr<Expansion> expansion_;
 };
 
 } // namespace lagen

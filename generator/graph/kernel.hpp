@@ -42,6 +42,8 @@ struct Kernel {
     std::vector<std::string> documentation; ///< lines of its docstring: formula, shape, index order, units
     /// Names of the entries of a vector (observables, events, ...); emitted as constexpr NAME_names; may be empty.
     std::vector<std::string> entry_names;
+    /// Divisors that are 1 x 1 blocks of a matrix: where one vanishes the kernel answers singular_mass_matrix.
+    std::vector<NodeId> pivots;
 };
 
 /// A named quantity of a module: parameter or state lane.

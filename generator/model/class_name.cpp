@@ -3,7 +3,6 @@
 #include "model/names.hpp"
 
 #include <algorithm>
-#include <array>
 #include <fmt/format.h>
 #include <string_view>
 
@@ -12,7 +11,7 @@ namespace lagen {
 namespace {
 
 /// C++20 keywords [lex.key], alternative tokens, and macros of the standard library that a header may meet.
-constexpr std::array<std::string_view, 107> reserved_words = {
+constexpr std::string_view reserved_words[] = {
     "EOF",          "FILE",       "INFINITY",     "NAN",          "NULL",          "alignas",          "alignof",
     "and",          "and_eq",     "asm",          "assert",       "auto",          "bitand",           "bitor",
     "bool",         "break",      "case",         "catch",        "char",          "char16_t",         "char32_t",
@@ -56,7 +55,7 @@ void require_class_name(const std::string& name, const SourceRange& where, bool 
                          std::all_of(name.begin(), name.end(), [](char c) { return is_letter(c) || is_digit(c); });
     if (!spelled) refuse("is not a C++ identifier");
     if (name.size() > longest) refuse("is longer than 200 characters");
-    if (std::find(reserved_words.begin(), reserved_words.end(), name) != reserved_words.end()) {
+    if (std::find(std::begin(reserved_words), std::end(reserved_words), name) != std::end(reserved_words)) {
         refuse("is a reserved word of C++");
     }
     const bool capital = name.size() > 1 && name[0] == '_' && name[1] >= 'A' && name[1] <= 'Z';

@@ -130,6 +130,7 @@ struct Model {
     SourceRange lagrangian_where;
     std::vector<NamedTree> observables;
     std::vector<NamedTree> invariants;
+    std::vector<Symbol> notes;           ///< [about] of definitions, Casimirs, observables, invariants and t
     std::vector<Scene> scenes;           ///< in the order of the file
 
     Scope scope;            ///< symbols and definitions: what expressions from the command line may use

@@ -29,10 +29,36 @@ struct StatusOf {
         if (where && status == Status::ok) status = reason;
     }
     [[nodiscard]] static constexpr bool all_good(type status) noexcept { return status == Status::ok; }
+    /// The first failure of two, a lane.
+    [[nodiscard]] static constexpr type first(type earlier, type later) noexcept
+    {
+        return earlier == Status::ok ? later : earlier;
+    }
 };
 
 template <class Scalar>
 using status_t = typename StatusOf<Scalar>::type;
+
+/// `where ? yes : no`, the branch that kernels may take: on packs a choice a lane.
+template <class Scalar>
+[[nodiscard]] constexpr Scalar select(bool where, const Scalar& yes, const Scalar& no) noexcept
+{
+    return where ? yes : no;
+}
+
+/// The type of times and steps: the scalar itself, or the type of one lane of a pack.
+template <class Scalar>
+struct RealOf {
+    using type = Scalar;
+    static constexpr int lanes = 1;
+};
+
+template <class Scalar>
+using real_t = typename RealOf<Scalar>::type;
+
+/// True where every time and step of `Scalar` is a lane of it.
+template <class Scalar>
+inline constexpr bool is_pack = RealOf<Scalar>::lanes != 1;
 
 /// A right-hand side: M::Scalar, M::State (an Eigen column), M::dimension, and
 ///   status_t<Scalar> rhs(Scalar t, const State& s, State& ds) const noexcept.

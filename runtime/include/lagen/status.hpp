@@ -17,6 +17,8 @@ enum class Status : std::uint8_t {
     too_many_steps,
     stopped_by_event,     ///< not a failure: an event with stop = true
     interrupted,
+    invalid_input,        ///< a step, tolerance or interval that makes no sense (not positive, not finite)
+    not_separable,        ///< a partitioned method was asked for, but xdot depends on x or ydot on y
 };
 
 /// True where the computation may go on or ended as asked.
@@ -37,6 +39,8 @@ enum class Status : std::uint8_t {
     case Status::too_many_steps: return "too_many_steps";
     case Status::stopped_by_event: return "stopped_by_event";
     case Status::interrupted: return "interrupted";
+    case Status::invalid_input: return "invalid_input";
+    case Status::not_separable: return "not_separable";
     }
     return "unknown";
 }

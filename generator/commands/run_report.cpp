@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/run_report.hpp"
+
+#include "emit/json.hpp"
+
+#include <fmt/core.h>
+
+namespace lagen {
+
+namespace {
+
+/// A JSON number with the digits as they are; JSON has neither nan nor inf.
+std::string number_text(std::string_view text)
+{
+    const bool finite = !text.empty() && text.find_first_of("nN") == std::string_view::npos;
+    return finite ? std::string(text) : "null";
+}
+
+std::string string_text(std::string_view text) { return JsonWriter().value(text).text(); }
+
+template <class Items, class Print>
+std::string list_text(const Items& items, Print print)
+{
+    std::string text = "[";
+    for (const auto& item : items) text += (text.size() == 1 ? "" : ", ") + print(item);
+    return text + "]";
+}
+
+std::string row_text(std::string_view line)
+{
+    return list_text(fields(line), [](std::string_view field) { return number_text(field); });
+}
+
+} // namespace
+
+std::string report_json(const RunOutcome& outcome)
+{
+    std::string invariants = "{";
+    for (const Drift& drift : outcome.invariants) {
+        invariants += fmt::format("{}{}: {{\"initial\": {}, \"max_drift\": {}}}", invariants.size() == 1 ? "" : ", ",
+                                  string_text(drift.name), number_text(drift.initial), number_text(drift.max_drift));
+    }
+    invariants += "}";
+    const std::string events = list_text(outcome.events, [](const EventFound& event) {
+        return fmt::format("{{\"name\": {}, \"t\": {}}}", string_text(event.name), number_text(event.time));
+    });
+    return fmt::format("{{\"model\": {}, \"scene\": {}, \"form\": {}, \"method\": {}, \"status\": {}, \"t\": {},\n \"steps\": {}, "
+                       "\"rejected\": {}, \"rhs_calls\": {}, \"seconds\": {},\n \"columns\": {},\n \"rows\": {},\n \"events\": {},\n "
+                       "\"invariants\": {}}}\n",
+                       string_text(outcome.model), string_text(outcome.scene), string_text(outcome.form), string_text(outcome.method),
+                       string_text(outcome.status), number_text(outcome.where), number_text(outcome.steps), number_text(outcome.rejected),
+                       number_text(outcome.rhs_calls), number_text(outcome.seconds),
+                       list_text(outcome.table.columns, [](const std::string& column) { return string_text(column); }),
+                       list_text(outcome.table.lines(), row_text), events, invariants);
+}
+
+std::string report_text(const RunOutcome& outcome)
+{
+    std::string text = fmt::format("{}, scene {}: {} at t = {}; {}, {} steps ({} rejected), {} right-hand sides, {} rows\n", outcome.model,
+                                   outcome.scene, outcome.status, outcome.where, outcome.method, outcome.steps, outcome.rejected,
+                                   outcome.rhs_calls, outcome.table.count);
+    for (const EventFound& event : outcome.events) text += fmt::format("  event {} at t = {}\n", event.name, event.time);
+    for (const Drift& drift : outcome.invariants)
+        text += fmt::format("  {}: {} at the start, largest drift {}\n", drift.name, drift.initial, drift.max_drift);
+    return text;
+}
+
+} // namespace lagen

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// What a run gave, and how it is told.
+#pragma once
+
+#include "commands/table.hpp"
+
+#include <string>
+#include <vector>
+
+namespace lagen {
+
+/// An event that was found, with its time as printed by the scene's program.
+struct EventFound {
+    std::string name;
+    std::string time;
+};
+
+/// Largest |f(t) - f(t_0)| over the steps.
+struct Drift {
+    std::string name;
+    std::string initial;
+    std::string max_drift;
+};
+
+struct RunOutcome {
+    std::string model, scene, form, method;
+    std::string status;      ///< "ok", "stopped_by_event", "left_domain", ... (runtime's names)
+    std::string where;       ///< time that was reached
+    std::string steps, rejected, rhs_calls, seconds; ///< numbers as printed
+    std::vector<EventFound> events;
+    std::vector<Drift> invariants;
+    Table table;
+};
+
+/// The object of `run --format json`; numbers keep their digits, what is not finite is null.
+[[nodiscard]] std::string report_json(const RunOutcome& outcome);
+
+/// A few lines for standard error: status, steps, events, drift of the invariants.
+[[nodiscard]] std::string report_text(const RunOutcome& outcome);
+
+} // namespace lagen

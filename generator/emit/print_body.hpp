@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// The statements of one generated function: inputs loaded into locals, named terms, factorisations, and the
+/// expressions of the outputs.
+#pragma once
+
+#include "emit/plan_body.hpp"
+#include "emit/print_literal.hpp"
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace lagen {
+
+/// How inputs are called inside a function, and which names are taken there.
+struct LocalNames {
+    std::map<NodeId, std::string> inputs; ///< local name of every input
+    std::set<std::string> taken;          ///< all of them, and the names that the header uses itself
+};
+
+/// Which factorisations a function checks.
+enum class Checking {
+    none,           ///< the function returns no status
+    state,          ///< those that depend on time or state
+    parameters,     ///< those that depend on neither
+};
+
+struct Body {
+    std::vector<std::string> statements; ///< without indentation; one may be longer than a line
+    std::vector<std::string> values;     ///< an expression for every output
+    std::vector<NodeId> inputs;          ///< that are read, ascending
+    std::set<std::string> functions;     ///< "sin", ...: to be found in std or by argument-dependent lookup
+    bool has_status = false;             ///< the statements use a variable `status`
+    bool has_pivoting = false;           ///< uses PivotedLu
+};
+
+/// `moving` are the inputs that change during a run (time and state): factorisations that depend on none of them
+/// are checked once, before it. `pivots` are divisors whose vanishing is a singular matrix too.
+struct BodyRequest {
+    const Graph& graph;
+    const LocalNames& names;
+    std::span<const NodeId> outputs;
+    std::span<const NodeId> pivots;
+    std::span<const NodeId> moving;
+    Checking checking = Checking::none;
+};
+
+[[nodiscard]] Body print_body(const BodyRequest& request);
+
+/// For every node of the graph: does it depend on one of `inputs`?
+[[nodiscard]] std::vector<bool> depends_on(const Graph& graph, std::span<const NodeId> inputs);
+
+} // namespace lagen

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "emit/spell.hpp"
+
+#include "emit/plan_body.hpp"
+#include "graph/operators.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+
+namespace lagen {
+
+namespace {
+
+std::string enclose(const Spelling& spelling, int precedence)
+{
+    return spelling.precedence >= precedence ? spelling.text : "(" + spelling.text + ")";
+}
+
+bool is_comparison(Op op) { return op >= Op::less && op <= Op::not_equal; }
+
+/// b * b * .. * b, at most four factors; the fourth power is the square of the square.
+Spelling repeated(const std::string& base, int count)
+{
+    if (count == 1) return {base, 5};
+    if (count == 2) return {fmt::format("{0} * {0}", base), 2};
+    if (count == 3) return {fmt::format("{0} * {0} * {0}", base), 2};
+    return {fmt::format("({0} * {0}) * ({0} * {0})", base), 2};
+}
+
+} // namespace
+
+std::string Speller::call(const std::string& function)
+{
+    functions_.insert(function);
+    return function;
+}
+
+std::string Speller::at_least(int precedence, NodeId id) { return enclose((*this)(id), precedence); }
+
+Spelling Speller::operator()(NodeId id)
+{
+    if (has_name(id)) return {names_[id], 5};
+    return operation(id);
+}
+
+Spelling Speller::operation(NodeId id)
+{
+    const std::span<const NodeId> operand = graph_.operands(id);
+    switch (graph_.op(id)) {
+    case Op::constant: return print_literal(graph_.value(id));
+    case Op::pi: return print_pi();
+    case Op::add: return add(operand[0], operand[1]);
+    case Op::subtract: return subtract(operand[0], operand[1]);
+    case Op::multiply: return {at_least(2, operand[0]) + " * " + at_least(3, operand[1]), 2};
+    case Op::divide: return {at_least(2, operand[0]) + " / " + at_least(3, operand[1]), 2};
+    case Op::negate: return {"-" + at_least(2, operand[0]), 1};
+    case Op::power: return power(operand[0], static_cast<std::int32_t>(graph_.payload(id)));
+    case Op::real_power: return real_power(id);
+    case Op::input: throw InternalError("an input without a local name: " + graph_.input_name(id));
+    case Op::factor:
+    case Op::solve:
+    case Op::component: throw InternalError("linear algebra inside an expression");
+    default: return is_comparison(graph_.op(id)) ? comparison(id) : function(id);
+    }
+}
+
+/// a + b with signs drawn out, so that "+ -" never stands in the text; -a + b is b - a, bit for bit.
+Spelling Speller::add(NodeId a, NodeId b)
+{
+    if (const auto minus = negated(b)) return {at_least(1, a) + " - " + enclose(*minus, 2), 1};
+    if (const auto minus = negated(a)) return {at_least(1, b) + " - " + enclose(*minus, 2), 1};
+    return {at_least(1, a) + " + " + at_least(2, b), 1};
+}
+
+Spelling Speller::subtract(NodeId a, NodeId b)
+{
+    if (const auto minus = negated(b)) return {at_least(1, a) + " + " + enclose(*minus, 2), 1};
+    return {at_least(1, a) + " - " + at_least(2, b), 1};
+}
+
+/// The spelling of -node where a sign stands in front of it already, and nothing otherwise.
+std::optional<Spelling> Speller::negated(NodeId id)
+{
+    if (has_name(id)) return std::nullopt;
+    const std::span<const NodeId> operand = graph_.operands(id);
+    const Op op = graph_.op(id);
+    if (op == Op::constant && graph_.value(id) < 0) return print_literal(-graph_.value(id));
+    if (op == Op::negate) return (*this)(operand[0]);
+    if (op != Op::multiply && op != Op::divide) return std::nullopt;
+    const std::string sign = op == Op::multiply ? " * " : " / ";
+    if (const auto minus = negated(operand[0])) return Spelling{enclose(*minus, 2) + sign + at_least(3, operand[1]), 2};
+    if (const auto minus = negated(operand[1])) return Spelling{at_least(2, operand[0]) + sign + enclose(*minus, 3), 2};
+    return std::nullopt;
+}
+
+/// Longer chains are statements of their own; the base has a name.
+Spelling Speller::power(NodeId base, int exponent)
+{
+    const Spelling positive = repeated(at_least(5, base), std::abs(exponent));
+    if (exponent > 0) return positive;
+    return {"S(1) / " + enclose(positive, 3), 2};
+}
+
+/// b^(k/2) = b^((|k|-1)/2) sqrt(b), or one over it; any other exponent by pow.
+Spelling Speller::real_power(NodeId id)
+{
+    const std::span<const NodeId> operand = graph_.operands(id);
+    const int twice = half_integer_exponent(graph_, id);
+    if (twice == 0) return {fmt::format("{}({}, {})", call("pow"), (*this)(operand[0]).text, (*this)(operand[1]).text), 5};
+    const std::string base = at_least(5, operand[0]);
+    const int whole = (std::abs(twice) - 1) / 2;
+    Spelling result{fmt::format("{}({})", call("sqrt"), (*this)(operand[0]).text), 5};
+    if (whole > 0) result = {fmt::format("{} * {}", repeated(base, whole).text, result.text), 2};
+    if (twice < 0) result = {"S(1) / " + enclose(result, 3), 2};
+    return result;
+}
+
+Spelling Speller::function(NodeId id)
+{
+    const std::span<const NodeId> operand = graph_.operands(id);
+    const auto text = [&](std::size_t k) { return (*this)(operand[k]).text; };
+    switch (graph_.op(id)) {
+    case Op::select: return {fmt::format("select({}, {}, {})", condition(operand[0]).text, text(1), text(2)), 5};
+    case Op::minimum: return {fmt::format("select({0} < {1}, {0}, {1})", at_least(1, operand[0]), at_least(1, operand[1])), 5};
+    case Op::maximum: return {fmt::format("select({0} > {1}, {0}, {1})", at_least(1, operand[0]), at_least(1, operand[1])), 5};
+    case Op::sign: {
+        const std::string x = at_least(1, operand[0]);
+        return {fmt::format("select({0} > S(0), S(1), select({0} < S(0), S(-1), S(0)))", x), 5};
+    }
+    default: break;
+    }
+    const std::string name = call(operator_of(graph_.op(id)).spelling);
+    if (operand.size() == 1) return {fmt::format("{}({})", name, text(0)), 5};
+    return {fmt::format("{}({}, {})", name, text(0), text(1)), 5};
+}
+
+/// A mask: the comparison itself, or "is not zero".
+Spelling Speller::condition(NodeId id)
+{
+    if (has_name(id) || !is_comparison(graph_.op(id))) return {at_least(1, id) + " != S(0)", 0};
+    const std::span<const NodeId> operand = graph_.operands(id);
+    return {fmt::format("{} {} {}", at_least(1, operand[0]), operator_of(graph_.op(id)).spelling, at_least(1, operand[1])), 0};
+}
+
+/// A comparison as a number.
+Spelling Speller::comparison(NodeId id) { return {fmt::format("select({}, S(1), S(0))", condition(id).text), 5}; }
+
+} // namespace lagen

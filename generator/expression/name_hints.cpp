@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Hints for unknown names: other languages' spellings, slips of the hand, a short list.
+#include "expression/name_hints.hpp"
+
+#include "expression/tree.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace lagen {
+
+namespace {
+
+struct Foreign {
+    std::string_view name;
+    const char* hint;
+};
+
+constexpr std::array foreign_symbols{
+    Foreign{"π", "the constant is written pi"},
+    Foreign{"Pi", "the constant is written pi"},
+    Foreign{"PI", "the constant is written pi"},
+    Foreign{"M_PI", "the constant is written pi"},
+    Foreign{"e", "the exponential function is written exp(x)"},
+};
+
+constexpr std::array foreign_functions{
+    Foreign{"ln", "the natural logarithm is written log(x)"},
+    Foreign{"log10", "log is the natural logarithm: log(x)/log(10)"},
+    Foreign{"log2", "log is the natural logarithm: log(x)/log(2)"},
+    Foreign{"pow", "a power is written x^y"},
+    Foreign{"cbrt", "a cube root is written x^(1/3)"},
+    Foreign{"hypot", "this is written sqrt(x^2 + y^2)"},
+    Foreign{"arcsin", "did you mean 'asin'?"},
+    Foreign{"arccos", "did you mean 'acos'?"},
+    Foreign{"arctan", "did you mean 'atan'?"},
+    Foreign{"arctan2", "did you mean 'atan2'?"},
+    Foreign{"fabs", "did you mean 'abs'?"},
+    Foreign{"sgn", "did you mean 'sign'?"},
+    Foreign{"sec", "this is written 1/cos(x)"},
+    Foreign{"csc", "this is written 1/sin(x)"},
+    Foreign{"cot", "this is written cos(x)/sin(x)"},
+    Foreign{"coth", "this is written cosh(x)/sinh(x)"},
+};
+
+/// "heading a, b, c", cut after ten names.
+std::string listing(const char* heading, const std::vector<std::string>& known)
+{
+    constexpr std::size_t most = 10;
+    const std::vector<std::string> shown(known.begin(),
+                                         known.begin() + static_cast<std::ptrdiff_t>(std::min(most, known.size())));
+    return fmt::format("{}{}{}", heading, fmt::join(shown, ", "), known.size() > most ? ", ..." : "");
+}
+
+} // namespace
+
+std::string hint_for_symbol(const std::string& name, const std::vector<std::string>& known)
+{
+    const std::string nearest = nearest_name(name, known);
+    if (!nearest.empty()) return fmt::format("did you mean '{}'?", nearest);
+    for (const Foreign& entry : foreign_symbols)
+        if (entry.name == name) return entry.hint;
+    return known.empty() ? "no names are declared for this expression" : listing("known names are ", known);
+}
+
+std::string hint_for_function(const std::string& name, std::vector<std::string> known)
+{
+    for (const Foreign& entry : foreign_functions)
+        if (entry.name == name) return entry.hint;
+    for (const FunctionEntry& entry : function_table()) known.emplace_back(entry.name);
+    const std::string nearest = nearest_name(name, known);
+    if (!nearest.empty()) return fmt::format("did you mean '{}'?", nearest);
+    return listing("known functions are ", known);
+}
+
+} // namespace lagen

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Walks over trees that visit a shared sub-tree once.
+#include "expression/tree.hpp"
+
+#include <set>
+#include <utility>
+
+namespace lagen {
+
+namespace {
+
+bool same_node(const TreeNode& a, const TreeNode& b)
+{
+    if (a.kind != b.kind || a.arguments.size() != b.arguments.size()) return false;
+    switch (a.kind) {
+    case TreeKind::number: return a.number == b.number;
+    case TreeKind::name:
+    case TreeKind::apply: return a.name == b.name;
+    case TreeKind::call: return a.function == b.function;
+    case TreeKind::compare: return a.comparison == b.comparison;
+    default: return true;
+    }
+}
+
+} // namespace
+
+std::vector<std::string> names_in(const Tree& tree)
+{
+    std::vector<std::string> names;
+    std::set<std::string_view> known; // of node names, which outlive the walk
+    std::set<const TreeNode*> visited;
+    std::vector<const TreeNode*> pending{tree.get()};
+    while (!pending.empty()) {
+        const TreeNode& node = *pending.back();
+        pending.pop_back();
+        if (!visited.insert(&node).second) continue;
+        if (node.kind == TreeKind::name && known.insert(node.name).second) names.push_back(node.name);
+        for (auto argument = node.arguments.rbegin(); argument != node.arguments.rend(); ++argument)
+            pending.push_back(argument->get());
+    }
+    return names;
+}
+
+bool same_tree(const Tree& a, const Tree& b)
+{
+    using Pair = std::pair<const TreeNode*, const TreeNode*>;
+    std::set<Pair> visited;
+    std::vector<Pair> pending{{a.get(), b.get()}};
+    while (!pending.empty()) {
+        const auto [left, right] = pending.back();
+        pending.pop_back();
+        if (left == right || !visited.insert({left, right}).second) continue;
+        if (!left || !right || !same_node(*left, *right)) return false;
+        for (std::size_t k = 0; k < left->arguments.size(); ++k)
+            pending.emplace_back(left->arguments[k].get(), right->arguments[k].get());
+    }
+    return true;
+}
+
+} // namespace lagen

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// The declarations of a model file: which names there are, and what part each plays.
+#include "model/model_reader.hpp"
+
+#include "expression/parse.hpp"
+#include "model/read_values.hpp"
+#include "model/table_reader.hpp"
+
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace lagen {
+
+namespace {
+
+std::vector<Symbol> declare_list(ModelReader& reader, const TomlEntry& entry, const std::string& what, Role role)
+{
+    std::vector<Symbol> out;
+    for (const Excerpt& name : read_list(entry.value, what)) {
+        const SourceRange where = name.range(0, name.text.size());
+        reader.names.declare(name.text, role, where);
+        out.push_back(Symbol{name.text, where, {}, {}, {}});
+    }
+    return out;
+}
+
+void default_fibre(ModelReader& reader)
+{
+    Model& model = reader.model;
+    for (const std::size_t i : model.algebroid.over) {
+        const Symbol& coordinate = model.base.coordinates[i];
+        reader.names.declare("v_" + coordinate.name, Role::fibre, coordinate.where);
+        model.fibre.coordinates.push_back(Symbol{"v_" + coordinate.name, coordinate.where, {}, {}, {}});
+    }
+}
+
+void default_momenta(ModelReader& reader)
+{
+    for (const Symbol& coordinate : reader.model.fibre.coordinates) {
+        reader.names.declare("p_" + coordinate.name, Role::momentum, coordinate.where);
+        reader.model.fibre.momenta.push_back(Symbol{"p_" + coordinate.name, coordinate.where, {}, {}, {}});
+    }
+}
+
+void require_rank(const Model& model, const SourceRange& where)
+{
+    if (model.algebroid.kind != AlgebroidKind::tangent) return;
+    const std::size_t found = model.fibre.coordinates.size();
+    const std::size_t wanted = model.algebroid.over.size();
+    if (found == wanted) return;
+    throw ModelError(fmt::format("[fibre] declares {} coordinates, where the tangent bundle over {} base coordinates needs {}",
+                                 found, wanted, wanted),
+                     where, "one fibre coordinate a base coordinate that moves, in the same order");
+}
+
+/// "V(q, r)" as a name and its parameters; "T" as a name alone.
+Definition read_definition_key(const Excerpt& key)
+{
+    Definition out;
+    const std::size_t open = key.text.find('(');
+    const Excerpt name = trimmed(key, 0, std::min(open, key.text.size()));
+    out.name = name.text;
+    out.where = name.range(0, name.text.size());
+    if (open == std::string::npos) return out;
+    const Excerpt tail = trimmed(key, open + 1, key.text.size());
+    if (tail.text.empty() || tail.text.back() != ')') {
+        throw ModelError(fmt::format("the definition '{}' has no closing parenthesis at its end", key.text),
+                         key.range(0, key.text.size()), "write \"V(q)\" = \"..\"");
+    }
+    for (const Excerpt& parameter : split_at_commas(trimmed(tail, 0, tail.text.size() - 1))) {
+        const SourceRange where = parameter.range(0, parameter.text.size());
+        require_identifier(parameter.text, where, "the parameter of a function");
+        for (const std::string& earlier : out.parameters) {
+            if (earlier != parameter.text) continue;
+            throw ModelError(fmt::format("the function '{}' has two parameters called '{}'", out.name, earlier), where);
+        }
+        out.parameters.push_back(parameter.text);
+    }
+    return out;
+}
+
+} // namespace
+
+void read_header(ModelReader& reader, const TomlEntry* name, const TomlEntry* title, const std::string& file_name)
+{
+    Model& model = reader.model;
+    if (title != nullptr) model.title = read_text(title->value, "the title");
+    if (name != nullptr) {
+        model.name = name->value.kind == TomlKind::string ? name->value.text.text : read_text(name->value, "the name");
+        model.name_where = name->value.where;
+        require_class_name(model.name, model.name_where, false);
+        return;
+    }
+    model.name = std::filesystem::path(file_name).stem().string();
+    model.name_where = SourceRange{model.file, 0, 0};
+    require_class_name(model.name, model.name_where, true);
+}
+
+void declare_parameters(ModelReader& reader, const TomlEntry* block)
+{
+    if (block == nullptr) return;
+    const TableReader table(block->value, "[parameters]");
+    for (const TomlEntry& entry : block->value.entries) {
+        reader.names.declare(entry.name(), Role::parameter, entry.where());
+        reader.model.parameters.push_back(Parameter{Symbol{entry.name(), entry.where(), {}, {}, {}}, nullptr});
+    }
+}
+
+void declare_base(ModelReader& reader, const TomlEntry* block)
+{
+    if (block == nullptr) return;
+    TableReader table(block->value, "[base]");
+    if (const TomlEntry* entry = table.take("coordinates")) {
+        reader.model.base.coordinates = declare_list(reader, *entry, "'coordinates' of [base]", Role::base);
+    }
+    if (const TomlEntry* entry = table.take("casimirs")) {
+        const TableReader casimirs(entry->value, "'casimirs' of [base]");
+        for (const TomlEntry& casimir : entry->value.entries) {
+            reader.names.declare(casimir.name(), Role::casimir, casimir.where());
+            reader.casimirs.emplace_back(casimir.key,
+                                         read_expression(casimir.value, fmt::format("the Casimir '{}'", casimir.name())));
+        }
+    }
+    (void)table.take("constraints");
+    (void)table.take("domain");
+    table.finish();
+}
+
+void declare_fibre(ModelReader& reader, const TomlEntry* block)
+{
+    Fibre& fibre = reader.model.fibre;
+    const TomlEntry* coordinates = nullptr;
+    const TomlEntry* momenta = nullptr;
+    if (block != nullptr) {
+        TableReader table(block->value, "[fibre]");
+        coordinates = table.take("coordinates");
+        momenta = table.take("momenta");
+        table.finish();
+    }
+    if (coordinates != nullptr) {
+        fibre.coordinates = declare_list(reader, *coordinates, "'coordinates' of [fibre]", Role::fibre);
+        require_rank(reader.model, coordinates->value.where);
+    } else if (reader.model.algebroid.kind == AlgebroidKind::tangent) {
+        default_fibre(reader);
+    } else {
+        throw ModelError("the fibre coordinates are missing, one a section of the frame",
+                         block != nullptr ? block->where() : reader.model.algebroid.where,
+                         "[fibre] coordinates = [\"y1\", \"y2\"]");
+    }
+    if (momenta == nullptr) return default_momenta(reader);
+    fibre.momenta = declare_list(reader, *momenta, "'momenta' of [fibre]", Role::momentum);
+    if (fibre.momenta.size() != fibre.coordinates.size()) {
+        throw ModelError(fmt::format("[fibre] declares {} momenta for {} coordinates; one a coordinate is required",
+                                     fibre.momenta.size(), fibre.coordinates.size()),
+                         momenta->value.where);
+    }
+}
+
+void declare_definitions(ModelReader& reader, const TomlEntry* block)
+{
+    if (block == nullptr) return;
+    const TableReader table(block->value, "[definitions]");
+    for (const TomlEntry& entry : block->value.entries) {
+        Definition definition = read_definition_key(entry.key);
+        reader.names.declare(definition.name, Role::definition, definition.where);
+        definition.body = read_expression(entry.value, fmt::format("the definition '{}'", entry.name()));
+        reader.model.definitions.push_back(std::move(definition));
+    }
+}
+
+std::size_t index_of(const std::vector<Symbol>& symbols, const std::string& name)
+{
+    std::size_t k = 0;
+    while (k < symbols.size() && symbols[k].name != name) ++k;
+    return k;
+}
+
+std::vector<std::string> names_of(const std::vector<Symbol>& symbols)
+{
+    std::vector<std::string> out;
+    for (const Symbol& symbol : symbols) out.push_back(symbol.name);
+    return out;
+}
+
+} // namespace lagen

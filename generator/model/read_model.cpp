@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// The blocks of a model file, in the order in which they can be understood.
+#include "model/read_model.hpp"
+
+#include "model/model_reader.hpp"
+#include "model/read_file.hpp"
+#include "model/table_reader.hpp"
+
+#include <fmt/format.h>
+
+namespace lagen {
+
+namespace {
+
+constexpr std::initializer_list<const char*> later_blocks = {
+    "sizes",  "hamiltonian", "forces",          "dissipation", "control", "groupoid",
+    "discrete", "hamilton_jacobi", "forms", "morphism",    "compose",
+};
+
+} // namespace
+
+Model read_model(const std::string& path, const std::vector<Setting>& settings)
+{
+    return read_model_text(path, read_file(path), settings);
+}
+
+Model read_model_text(const std::string& name, std::string text, const std::vector<Setting>& settings)
+{
+    ModelReader reader;
+    reader.model.file = std::make_shared<const SourceFile>(SourceFile{name, std::move(text)});
+    const TomlValue document = parse_toml(reader.model.file);
+    TableReader top(document, "the model");
+    top.refuse_later(later_blocks);
+    const TomlEntry* model_name = top.take("name");
+    const TomlEntry* title = top.take("title");
+    const TomlEntry* parameters = top.take("parameters");
+    const TomlEntry* base = top.take("base");
+    const TomlEntry* fibre = top.take("fibre");
+    const TomlEntry* algebroid = top.take("algebroid");
+    const TomlEntry* definitions = top.take("definitions");
+    const TomlEntry* lagrangian = top.take("lagrangian");
+    const TomlEntry* observables = top.take("observables");
+    const TomlEntry* invariants = top.take("invariants");
+    const TomlEntry* about = top.take("about");
+    const TomlEntry* scenes = top.take("scene");
+    top.finish();
+
+    read_header(reader, model_name, title, name);
+    declare_parameters(reader, parameters);
+    declare_base(reader, base);
+    read_algebroid_kind(reader, algebroid);
+    declare_fibre(reader, fibre);
+    declare_definitions(reader, definitions);
+    declare_quantities(reader, observables, invariants, lagrangian);
+    build_scopes(reader);
+
+    read_parameters(reader, parameters, settings);
+    read_base(reader, base);
+    read_algebroid(reader, algebroid);
+    read_quantities(reader);
+    read_about(reader, about);
+    read_scenes(reader, scenes, settings);
+    return std::move(reader.model);
+}
+
+const Scene& find_scene(const Model& model, const std::string& name)
+{
+    std::vector<std::string> known;
+    for (const Scene& scene : model.scenes) {
+        if (scene.name == (name.empty() ? "default" : name)) return scene;
+        known.push_back(scene.name);
+    }
+    const SourceRange where{model.file, 0, 0};
+    if (model.scenes.empty()) {
+        throw ModelError("the model has no scene", where, "add [scene.default] with initial values and a duration");
+    }
+    if (name.empty()) return model.scenes.front();
+    throw ModelError(fmt::format("the model has no scene '{}'", name), where, hint_for(name, known, "scenes"));
+}
+
+std::vector<std::string> symbol_names(const Model& model)
+{
+    std::vector<std::string> out;
+    for (const Parameter& parameter : model.parameters) out.push_back(parameter.symbol.name);
+    for (const Symbol& symbol : model.base.coordinates) out.push_back(symbol.name);
+    for (const Symbol& symbol : model.fibre.coordinates) out.push_back(symbol.name);
+    return out;
+}
+
+} // namespace lagen

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// The ring in which one decision works: Q[inputs, sin u, cos u, exp u, roots, ...] modulo one relation for some
+/// generators, g^k = polynomial in others, with coprime leading terms (so that reduction decides membership of the
+/// ideal of the relations). Fractions keep their denominators as a multiset of factors: no greatest common divisors,
+/// only exact trial division.
+#pragma once
+
+#include "proof/polynomial.hpp"
+#include "proof/range.hpp"
+
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace lagen {
+
+/// Raised where a divisor is identically zero; what() is the text of the division.
+struct VanishingDivisor : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// num / (scale * product of factors^power); scale > 0, factors ascending by index, powers positive.
+struct Fraction {
+    Polynomial num;
+    mpz_class scale = 1;
+    std::vector<std::pair<std::size_t, unsigned>> factors;
+
+    [[nodiscard]] bool is_zero() const { return num.empty(); }
+    [[nodiscard]] bool is_polynomial() const { return factors.empty(); }
+    /// The value where the fraction is a rational constant.
+    [[nodiscard]] std::optional<mpq_class> constant() const;
+};
+
+struct Generator {
+    std::string text;         ///< in the expression language
+    Range range;              ///< of its values on the domain
+    unsigned power = 0;       ///< generator^power = relation; 0: free
+    Polynomial relation;
+    int partner = -1;         ///< of a cosine: its sine (and of a sine: its cosine)
+    bool is_sine = false;
+};
+
+/// A polynomial known to be positive (or nonnegative) on the domain.
+struct SignFact {
+    Polynomial polynomial;
+    bool strict = true;
+};
+
+class Ring {
+  public:
+    explicit Ring(Work budget) : work_(budget) {}
+
+    GeneratorId add_generator(Generator generator);
+    [[nodiscard]] const Generator& generator(GeneratorId id) const { return generators_[id]; }
+    [[nodiscard]] std::size_t size() const { return generators_.size(); }
+    void restrict_range(GeneratorId id, const Range& range);
+    void set_relation(GeneratorId id, unsigned power, Polynomial relation);
+    /// generators[id] with this key, made by `make` on first use.
+    template <class Make>
+    GeneratorId keyed(const std::string& key, Make make)
+    {
+        if (const auto at = keys_.find(key); at != keys_.end()) return at->second;
+        const GeneratorId id = make();
+        keys_.emplace(key, id);
+        return id;
+    }
+
+    // Polynomials modulo the relations.
+    [[nodiscard]] Polynomial reduce(const Polynomial& p);
+    [[nodiscard]] Polynomial times(const Polynomial& p, const Polynomial& q) { return reduce(multiply(p, q, work_)); }
+    [[nodiscard]] Polynomial power(const Polynomial& p, unsigned exponent);
+
+    // Fractions.
+    [[nodiscard]] Fraction constant(const mpq_class& value) const;
+    [[nodiscard]] Fraction of(const Polynomial& p) { return normalised({reduce(p), 1, {}}); }
+    [[nodiscard]] Fraction of(GeneratorId id, unsigned exponent = 1) { return of(generator_polynomial(id, exponent)); }
+    [[nodiscard]] Fraction add(const Fraction& a, const Fraction& b, int sign = 1);
+    [[nodiscard]] Fraction times(const Fraction& a, const Fraction& b);
+    [[nodiscard]] Fraction inverse(const Fraction& a); ///< VanishingDivisor where a is 0
+    [[nodiscard]] Fraction divide(const Fraction& a, const Fraction& b) { return times(a, inverse(b)); }
+    [[nodiscard]] Fraction power(const Fraction& a, int exponent);
+    [[nodiscard]] Fraction negate(Fraction a) const;
+    [[nodiscard]] const Polynomial& factor(std::size_t index) const { return factors_[index]; }
+    /// p = content * product of known or new factors; appends to `into`. Content may be negative.
+    [[nodiscard]] mpz_class split(const Polynomial& p, std::vector<std::pair<std::size_t, unsigned>>& into);
+
+    // Signs on the domain.
+    void add_fact(const Polynomial& p, bool strict);
+    [[nodiscard]] Signs signs(const Polynomial& p) { return signs(p, 0); }
+    [[nodiscard]] Signs signs(const Fraction& a);
+    /// p with even powers of these cosines written by sines; an equal element of the ring.
+    [[nodiscard]] std::vector<Polynomial> rewritings(const Polynomial& p);
+
+    [[nodiscard]] Work& work() { return work_; }
+
+  private:
+    [[nodiscard]] Fraction normalised(Fraction a);
+    [[nodiscard]] std::size_t factor_index(const Polynomial& p);
+    [[nodiscard]] Polynomial expand(const std::vector<std::pair<std::size_t, unsigned>>& factors);
+    [[nodiscard]] const Polynomial& relation_power(GeneratorId id, unsigned exponent);
+    [[nodiscard]] Signs signs(const Polynomial& p, int depth);
+    [[nodiscard]] Signs range_signs(const Polynomial& p) const;
+    [[nodiscard]] Signs fact_signs(const Polynomial& p, int depth);
+
+    Work work_;
+    std::vector<Generator> generators_;
+    std::map<std::string, GeneratorId> keys_;
+    std::vector<Polynomial> factors_; ///< primitive, leading coefficient positive, no monomial content unless a generator
+    std::map<std::string, std::size_t> factor_keys_;
+    std::map<std::pair<GeneratorId, unsigned>, Polynomial> relation_powers_;
+    std::vector<SignFact> facts_;
+};
+
+[[nodiscard]] std::string key_of(const Fraction& a);
+[[nodiscard]] bool same(const Fraction& a, const Fraction& b);
+
+} // namespace lagen

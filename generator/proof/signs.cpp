@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Signs of ring elements on the whole domain: by the ranges of the generators, by polynomials that the domain makes
+/// positive, and by perfect squares. Exact; "unknown" is always allowed.
+#include "proof/ring.hpp"
+
+#include <algorithm>
+
+namespace lagen {
+
+namespace {
+
+constexpr int deepest = 3; ///< products of facts that are looked through
+
+/// p / (content and sign), so that proportional polynomials are equal.
+Polynomial primitive(const Polynomial& p)
+{
+    return divide_content(p, content(p));
+}
+
+} // namespace
+
+void Ring::add_fact(const Polynomial& p, bool strict)
+{
+    if (is_constant(p)) return;
+    const Polynomial fact = primitive(p);
+    facts_.push_back({fact, strict});
+    // a g + b > 0 with numbers a, b bounds the generator g itself.
+    const bool alone = fact.size() == 1 || (fact.size() == 2 && fact[1].monomial.is_one());
+    if (!alone || fact[0].monomial.size() != 1 || fact[0].monomial.exponent(0) != 1) return;
+    mpq_class bound(fact.size() == 2 ? mpz_class(-fact[1].coefficient) : mpz_class(0), fact[0].coefficient);
+    bound.canonicalize();
+    Range range;
+    (fact[0].coefficient > 0 ? range.low : range.high) = End{false, bound, strict};
+    restrict_range(fact[0].monomial.generator(0), range);
+}
+
+Signs Ring::range_signs(const Polynomial& p) const
+{
+    Range sum = Range::point(0);
+    for (const Term& term : p) {
+        Range range = Range::point(mpq_class(term.coefficient));
+        for (std::size_t k = 0; k < term.monomial.size(); ++k)
+            range = range * lagen::power(generators_[term.monomial.generator(k)].range, term.monomial.exponent(k));
+        sum = p.size() == 1 ? range : sum + range;
+    }
+    return signs_of(sum);
+}
+
+Signs Ring::fact_signs(const Polynomial& p, int depth)
+{
+    Signs known;
+    for (std::size_t k = 0; k < facts_.size(); ++k) {
+        const SignFact fact = facts_[k];
+        const Term& lead = fact.polynomial[0];
+        Polynomial quotient;
+        if (depth < deepest && divide_exactly(p, fact.polynomial, quotient, work_)) {
+            const Signs of_fact{false, !fact.strict, true};
+            known = both(known, of_fact * signs(quotient, depth + 1));
+        }
+        for (const Term& term : p) {
+            if (!(term.monomial == lead.monomial)) continue;
+            // p = l fact + rest with a number l: two summands of one sign.
+            const int sign = sgn(term.coefficient) * sgn(lead.coefficient);
+            const mpz_class whole = abs(lead.coefficient);
+            const Polynomial rest =
+                add_scaled(scale(p, whole), fact.polynomial, -abs(term.coefficient) * sign, work_);
+            const Signs of_rest = rest.empty() ? Signs{false, true, false} : range_signs(rest);
+            const Signs of_fact = sign > 0 ? Signs{false, !fact.strict, true} : Signs{true, !fact.strict, false};
+            Signs sum;
+            if (!of_rest.negative && !of_fact.negative) sum = {false, of_rest.zero && of_fact.zero, true};
+            if (!of_rest.positive && !of_fact.positive) sum = {true, of_rest.zero && of_fact.zero, false};
+            known = both(known, sum);
+        }
+    }
+    return known;
+}
+
+std::vector<Polynomial> Ring::rewritings(const Polynomial& p)
+{
+    std::vector<GeneratorId> cosines;
+    for (const Term& term : p)
+        for (std::size_t k = 0; k < term.monomial.size(); ++k) {
+            const GeneratorId id = term.monomial.generator(k);
+            const bool known = std::find(cosines.begin(), cosines.end(), id) != cosines.end();
+            const Generator& generator = generators_[id];
+            if (!known && generator.partner >= 0 && !generator.is_sine && term.monomial.exponent(k) >= 2 &&
+                cosines.size() < 8)
+                cosines.push_back(id);
+        }
+    const auto rewritten = [this](const Polynomial& source, GeneratorId cosine) {
+        const auto sine = static_cast<GeneratorId>(generators_[cosine].partner);
+        const Polynomial relation = add_scaled(constant_polynomial(1), generator_polynomial(sine, 2), -1, work_);
+        Polynomial result;
+        for (const Term& term : source) {
+            const unsigned exponent = term.monomial.exponent_of(cosine);
+            Polynomial image{{term.monomial.without(cosine) * Monomial(cosine, exponent % 2), term.coefficient}};
+            for (unsigned k = 0; k < exponent / 2; ++k) image = multiply(image, relation, work_);
+            result = add_scaled(result, collect(std::move(image), work_), 1, work_);
+        }
+        return result;
+    };
+    std::vector<Polynomial> forms;
+    Polynomial all = p;
+    for (const GeneratorId cosine : cosines) {
+        forms.push_back(rewritten(p, cosine));
+        all = rewritten(all, cosine);
+    }
+    if (cosines.size() > 1) forms.push_back(all);
+    return forms;
+}
+
+Signs Ring::signs(const Polynomial& p, int depth)
+{
+    if (p.empty()) return {false, true, false};
+    if (is_constant(p)) return signs_of(p[0].coefficient);
+    Signs known = range_signs(p);
+    const auto settled = [&known] { return static_cast<int>(known.negative) + known.zero + known.positive <= 1; };
+    if (settled()) return known;
+    const Monomial common = monomial_content(p);
+    if (!common.is_one() && p.size() > 1) {
+        Signs product = signs(divide_monomial(p, common), depth);
+        for (std::size_t k = 0; k < common.size(); ++k)
+            product = product * lagen::power(signs_of(generators_[common.generator(k)].range), common.exponent(k));
+        return both(known, product);
+    }
+    known = both(known, fact_signs(p, depth));
+    if (settled()) return known;
+    Polynomial root;
+    if (depth < deepest && p.size() > 1 && square_root(primitive(p), root, work_))
+        known = both(known, lagen::power(signs(root, depth + 1), 2));
+    if (settled() || depth > 0) return known;
+    for (const Polynomial& form : rewritings(p)) known = both(known, signs(form, depth + 1));
+    return known;
+}
+
+Signs Ring::signs(const Fraction& a)
+{
+    Signs known = signs(a.num);
+    for (const auto& [index, exponent] : a.factors) {
+        Signs factor = signs(Polynomial(factors_[index]));
+        factor.zero = false; // a fraction speaks of the points where its denominator is not zero
+        known = known * lagen::power(factor, exponent);
+    }
+    return known;
+}
+
+} // namespace lagen

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Candidates and their lengths.
+#include "symbolic/shortest_form.hpp"
+#include "symbolic/sorted_form.hpp"
+
+#include <algorithm>
+#include <optional>
+
+namespace lagen {
+namespace {
+
+constexpr double term_limit = 2000;       ///< of an expanded sum
+constexpr std::size_t factor_terms = 40;  ///< of a polynomial handed to GiNaC::factor
+constexpr int factor_degree = 16;         ///< its total degree, summed over its symbols
+constexpr std::size_t parenthesis_cost = 3;
+
+/// A bound of the number of terms after expansion.
+double expanded_terms(const GiNaC::ex& e) {
+    if (GiNaC::is_a<GiNaC::add>(e)) {
+        double sum = 0;
+        for (std::size_t k = 0; k < e.nops(); ++k)
+            sum += expanded_terms(e.op(k));
+        return sum;
+    }
+    if (GiNaC::is_a<GiNaC::mul>(e)) {
+        double product = 1;
+        for (std::size_t k = 0; k < e.nops() && product <= term_limit; ++k)
+            product *= expanded_terms(e.op(k));
+        return product;
+    }
+    if (GiNaC::is_a<GiNaC::power>(e) && e.op(1).info(GiNaC::info_flags::posint)) {
+        const double inner = expanded_terms(e.op(0));
+        double product = 1;
+        for (GiNaC::numeric n = 0; n < GiNaC::ex_to<GiNaC::numeric>(e.op(1)) && product <= term_limit && inner > 1; ++n)
+            product *= inner;
+        return product;
+    }
+    return 1;
+}
+
+/// Functions and roots replaced by symbols, so that polynomial algorithms apply; the same one by the same symbol.
+class Atoms {
+  public:
+    GiNaC::ex hide(const GiNaC::ex& e) {
+        if (GiNaC::is_a<GiNaC::numeric>(e) || GiNaC::is_a<GiNaC::symbol>(e))
+            return e;
+        if (GiNaC::is_a<GiNaC::add>(e) || GiNaC::is_a<GiNaC::mul>(e)) {
+            GiNaC::exvector parts;
+            for (std::size_t k = 0; k < e.nops(); ++k)
+                parts.push_back(hide(e.op(k)));
+            if (GiNaC::is_a<GiNaC::add>(e))
+                return GiNaC::ex(GiNaC::dynallocate<GiNaC::add>(parts));
+            return GiNaC::ex(GiNaC::dynallocate<GiNaC::mul>(parts));
+        }
+        if (GiNaC::is_a<GiNaC::power>(e)) {
+            if (e.op(1).info(GiNaC::info_flags::integer))
+                return GiNaC::pow(hide(e.op(0)), e.op(1));
+            // b^(p/q) = (b^(1/q))^p: one atom for all powers of one root
+            if (GiNaC::is_a<GiNaC::numeric>(e.op(1)) && e.op(1).info(GiNaC::info_flags::rational)) {
+                const GiNaC::numeric exponent = GiNaC::ex_to<GiNaC::numeric>(e.op(1));
+                const GiNaC::ex root = GiNaC::pow(e.op(0), GiNaC::numeric(1) / exponent.denom());
+                return GiNaC::pow(atom(root), exponent.numer());
+            }
+        }
+        return atom(e);
+    }
+
+    [[nodiscard]] GiNaC::ex show(const GiNaC::ex& e) const { return e.subs(back_, GiNaC::subs_options::no_pattern); }
+
+  private:
+    GiNaC::ex atom(const GiNaC::ex& e) {
+        const auto known = forward_.find(e);
+        if (known != forward_.end())
+            return known->second;
+        const GiNaC::realsymbol symbol;
+        forward_.emplace(e, symbol);
+        back_[symbol] = e;
+        return symbol;
+    }
+
+    GiNaC::exmap forward_, back_;
+};
+
+std::size_t terms_of(const GiNaC::ex& e) { return GiNaC::is_a<GiNaC::add>(e) ? e.nops() : 1; }
+
+bool may_factor(const GiNaC::ex& polynomial) {
+    if (terms_of(polynomial) > factor_terms)
+        return false;
+    int degree = 0;
+    GiNaC::exset symbols;
+    for (auto node = polynomial.preorder_begin(); node != polynomial.preorder_end(); ++node)
+        if (GiNaC::is_a<GiNaC::symbol>(*node))
+            symbols.insert(*node);
+    for (const GiNaC::ex& symbol : symbols)
+        degree += polynomial.degree(symbol);
+    return degree <= factor_degree;
+}
+
+/// Numerator and denominator factored; nothing where that would cost too much.
+std::optional<GiNaC::ex> factored(const GiNaC::ex& e) {
+    Atoms atoms;
+    const GiNaC::ex hidden = atoms.hide(e);
+    if (expanded_terms(hidden) > factor_terms)
+        return {};
+    const GiNaC::ex fraction = hidden.numer_denom();
+    const GiNaC::ex above = fraction.op(0).expand();
+    const GiNaC::ex below = fraction.op(1).expand();
+    if (!may_factor(above) || !may_factor(below))
+        return {};
+    return atoms.show(GiNaC::factor(above) / GiNaC::factor(below));
+}
+
+SortedTerm product_of(std::vector<SortedFactor> factors, const Rational& coefficient) {
+    SortedTerm term{coefficient, std::move(factors), {}};
+    return sorted_product({term});
+}
+
+/// What both have in common: the factors of `a` with the smaller of both exponents.
+std::vector<SortedFactor> common_factors(const std::vector<SortedFactor>& a, const std::vector<SortedFactor>& b) {
+    std::vector<SortedFactor> common;
+    for (const SortedFactor& factor : a) {
+        const auto other =
+            std::find_if(b.begin(), b.end(), [&](const SortedFactor& candidate) { return candidate.key == factor.key; });
+        if (other == b.end() || (factor.exponent < 0) != (other->exponent < 0))
+            continue;
+        common.push_back(factor);
+        if (abs(other->exponent) < abs(factor.exponent))
+            common.back().exponent = other->exponent;
+    }
+    return common;
+}
+
+SortedTerm divided(const SortedTerm& term, std::vector<SortedFactor> divisor) {
+    for (SortedFactor& factor : divisor)
+        factor.exponent = -factor.exponent;
+    return sorted_product({term, product_of(std::move(divisor), 1)});
+}
+
+/// A sum with the factors that all terms share drawn out in front.
+SortedTerm with_common_factor(const std::vector<SortedTerm>& terms) {
+    std::vector<SortedFactor> common = terms.front().factors;
+    for (const SortedTerm& term : terms)
+        common = common_factors(common, term.factors);
+    std::vector<SortedTerm> rest;
+    for (const SortedTerm& term : terms)
+        rest.push_back(divided(term, common));
+    return sorted_product({sorted_sum(rest), product_of(common, 1)});
+}
+
+std::vector<SortedTerm> terms_in(const SortedTerm& sum) {
+    if (sum.factors.size() != 1 || sum.factors[0].terms.empty() || sum.factors[0].exponent != 1)
+        return {sum};
+    std::vector<SortedTerm> terms = sum.factors[0].terms;
+    for (SortedTerm& term : terms)
+        term.coefficient *= sum.coefficient;
+    return terms;
+}
+
+/// Terms with the same monomial in the variables together: (I2 - I3) w2 w3 - mgl g2.
+SortedTerm collected(const SortedTerm& expanded) {
+    std::map<std::string, std::pair<SortedTerm, std::vector<SortedTerm>>> groups;
+    for (const SortedTerm& term : terms_in(expanded)) {
+        std::vector<SortedFactor> variable;
+        for (const SortedFactor& factor : term.factors)
+            if (!factor.constant)
+                variable.push_back(factor);
+        const SortedTerm monomial = product_of(variable, 1);
+        auto& group = groups.try_emplace(monomial.key, monomial, std::vector<SortedTerm>{}).first->second;
+        group.second.push_back(divided(term, variable));
+    }
+    std::vector<SortedTerm> sums;
+    for (const auto& [key, group] : groups)
+        sums.push_back(sorted_product({group.first, with_common_factor(group.second)}));
+    return sorted_sum(sums);
+}
+
+std::size_t cost_of(const Tree& tree) {
+    const std::string text = to_text(tree);
+    const auto parentheses = std::count(text.begin(), text.end(), '(');
+    return text.size() + parenthesis_cost * static_cast<std::size_t>(parentheses);
+}
+
+class Shortest {
+  public:
+    void offer(Tree tree) {
+        const std::size_t cost = cost_of(tree);
+        if (best_ && cost >= cost_)
+            return;
+        best_ = std::move(tree);
+        cost_ = cost;
+    }
+    [[nodiscard]] const Tree& best() const { return best_; }
+
+  private:
+    Tree best_;
+    std::size_t cost_ = 0;
+};
+
+} // namespace
+
+Tree shortest_form(const GiNaC::ex& expression, const SymbolTable& symbols, const Order& order) {
+    try {
+        Shortest shortest;
+        if (expanded_terms(expression) <= term_limit) {
+            const SortedTerm expanded = sort_expression(expression.expand(), symbols, order);
+            shortest.offer(tree_of(expanded));
+            shortest.offer(tree_of(collected(expanded)));
+            shortest.offer(tree_of(with_common_factor(terms_in(expanded))));
+            if (const std::optional<GiNaC::ex> product = factored(expression))
+                shortest.offer(from_ginac(*product, symbols, order));
+        }
+        shortest.offer(from_ginac(expression, symbols, order));
+        return shortest.best();
+    } catch (const Error&) {
+        throw;
+    } catch (const std::exception& error) {
+        throw MathematicsError(std::string("an expression could not be rewritten: ") + error.what());
+    }
+}
+
+} // namespace lagen

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Trees to GiNaC, each shared sub-tree once.
+#include "symbolic/ginac_door.hpp"
+
+#include <algorithm>
+
+namespace lagen {
+
+GiNaC::symbol SymbolTable::symbol(const std::string& name) {
+    const auto known = symbols_.find(name);
+    if (known != symbols_.end())
+        return known->second;
+    const GiNaC::realsymbol fresh(name);
+    names_.emplace(fresh, name);
+    symbols_.emplace(name, fresh);
+    return fresh;
+}
+
+const std::string& SymbolTable::name_of(const GiNaC::symbol& symbol) const {
+    const auto known = names_.find(symbol);
+    if (known == names_.end())
+        throw InternalError("a symbol came back from GiNaC that was never sent there");
+    return known->second;
+}
+
+namespace {
+
+GiNaC::numeric to_numeric(const Rational& value) {
+    const GiNaC::numeric numerator(value.get_num().get_str().c_str());
+    const GiNaC::numeric denominator(value.get_den().get_str().c_str());
+    return numerator / denominator;
+}
+
+GiNaC::ex apply_function(const TreeNode& node, const std::vector<GiNaC::ex>& a) {
+    switch (node.function) {
+    case Function::sin: return GiNaC::sin(a[0]);
+    case Function::cos: return GiNaC::cos(a[0]);
+    case Function::tan: return GiNaC::tan(a[0]);
+    case Function::asin: return GiNaC::asin(a[0]);
+    case Function::acos: return GiNaC::acos(a[0]);
+    case Function::atan: return GiNaC::atan(a[0]);
+    case Function::atan2: return GiNaC::atan2(a[0], a[1]);
+    case Function::sinh: return GiNaC::sinh(a[0]);
+    case Function::cosh: return GiNaC::cosh(a[0]);
+    case Function::tanh: return GiNaC::tanh(a[0]);
+    case Function::exp: return GiNaC::exp(a[0]);
+    case Function::log: return GiNaC::log(a[0]);
+    case Function::sqrt: return GiNaC::sqrt(a[0]);
+    case Function::abs: return GiNaC::abs(a[0]);
+    case Function::minimum:
+    case Function::maximum:
+    case Function::sign:
+    case Function::select: break;
+    }
+    throw MathematicsError(std::string("the function ") + entry_of(node.function).name +
+                           " is not smooth, so that nothing is derived from it symbolically");
+}
+
+class ToGinac {
+  public:
+    explicit ToGinac(SymbolTable& symbols) : symbols_(symbols) {}
+
+    /// Depth first with a stack of its own: trees may be thousands of levels deep.
+    GiNaC::ex operator()(const Tree& root) {
+        std::vector<std::pair<const TreeNode*, std::size_t>> stack = {{root.get(), 0}};
+        while (!stack.empty()) {
+            auto& [node, next] = stack.back();
+            if (next < node->arguments.size()) {
+                const TreeNode* child = node->arguments[next++].get();
+                if (!done_.contains(child))
+                    stack.emplace_back(child, 0);
+                continue;
+            }
+            if (!done_.contains(node))
+                finish(*node);
+            stack.pop_back();
+        }
+        return done_.at(root.get()).value;
+    }
+
+  private:
+    struct Done {
+        GiNaC::ex value;
+        std::size_t size; ///< nodes when written out, saturated
+    };
+
+    void finish(const TreeNode& node) {
+        std::vector<GiNaC::ex> arguments;
+        std::size_t size = 1;
+        for (const Tree& argument : node.arguments) {
+            const Done& done = done_.at(argument.get());
+            arguments.push_back(done.value);
+            size = std::min(size + done.size, symbolic_size_limit + 1);
+        }
+        if (size > symbolic_size_limit)
+            throw MathematicsError("the expression has more than " + std::to_string(symbolic_size_limit) +
+                                   " terms and factors when it is written out, too many for a formula that a person could read");
+        done_.emplace(&node, Done{value_of(node, arguments), size});
+    }
+
+    GiNaC::ex value_of(const TreeNode& node, const std::vector<GiNaC::ex>& a) {
+        switch (node.kind) {
+        case TreeKind::number: return to_numeric(node.number);
+        case TreeKind::pi: return GiNaC::Pi;
+        case TreeKind::name: return symbols_.symbol(node.name);
+        case TreeKind::negate: return -a[0];
+        case TreeKind::add: {
+            GiNaC::exvector terms(a.begin(), a.end());
+            return GiNaC::ex(GiNaC::dynallocate<GiNaC::add>(terms));
+        }
+        case TreeKind::multiply: {
+            GiNaC::exvector factors(a.begin(), a.end());
+            return GiNaC::ex(GiNaC::dynallocate<GiNaC::mul>(factors));
+        }
+        case TreeKind::divide:
+            if (a[1].is_zero())
+                throw MathematicsError("division by " + to_text(node.arguments[1]) + ", which is zero everywhere");
+            return a[0] / a[1];
+        case TreeKind::power: return GiNaC::pow(a[0], a[1]);
+        case TreeKind::call: return apply_function(node, a);
+        case TreeKind::apply:
+        case TreeKind::compare: break;
+        }
+        throw MathematicsError("a comparison or a function of the model stands where a smooth expression is needed");
+    }
+
+    SymbolTable& symbols_;
+    std::map<const TreeNode*, Done> done_;
+};
+
+} // namespace
+
+GiNaC::ex to_ginac(const Tree& tree, SymbolTable& symbols) {
+    try {
+        return ToGinac(symbols)(tree);
+    } catch (const Error&) {
+        throw;
+    } catch (const std::exception& error) {
+        throw MathematicsError(std::string("an expression has no value: ") + error.what());
+    }
+}
+
+} // namespace lagen

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+/// Small dense linear systems for generated kernels: LU with scaled row pivoting. No allocation, no exceptions, any
+/// scalar; on SIMD packs every lane pivots on its own, by selection instead of branches.
+/// Used where definiteness is not known, or beyond the size that is written out.
+#pragma once
+
+#include "lagen/kernel.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace lagen {
+
+namespace detail {
+
+/// The spacing of numbers next to 1, also for packs (by their lane type).
+template <class S>
+[[nodiscard]] constexpr auto unit_spacing() noexcept
+{
+    if constexpr (std::numeric_limits<S>::is_specialized)
+        return std::numeric_limits<S>::epsilon();
+    else
+        return std::numeric_limits<typename S::value_type>::epsilon();
+}
+
+} // namespace detail
+
+/// 2 n epsilon: a pivot of an n x n elimination that is smaller than this multiple of the entries it was computed from
+/// consists of rounding errors only, so the matrix cannot be told from a singular one.
+template <class S>
+[[nodiscard]] S singular_tolerance(int n) noexcept
+{
+    return S(2 * n) * S(detail::unit_spacing<S>());
+}
+
+/// P A = L U of an N x N matrix. The pivot of column k is the entry that is largest relative to its row; the matrix
+/// counts as singular where that entry, relative to its row and column, is below singular_tolerance: a decision that scaling
+/// rows or columns (units) does not change.
+template <class S, int N>
+class PivotedLu {
+  public:
+    using Mask = typename StatusOf<S>::mask;
+    static constexpr std::size_t size = static_cast<std::size_t>(N);
+
+    /// Factorises `matrix`, N*N entries by rows. Answers where it is numerically singular (a mask a lane).
+    [[nodiscard]] Mask factor(const std::array<S, size * size>& matrix) noexcept
+    {
+        lu_ = matrix;
+        scale();
+        const S tolerance = singular_tolerance<S>(N);
+        Mask singular = S(1) < S(0);
+        for (std::size_t k = 0; k < size; ++k) {
+            const S largest = bring_up_pivot(k);
+            singular = singular | (largest * column_scale_[k] <= tolerance);
+            const S reciprocal = S(1) / at(k, k);
+            reciprocals_[k] = reciprocal;
+            for (std::size_t i = k + 1; i < size; ++i) {
+                const S multiplier = at(i, k) * reciprocal;
+                at(i, k) = multiplier;
+                for (std::size_t j = k + 1; j < size; ++j) at(i, j) -= multiplier * at(k, j);
+            }
+        }
+        return singular;
+    }
+
+    /// x with A x = b.
+    [[nodiscard]] std::array<S, size> solve(std::array<S, size> b) const noexcept
+    {
+        for (std::size_t k = 0; k < size; ++k) // the exchanges, in the order in which they were made
+            for (std::size_t i = k + 1; i < size; ++i) exchange(swaps_[k * size + i], b[k], b[i]);
+        for (std::size_t i = 1; i < size; ++i)
+            for (std::size_t j = 0; j < i; ++j) b[i] -= at(i, j) * b[j];
+        for (std::size_t i = size; i-- > 0;) {
+            for (std::size_t j = i + 1; j < size; ++j) b[i] -= at(i, j) * b[j];
+            b[i] *= reciprocals_[i];
+        }
+        return b;
+    }
+
+  private:
+    [[nodiscard]] S& at(std::size_t i, std::size_t j) noexcept { return lu_[i * size + j]; }
+    [[nodiscard]] const S& at(std::size_t i, std::size_t j) const noexcept { return lu_[i * size + j]; }
+
+    static void exchange(Mask where, S& a, S& b) noexcept
+    {
+        if constexpr (std::is_same_v<Mask, bool>) {
+            if (!where) return;
+            const S kept = a;
+            a = b;
+            b = kept;
+        } else {
+            const S kept = a;
+            a = select(where, b, a);
+            b = select(where, kept, b);
+        }
+    }
+
+    /// 1 / max |a_ij| by rows, then 1 / max |a_ij| / row by columns; 1 for a row or column of zeros.
+    void scale() noexcept
+    {
+        using std::abs;
+        for (std::size_t i = 0; i < size; ++i) {
+            S largest(0);
+            for (std::size_t j = 0; j < size; ++j) largest = select(abs(at(i, j)) > largest, abs(at(i, j)), largest);
+            row_scale_[i] = S(1) / select(largest > S(0), largest, S(1));
+        }
+        for (std::size_t j = 0; j < size; ++j) {
+            S largest(0);
+            for (std::size_t i = 0; i < size; ++i) {
+                const S value = abs(at(i, j)) * row_scale_[i];
+                largest = select(value > largest, value, largest);
+            }
+            column_scale_[j] = S(1) / select(largest > S(0), largest, S(1));
+        }
+    }
+
+    /// Exchanges rows until row k holds the largest entry of column k relative to its row; answers that entry.
+    S bring_up_pivot(std::size_t k) noexcept
+    {
+        using std::abs;
+        S largest = abs(at(k, k)) * row_scale_[k];
+        for (std::size_t i = k + 1; i < size; ++i) {
+            const S value = abs(at(i, k)) * row_scale_[i];
+            const Mask larger = value > largest;
+            swaps_[k * size + i] = larger;
+            largest = select(larger, value, largest);
+            exchange(larger, row_scale_[k], row_scale_[i]);
+            for (std::size_t j = 0; j < size; ++j) exchange(larger, at(k, j), at(i, j));
+        }
+        return largest;
+    }
+
+    std::array<S, size * size> lu_{};
+    std::array<Mask, size * size> swaps_{};
+    std::array<S, size> reciprocals_{};
+    std::array<S, size> row_scale_{};
+    std::array<S, size> column_scale_{};
+};
+
+} // namespace lagen

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Arrows between rooms point one way: the include graph is read from the files and compared with the plan. A shared include
+/// root would let a backward include build.
+#include "source_tree.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+#include <iostream>
+#include <regex>
+#include <sstream>
+
+using namespace lagen::house;
+
+namespace {
+
+/// "path:line includes X (room r)", one a line, for every include that no arrow allows.
+std::vector<std::string> backward_includes(const std::vector<SourceText>& files, const Arrows& arrows)
+{
+    std::vector<std::string> found;
+    for (const SourceText& file : files) {
+        const std::set<std::string> allowed = reachable_rooms(arrows, room_of(file.path));
+        for (const Include& include : includes_of(file)) {
+            if (!include.quoted) continue;
+            // The runtime's own headers are "lagen/...", and only the runtime includes them.
+            const std::string room =
+                include.target.starts_with("lagen/") ? "runtime" : room_of("generator/" + include.target);
+            if (!allowed.contains(room))
+                found.push_back(file.path + ":" + std::to_string(include.line) + " includes \"" + include.target +
+                                "\" of " + room);
+        }
+    }
+    return found;
+}
+
+/// A library's headers and the rooms that may know it.
+struct Library {
+    const char* pattern; ///< of the include's target
+    std::set<std::string> rooms;
+};
+
+const std::vector<Library>& libraries()
+{
+    static const std::vector<Library> known{
+        {"ginac/.*|cln/.*", {"symbolic", "equations"}},
+        {"toml.*", {"model"}},
+        {"arb.*\\.h|arf\\.h|acb.*\\.h|mag\\.h|flint/.*|fmpq.*\\.h|fmpz.*\\.h", {"proof"}},
+        {"mpfr\\.h", {"graph", "proof", "emit"}}, // rounds literals, functions and enclosures
+        {"boost/program_options.*", {"commands"}},
+        {"Eigen/.*", {"runtime"}},
+    };
+    return known;
+}
+
+std::vector<std::string> misplaced_libraries(const std::vector<SourceText>& files)
+{
+    std::vector<std::string> found;
+    for (const SourceText& file : files)
+        for (const Include& include : includes_of(file))
+            for (const Library& library : libraries())
+                if (std::regex_match(include.target, std::regex(library.pattern)) &&
+                    !library.rooms.contains(room_of(file.path)))
+                    found.push_back(file.path + ":" + std::to_string(include.line) + " includes " + include.target);
+    return found;
+}
+
+/// The arrows that the files have, without those inside a room.
+Arrows actual_arrows(const std::vector<SourceText>& files)
+{
+    Arrows arrows;
+    for (const SourceText& file : files)
+        for (const Include& include : includes_of(file))
+            if (include.quoted && !file.path.starts_with("runtime")) {
+                const std::string from = room_of(file.path);
+                const std::string to = room_of("generator/" + include.target);
+                if (from != to) arrows[from].insert(to);
+            }
+    return arrows;
+}
+
+} // namespace
+
+TEST_CASE("every include between rooms follows an arrow of the house")
+{
+    const std::vector<SourceText> files = cpp_files(read_tree({"generator", "runtime"}));
+    REQUIRE(files.size() > 30);
+    CHECK(backward_includes(files, planned_arrows()) == std::vector<std::string>{});
+
+    std::cout << "arrows (room: rooms that it includes)\n";
+    for (const auto& [room, targets] : actual_arrows(files)) {
+        std::cout << "  " << room << ":";
+        for (const std::string& target : targets) std::cout << ' ' << target;
+        std::cout << '\n';
+    }
+}
+
+TEST_CASE("a backward include is found")
+{
+    const SourceText backward{"generator/graph/graph.cpp", {"#include \"graph/graph.hpp\"", "#include \"model/model.hpp\""}};
+    const SourceText runtime{"runtime/include/lagen/x.hpp", {"#include \"lagen/status.hpp\"", " # include \"emit/json.hpp\""}};
+    const SourceText generator{"generator/emit/json.cpp", {"#include \"lagen/status.hpp\""}};
+    CHECK(backward_includes({backward, runtime, generator}, planned_arrows()) ==
+          std::vector<std::string>{"generator/graph/graph.cpp:2 includes \"model/model.hpp\" of model",
+                                   "runtime/include/lagen/x.hpp:2 includes \"emit/json.hpp\" of emit",
+                                   "generator/emit/json.cpp:1 includes \"lagen/status.hpp\" of runtime"});
+}
+
+TEST_CASE("the arrows of the house have no cycle")
+{
+    for (const auto& [room, targets] : planned_arrows())
+        for (const std::string& target : targets) CHECK_FALSE(reachable_rooms(planned_arrows(), target).contains(room));
+}
+
+TEST_CASE("a library is known only to the rooms that stand on it")
+{
+    CHECK(misplaced_libraries(cpp_files(read_tree({"generator", "runtime"}))) == std::vector<std::string>{});
+    const SourceText wrong{"generator/geometry/verify.cpp", {"#include <ginac/ginac.h>", "#include <vector>"}};
+    CHECK(misplaced_libraries({wrong}) == std::vector<std::string>{"generator/geometry/verify.cpp:1 includes ginac/ginac.h"});
+}
+
+TEST_CASE("the runtime includes nothing but itself, Eigen and the standard library")
+{
+    std::size_t own = 0;
+    for (const SourceText& file : cpp_files(read_tree({"runtime"})))
+        for (const Include& include : includes_of(file)) {
+            INFO(file.path << ":" << include.line << " includes " << include.target);
+            if (include.quoted) {
+                CHECK(std::filesystem::exists(std::filesystem::path(LAGEN_SOURCE_DIR) / "runtime/include" / include.target));
+                ++own;
+            } else {
+                CHECK((include.target.starts_with("Eigen/") || include.target.find('.') == std::string::npos));
+            }
+        }
+    CHECK(own > 0);
+}
+
+TEST_CASE("the libraries of the build are linked along the arrows of the house")
+{
+    Arrows linked;
+    for (const SourceText& text : read_tree({"generator"})) {
+        if (text.path != "generator/CMakeLists.txt") continue;
+        static const std::regex pattern(R"(^\s*lagen_room\((\w+)( DEPENDS(( \w+)+?))?( LIBRARIES .*)?\)\s*$)");
+        for (const std::string& line : text.lines) {
+            std::smatch match;
+            if (!std::regex_match(line, match, pattern)) continue;
+            std::istringstream names(match[3]);
+            std::set<std::string>& targets = linked[match[1]];
+            for (std::string name; names >> name;) targets.insert(name);
+        }
+    }
+    REQUIRE(linked.size() == 10);
+    for (const auto& [room, targets] : linked) {
+        INFO(room);
+        CHECK(planned_arrows().at(room) == targets);
+    }
+}

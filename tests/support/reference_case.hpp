@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// The cases of tests/data: mechanical systems with trajectories and derivatives at points, and structure functions with
+/// their verdicts, as records and as model files of kind `general`. See tests/data/README.md.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lagen {
+
+/// "[e_a, e_b] contains value e_c", counted from 0.
+struct ReferenceBracket {
+    std::size_t a, b, c;
+    std::string value;
+};
+
+/// d(state)/dt and what goes with it at one state; decimal texts.
+struct ReferencePoint {
+    std::vector<std::string> state;       ///< base, then fibre
+    std::vector<std::string> state_dot;   ///< same order
+    std::vector<std::string> momenta;     ///< p_a = dL/dy^a, shape (r)
+    std::string energy;
+};
+
+struct ReferenceSample {
+    std::string t;
+    std::vector<std::string> state;
+};
+
+struct ReferenceCase {
+    std::string name;
+    std::string description;
+    std::vector<std::string> base;
+    std::vector<std::string> fibre;
+    std::vector<std::vector<std::string>> rho; ///< rho[i][a] = rho^i_a, shape (n, r)
+    std::vector<ReferenceBracket> brackets;
+    std::string lagrangian; ///< empty where there is none
+    std::vector<std::pair<std::string, std::string>> parameters;
+    std::string t0, t_end;
+    std::vector<std::string> initial; ///< base, then fibre
+    std::vector<ReferenceSample> samples;
+    std::vector<ReferencePoint> points;
+};
+
+/// Every case of tests/data/continuous, sorted by name.
+[[nodiscard]] std::vector<ReferenceCase> read_reference_cases();
+
+/// The case as a model file of kind `general`, with its start as the scene `default`.
+[[nodiscard]] std::string model_text(const ReferenceCase& reference);
+
+/// One entry of tests/data/definitions/definitions.json.
+struct ReferenceDefinition {
+    ReferenceCase algebroid;          ///< name, base, fibre (e1, e2, ...), rho, brackets, parameters (value 1)
+    std::vector<std::string> domain;  ///< strict inequalities
+    bool valid = false;
+    std::vector<std::string> failing; ///< as the file names them
+};
+
+[[nodiscard]] std::vector<ReferenceDefinition> read_reference_definitions();
+[[nodiscard]] std::string model_text(const ReferenceDefinition& definition);
+
+} // namespace lagen
