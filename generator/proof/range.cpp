@@ -155,6 +155,12 @@ Signs operator*(const Signs& a, const Signs& b)
             (a.positive && b.positive) || (a.negative && b.negative)};
 }
 
+Signs operator+(const Signs& a, const Signs& b)
+{
+    const bool opposite = (a.negative && b.positive) || (a.positive && b.negative);
+    return {a.negative || b.negative, (a.zero && b.zero) || opposite, a.positive || b.positive};
+}
+
 Signs operator-(const Signs& a)
 {
     return {a.positive, a.zero, a.negative};

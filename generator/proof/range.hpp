@@ -48,6 +48,7 @@ struct Signs {
 [[nodiscard]] Signs signs_of(const Range& range);
 [[nodiscard]] Signs signs_of(const mpz_class& value);
 [[nodiscard]] Signs operator*(const Signs& a, const Signs& b);
+[[nodiscard]] Signs operator+(const Signs& a, const Signs& b);
 [[nodiscard]] Signs operator-(const Signs& a);
 [[nodiscard]] Signs power(const Signs& a, unsigned exponent);
 [[nodiscard]] Signs both(const Signs& a, const Signs& b); ///< what two true statements leave possible

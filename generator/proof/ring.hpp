@@ -40,10 +40,10 @@ struct Generator {
     bool is_sine = false;
 };
 
-/// A polynomial known to be positive (or nonnegative) on the domain.
+/// What is known of a polynomial on the domain.
 struct SignFact {
     Polynomial polynomial;
-    bool strict = true;
+    Signs signs;
 };
 
 class Ring {
@@ -85,7 +85,7 @@ class Ring {
     [[nodiscard]] mpz_class split(const Polynomial& p, std::vector<std::pair<std::size_t, unsigned>>& into);
 
     // Signs on the domain.
-    void add_fact(const Polynomial& p, bool strict);
+    void add_fact(const Polynomial& p, const Signs& known);
     [[nodiscard]] Signs signs(const Polynomial& p) { return signs(p, 0); }
     [[nodiscard]] Signs signs(const Fraction& a);
     /// p with even powers of these cosines written by sines; an equal element of the ring.
@@ -93,13 +93,16 @@ class Ring {
 
     [[nodiscard]] Work& work() { return work_; }
 
-  private:
+    /// `a` with content and exactly dividing factors cancelled; its numerator must be reduced.
     [[nodiscard]] Fraction normalised(Fraction a);
-    [[nodiscard]] std::size_t factor_index(const Polynomial& p);
+    [[nodiscard]] std::size_t factor_index(const Polynomial& p); ///< p primitive, leading coefficient positive
+
+  private:
     [[nodiscard]] Polynomial expand(const std::vector<std::pair<std::size_t, unsigned>>& factors);
     [[nodiscard]] const Polynomial& relation_power(GeneratorId id, unsigned exponent);
     [[nodiscard]] Signs signs(const Polynomial& p, int depth);
     [[nodiscard]] Signs range_signs(const Polynomial& p) const;
+    [[nodiscard]] Signs sum_signs(const Polynomial& p, const mpz_class& coefficient, const SignFact& fact);
     [[nodiscard]] Signs fact_signs(const Polynomial& p, int depth);
 
     Work work_;

@@ -19,19 +19,23 @@ Polynomial primitive(const Polynomial& p)
 
 } // namespace
 
-void Ring::add_fact(const Polynomial& p, bool strict)
+void Ring::add_fact(const Polynomial& p, const Signs& known)
 {
     if (is_constant(p)) return;
     const Polynomial fact = primitive(p);
-    facts_.push_back({fact, strict});
-    // a g + b > 0 with numbers a, b bounds the generator g itself.
-    const bool alone = fact.size() == 1 || (fact.size() == 2 && fact[1].monomial.is_one());
-    if (!alone || fact[0].monomial.size() != 1 || fact[0].monomial.exponent(0) != 1) return;
-    mpq_class bound(fact.size() == 2 ? mpz_class(-fact[1].coefficient) : mpz_class(0), fact[0].coefficient);
-    bound.canonicalize();
+    facts_.push_back({fact, known});
+    if (fact[0].monomial.size() != 1 || fact[0].monomial.exponent(0) != 1) return;
+    const GeneratorId id = fact[0].monomial.generator(0);
     Range range;
-    (fact[0].coefficient > 0 ? range.low : range.high) = End{false, bound, strict};
-    restrict_range(fact[0].monomial.generator(0), range);
+    range.nonzero = fact.size() == 1 && !known.zero;
+    const bool alone = fact.size() == 1 || (fact.size() == 2 && fact[1].monomial.is_one());
+    if (alone && !known.negative) {
+        // a g + b > 0 with numbers a, b bounds the generator g itself.
+        mpq_class bound(fact.size() == 2 ? mpz_class(-fact[1].coefficient) : mpz_class(0), fact[0].coefficient);
+        bound.canonicalize();
+        (fact[0].coefficient > 0 ? range.low : range.high) = End{false, bound, !known.zero};
+    }
+    restrict_range(id, range);
 }
 
 Signs Ring::range_signs(const Polynomial& p) const
@@ -46,6 +50,15 @@ Signs Ring::range_signs(const Polynomial& p) const
     return signs_of(sum);
 }
 
+/// Of p = l fact + rest, where the number l cancels the term that the two have in common.
+Signs Ring::sum_signs(const Polynomial& p, const mpz_class& coefficient, const SignFact& fact)
+{
+    const mpz_class& lead = fact.polynomial[0].coefficient;
+    const int sign = sgn(coefficient) * sgn(lead);
+    const Polynomial rest = add_scaled(scale(p, abs(lead)), fact.polynomial, -abs(coefficient) * sign, work_);
+    return (sign > 0 ? fact.signs : -fact.signs) + (rest.empty() ? signs_of(mpz_class(0)) : range_signs(rest));
+}
+
 Signs Ring::fact_signs(const Polynomial& p, int depth)
 {
     Signs known;
@@ -53,24 +66,10 @@ Signs Ring::fact_signs(const Polynomial& p, int depth)
         const SignFact fact = facts_[k];
         const Term& lead = fact.polynomial[0];
         Polynomial quotient;
-        if (depth < deepest && divide_exactly(p, fact.polynomial, quotient, work_)) {
-            const Signs of_fact{false, !fact.strict, true};
-            known = both(known, of_fact * signs(quotient, depth + 1));
-        }
-        for (const Term& term : p) {
-            if (!(term.monomial == lead.monomial)) continue;
-            // p = l fact + rest with a number l: two summands of one sign.
-            const int sign = sgn(term.coefficient) * sgn(lead.coefficient);
-            const mpz_class whole = abs(lead.coefficient);
-            const Polynomial rest =
-                add_scaled(scale(p, whole), fact.polynomial, -abs(term.coefficient) * sign, work_);
-            const Signs of_rest = rest.empty() ? Signs{false, true, false} : range_signs(rest);
-            const Signs of_fact = sign > 0 ? Signs{false, !fact.strict, true} : Signs{true, !fact.strict, false};
-            Signs sum;
-            if (!of_rest.negative && !of_fact.negative) sum = {false, of_rest.zero && of_fact.zero, true};
-            if (!of_rest.positive && !of_fact.positive) sum = {true, of_rest.zero && of_fact.zero, false};
-            known = both(known, sum);
-        }
+        if (depth < deepest && divide_exactly(p, fact.polynomial, quotient, work_))
+            known = both(known, fact.signs * signs(quotient, depth + 1));
+        for (const Term& term : p)
+            if (term.monomial == lead.monomial) known = both(known, sum_signs(p, term.coefficient, fact));
     }
     return known;
 }

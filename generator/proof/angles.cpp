@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// sin, cos and exp: splitting of arguments, units, addition theorems.
+#include "proof/elementary.hpp"
+#include "proof/print_fraction.hpp"
+
+namespace lagen {
+
+namespace {
+
+constexpr unsigned largest_multiple = 256; ///< of an angle; cos(256 u) has 129 terms
+constexpr std::size_t longest_text = 160;  ///< of one generator
+
+/// The greatest rational that divides both.
+mpq_class common_divisor(const mpq_class& a, const mpq_class& b)
+{
+    mpz_class above, below;
+    mpz_gcd(above.get_mpz_t(), mpz_class(a.get_num() * b.get_den()).get_mpz_t(),
+            mpz_class(b.get_num() * a.get_den()).get_mpz_t());
+    below = a.get_den() * b.get_den();
+    mpq_class divisor(above, below);
+    divisor.canonicalize();
+    return divisor;
+}
+
+} // namespace
+
+Fraction Elementary::pi()
+{
+    return ring_.of(ring_.keyed("pi", [this] {
+        Generator generator{"pi", Range::between(3, mpq_class(22, 7)), 0, {}, -1, false};
+        return ring_.add_generator(generator);
+    }));
+}
+
+std::vector<Elementary::Part> Elementary::parts(const Fraction& argument) const
+{
+    std::vector<Part> result;
+    for (const Term& term : argument.num) {
+        Part part;
+        part.coefficient = mpq_class(term.coefficient, argument.scale);
+        part.coefficient.canonicalize();
+        part.atom = ring_.normalised({{Term{term.monomial, 1}}, 1, argument.factors});
+        result.push_back(std::move(part));
+    }
+    return result;
+}
+
+void Elementary::make_generators(Unit& unit, const Fraction& atom, bool angle)
+{
+    Fraction argument = ring_.times(ring_.constant(unit.size), atom);
+    const std::string text = to_text(ring_, argument, longest_text);
+    if (!angle) {
+        unit.first = ring_.add_generator({"exp(" + text + ")", Range::positive(), 0, {}, -1, false});
+        exponents_.emplace(unit.first, std::move(argument));
+        return;
+    }
+    const Range range = Range::between(-1, 1);
+    unit.first = ring_.add_generator({"sin(" + text + ")", range, 0, {}, -1, true});
+    unit.second = ring_.add_generator({"cos(" + text + ")", range, 0, {}, static_cast<int>(unit.first), false});
+    Polynomial relation = constant_polynomial(1);
+    relation = add_scaled(relation, generator_polynomial(unit.second, 2), -1, ring_.work());
+    ring_.set_relation(unit.first, 2, std::move(relation));
+}
+
+mpz_class Elementary::multiple_of_unit(std::map<std::string, Unit>& units, const Part& part, bool angle)
+{
+    const auto [at, fresh] = units.try_emplace(key_of(part.atom));
+    Unit& unit = at->second;
+    mpq_class quotient = fresh ? mpq_class(0) : mpq_class(part.coefficient / unit.size);
+    if (fresh || quotient.get_den() != 1) {
+        refined_ = refined_ || !fresh;
+        unit.size = fresh ? mpq_class(abs(part.coefficient)) : common_divisor(unit.size, part.coefficient);
+        make_generators(unit, part.atom, angle);
+        quotient = part.coefficient / unit.size;
+    }
+    return quotient.get_num();
+}
+
+Elementary::SineCosine Elementary::sum(const SineCosine& a, const SineCosine& b)
+{
+    return {ring_.add(ring_.times(a.sine, b.cosine), ring_.times(a.cosine, b.sine)),
+            ring_.add(ring_.times(a.cosine, b.cosine), ring_.times(a.sine, b.sine), -1)};
+}
+
+Elementary::SineCosine Elementary::multiple_angle(const Unit& unit, const mpz_class& multiple)
+{
+    if (abs(multiple) > largest_multiple)
+        throw BudgetExhausted("the angle " + multiple.get_str() + " times " + ring_.generator(unit.first).text +
+                              " exceeds the multiple " + std::to_string(largest_multiple));
+    const auto count = static_cast<unsigned>(mpz_class(abs(multiple)).get_ui());
+    SineCosine square{ring_.of(unit.first), ring_.of(unit.second)};
+    SineCosine result{{}, ring_.constant(1)};
+    for (unsigned rest = count; rest > 0; rest >>= 1) {
+        if (rest & 1U) result = sum(result, square);
+        if (rest > 1) square = sum(square, square);
+    }
+    if (multiple < 0) result.sine = ring_.negate(result.sine);
+    return result;
+}
+
+Elementary::SineCosine Elementary::pi_angle(const mpq_class& turns)
+{
+    // turns * pi = quarter * pi/2 + rest * pi, 0 <= rest < 1/2
+    mpz_class quarter;
+    mpz_fdiv_q(quarter.get_mpz_t(), mpz_class(turns.get_num() * 2).get_mpz_t(), turns.get_den().get_mpz_t());
+    const mpq_class rest = turns - mpq_class(quarter) / 2;
+    SineCosine value{{}, ring_.constant(1)};
+    if (rest != 0 && mpz_class(12) % rest.get_den() == 0) {
+        const Fraction half = ring_.constant(mpq_class(1, 2));
+        const SineCosine sixth{half, ring_.times(half, number_root(3, 2))};
+        const SineCosine fourth{ring_.times(half, number_root(2, 2)), ring_.times(half, number_root(2, 2))};
+        const SineCosine third = sum(sixth, sixth);
+        const SineCosine minus_sixth{ring_.negate(sixth.sine), sixth.cosine};
+        const mpq_class twelfths = rest * 12;
+        const SineCosine twelfth = sum(fourth, minus_sixth);
+        const SineCosine table[6] = {value, twelfth, sixth, fourth, third, sum(fourth, sixth)};
+        value = table[twelfths.get_num().get_ui()];
+    } else if (rest != 0) {
+        const Part part{rest, pi()};
+        const mpz_class multiple = multiple_of_unit(angle_units_, part, true);
+        value = multiple_angle(angle_units_.at(key_of(part.atom)), multiple);
+    }
+    const auto turn = mpz_fdiv_ui(quarter.get_mpz_t(), 4);
+    for (unsigned long k = 0; k < turn; ++k) value = {value.cosine, ring_.negate(value.sine)};
+    return value;
+}
+
+Elementary::SineCosine Elementary::sine_cosine(const Fraction& angle)
+{
+    SineCosine result{{}, ring_.constant(1)};
+    std::vector<Part> all = parts(angle);
+    const std::string pi_key = key_of(pi());
+    std::vector<Part> generic;
+    for (Part& part : all) {
+        if (key_of(part.atom) == pi_key) {
+            result = pi_angle(part.coefficient);
+        } else {
+            generic.push_back(std::move(part));
+        }
+    }
+    if (angles_ == Angles::whole && generic.size() > 1) {
+        Fraction whole;
+        for (const Part& part : generic)
+            whole = ring_.add(whole, ring_.times(ring_.constant(part.coefficient), part.atom));
+        // The number in front is kept in the coefficient, so that a - b and b - a meet in one unit.
+        mpq_class number(whole.num[0].coefficient < 0 ? mpz_class(-content(whole.num)) : content(whole.num), whole.scale);
+        number.canonicalize();
+        generic = {{number, ring_.times(ring_.constant(1 / number), whole)}};
+    }
+    for (const Part& part : generic) {
+        const mpz_class multiple = multiple_of_unit(angle_units_, part, true);
+        result = sum(result, multiple_angle(angle_units_.at(key_of(part.atom)), multiple));
+    }
+    return result;
+}
+
+Fraction Elementary::exponential(const Fraction& argument)
+{
+    Fraction result = ring_.constant(1);
+    for (const Part& part : parts(argument)) {
+        const Monomial& monomial = part.atom.num[0].monomial;
+        const bool single = part.atom.factors.empty() && monomial.size() == 1 && monomial.exponent(0) == 1;
+        if (const auto log = single ? logs_.find(monomial.generator(0)) : logs_.end(); log != logs_.end()) {
+            // exp(p/q log a) = a^(p/q): log a is defined, so a > 0.
+            const mpq_class& c = part.coefficient;
+            if (c.get_den() <= 64 && abs(c.get_num()) <= 4096) {
+                const Fraction base = ring_.of(log->second);
+                const auto degree = static_cast<unsigned>(c.get_den().get_ui());
+                const Fraction rooted = degree == 1 ? base : root(base, degree);
+                result = ring_.times(result, ring_.power(rooted, static_cast<int>(c.get_num().get_si())));
+                continue;
+            }
+        }
+        const mpz_class multiple = multiple_of_unit(exponential_units_, part, false);
+        if (abs(multiple) > 0xffff) throw BudgetExhausted("an exponent exceeds 65535");
+        const Fraction base = ring_.of(exponential_units_.at(key_of(part.atom)).first);
+        result = ring_.times(result, ring_.power(base, static_cast<int>(multiple.get_si())));
+    }
+    return result;
+}
+
+Fraction Elementary::opaque(const std::string& name, const std::vector<Fraction>& arguments)
+{
+    std::string key = name, text = name + '(';
+    for (std::size_t k = 0; k < arguments.size(); ++k) {
+        key += ':' + key_of(arguments[k]);
+        text += (k == 0 ? "" : ", ") + to_text(ring_, arguments[k], longest_text);
+        if (key.size() > 1'000'000) throw BudgetExhausted("an argument is longer than 1000000 characters");
+    }
+    if (text.size() > 2 * longest_text) text = name + "(...";
+    return ring_.of(ring_.keyed(key, [&] { return ring_.add_generator({text + ')', {}, 0, {}, -1, false}); }));
+}
+
+} // namespace lagen

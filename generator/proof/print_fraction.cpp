@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "proof/print_fraction.hpp"
+
+namespace lagen {
+
+namespace {
+
+std::string power_text(const std::string& base, unsigned exponent)
+{
+    return exponent == 1 ? base : base + '^' + std::to_string(exponent);
+}
+
+/// Without its sign.
+std::string term_text(const Ring& ring, const Term& term)
+{
+    std::string text;
+    const mpz_class magnitude = abs(term.coefficient);
+    if (magnitude != 1 || term.monomial.is_one()) text = magnitude.get_str();
+    for (std::size_t k = 0; k < term.monomial.size(); ++k) {
+        if (!text.empty()) text += '*';
+        text += power_text(ring.generator(term.monomial.generator(k)).text, term.monomial.exponent(k));
+    }
+    return text;
+}
+
+std::string denominator_text(const Ring& ring, const Fraction& a, std::size_t limit)
+{
+    std::vector<std::string> parts;
+    if (a.scale != 1) parts.push_back(a.scale.get_str());
+    for (const auto& [index, power] : a.factors) {
+        const Polynomial& factor = ring.factor(index);
+        const std::string text = to_text(ring, factor, limit);
+        parts.push_back(power_text(factor.size() > 1 ? '(' + text + ')' : text, power));
+    }
+    if (parts.empty()) return {};
+    std::string product = parts[0];
+    for (std::size_t k = 1; k < parts.size(); ++k) product += '*' + parts[k];
+    const bool single = parts.size() == 1;
+    return single ? product : '(' + product + ')';
+}
+
+} // namespace
+
+std::string to_text(const Ring& ring, const Polynomial& p, std::size_t limit)
+{
+    if (p.empty()) return "0";
+    const std::string tail = " ... (" + std::to_string(p.size()) + " terms)";
+    std::string text;
+    for (std::size_t k = 0; k < p.size(); ++k) {
+        std::string piece = k == 0 ? "" : " + ";
+        if (p[k].coefficient < 0) piece = k == 0 ? "-" : " - ";
+        piece += term_text(ring, p[k]);
+        const bool last = k + 1 == p.size();
+        if (text.size() + piece.size() + (last ? 0 : tail.size()) > limit) return text + tail;
+        text += piece;
+    }
+    return text;
+}
+
+std::string to_text(const Ring& ring, const Fraction& a, std::size_t limit)
+{
+    const std::string below = denominator_text(ring, a, limit / 4);
+    if (below.empty()) return to_text(ring, a.num, limit);
+    if (below.size() + 40 > limit) return '(' + to_text(ring, a.num, limit / 2) + ")/(...)";
+    const std::string above = to_text(ring, a.num, limit - below.size() - 3);
+    return (a.num.size() > 1 ? '(' + above + ')' : above) + '/' + below;
+}
+
+} // namespace lagen

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Ring elements as texts of the expression language: terms in the order of the ring, leading sign, over the
+/// denominator.
+#pragma once
+
+#include "proof/ring.hpp"
+
+namespace lagen {
+
+/// At most `limit` characters; a longer sum is cut after a whole term and ends with "... (123 terms)".
+[[nodiscard]] std::string to_text(const Ring& ring, const Fraction& a, std::size_t limit = 400);
+[[nodiscard]] std::string to_text(const Ring& ring, const Polynomial& p, std::size_t limit = 400);
+
+} // namespace lagen

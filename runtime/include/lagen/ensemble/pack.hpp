@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: MIT
+/// Pack<T, N>: N lanes of T on the compiler's vector extension (g++, clang), a scalar for generated models and fixed-step
+/// methods: N trajectories at once. N is a power of two. Comparisons answer a Mask, `select` chooses a lane, a kernel answers
+/// a status a lane. Elementary functions are libm's, a lane at a time.
+#pragma once
+
+#include "lagen/kernel.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace lagen {
+
+namespace detail {
+
+template <std::size_t bytes>
+struct IntegerOf;
+template <>
+struct IntegerOf<4> {
+    using type = std::int32_t;
+};
+template <>
+struct IntegerOf<8> {
+    using type = std::int64_t;
+};
+
+// g++ ignores the attribute where N is a template parameter of an alias; a member typedef is what both compilers take.
+template <class T, int N>
+struct VectorOf {
+    typedef T type __attribute__((vector_size(sizeof(T) * static_cast<std::size_t>(N))));
+};
+
+} // namespace detail
+
+/// A truth value a lane; lanes are 0 or -1 (all bits).
+template <class T, int N>
+struct Mask {
+    using Vector = typename detail::VectorOf<typename detail::IntegerOf<sizeof(T)>::type, N>::type;
+    Vector lanes;
+
+    [[nodiscard]] bool operator[](int lane) const noexcept { return lanes[lane] != 0; }
+
+    friend Mask operator&&(const Mask& a, const Mask& b) noexcept { return {a.lanes & b.lanes}; }
+    friend Mask operator||(const Mask& a, const Mask& b) noexcept { return {a.lanes | b.lanes}; }
+    friend Mask operator&(const Mask& a, const Mask& b) noexcept { return {a.lanes & b.lanes}; }
+    friend Mask operator|(const Mask& a, const Mask& b) noexcept { return {a.lanes | b.lanes}; }
+    friend Mask operator!(const Mask& a) noexcept { return {~a.lanes}; }
+};
+
+template <class T, int N>
+[[nodiscard]] bool any(const Mask<T, N>& mask) noexcept
+{
+    bool found = false;
+    for (int lane = 0; lane < N; ++lane) found = found || mask[lane];
+    return found;
+}
+
+template <class T, int N>
+[[nodiscard]] bool all(const Mask<T, N>& mask) noexcept
+{
+    return !any(!mask);
+}
+
+/// N lanes of T with the arithmetic of T in each.
+template <class T, int N>
+struct Pack {
+    static_assert(N > 1 && (N & (N - 1)) == 0, "the number of lanes is a power of two above 1");
+    using Vector = typename detail::VectorOf<T, N>::type;
+    Vector lanes;
+
+    Pack() noexcept : lanes{} {}
+    /// The same value in every lane.
+    Pack(T value) noexcept : lanes(Vector{} + value) {}
+    /// An integer literal in every lane.
+    Pack(int value) noexcept
+        requires(!std::is_same_v<T, int>)
+        : Pack(static_cast<T>(value))
+    {
+    }
+    explicit Pack(const std::array<T, static_cast<std::size_t>(N)>& values) noexcept : lanes{}
+    {
+        for (int lane = 0; lane < N; ++lane) lanes[lane] = values[static_cast<std::size_t>(lane)];
+    }
+
+    [[nodiscard]] static Pack of(const Vector& vector) noexcept
+    {
+        Pack pack;
+        pack.lanes = vector;
+        return pack;
+    }
+
+    [[nodiscard]] T operator[](int lane) const noexcept { return lanes[lane]; }
+    void set(int lane, T value) noexcept { lanes[lane] = value; }
+
+    Pack& operator+=(const Pack& b) noexcept { lanes += b.lanes; return *this; }
+    Pack& operator-=(const Pack& b) noexcept { lanes -= b.lanes; return *this; }
+    Pack& operator*=(const Pack& b) noexcept { lanes *= b.lanes; return *this; }
+    Pack& operator/=(const Pack& b) noexcept { lanes /= b.lanes; return *this; }
+
+    friend Pack operator+(const Pack& a, const Pack& b) noexcept { return of(a.lanes + b.lanes); }
+    friend Pack operator-(const Pack& a, const Pack& b) noexcept { return of(a.lanes - b.lanes); }
+    friend Pack operator*(const Pack& a, const Pack& b) noexcept { return of(a.lanes * b.lanes); }
+    friend Pack operator/(const Pack& a, const Pack& b) noexcept { return of(a.lanes / b.lanes); }
+    friend Pack operator-(const Pack& a) noexcept { return of(-a.lanes); }
+    friend Pack operator+(const Pack& a) noexcept { return a; }
+
+    friend Mask<T, N> operator<(const Pack& a, const Pack& b) noexcept { return {a.lanes < b.lanes}; }
+    friend Mask<T, N> operator>(const Pack& a, const Pack& b) noexcept { return {a.lanes > b.lanes}; }
+    friend Mask<T, N> operator<=(const Pack& a, const Pack& b) noexcept { return {a.lanes <= b.lanes}; }
+    friend Mask<T, N> operator>=(const Pack& a, const Pack& b) noexcept { return {a.lanes >= b.lanes}; }
+    friend Mask<T, N> operator==(const Pack& a, const Pack& b) noexcept { return {a.lanes == b.lanes}; }
+    friend Mask<T, N> operator!=(const Pack& a, const Pack& b) noexcept { return {a.lanes != b.lanes}; }
+};
+
+/// `where ? yes : no`, a lane.
+template <class T, int N>
+[[nodiscard]] Pack<T, N> select(const Mask<T, N>& where, const Pack<T, N>& yes, const Pack<T, N>& no) noexcept
+{
+    return Pack<T, N>::of(where.lanes ? yes.lanes : no.lanes);
+}
+
+namespace detail {
+
+template <class T, int N, class Function>
+[[nodiscard]] Pack<T, N> by_lane(const Pack<T, N>& a, Function function) noexcept
+{
+    Pack<T, N> result;
+    for (int lane = 0; lane < N; ++lane) result.set(lane, function(a[lane]));
+    return result;
+}
+
+template <class T, int N, class Function>
+[[nodiscard]] Pack<T, N> by_lane(const Pack<T, N>& a, const Pack<T, N>& b, Function function) noexcept
+{
+    Pack<T, N> result;
+    for (int lane = 0; lane < N; ++lane) result.set(lane, function(a[lane], b[lane]));
+    return result;
+}
+
+} // namespace detail
+
+// clang-format off
+#define LAGEN_PACK_FUNCTION(name) \
+    template <class T, int N> [[nodiscard]] Pack<T, N> name(const Pack<T, N>& a) noexcept \
+    { return detail::by_lane(a, [](T x) { return std::name(x); }); }
+LAGEN_PACK_FUNCTION(sin) LAGEN_PACK_FUNCTION(cos) LAGEN_PACK_FUNCTION(tan)
+LAGEN_PACK_FUNCTION(asin) LAGEN_PACK_FUNCTION(acos) LAGEN_PACK_FUNCTION(atan)
+LAGEN_PACK_FUNCTION(sinh) LAGEN_PACK_FUNCTION(cosh) LAGEN_PACK_FUNCTION(tanh)
+LAGEN_PACK_FUNCTION(exp) LAGEN_PACK_FUNCTION(log) LAGEN_PACK_FUNCTION(sqrt)
+LAGEN_PACK_FUNCTION(abs) LAGEN_PACK_FUNCTION(fabs)
+#undef LAGEN_PACK_FUNCTION
+// clang-format on
+
+template <class T, int N>
+[[nodiscard]] Pack<T, N> atan2(const Pack<T, N>& y, const Pack<T, N>& x) noexcept
+{
+    return detail::by_lane(y, x, [](T a, T b) { return std::atan2(a, b); });
+}
+
+template <class T, int N>
+[[nodiscard]] Pack<T, N> pow(const Pack<T, N>& x, const Pack<T, N>& y) noexcept
+{
+    return detail::by_lane(x, y, [](T a, T b) { return std::pow(a, b); });
+}
+
+template <class T, int N>
+[[nodiscard]] Pack<T, N> min(const Pack<T, N>& a, const Pack<T, N>& b) noexcept
+{
+    return select(b < a, b, a);
+}
+
+template <class T, int N>
+[[nodiscard]] Pack<T, N> max(const Pack<T, N>& a, const Pack<T, N>& b) noexcept
+{
+    return select(a < b, b, a);
+}
+
+/// A status a lane.
+template <int N>
+struct PackStatus {
+    std::array<Status, static_cast<std::size_t>(N)> lanes{};
+
+    [[nodiscard]] Status operator[](int lane) const noexcept { return lanes[static_cast<std::size_t>(lane)]; }
+    friend bool operator==(const PackStatus&, const PackStatus&) = default;
+};
+
+template <class T, int N>
+struct StatusOf<Pack<T, N>> {
+    using type = PackStatus<N>;
+    using mask = Mask<T, N>;
+    [[nodiscard]] static type good() noexcept { return {}; }
+    static void fail(type& status, const mask& where, Status reason) noexcept
+    {
+        for (int lane = 0; lane < N; ++lane)
+            StatusOf<T>::fail(status.lanes[static_cast<std::size_t>(lane)], where[lane], reason);
+    }
+    /// A condition that does not depend on the lane (a parameter).
+    static void fail(type& status, bool where, Status reason) noexcept
+    {
+        for (Status& lane : status.lanes) StatusOf<T>::fail(lane, where, reason);
+    }
+    [[nodiscard]] static bool all_good(const type& status) noexcept { return status == type{}; }
+    [[nodiscard]] static type first(type earlier, const type& later) noexcept
+    {
+        for (std::size_t lane = 0; lane < earlier.lanes.size(); ++lane)
+            earlier.lanes[lane] = StatusOf<T>::first(earlier.lanes[lane], later.lanes[lane]);
+        return earlier;
+    }
+};
+
+template <class T, int N>
+struct RealOf<Pack<T, N>> {
+    using type = T;
+    static constexpr int lanes = N;
+};
+
+} // namespace lagen
+
+/// What Eigen needs to hold packs: the limits of one lane.
+template <class T, int N>
+struct Eigen::NumTraits<lagen::Pack<T, N>> : Eigen::GenericNumTraits<lagen::Pack<T, N>> {
+    using Real = lagen::Pack<T, N>;
+    using NonInteger = lagen::Pack<T, N>;
+    using Nested = lagen::Pack<T, N>;
+    using Literal = lagen::Pack<T, N>;
+    enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 1, ReadCost = 1, AddCost = 1, MulCost = 1 };
+    static Real epsilon() { return Real(std::numeric_limits<T>::epsilon()); }
+    static Real dummy_precision() { return Real(Eigen::NumTraits<T>::dummy_precision()); }
+    static Real highest() { return Real(std::numeric_limits<T>::max()); }
+    static Real lowest() { return Real(std::numeric_limits<T>::lowest()); }
+    static int digits10() { return std::numeric_limits<T>::digits10; }
+};

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+/// Explicit Runge-Kutta methods with a fixed step: `lagen::Rk4{.step = 0.01}`. Work with every scalar, packs included.
+/// Between steps they have no interpolant; a value inside a step is a shorter step of the same method from the beginning of
+/// that step, so that it has the full order and leaves the sequence of steps alone.
+#pragma once
+
+#include "lagen/integrate/tableau.hpp"
+
+namespace lagen {
+
+namespace tableau {
+
+/// Explicit Euler.
+struct Euler {
+    static constexpr std::size_t stages = 1;
+    static constexpr int order = 1;
+    static constexpr std::array<Fraction, 0> a{};
+    static constexpr std::array<Fraction, 1> b{{{1, 1}}};
+    static constexpr std::array<Fraction, 1> c{{{0, 1}}};
+};
+
+/// Explicit midpoint rule [Runge 1895].
+struct Midpoint {
+    static constexpr std::size_t stages = 2;
+    static constexpr int order = 2;
+    static constexpr std::array<Fraction, 1> a{{{1, 2}}};
+    static constexpr std::array<Fraction, 2> b{{{0, 1}, {1, 1}}};
+    static constexpr std::array<Fraction, 2> c{{{0, 1}, {1, 2}}};
+};
+
+/// Explicit trapezoidal rule [Heun 1900].
+struct Heun {
+    static constexpr std::size_t stages = 2;
+    static constexpr int order = 2;
+    static constexpr std::array<Fraction, 1> a{{{1, 1}}};
+    static constexpr std::array<Fraction, 2> b{{{1, 2}, {1, 2}}};
+    static constexpr std::array<Fraction, 2> c{{{0, 1}, {1, 1}}};
+};
+
+/// Second order with the least truncation error [Ralston 1962].
+struct Ralston {
+    static constexpr std::size_t stages = 2;
+    static constexpr int order = 2;
+    static constexpr std::array<Fraction, 1> a{{{2, 3}}};
+    static constexpr std::array<Fraction, 2> b{{{1, 4}, {3, 4}}};
+    static constexpr std::array<Fraction, 2> c{{{0, 1}, {2, 3}}};
+};
+
+/// Third order, Simpson's nodes [Kutta 1901].
+struct Kutta3 {
+    static constexpr std::size_t stages = 3;
+    static constexpr int order = 3;
+    static constexpr std::array<Fraction, 3> a{{{1, 2}, {-1, 1}, {2, 1}}};
+    static constexpr std::array<Fraction, 3> b{{{1, 6}, {2, 3}, {1, 6}}};
+    static constexpr std::array<Fraction, 3> c{{{0, 1}, {1, 2}, {1, 1}}};
+};
+
+/// The classical method of order 4 [Kutta 1901].
+struct Rk4 {
+    static constexpr std::size_t stages = 4;
+    static constexpr int order = 4;
+    static constexpr std::array<Fraction, 6> a{{{1, 2}, {0, 1}, {1, 2}, {0, 1}, {0, 1}, {1, 1}}};
+    static constexpr std::array<Fraction, 4> b{{{1, 6}, {1, 3}, {1, 3}, {1, 6}}};
+    static constexpr std::array<Fraction, 4> c{{{0, 1}, {1, 2}, {1, 2}, {1, 1}}};
+};
+
+/// The 3/8 rule [Kutta 1901].
+struct Rk38 {
+    static constexpr std::size_t stages = 4;
+    static constexpr int order = 4;
+    static constexpr std::array<Fraction, 6> a{{{1, 3}, {-1, 3}, {1, 1}, {1, 1}, {-1, 1}, {1, 1}}};
+    static constexpr std::array<Fraction, 4> b{{{1, 8}, {3, 8}, {3, 8}, {1, 8}}};
+    static constexpr std::array<Fraction, 4> c{{{0, 1}, {1, 3}, {2, 3}, {1, 1}}};
+};
+
+} // namespace tableau
+
+/// The stepper of an explicit fixed-step method on model M: see integrate/march.hpp for what the march asks of it.
+template <class Tableau, class M>
+class FixedStepper {
+  public:
+    using Scalar = typename M::Scalar;
+    using Real = real_t<Scalar>;
+    using State = typename M::State;
+    static constexpr bool adaptive = false;
+    static constexpr int order = Tableau::order;
+    static constexpr int dense_order = Tableau::order;
+
+    template <class Method>
+    explicit FixedStepper(const Method& method) noexcept : compensated_(method.compensated)
+    {
+    }
+
+    /// Sets the compensation to zero; no derivative is kept from step to step.
+    status_t<Scalar> begin(const M& model, Real, const State& s) noexcept
+    {
+        static_cast<void>(model);
+        lost_ = State::Zero(s.size());
+        next_lost_ = lost_;
+        for (State& stage : k_) stage = lost_;
+        x_ = lost_;
+        return StatusOf<Scalar>::good();
+    }
+
+    /// s1 = s + h sum_i b_i K_i; where `compensated`, with the low-order part of earlier sums [Kahan 1965].
+    status_t<Scalar> attempt(const M& model, Real t, const State& s, Real h, State& s1) noexcept
+    {
+        const auto status = stages(model, t, s, h);
+        if (!compensated_) {
+            detail::add_weighted<Tableau::b, 0, Tableau::stages>(s, h, k_, s1);
+        } else {
+            detail::weighted_sum<Tableau::b>(h, k_, x_);
+            for (Eigen::Index lane = 0; lane < s.size(); ++lane) {
+                const Scalar increment = x_[lane] - lost_[lane];
+                s1[lane] = s[lane] + increment;
+                next_lost_[lane] = (s1[lane] - s[lane]) - increment;
+            }
+        }
+        return StatusOf<Scalar>::first(status, detail::check_finite(s1));
+    }
+
+    void accept() noexcept
+    {
+        if (compensated_) lost_ = next_lost_;
+    }
+
+    /// The state at t + theta h, 0 <= theta <= 1: a step of length theta h.
+    status_t<Scalar> interpolate(const M& model, Real t, const State& s, Real h, const State&, Real theta, State& out) noexcept
+    {
+        const auto status = stages(model, t, s, theta * h);
+        detail::add_weighted<Tableau::b, 0, Tableau::stages>(s, theta * h, k_, out);
+        return StatusOf<Scalar>::first(status, detail::check_finite(out));
+    }
+
+    [[nodiscard]] std::size_t calls() const noexcept { return calls_; }
+
+  private:
+    status_t<Scalar> stages(const M& model, Real t, const State& s, Real h) noexcept
+    {
+        calls_ += Tableau::stages;
+        const auto status = model.rhs(Scalar(t), s, k_[0]);
+        if (!is_pack<Scalar> && !StatusOf<Scalar>::all_good(status)) return status;
+        return StatusOf<Scalar>::first(status,
+                                       detail::evaluate_stages<Tableau, 1, Tableau::stages>(model, t, s, h, x_, k_));
+    }
+
+    std::array<State, Tableau::stages> k_;
+    State x_, lost_, next_lost_;
+    std::size_t calls_ = 0;
+    bool compensated_;
+};
+
+/// A fixed-step method. `step` is positive; `compensated` carries the rounding errors of the sums along.
+template <class Tableau>
+struct FixedMethod {
+    double step = 0;
+    bool compensated = false;
+
+    template <class M>
+    using Stepper = FixedStepper<Tableau, M>;
+};
+
+using Euler = FixedMethod<tableau::Euler>;
+using Midpoint = FixedMethod<tableau::Midpoint>;
+using Heun = FixedMethod<tableau::Heun>;
+using Ralston = FixedMethod<tableau::Ralston>;
+using Kutta3 = FixedMethod<tableau::Kutta3>;
+using Rk4 = FixedMethod<tableau::Rk4>;
+using Rk38 = FixedMethod<tableau::Rk38>;
+
+} // namespace lagen
