@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::size_t widest_line = 120; ///< characters of a source line that are shown
 constexpr std::size_t widest_quote = 40;
-constexpr std::size_t longest_name = 200; ///< names above this length are no slip of the hand; bounds the quadratic search
+constexpr std::size_t longest_name =
+    200; ///< names above this length are no slip of the hand; bounds the quadratic search
 
 /// A character for the terminal: itself, or '?' for a control character (tabs aside) or a byte that is not UTF-8.
 struct Shown {
@@ -21,7 +22,10 @@ struct Shown {
     std::size_t begin; ///< its byte in the text
 };
 
-bool is_control(char32_t c) { return c < 0x20 || (c >= 0x7F && c < 0xA0) || (c >= 0x2028 && c <= 0x202E); }
+bool is_control(char32_t c)
+{
+    return c < 0x20 || (c >= 0x7F && c < 0xA0) || (c >= 0x2028 && c <= 0x202E);
+}
 
 std::vector<Shown> characters(std::string_view text, std::size_t begin, std::size_t end)
 {
@@ -53,7 +57,10 @@ Line line_at(std::string_view text, std::size_t byte)
     return {breaks + 1, begin, std::max(begin, end)};
 }
 
-std::size_t clamped_begin(const SourceRange& range) { return std::min(range.begin, range.file->text.size()); }
+std::size_t clamped_begin(const SourceRange& range)
+{
+    return std::min(range.begin, range.file->text.size());
+}
 
 /// The source line and the caret line, both indented by two spaces.
 std::string show_line(const SourceRange& where)

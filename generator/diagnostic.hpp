@@ -86,8 +86,8 @@ struct Diagnostic {
     std::string hint; ///< may be empty
 };
 
-/// "file:line:column: error: message", the source line, a caret with a tail under the range, and "hint: ..." where there
-/// is one. Lines and columns count from 1, columns in characters (code points). Tabs are kept so that the caret
+/// "file:line:column: error: message", the source line, a caret with a tail under the range, and "hint: ..." where
+/// there is one. Lines and columns count from 1, columns in characters (code points). Tabs are kept so that the caret
 /// stands under its character; a line longer than 120 characters is cut around the caret with "...".
 [[nodiscard]] std::string render(const Diagnostic& diagnostic);
 

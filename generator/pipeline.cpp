@@ -36,7 +36,8 @@ std::vector<std::string> lines_of(const std::string& text)
 std::string first_with(const VerifiedAlgebroid& verified, ProofStatus status)
 {
     for (const Check& check : verified.checks)
-        if (check.decision.status == status) return fmt::format("{}, residual {}", names_of(check), check.decision.residual);
+        if (check.decision.status == status)
+            return fmt::format("{}, residual {}", names_of(check), check.decision.residual);
     return verified.note;
 }
 
@@ -51,8 +52,9 @@ CheckedModel load(const std::string& path, const std::vector<Setting>& settings,
     if (verified.verdict == Verdict::invalid) {
         const std::string what = first_with(verified, ProofStatus::refuted);
         if (!unchecked) {
-            throw MathematicsError(fmt::format("error: model '{}' is refuted: {}\nhint: see `lagen check {}`; --unchecked goes on all the same",
-                                               checked.model.name, what, path));
+            throw MathematicsError(fmt::format(
+                "error: model '{}' is refuted: {}\nhint: see `lagen check {}`; --unchecked goes on all the same",
+                checked.model.name, what, path));
         }
         checked.warnings.push_back(fmt::format("this model is REFUTED and was generated with --unchecked: {}", what));
     } else if (verified.verdict == Verdict::undecided) {
@@ -72,7 +74,8 @@ Generated generate(const CheckedModel& checked, const GenerateRequest& request)
     generated.module = lagrange_kernels(model, checked.verified, kernels);
     KernelModule& module = generated.module;
     module.hash = ContentHash().add(model.file->text).hex16();
-    module.regenerate = fmt::format("lagen generate {} -o {}.hpp", std::filesystem::path(model.file->name).filename().string(), module.name);
+    module.regenerate = fmt::format("lagen generate {} -o {}.hpp",
+                                    std::filesystem::path(model.file->name).filename().string(), module.name);
     module.warnings = checked.warnings;
     module.equations = lines_of(print_text(derive_lagrange(model, checked.verified.algebroid)));
     generated.header = print_header(module);

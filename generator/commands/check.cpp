@@ -12,13 +12,13 @@ namespace lagen {
 
 namespace {
 
-const CommandSyntax syntax{
-    "check",
-    "MODEL...",
-    "Decides the structure equations, tangency, Casimirs and invariants: each proved, refuted at a point, or undecided.",
-    {{"invariant", "EXPR", "decide also whether this function is conserved (may be repeated)"},
-     {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
-     {"format,f", "FORMAT", "text or json", "text"}}};
+const CommandSyntax syntax{"check",
+                           "MODEL...",
+                           "Decides the structure equations, tangency, Casimirs and invariants: each proved, refuted "
+                           "at a point, or undecided.",
+                           {{"invariant", "EXPR", "decide also whether this function is conserved (may be repeated)"},
+                            {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
+                            {"format,f", "FORMAT", "text or json", "text"}}};
 
 std::vector<NamedTree> extra_invariants(const Options& options, const Model& model)
 {
@@ -58,7 +58,14 @@ ExitCode check_one(const std::string& path, const Options& options, std::string&
     } catch (const Error& error) {
         fmt::print(stderr, "{}{}", error.what(), std::string_view(error.what()).ends_with('\n') ? "" : "\n");
         if (json != nullptr)
-            json->begin_object().key("model").value(path).key("verdict").value("error").key("message").value(error.what()).end_object();
+            json->begin_object()
+                .key("model")
+                .value(path)
+                .key("verdict")
+                .value("error")
+                .key("message")
+                .value(error.what())
+                .end_object();
         return error.code();
     }
 }

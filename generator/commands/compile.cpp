@@ -36,13 +36,15 @@ std::vector<std::string> find_compiler()
     std::vector<std::string> named = words(std::getenv("CXX"));
     if (!named.empty()) {
         if (!find_program(named[0]).empty()) return named;
-        throw MachineError(fmt::format("error: the C++ compiler '{}' (from CXX) was not found\nhint: `run` compiles the generated header; "
-                                       "unset CXX or name a C++20 compiler",
-                                       named[0]));
+        throw MachineError(fmt::format(
+            "error: the C++ compiler '{}' (from CXX) was not found\nhint: `run` compiles the generated header; "
+            "unset CXX or name a C++20 compiler",
+            named[0]));
     }
     for (const char* candidate : {"c++", "g++", "clang++"})
         if (!find_program(candidate).empty()) return {candidate};
-    throw MachineError("error: no C++ compiler was found (tried c++, g++, clang++)\nhint: `run` compiles the generated header; install g++ or set CXX");
+    throw MachineError("error: no C++ compiler was found (tried c++, g++, clang++)\nhint: `run` compiles the generated "
+                       "header; install g++ or set CXX");
 }
 
 /// Every header of the runtime, by path: a change to any of them is a new key.
@@ -69,7 +71,8 @@ class ScratchFolder {
   public:
     explicit ScratchFolder(const std::string& parent) : path_(parent + "/build-XXXXXX")
     {
-        if (::mkdtemp(path_.data()) == nullptr) throw MachineError(fmt::format("error: cannot make a folder in '{}'", parent));
+        if (::mkdtemp(path_.data()) == nullptr)
+            throw MachineError(fmt::format("error: cannot make a folder in '{}'", parent));
     }
     ~ScratchFolder()
     {
@@ -90,11 +93,13 @@ void call_compiler(std::vector<std::string> command, const std::string& source, 
     const ProcessResult result = run_process(command);
     if (result.interrupted) throw Error(ExitCode::interrupted, "lagen: interrupted while compiling");
     if (!result.started)
-        throw MachineError(fmt::format("error: the C++ compiler '{}' could not be started: {}", command[0], result.error));
+        throw MachineError(
+            fmt::format("error: the C++ compiler '{}' could not be started: {}", command[0], result.error));
     if (result.exit_code == 0) return;
     std::string line;
     for (const std::string& word : command) line += (line.empty() ? "" : " ") + word;
-    throw MachineError(fmt::format("error: the C++ compiler failed with exit code {}\n{}\n{}{}", result.exit_code, line, result.error, result.output));
+    throw MachineError(fmt::format("error: the C++ compiler failed with exit code {}\n{}\n{}{}", result.exit_code, line,
+                                   result.error, result.output));
 }
 
 } // namespace

@@ -28,7 +28,9 @@ ExitCode run_derive(Arguments arguments)
     (void)options.choice("form", {"lagrange"});
     const Model model = read_model(options.positional()[0], options.settings());
     const EquationSet equations = derive_lagrange(model, build_algebroid(model));
-    const std::string text = format == "text" ? print_text(equations) : format == "latex" ? print_latex(equations) : print_json(equations);
+    const std::string text = format == "text"    ? print_text(equations)
+                             : format == "latex" ? print_latex(equations)
+                                                 : print_json(equations);
     write_file(options.has("output") ? options.get("output") : "-", text.ends_with('\n') ? text : text + "\n");
     return ExitCode::done;
 }

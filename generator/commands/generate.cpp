@@ -11,16 +11,16 @@ namespace lagen {
 
 namespace {
 
-const CommandSyntax syntax{
-    "generate",
-    "MODEL",
-    "Writes the C++ header of a model: right-hand side, mass matrix, energy, momentum, constraints, observables, events.",
-    {{"output,o", "FILE", "the header; standard output without it"},
-     {"form", "FORM", "lagrange", "lagrange"},
-     {"only", "KERNELS", "these kernels alone, e.g. rhs,energy"},
-     {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
-     {"unchecked", nullptr, "go on although the model is refuted; the header says so"},
-     {"depfile", "FILE", "write a dependency file for make or ninja (needs --output)"}}};
+const CommandSyntax syntax{"generate",
+                           "MODEL",
+                           "Writes the C++ header of a model: right-hand side, mass matrix, energy, momentum, "
+                           "constraints, observables, events.",
+                           {{"output,o", "FILE", "the header; standard output without it"},
+                            {"form", "FORM", "lagrange", "lagrange"},
+                            {"only", "KERNELS", "these kernels alone, e.g. rhs,energy"},
+                            {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
+                            {"unchecked", nullptr, "go on although the model is refuted; the header says so"},
+                            {"depfile", "FILE", "write a dependency file for make or ninja (needs --output)"}}};
 
 /// A path as make and ninja read it in a dependency file.
 std::string escaped(const std::string& path)
@@ -49,7 +49,8 @@ ExitCode run_generate(Arguments arguments)
     request.only = split_list(options.get("only"));
     const std::string output = options.has("output") ? options.get("output") : "-";
     write_file(output, generate(checked, request).header);
-    if (options.has("depfile")) write_file(options.get("depfile"), fmt::format("{}: {}\n", escaped(output), escaped(model)));
+    if (options.has("depfile"))
+        write_file(options.get("depfile"), fmt::format("{}: {}\n", escaped(output), escaped(model)));
     return ExitCode::done;
 }
 

@@ -34,13 +34,22 @@ const CommandSyntax syntax{"methods", "", "Lists the integrators.", {{"format,f"
 
 void method_json(JsonWriter& json, const MethodEntry& entry)
 {
-    json.begin_object().key("name").value(entry.name).key("order").value(entry.order).key("adaptive").value(entry.adaptive);
+    json.begin_object()
+        .key("name")
+        .value(entry.name)
+        .key("order")
+        .value(entry.order)
+        .key("adaptive")
+        .value(entry.adaptive);
     json.key("separable_only").value(entry.separable_only).key("text").value(entry.text).end_object();
 }
 
 } // namespace
 
-std::span<const MethodEntry> method_table() { return entries; }
+std::span<const MethodEntry> method_table()
+{
+    return entries;
+}
 
 const MethodEntry* find_method(const std::string& name)
 {
@@ -73,8 +82,9 @@ ExitCode run_methods(Arguments arguments)
     }
     std::string text;
     for (const MethodEntry& entry : entries) {
-        text += fmt::format("{:<14}order {:<8}{:<10}{}{}\n", entry.name, entry.order, entry.adaptive ? "tolerance" : "step", entry.text,
-                            entry.separable_only ? " (for x' = f(y), y' = g(x) only)" : "");
+        text +=
+            fmt::format("{:<14}order {:<8}{:<10}{}{}\n", entry.name, entry.order, entry.adaptive ? "tolerance" : "step",
+                        entry.text, entry.separable_only ? " (for x' = f(y), y' = g(x) only)" : "");
     }
     write_standard_output(text);
     return ExitCode::done;

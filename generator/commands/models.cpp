@@ -15,7 +15,8 @@ namespace lagen {
 
 namespace {
 
-const CommandSyntax syntax{"models", "", "Lists the example models and their scenes.", {{"format,f", "FORMAT", "text or json", "text"}}};
+const CommandSyntax syntax{
+    "models", "", "Lists the example models and their scenes.", {{"format,f", "FORMAT", "text or json", "text"}}};
 
 std::vector<std::string> model_files(const std::string& folder)
 {
@@ -42,7 +43,8 @@ ExitCode run_models(Arguments arguments)
     if (options.help()) return ExitCode::done;
     const bool as_json = options.choice("format", {"text", "json"}) == "json";
     const std::string folder = models_folder();
-    if (folder.empty()) throw MachineError("error: the example models were not found\nhint: set LAGEN_MODELS to their folder");
+    if (folder.empty())
+        throw MachineError("error: the example models were not found\nhint: set LAGEN_MODELS to their folder");
     JsonWriter json;
     json.begin_array();
     std::string text = fmt::format("in {}:\n", folder);

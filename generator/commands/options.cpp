@@ -48,10 +48,11 @@ void check_positional(const CommandSyntax& syntax, const std::vector<std::string
     const bool several = shape.ends_with("...");
     const std::size_t least = shape.empty() ? 0 : 1;
     if (positional.size() < least)
-        throw UsageError(fmt::format("lagen {}: {} is missing (see lagen {} --help)", syntax.command, shape, syntax.command));
-    if (positional.size() > least && !several) {
         throw UsageError(
-            fmt::format("lagen {}: unexpected argument '{}' (see lagen {} --help)", syntax.command, positional[least], syntax.command));
+            fmt::format("lagen {}: {} is missing (see lagen {} --help)", syntax.command, shape, syntax.command));
+    if (positional.size() > least && !several) {
+        throw UsageError(fmt::format("lagen {}: unexpected argument '{}' (see lagen {} --help)", syntax.command,
+                                     positional[least], syntax.command));
     }
 }
 
@@ -123,7 +124,8 @@ std::vector<Setting> Options::settings() const
         const std::size_t equals = text.find('=');
         if (equals == std::string::npos || equals == 0)
             throw UsageError(fmt::format("lagen {}: --set needs name=value, found '{}'", command_, text));
-        settings.push_back({text.substr(0, equals), whole_text("<--set " + text.substr(0, equals) + ">", text.substr(equals + 1))});
+        settings.push_back(
+            {text.substr(0, equals), whole_text("<--set " + text.substr(0, equals) + ">", text.substr(equals + 1))});
     }
     return settings;
 }

@@ -50,23 +50,31 @@ bool writable(const fs::path& folder)
 
 std::string runtime_folder()
 {
-    const std::string folder =
-        first_with({environment("LAGEN_INCLUDE"), prefix() / "include", fs::path(LAGEN_SOURCE_DIR) / "runtime" / "include"}, "lagen/kernel.hpp");
+    const std::string folder = first_with(
+        {environment("LAGEN_INCLUDE"), prefix() / "include", fs::path(LAGEN_SOURCE_DIR) / "runtime" / "include"},
+        "lagen/kernel.hpp");
     if (folder.empty())
-        throw MachineError("error: the runtime's headers (lagen/kernel.hpp) were not found\nhint: set LAGEN_INCLUDE to the folder that holds lagen/");
+        throw MachineError("error: the runtime's headers (lagen/kernel.hpp) were not found\nhint: set LAGEN_INCLUDE to "
+                           "the folder that holds lagen/");
     return folder;
 }
 
 std::string eigen_folder()
 {
-    const std::string folder = first_with({environment("LAGEN_EIGEN_INCLUDE"), LAGEN_EIGEN_DIR, "/usr/include/eigen3", "/usr/local/include/eigen3"}, "Eigen/Core");
-    if (folder.empty()) throw MachineError("error: Eigen's headers (Eigen/Core) were not found\nhint: set LAGEN_EIGEN_INCLUDE to the folder that holds Eigen/");
+    const std::string folder = first_with(
+        {environment("LAGEN_EIGEN_INCLUDE"), LAGEN_EIGEN_DIR, "/usr/include/eigen3", "/usr/local/include/eigen3"},
+        "Eigen/Core");
+    if (folder.empty())
+        throw MachineError("error: Eigen's headers (Eigen/Core) were not found\nhint: set LAGEN_EIGEN_INCLUDE to the "
+                           "folder that holds Eigen/");
     return folder;
 }
 
 std::string models_folder()
 {
-    return first_with({environment("LAGEN_MODELS"), prefix() / "share" / "lagen" / "models", fs::path(LAGEN_SOURCE_DIR) / "models"}, "heavy_top.toml");
+    return first_with(
+        {environment("LAGEN_MODELS"), prefix() / "share" / "lagen" / "models", fs::path(LAGEN_SOURCE_DIR) / "models"},
+        "heavy_top.toml");
 }
 
 std::string cache_folder()
@@ -81,15 +89,18 @@ std::string cache_folder()
     for (const fs::path& candidate : candidates)
         if (writable(candidate)) return candidate.string();
 
-    // Below a shared folder the name may be taken by somebody else: compiled code is only ever run from a folder of ours.
+    // Below a shared folder the name may be taken by somebody else: compiled code is only ever run from a folder of
+    // ours.
     std::error_code ignored;
     const fs::path shared = fs::temp_directory_path(ignored) / fmt::format("lagen-{}", ::getuid());
     struct stat status {};
     ::mkdir(shared.c_str(), 0700);
-    if (::lstat(shared.c_str(), &status) == 0 && S_ISDIR(status.st_mode) && status.st_uid == ::getuid() && (status.st_mode & 022U) == 0)
+    if (::lstat(shared.c_str(), &status) == 0 && S_ISDIR(status.st_mode) && status.st_uid == ::getuid() &&
+        (status.st_mode & 022U) == 0)
         return shared.string();
-    throw MachineError(fmt::format("error: no folder for compiled scenes can be written (tried {} and '{}')\nhint: set LAGEN_CACHE",
-                                   candidates.empty() ? "none" : fmt::format("'{}'", candidates.front().string()), shared.string()));
+    throw MachineError(
+        fmt::format("error: no folder for compiled scenes can be written (tried {} and '{}')\nhint: set LAGEN_CACHE",
+                    candidates.empty() ? "none" : fmt::format("'{}'", candidates.front().string()), shared.string()));
 }
 
 } // namespace lagen

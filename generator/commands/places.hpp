@@ -15,8 +15,8 @@ namespace lagen {
 /// The folder of the example models (LAGEN_MODELS, else the installed one, else the source tree), or "".
 [[nodiscard]] std::string models_folder();
 
-/// A folder for compiled scenes: LAGEN_CACHE, else XDG_CACHE_HOME/lagen, else ~/.cache/lagen; made if missing. Where none of these
-/// can be written, a private folder below TMPDIR.
+/// A folder for compiled scenes: LAGEN_CACHE, else XDG_CACHE_HOME/lagen, else ~/.cache/lagen; made if missing. Where
+/// none of these can be written, a private folder below TMPDIR.
 [[nodiscard]] std::string cache_folder();
 
 } // namespace lagen

@@ -16,7 +16,10 @@ namespace {
 constexpr int width = 900;
 constexpr int panel_height = 300;
 
-std::string extension_of(const std::string& path) { return std::filesystem::path(path).extension().string(); }
+std::string extension_of(const std::string& path)
+{
+    return std::filesystem::path(path).extension().string();
+}
 
 /// A gnuplot string that shows exactly these characters (enhanced text is off).
 std::string quoted(const std::string& text)
@@ -32,9 +35,12 @@ std::string quoted(const std::string& text)
 std::string terminal(const std::string& extension, int height)
 {
     if (extension == ".svg")
-        return fmt::format("set terminal svg size {},{} noenhanced font 'sans,13' background rgb 'white'\n", width, height);
-    if (extension == ".png") return fmt::format("set terminal pngcairo size {},{} noenhanced font 'sans,11'\n", width, height);
-    return fmt::format("set terminal pdfcairo size {:.2f},{:.2f} noenhanced font 'sans,11'\n", width / 100.0, height / 100.0);
+        return fmt::format("set terminal svg size {},{} noenhanced font 'sans,13' background rgb 'white'\n", width,
+                           height);
+    if (extension == ".png")
+        return fmt::format("set terminal pngcairo size {},{} noenhanced font 'sans,11'\n", width, height);
+    return fmt::format("set terminal pdfcairo size {:.2f},{:.2f} noenhanced font 'sans,11'\n", width / 100.0,
+                       height / 100.0);
 }
 
 /// The rows as gnuplot reads them: blanks for commas; what is not finite becomes a gap.
@@ -53,7 +59,8 @@ std::string data_block(const Table& table)
 
 std::string panel_text(const Table& table, const Panel& panel, bool last)
 {
-    std::string text = fmt::format("set ylabel {}\n{}", quoted(panel.label), last ? fmt::format("set xlabel {}\n", quoted(table.columns[0])) : "");
+    std::string text = fmt::format("set ylabel {}\n{}", quoted(panel.label),
+                                   last ? fmt::format("set xlabel {}\n", quoted(table.columns[0])) : "");
     text += "plot ";
     const char* separator = "";
     for (const std::size_t column : panel.columns) {
@@ -64,12 +71,13 @@ std::string panel_text(const Table& table, const Panel& panel, bool last)
     return text + "\n";
 }
 
-std::string script_of(const Table& table, const std::vector<Panel>& panels, const std::string& title, const std::string& extension,
-                      const std::string& picture)
+std::string script_of(const Table& table, const std::vector<Panel>& panels, const std::string& title,
+                      const std::string& extension, const std::string& picture)
 {
     std::string script = terminal(extension, 60 + panel_height * static_cast<int>(panels.size()));
     script += fmt::format("set output {}\nset datafile missing '?'\n", quoted(picture)) + data_block(table);
-    script += fmt::format("set multiplot layout {},1 title {}\nset grid linecolor rgb '#dddddd'\nset key outside right top\nset border linecolor rgb "
+    script += fmt::format("set multiplot layout {},1 title {}\nset grid linecolor rgb '#dddddd'\nset key outside right "
+                          "top\nset border linecolor rgb "
                           "'#444444'\nset autoscale xfix\n",
                           panels.size(), quoted(title));
     for (std::size_t k = 0; k < panels.size(); ++k) script += panel_text(table, panels[k], k + 1 == panels.size());
@@ -82,8 +90,10 @@ void require_plot_format(const std::string& path)
 {
     const std::string extension = extension_of(path);
     if (extension != ".svg" && extension != ".png" && extension != ".pdf")
-        throw UsageError(fmt::format("lagen run: --plot needs a file that ends in .svg, .png or .pdf, found '{}'", path));
-    if (find_program("gnuplot").empty()) throw MachineError("error: gnuplot was not found\nhint: --plot draws with gnuplot; install gnuplot-nox");
+        throw UsageError(
+            fmt::format("lagen run: --plot needs a file that ends in .svg, .png or .pdf, found '{}'", path));
+    if (find_program("gnuplot").empty())
+        throw MachineError("error: gnuplot was not found\nhint: --plot draws with gnuplot; install gnuplot-nox");
 }
 
 void plot_table(const Table& table, const std::vector<Panel>& panels, const std::string& title, const std::string& path)
@@ -92,7 +102,8 @@ void plot_table(const Table& table, const std::vector<Panel>& panels, const std:
     if (table.count == 0 || panels.empty()) throw MachineError("error: there is nothing to plot: the run gave no rows");
     namespace fs = std::filesystem;
     std::string folder = (fs::temp_directory_path() / "lagen-plot-XXXXXX").string();
-    if (::mkdtemp(folder.data()) == nullptr) throw MachineError(fmt::format("error: cannot make a folder like '{}'", folder));
+    if (::mkdtemp(folder.data()) == nullptr)
+        throw MachineError(fmt::format("error: cannot make a folder like '{}'", folder));
     struct Removed {
         std::string path;
         ~Removed()

@@ -60,7 +60,8 @@ struct Pipe {
     std::array<int, 2> ends{-1, -1};
     Pipe()
     {
-        if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw MachineError(fmt::format("error: cannot make a pipe: {}", std::strerror(errno)));
+        if (::pipe2(ends.data(), O_CLOEXEC) != 0)
+            throw MachineError(fmt::format("error: cannot make a pipe: {}", std::strerror(errno)));
     }
     ~Pipe()
     {
@@ -76,7 +77,8 @@ struct Pipe {
     }
 };
 
-pid_t spawn(const std::string& program, const std::vector<std::string>& arguments, const Pipe& output, const Pipe& error, int& failure)
+pid_t spawn(const std::string& program, const std::vector<std::string>& arguments, const Pipe& output,
+            const Pipe& error, int& failure)
 {
     std::vector<char*> pointers;
     for (const std::string& argument : arguments) pointers.push_back(const_cast<char*>(argument.c_str()));
@@ -128,7 +130,8 @@ void drain(Pipe& output, Pipe& error, ProcessResult& result, const std::function
 
 } // namespace
 
-ProcessResult run_process(const std::vector<std::string>& arguments, const std::function<void(const char*, std::size_t)>& sink)
+ProcessResult run_process(const std::vector<std::string>& arguments,
+                          const std::function<void(const char*, std::size_t)>& sink)
 {
     ProcessResult result;
     const std::string program = find_program(arguments.at(0));
@@ -153,7 +156,8 @@ ProcessResult run_process(const std::vector<std::string>& arguments, const std::
     error.close_end(1);
     drain(output, error, result, sink);
     int status = 0;
-    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {}
+    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
     result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     result.interrupted = interrupts > 0;
     return result;

@@ -9,10 +9,10 @@
 namespace lagen {
 
 struct ProcessResult {
-    int exit_code = 0;    ///< 128 + signal where it was killed
-    bool started = true;  ///< false: the program was not found or could not be executed
-    std::string output;   ///< standard output, unless a sink took it
-    std::string error;    ///< standard error
+    int exit_code = 0;        ///< 128 + signal where it was killed
+    bool started = true;      ///< false: the program was not found or could not be executed
+    std::string output;       ///< standard output, unless a sink took it
+    std::string error;        ///< standard error
     bool interrupted = false; ///< SIGINT or SIGTERM reached lagen while the child ran
 };
 

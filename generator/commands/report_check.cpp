@@ -68,7 +68,8 @@ std::string summary_line(const VerifiedAlgebroid& verified, const std::string& k
 std::string failure_text(const Check& check)
 {
     const Decision& decision = check.decision;
-    std::string text = fmt::format("\n{}: {} {}\n  residual {}\n", to_text(decision.status), check.name, indices_text(check), decision.residual);
+    std::string text = fmt::format("\n{}: {} {}\n  residual {}\n", to_text(decision.status), check.name,
+                                   indices_text(check), decision.residual);
     if (decision.witness)
         text += fmt::format("  at {}: {:.17g}\n", point_text(decision.witness->point), decision.witness->value);
     if (!decision.evidence.empty()) text += fmt::format("  {}\n", decision.evidence);
@@ -81,7 +82,8 @@ std::string regularity_text(const Regularity& regularity)
     if (regularity.kind == Regularity::Kind::absent) return "";
     std::string text = fmt::format("  {:<14}{}, rank {}{}\n", "regularity", kind_text(regularity.kind), regularity.rank,
                                    regularity.positive_definite ? ", positive definite" : "");
-    for (const Point& point : regularity.singular_at) text += fmt::format("  {:<14}singular at {}\n", "", point_text(point));
+    for (const Point& point : regularity.singular_at)
+        text += fmt::format("  {:<14}singular at {}\n", "", point_text(point));
     return text;
 }
 

@@ -16,7 +16,10 @@ std::string number_text(std::string_view text)
     return finite ? std::string(text) : "null";
 }
 
-std::string string_text(std::string_view text) { return JsonWriter().value(text).text(); }
+std::string string_text(std::string_view text)
+{
+    return JsonWriter().value(text).text();
+}
 
 template <class Items, class Print>
 std::string list_text(const Items& items, Print print)
@@ -44,22 +47,25 @@ std::string report_json(const RunOutcome& outcome)
     const std::string events = list_text(outcome.events, [](const EventFound& event) {
         return fmt::format("{{\"name\": {}, \"t\": {}}}", string_text(event.name), number_text(event.time));
     });
-    return fmt::format("{{\"model\": {}, \"scene\": {}, \"form\": {}, \"method\": {}, \"status\": {}, \"t\": {},\n \"steps\": {}, "
-                       "\"rejected\": {}, \"rhs_calls\": {}, \"seconds\": {},\n \"columns\": {},\n \"rows\": {},\n \"events\": {},\n "
-                       "\"invariants\": {}}}\n",
-                       string_text(outcome.model), string_text(outcome.scene), string_text(outcome.form), string_text(outcome.method),
-                       string_text(outcome.status), number_text(outcome.where), number_text(outcome.steps), number_text(outcome.rejected),
-                       number_text(outcome.rhs_calls), number_text(outcome.seconds),
-                       list_text(outcome.table.columns, [](const std::string& column) { return string_text(column); }),
-                       list_text(outcome.table.lines(), row_text), events, invariants);
+    return fmt::format(
+        "{{\"model\": {}, \"scene\": {}, \"form\": {}, \"method\": {}, \"status\": {}, \"t\": {},\n \"steps\": {}, "
+        "\"rejected\": {}, \"rhs_calls\": {}, \"seconds\": {},\n \"columns\": {},\n \"rows\": {},\n \"events\": {},\n "
+        "\"invariants\": {}}}\n",
+        string_text(outcome.model), string_text(outcome.scene), string_text(outcome.form), string_text(outcome.method),
+        string_text(outcome.status), number_text(outcome.where), number_text(outcome.steps),
+        number_text(outcome.rejected), number_text(outcome.rhs_calls), number_text(outcome.seconds),
+        list_text(outcome.table.columns, [](const std::string& column) { return string_text(column); }),
+        list_text(outcome.table.lines(), row_text), events, invariants);
 }
 
 std::string report_text(const RunOutcome& outcome)
 {
-    std::string text = fmt::format("{}, scene {}: {} at t = {}; {}, {} steps ({} rejected), {} right-hand sides, {} rows\n", outcome.model,
-                                   outcome.scene, outcome.status, outcome.where, outcome.method, outcome.steps, outcome.rejected,
-                                   outcome.rhs_calls, outcome.table.count);
-    for (const EventFound& event : outcome.events) text += fmt::format("  event {} at t = {}\n", event.name, event.time);
+    std::string text =
+        fmt::format("{}, scene {}: {} at t = {}; {}, {} steps ({} rejected), {} right-hand sides, {} rows\n",
+                    outcome.model, outcome.scene, outcome.status, outcome.where, outcome.method, outcome.steps,
+                    outcome.rejected, outcome.rhs_calls, outcome.table.count);
+    for (const EventFound& event : outcome.events)
+        text += fmt::format("  event {} at t = {}\n", event.name, event.time);
     for (const Drift& drift : outcome.invariants)
         text += fmt::format("  {}: {} at the start, largest drift {}\n", drift.name, drift.initial, drift.max_drift);
     return text;

@@ -24,8 +24,8 @@ struct Drift {
 
 struct RunOutcome {
     std::string model, scene, form, method;
-    std::string status;      ///< "ok", "stopped_by_event", "left_domain", ... (runtime's names)
-    std::string where;       ///< time that was reached
+    std::string status;                              ///< "ok", "stopped_by_event", "left_domain", ... (runtime's names)
+    std::string where;                               ///< time that was reached
     std::string steps, rejected, rhs_calls, seconds; ///< numbers as printed
     std::vector<EventFound> events;
     std::vector<Drift> invariants;

@@ -27,9 +27,15 @@ std::string quoted(const std::string& field)
 
 } // namespace
 
-std::vector<std::string_view> Table::lines() const { return pieces(rows, '\n'); }
+std::vector<std::string_view> Table::lines() const
+{
+    return pieces(rows, '\n');
+}
 
-std::vector<std::string_view> fields(std::string_view line) { return pieces(line, ','); }
+std::vector<std::string_view> fields(std::string_view line)
+{
+    return pieces(line, ',');
+}
 
 std::string to_csv(const Table& table)
 {

@@ -108,7 +108,8 @@ std::string read_file(const std::string& path)
     if (file == nullptr) throw MachineError(fmt::format("error: cannot read '{}': {}", path, std::strerror(errno)));
     std::string content;
     char buffer[65536];
-    for (std::size_t count = 0; (count = std::fread(buffer, 1, sizeof buffer, file)) > 0;) content.append(buffer, count);
+    for (std::size_t count = 0; (count = std::fread(buffer, 1, sizeof buffer, file)) > 0;)
+        content.append(buffer, count);
     const bool failed = std::ferror(file) != 0;
     const int error = errno;
     std::fclose(file);

@@ -8,8 +8,8 @@
 
 namespace lagen {
 
-/// Writes `content` to `path` ("-" is standard output). A device or a pipe is written directly. Throws MachineError with the
-/// reason (disk full, no such folder, ...); no temporary is left behind, on a signal neither.
+/// Writes `content` to `path` ("-" is standard output). A device or a pipe is written directly. Throws MachineError
+/// with the reason (disk full, no such folder, ...); no temporary is left behind, on a signal neither.
 void write_file(const std::string& path, std::string_view content);
 
 /// Writes to standard output and reports failure (a closed pipe, a full disk) as MachineError.

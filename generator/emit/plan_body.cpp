@@ -76,7 +76,7 @@ std::vector<bool> choose_named(const Graph& graph, const std::vector<NodeId>& no
         if (total >= largest_expression) named[id] = true;
     }
     for (const NodeId id : outputs) // an output that nothing else uses is printed where it is stored
-        if (uses[id] == 1 && partner[id] == static_cast<NodeId>(-1) && !needs_chain(graph, id)) named[id] = false;
+        if (uses[id] == 1 && !is_linear_algebra(graph.op(id)) && partner[id] == static_cast<NodeId>(-1) && !needs_chain(graph, id)) named[id] = false;
     return named;
 }
 

@@ -36,7 +36,8 @@ struct Body {
 };
 
 /// `moving` are the inputs that change during a run (time and state): factorisations that depend on none of them
-/// are checked once, before it. `pivots` are divisors whose vanishing is a singular matrix too.
+/// are checked once, before it. `pivots` are further factorisations to check, and divisors whose vanishing is a singular
+/// matrix too.
 struct BodyRequest {
     const Graph& graph;
     const LocalNames& names;

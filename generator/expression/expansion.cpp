@@ -14,6 +14,8 @@ namespace lagen {
 namespace {
 
 constexpr std::size_t deepest = 2000;
+/// An operation, the name below it and the definition behind the name take a level each.
+constexpr std::size_t deepest_walk = 3 * deepest;
 constexpr std::size_t most_nodes = 1'000'000;
 
 /// The bounds of the parser; several definitions may stand inside one another.
@@ -35,7 +37,7 @@ class Expansion::Level {
   public:
     Level(Expansion& expansion, const SourceRange& where) : expansion_(expansion)
     {
-        if (expansion.depth_ >= deepest)
+        if (expansion.depth_ >= deepest_walk)
             throw ModelError(fmt::format("the definitions used here are nested more than {} operations deep", deepest),
                              where, "shorten the chain of definitions");
         ++expansion_.depth_;
@@ -88,7 +90,10 @@ ClosedTree Expansion::close_node(const Tree& tree, Body& body)
     return result;
 }
 
-ClosedTree Expansion::leaf(const Tree& tree) const { return {tree, measure(*tree, {}, limits)}; }
+ClosedTree Expansion::leaf(const Tree& tree) const
+{
+    return {tree, measure(*tree, {}, limits)};
+}
 
 ClosedTree Expansion::close_name(const Tree& tree, const Body& body)
 {
@@ -99,9 +104,9 @@ ClosedTree Expansion::close_name(const Tree& tree, const Body& body)
     if (!definition && tree->kind == TreeKind::pi) return leaf(tree);
     if (!definition) unknown(*tree, body, false);
     if (!definition->parameters.empty())
-        throw ModelError(fmt::format("the function {} stands without arguments", quote(text)), tree->where,
-                         fmt::format("its arguments stand in parentheses: {}({})", text,
-                                     fmt::join(definition->parameters, ", ")));
+        throw ModelError(
+            fmt::format("the function {} stands without arguments", quote(text)), tree->where,
+            fmt::format("its arguments stand in parentheses: {}({})", text, fmt::join(definition->parameters, ", ")));
     return expand(*definition, {}, tree->where);
 }
 

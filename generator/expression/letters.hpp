@@ -10,6 +10,9 @@ namespace lagen {
 [[nodiscard]] bool is_letter(char32_t c);
 
 /// '0' to '9'.
-[[nodiscard]] constexpr bool is_digit(char32_t c) { return c >= U'0' && c <= U'9'; }
+[[nodiscard]] constexpr bool is_digit(char32_t c)
+{
+    return c >= U'0' && c <= U'9';
+}
 
 } // namespace lagen

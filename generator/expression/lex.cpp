@@ -13,7 +13,10 @@ namespace lagen {
 
 namespace {
 
-bool is_ascii_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_ascii_digit(char c)
+{
+    return c >= '0' && c <= '9';
+}
 
 /// The end of the name that starts at `begin`; `begin` itself where none does.
 std::size_t end_of_name(std::string_view text, std::size_t begin)
@@ -49,8 +52,10 @@ constexpr std::array look_alikes{
     LookAlike{"≠", "'not equal' is written '!='"},
     LookAlike{"=", "equality is written '=='"},
     LookAlike{"!", "'not equal' is written '!='"},
-    LookAlike{"[", "an expression is one number here: write its entries out with names of their own, for instance x1, x2"},
-    LookAlike{"]", "an expression is one number here: write its entries out with names of their own, for instance x1, x2"},
+    LookAlike{"[",
+              "an expression is one number here: write its entries out with names of their own, for instance x1, x2"},
+    LookAlike{"]",
+              "an expression is one number here: write its entries out with names of their own, for instance x1, x2"},
     LookAlike{"{", "terms are grouped with '(' and ')'"},
     LookAlike{"}", "terms are grouped with '(' and ')'"},
     LookAlike{"|", "an absolute value is written 'abs(x)'"},
@@ -92,7 +97,8 @@ Token Lexer::next()
 {
     while (at(position_) == ' ' || at(position_) == '\t' || at(position_) == '\n' || at(position_) == '\r') ++position_;
     if (position_ >= excerpt_.text.size()) return {TokenKind::end, position_, position_, {}};
-    if (is_ascii_digit(at(position_)) || (at(position_) == '.' && is_ascii_digit(at(position_ + 1)))) return lex_number();
+    if (is_ascii_digit(at(position_)) || (at(position_) == '.' && is_ascii_digit(at(position_ + 1))))
+        return lex_number();
     const std::size_t end = end_of_name(excerpt_.text, position_);
     if (end > position_) {
         const Token token{TokenKind::name, position_, end, {}};
@@ -113,8 +119,8 @@ Token Lexer::lex_number()
     if (at(end) == '.')
         for (++end; is_ascii_digit(at(end)); ++end, ++decimals) digits += at(end);
     if (digits.size() > limits_.digits)
-        fail(fmt::format("a number has {} digits, and at most {} are accepted", digits.size(), limits_.digits), begin, end,
-             "");
+        fail(fmt::format("a number has {} digits, and at most {} are accepted", digits.size(), limits_.digits), begin,
+             end, "");
 
     long exponent = 0;
     const bool is_signed = at(end + 1) == '+' || at(end + 1) == '-';
@@ -127,8 +133,8 @@ Token Lexer::lex_number()
         position_ = end;
         if (exponent > limits_.decimal_exponent)
             fail(fmt::format("the decimal exponent of {} is outside {} to {}",
-                             quote(std::string_view(excerpt_.text).substr(begin, end - begin)), -limits_.decimal_exponent,
-                             limits_.decimal_exponent),
+                             quote(std::string_view(excerpt_.text).substr(begin, end - begin)),
+                             -limits_.decimal_exponent, limits_.decimal_exponent),
                  begin, end, "");
         if (negative) exponent = -exponent;
     }
@@ -154,13 +160,20 @@ Token Lexer::lex_operator()
     };
     static constexpr std::array operators{
         // the longer ones first
-        Operator{"<=", TokenKind::less_equal}, Operator{">=", TokenKind::greater_equal},
-        Operator{"==", TokenKind::equal},      Operator{"!=", TokenKind::not_equal},
-        Operator{"<", TokenKind::less},        Operator{">", TokenKind::greater},
-        Operator{"+", TokenKind::plus},        Operator{"-", TokenKind::minus},
-        Operator{"*", TokenKind::star},        Operator{"/", TokenKind::slash},
-        Operator{"^", TokenKind::caret},       Operator{"(", TokenKind::left_parenthesis},
-        Operator{")", TokenKind::right_parenthesis}, Operator{",", TokenKind::comma},
+        Operator{"<=", TokenKind::less_equal},
+        Operator{">=", TokenKind::greater_equal},
+        Operator{"==", TokenKind::equal},
+        Operator{"!=", TokenKind::not_equal},
+        Operator{"<", TokenKind::less},
+        Operator{">", TokenKind::greater},
+        Operator{"+", TokenKind::plus},
+        Operator{"-", TokenKind::minus},
+        Operator{"*", TokenKind::star},
+        Operator{"/", TokenKind::slash},
+        Operator{"^", TokenKind::caret},
+        Operator{"(", TokenKind::left_parenthesis},
+        Operator{")", TokenKind::right_parenthesis},
+        Operator{",", TokenKind::comma},
     };
     const std::string_view rest = std::string_view(excerpt_.text).substr(position_);
     if (rest.starts_with("**")) fail("unexpected '**'", position_, position_ + 2, "a power is written '^'");
@@ -177,10 +190,14 @@ void Lexer::unexpected_character() const
 {
     const CodePoint c = decode_utf8(excerpt_.text, position_);
     const std::string_view text = std::string_view(excerpt_.text).substr(position_, c.length);
-    const std::string code = c.value > 0x7E || c.value < 0x20 ? fmt::format(" (U+{:04X})", static_cast<unsigned>(c.value)) : "";
+    const std::string code =
+        c.value > 0x7E || c.value < 0x20 ? fmt::format(" (U+{:04X})", static_cast<unsigned>(c.value)) : "";
     fail(fmt::format("unexpected character {}{}", quote(text), code), position_, position_ + c.length, hint_for(text));
 }
 
-bool is_identifier(std::string_view text) { return !text.empty() && end_of_name(text, 0) == text.size(); }
+bool is_identifier(std::string_view text)
+{
+    return !text.empty() && end_of_name(text, 0) == text.size();
+}
 
 } // namespace lagen

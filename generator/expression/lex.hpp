@@ -7,8 +7,23 @@
 namespace lagen {
 
 enum class TokenKind {
-    number, name, plus, minus, star, slash, caret, left_parenthesis, right_parenthesis, comma,
-    less, less_equal, greater, greater_equal, equal, not_equal, end,
+    number,
+    name,
+    plus,
+    minus,
+    star,
+    slash,
+    caret,
+    left_parenthesis,
+    right_parenthesis,
+    comma,
+    less,
+    less_equal,
+    greater,
+    greater_equal,
+    equal,
+    not_equal,
+    end,
 };
 
 struct Token {
@@ -29,7 +44,8 @@ class Lexer {
     [[nodiscard]] Token next();
 
     [[nodiscard]] std::string_view text(const Token& token) const;
-    [[noreturn]] void fail(const std::string& message, std::size_t begin, std::size_t end, const std::string& hint) const;
+    [[noreturn]] void fail(const std::string& message, std::size_t begin, std::size_t end,
+                           const std::string& hint) const;
 
   private:
     [[nodiscard]] Token lex_number();

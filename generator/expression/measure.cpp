@@ -11,10 +11,17 @@ namespace lagen {
 
 namespace {
 
-constexpr long degree_ceiling = std::numeric_limits<long>::max() / 1024; ///< sums and products by an exponent stay in range
+constexpr long degree_ceiling =
+    std::numeric_limits<long>::max() / 1024; ///< sums and products by an exponent stay in range
 
-std::size_t bits(const mpz_class& value) { return mpz_sizeinbase(value.get_mpz_t(), 2); }
-std::size_t bits(const Rational& value) { return std::max(bits(value.get_num()), bits(value.get_den())); }
+std::size_t bits(const mpz_class& value)
+{
+    return mpz_sizeinbase(value.get_mpz_t(), 2);
+}
+std::size_t bits(const Rational& value)
+{
+    return std::max(bits(value.get_num()), bits(value.get_den()));
+}
 
 /// Digits of a number for a message, at most 24 of them.
 std::string shown(const Rational& value)
@@ -25,10 +32,11 @@ std::string shown(const Rational& value)
 
 [[noreturn]] void constant_too_large(const SourceRange& where, const ParseLimits& limits)
 {
-    throw ModelError(fmt::format("a constant needs more than {} bits", limits.number_bits), where,
-                     fmt::format("constants are kept as exact fractions, whose numerators and denominators are bounded by "
-                                 "{} bits",
-                                 limits.number_bits));
+    throw ModelError(
+        fmt::format("a constant needs more than {} bits", limits.number_bits), where,
+        fmt::format("constants are kept as exact fractions, whose numerators and denominators are bounded by "
+                    "{} bits",
+                    limits.number_bits));
 }
 
 void require_small(const Rational& value, const SourceRange& where, const ParseLimits& limits)
@@ -105,9 +113,9 @@ Measure measure_power_of_symbols(const TreeNode& node, const Measure& base, cons
                                  const ParseLimits& limits)
 {
     if (abs(exponent) > limits.exponent)
-        throw ModelError(fmt::format("the exponent {} is too large", shown(exponent)), node.arguments[1]->where,
-                         fmt::format("the exponent of a base that is not a constant is at most {} in size",
-                                     limits.exponent));
+        throw ModelError(
+            fmt::format("the exponent {} is too large", shown(exponent)), node.arguments[1]->where,
+            fmt::format("the exponent of a base that is not a constant is at most {} in size", limits.exponent));
     Measure result;
     const mpz_class whole = exponent.get_num() / exponent.get_den();
     const long size = std::abs(whole.get_si()) + (exponent.get_den() == 1 ? 0 : 1);
@@ -124,8 +132,7 @@ Measure measure_power(const TreeNode& node, const Measure& base, const Measure& 
 {
     if (!exponent.constant) return {};
     if (!base.constant) return measure_power_of_symbols(node, base, exponent.factor, limits);
-    if (base.factor == 0 && exponent.factor == 0)
-        throw ModelError("0^0 is not defined", node.where, "");
+    if (base.factor == 0 && exponent.factor == 0) throw ModelError("0^0 is not defined", node.where, "");
     if (exponent.factor.get_den() == 1) {
         const mpz_class n = exponent.factor.get_num();
         return {.constant = true, .factor = integer_power(base.factor, n, node.where, limits), .degree = 0};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// The size of a tree: its height, its total degree, and the exact constants that later stages would fold. The bounds on
-/// powers and constants are enforced here, for what is parsed and again for what definitions expand to.
+/// The size of a tree: its height, its total degree, and the exact constants that later stages would fold. The bounds
+/// on powers and constants are enforced here, for what is parsed and again for what definitions expand to.
 #pragma once
 
 #include "expression/parse.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// The Pratt parser. Every operator has a binding power; `parse(least)` reads as far as operators bind at least that much.
+/// The Pratt parser. Every operator has a binding power; `parse(least)` reads as far as operators bind at least that
+/// much.
 #include "expression/parse.hpp"
 
 #include "expression/lex.hpp"
@@ -14,7 +15,8 @@ namespace lagen {
 
 namespace {
 
-/// Binding powers, loosest first. `sign` is what a prefix sign and an exponent read: 2^-x^2 = 2^(-(x^2)), 2^-1*x = (2^-1)*x.
+/// Binding powers, loosest first. `sign` is what a prefix sign and an exponent read: 2^-x^2 = 2^(-(x^2)), 2^-1*x =
+/// (2^-1)*x.
 enum class Binding { comparison, sum, product, sign, power };
 
 std::optional<Binding> binding_of(TokenKind kind)
@@ -243,7 +245,9 @@ Operand Parser::parse_name()
         if (function)
             lexer_.fail(fmt::format("the function '{}' stands without arguments", text), name.begin, name.end,
                         fmt::format("arguments stand in parentheses: {}(x{})", text,
-                                    function->arity == 1 ? "" : function->arity == 2 ? ", y" : " > 0, y, z"));
+                                    function->arity == 1   ? ""
+                                    : function->arity == 2 ? ", y"
+                                                           : " > 0, y, z"));
         node.kind = text == "pi" ? TreeKind::pi : TreeKind::name;
         node.name = text;
         return leaf(std::move(node), name);

@@ -9,14 +9,14 @@ namespace lagen {
 
 /// What one expression may cost. Every bound is named in the error that it causes.
 struct ParseLimits {
-    std::size_t depth = 256;            ///< nested parentheses, calls, signs, exponents
-    std::size_t length = 1'000'000;     ///< bytes of text
-    std::size_t digits = 400;           ///< digits of one literal
-    long decimal_exponent = 400;        ///< |e| in 1.5e-300
-    long exponent = 64;                 ///< |n| of a constant integer exponent of a non-constant base
-    std::size_t number_bits = 4096;     ///< numerator and denominator of a constant
-    long degree = 4096;                 ///< total degree of nested powers: ((x^64)^64)^64 has degree 262144
-    std::size_t height = 1024;          ///< operations inside one another; a/b/c/d counts 3
+    std::size_t depth = 256;        ///< nested parentheses, calls, signs, exponents
+    std::size_t length = 1'000'000; ///< bytes of text
+    std::size_t digits = 400;       ///< digits of one literal
+    long decimal_exponent = 400;    ///< |e| in 1.5e-300
+    long exponent = 64;             ///< |n| of a constant integer exponent of a non-constant base
+    std::size_t number_bits = 4096; ///< numerator and denominator of a constant
+    long degree = 4096;             ///< total degree of nested powers: ((x^64)^64)^64 has degree 262144
+    std::size_t height = 1024;      ///< operations inside one another; a/b/c/d counts 3
 };
 
 /// Parses one expression. Decimals become exact rationals (0.1 is 1/10); constant sub-expressions of numbers are

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 namespace lagen {
 
@@ -16,22 +18,43 @@ constexpr std::size_t longest_text = 1'000'000;
 /// How tightly a text holds together, loosest first, as in the grammar.
 enum class Tightness { comparison, sum, product, sign, power, atom };
 
-/// An exact finite decimal of p/q, or "" where q has prime factors other than 2 and 5.
-std::string finite_decimal(const Rational& value)
+/// Digits beyond this are shortened to 21e399 or 5e-30 where the zeros allow it.
+constexpr std::size_t widest_number = 24;
+
+/// The digits and the power of ten of |p/q| as a finite decimal.
+struct Decimal {
+    std::string digits; ///< of |p/q| * 10^decimals, an integer
+    std::size_t decimals;
+};
+
+std::optional<Decimal> finite_decimal(const Rational& value)
 {
     mpz_class rest = value.get_den();
     const mpz_class two = 2, five = 5;
     const std::size_t twos = mpz_remove(rest.get_mpz_t(), rest.get_mpz_t(), two.get_mpz_t());
     const std::size_t fives = mpz_remove(rest.get_mpz_t(), rest.get_mpz_t(), five.get_mpz_t());
-    if (rest != 1) return "";
+    if (rest != 1) return std::nullopt;
     const std::size_t decimals = std::max(twos, fives);
     mpz_class scale;
     mpz_ui_pow_ui(scale.get_mpz_t(), 10, decimals);
     const mpz_class scaled = abs(value.get_num()) * (scale / value.get_den());
-    std::string digits = scaled.get_str();
-    if (digits.size() <= decimals) digits.insert(0, decimals + 1 - digits.size(), '0');
-    const std::size_t point = digits.size() - decimals;
-    return fmt::format("{}{}.{}", value < 0 ? "-" : "", digits.substr(0, point), digits.substr(point));
+    return Decimal{scaled.get_str(), decimals};
+}
+
+/// The text without its sign.
+std::string decimal_text(Decimal decimal)
+{
+    std::string& digits = decimal.digits;
+    if (std::max(digits.size(), decimal.decimals + 2) > widest_number) {
+        if (decimal.decimals > 0) return fmt::format("{}e-{}", digits, decimal.decimals);
+        const std::size_t kept = digits.find_last_not_of('0') + 1;
+        const std::size_t zeros = digits.size() - kept;
+        return zeros > 3 ? fmt::format("{}e{}", digits.substr(0, kept), zeros) : digits;
+    }
+    if (decimal.decimals == 0) return digits;
+    if (digits.size() <= decimal.decimals) digits.insert(0, decimal.decimals + 1 - digits.size(), '0');
+    const std::size_t point = digits.size() - decimal.decimals;
+    return fmt::format("{}.{}", digits.substr(0, point), digits.substr(point));
 }
 
 struct NumberText {
@@ -41,17 +64,29 @@ struct NumberText {
 
 NumberText number_text(const Rational& value)
 {
+    const std::string sign = value < 0 ? "-" : "";
     const Tightness whole = value < 0 ? Tightness::sign : Tightness::atom;
-    if (value.get_den() == 1) return {value.get_str(), whole};
-    const std::string fraction = value.get_str();
-    const std::string decimal = finite_decimal(value);
-    if (!decimal.empty() && decimal.size() < fraction.size()) return {decimal, whole};
-    return {fraction, Tightness::product};
+    const std::optional<Decimal> decimal = finite_decimal(value);
+    const std::string text = decimal ? sign + decimal_text(*decimal) : std::string();
+    if (value.get_den() == 1) return {text, whole};
+    std::string fraction = value.get_str();
+    if (decimal && text.size() < fraction.size()) return {text, whole};
+    return {std::move(fraction), Tightness::product};
+}
+
+/// A sum or product of one entry is that entry.
+const TreeNode& unwrapped(const TreeNode& node)
+{
+    const TreeNode* inner = &node;
+    while ((inner->kind == TreeKind::add || inner->kind == TreeKind::multiply) && inner->arguments.size() == 1)
+        inner = inner->arguments[0].get();
+    return *inner;
 }
 
 /// Products and quotients, and numbers written as one.
-bool reads_as_product(const TreeNode& node)
+bool reads_as_product(const TreeNode& outer)
 {
+    const TreeNode& node = unwrapped(outer);
     if (node.kind == TreeKind::number) return number_text(node.number).tightness == Tightness::product;
     return node.kind == TreeKind::divide || (node.kind == TreeKind::multiply && !node.arguments.empty());
 }
@@ -112,7 +147,7 @@ class Printer {
     }
 
   private:
-    void print_node(const TreeNode& node, Tightness least);
+    void print_node(const TreeNode& outer, Tightness least);
     void open(const TreeNode& node);
 
     /// Leaves `node`'s arguments to be printed, separated.
@@ -145,8 +180,9 @@ class Printer {
     std::vector<Pending> pending_;
 };
 
-void Printer::print_node(const TreeNode& node, Tightness least)
+void Printer::print_node(const TreeNode& outer, Tightness least)
 {
+    const TreeNode& node = unwrapped(outer);
     const bool enclosed = tightness_of(node) < least;
     if (enclosed) {
         append("(");
@@ -164,8 +200,8 @@ void Printer::open(const TreeNode& node)
     case TreeKind::name: append(node.name); break;
     case TreeKind::negate:
         append("-");
-        pending_.push_back({node.arguments[0].get(),
-                            reads_as_product(*node.arguments[0]) ? Tightness::product : Tightness::sign, ""});
+        pending_.push_back(
+            {node.arguments[0].get(), reads_as_product(*node.arguments[0]) ? Tightness::product : Tightness::sign, ""});
         break;
     case TreeKind::add: node.arguments.empty() ? append("0") : list(node, " + ", Tightness::sum); break;
     case TreeKind::multiply: node.arguments.empty() ? append("1") : list(node, "*", Tightness::product); break;
@@ -184,6 +220,9 @@ void Printer::open(const TreeNode& node)
 
 } // namespace
 
-std::string to_text(const Tree& tree) { return Printer().print(*tree); }
+std::string to_text(const Tree& tree)
+{
+    return Printer().print(*tree);
+}
 
 } // namespace lagen

@@ -50,7 +50,10 @@ void Scope::define(Definition definition)
     expansion_.reset();
 }
 
-bool Scope::has_symbol(const std::string& name) const { return symbol_index_.contains(name); }
+bool Scope::has_symbol(const std::string& name) const
+{
+    return symbol_index_.contains(name);
+}
 
 const Definition* Scope::find_definition(const std::string& name) const
 {
@@ -64,8 +67,8 @@ Tree Scope::close(const Tree& tree, bool nonsmooth) const
     const ClosedTree closed = expansion_->close(*this, tree);
     const TreeNode* refused = closed.measure.nonsmooth;
     if (refused && !nonsmooth)
-        throw ModelError(fmt::format("the function '{}' is not smooth", entry_of(refused->function).name), refused->where,
-                         "min, max, sign and if stand in forces, observables and events only");
+        throw ModelError(fmt::format("the function '{}' is not smooth", entry_of(refused->function).name),
+                         refused->where, "min, max, sign and if stand in forces, observables and events only");
     return closed.tree;
 }
 

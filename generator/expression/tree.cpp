@@ -10,15 +10,15 @@ namespace lagen {
 namespace {
 
 constexpr std::array functions{
-    FunctionEntry{Function::sin, "sin", 1, true},       FunctionEntry{Function::cos, "cos", 1, true},
-    FunctionEntry{Function::tan, "tan", 1, true},       FunctionEntry{Function::asin, "asin", 1, true},
-    FunctionEntry{Function::acos, "acos", 1, true},     FunctionEntry{Function::atan, "atan", 1, true},
-    FunctionEntry{Function::atan2, "atan2", 2, true},   FunctionEntry{Function::sinh, "sinh", 1, true},
-    FunctionEntry{Function::cosh, "cosh", 1, true},     FunctionEntry{Function::tanh, "tanh", 1, true},
-    FunctionEntry{Function::exp, "exp", 1, true},       FunctionEntry{Function::log, "log", 1, true},
-    FunctionEntry{Function::sqrt, "sqrt", 1, true},     FunctionEntry{Function::abs, "abs", 1, true},
-    FunctionEntry{Function::minimum, "min", 2, false},  FunctionEntry{Function::maximum, "max", 2, false},
-    FunctionEntry{Function::sign, "sign", 1, false},    FunctionEntry{Function::select, "if", 3, false},
+    FunctionEntry{Function::sin, "sin", 1, true},      FunctionEntry{Function::cos, "cos", 1, true},
+    FunctionEntry{Function::tan, "tan", 1, true},      FunctionEntry{Function::asin, "asin", 1, true},
+    FunctionEntry{Function::acos, "acos", 1, true},    FunctionEntry{Function::atan, "atan", 1, true},
+    FunctionEntry{Function::atan2, "atan2", 2, true},  FunctionEntry{Function::sinh, "sinh", 1, true},
+    FunctionEntry{Function::cosh, "cosh", 1, true},    FunctionEntry{Function::tanh, "tanh", 1, true},
+    FunctionEntry{Function::exp, "exp", 1, true},      FunctionEntry{Function::log, "log", 1, true},
+    FunctionEntry{Function::sqrt, "sqrt", 1, true},    FunctionEntry{Function::abs, "abs", 1, true},
+    FunctionEntry{Function::minimum, "min", 2, false}, FunctionEntry{Function::maximum, "max", 2, false},
+    FunctionEntry{Function::sign, "sign", 1, false},   FunctionEntry{Function::select, "if", 3, false},
 };
 
 Tree node(TreeKind kind, std::vector<Tree> arguments)
@@ -45,7 +45,10 @@ TreeNode::~TreeNode()
     }
 }
 
-std::span<const FunctionEntry> function_table() { return functions; }
+std::span<const FunctionEntry> function_table()
+{
+    return functions;
+}
 
 const FunctionEntry* find_function(std::string_view name)
 {
@@ -54,7 +57,10 @@ const FunctionEntry* find_function(std::string_view name)
     return nullptr;
 }
 
-const FunctionEntry& entry_of(Function function) { return functions[static_cast<std::size_t>(function)]; }
+const FunctionEntry& entry_of(Function function)
+{
+    return functions[static_cast<std::size_t>(function)];
+}
 
 Tree number(Rational value, SourceRange where)
 {
@@ -82,11 +88,26 @@ Tree constant_pi(SourceRange where)
     return result;
 }
 
-Tree negate(Tree a) { return node(TreeKind::negate, {std::move(a)}); }
-Tree add(std::vector<Tree> terms) { return node(TreeKind::add, std::move(terms)); }
-Tree multiply(std::vector<Tree> factors) { return node(TreeKind::multiply, std::move(factors)); }
-Tree divide(Tree a, Tree b) { return node(TreeKind::divide, {std::move(a), std::move(b)}); }
-Tree power(Tree base, Tree exponent) { return node(TreeKind::power, {std::move(base), std::move(exponent)}); }
+Tree negate(Tree a)
+{
+    return node(TreeKind::negate, {std::move(a)});
+}
+Tree add(std::vector<Tree> terms)
+{
+    return node(TreeKind::add, std::move(terms));
+}
+Tree multiply(std::vector<Tree> factors)
+{
+    return node(TreeKind::multiply, std::move(factors));
+}
+Tree divide(Tree a, Tree b)
+{
+    return node(TreeKind::divide, {std::move(a), std::move(b)});
+}
+Tree power(Tree base, Tree exponent)
+{
+    return node(TreeKind::power, {std::move(base), std::move(exponent)});
+}
 
 Tree call(Function function, std::vector<Tree> arguments)
 {

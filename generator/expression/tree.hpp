@@ -16,11 +16,27 @@ namespace lagen {
 
 using Rational = mpq_class; ///< always canonical
 
-/// Functions built into the language. `minimum`, `maximum`, `sign` and `select` (spelled min max sign if) are not smooth:
-/// legal in forces, observables and events only.
+/// Functions built into the language. `minimum`, `maximum`, `sign` and `select` (spelled min max sign if) are not
+/// smooth: legal in forces, observables and events only.
 enum class Function {
-    sin, cos, tan, asin, acos, atan, atan2, sinh, cosh, tanh, exp, log, sqrt, abs,
-    minimum, maximum, sign, select,
+    sin,
+    cos,
+    tan,
+    asin,
+    acos,
+    atan,
+    atan2,
+    sinh,
+    cosh,
+    tanh,
+    exp,
+    log,
+    sqrt,
+    abs,
+    minimum,
+    maximum,
+    sign,
+    select,
 };
 
 struct FunctionEntry {
@@ -56,12 +72,12 @@ using Tree = std::shared_ptr<const TreeNode>;
 
 struct TreeNode {
     TreeKind kind = TreeKind::number;
-    Rational number;                            ///< of `number`
-    std::string name;                           ///< of `name` and `apply`
-    Function function = Function::sin;          ///< of `call`
-    Comparison comparison = Comparison::less;   ///< of `compare`
+    Rational number;                          ///< of `number`
+    std::string name;                         ///< of `name` and `apply`
+    Function function = Function::sin;        ///< of `call`
+    Comparison comparison = Comparison::less; ///< of `compare`
     std::vector<Tree> arguments;
-    SourceRange where;                          ///< the text of this very sub-expression
+    SourceRange where; ///< the text of this very sub-expression
 
     ~TreeNode(); ///< iterative: a deep tree does not overflow the stack when it goes
 };
@@ -83,8 +99,9 @@ struct TreeNode {
 [[nodiscard]] const char* spelling(Comparison comparison);
 
 /// The text of a tree in the expression language, with the fewest parentheses: parse(to_text(t)) has the value of t.
-/// A number prints as an integer, a fraction p/q, or a finite decimal where that is shorter. Brackets that only regroup
-/// a sum or a product are dropped. A text above 10^6 characters (a shared tree written out) is cut and ends with "...".
+/// A number prints as an integer, a fraction p/q, or a finite decimal where that is shorter (21e399 where it
+/// would be long). Brackets that only regroup a sum or a product are dropped. A text above 10^6 characters (a shared
+/// tree written out) is cut and ends with "...".
 [[nodiscard]] std::string to_text(const Tree& tree);
 
 /// The names that occur in a tree, in order of first occurrence (depth first, left to right).

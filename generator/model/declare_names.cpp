@@ -48,9 +48,10 @@ void require_rank(const Model& model, const SourceRange& where)
     const std::size_t found = model.fibre.coordinates.size();
     const std::size_t wanted = model.algebroid.over.size();
     if (found == wanted) return;
-    throw ModelError(fmt::format("[fibre] declares {} coordinates, where the tangent bundle over {} base coordinates needs {}",
-                                 found, wanted, wanted),
-                     where, "one fibre coordinate a base coordinate that moves, in the same order");
+    throw ModelError(
+        fmt::format("[fibre] declares {} coordinates, where the tangent bundle over {} base coordinates needs {}",
+                    found, wanted, wanted),
+        where, "one fibre coordinate a base coordinate that moves, in the same order");
 }
 
 /// "V(q, r)" as a name and its parameters; "T" as a name alone.
@@ -117,8 +118,8 @@ void declare_base(ModelReader& reader, const TomlEntry* block)
         const TableReader casimirs(entry->value, "'casimirs' of [base]");
         for (const TomlEntry& casimir : entry->value.entries) {
             reader.names.declare(casimir.name(), Role::casimir, casimir.where());
-            reader.casimirs.emplace_back(casimir.key,
-                                         read_expression(casimir.value, fmt::format("the Casimir '{}'", casimir.name())));
+            reader.casimirs.emplace_back(
+                casimir.key, read_expression(casimir.value, fmt::format("the Casimir '{}'", casimir.name())));
         }
     }
     (void)table.take("constraints");

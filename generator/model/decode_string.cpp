@@ -77,7 +77,8 @@ class Decoder {
         const std::size_t start = at_;
         const char c = text[at_ + 1];
         at_ += 2;
-        if (c == ' ' || c == '\t' || c == '\n' || c == '\r') { // a line-ending backslash swallows the white space after it
+        if (c == ' ' || c == '\t' || c == '\n' ||
+            c == '\r') { // a line-ending backslash swallows the white space after it
             while (at_ < end_ && std::string_view(" \t\r\n").find(text[at_]) != std::string_view::npos) ++at_;
             return;
         }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// The stages of reading a model, in the order in which read_model calls them: names are declared first, so that expressions may
-/// use what stands later in the file.
+/// The stages of reading a model, in the order in which read_model calls them: names are declared first, so that
+/// expressions may use what stands later in the file.
 #pragma once
 
 #include "model/model.hpp"

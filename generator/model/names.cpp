@@ -48,7 +48,8 @@ void Names::declare(const std::string& name, Role role, const SourceRange& where
     constexpr std::size_t most_names = 4096;
     require_identifier(name, where, role == Role::momentum ? "the name of a momentum" : "a name");
     if (name == "t") {
-        throw ModelError(fmt::format("'t' is the time and cannot be {}", role_text(role)), where, "choose another name");
+        throw ModelError(fmt::format("'t' is the time and cannot be {}", role_text(role)), where,
+                         "choose another name");
     }
     if (find_function(name) != nullptr) {
         throw ModelError(fmt::format("'{}' is a built-in function and cannot be {}", name, role_text(role)), where,
@@ -87,13 +88,14 @@ void require_identifier(const std::string& name, const SourceRange& where, const
 {
     if (is_identifier(name)) return;
     if (name.find('[') != std::string::npos) {
-        throw ModelError(fmt::format("'{}' is a family; families of names belong to the model format, but this version of "
-                                     "lagen does not read them",
-                                     name),
-                         where);
+        throw ModelError(
+            fmt::format("'{}' is a family; families of names belong to the model format, but this version of "
+                        "lagen does not read them",
+                        name),
+            where);
     }
-    throw ModelError(fmt::format("'{}' cannot be {}: letters, digits and '_' are allowed, and no digit first", name, what),
-                     where);
+    throw ModelError(
+        fmt::format("'{}' cannot be {}: letters, digits and '_' are allowed, and no digit first", name, what), where);
 }
 
 } // namespace lagen

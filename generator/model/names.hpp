@@ -43,8 +43,8 @@ class Names {
 /// Throws ModelError unless `name` is an identifier (ASCII or Unicode letters, digits, _).
 void require_identifier(const std::string& name, const SourceRange& where, const char* what);
 
-/// Throws ModelError unless `name` can be the name of a C++ class: ASCII letters, digits and _, no keyword, nothing that
-/// C++ reserves for itself.
+/// Throws ModelError unless `name` can be the name of a C++ class: ASCII letters, digits and _, no keyword, nothing
+/// that C++ reserves for itself.
 void require_class_name(const std::string& name, const SourceRange& where, bool from_file_name);
 
 } // namespace lagen

@@ -38,12 +38,14 @@ const KindEntry& read_kind(const TomlEntry* entry)
     }
     for (const char* kind : later_kinds) {
         if (text != kind) continue;
-        throw ModelError(fmt::format("the algebroid kind '{}' belongs to the model format, but this version of lagen does not "
-                                     "read it",
-                                     text),
-                         entry->value.where, "any algebroid can be given outright: kind = \"general\"");
+        throw ModelError(
+            fmt::format("the algebroid kind '{}' belongs to the model format, but this version of lagen does not "
+                        "read it",
+                        text),
+            entry->value.where, "any algebroid can be given outright: kind = \"general\"");
     }
-    throw ModelError(fmt::format("unknown algebroid kind '{}'", text), entry->value.where, hint_for(text, known, "kinds"));
+    throw ModelError(fmt::format("unknown algebroid kind '{}'", text), entry->value.where,
+                     hint_for(text, known, "kinds"));
 }
 
 void require_fitting(const TomlEntry* entry, bool fits, const KindEntry& kind)
@@ -94,13 +96,12 @@ void read_anchor(ModelReader& reader, const TomlEntry& block)
         for (const TomlEntry& entry : section.value.entries) {
             const std::size_t i = index_of(base, entry.name());
             if (i == base.size()) {
-                throw ModelError(fmt::format("the anchor of '{}' names '{}', which is no base coordinate", section.name(),
-                                             entry.name()),
+                throw ModelError(fmt::format("the anchor of '{}' names '{}', which is no base coordinate",
+                                             section.name(), entry.name()),
                                  entry.where(), hint_for(entry.name(), names_of(base), "base coordinates"));
             }
             const std::string what = fmt::format("the anchor entry '{}' of '{}'", entry.name(), section.name());
-            const Tree value =
-                reader.close(read_expression(entry.value, what), {Role::parameter, Role::base}, what);
+            const Tree value = reader.close(read_expression(entry.value, what), {Role::parameter, Role::base}, what);
             reader.model.algebroid.anchor.push_back(AnchorEntry{a, i, value, entry.value.where});
         }
     }
@@ -169,7 +170,8 @@ void read_algebroid_kind(ModelReader& reader, const TomlEntry* block)
         throw ModelError("[algebroid] gives both 'algebra' and 'bracket'", bracket->where(), "keep one of them");
     }
     if (algebra == nullptr && bracket == nullptr) {
-        throw ModelError(fmt::format("an algebroid of kind '{}' needs 'algebra' or 'bracket'", kind.name), block->where(),
+        throw ModelError(fmt::format("an algebroid of kind '{}' needs 'algebra' or 'bracket'", kind.name),
+                         block->where(),
                          "algebra = \"so(3)\", or [algebroid.bracket] with a line a pair (empty: abelian)");
     }
 }

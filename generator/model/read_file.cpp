@@ -22,8 +22,10 @@ std::string read_file(const std::string& path)
     if (path.find('\0') != std::string::npos) refuse("has a zero byte in its name", "");
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::status(path, error);
-    if (status.type() == std::filesystem::file_type::not_found) refuse("does not exist", "give the path of a .toml file");
-    if (status.type() == std::filesystem::file_type::directory) refuse("is a folder", "give the path of a .toml file in it");
+    if (status.type() == std::filesystem::file_type::not_found)
+        refuse("does not exist", "give the path of a .toml file");
+    if (status.type() == std::filesystem::file_type::directory)
+        refuse("is a folder", "give the path of a .toml file in it");
     std::ifstream in(path, std::ios::binary);
     if (!in) refuse(fmt::format("cannot be opened: {}", std::strerror(errno)), "");
     std::string text;

@@ -6,8 +6,8 @@
 
 namespace lagen {
 
-/// The whole content of the file. Throws ModelError: it does not exist, is a folder, cannot be opened or read, or holds more
-/// than 16 MiB (pipes are read too, and bounded alike).
+/// The whole content of the file. Throws ModelError: it does not exist, is a folder, cannot be opened or read, or holds
+/// more than 16 MiB (pipes are read too, and bounded alike).
 [[nodiscard]] std::string read_file(const std::string& path);
 
 } // namespace lagen

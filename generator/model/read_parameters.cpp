@@ -23,8 +23,9 @@ void apply(ModelReader& reader, const Setting& setting)
         return;
     }
     const Names::Entry* entry = reader.names.find(setting.name);
-    const std::string what = entry != nullptr ? fmt::format("'{}' is {}, not a parameter", setting.name, role_text(entry->role))
-                                              : fmt::format("the model has no parameter '{}' to set", setting.name);
+    const std::string what = entry != nullptr
+                                 ? fmt::format("'{}' is {}, not a parameter", setting.name, role_text(entry->role))
+                                 : fmt::format("the model has no parameter '{}' to set", setting.name);
     throw ModelError(what, setting.value.range(0, setting.value.text.size()),
                      hint_for(setting.name, reader.names.of(Role::parameter), "parameters"));
 }
@@ -60,8 +61,8 @@ void read_parameters(ModelReader& reader, const TomlEntry* block, const std::vec
         for (std::size_t k = 0; k < block->value.entries.size(); ++k) {
             const TomlEntry& entry = block->value.entries[k];
             const Tree value = read_expression(entry.value, fmt::format("the parameter '{}'", entry.name()));
-            reader.model.parameters[k].value = reader.close(value, {Role::parameter},
-                                                            fmt::format("the value of parameter '{}'", entry.name()));
+            reader.model.parameters[k].value =
+                reader.close(value, {Role::parameter}, fmt::format("the value of parameter '{}'", entry.name()));
         }
     }
     for (const Setting& setting : settings) apply(reader, setting);
@@ -96,15 +97,17 @@ void require_acyclic(const std::vector<NamedTree>& parameters)
             const auto place = index.find(top.uses[top.next++]);
             if (place == index.end() || done.contains(place->second)) continue;
             const std::size_t used = place->second;
-            const auto start = std::find_if(path.begin(), path.end(), [&](const Visit& v) { return v.parameter == used; });
+            const auto start =
+                std::find_if(path.begin(), path.end(), [&](const Visit& v) { return v.parameter == used; });
             if (start == path.end()) {
                 enter(used);
                 continue;
             }
             std::string cycle;
             for (auto each = start; each != path.end(); ++each) cycle += parameters[each->parameter].name + " -> ";
-            throw ModelError(fmt::format("the parameters depend on each other in a cycle: {}{}", cycle, parameters[used].name),
-                             parameters[used].where, "give one of them a value of its own");
+            throw ModelError(
+                fmt::format("the parameters depend on each other in a cycle: {}{}", cycle, parameters[used].name),
+                parameters[used].where, "give one of them a value of its own");
         }
     }
 }

@@ -27,7 +27,10 @@ Named read_named(const TomlEntry* block, const char* title, const char* noun)
     return out;
 }
 
-SourceRange place_of(const Excerpt& key) { return key.range(0, key.text.size()); }
+SourceRange place_of(const Excerpt& key)
+{
+    return key.range(0, key.text.size());
+}
 
 /// The first name in `tree` that plays none of `roles`; walks shared trees once.
 const TreeNode* first_forbidden(const Tree& tree, const Names& names, std::initializer_list<Role> roles)
@@ -54,8 +57,8 @@ const TreeNode* first_forbidden(const Tree& tree, const Names& names, std::initi
 void declare_observable(ModelReader& reader, const Excerpt& key, const Tree& value)
 {
     const Names::Entry* entry = reader.names.find(key.text);
-    const bool same = entry != nullptr && entry->role == Role::definition && value->kind == TreeKind::name &&
-                      value->name == key.text;
+    const bool same =
+        entry != nullptr && entry->role == Role::definition && value->kind == TreeKind::name && value->name == key.text;
     if (!same) reader.names.declare(key.text, Role::observable, place_of(key));
 }
 
@@ -84,8 +87,9 @@ Tree ModelReader::close(const Tree& tree, std::initializer_list<Role> roles, con
             const std::string_view text = role_text(each);
             allowed += fmt::format("{}{}", allowed.empty() ? "" : ", ", text.substr(text.find(' ') + 1));
         }
-        throw ModelError(fmt::format("{} may not depend on {} ('{}')", what, std::string_view(role_text(role)), bad->name),
-                         bad->where.file ? bad->where : tree->where, "allowed here: " + allowed);
+        throw ModelError(
+            fmt::format("{} may not depend on {} ('{}')", what, std::string_view(role_text(role)), bad->name),
+            bad->where.file ? bad->where : tree->where, "allowed here: " + allowed);
     }
     return closed;
 }

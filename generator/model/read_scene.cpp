@@ -51,19 +51,22 @@ void read_initial(const ModelReader& reader, Scene& scene, const TomlEntry& bloc
                 const std::vector<std::string> more = reader.names.of(role);
                 known.insert(known.end(), more.begin(), more.end());
             }
-            throw ModelError(fmt::format("scene '{}' gives an initial value to '{}', which is no coordinate of the model",
-                                         scene.name, entry.name()),
-                             entry.where(), hint_for(entry.name(), known, "coordinates"));
+            throw ModelError(
+                fmt::format("scene '{}' gives an initial value to '{}', which is no coordinate of the model",
+                            scene.name, entry.name()),
+                entry.where(), hint_for(entry.name(), known, "coordinates"));
         }
         const std::string what = fmt::format("the initial value of '{}'", entry.name());
         own.push_back(NamedTree{entry.name(), over_parameters(reader, entry.value, what), entry.where()});
     }
     const auto gives = [&](Role role) {
-        return std::any_of(own.begin(), own.end(), [&](const NamedTree& each) { return has_role(reader, each.name, role); });
+        return std::any_of(own.begin(), own.end(),
+                           [&](const NamedTree& each) { return has_role(reader, each.name, role); });
     };
     for (const auto& [given, other] : {std::pair{Role::momentum, Role::fibre}, {Role::fibre, Role::momentum}}) {
         if (!gives(given) || gives(other)) continue;
-        std::erase_if(scene.initial, [&, role = other](const NamedTree& each) { return has_role(reader, each.name, role); });
+        std::erase_if(scene.initial,
+                      [&, role = other](const NamedTree& each) { return has_role(reader, each.name, role); });
     }
     for (NamedTree& entry : own) put(scene.initial, std::move(entry));
 }
@@ -73,8 +76,9 @@ void read_scene_parameters(const ModelReader& reader, Scene& scene, const TomlEn
     const TableReader table(block.value, fmt::format("'parameters' of scene '{}'", scene.name));
     for (const TomlEntry& entry : block.value.entries) {
         if (!has_role(reader, entry.name(), Role::parameter)) {
-            throw ModelError(fmt::format("scene '{}' sets '{}', which is no parameter of the model", scene.name, entry.name()),
-                             entry.where(), hint_for(entry.name(), reader.names.of(Role::parameter), "parameters"));
+            throw ModelError(
+                fmt::format("scene '{}' sets '{}', which is no parameter of the model", scene.name, entry.name()),
+                entry.where(), hint_for(entry.name(), reader.names.of(Role::parameter), "parameters"));
         }
         const std::string what = fmt::format("the value of parameter '{}'", entry.name());
         put(scene.parameters, NamedTree{entry.name(), over_parameters(reader, entry.value, what), entry.where()});
@@ -92,7 +96,8 @@ void read_observe(const ModelReader& reader, Scene& scene, const TomlEntry& entr
         const SourceRange where = text.range(0, text.text.size());
         if (text.text == "state" && reader.names.find("state") == nullptr) {
             const Fibre& fibre = reader.model.fibre;
-            for (const Symbol& symbol : reader.model.base.coordinates) add({symbol.name, name(symbol.name, where), where});
+            for (const Symbol& symbol : reader.model.base.coordinates)
+                add({symbol.name, name(symbol.name, where), where});
             for (const Symbol& symbol : scene.form == "hamilton" ? fibre.momenta : fibre.coordinates) {
                 add({symbol.name, name(symbol.name, where), where});
             }
@@ -112,8 +117,9 @@ void read_sampling(const ModelReader& reader, Scene& scene, TableReader& table)
         const TomlEntry* entry = table.take(key);
         if (entry == nullptr) continue;
         if (given != nullptr) {
-            throw ModelError(fmt::format("scene '{}' gives both '{}' and '{}'", scene.name, given->name(), entry->name()),
-                             entry->where(), "keep one of sample, samples and at");
+            throw ModelError(
+                fmt::format("scene '{}' gives both '{}' and '{}'", scene.name, given->name(), entry->name()),
+                entry->where(), "keep one of sample, samples and at");
         }
         given = entry;
     }
@@ -128,8 +134,9 @@ void read_sampling(const ModelReader& reader, Scene& scene, TableReader& table)
     } else {
         scene.sampling.kind = Sampling::Kind::at;
         if (given->value.kind != TomlKind::array) {
-            throw ModelError(fmt::format("'at'{} is {}, where an array of times is required", of, kind_text(given->value.kind)),
-                             given->value.where);
+            throw ModelError(
+                fmt::format("'at'{} is {}, where an array of times is required", of, kind_text(given->value.kind)),
+                given->value.where);
         }
         for (const TomlValue& time : given->value.items) {
             scene.sampling.at.push_back(over_parameters(reader, time, "a time in 'at'" + of));
@@ -152,8 +159,8 @@ void read_numbers(const ModelReader& reader, Scene& scene, TableReader& table)
     const bool one = take("tolerance", tolerance);
     const bool two = take("relative", relative) | take("absolute", absolute);
     if (one && two) {
-        throw ModelError(fmt::format("scene '{}' gives 'tolerance' and also 'relative' or 'absolute'", scene.name), scene.where,
-                         "'tolerance' means both; keep it or the other two");
+        throw ModelError(fmt::format("scene '{}' gives 'tolerance' and also 'relative' or 'absolute'", scene.name),
+                         scene.where, "'tolerance' means both; keep it or the other two");
     }
     if (one) {
         scene.tolerance = tolerance;
@@ -201,16 +208,16 @@ void require_complete(const ModelReader& reader, const Scene& scene)
     const bool some_fibre = no_fibre.size() < fibre.coordinates.size();
     const bool some_momenta = no_momentum.size() < fibre.momenta.size();
     if (some_fibre && some_momenta) {
-        throw ModelError(fmt::format("scene '{}' mixes fibre coordinates and momenta in 'initial'", scene.name), scene.where,
-                         "give every fibre coordinate or every momentum");
+        throw ModelError(fmt::format("scene '{}' mixes fibre coordinates and momenta in 'initial'", scene.name),
+                         scene.where, "give every fibre coordinate or every momentum");
     }
     std::vector<std::string> missing = missing_of(reader.model.base.coordinates);
     const std::vector<std::string>& rest = some_momenta ? no_momentum : no_fibre;
     if (!scene.rest || some_momenta) missing.insert(missing.end(), rest.begin(), rest.end());
     if (missing.empty()) return;
     const bool fibre_left_out = !rest.empty() && !some_momenta;
-    throw ModelError(fmt::format("scene '{}' leaves out the initial value{} of {}", scene.name, missing.size() > 1 ? "s" : "",
-                                 comma_list(missing)),
+    throw ModelError(fmt::format("scene '{}' leaves out the initial value{} of {}", scene.name,
+                                 missing.size() > 1 ? "s" : "", comma_list(missing)),
                      scene.where, fibre_left_out ? "rest = true sets the fibre coordinates left out to zero" : "");
 }
 
@@ -257,13 +264,16 @@ void read_scenes(ModelReader& reader, const TomlEntry* block, const std::vector<
     const TableReader table(block->value, "[scene]");
     const std::vector<TomlEntry>& entries = block->value.entries;
     if (entries.size() > most_scenes) {
-        throw ModelError(fmt::format("the model has {} scenes, more than {}", entries.size(), most_scenes), block->where());
+        throw ModelError(fmt::format("the model has {} scenes, more than {}", entries.size(), most_scenes),
+                         block->where());
     }
     std::vector<std::string> known;
     std::map<std::string, std::size_t> index;
     for (std::size_t k = 0; k < entries.size(); ++k) {
-        if (entries[k].name().empty() || read_text(TomlValue{TomlKind::string, entries[k].where(), entries[k].key, 0, false, true, {}, {}},
-                                                   "a scene's name").empty()) {
+        if (entries[k].name().empty() ||
+            read_text(TomlValue{TomlKind::string, entries[k].where(), entries[k].key, 0, false, true, {}, {}},
+                      "a scene's name")
+                .empty()) {
             throw ModelError("a scene has an empty name", entries[k].where());
         }
         known.push_back(entries[k].name());
@@ -277,7 +287,8 @@ void read_scenes(ModelReader& reader, const TomlEntry* block, const std::vector<
         while (next && !done[*next]) {
             const std::size_t k = *next;
             if (std::find(chain.begin(), chain.end(), k) != chain.end()) {
-                throw ModelError(fmt::format("scene '{}' is like itself, through 'like'", known[k]), entries[k].where());
+                throw ModelError(fmt::format("scene '{}' is like itself, through 'like'", known[k]),
+                                 entries[k].where());
             }
             chain.push_back(k);
             TableReader fields(entries[k].value, fmt::format("[scene.{}]", known[k]));
@@ -286,8 +297,8 @@ void read_scenes(ModelReader& reader, const TomlEntry* block, const std::vector<
             if (like == nullptr) continue;
             const std::string target = read_text(like->value, fmt::format("'like' of scene '{}'", known[k]));
             if (!index.contains(target)) {
-                throw ModelError(fmt::format("scene '{}' is like '{}', which is no scene", known[k], target), like->value.where,
-                                 hint_for(target, known, "scenes"));
+                throw ModelError(fmt::format("scene '{}' is like '{}', which is no scene", known[k], target),
+                                 like->value.where, hint_for(target, known, "scenes"));
             }
             next = index.at(target);
         }

@@ -20,7 +20,8 @@ namespace {
 Tree read_decimal(const TomlValue& value, const std::string& what)
 {
     if (!value.finite) {
-        throw ModelError(fmt::format("{} is '{}', where a finite number is required", what, value.text.text), value.where);
+        throw ModelError(fmt::format("{} is '{}', where a finite number is required", what, value.text.text),
+                         value.where);
     }
     Excerpt plain{value.text.file, {}, {}};
     bool negative = false;
@@ -59,10 +60,11 @@ std::string read_text(const TomlValue& value, const std::string& what)
     if (value.kind != TomlKind::string) refuse_type(value, what, "a string");
     const std::size_t at = first_control_character(value.text.text);
     if (at != value.text.text.size()) {
-        const CodePoint point = code_point_at(value.text.text, at);
-        throw ModelError(fmt::format("{} contains the control character U+{:04X}; printable characters on one line are required",
-                                     what, static_cast<unsigned>(point.value)),
-                         value.text.range(at, point.next));
+        const Character point = character_at(value.text.text, at);
+        throw ModelError(
+            fmt::format("{} contains the control character U+{:04X}; printable characters on one line are required",
+                        what, static_cast<unsigned>(point.value)),
+            value.text.range(at, point.next));
     }
     return value.text.text;
 }

@@ -10,7 +10,10 @@ namespace {
 
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
-unsigned byte(std::string_view text, std::size_t at) { return static_cast<unsigned char>(text[at]); }
+unsigned byte(std::string_view text, std::size_t at)
+{
+    return static_cast<unsigned char>(text[at]);
+}
 
 /// Bytes of the sequence that `lead` opens; 0 where it opens none.
 std::size_t sequence_length(unsigned lead)
@@ -68,7 +71,7 @@ std::size_t first_invalid_utf8(std::string_view text)
     return at;
 }
 
-CodePoint code_point_at(std::string_view text, std::size_t at)
+Character character_at(std::string_view text, std::size_t at)
 {
     const unsigned lead = byte(text, at);
     const std::size_t length = std::max<std::size_t>(1, sequence_length(lead));
@@ -81,7 +84,7 @@ std::size_t first_control_character(std::string_view text)
 {
     std::size_t at = 0;
     while (at < text.size()) {
-        const CodePoint point = code_point_at(text, at);
+        const Character point = character_at(text, at);
         if (is_control(point.value)) return at;
         at = point.next;
     }

@@ -27,9 +27,10 @@ void TableReader::refuse_later(std::initializer_list<const char*> keys) const
     for (const TomlEntry& entry : value_.entries) {
         for (const char* key : keys) {
             if (entry.name() != key) continue;
-            const std::string what =
-                title_ == "the model" ? fmt::format("the block [{}]", key) : fmt::format("the key '{}' of {}", key, title_);
-            throw ModelError(what + " belongs to the model format, but this version of lagen does not read it", entry.where());
+            const std::string what = title_ == "the model" ? fmt::format("the block [{}]", key)
+                                                           : fmt::format("the key '{}' of {}", key, title_);
+            throw ModelError(what + " belongs to the model format, but this version of lagen does not read it",
+                             entry.where());
         }
     }
 }

@@ -19,7 +19,8 @@ class TableReader {
     /// The entry called `key`, or nullptr; the key is known from now on.
     [[nodiscard]] const TomlEntry* take(const std::string& key);
 
-    /// Keys that the format has and this version of lagen does not read: one of them present is a ModelError of its own.
+    /// Keys that the format has and this version of lagen does not read: one of them present is a ModelError of its
+    /// own.
     void refuse_later(std::initializer_list<const char*> keys) const;
 
     /// Throws ModelError for the first entry that was not taken.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// A TOML text as a tree of our own: entries in the order of the file, every key and value with its bytes in the file, strings as
-/// excerpts that know where each of their bytes came from, and numbers still as text.
+/// A TOML text as a tree of our own: entries in the order of the file, every key and value with its bytes in the file,
+/// strings as excerpts that know where each of their bytes came from, and numbers still as text.
 #pragma once
 
 #include "diagnostic.hpp"
@@ -33,8 +33,8 @@ struct TomlEntry {
     [[nodiscard]] SourceRange where() const { return key.range(0, key.text.size()); }
 };
 
-/// Parses TOML 1.0. Throws ModelError for invalid UTF-8, forbidden control characters, syntax errors, duplicate keys and
-/// numbers beyond 64 bits, each at its place.
+/// Parses TOML 1.0. Throws ModelError for invalid UTF-8, forbidden control characters, syntax errors, duplicate keys
+/// and numbers beyond 64 bits, each at its place.
 [[nodiscard]] TomlValue parse_toml(const std::shared_ptr<const SourceFile>& file);
 
 /// "a string", "a boolean", ...: how messages call a value.

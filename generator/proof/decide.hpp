@@ -49,6 +49,16 @@ struct ProofBudget {
     long precision = 256;        ///< bits of the first enclosure (doubled up to 8 times the value)
 };
 
+/// A base constraint that is not triangular; `index` says which one of ProofSetting::constraints.
+class TriangularityError : public MathematicsError {
+  public:
+    TriangularityError(const std::string& text, std::size_t index) : MathematicsError(text), index_(index) {}
+    [[nodiscard]] std::size_t index() const noexcept { return index_; }
+
+  private:
+    std::size_t index_;
+};
+
 /// Decides residuals of one graph under one setting. Same answers and texts on every run and machine.
 class ZeroDecider {
   public:

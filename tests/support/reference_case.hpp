@@ -52,12 +52,10 @@ struct ReferenceCase {
 /// One entry of tests/data/definitions/definitions.json.
 struct ReferenceDefinition {
     ReferenceCase algebroid;          ///< name, base, fibre (e1, e2, ...), rho, brackets, parameters (value 1)
-    std::vector<std::string> domain;  ///< strict inequalities
     bool valid = false;
-    std::vector<std::string> failing; ///< as the file names them
+    std::vector<std::string> failing; ///< names of the checks that are refuted
 };
 
 [[nodiscard]] std::vector<ReferenceDefinition> read_reference_definitions();
-[[nodiscard]] std::string model_text(const ReferenceDefinition& definition);
 
 } // namespace lagen

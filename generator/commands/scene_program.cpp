@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/scene_program.hpp"
+
+#include "diagnostic.hpp"
+#include "emit/print_header.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace lagen {
+
+namespace {
+
+/// Enough digits that the program reads the double nearest to the number.
+std::string text_of(long double value)
+{
+    return fmt::format("{:.21g}", value);
+}
+
+std::string list_of(const std::vector<long double>& values)
+{
+    std::string text;
+    for (const long double value : values) text += (text.empty() ? "" : ",") + text_of(value);
+    return text;
+}
+
+const char* direction_text(Direction direction)
+{
+    switch (direction) {
+    case Direction::rising: return "rising";
+    case Direction::falling: return "falling";
+    case Direction::any: return "any";
+    }
+    return "any";
+}
+
+std::string events_of(const std::vector<Event>& events)
+{
+    std::string text;
+    for (const Event& event : events)
+        text += fmt::format("{}{}:{}:{}:{}", text.empty() ? "" : ",", event.name, direction_text(event.direction),
+                            event.stop ? 1 : 0, event.count);
+    return text;
+}
+
+std::string columns_text(const std::vector<Column>& columns)
+{
+    std::string text;
+    for (const Column& column : columns)
+        text += fmt::format("{}{}{}", text.empty() ? "" : ",", column.state ? 's' : 'o', column.index);
+    return text.empty() ? "-" : text;
+}
+
+/// "INITIAL,MAX_DRIFT" of the invariant `name`.
+Drift drift_of(std::string name, const std::string& value)
+{
+    const std::size_t comma = value.find(',');
+    return {std::move(name), value.substr(0, comma), comma == std::string::npos ? "" : value.substr(comma + 1)};
+}
+
+void read_line(const std::string& key, const std::string& value, RunOutcome& outcome)
+{
+    constexpr std::string_view invariant = "invariant:";
+    if (key == "status") outcome.status = value;
+    if (key == "failed_at") outcome.where = value;
+    if (key == "steps") outcome.steps = value;
+    if (key == "rejected") outcome.rejected = value;
+    if (key == "rhs_calls") outcome.rhs_calls = value;
+    if (key == "seconds") outcome.seconds = value;
+    if (key == "event") {
+        const std::size_t at = value.rfind('@');
+        outcome.events.push_back({value.substr(0, at), at == std::string::npos ? "" : value.substr(at + 1)});
+    }
+    if (key == "energy") outcome.invariants.push_back(drift_of("energy", value));
+    if (key.starts_with(invariant)) outcome.invariants.push_back(drift_of(key.substr(invariant.size()), value));
+}
+
+} // namespace
+
+std::string program_text(const std::string& name, const MethodEntry& method)
+{
+    return fmt::format(
+        "#include \"model.hpp\"\n#include \"lagen/driver.hpp\"\nint main(int argc, char** argv)\n{{\n    return "
+        "lagen::drive<lagen::models::{}<double>, lagen::{}>(argc, argv);\n}}\n",
+        cpp_names({name})[0], method.type);
+}
+
+std::vector<Column> columns_of(const KernelModule& module, const Scene& scene)
+{
+    std::vector<std::string> states;
+    for (const std::vector<Quantity>* group : {&module.base, &module.fibre})
+        for (const Quantity& quantity : *group) states.push_back(quantity.name);
+    std::vector<Column> columns;
+    if (!scene.observe) {
+        for (std::size_t k = 0; k < states.size(); ++k) columns.push_back({states[k], true, k});
+        return columns;
+    }
+    const auto observables = std::find_if(module.kernels.begin(), module.kernels.end(),
+                                          [](const Kernel& kernel) { return kernel.name == "observables"; });
+    for (const NamedTree& wanted : *scene.observe) {
+        const auto state = std::find(states.begin(), states.end(), wanted.name);
+        if (state != states.end()) {
+            columns.push_back({wanted.name, true, static_cast<std::size_t>(state - states.begin())});
+            continue;
+        }
+        if (observables == module.kernels.end())
+            throw InternalError(fmt::format("no observables for '{}'", wanted.name));
+        const std::vector<std::string>& names = observables->entry_names;
+        const auto entry = std::find(names.begin(), names.end(), wanted.name);
+        if (entry == names.end())
+            throw InternalError(fmt::format("'{}' is missing among the observables", wanted.name));
+        columns.push_back({wanted.name, false, static_cast<std::size_t>(entry - names.begin())});
+    }
+    return columns;
+}
+
+std::vector<std::string> program_arguments(const std::string& program, const ProgramInput& input)
+{
+    std::vector<std::string> arguments{
+        program, "--initial", list_of(input.initial), "--start", text_of(input.start), "--end", text_of(input.end)};
+    const auto give = [&](const char* name, std::string value) {
+        arguments.insert(arguments.end(), {name, std::move(value)});
+    };
+    if (!input.parameters.empty()) give("--parameters", list_of(input.parameters));
+    if (input.step) give("--step", text_of(*input.step));
+    if (input.relative) give("--relative", text_of(*input.relative));
+    if (input.absolute) give("--absolute", text_of(*input.absolute));
+    switch (input.sampling) {
+    case Sampling::Kind::standard: give("--samples", "201"); break;
+    case Sampling::Kind::count: give("--samples", std::to_string(input.samples)); break;
+    case Sampling::Kind::interval: give("--interval", text_of(*input.interval)); break;
+    case Sampling::Kind::at: give("--at-file", input.at_file); break;
+    }
+    if (input.events != nullptr && !input.events->empty()) give("--events", events_of(*input.events));
+    give("--columns", columns_text(input.columns));
+    give("--report", input.report_file);
+    return arguments;
+}
+
+void read_report(const std::string& text, RunOutcome& outcome)
+{
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = std::min(text.find('\n', begin), text.size());
+        const std::string line = text.substr(begin, end - begin);
+        const std::size_t equals = line.find('=');
+        if (equals != std::string::npos) read_line(line.substr(0, equals), line.substr(equals + 1), outcome);
+        begin = end + 1;
+    }
+    if (outcome.status.empty()) throw InternalError("the program of a scene gave no report");
+}
+
+} // namespace lagen

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// The program of a scene: its text, its arguments and its report, as runtime/include/lagen/driver.hpp defines them.
+#pragma once
+
+#include "commands/methods.hpp"
+#include "commands/run_report.hpp"
+#include "graph/kernel.hpp"
+#include "model/evaluate_scene.hpp"
+
+namespace lagen {
+
+/// The whole main of the program that integrates class `name` (of header "model.hpp") with `method`.
+[[nodiscard]] std::string program_text(const std::string& name, const MethodEntry& method);
+
+/// A column of the table: a state lane or an entry of the observables.
+struct Column {
+    std::string name;
+    bool state = true;
+    std::size_t index = 0;
+};
+
+/// `t` apart, what the scene observes: all states, or exactly its `observe` list, found in the module's observables.
+[[nodiscard]] std::vector<Column> columns_of(const KernelModule& module, const Scene& scene);
+
+/// Everything that the program is told.
+struct ProgramInput {
+    std::vector<long double> parameters;
+    std::vector<long double> initial; ///< state lanes, base first
+    long double start = 0, end = 0;
+    std::optional<long double> step, relative, absolute;
+    Sampling::Kind sampling = Sampling::Kind::standard;
+    std::optional<long double> interval;
+    std::size_t samples = 201;
+    std::string at_file; ///< path of the file with the times
+    const std::vector<Event>* events = nullptr;
+    std::vector<Column> columns;
+    std::string report_file;
+};
+
+[[nodiscard]] std::vector<std::string> program_arguments(const std::string& program, const ProgramInput& input);
+
+/// Reads the report's KEY=VALUE lines into `outcome`.
+void read_report(const std::string& text, RunOutcome& outcome);
+
+} // namespace lagen

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "emit/module_names.hpp"
+
+#include "emit/print_header.hpp"
+
+namespace lagen {
+
+namespace {
+
+/// Names that mean something inside every member function.
+std::set<std::string> class_scope_names(const KernelModule& module, const std::string& class_name)
+{
+    std::set<std::string> names{
+        class_name, "S",      "Scalar", "State",      "t",         "s",          "ds",           "values",
+        "status",   "select", "result", "parameters", "parameter", "state",      "state_names",  "parameter_names",
+        "dimension", "base_dimension", "fibre_dimension", "model_name", "model_hash", "status_t", "parameter_status",
+        "singular_tolerance", "PivotedLu"};
+    for (const Kernel& kernel : module.kernels) {
+        names.insert(kernel.name);
+        for (const char* suffix : {"_names", "_rows", "_columns", "_values"}) names.insert(kernel.name + suffix);
+    }
+    return names;
+}
+
+/// Loads of inputs inside functions: the member's name, with a '_' where it would hide something.
+void name_locals(const std::vector<Quantity>& quantities, const std::vector<std::string>& members, LocalNames& locals)
+{
+    for (std::size_t k = 0; k < quantities.size(); ++k) {
+        std::string name = members[k];
+        while (locals.taken.contains(name)) name += name.back() == '_' ? "1_" : "_";
+        locals.taken.insert(name);
+        locals.inputs[quantities[k].input] = name;
+    }
+}
+
+} // namespace
+
+ModuleNames name_module(const KernelModule& module)
+{
+    std::vector<std::string> all;
+    for (const auto* group : {&module.parameters, &module.base, &module.fibre})
+        for (const Quantity& quantity : *group) all.push_back(quantity.name);
+    const std::vector<std::string> spelled = cpp_names(all);
+    ModuleNames names;
+    names.class_name = cpp_names({module.name}).front();
+    auto next = spelled.begin();
+    const auto take = [&](std::size_t count) {
+        const auto first = next;
+        next += static_cast<std::ptrdiff_t>(count);
+        return std::vector<std::string>(first, next);
+    };
+    names.parameters = take(module.parameters.size());
+    names.base = take(module.base.size());
+    names.fibre = take(module.fibre.size());
+    names.locals.taken = class_scope_names(module, names.class_name);
+    names.locals.inputs[module.time] = "t";
+    names.moving.push_back(module.time);
+    for (const auto* group : {&module.base, &module.fibre})
+        for (const Quantity& quantity : *group) names.moving.push_back(quantity.input);
+    name_locals(module.parameters, names.parameters, names.locals);
+    name_locals(module.base, names.base, names.locals);
+    name_locals(module.fibre, names.fibre, names.locals);
+    return names;
+}
+
+} // namespace lagen

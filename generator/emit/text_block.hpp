@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Lines of C++ with indentation, at most 120 columns.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lagen {
+
+class TextBlock {
+  public:
+    /// Lines from now on stand `levels` further to the right (negative: to the left).
+    void indent(int levels) { level_ += levels; }
+    /// One line; a longer one is broken at spaces outside of string literals, its continuation eight columns further right.
+    void line(std::string_view text);
+    void blank() { text_ += '\n'; }
+    /// `/// text`, sanitised by comment_text; an empty text gives a bare `///`.
+    void comment(std::string_view text);
+    [[nodiscard]] const std::string& text() const { return text_; }
+
+  private:
+    int level_ = 0;
+    std::string text_;
+};
+
+/// "a, b, c".
+[[nodiscard]] std::string joined(const std::vector<std::string>& parts);
+
+} // namespace lagen

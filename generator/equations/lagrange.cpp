@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Lagrange's equations by GiNaC, every group of the formula brought to its own shortest form. [Martinez 2001]
+#include "equations/lagrange.hpp"
+#include "symbolic/shortest_form.hpp"
+
+#include <algorithm>
+
+namespace lagen {
+namespace {
+
+/// Terms of one group, kept apart until they are simplified together.
+using Sum = GiNaC::exvector;
+
+GiNaC::ex total(const Sum& terms) { return GiNaC::ex(GiNaC::dynallocate<GiNaC::add>(terms)); }
+
+class LagrangeDerivation {
+  public:
+    LagrangeDerivation(const Model& model, const Algebroid& algebroid) : model_(model), algebroid_(algebroid) {
+        for (const Parameter& parameter : model.parameters)
+            order_.parameters.push_back(parameter.symbol.name);
+        for (const NamedTree& casimir : model.base.casimirs)
+            if (!is_declared(casimir.name))
+                order_.parameters.push_back(casimir.name);
+        if (!is_declared("t"))
+            order_.variables.emplace_back("t");
+        for (const Symbol& symbol : algebroid.base)
+            x_.push_back(variable(symbol.name));
+        for (const Symbol& symbol : algebroid.fibre)
+            y_.push_back(variable(symbol.name));
+        for (const Symbol& symbol : model.fibre.momenta)
+            momenta_.push_back(variable(symbol.name));
+        lower();
+    }
+
+    EquationSet derive() {
+        EquationSet set{model_.name, model_.title, "lagrange", {}, {}};
+        append_symbols(set);
+        set.blocks = {kinematics(), momenta(), momentum_form(), acceleration_form(), energy()};
+        return set;
+    }
+
+  private:
+    [[nodiscard]] bool is_declared(const std::string& name) const {
+        const std::vector<std::string> names = symbol_names(model_);
+        return std::find(names.begin(), names.end(), name) != names.end();
+    }
+
+    GiNaC::symbol variable(const std::string& name) {
+        order_.variables.push_back(name);
+        return symbols_.symbol(name);
+    }
+
+    void lower() {
+        lagrangian_ = to_ginac(model_.lagrangian, symbols_);
+        anchor_.assign(y_.size(), std::vector<GiNaC::ex>(x_.size()));
+        for (const AnchorValue& entry : algebroid_.rho)
+            anchor_[entry.a][entry.i] += to_ginac(entry.value, symbols_);
+        const std::size_t r = y_.size();
+        std::vector<bool> given(r * r, false);
+        bracket_.assign(r * r, std::vector<GiNaC::ex>(r));
+        for (const StructureValue& entry : algebroid_.C) {
+            given[entry.a * r + entry.b] = true;
+            bracket_[entry.a * r + entry.b][entry.c] += to_ginac(entry.value, symbols_);
+        }
+        for (std::size_t a = 0; a < r; ++a)
+            for (std::size_t b = 0; b < r; ++b)
+                if (given[a * r + b] && !given[b * r + a])
+                    for (std::size_t c = 0; c < r; ++c)
+                        bracket_[b * r + a][c] = -bracket_[a * r + b][c];
+        for (const GiNaC::symbol& y : y_)
+            p_.push_back(lagrangian_.diff(y));
+    }
+
+    void append_symbols(EquationSet& set) const {
+        for (const Parameter& parameter : model_.parameters)
+            set.symbols.push_back({parameter.symbol.name, parameter.symbol.latex});
+        for (const std::vector<Symbol>* list : {&algebroid_.base, &algebroid_.fibre, &model_.fibre.momenta})
+            for (const Symbol& symbol : *list)
+                set.symbols.push_back({symbol.name, symbol.latex});
+    }
+
+    [[nodiscard]] Tree shortest(const GiNaC::ex& e) const { return shortest_form(e, symbols_, order_); }
+
+    /// Adds a group unless it is zero.
+    void append(std::vector<TermGroup>& groups, const char* label, const Sum& terms) const {
+        const Tree value = shortest(total(terms));
+        if (value->kind != TreeKind::number || value->number != 0)
+            groups.push_back({label, value});
+    }
+
+    [[nodiscard]] Equation equation(LeftSide left, const std::string& symbol, const Sum& terms) const {
+        Equation result{left, symbol, {}, {}};
+        append(result.groups, "", terms);
+        return result;
+    }
+
+    /// rho_a(f) = rho^i_a df/dx^i
+    [[nodiscard]] Sum along_anchor(std::size_t a, const GiNaC::ex& f) const {
+        Sum terms;
+        for (std::size_t i = 0; i < x_.size(); ++i)
+            if (!anchor_[a][i].is_zero())
+                terms.push_back(anchor_[a][i] * f.diff(x_[i]));
+        return terms;
+    }
+
+    /// -p_c C^c_ab y^b for given momenta
+    template <class Momenta>
+    [[nodiscard]] Sum bracket_terms(std::size_t a, const Momenta& p) const {
+        Sum terms;
+        for (std::size_t b = 0; b < y_.size(); ++b)
+            for (std::size_t c = 0; c < y_.size(); ++c)
+                if (!bracket_[a * y_.size() + b][c].is_zero())
+                    terms.push_back(-p[c] * bracket_[a * y_.size() + b][c] * y_[b]);
+        return terms;
+    }
+
+    /// rho_a(L) and -(d2L/dy^a dx^i) rho^i_b y^b: both hold derivatives of the same coefficients, so they share one group
+    /// where terms cancel and the sum is shorter than its parts.
+    void append_gradient_and_drift(std::vector<TermGroup>& groups, std::size_t a) const {
+        const Sum gradient = along_anchor(a, lagrangian_);
+        Sum drift;
+        for (std::size_t b = 0; b < y_.size(); ++b)
+            for (const GiNaC::ex& term : along_anchor(b, p_[a]))
+                drift.push_back(-term * y_[b]);
+        std::vector<TermGroup> apart;
+        append(apart, "ρ_a(L)", gradient);
+        append(apart, "-(∂²L/∂y^a∂x^i) ρ^i_b y^b", drift);
+        if (apart.size() == 2) {
+            Sum both = gradient;
+            both.insert(both.end(), drift.begin(), drift.end());
+            const Tree together = shortest(total(both));
+            if (to_text(together).size() < to_text(apart[0].value).size() + to_text(apart[1].value).size())
+                apart = {{"ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b", together}};
+        }
+        groups.insert(groups.end(), apart.begin(), apart.end());
+    }
+
+    [[nodiscard]] EquationBlock kinematics() const {
+        EquationBlock block{"kinematics", "ẋ^i = ρ^i_a y^a", R"(\dot x^i = \rho^i_a\, y^a)", {}};
+        for (std::size_t i = 0; i < x_.size(); ++i) {
+            Sum terms;
+            for (std::size_t a = 0; a < y_.size(); ++a)
+                terms.push_back(anchor_[a][i] * y_[a]);
+            block.equations.push_back(equation(LeftSide::time_derivative, algebroid_.base[i].name, terms));
+        }
+        return block;
+    }
+
+    [[nodiscard]] EquationBlock momenta() const {
+        EquationBlock block{"momenta", "p_a = ∂L/∂y^a", R"(p_a = \frac{\partial L}{\partial y^a})", {}};
+        for (std::size_t a = 0; a < momenta_.size(); ++a)
+            block.equations.push_back(equation(LeftSide::symbol, model_.fibre.momenta[a].name, {p_[a]}));
+        return block;
+    }
+
+    [[nodiscard]] EquationBlock momentum_form() const {
+        EquationBlock block{"equations of motion (momentum form)", "ṗ_a = ρ_a(L) - p_c C^c_ab y^b",
+                            R"(\dot p_a = \rho_a(L) - p_c\, C^c_{ab}\, y^b)", {}};
+        for (std::size_t a = 0; a < momenta_.size(); ++a) {
+            Equation next{LeftSide::time_derivative, model_.fibre.momenta[a].name, {}, {}};
+            append(next.groups, "ρ_a(L)", along_anchor(a, lagrangian_));
+            append(next.groups, "-p_c C^c_ab y^b", bracket_terms(a, momenta_));
+            block.equations.push_back(std::move(next));
+        }
+        return block;
+    }
+
+    [[nodiscard]] EquationBlock acceleration_form() {
+        EquationBlock block{
+            "equations of motion (acceleration form)",
+            "W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - ∂²L/∂y^a∂t - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b",
+            R"(W_{ab}\, \dot y^b = \rho_a(L) - \frac{\partial^2 L}{\partial y^a \partial x^i}\, \rho^i_b\, y^b - \frac{\partial^2 L}{\partial y^a \partial t} - p_c\, C^c_{ab}\, y^b, \quad W_{ab} = \frac{\partial^2 L}{\partial y^a \partial y^b})",
+            {}};
+        for (std::size_t a = 0; a < y_.size(); ++a) {
+            Equation next{LeftSide::time_derivative, algebroid_.fibre[a].name, {}, {}};
+            for (std::size_t b = 0; b < y_.size(); ++b)
+                append(next.mass, algebroid_.fibre[b].name.c_str(), {p_[a].diff(y_[b])});
+            append_gradient_and_drift(next.groups, a);
+            if (!is_declared("t"))
+                append(next.groups, "-∂²L/∂y^a∂t", {-p_[a].diff(symbols_.symbol("t"))});
+            append(next.groups, "-p_c C^c_ab y^b", bracket_terms(a, p_));
+            if (next.mass.empty())
+                next.left = LeftSide::zero;
+            block.equations.push_back(std::move(next));
+        }
+        return block;
+    }
+
+    [[nodiscard]] EquationBlock energy() const {
+        EquationBlock block{"energy", "E = y^a p_a - L", R"(E = y^a p_a - L)", {}};
+        Sum terms = {-lagrangian_};
+        for (std::size_t a = 0; a < y_.size(); ++a)
+            terms.push_back(y_[a] * p_[a]);
+        block.equations.push_back(equation(LeftSide::symbol, is_declared("E") ? "E_L" : "E", terms));
+        return block;
+    }
+
+    const Model& model_;
+    const Algebroid& algebroid_;
+    SymbolTable symbols_;
+    Order order_;
+    std::vector<GiNaC::symbol> x_, y_, momenta_;
+    GiNaC::ex lagrangian_;
+    std::vector<std::vector<GiNaC::ex>> anchor_;  ///< anchor_[a][i] = rho^i_a
+    std::vector<std::vector<GiNaC::ex>> bracket_; ///< bracket_[a r + b][c] = C^c_ab
+    std::vector<GiNaC::ex> p_;
+};
+
+} // namespace
+
+EquationSet derive_lagrange(const Model& model, const Algebroid& algebroid) {
+    if (!model.lagrangian)
+        throw MathematicsError("the model " + model.name + " has no Lagrangian, so that there are no Lagrange equations; give [lagrangian] L");
+    try {
+        return LagrangeDerivation(model, algebroid).derive();
+    } catch (const Error&) {
+        throw;
+    } catch (const std::exception& error) {
+        throw MathematicsError("Lagrange's equations of " + model.name + " could not be derived: " + error.what());
+    }
+}
+
+} // namespace lagen

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Operation counts of a set of outputs.
+#include "graph/operators.hpp"
+#include "graph/simplify.hpp"
+
+#include <set>
+
+namespace lagen {
+
+OperationCount count_operations(const Graph& graph, std::span<const NodeId> roots)
+{
+    OperationCount count;
+    std::set<NodeId> angles; // sin and cos of one angle are one call
+    for (const NodeId id : reachable(graph, roots)) {
+        const Op op = graph.op(id);
+        if ((op == Op::sin || op == Op::cos) && !angles.insert(graph.operands(id)[0]).second) continue;
+        count.weight += operation_weight(graph, id);
+        switch (op) {
+        case Op::constant:
+        case Op::pi:
+        case Op::input:
+        case Op::factor:
+        case Op::component: break;
+        case Op::add:
+        case Op::subtract:
+        case Op::negate: ++count.additions; break;
+        case Op::multiply: ++count.multiplications; break;
+        case Op::divide: ++count.divisions; break;
+        case Op::power: {
+            const std::int64_t n = static_cast<std::int32_t>(graph.payload(id));
+            count.multiplications += static_cast<std::size_t>(power_multiplications(n < 0 ? -n : n));
+            if (n < 0) ++count.divisions;
+            break;
+        }
+        case Op::solve: ++count.solves; break;
+        default: ++count.functions;
+        }
+    }
+    return count;
+}
+
+} // namespace lagen

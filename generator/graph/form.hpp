@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// One form of a set of outputs, as polynomials over atoms, and the passes of the portfolio on it.
+#pragma once
+
+#include "graph/polynomial.hpp"
+
+namespace lagen {
+
+/// What is multiplied out while a form is read off the graph.
+enum class Expansion {
+    none,      ///< sums stay closed
+    monomials, ///< x (a + b), but not (a + b)(c + d)
+    all,       ///< everything, under a budget of terms for each sum
+};
+
+struct Form {
+    Algebra algebra;
+    std::vector<Polynomial> roots;
+};
+
+/// The outputs with like terms collected. Throws FormRefused where the budget does not suffice.
+[[nodiscard]] Form collect(const Graph& graph, std::span<const NodeId> outputs, Expansion expansion);
+
+/// Draws the factor that most terms of a sum share out of it, again and again, in all sums (multivariate Horner).
+void draw_out_factors(Form& form);
+
+/// Names pairs of factors, and pairs of terms, that occur at least twice.
+void share_factor_pairs(Form& form);
+void share_term_pairs(Form& form);
+
+/// Names the reciprocal of a divisor that at least two terms share: one division, the others multiply.
+void share_reciprocals(Form& form);
+
+/// The form as nodes of `graph`, one an output.
+[[nodiscard]] std::vector<NodeId> rebuild(const Form& form, Graph& graph);
+
+/// A polynomial of a form: operand `operand` of an atom, or a root.
+struct Place {
+    bool root = false;
+    AtomId atom = 0;
+    std::size_t operand = 0; ///< index of the root where `root`
+};
+
+/// The polynomials that the roots need, operands before their users. Throws FormRefused on a cycle.
+[[nodiscard]] std::vector<Place> live_places(const Form& form);
+[[nodiscard]] Polynomial& at(Form& form, const Place& place);
+[[nodiscard]] const Polynomial& at(const Form& form, const Place& place);
+
+/// The atoms that the roots need, operands before their users. Throws FormRefused on a cycle.
+[[nodiscard]] std::vector<AtomId> live_atoms(const Form& form);
+
+} // namespace lagen

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// The walk over the graph: one ring element a node, in topological order.
+#include "proof/normal_form.hpp"
+
+#include "proof/print_fraction.hpp"
+
+namespace lagen {
+
+NormalForm::NormalForm(const Graph& graph, const ProofSetting& setting, const std::vector<SolvedConstraint>& constraints,
+                       const std::vector<NodeId>& roots, Work budget, Angles angles)
+    : graph_(graph), setting_(setting), constraints_(constraints), roots_(roots), ring_(budget), elementary_(ring_, angles)
+{
+    const auto declare = [this](NodeId input) {
+        if (inputs_.count(input) > 0) return;
+        inputs_[input] = ring_.add_generator({graph_.input_name(input), {}, 0, {}, -1, false});
+    };
+    for (const NodeId input : setting.parameters) declare(input);
+    for (const NodeId input : setting.variables) declare(input);
+    std::vector<NodeId> all = roots;
+    all.insert(all.end(), setting.constraints.begin(), setting.constraints.end());
+    all.insert(all.end(), setting.domain.begin(), setting.domain.end());
+    for (const NodeId node : reachable(graph, all))
+        if (graph.op(node) == Op::input) declare(node);
+    prepare();
+}
+
+void NormalForm::prepare()
+{
+    // Signs first, since a constraint may divide by what the domain makes nonzero; signs again, in the ring that the
+    // constraints leave.
+    add_domain();
+    for (const SolvedConstraint& solved : constraints_) solve_constraint(solved);
+    done_.clear();
+    if (!constraints_.empty()) add_domain();
+    add_definedness();
+}
+
+void NormalForm::add_domain()
+{
+    for (const NodeId node : setting_.domain) {
+        const auto operands = graph_.operands(node);
+        const Op op = graph_.op(node);
+        if (operands.size() != 2 || op < Op::less || op > Op::not_equal || op == Op::equal) continue;
+        Fraction difference = ring_.add(of(operands[0]), of(operands[1]), -1);
+        if (op == Op::less || op == Op::less_equal) difference = ring_.negate(std::move(difference));
+        const bool strict = op != Op::less_equal && op != Op::greater_equal;
+        const Signs known{op == Op::not_equal, !strict, true};
+        Polynomial product = difference.num;
+        // n / d > 0 says n d > 0.
+        for (const auto& [index, power] : difference.factors)
+            if (power % 2 != 0) product = ring_.times(product, Polynomial(ring_.factor(index)));
+        ring_.add_fact(product, known);
+    }
+}
+
+std::vector<NonnegativeOperand> nonnegative_operands(const Graph& graph, const std::vector<NodeId>& roots)
+{
+    std::vector<NonnegativeOperand> found;
+    std::vector<NodeId> needed = reachable(graph, roots);
+    std::map<NodeId, bool> certain;
+    for (const NodeId root : roots) certain[root] = true;
+    for (std::size_t k = needed.size(); k-- > 0;) {
+        const NodeId node = needed[k];
+        if (!certain[node]) continue;
+        const auto operands = graph.operands(node);
+        for (std::size_t j = 0; j < operands.size(); ++j)
+            if (graph.op(node) != Op::select || j == 0) certain[operands[j]] = true;
+        const Op op = graph.op(node);
+        if (op == Op::log || op == Op::sqrt) found.push_back({operands[0], op == Op::log});
+        if (op == Op::real_power && !graph.is_constant(operands[1])) found.push_back({operands[0], true});
+        if (op == Op::real_power && graph.is_constant(operands[1]) && graph.value(operands[1]).get_den() != 1)
+            found.push_back({operands[0], sgn(graph.value(operands[1])) < 0});
+    }
+    return found;
+}
+
+void NormalForm::add_definedness()
+{
+    // A root's own argument tells more once the signs of simpler arguments are known: those without functions first.
+    for (const NonnegativeOperand& operand : nonnegative_operands(graph_, roots_)) {
+        bool simple = true;
+        for (const NodeId node : reachable(graph_, std::vector<NodeId>{operand.node}))
+            simple = simple && (graph_.op(node) <= Op::power || graph_.op(node) == Op::sin || graph_.op(node) == Op::cos);
+        if (!simple) continue;
+        const Fraction value = of(operand.node);
+        Polynomial product = value.num;
+        for (const auto& [index, power] : value.factors)
+            if (power % 2 != 0) product = ring_.times(product, Polynomial(ring_.factor(index)));
+        ring_.add_fact(product, {false, !operand.positive, true});
+    }
+}
+
+void NormalForm::solve_constraint(const SolvedConstraint& solved)
+{
+    done_.clear();
+    const Polynomial h = of(setting_.constraints[solved.constraint]).num;
+    const GeneratorId id = inputs_.at(solved.variable);
+    Polynomial leading, lower;
+    for (const Term& term : h) {
+        if (term.monomial.exponent_of(id) == solved.degree) {
+            leading.push_back({term.monomial.without(id), term.coefficient});
+        } else {
+            lower.push_back(term);
+        }
+    }
+    Work& work = ring_.work();
+    leading = collect(std::move(leading), work);
+    if (!ring_.signs(leading).certainly_nonzero()) condition_ = to_text(ring_, leading);
+    if (solved.degree == 1) {
+        substitutes_[solved.variable] = ring_.divide(ring_.negate(ring_.of(lower)), ring_.of(leading));
+    } else if (is_constant(leading) && abs(leading[0].coefficient) == 1) {
+        ring_.set_relation(id, solved.degree, scale(lower, -leading[0].coefficient));
+    } else {
+        // V = leading * v satisfies the monic V^k = -leading^(k-1) lower.
+        const Fraction ratio = ring_.of(leading);
+        Generator scaled{"(" + graph_.input_name(solved.variable) + "*(" + to_text(ring_, leading) + "))", {}, 0, {}, -1, false};
+        scaled.power = solved.degree;
+        scaled.relation = ring_.times(negate(ring_.power(leading, solved.degree - 1)), lower);
+        substitutes_[solved.variable] = ring_.divide(ring_.of(ring_.add_generator(scaled)), ratio);
+    }
+    done_.clear();
+}
+
+Fraction NormalForm::of(NodeId node)
+{
+    // A finer unit for an angle changes earlier results: start again. Each restart divides a unit by an integer.
+    for (int restart = 0; restart < 32; ++restart) {
+        Fraction result = once(node);
+        if (!elementary_.take_refined()) return result;
+        done_.clear();
+    }
+    throw BudgetExhausted("32 refinements of angle units exhausted");
+}
+
+Fraction NormalForm::once(NodeId node)
+{
+    if (const auto at = done_.find(node); at != done_.end()) return at->second;
+    for (const NodeId id : reachable(graph_, std::vector<NodeId>{node}))
+        if (done_.find(id) == done_.end()) done_.emplace(id, apply(id));
+    return done_.at(node);
+}
+
+Fraction NormalForm::apply(NodeId node)
+{
+    switch (graph_.op(node)) {
+    case Op::constant: return ring_.constant(graph_.value(node));
+    case Op::pi: return elementary_.pi();
+    case Op::input: {
+        const auto substitute = substitutes_.find(node);
+        return substitute != substitutes_.end() ? substitute->second : ring_.of(inputs_.at(node));
+    }
+    case Op::add:
+    case Op::subtract:
+    case Op::multiply:
+    case Op::divide:
+    case Op::negate:
+    case Op::power: return arithmetic(node);
+    case Op::factor:
+    case Op::solve: return {}; // never read: a component looks at the entries itself
+    case Op::component: return component(node);
+    default: return function(node);
+    }
+}
+
+Fraction NormalForm::arithmetic(NodeId node)
+{
+    const Fraction& a = operand(node, 0);
+    switch (graph_.op(node)) {
+    case Op::add: return ring_.add(a, operand(node, 1));
+    case Op::subtract: return ring_.add(a, operand(node, 1), -1);
+    case Op::multiply: return ring_.times(a, operand(node, 1));
+    case Op::negate: return ring_.negate(a);
+    case Op::power: return ring_.power(a, static_cast<std::int32_t>(graph_.payload(node)));
+    default: break;
+    }
+    return ring_.divide(a, operand(node, 1));
+}
+
+Fraction NormalForm::function(NodeId node)
+{
+    const Fraction& a = operand(node, 0);
+    switch (graph_.op(node)) {
+    case Op::sin: return elementary_.sine_cosine(a).sine;
+    case Op::cos: return elementary_.sine_cosine(a).cosine;
+    case Op::tan: {
+        const auto [sine, cosine] = elementary_.sine_cosine(a);
+        return ring_.divide(sine, cosine);
+    }
+    case Op::sinh:
+    case Op::cosh: {
+        const Fraction e = elementary_.exponential(a);
+        const Fraction twice = ring_.add(e, ring_.inverse(e), graph_.op(node) == Op::sinh ? -1 : 1);
+        return ring_.times(ring_.constant(mpq_class(1, 2)), twice);
+    }
+    case Op::tanh: {
+        const Fraction square = ring_.power(elementary_.exponential(a), 2);
+        const Fraction one = ring_.constant(1);
+        return ring_.divide(ring_.add(square, one, -1), ring_.add(square, one));
+    }
+    case Op::exp: return elementary_.exponential(a);
+    case Op::log: return elementary_.logarithm(a);
+    case Op::sqrt: return elementary_.root(a, 2);
+    case Op::abs: return elementary_.absolute(a);
+    case Op::real_power: return elementary_.real_power(a, operand(node, 1));
+    default: break;
+    }
+    std::vector<Fraction> arguments;
+    for (const NodeId id : graph_.operands(node)) arguments.push_back(done_.at(id));
+    static constexpr const char* names[] = {"less", "less_equal", "greater", "greater_equal", "equal", "not_equal"};
+    const Op op = graph_.op(node);
+    switch (op) {
+    case Op::asin: return elementary_.opaque("asin", arguments);
+    case Op::acos: return elementary_.opaque("acos", arguments);
+    case Op::atan: return elementary_.opaque("atan", arguments);
+    case Op::atan2: return elementary_.opaque("atan2", arguments);
+    case Op::minimum: return elementary_.opaque("min", arguments);
+    case Op::maximum: return elementary_.opaque("max", arguments);
+    case Op::sign: return elementary_.opaque("sign", arguments);
+    case Op::select: return elementary_.opaque("if", arguments);
+    default: return elementary_.opaque(names[static_cast<int>(op) - static_cast<int>(Op::less)], arguments);
+    }
+}
+
+} // namespace lagen

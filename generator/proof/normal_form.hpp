@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Normal forms of graph nodes in the ring of one decision: the proof half of the zero decision.
+#pragma once
+
+#include "graph/graph.hpp"
+#include "proof/decide.hpp"
+#include "proof/elementary.hpp"
+
+namespace lagen {
+
+/// Constraint `constraint` solves for `variable`: leading * variable^degree + (terms of lower degree) = 0.
+struct SolvedConstraint {
+    std::size_t constraint = 0; ///< index in ProofSetting::constraints
+    NodeId variable = 0;
+    unsigned degree = 1;
+    bool pure = true; ///< no terms of degrees 1 .. degree - 1
+};
+
+/// Normal forms under one setting. One object serves one decision.
+class NormalForm {
+  public:
+    /// `roots`: everything whose definedness may be used, the residual included.
+    NormalForm(const Graph& graph, const ProofSetting& setting, const std::vector<SolvedConstraint>& constraints,
+               const std::vector<NodeId>& roots, Work budget, Angles angles = Angles::split);
+
+    /// Throws BudgetExhausted or VanishingDivisor. Zero proves that the node vanishes wherever everything is defined, except
+    /// where `condition()` vanishes.
+    [[nodiscard]] Fraction of(NodeId node);
+    /// A divisor that reduction used and that was not shown to be nonzero on the domain; empty: none.
+    [[nodiscard]] const std::string& condition() const { return condition_; }
+    [[nodiscard]] Ring& ring() { return ring_; }
+    [[nodiscard]] GeneratorId generator_of(NodeId input) const { return inputs_.at(input); }
+
+  private:
+    void prepare();
+    void add_domain();
+    void add_definedness();
+    void solve_constraint(const SolvedConstraint& solved);
+    [[nodiscard]] Fraction once(NodeId node);
+    [[nodiscard]] Fraction apply(NodeId node);
+    [[nodiscard]] Fraction arithmetic(NodeId node);
+    [[nodiscard]] Fraction function(NodeId node);
+    [[nodiscard]] Fraction component(NodeId node);
+    [[nodiscard]] Fraction determinant(const std::vector<Fraction>& matrix, std::size_t n);
+    [[nodiscard]] const Fraction& operand(NodeId node, std::size_t k) const { return done_.at(graph_.operands(node)[k]); }
+
+    const Graph& graph_;
+    const ProofSetting& setting_;
+    const std::vector<SolvedConstraint>& constraints_;
+    std::vector<NodeId> roots_;
+    Ring ring_;
+    Elementary elementary_;
+    std::map<NodeId, GeneratorId> inputs_;
+    std::map<NodeId, Fraction> substitutes_; ///< of inputs that constraints solve
+    std::map<NodeId, Fraction> done_;
+    std::string condition_;
+};
+
+/// The operands of sqrt, log and real powers that must be defined where `roots` are: branches of select are left out.
+struct NonnegativeOperand {
+    NodeId node;
+    bool positive; ///< of log
+};
+[[nodiscard]] std::vector<NonnegativeOperand> nonnegative_operands(const Graph& graph, const std::vector<NodeId>& roots);
+
+} // namespace lagen

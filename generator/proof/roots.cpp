@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Roots and absolute values: what is certainly of one sign leaves the root, even powers leave it as absolute values.
+#include "proof/elementary.hpp"
+#include "proof/print_fraction.hpp"
+
+namespace lagen {
+
+namespace {
+
+constexpr std::size_t longest_text = 160;
+
+int floor_divide(int a, int b)
+{
+    return a >= 0 ? a / b : -((b - 1 - a) / b);
+}
+
+} // namespace
+
+std::vector<std::pair<mpz_class, unsigned>> small_factors(const mpz_class& number)
+{
+    std::vector<std::pair<mpz_class, unsigned>> factors;
+    mpz_class rest = abs(number);
+    for (unsigned long p = 2; p < 2000 && rest > 1; ++p) {
+        unsigned exponent = 0;
+        while (mpz_divisible_ui_p(rest.get_mpz_t(), p)) {
+            rest /= p;
+            ++exponent;
+        }
+        if (exponent > 0) factors.emplace_back(p, exponent);
+    }
+    if (rest > 1) {
+        mpz_class root;
+        const bool square = mpz_perfect_square_p(rest.get_mpz_t()) != 0;
+        if (square) root = sqrt(rest);
+        factors.emplace_back(square ? root : rest, square ? 2U : 1U);
+    }
+    return factors;
+}
+
+Elementary::Factored Elementary::factored(const Fraction& a)
+{
+    std::vector<std::pair<std::size_t, unsigned>> above;
+    const mpz_class unit = ring_.split(a.num, above);
+    Factored result{mpq_class(unit, a.scale), {}};
+    result.number.canonicalize();
+    for (const auto& [index, power] : above) result.factors.push_back({ring_.factor(index), static_cast<int>(power)});
+    for (const auto& [index, power] : a.factors) result.factors.push_back({ring_.factor(index), -static_cast<int>(power)});
+    return result;
+}
+
+const Fraction* Elementary::exponent_of(const Polynomial& p) const
+{
+    if (p.size() != 1 || p[0].coefficient != 1 || p[0].monomial.size() != 1) return nullptr;
+    const auto at = exponents_.find(p[0].monomial.generator(0));
+    return at == exponents_.end() || p[0].monomial.exponent(0) != 1 ? nullptr : &at->second;
+}
+
+Fraction Elementary::root_generator(const Polynomial& radicand, unsigned degree)
+{
+    const std::string key = "root" + std::to_string(degree) + ':' + key_of(radicand);
+    const GeneratorId id = ring_.keyed(key, [&] {
+        const std::string inner = to_text(ring_, radicand, longest_text);
+        const std::string text = degree == 2 ? "sqrt(" + inner + ")" : "(" + inner + ")^(1/" + std::to_string(degree) + ")";
+        const Range range = ring_.signs(radicand).zero ? Range::nonnegative() : Range::positive();
+        return ring_.add_generator({text, range, degree, radicand, -1, false});
+    });
+    return ring_.of(id);
+}
+
+Fraction Elementary::number_root(const mpq_class& number, unsigned degree)
+{
+    Fraction result = ring_.constant(1);
+    const auto multiply_in = [&](const mpz_class& integer, int sign) {
+        for (const auto& [prime, power] : small_factors(integer)) {
+            const int exponent = sign * static_cast<int>(power);
+            const int whole = floor_divide(exponent, static_cast<int>(degree));
+            const int rest = exponent - whole * static_cast<int>(degree);
+            result = ring_.times(result, ring_.power(ring_.constant(mpq_class(prime)), whole));
+            if (rest > 0) {
+                const Fraction w = root_generator(constant_polynomial(prime), degree);
+                result = ring_.times(result, ring_.power(w, rest));
+            }
+        }
+    };
+    multiply_in(number.get_num(), 1);
+    multiply_in(number.get_den(), -1);
+    return result;
+}
+
+Fraction Elementary::remaining_root(const Polynomial& radicand, unsigned degree)
+{
+    if (is_one(radicand)) return ring_.constant(1);
+    if (degree == 2) {
+        std::vector<Polynomial> forms = ring_.rewritings(radicand);
+        forms.insert(forms.begin(), radicand);
+        Polynomial square;
+        for (const Polynomial& form : forms)
+            if (square_root(form, square, ring_.work())) return absolute(ring_.of(square));
+    }
+    return root_generator(radicand, degree);
+}
+
+Fraction Elementary::root(const Fraction& argument, unsigned degree)
+{
+    if (argument.is_zero()) return {};
+    const Factored parts = factored(argument);
+    Fraction result = number_root(parts.number, degree);
+    Polynomial rest = constant_polynomial(sgn(parts.number) < 0 ? -1 : 1);
+    const int q = static_cast<int>(degree);
+    for (const auto& [base, exponent] : parts.factors) {
+        if (const Fraction* inner = exponent_of(base)) {
+            mpq_class power(exponent, q);
+            power.canonicalize();
+            result = ring_.times(result, exponential(ring_.times(ring_.constant(power), *inner)));
+            continue;
+        }
+        int whole = floor_divide(exponent, q);
+        if (ring_.signs(base).certainly_nonnegative()) {
+            result = ring_.times(result, ring_.power(ring_.of(base), whole));
+            const int left = exponent - whole * q;
+            if (left > 0) result = ring_.times(result, ring_.power(remaining_root(base, degree), left));
+            continue;
+        }
+        // f^(q k) has the root |f|^k where q k is even.
+        if (q % 2 != 0 && whole % 2 != 0) --whole;
+        if (whole != 0) result = ring_.times(result, ring_.power(absolute(ring_.of(base)), whole));
+        rest = ring_.times(rest, ring_.power(base, static_cast<unsigned>(exponent - whole * q)));
+    }
+    if (is_one(rest)) return result;
+    return ring_.times(result, remaining_root(rest, degree));
+}
+
+Fraction Elementary::absolute_generator(const Polynomial& p)
+{
+    const GeneratorId id = ring_.keyed("abs:" + key_of(p), [&] {
+        const std::string text = "abs(" + to_text(ring_, p, longest_text) + ")";
+        const Range range = ring_.signs(p).zero ? Range::nonnegative() : Range::positive();
+        return ring_.add_generator({text, range, 2, ring_.power(p, 2), -1, false});
+    });
+    return ring_.of(id);
+}
+
+Fraction Elementary::absolute(const Fraction& argument)
+{
+    if (argument.is_zero()) return {};
+    const Factored parts = factored(argument);
+    Fraction result = ring_.constant(abs(parts.number));
+    for (const auto& [base, exponent] : parts.factors) {
+        const Signs signs = ring_.signs(base);
+        Fraction magnitude = ring_.of(base);
+        if (!signs.certainly_nonnegative() && exponent % 2 != 0)
+            magnitude = !signs.positive ? ring_.negate(magnitude) : absolute_generator(base);
+        result = ring_.times(result, ring_.power(magnitude, exponent));
+    }
+    return result;
+}
+
+Fraction Elementary::real_power(const Fraction& base, const Fraction& exponent)
+{
+    const std::optional<mpq_class> number = exponent.constant();
+    if (number && number->get_den() <= 64 && abs(number->get_num()) <= 4096) {
+        const auto degree = static_cast<unsigned>(number->get_den().get_ui());
+        const int power = static_cast<int>(number->get_num().get_si());
+        if (power == 0) return ring_.constant(1);
+        return ring_.power(degree == 1 ? base : root(base, degree), power);
+    }
+    return exponential(ring_.times(exponent, logarithm(base)));
+}
+
+} // namespace lagen

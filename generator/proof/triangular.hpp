@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Base constraints in triangular form: each solves for a coordinate of its own, linearly or as a monic power.
+#pragma once
+
+#include "diagnostic.hpp"
+#include "proof/normal_form.hpp"
+
+namespace lagen {
+
+/// The constraints in an order in which each can be solved from what the earlier ones leave. Coordinates that stand under a
+/// function or in a divisor of a constraint are not solved for. Throws TriangularityError.
+[[nodiscard]] std::vector<SolvedConstraint> triangular_constraints(const Graph& graph, const ProofSetting& setting);
+
+} // namespace lagen

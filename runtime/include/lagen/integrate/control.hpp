@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+/// Step control of the adaptive methods, as in Hairer's codes: the scaled error norm, the PI controller and the first step.
+#pragma once
+
+#include "lagen/integrate/tableau.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace lagen {
+
+/// The numbers of step control: see AdaptiveMethod.
+struct StepControl {
+    double tolerance = 1e-9;
+    double relative = -1;
+    double absolute = -1;
+    double first_step = 0;
+    double max_step = 0;
+    double safety = 0.9;
+    double shrink = 0.2;  ///< a new step is at least this fraction of the old one
+    double grow = 10;     ///< and at most this multiple
+    double beta = 0.04;   ///< PI control [Gustafsson 1991]; zero: the classical control
+
+    [[nodiscard]] constexpr double relative_tolerance() const noexcept { return relative < 0 ? tolerance : relative; }
+    [[nodiscard]] constexpr double absolute_tolerance() const noexcept { return absolute < 0 ? tolerance : absolute; }
+    /// Tolerances finite, not negative, not both zero; caps not negative; factors in their ranges.
+    [[nodiscard]] constexpr bool is_valid() const noexcept
+    {
+        const double r = relative_tolerance();
+        const double a = absolute_tolerance();
+        constexpr double large = std::numeric_limits<double>::max();
+        return r >= 0 && a >= 0 && r + a > 0 && r <= large && a <= large && first_step >= 0 && max_step >= 0 && safety > 0 &&
+               safety < 1 && shrink > 0 && shrink < 1 && grow > 1 && beta >= 0 && beta <= 0.2;
+    }
+};
+
+/// What a user writes: `Dop853{.tolerance = 1e-10}`. `tolerance` sets both tolerances; `relative` and `absolute` override it where
+/// they are not negative. Zero `first_step` chooses one, zero `max_step` sets no cap. The other numbers are those of Hairer's codes.
+template <class Family>
+struct AdaptiveMethod {
+    double tolerance = Family::defaults.tolerance;
+    double relative = Family::defaults.relative;
+    double absolute = Family::defaults.absolute;
+    double first_step = Family::defaults.first_step;
+    double max_step = Family::defaults.max_step;
+    double safety = Family::defaults.safety;
+    double shrink = Family::defaults.shrink;
+    double grow = Family::defaults.grow;
+    double beta = Family::defaults.beta;
+
+    [[nodiscard]] constexpr StepControl control() const noexcept
+    {
+        return {tolerance, relative, absolute, first_step, max_step, safety, shrink, grow, beta};
+    }
+
+    template <class M>
+    using Stepper = typename Family::template Stepper<M>;
+};
+
+namespace detail {
+
+/// sum over lanes of (e / (atol + rtol max(|s|, |s1|)))^2.
+template <class State>
+typename State::Scalar squared_error(const StepControl& control, const State& s, const State& s1, const State& e) noexcept
+{
+    using Real = typename State::Scalar;
+    using std::abs;
+    const Real rtol = static_cast<Real>(control.relative_tolerance());
+    const Real atol = static_cast<Real>(control.absolute_tolerance());
+    Real sum = Real(0);
+    for (Eigen::Index lane = 0; lane < s.size(); ++lane) {
+        const Real size = abs(s[lane]) < abs(s1[lane]) ? abs(s1[lane]) : abs(s[lane]);
+        // A scale of zero (absolute = 0 at a zero) asks for no error at all: the quotient 0/0 is then no error.
+        const Real scale = atol + rtol * size;
+        if (e[lane] != Real(0)) sum += (e[lane] / scale) * (e[lane] / scale);
+    }
+    return sum;
+}
+
+/// Proportional-integral control of the step [Hairer, Norsett, Wanner II.4; Hairer, Wanner IV.2].
+template <class Real>
+class Controller {
+  public:
+    Controller(const StepControl& control, int error_order) noexcept
+        : beta_(static_cast<Real>(control.beta)), safety_(static_cast<Real>(control.safety)),
+          most_(Real(1) / static_cast<Real>(control.shrink)), least_(Real(1) / static_cast<Real>(control.grow)),
+          exponent_(Real(1) / Real(error_order) - beta_ * Real(0.75))
+    {
+    }
+
+    /// The step after an accepted one with scaled error `error` <= 1.
+    [[nodiscard]] Real after_accepted(Real h, Real error) noexcept
+    {
+        using std::pow;
+        Real factor = pow(error, exponent_) / pow(last_, beta_) / safety_;
+        factor = factor < least_ ? least_ : (factor > most_ ? most_ : factor);
+        if (rejected_ && factor < Real(1)) factor = Real(1);
+        last_ = error < Real(1e-4) ? Real(1e-4) : error;
+        rejected_ = false;
+        return h / factor;
+    }
+
+    [[nodiscard]] Real after_rejected(Real h, Real error) noexcept
+    {
+        using std::pow;
+        const Real factor = pow(error, exponent_) / safety_;
+        rejected_ = true;
+        return h / (factor > most_ ? most_ : factor);
+    }
+
+    /// A step that could not be evaluated is halved.
+    [[nodiscard]] Real after_failure(Real h) noexcept
+    {
+        rejected_ = true;
+        return h / Real(2);
+    }
+
+  private:
+    Real beta_, safety_, most_, least_, exponent_;
+    Real last_ = Real(1e-4);
+    bool rejected_ = false;
+};
+
+/// A first step from the sizes of s, f and a difference of f [Hairer, Norsett, Wanner II.4, algorithm of hinit], signed like
+/// `length` and no longer. One call of the right-hand side, at x = s + h f; `x` and `f1` are scratch.
+template <class M>
+typename M::Scalar first_step(const M& model, const StepControl& control, int order, typename M::Scalar t,
+                              typename M::Scalar length, const typename M::State& s, const typename M::State& f,
+                              typename M::State& x, typename M::State& f1) noexcept
+{
+    using Real = typename M::Scalar;
+    using std::abs;
+    using std::pow;
+    using std::sqrt;
+    const Real n = static_cast<Real>(s.size());
+    const Real size = sqrt(squared_error(control, s, s, s) / n);
+    const Real slope = sqrt(squared_error(control, s, s, f) / n);
+    const Real cap = abs(length);
+    Real h = size < Real(1e-5) || slope < Real(1e-5) ? Real(1e-6) : Real(0.01) * size / slope;
+    if (!(h < cap)) h = cap;
+    const Real sign = length < Real(0) ? Real(-1) : Real(1);
+    for (Eigen::Index lane = 0; lane < s.size(); ++lane) x[lane] = s[lane] + sign * h * f[lane];
+    const bool good = model.rhs(t + sign * h, x, f1) == Status::ok;
+    for (Eigen::Index lane = 0; lane < s.size(); ++lane) x[lane] = f1[lane] - f[lane];
+    const Real bend = good ? sqrt(squared_error(control, s, s, x) / n) / h : Real(0);
+    Real steepest = bend < slope ? slope : bend;
+    Real h1 = steepest <= Real(1e-15) ? (Real(1e-6) < h * Real(1e-3) ? h * Real(1e-3) : Real(1e-6))
+                                      : pow(Real(0.01) / steepest, Real(1) / Real(order));
+    Real chosen = Real(100) * h < h1 ? Real(100) * h : h1;
+    if (!(chosen < cap)) chosen = cap;
+    return sign * (chosen > Real(0) ? chosen : h);
+}
+
+} // namespace detail
+
+} // namespace lagen

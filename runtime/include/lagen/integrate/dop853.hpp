@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+/// `lagen::Dop853{.tolerance = 1e-10}`: order 8 with error estimates of order 5 and 3 and dense output of order 7
+/// [Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, II.5 and II.10; code dop853.f].
+/// Twelve calls a step; three more in a step where a value inside it is asked for.
+#pragma once
+
+#include "lagen/integrate/control.hpp"
+#include "lagen/integrate/dop853_coefficients.hpp"
+
+namespace lagen {
+
+/// See integrate/march.hpp for what the march asks of a stepper.
+template <class M>
+class Dop853Stepper {
+    static_assert(!is_pack<typename M::Scalar>, "adaptive methods choose one step for one trajectory: use a fixed-step method with packs");
+
+  public:
+    using Scalar = typename M::Scalar;
+    using Real = Scalar;
+    using State = typename M::State;
+    using Tableau = tableau::Dop853;
+    static constexpr bool adaptive = true;
+    static constexpr int order = 8;
+    static constexpr int dense_order = 7;
+    static constexpr int error_order = 8; ///< err5^2 / err3 is of this order in h
+
+    template <class Method>
+    explicit Dop853Stepper(const Method& method) noexcept : control_(method.control())
+    {
+    }
+
+    Status begin(const M& model, Real t, const State& s) noexcept
+    {
+        x_ = State::Zero(s.size());
+        for (State& stage : k_) stage = x_;
+        for (State& coefficient : dense_) coefficient = x_;
+        ++calls_;
+        const Status status = model.rhs(t, s, k_[0]);
+        return status == Status::ok ? detail::check_finite(k_[0]) : status;
+    }
+
+    [[nodiscard]] Real first_step(const M& model, Real t, Real length, const State& s) noexcept
+    {
+        ++calls_;
+        return detail::first_step(model, control_, order, t, length, s, k_[0], x_, k_[1]);
+    }
+
+    Status attempt(const M& model, Real t, const State& s, Real h, State& s1) noexcept
+    {
+        calls_ += 11;
+        dense_ready_ = false;
+        const Status status = detail::evaluate_stages<Tableau, 1, 12>(model, t, s, h, x_, k_);
+        if (status != Status::ok) return status;
+        detail::add_weighted<Tableau::a, detail::lower_index(12, 0), 12>(s, h, k_, s1);
+        estimate(s, h, s1);
+        return detail::check_finite(s1);
+    }
+
+    [[nodiscard]] Real error() const noexcept { return error_; }
+
+    /// The derivative at the end of a step that will be accepted.
+    Status finish(const M& model, Real t1, const State& s1) noexcept
+    {
+        ++calls_;
+        const Status status = model.rhs(t1, s1, k_[12]);
+        return status == Status::ok ? detail::check_finite(k_[12]) : status;
+    }
+
+    void accept() noexcept { k_[0] = k_[12]; }
+
+    [[nodiscard]] const State& derivative() const noexcept { return k_[0]; }
+
+    /// Hairer's nested form: s + u (r2 + v (r3 + u (r4 + v (r5 + u (r6 + v (r7 + u r8)))))), u = theta, v = 1 - theta.
+    Status interpolate(const M& model, Real t, const State& s, Real h, const State& s1, Real theta, State& out) noexcept
+    {
+        if (!dense_ready_) {
+            const Status status = prepare_dense(model, t, s, h, s1);
+            if (status != Status::ok) return status;
+        }
+        const Real rest = Real(1) - theta;
+        for (Eigen::Index lane = 0; lane < s.size(); ++lane) {
+            Real sum = Real(0);
+            for (std::size_t i = dense_.size(); i-- > 0;) sum = (i % 2 == 0 ? theta : rest) * (dense_[i][lane] + sum);
+            out[lane] = s[lane] + sum;
+        }
+        return detail::check_finite(out);
+    }
+
+    [[nodiscard]] std::size_t calls() const noexcept { return calls_; }
+
+  private:
+    /// error = |h| err5 / sqrt(n (err5^2 + err3^2 / 100)) err5, norms squared first.
+    void estimate(const State& s, Real h, const State& s1) noexcept
+    {
+        using std::sqrt;
+        detail::weighted_sum<Tableau::error5>(h, k_, x_);
+        const Real five = detail::squared_error(control_, s, s1, x_);
+        detail::weighted_sum<Tableau::error3>(h, k_, x_);
+        const Real three = detail::squared_error(control_, s, s1, x_);
+        const Real sum = five + Real(0.01) * three;
+        error_ = sum > Real(0) ? five / sqrt(sum * static_cast<Real>(s.size())) : sum;
+    }
+
+    Status prepare_dense(const M& model, Real t, const State& s, Real h, const State& s1) noexcept
+    {
+        calls_ += 3;
+        const Status status = detail::evaluate_stages<Tableau, 13, 16>(model, t, s, h, x_, k_);
+        if (status != Status::ok) return status;
+        for (Eigen::Index lane = 0; lane < s.size(); ++lane) {
+            const Real difference = s1[lane] - s[lane];
+            const Real bend = h * k_[0][lane] - difference;
+            dense_[0][lane] = difference;
+            dense_[1][lane] = bend;
+            dense_[2][lane] = difference - h * k_[12][lane] - bend;
+        }
+        detail::weighted_sum<Tableau::dense4>(h, k_, dense_[3]);
+        detail::weighted_sum<Tableau::dense5>(h, k_, dense_[4]);
+        detail::weighted_sum<Tableau::dense6>(h, k_, dense_[5]);
+        detail::weighted_sum<Tableau::dense7>(h, k_, dense_[6]);
+        dense_ready_ = true;
+        return Status::ok;
+    }
+
+    std::array<State, Tableau::stages> k_;
+    std::array<State, 7> dense_;
+    State x_;
+    StepControl control_;
+    Real error_ = Real(0);
+    std::size_t calls_ = 0;
+    bool dense_ready_ = false;
+};
+
+/// Order 8(5,3); Hairer's classical controller (beta = 0).
+struct Dop853Family {
+    static constexpr StepControl defaults{.shrink = 1.0 / 3.0, .grow = 6, .beta = 0};
+    template <class M>
+    using Stepper = Dop853Stepper<M>;
+};
+
+using Dop853 = AdaptiveMethod<Dop853Family>;
+
+} // namespace lagen

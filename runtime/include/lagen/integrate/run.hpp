@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+/// What a run is asked for besides the method, and what it answers.
+#pragma once
+
+#include "lagen/kernel.hpp"
+
+#include <atomic>
+#include <csignal>
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace lagen {
+
+/// Which zero crossings of an event function count, in the direction of the run.
+enum class Crossing { rising, falling, any };
+
+/// An event to look for: entry `index` of the model's `events`, or `when` where that is given.
+/// A crossing is a change of sign from the beginning of a step to its end; a value of exactly zero at the beginning is none.
+template <class Real, class State>
+struct EventRequest {
+    std::size_t index = 0;
+    Crossing direction = Crossing::any;
+    bool stop = false;     ///< the run ends at the count-th crossing
+    std::size_t count = 1;
+    std::function<Real(Real t, const State& s)> when{};
+};
+
+/// An event found; `request` is its place in the list of requests.
+template <class Real, class State>
+struct EventFound {
+    std::size_t request = 0;
+    Real t = Real(0);
+    State state;
+};
+
+/// Everything optional of a run. Rows at `at`: sorted in the direction of the run; those outside the interval are left out.
+template <class M>
+struct Options {
+    using Real = real_t<typename M::Scalar>;
+    using State = typename M::State;
+
+    std::span<const Real> at{};
+    std::span<const EventRequest<Real, State>> events{};
+    std::size_t max_steps = 100'000'000; ///< accepted and rejected together
+    const std::atomic<bool>* cancel = nullptr;
+    const volatile std::sig_atomic_t* signal = nullptr; ///< as cancel, for a signal handler: not zero ends the run
+    /// Called every 256 steps with the fraction of the interval that is done.
+    std::function<void(double)> progress{};
+};
+
+/// What a run found. Converts to true where it ended as asked.
+template <class M>
+struct [[nodiscard]] Run {
+    using Scalar = typename M::Scalar;
+    using Real = real_t<Scalar>;
+    using State = typename M::State;
+
+    Real t = Real(0);         ///< of `state`
+    State state;              ///< the last good state
+    Real failed_at = Real(0); ///< where the run met what ended it; t where nothing failed
+    std::size_t steps = 0;    ///< accepted
+    std::size_t rejected = 0;
+    std::size_t rhs_calls = 0;
+    std::vector<Real> times;  ///< of the rows
+    std::vector<State> states;
+    std::vector<EventFound<Real, State>> events; ///< in the order of the run
+    status_t<Scalar> lanes = StatusOf<Scalar>::good(); ///< a status a lane of a pack; else the status
+    Status outcome = Status::ok;
+
+    [[nodiscard]] Status status() const noexcept { return outcome; }
+    [[nodiscard]] explicit operator bool() const noexcept { return is_success(outcome); }
+};
+
+} // namespace lagen

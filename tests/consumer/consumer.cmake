@@ -1,0 +1,65 @@
+# A user's project, outside the tree: lagen is installed to a fresh prefix and found there (or added as a
+# sub-folder), headers are generated, compiled and run; a changed model makes its header again, and nothing else does.
+#   cmake -D source=.. -D build=.. -D compiler=.. -P consumer.cmake
+cmake_minimum_required(VERSION 3.25)
+
+set(work "${build}/consumer_test")
+file(REMOVE_RECURSE "${work}")
+file(MAKE_DIRECTORY "${work}")
+file(COPY "${source}/tests/consumer/" DESTINATION "${work}/project" PATTERN "consumer.cmake" EXCLUDE)
+file(COPY_FILE "${source}/models/heavy_top.toml" "${work}/project/heavy_top.toml")
+
+# Runs a command; its output is in `output`. What fails is shown.
+macro(must)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE errors)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "failed (${result}): ${ARGN}\n${output}\n${errors}")
+  endif()
+endmacro()
+
+must(${CMAKE_COMMAND} --install "${build}" --prefix "${work}/prefix")
+foreach(file bin/lagen include/lagen/kernel.hpp share/lagen/models/heavy_top.toml)
+  if(NOT EXISTS "${work}/prefix/${file}")
+    message(FATAL_ERROR "consumer: the installation lacks ${file}")
+  endif()
+endforeach()
+must("${work}/prefix/bin/lagen" --version)
+
+set(common -G Ninja -D CMAKE_CXX_COMPILER=${compiler} -D CMAKE_BUILD_TYPE=Debug)
+must(${CMAKE_COMMAND} -S "${work}/project" -B "${work}/found" ${common} -D CMAKE_PREFIX_PATH=${work}/prefix)
+must(${CMAKE_COMMAND} --build "${work}/found")
+must("${work}/found/app")
+string(STRIP "${output}" first)
+if(NOT first MATCHES "^top energy [0-9.]+ status ok$")
+  message(FATAL_ERROR "consumer: the app printed \"${first}\"")
+endif()
+
+# Nothing to do the second time; a touched model makes the header again.
+must(${CMAKE_COMMAND} --build "${work}/found")
+if(NOT output MATCHES "no work to do")
+  message(FATAL_ERROR "consumer: a second build was not empty:\n${output}")
+endif()
+file(READ "${work}/project/heavy_top.toml" text)
+string(REGEX REPLACE "(\ntitle *= *)\"[^\n]*\"" "\\1\"A changed title\"" changed "${text}")
+if(changed STREQUAL text)
+  message(FATAL_ERROR "consumer: heavy_top.toml has no title to change")
+endif()
+file(WRITE "${work}/project/heavy_top.toml" "${changed}")
+must(${CMAKE_COMMAND} --build "${work}/found")
+if(NOT output MATCHES "lagen generate heavy_top.hpp")
+  message(FATAL_ERROR "consumer: a changed model did not make its header again:\n${output}")
+endif()
+file(READ "${work}/found/lagen_generated/heavy_top.hpp" header)
+if(NOT header MATCHES "A changed title")
+  message(FATAL_ERROR "consumer: the header does not show the changed title")
+endif()
+
+# As a sub-folder, with the generator of this build in place of a second build of it.
+must(${CMAKE_COMMAND} -S "${work}/project" -B "${work}/added" ${common} -D LAGEN_SOURCE=${source}
+     -D LAGEN_BUILD_GENERATOR=OFF -D LAGEN_EXECUTABLE=${work}/prefix/bin/lagen)
+must(${CMAKE_COMMAND} --build "${work}/added")
+must("${work}/added/app")
+string(STRIP "${output}" second)
+if(NOT second STREQUAL first)
+  message(FATAL_ERROR "consumer: found and added lagen disagree: \"${first}\" and \"${second}\"")
+endif()

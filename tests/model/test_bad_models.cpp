@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Every mistake of tests/errors gets its exact text, and the mistakes that no file can hold get theirs here.
+#include "model/evaluate_scene.hpp"
+#include "model/read_model.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace {
+
+namespace fs = std::filesystem;
+using Catch::Contains;
+
+const fs::path folder = fs::path(LAGEN_SOURCE_DIR) / "tests" / "errors";
+
+std::string content(const fs::path& path)
+{
+    std::ostringstream text;
+    text << std::ifstream(path, std::ios::binary).rdbuf();
+    return text.str();
+}
+
+/// The rendered error of a model, "" where there is none.
+std::string error_of(const std::string& name, const std::string& text)
+{
+    try {
+        const lagen::Model model = lagen::read_model_text(name, text);
+        for (const lagen::Scene& scene : model.scenes) (void)lagen::evaluate_scene(model, scene);
+    } catch (const lagen::ModelError& error) {
+        return std::string(error.what()) + "\n";
+    }
+    return "";
+}
+
+std::string error_of_file(const fs::path& path)
+{
+    try {
+        (void)lagen::read_model(path.string());
+    } catch (const lagen::ModelError& error) {
+        return error.diagnostic().message;
+    }
+    return "";
+}
+
+std::string tangent_model(const std::string& lagrangian)
+{
+    return "[base]\ncoordinates = [\"q\"]\n[algebroid]\nkind = \"tangent\"\n[lagrangian]\nL = '" + lagrangian + "'\n";
+}
+
+} // namespace
+
+TEST_CASE("every bad model gets the text beside it")
+{
+    std::vector<fs::path> models;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+        if (entry.path().extension() == ".toml") models.push_back(entry.path());
+    }
+    std::sort(models.begin(), models.end());
+    REQUIRE(models.size() >= 60);
+    for (const fs::path& model : models) {
+        const std::string found = error_of(model.filename().string(), content(model));
+        INFO(model.filename().string() << " gave:\n" << found);
+        CHECK(found == content(fs::path(model).replace_extension(".txt")));
+        CHECK(!found.empty());
+    }
+}
+
+TEST_CASE("a missing file and a folder are named for what they are")
+{
+    CHECK(error_of_file("/no/such/model.toml") == "the model file '/no/such/model.toml' does not exist");
+    CHECK(error_of_file(folder) == "the model file '" + folder.string() + "' is a folder");
+}
+
+TEST_CASE("a file above 16 MiB is refused without being parsed")
+{
+    CHECK(error_of_file("/dev/zero") == "the model file '/dev/zero' is larger than 16 MiB");
+}
+
+TEST_CASE("a million nested parentheses are one error that names the bound")
+{
+    const std::string deep = std::string(1'000'000, '(') + "q" + std::string(1'000'000, ')');
+    CHECK_THAT(error_of("deep.toml", tangent_model(deep)), Contains("deep.toml:6:"));
+    const std::string nested = std::string(400'000, '(') + "q" + std::string(400'000, ')');
+    CHECK_THAT(error_of("deep.toml", tangent_model(nested)), Contains("256"));
+}
+
+TEST_CASE("nested arrays end in an error, not in a crash")
+{
+    CHECK_THAT(error_of("deep.toml", "a = " + std::string(100'000, '[')), Contains("not valid TOML"));
+}
+
+TEST_CASE("the stem of the file names the model where it can")
+{
+    const std::string text = tangent_model("v_q^2/2");
+    CHECK(lagen::read_model_text("some/where/swing.toml", text).name == "swing");
+    CHECK_THAT(error_of("my model.toml", text),
+               Contains("the file's stem 'my model', which names the model, is not a C++ identifier"));
+    CHECK_THAT(error_of("2d.toml", text), Contains("the file's stem '2d'"));
+}
+
+TEST_CASE("a title may hold anything printable")
+{
+    const std::string title = R"(title = '*/ #include "x" \ \n // ?>' )";
+    CHECK(lagen::read_model_text("m.toml", title + "\n" + tangent_model("0")).title == R"(*/ #include "x" \ \n // ?>)");
+}
+
+TEST_CASE("more than 4096 names are refused")
+{
+    std::string text = "[parameters]\n";
+    for (int k = 0; k < 5000; ++k) text += "a" + std::to_string(k) + " = 1\n";
+    CHECK_THAT(error_of("m.toml", text + tangent_model("0")), Contains("the model declares more than 4096 names"));
+}
+
+TEST_CASE("a setting must name a parameter and have a value over parameters")
+{
+    const std::string text = "[parameters]\nmass = 1\n" + tangent_model("mass*v_q^2/2");
+    const auto error = [&](const char* name, const char* value) -> std::string {
+        try {
+            (void)lagen::read_model_text("m.toml", text, {{name, lagen::whole_text("<--set>", value)}});
+        } catch (const lagen::ModelError& e) {
+            return e.diagnostic().message + " | " + e.diagnostic().hint;
+        }
+        return "";
+    };
+    CHECK(error("mas", "2") == "the model has no parameter 'mas' to set | did you mean 'mass'?");
+    CHECK(error("q", "2") == "'q' is a base coordinate, not a parameter | known parameters: mass");
+    CHECK(error("mass", "q") ==
+          "the value set for parameter 'mass' may not depend on a base coordinate ('q') | allowed here: parameter");
+    CHECK(error("mass", "2*mass") ==
+          "the parameters depend on each other in a cycle: mass -> mass | give one of them a value of its own");
+}

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Scenes in numbers, against values computed by hand.
+#include "model/evaluate_scene.hpp"
+#include "model/evaluate_tree.hpp"
+#include "model/project_start.hpp"
+#include "model/read_model.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+using lagen::evaluate_scene;
+using lagen::Model;
+using lagen::read_model_text;
+using lagen::SceneValues;
+
+namespace {
+
+constexpr long double epsilon = std::numeric_limits<long double>::epsilon();
+
+const std::string circle = R"(
+[parameters]
+radius = "2*half"
+half = "1/2"
+[base]
+coordinates = ["x", "y"]
+constraints = ["x^2 + y^2 - radius^2"]
+casimirs = { square = "x^2 + y^2" }
+domain = ["x > -10", "y != 7"]
+[fibre]
+coordinates = ["w"]
+[algebroid.anchor]
+w = { x = "-y", y = "x" }
+)";
+
+SceneValues values(const std::string& scene)
+{
+    const Model model = read_model_text("circle.toml", circle + "[scene.default]\n" + scene);
+    return evaluate_scene(model, model.scenes[0]);
+}
+
+} // namespace
+
+TEST_CASE("a scene's numbers follow parameters that follow parameters")
+{
+    const SceneValues found = values("parameters = { half = 5 }\ninitial = { x = \"radius*3/5\", y = 8 }\nrest = true\n"
+                                     "duration = \"2*pi\"\ntolerance = 1e-9\nat = [1, \"half\"]\nstart = 0.5\n");
+    CHECK(found.parameters == std::vector<lagen::NamedNumber>{{"radius", 10}, {"half", 5}});
+    CHECK(found.base == std::vector<lagen::NamedNumber>{{"x", 6}, {"y", 8}});
+    CHECK(found.fibre == std::vector<lagen::NamedNumber>{{"w", 0}});
+    CHECK(found.momenta.empty());
+    CHECK(found.casimirs == std::vector<lagen::NamedNumber>{{"square", 100}});
+    CHECK(std::fabs(*found.duration - 2 * std::acos(-1.0L)) <= 4 * epsilon);
+    CHECK(*found.relative == 1e-9L);
+    CHECK(*found.absolute == 1e-9L);
+    CHECK(found.at == std::vector<long double>{1, 5});
+    CHECK(found.start == 0.5L);
+}
+
+TEST_CASE("a scene may start from momenta")
+{
+    const SceneValues found = values("initial = { x = 0.6, y = 0.8, p_w = 3 }\n");
+    CHECK(found.fibre.empty());
+    CHECK(found.momenta == std::vector<lagen::NamedNumber>{{"p_w", 3}});
+}
+
+TEST_CASE("project = true moves the start to the nearest point of the constraints")
+{
+    const SceneValues found = values("initial = { x = 3.0, y = 4.0, w = 1 }\nproject = true\n");
+    CHECK(std::fabs(found.base[0].second - 0.6L) <= 4 * epsilon);
+    CHECK(std::fabs(found.base[1].second - 0.8L) <= 4 * epsilon);
+}
+
+TEST_CASE("a start within 1e-10 of the constraints is left as it is")
+{
+    const SceneValues found = values("initial = { x = 0.6, y = 0.80000000001, w = 1 }\n");
+    CHECK(found.base[1].second == lagen::to_long_double(lagen::Rational("80000000001/100000000000")));
+    CHECK_THROWS_WITH(values("initial = { x = 0.6, y = 0.800000001, w = 1 }\n"),
+                      Catch::Contains("misses the constraint"));
+}
+
+TEST_CASE("rationals are rounded to the nearest long double")
+{
+    CHECK(lagen::to_long_double(lagen::Rational(1, 10)) == 0.1L);
+    CHECK(lagen::to_long_double(lagen::Rational(-2, 3)) == -2.0L / 3.0L);
+    CHECK(lagen::to_long_double(lagen::Rational("123456789012345678901234567890")) ==
+          123456789012345678901234567890.0L);
+    CHECK(lagen::to_long_double(lagen::Rational("1/1000000000000000000000000000000000000")) == 1e-36L);
+    CHECK(lagen::to_long_double(lagen::Rational(0)) == 0.0L);
+    CHECK(lagen::to_long_double(lagen::Rational(3)) == 3.0L);
+}
+
+TEST_CASE("the derivative that travels with a value is that of the function")
+{
+    const char* expressions[] = {"sin(x)*cos(x)",  "exp(x)/(1 + x^2)",
+                                 "tan(x)^3",       "asin(x/3) + acos(x/5)",
+                                 "atan2(x, 2)",    "sinh(x) - cosh(x)*tanh(x)",
+                                 "log(x)*sqrt(x)", "x^x",
+                                 "abs(-x)^(3/2)",  "atan(x)^(-2)"};
+    for (const char* text : expressions) {
+        const Model model =
+            read_model_text("m.toml", std::string("[base]\ncoordinates=['x']\n[algebroid]\nkind='tangent'\n"
+                                                  "[lagrangian]\nL='") +
+                                          text + "'\n");
+        const auto at = [&](long double x, long double dx) {
+            return lagen::evaluate(model.lagrangian, {{"x", {x, dx}}});
+        };
+        const long double h = 1e-6L;
+        const long double difference = (at(0.7L + h, 0).value - at(0.7L - h, 0).value) / (2 * h);
+        INFO(text);
+        CHECK(difference != 0);
+        CHECK(std::fabs(at(0.7L, 1).derivative - difference) < 1e-10L * (1 + std::fabs(difference)));
+    }
+}

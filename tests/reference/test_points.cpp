@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// End to end against data that share no code with lagen: model text -> verified algebroid -> kernels -> interpreter.
+#include "geometry/verify.hpp"
+#include "graph/evaluate.hpp"
+#include "kernels/lagrange_kernels.hpp"
+#include "model/read_model.hpp"
+#include "support/reference_case.hpp"
+#include "support/tolerances.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+using namespace lagen;
+
+namespace {
+
+/// The values of a kernel's output array at a state of the case, row by row (columns = 1).
+template <class Scalar>
+std::vector<Scalar> kernel_values(const KernelModule& module, const std::string& name, const ReferenceCase& reference,
+                                  const std::vector<std::string>& state)
+{
+    std::map<std::string, Scalar> inputs{{module.graph->input_name(module.time), Scalar(0)}};
+    const auto set = [&](const Quantity& quantity, const std::string& text) {
+        inputs[module.graph->input_name(quantity.input)] = static_cast<Scalar>(std::stold(text));
+    };
+    for (std::size_t k = 0; k < module.parameters.size(); ++k) set(module.parameters[k], reference.parameters[k].second);
+    for (std::size_t i = 0; i < module.base.size(); ++i) set(module.base[i], state[i]);
+    for (std::size_t a = 0; a < module.fibre.size(); ++a) set(module.fibre[a], state[module.base.size() + a]);
+
+    const auto kernel = std::find_if(module.kernels.begin(), module.kernels.end(),
+                                     [&](const Kernel& candidate) { return candidate.name == name; });
+    REQUIRE(kernel != module.kernels.end());
+    std::vector<NodeId> nodes;
+    for (const KernelEntry& entry : kernel->output.entries) nodes.push_back(entry.node);
+    const std::vector<Scalar> found = evaluate<Scalar>(*module.graph, nodes, inputs);
+    std::vector<Scalar> values(kernel->output.rows, Scalar(0));
+    for (std::size_t k = 0; k < nodes.size(); ++k) values.at(kernel->output.entries[k].row) = found[k];
+    return values;
+}
+
+/// max |found - expected| / max |expected|.
+template <class Scalar>
+Scalar relative_error(const std::vector<Scalar>& found, const std::vector<std::string>& expected)
+{
+    REQUIRE(found.size() == expected.size());
+    Scalar difference = 0;
+    Scalar size = 0;
+    for (std::size_t k = 0; k < found.size(); ++k) {
+        const auto value = static_cast<Scalar>(std::stold(expected[k]));
+        if (!std::isfinite(found[k])) return std::numeric_limits<Scalar>::infinity();
+        difference = std::max(difference, std::abs(found[k] - value));
+        size = std::max(size, std::abs(value));
+    }
+    REQUIRE(size > 0);
+    return difference / size;
+}
+
+template <class Scalar>
+Scalar largest_error(const KernelModule& module, const ReferenceCase& reference)
+{
+    Scalar largest = 0;
+    for (const ReferencePoint& point : reference.points) {
+        const auto error = [&](const char* kernel, const std::vector<std::string>& expected) {
+            return relative_error(kernel_values<Scalar>(module, kernel, reference, point.state), expected);
+        };
+        largest = std::max({largest, error("rhs", point.state_dot), error("momentum", point.momenta),
+                            error("energy", {point.energy})});
+    }
+    return largest;
+}
+
+} // namespace
+
+TEST_CASE("derivatives, momenta and energy agree with the reference at every point of every case")
+{
+    std::cout << "case: relative error (max norm) in double, in long double\n";
+    for (const ReferenceCase& reference : read_reference_cases()) {
+        INFO(reference.name);
+        const Model model = read_model_text(reference.name + ".toml", model_text(reference));
+        const VerifiedAlgebroid verified = verify(model);
+        CHECK(std::string(to_text(verified.verdict)) == "valid");
+        const KernelModule module = lagrange_kernels(model, verified);
+        const double in_double = largest_error<double>(module, reference);
+        const long double in_long_double = largest_error<long double>(module, reference);
+        CHECK(in_double < tolerance::roundoff(450)); // 1e-13
+        CHECK(in_long_double < static_cast<long double>(tolerance::roundoff(1)));
+        std::cout << "  " << reference.name << ": " << in_double << ", " << in_long_double << '\n';
+    }
+}
+
+TEST_CASE("every reference definition gets the verdict that it deserves, by the checks that fail")
+{
+    for (const ReferenceDefinition& definition : read_reference_definitions()) {
+        INFO(definition.algebroid.name);
+        const Model model = read_model_text(definition.algebroid.name + ".toml", model_text(definition.algebroid));
+        const VerifiedAlgebroid verified = verify(model);
+        CHECK(std::string(to_text(verified.verdict)) == (definition.valid ? "valid" : "invalid"));
+        for (const std::string& name : definition.failing)
+            CHECK(std::any_of(verified.checks.begin(), verified.checks.end(), [&](const Check& check) {
+                return check.name == name && check.decision.status == ProofStatus::refuted && check.decision.witness;
+            }));
+    }
+}

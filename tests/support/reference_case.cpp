@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "support/reference_case.hpp"
+
+#include "support/json.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+
+namespace lagen {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path data_folder = fs::path(LAGEN_SOURCE_DIR) / "tests" / "data";
+
+std::vector<std::vector<std::string>> read_rows(const json::Value& value)
+{
+    std::vector<std::vector<std::string>> rows;
+    for (const json::Value& row : value.entries) rows.push_back(row.texts());
+    return rows;
+}
+
+std::vector<ReferenceBracket> read_brackets(const json::Value& value)
+{
+    const auto index = [](const json::Value& entry) { return static_cast<std::size_t>(std::stoul(entry.text)) - 1; };
+    std::vector<ReferenceBracket> brackets;
+    for (const json::Value& entry : value.entries)
+        brackets.push_back({index(entry[0]), index(entry[1]), index(entry[2]), entry[3].text});
+    return brackets;
+}
+
+ReferenceCase read_case(const json::Value& file)
+{
+    const json::Value& model = file["model"];
+    ReferenceCase reference;
+    reference.name = file["name"].text;
+    reference.description = file["description"].text;
+    reference.base = model["base"].texts();
+    reference.fibre = model["fibre"].texts();
+    reference.rho = read_rows(model["rho"]);
+    reference.brackets = read_brackets(model["C"]);
+    reference.lagrangian = model["lagrangian"].text;
+    for (const std::string& name : model["parameters"].texts())
+        reference.parameters.emplace_back(name, file["parameters"][name].text);
+    reference.t0 = file["t0"].text;
+    reference.t_end = file["t_end"].text;
+    reference.initial = file["initial_state"].texts();
+    for (const json::Value& sample : file["samples"].entries)
+        reference.samples.push_back({sample["t"].text, sample["state"].texts()});
+    for (const json::Value& point : file["points"].entries)
+        reference.points.push_back({point["state"].texts(), point["state_dot"].texts(), point["momenta"].texts(),
+                                    point["energy"].text});
+    return reference;
+}
+
+ReferenceDefinition read_definition(const json::Value& entry)
+{
+    ReferenceDefinition definition;
+    ReferenceCase& algebroid = definition.algebroid;
+    algebroid.name = entry["id"].text;
+    algebroid.base = entry["base"].texts();
+    for (unsigned long a = 1; a <= std::stoul(entry["rank"].text); ++a)
+        algebroid.fibre.push_back("e" + std::to_string(a));
+    algebroid.rho = read_rows(entry["rho"]);
+    algebroid.brackets = read_brackets(entry["C"]);
+    for (const std::string& name : entry["parameters"].texts()) algebroid.parameters.emplace_back(name, "1");
+    definition.valid = entry["truth"].text == "valid";
+    definition.failing = entry["failing"].texts();
+    return definition;
+}
+
+std::string name_list(const std::vector<std::string>& names)
+{
+    std::string text;
+    for (const std::string& name : names) text += (text.empty() ? "\"" : ", \"") + name + "\"";
+    return "[" + text + "]";
+}
+
+/// "a = { x = 'value', ... }" for each key that has entries.
+void write_entries(std::ostringstream& out, const std::string& key,
+                   const std::vector<std::pair<std::string, std::string>>& entries)
+{
+    if (entries.empty()) return;
+    out << key << " = {";
+    for (std::size_t k = 0; k < entries.size(); ++k)
+        out << (k == 0 ? " " : ", ") << entries[k].first << " = \"" << entries[k].second << '"';
+    out << " }\n";
+}
+
+void write_algebroid(std::ostringstream& out, const ReferenceCase& reference)
+{
+    out << "[algebroid]\nkind = \"general\"\n\n[algebroid.anchor]\n";
+    for (std::size_t a = 0; a < reference.fibre.size(); ++a) {
+        std::vector<std::pair<std::string, std::string>> entries;
+        for (std::size_t i = 0; i < reference.base.size(); ++i)
+            if (reference.rho[i][a] != "0") entries.emplace_back(reference.base[i], reference.rho[i][a]);
+        write_entries(out, reference.fibre[a], entries);
+    }
+    out << "\n[algebroid.bracket]\n";
+    std::vector<std::string> done;
+    for (const ReferenceBracket& bracket : reference.brackets) {
+        const std::string key = "\"" + reference.fibre[bracket.a] + "," + reference.fibre[bracket.b] + "\"";
+        if (std::find(done.begin(), done.end(), key) != done.end()) continue;
+        done.push_back(key);
+        std::vector<std::pair<std::string, std::string>> entries;
+        for (const ReferenceBracket& other : reference.brackets)
+            if (other.a == bracket.a && other.b == bracket.b) entries.emplace_back(reference.fibre[other.c], other.value);
+        write_entries(out, key, entries);
+    }
+    out << '\n';
+}
+
+void write_scene(std::ostringstream& out, const ReferenceCase& reference)
+{
+    out << "[scene.default]\n";
+    std::vector<std::string> names = reference.base;
+    names.insert(names.end(), reference.fibre.begin(), reference.fibre.end());
+    std::vector<std::pair<std::string, std::string>> initial;
+    for (std::size_t k = 0; k < names.size(); ++k) initial.emplace_back(names[k], reference.initial.at(k));
+    write_entries(out, "initial", initial);
+    out << "start = \"" << reference.t0 << "\"\nduration = \"" << reference.t_end << " - (" << reference.t0 << ")\"\n";
+}
+
+} // namespace
+
+std::vector<ReferenceCase> read_reference_cases()
+{
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(data_folder / "continuous")) files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    std::vector<ReferenceCase> cases;
+    for (const fs::path& file : files) cases.push_back(read_case(json::read_file(file.string())));
+    return cases;
+}
+
+std::string model_text(const ReferenceCase& reference)
+{
+    std::ostringstream out;
+    out << "name = \"" << reference.name << "\"\n\n[parameters]\n";
+    for (const auto& [name, value] : reference.parameters) out << name << " = \"" << value << "\"\n";
+    if (!reference.base.empty()) out << "\n[base]\ncoordinates = " << name_list(reference.base) << '\n';
+    out << "\n[fibre]\ncoordinates = " << name_list(reference.fibre) << "\n\n";
+    write_algebroid(out, reference);
+    if (!reference.lagrangian.empty()) out << "[lagrangian]\nL = \"" << reference.lagrangian << "\"\n\n";
+    if (!reference.initial.empty()) write_scene(out, reference);
+    return out.str();
+}
+
+std::vector<ReferenceDefinition> read_reference_definitions()
+{
+    std::vector<ReferenceDefinition> definitions;
+    const json::Value file = json::read_file((data_folder / "definitions" / "definitions.json").string());
+    for (const json::Value& entry : file.entries) definitions.push_back(read_definition(entry));
+    return definitions;
+}
+
+} // namespace lagen
