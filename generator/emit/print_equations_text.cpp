@@ -147,7 +147,8 @@ std::string left_side(const Equation& equation) {
 }
 
 void print_block(std::string& text, const EquationBlock& block) {
-    text += "\n" + block.title + ":  " + block.formula + "\n";
+    const bool fits = columns_of(block.title) + 3 + columns_of(block.formula) <= page_width;
+    text += "\n" + block.title + (fits ? ":  " : ":\n  ") + block.formula + "\n";
     std::size_t widest = 0;
     for (const Equation& equation : block.equations)
         widest = std::max(widest, columns_of(left_side(equation)));

@@ -45,7 +45,7 @@ class LagrangeDerivation {
         return std::find(names.begin(), names.end(), name) != names.end();
     }
 
-    GiNaC::symbol variable(const std::string& name) {
+    GiNaC::realsymbol variable(const std::string& name) {
         order_.variables.push_back(name);
         return symbols_.symbol(name);
     }
@@ -67,16 +67,22 @@ class LagrangeDerivation {
                 if (given[a * r + b] && !given[b * r + a])
                     for (std::size_t c = 0; c < r; ++c)
                         bracket_[b * r + a][c] = -bracket_[a * r + b][c];
-        for (const GiNaC::symbol& y : y_)
+        for (const GiNaC::realsymbol& y : y_)
             p_.push_back(lagrangian_.diff(y));
     }
 
     void append_symbols(EquationSet& set) const {
         for (const Parameter& parameter : model_.parameters)
             set.symbols.push_back({parameter.symbol.name, parameter.symbol.latex});
-        for (const std::vector<Symbol>* list : {&algebroid_.base, &algebroid_.fibre, &model_.fibre.momenta})
+        for (const std::vector<Symbol>* list : {&algebroid_.base, &algebroid_.fibre})
             for (const Symbol& symbol : *list)
                 set.symbols.push_back({symbol.name, symbol.latex});
+        for (std::size_t a = 0; a < model_.fibre.momenta.size(); ++a) {
+            const Symbol& momentum = model_.fibre.momenta[a];
+            const Symbol& coordinate = algebroid_.fibre[a];
+            const bool follows = momentum.latex.empty() && !coordinate.latex.empty() && momentum.name == "p_" + coordinate.name;
+            set.symbols.push_back({momentum.name, follows ? "p_{" + coordinate.latex + "}" : momentum.latex});
+        }
     }
 
     [[nodiscard]] Tree shortest(const GiNaC::ex& e) const { return shortest_form(e, symbols_, order_); }
@@ -199,7 +205,7 @@ class LagrangeDerivation {
     const Algebroid& algebroid_;
     SymbolTable symbols_;
     Order order_;
-    std::vector<GiNaC::symbol> x_, y_, momenta_;
+    std::vector<GiNaC::realsymbol> x_, y_, momenta_;
     GiNaC::ex lagrangian_;
     std::vector<std::vector<GiNaC::ex>> anchor_;  ///< anchor_[a][i] = rho^i_a
     std::vector<std::vector<GiNaC::ex>> bracket_; ///< bracket_[a r + b][c] = C^c_ab

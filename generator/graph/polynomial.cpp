@@ -83,7 +83,7 @@ Rational rational_content(const Polynomial& a)
     return sgn(a.front().coefficient) < 0 ? Rational(-content) : content;
 }
 
-Rational power(const Rational& value, int n)
+Rational rational_power(const Rational& value, int n)
 {
     const auto magnitude = static_cast<unsigned long>(std::abs(n));
     const std::size_t bits = mpz_sizeinbase(value.get_num_mpz_t(), 2) + mpz_sizeinbase(value.get_den_mpz_t(), 2);
@@ -157,9 +157,9 @@ void Algebra::normalise_root(Term& term, const Root& root) const
     const int new_q = half / 2; // towards 0
     const int new_s = half % 2;
     if (new_q == q && new_s == s) return;
-    // w^2 = c base: base^q w^s = c^(new_s - s)/-2 ... with (s - new_s) / 2 squares of w replaced.
+    // w^2 = c base, so that (s - new_s) / 2 squares of w turn into powers of c base.
     const int squares = (s - new_s) / 2;
-    term.coefficient *= lagen::power(root.coefficient, squares);
+    term.coefficient *= rational_power(root.coefficient, squares);
     std::erase_if(term.monomial, [&](const Factor& f) { return f.atom == root.root || f.atom == root.base; });
     if (new_q != 0) term.monomial.push_back({root.base, new_q});
     if (new_s != 0) term.monomial.push_back({root.root, new_s});
@@ -252,7 +252,7 @@ Term Algebra::as_term(const Polynomial& a)
 
 Term Algebra::power(const Term& term, int n)
 {
-    Term result{lagen::power(term.coefficient, n), term.monomial};
+    Term result{rational_power(term.coefficient, n), term.monomial};
     for (Factor& factor : result.monomial) {
         if (std::abs(std::int64_t{factor.exponent} * n) > largest_exponent) throw FormRefused{};
         factor.exponent *= n;

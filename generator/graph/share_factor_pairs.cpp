@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <map>
-#include <tuple>
+#include <set>
 
 namespace lagen {
 namespace {
@@ -142,11 +142,11 @@ void share_factor_pairs(Form& form)
 void share_reciprocals(Form& form)
 {
     Uses uses = monomials_of(form);
-    std::map<AtomId, std::vector<Monomial>> divisors;
+    std::set<AtomId> divisors;
     for (const auto& [monomial, places] : uses)
         for (const Factor& factor : monomial)
-            if (factor.exponent < 0) divisors[factor.atom].push_back(monomial);
-    for (const auto& [atom, count] : divisors) {
+            if (factor.exponent < 0) divisors.insert(factor.atom);
+    for (const AtomId atom : divisors) {
         std::vector<Monomial> holders;
         for (const auto& [monomial, places] : uses)
             for (const Factor& factor : monomial)

@@ -54,7 +54,7 @@ class ModuleBuilder {
         add_mechanics();
         add_trees("constraints", model_base_constraints(), "Base constraints: each is 0 on M.");
         if (wants("domain")) add_domain();
-        add_trees("observables", named(model_.observables), "Observables of the model.");
+        add_trees("observables", observables(), "Observables of the model.");
         add_trees("invariants", named(model_.invariants), "Functions that are constant along solutions.");
         if (wants("events")) add_trees("events", events(), "Events: each happens where its value crosses 0.");
         if (wants("jacobian")) add_jacobian();
@@ -189,6 +189,21 @@ class ModuleBuilder {
     {
         NamedTrees trees;
         for (const NamedTree& entry : list) trees.emplace_back(entry.name, entry.value);
+        return trees;
+    }
+
+    /// Of the model, then what the scene asks for that is neither a state lane nor one of them.
+    [[nodiscard]] NamedTrees observables() const
+    {
+        NamedTrees trees = named(model_.observables);
+        if (request_.scene == nullptr || !request_.scene->observe) return trees;
+        for (const NamedTree& entry : *request_.scene->observe) {
+            const auto known = [&](const auto& other) { return other.first == entry.name; };
+            const auto lane = [&](const Quantity& other) { return other.name == entry.name; };
+            if (std::ranges::any_of(trees, known) || std::ranges::any_of(module_.base, lane) || std::ranges::any_of(module_.fibre, lane))
+                continue;
+            trees.emplace_back(entry.name, entry.value);
+        }
         return trees;
     }
 

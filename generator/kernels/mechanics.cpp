@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 namespace lagen {
 
@@ -56,7 +57,9 @@ std::vector<NodeId> single_blocks(const Graph& graph, const std::vector<NodeId>&
 
 void declare_inputs(Graph& graph, const Model& model, LagrangeNodes& nodes)
 {
-    nodes.time = graph.input("t");
+    const std::vector<std::string> declared = symbol_names(model);
+    const bool free = std::ranges::find(declared, "t") == declared.end();
+    nodes.time = graph.input(free ? "t" : "time, which this model cannot name");
     for (const Parameter& parameter : model.parameters) nodes.parameters.push_back(graph.input(parameter.symbol.name));
     for (const Symbol& symbol : model.base.coordinates) nodes.x.push_back(graph.input(symbol.name));
     for (const Symbol& symbol : model.fibre.coordinates) nodes.y.push_back(graph.input(symbol.name));

@@ -146,16 +146,19 @@ void require_class_name(const std::string& name, const SourceRange& where, bool 
     const std::string subject = from_file_name
                                     ? fmt::format("the file's stem '{}', which names the model,", shown(name))
                                     : fmt::format("the model name '{}'", shown(name));
-    const auto refuse = [&](const char* why) { throw ModelError(subject + " " + why, where, hint); };
+    const auto refuse = [&](const char* why, const std::string& advice) {
+        throw ModelError(subject + " " + why, where, advice);
+    };
     const bool spelled = !name.empty() && is_letter(name.front()) &&
                          std::all_of(name.begin(), name.end(), [](char c) { return is_letter(c) || is_digit(c); });
-    if (!spelled) refuse("is not a C++ identifier");
-    if (name.size() > longest) refuse("is longer than 200 characters");
+    if (!spelled) refuse("is not a C++ identifier", hint);
+    if (name.size() > longest) refuse("is longer than 200 characters", {});
     if (std::find(std::begin(reserved_words), std::end(reserved_words), name) != std::end(reserved_words)) {
-        refuse("is a reserved word of C++");
+        refuse("is a reserved word of C++", "choose another name");
     }
     const bool capital = name.size() > 1 && name[0] == '_' && name[1] >= 'A' && name[1] <= 'Z';
-    if (capital || name.find("__") != std::string::npos) refuse("is of a form that C++ reserves for itself");
+    if (capital || name.find("__") != std::string::npos)
+        refuse("is of a form that C++ reserves for itself", "choose another name");
 }
 
 } // namespace lagen

@@ -49,9 +49,10 @@ void require_rank(const Model& model, const SourceRange& where)
     const std::size_t wanted = model.algebroid.over.size();
     if (found == wanted) return;
     throw ModelError(
-        fmt::format("[fibre] declares {} coordinates, where the tangent bundle over {} base coordinates needs {}",
-                    found, wanted, wanted),
-        where, "one fibre coordinate a base coordinate that moves, in the same order");
+        fmt::format(
+            "the number of fibre coordinates is {}, where a tangent bundle needs one a moving base coordinate: {}",
+            found, wanted),
+        where, "fibre coordinates stand in the order of the base coordinates");
 }
 
 /// "V(q, r)" as a name and its parameters; "T" as a name alone.

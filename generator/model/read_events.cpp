@@ -51,6 +51,12 @@ Event read_event(const ModelReader& reader, const TomlEntry& entry)
 void read_scene_events(const ModelReader& reader, Scene& scene, const TomlEntry& block)
 {
     const TableReader table(block.value, fmt::format("[scene.{}.events]", scene.name));
+    constexpr std::size_t most_events = 1000;
+    if (block.value.entries.size() > most_events) {
+        throw ModelError(
+            fmt::format("scene '{}' has {} events, more than {}", scene.name, block.value.entries.size(), most_events),
+            block.where());
+    }
     for (const TomlEntry& entry : block.value.entries) {
         Event event = read_event(reader, entry);
         const auto same = [&](const Event& other) { return other.name == event.name; };

@@ -85,7 +85,8 @@ Tree ModelReader::close(const Tree& tree, std::initializer_list<Role> roles, con
         std::string allowed;
         for (const Role each : roles) {
             const std::string_view text = role_text(each);
-            allowed += fmt::format("{}{}", allowed.empty() ? "" : ", ", text.substr(text.find(' ') + 1));
+            const char* plural = each == Role::time ? "" : "s";
+            allowed += fmt::format("{}{}{}", allowed.empty() ? "" : ", ", text.substr(text.find(' ') + 1), plural);
         }
         throw ModelError(
             fmt::format("{} may not depend on {} ('{}')", what, std::string_view(role_text(role)), bad->name),
@@ -151,8 +152,7 @@ void read_quantities(ModelReader& reader)
         model.observables.push_back(NamedTree{key.text, reader.close_observed(value), place_of(key)});
     }
     for (const auto& [key, value] : reader.invariants) {
-        const std::string what = fmt::format("the invariant '{}'", key.text);
-        model.invariants.push_back(NamedTree{key.text, reader.close(value, state, what), place_of(key)});
+        model.invariants.push_back(NamedTree{key.text, reader.observer.close(value), place_of(key)});
     }
 }
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// The [scene.NAME] blocks. `like` is resolved here: a scene starts as a copy of the one that it is like.
-#include "model/model_reader.hpp"
+/// One [scene.NAME] block: its options, numbers, sampling and columns.
+#include "model/scene_reader.hpp"
 
 #include "expression/parse.hpp"
 #include "model/read_values.hpp"
 #include "model/table_reader.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
 #include <set>
 
@@ -14,76 +13,9 @@ namespace lagen {
 
 namespace {
 
-Tree over_parameters(const ModelReader& reader, const TomlValue& value, const std::string& what)
-{
-    return reader.close(read_expression(value, what), {Role::parameter}, what);
-}
-
-/// Replaces the entry of the same name or appends.
-void put(std::vector<NamedTree>& list, NamedTree entry)
-{
-    const auto same = [&](const NamedTree& other) { return other.name == entry.name; };
-    const auto place = std::find_if(list.begin(), list.end(), same);
-    if (place == list.end()) {
-        list.push_back(std::move(entry));
-    } else {
-        *place = std::move(entry);
-    }
-}
-
-bool has_role(const ModelReader& reader, const std::string& name, Role role)
-{
-    const Names::Entry* entry = reader.names.find(name);
-    return entry != nullptr && entry->role == role;
-}
-
-void read_initial(const ModelReader& reader, Scene& scene, const TomlEntry& block)
-{
-    const TableReader table(block.value, fmt::format("'initial' of scene '{}'", scene.name));
-    std::vector<NamedTree> own;
-    for (const TomlEntry& entry : block.value.entries) {
-        const Names::Entry* declared = reader.names.find(entry.name());
-        const bool state = declared != nullptr && (declared->role == Role::base || declared->role == Role::fibre ||
-                                                   declared->role == Role::momentum);
-        if (!state) {
-            std::vector<std::string> known = reader.names.of(Role::base);
-            for (const Role role : {Role::fibre, Role::momentum}) {
-                const std::vector<std::string> more = reader.names.of(role);
-                known.insert(known.end(), more.begin(), more.end());
-            }
-            throw ModelError(
-                fmt::format("scene '{}' gives an initial value to '{}', which is no coordinate of the model",
-                            scene.name, entry.name()),
-                entry.where(), hint_for(entry.name(), known, "coordinates"));
-        }
-        const std::string what = fmt::format("the initial value of '{}'", entry.name());
-        own.push_back(NamedTree{entry.name(), over_parameters(reader, entry.value, what), entry.where()});
-    }
-    const auto gives = [&](Role role) {
-        return std::any_of(own.begin(), own.end(),
-                           [&](const NamedTree& each) { return has_role(reader, each.name, role); });
-    };
-    for (const auto& [given, other] : {std::pair{Role::momentum, Role::fibre}, {Role::fibre, Role::momentum}}) {
-        if (!gives(given) || gives(other)) continue;
-        std::erase_if(scene.initial,
-                      [&, role = other](const NamedTree& each) { return has_role(reader, each.name, role); });
-    }
-    for (NamedTree& entry : own) put(scene.initial, std::move(entry));
-}
-
-void read_scene_parameters(const ModelReader& reader, Scene& scene, const TomlEntry& block)
-{
-    const TableReader table(block.value, fmt::format("'parameters' of scene '{}'", scene.name));
-    for (const TomlEntry& entry : block.value.entries) {
-        if (!has_role(reader, entry.name(), Role::parameter)) {
-            throw ModelError(
-                fmt::format("scene '{}' sets '{}', which is no parameter of the model", scene.name, entry.name()),
-                entry.where(), hint_for(entry.name(), reader.names.of(Role::parameter), "parameters"));
-        }
-        const std::string what = fmt::format("the value of parameter '{}'", entry.name());
-        put(scene.parameters, NamedTree{entry.name(), over_parameters(reader, entry.value, what), entry.where()});
-    }
-}
+// Scenes are copied along 'like', so their sizes are bounded.
+constexpr std::size_t most_times = 100'000;
+constexpr std::size_t most_columns = 4096;
 
 void read_observe(const ModelReader& reader, Scene& scene, const TomlEntry& entry)
 {
@@ -105,6 +37,11 @@ void read_observe(const ModelReader& reader, Scene& scene, const TomlEntry& entr
         }
         const Excerpt inner = trimmed(text, 0, text.text.size());
         add({inner.text, reader.close_observed(parse_expression(text)), where});
+    }
+    if (out.size() > most_columns) {
+        throw ModelError(fmt::format("'observe' of scene '{}' asks for {} columns, more than {}", scene.name,
+                                     out.size(), most_columns),
+                         entry.value.where);
     }
     scene.observe = std::move(out);
 }
@@ -136,6 +73,11 @@ void read_sampling(const ModelReader& reader, Scene& scene, TableReader& table)
         if (given->value.kind != TomlKind::array) {
             throw ModelError(
                 fmt::format("'at'{} is {}, where an array of times is required", of, kind_text(given->value.kind)),
+                given->value.where);
+        }
+        if (given->value.items.size() > most_times) {
+            throw ModelError(
+                fmt::format("'at'{} lists {} times, more than {}", of, given->value.items.size(), most_times),
                 given->value.where);
         }
         for (const TomlValue& time : given->value.items) {
@@ -190,46 +132,11 @@ void read_options(Scene& scene, TableReader& table)
     }
 }
 
-/// Every base coordinate, and every fibre coordinate or every momentum.
-void require_complete(const ModelReader& reader, const Scene& scene)
-{
-    std::set<std::string> given;
-    for (const NamedTree& each : scene.initial) given.insert(each.name);
-    const auto missing_of = [&](const std::vector<Symbol>& symbols) {
-        std::vector<std::string> out;
-        for (const Symbol& symbol : symbols) {
-            if (!given.contains(symbol.name)) out.push_back(symbol.name);
-        }
-        return out;
-    };
-    const Fibre& fibre = reader.model.fibre;
-    const std::vector<std::string> no_fibre = missing_of(fibre.coordinates);
-    const std::vector<std::string> no_momentum = missing_of(fibre.momenta);
-    const bool some_fibre = no_fibre.size() < fibre.coordinates.size();
-    const bool some_momenta = no_momentum.size() < fibre.momenta.size();
-    if (some_fibre && some_momenta) {
-        throw ModelError(fmt::format("scene '{}' mixes fibre coordinates and momenta in 'initial'", scene.name),
-                         scene.where, "give every fibre coordinate or every momentum");
-    }
-    std::vector<std::string> missing = missing_of(reader.model.base.coordinates);
-    const std::vector<std::string>& rest = some_momenta ? no_momentum : no_fibre;
-    if (!scene.rest || some_momenta) missing.insert(missing.end(), rest.begin(), rest.end());
-    if (missing.empty()) return;
-    const bool fibre_left_out = !rest.empty() && !some_momenta;
-    throw ModelError(fmt::format("scene '{}' leaves out the initial value{} of {}", scene.name,
-                                 missing.size() > 1 ? "s" : "", comma_list(missing)),
-                     scene.where, fibre_left_out ? "rest = true sets the fibre coordinates left out to zero" : "");
-}
+} // namespace
 
-void require_acyclic_scene(const ModelReader& reader, const Scene& scene)
+Tree over_parameters(const ModelReader& reader, const TomlValue& value, const std::string& what)
 {
-    if (scene.parameters.empty()) return;
-    std::vector<NamedTree> values;
-    for (const Parameter& parameter : reader.model.parameters) {
-        values.push_back(NamedTree{parameter.symbol.name, parameter.value, parameter.symbol.where});
-    }
-    for (const NamedTree& own : scene.parameters) put(values, own);
-    require_acyclic(values);
+    return reader.close(read_expression(value, what), {Role::parameter}, what);
 }
 
 Scene read_scene(const ModelReader& reader, Scene scene, const TomlEntry& block, const std::vector<Setting>& settings)
@@ -253,62 +160,6 @@ Scene read_scene(const ModelReader& reader, Scene scene, const TomlEntry& block,
     require_acyclic_scene(reader, scene);
     require_complete(reader, scene);
     return scene;
-}
-
-} // namespace
-
-void read_scenes(ModelReader& reader, const TomlEntry* block, const std::vector<Setting>& settings)
-{
-    if (block == nullptr) return;
-    constexpr long most_scenes = 1000;
-    const TableReader table(block->value, "[scene]");
-    const std::vector<TomlEntry>& entries = block->value.entries;
-    if (entries.size() > most_scenes) {
-        throw ModelError(fmt::format("the model has {} scenes, more than {}", entries.size(), most_scenes),
-                         block->where());
-    }
-    std::vector<std::string> known;
-    std::map<std::string, std::size_t> index;
-    for (std::size_t k = 0; k < entries.size(); ++k) {
-        if (entries[k].name().empty() ||
-            read_text(TomlValue{TomlKind::string, entries[k].where(), entries[k].key, 0, false, true, {}, {}},
-                      "a scene's name")
-                .empty()) {
-            throw ModelError("a scene has an empty name", entries[k].where());
-        }
-        known.push_back(entries[k].name());
-        index.emplace(entries[k].name(), k);
-    }
-    std::vector<std::optional<Scene>> done(entries.size());
-    for (std::size_t first = 0; first < entries.size(); ++first) {
-        std::vector<std::size_t> chain; // the scene, what it is like, what that is like, ...
-        std::optional<std::size_t> next = first;
-        Scene scene;
-        while (next && !done[*next]) {
-            const std::size_t k = *next;
-            if (std::find(chain.begin(), chain.end(), k) != chain.end()) {
-                throw ModelError(fmt::format("scene '{}' is like itself, through 'like'", known[k]),
-                                 entries[k].where());
-            }
-            chain.push_back(k);
-            TableReader fields(entries[k].value, fmt::format("[scene.{}]", known[k]));
-            const TomlEntry* like = fields.take("like");
-            next.reset();
-            if (like == nullptr) continue;
-            const std::string target = read_text(like->value, fmt::format("'like' of scene '{}'", known[k]));
-            if (!index.contains(target)) {
-                throw ModelError(fmt::format("scene '{}' is like '{}', which is no scene", known[k], target),
-                                 like->value.where, hint_for(target, known, "scenes"));
-            }
-            next = index.at(target);
-        }
-        if (next) scene = *done[*next];
-        for (; !chain.empty(); chain.pop_back()) {
-            scene = read_scene(reader, scene, entries[chain.back()], settings);
-            done[chain.back()] = scene;
-        }
-    }
-    for (const std::optional<Scene>& scene : done) reader.model.scenes.push_back(*scene);
 }
 
 } // namespace lagen

@@ -8,6 +8,7 @@ namespace lagen {
 
 namespace {
 
+constexpr std::size_t milestone = 64;
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 unsigned byte(std::string_view text, std::size_t at)
@@ -35,9 +36,13 @@ bool is_control(char32_t c)
 
 SourcePositions::SourcePositions(std::string_view text) : text_(text)
 {
-    lines_.push_back(text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
-    for (std::size_t k = 0; k < text.size(); ++k) {
-        if (text[k] == '\n') lines_.push_back(k + 1);
+    std::size_t at = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
+    lines_.push_back({at, 0});
+    for (std::size_t character = 0; at < text.size(); ++character) {
+        if (character % milestone == 0) milestones_.push_back(at);
+        const bool ends_line = text[at] == '\n';
+        at += std::max<std::size_t>(1, sequence_length(byte(text, at)));
+        if (ends_line) lines_.push_back({at, character + 1});
     }
 }
 
@@ -45,11 +50,14 @@ std::size_t SourcePositions::byte_of(std::size_t line, std::size_t column) const
 {
     if (line == 0) return 0;
     if (line > lines_.size()) return text_.size();
-    std::size_t at = lines_[line - 1];
-    for (std::size_t k = 1; k < column && at < text_.size() && text_[at] != '\n'; ++k) {
+    const std::size_t line_end = line < lines_.size() ? lines_[line].byte - 1 : text_.size();
+    const std::size_t character = lines_[line - 1].character + std::max<std::size_t>(1, column) - 1;
+    if (character / milestone >= milestones_.size()) return line_end;
+    std::size_t at = milestones_[character / milestone];
+    for (std::size_t k = 0; k < character % milestone && at < line_end; ++k) {
         at += std::max<std::size_t>(1, sequence_length(byte(text_, at)));
     }
-    return std::min(at, text_.size());
+    return std::min(at, line_end);
 }
 
 std::size_t first_invalid_utf8(std::string_view text)

@@ -18,8 +18,14 @@ class SourcePositions {
     [[nodiscard]] std::size_t byte_of(std::size_t line, std::size_t column) const;
 
   private:
+    struct Line {
+        std::size_t byte;      ///< where it starts
+        std::size_t character; ///< how many characters of the text stand before it
+    };
     std::string_view text_;
-    std::vector<std::size_t> lines_; ///< first byte of each line
+    std::vector<Line> lines_;
+    std::vector<std::size_t>
+        milestones_; ///< the byte of every 64th character, so that long lines cost no more than short ones
 };
 
 /// The first byte that is not part of valid UTF-8 (overlong forms, surrogates and values above U+10FFFF are invalid),

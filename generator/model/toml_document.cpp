@@ -94,6 +94,15 @@ class Rebuilder {
     SourcePositions positions_;
 };
 
+/// toml++ says "Error while parsing array: expected ..."; we say what was expected first.
+std::string reworded(std::string_view text)
+{
+    constexpr std::string_view opening = "Error while parsing ";
+    const std::size_t colon = text.find(": ");
+    if (!text.starts_with(opening) || colon == std::string_view::npos) return std::string(text);
+    return fmt::format("{} (in the {})", text.substr(colon + 2), text.substr(opening.size(), colon - opening.size()));
+}
+
 void require_utf8(const std::shared_ptr<const SourceFile>& file)
 {
     const std::size_t bad = first_invalid_utf8(file->text);
@@ -112,7 +121,7 @@ TomlValue parse_toml(const std::shared_ptr<const SourceFile>& file)
         const toml::table table = toml::parse(std::string_view(file->text), std::string_view(file->name));
         return Rebuilder(file).value(table);
     } catch (const toml::parse_error& error) {
-        throw ModelError(fmt::format("the file is not valid TOML: {}", error.description()),
+        throw ModelError(fmt::format("the file is not valid TOML: {}", reworded(error.description())),
                          Rebuilder(file).range(error.source()),
                          "expressions are quoted strings, and each key stands once: key = \"expression\"");
     }

@@ -3,7 +3,7 @@
 #include "proof/elementary.hpp"
 #include "proof/print_fraction.hpp"
 
-namespace lagen {
+namespace lagen::proof {
 
 namespace {
 
@@ -191,4 +191,4 @@ Fraction Elementary::opaque(const std::string& name, const std::vector<Fraction>
     return ring_.of(ring_.keyed(key, [&] { return ring_.add_generator({text + ')', {}, 0, {}, -1, false}); }));
 }
 
-} // namespace lagen
+} // namespace lagen::proof

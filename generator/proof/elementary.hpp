@@ -8,7 +8,7 @@
 
 #include "proof/ring.hpp"
 
-namespace lagen {
+namespace lagen::proof {
 
 /// How cos(a + b) is seen: by the addition theorem, or as a generator of the whole angle (better for signs).
 enum class Angles { split, whole };
@@ -82,4 +82,4 @@ class Elementary {
 /// The primes of |number| up to a bound, with multiplicities, and what is left (1, or a number without small primes).
 [[nodiscard]] std::vector<std::pair<mpz_class, unsigned>> small_factors(const mpz_class& number);
 
-} // namespace lagen
+} // namespace lagen::proof

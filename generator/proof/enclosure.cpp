@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace lagen {
+namespace lagen::proof {
 
 namespace {
 
@@ -195,4 +195,4 @@ Ball Evaluation::enclose_component(NodeId node, const std::vector<Ball>& values,
     return result;
 }
 
-} // namespace lagen
+} // namespace lagen::proof

@@ -9,7 +9,7 @@
 #include <map>
 #include <optional>
 
-namespace lagen {
+namespace lagen::proof {
 
 /// A real number with a rigorous error bound; "not finite" where nothing certain is known.
 class Ball {
@@ -71,4 +71,4 @@ class Evaluation {
     std::map<NodeId, std::size_t> slots_;
 };
 
-} // namespace lagen
+} // namespace lagen::proof

@@ -4,7 +4,7 @@
 
 #include <map>
 
-namespace lagen {
+namespace lagen::proof {
 
 namespace {
 
@@ -92,4 +92,4 @@ bool square_root(const Polynomial& p, Polynomial& root, Work& work)
     return true;
 }
 
-} // namespace lagen
+} // namespace lagen::proof

@@ -2,7 +2,7 @@
 /// Exact rational evaluation, as far as every operation is rational at the point.
 #include "proof/enclosure.hpp"
 
-namespace lagen {
+namespace lagen::proof {
 
 namespace {
 
@@ -100,4 +100,4 @@ bool Evaluation::exact_node(NodeId node, const std::vector<Rational>& values, Ra
     return true;
 }
 
-} // namespace lagen
+} // namespace lagen::proof

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace lagen {
+namespace lagen::proof {
 
 namespace {
 
@@ -37,7 +37,7 @@ unsigned missing(unsigned whole, unsigned part)
 
 std::optional<mpq_class> Fraction::constant() const
 {
-    if (!factors.empty() || !lagen::is_constant(num)) return std::nullopt;
+    if (!factors.empty() || !proof::is_constant(num)) return std::nullopt;
     mpq_class value(num.empty() ? mpz_class(0) : num[0].coefficient, scale);
     value.canonicalize();
     return value;
@@ -63,7 +63,7 @@ Fraction Ring::constant(const mpq_class& value) const
 
 Fraction Ring::negate(Fraction a) const
 {
-    a.num = lagen::negate(std::move(a.num));
+    a.num = proof::negate(std::move(a.num));
     return a;
 }
 
@@ -147,13 +147,13 @@ Fraction Ring::add(const Fraction& a, const Fraction& b, int sign)
     mpz_lcm(scale.get_mpz_t(), a.scale.get_mpz_t(), b.scale.get_mpz_t());
     const mpz_class scale_a = scale / a.scale, scale_b = scale / b.scale * sign;
     if (a.factors == b.factors) {
-        Fraction sum{add_scaled(lagen::scale(a.num, scale_a), b.num, scale_b, work_), scale, a.factors};
+        Fraction sum{add_scaled(proof::scale(a.num, scale_a), b.num, scale_b, work_), scale, a.factors};
         return normalised(std::move(sum));
     }
     Factors all = merge(a.factors, b.factors, [](unsigned x, unsigned y) { return std::max(x, y); });
     const Polynomial left = times(a.num, expand(merge(all, a.factors, missing)));
     const Polynomial right = times(b.num, expand(merge(all, b.factors, missing)));
-    Fraction sum{add_scaled(lagen::scale(left, scale_a), right, scale_b, work_), scale, std::move(all)};
+    Fraction sum{add_scaled(proof::scale(left, scale_a), right, scale_b, work_), scale, std::move(all)};
     return normalised(std::move(sum));
 }
 
@@ -172,7 +172,7 @@ Fraction Ring::inverse(const Fraction& a)
     if (a.is_zero()) throw VanishingDivisor("division by an expression that is identically zero");
     Fraction result;
     const mpz_class unit = split(a.num, result.factors);
-    result.num = lagen::scale(expand(a.factors), sgn(unit) < 0 ? mpz_class(-a.scale) : a.scale);
+    result.num = proof::scale(expand(a.factors), sgn(unit) < 0 ? mpz_class(-a.scale) : a.scale);
     result.scale = abs(unit);
     return normalised(std::move(result));
 }
@@ -194,4 +194,4 @@ Fraction Ring::power(const Fraction& a, int exponent)
     return normalised(std::move(result));
 }
 
-} // namespace lagen
+} // namespace lagen::proof

@@ -3,7 +3,7 @@
 #include "proof/elementary.hpp"
 #include "proof/print_fraction.hpp"
 
-namespace lagen {
+namespace lagen::proof {
 
 Fraction Elementary::log_generator(const Polynomial& p)
 {
@@ -72,4 +72,4 @@ Fraction Elementary::logarithm(const Fraction& argument)
     return result;
 }
 
-} // namespace lagen
+} // namespace lagen::proof

@@ -2,7 +2,7 @@
 /// Power products: exponent arithmetic with overflow checks, and their order.
 #include "proof/polynomial.hpp"
 
-namespace lagen {
+namespace lagen::proof {
 
 Monomial::Monomial(GeneratorId generator, unsigned exponent)
 {
@@ -102,4 +102,4 @@ std::size_t Monomial::hash() const
     return static_cast<std::size_t>(h);
 }
 
-} // namespace lagen
+} // namespace lagen::proof

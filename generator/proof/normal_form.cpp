@@ -4,11 +4,12 @@
 
 #include "proof/print_fraction.hpp"
 
-namespace lagen {
+namespace lagen::proof {
 
 NormalForm::NormalForm(const Graph& graph, const ProofSetting& setting, const std::vector<SolvedConstraint>& constraints,
-                       const std::vector<NodeId>& roots, Work budget, Angles angles)
-    : graph_(graph), setting_(setting), constraints_(constraints), roots_(roots), ring_(budget), elementary_(ring_, angles)
+                       NodeId root, const std::vector<NonnegativeOperand>& operands, Work budget, Angles angles)
+    : graph_(graph), setting_(setting), constraints_(constraints), operands_(nonnegative_operands(graph, {root})),
+      ring_(budget), elementary_(ring_, angles)
 {
     const auto declare = [this](NodeId input) {
         if (inputs_.count(input) > 0) return;
@@ -16,7 +17,9 @@ NormalForm::NormalForm(const Graph& graph, const ProofSetting& setting, const st
     };
     for (const NodeId input : setting.parameters) declare(input);
     for (const NodeId input : setting.variables) declare(input);
-    std::vector<NodeId> all = roots;
+    operands_.insert(operands_.end(), operands.begin(), operands.end());
+    std::vector<NodeId> all{root};
+    for (const NonnegativeOperand& operand : operands_) all.push_back(operand.node);
     all.insert(all.end(), setting.constraints.begin(), setting.constraints.end());
     all.insert(all.end(), setting.domain.begin(), setting.domain.end());
     for (const NodeId node : reachable(graph, all))
@@ -53,35 +56,9 @@ void NormalForm::add_domain()
     }
 }
 
-std::vector<NonnegativeOperand> nonnegative_operands(const Graph& graph, const std::vector<NodeId>& roots)
-{
-    std::vector<NonnegativeOperand> found;
-    std::vector<NodeId> needed = reachable(graph, roots);
-    std::map<NodeId, bool> certain;
-    for (const NodeId root : roots) certain[root] = true;
-    for (std::size_t k = needed.size(); k-- > 0;) {
-        const NodeId node = needed[k];
-        if (!certain[node]) continue;
-        const auto operands = graph.operands(node);
-        for (std::size_t j = 0; j < operands.size(); ++j)
-            if (graph.op(node) != Op::select || j == 0) certain[operands[j]] = true;
-        const Op op = graph.op(node);
-        if (op == Op::log || op == Op::sqrt) found.push_back({operands[0], op == Op::log});
-        if (op == Op::real_power && !graph.is_constant(operands[1])) found.push_back({operands[0], true});
-        if (op == Op::real_power && graph.is_constant(operands[1]) && graph.value(operands[1]).get_den() != 1)
-            found.push_back({operands[0], sgn(graph.value(operands[1])) < 0});
-    }
-    return found;
-}
-
 void NormalForm::add_definedness()
 {
-    // A root's own argument tells more once the signs of simpler arguments are known: those without functions first.
-    for (const NonnegativeOperand& operand : nonnegative_operands(graph_, roots_)) {
-        bool simple = true;
-        for (const NodeId node : reachable(graph_, std::vector<NodeId>{operand.node}))
-            simple = simple && (graph_.op(node) <= Op::power || graph_.op(node) == Op::sin || graph_.op(node) == Op::cos);
-        if (!simple) continue;
+    for (const NonnegativeOperand& operand : operands_) {
         const Fraction value = of(operand.node);
         Polynomial product = value.num;
         for (const auto& [index, power] : value.factors)
@@ -221,4 +198,4 @@ Fraction NormalForm::function(NodeId node)
     }
 }
 
-} // namespace lagen
+} // namespace lagen::proof

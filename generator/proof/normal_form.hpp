@@ -6,7 +6,7 @@
 #include "proof/decide.hpp"
 #include "proof/elementary.hpp"
 
-namespace lagen {
+namespace lagen::proof {
 
 /// Constraint `constraint` solves for `variable`: leading * variable^degree + (terms of lower degree) = 0.
 struct SolvedConstraint {
@@ -16,12 +16,23 @@ struct SolvedConstraint {
     bool pure = true; ///< no terms of degrees 1 .. degree - 1
 };
 
+/// An operand of sqrt, log or a real power that must be defined: it is not negative.
+struct NonnegativeOperand {
+    NodeId node = 0;
+    bool positive = false; ///< of log, or of a negative power
+};
+
+/// Those that `roots` need; branches of select are left out, and so are operands that contain other functions than sin and cos
+/// (their signs are not needed to normalise the others).
+[[nodiscard]] std::vector<NonnegativeOperand> nonnegative_operands(const Graph& graph, const std::vector<NodeId>& roots);
+
 /// Normal forms under one setting. One object serves one decision.
 class NormalForm {
   public:
-    /// `roots`: everything whose definedness may be used, the residual included.
-    NormalForm(const Graph& graph, const ProofSetting& setting, const std::vector<SolvedConstraint>& constraints,
-               const std::vector<NodeId>& roots, Work budget, Angles angles = Angles::split);
+    /// `root`: the node of interest; `operands`: of roots and logarithms elsewhere in the model, whose definedness may be
+    /// used besides that of `root`.
+    NormalForm(const Graph& graph, const ProofSetting& setting, const std::vector<SolvedConstraint>& constraints, NodeId root,
+               const std::vector<NonnegativeOperand>& operands, Work budget, Angles angles = Angles::split);
 
     /// Throws BudgetExhausted or VanishingDivisor. Zero proves that the node vanishes wherever everything is defined, except
     /// where `condition()` vanishes.
@@ -47,7 +58,7 @@ class NormalForm {
     const Graph& graph_;
     const ProofSetting& setting_;
     const std::vector<SolvedConstraint>& constraints_;
-    std::vector<NodeId> roots_;
+    std::vector<NonnegativeOperand> operands_;
     Ring ring_;
     Elementary elementary_;
     std::map<NodeId, GeneratorId> inputs_;
@@ -56,11 +67,4 @@ class NormalForm {
     std::string condition_;
 };
 
-/// The operands of sqrt, log and real powers that must be defined where `roots` are: branches of select are left out.
-struct NonnegativeOperand {
-    NodeId node;
-    bool positive; ///< of log
-};
-[[nodiscard]] std::vector<NonnegativeOperand> nonnegative_operands(const Graph& graph, const std::vector<NodeId>& roots);
-
-} // namespace lagen
+} // namespace lagen::proof

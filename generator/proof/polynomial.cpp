@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <unordered_map>
 
-namespace lagen {
+namespace lagen::proof {
 
 namespace {
 
@@ -226,4 +226,4 @@ std::string key_of(const Polynomial& p)
     return key;
 }
 
-} // namespace lagen
+} // namespace lagen::proof

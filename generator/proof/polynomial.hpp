@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace lagen {
+namespace lagen::proof {
 
 using GeneratorId = std::uint16_t;
 
@@ -95,4 +95,4 @@ struct Work {
 [[nodiscard]] std::string key_of(const Polynomial& p);
 [[nodiscard]] std::string key_of(const Monomial& m);
 
-} // namespace lagen
+} // namespace lagen::proof

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "proof/print_fraction.hpp"
 
-namespace lagen {
+namespace lagen::proof {
 
 namespace {
 
@@ -66,4 +66,4 @@ std::string to_text(const Ring& ring, const Fraction& a, std::size_t limit)
     return (a.num.size() > 1 ? '(' + above + ')' : above) + '/' + below;
 }
 
-} // namespace lagen
+} // namespace lagen::proof

@@ -5,10 +5,10 @@
 
 #include "proof/ring.hpp"
 
-namespace lagen {
+namespace lagen::proof {
 
 /// At most `limit` characters; a longer sum is cut after a whole term and ends with "... (123 terms)".
 [[nodiscard]] std::string to_text(const Ring& ring, const Fraction& a, std::size_t limit = 400);
 [[nodiscard]] std::string to_text(const Ring& ring, const Polynomial& p, std::size_t limit = 400);
 
-} // namespace lagen
+} // namespace lagen::proof

@@ -4,7 +4,7 @@
 
 #include <array>
 
-namespace lagen {
+namespace lagen::proof {
 
 namespace {
 
@@ -178,4 +178,4 @@ Signs both(const Signs& a, const Signs& b)
     return {a.negative && b.negative, a.zero && b.zero, a.positive && b.positive};
 }
 
-} // namespace lagen
+} // namespace lagen::proof

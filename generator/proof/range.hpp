@@ -5,7 +5,7 @@
 
 #include <gmpxx.h>
 
-namespace lagen {
+namespace lagen::proof {
 
 /// One end of a range. An `open` end is not attained; an infinite end never is.
 struct End {
@@ -53,4 +53,4 @@ struct Signs {
 [[nodiscard]] Signs power(const Signs& a, unsigned exponent);
 [[nodiscard]] Signs both(const Signs& a, const Signs& b); ///< what two true statements leave possible
 
-} // namespace lagen
+} // namespace lagen::proof

@@ -2,7 +2,7 @@
 /// Generators and reduction modulo their relations.
 #include "proof/ring.hpp"
 
-namespace lagen {
+namespace lagen::proof {
 
 GeneratorId Ring::add_generator(Generator generator)
 {
@@ -82,4 +82,4 @@ Polynomial Ring::power(const Polynomial& p, unsigned exponent)
     return result;
 }
 
-} // namespace lagen
+} // namespace lagen::proof

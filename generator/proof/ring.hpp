@@ -12,7 +12,7 @@
 #include <optional>
 #include <utility>
 
-namespace lagen {
+namespace lagen::proof {
 
 /// Raised where a divisor is identically zero; what() is the text of the division.
 struct VanishingDivisor : std::runtime_error {
@@ -117,4 +117,4 @@ class Ring {
 [[nodiscard]] std::string key_of(const Fraction& a);
 [[nodiscard]] bool same(const Fraction& a, const Fraction& b);
 
-} // namespace lagen
+} // namespace lagen::proof

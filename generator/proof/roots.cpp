@@ -3,7 +3,7 @@
 #include "proof/elementary.hpp"
 #include "proof/print_fraction.hpp"
 
-namespace lagen {
+namespace lagen::proof {
 
 namespace {
 
@@ -167,4 +167,4 @@ Fraction Elementary::real_power(const Fraction& base, const Fraction& exponent)
     return exponential(ring_.times(exponent, logarithm(base)));
 }
 
-} // namespace lagen
+} // namespace lagen::proof

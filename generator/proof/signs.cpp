@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace lagen {
+namespace lagen::proof {
 
 namespace {
 
@@ -44,7 +44,7 @@ Signs Ring::range_signs(const Polynomial& p) const
     for (const Term& term : p) {
         Range range = Range::point(mpq_class(term.coefficient));
         for (std::size_t k = 0; k < term.monomial.size(); ++k)
-            range = range * lagen::power(generators_[term.monomial.generator(k)].range, term.monomial.exponent(k));
+            range = range * proof::power(generators_[term.monomial.generator(k)].range, term.monomial.exponent(k));
         sum = p.size() == 1 ? range : sum + range;
     }
     return signs_of(sum);
@@ -119,14 +119,14 @@ Signs Ring::signs(const Polynomial& p, int depth)
     if (!common.is_one() && p.size() > 1) {
         Signs product = signs(divide_monomial(p, common), depth);
         for (std::size_t k = 0; k < common.size(); ++k)
-            product = product * lagen::power(signs_of(generators_[common.generator(k)].range), common.exponent(k));
+            product = product * proof::power(signs_of(generators_[common.generator(k)].range), common.exponent(k));
         return both(known, product);
     }
     known = both(known, fact_signs(p, depth));
     if (settled()) return known;
     Polynomial root;
     if (depth < deepest && p.size() > 1 && square_root(primitive(p), root, work_))
-        known = both(known, lagen::power(signs(root, depth + 1), 2));
+        known = both(known, proof::power(signs(root, depth + 1), 2));
     if (settled() || depth > 0) return known;
     for (const Polynomial& form : rewritings(p)) known = both(known, signs(form, depth + 1));
     return known;
@@ -138,9 +138,9 @@ Signs Ring::signs(const Fraction& a)
     for (const auto& [index, exponent] : a.factors) {
         Signs factor = signs(Polynomial(factors_[index]));
         factor.zero = false; // a fraction speaks of the points where its denominator is not zero
-        known = known * lagen::power(factor, exponent);
+        known = known * proof::power(factor, exponent);
     }
     return known;
 }
 
-} // namespace lagen
+} // namespace lagen::proof

@@ -2,7 +2,7 @@
 /// Components of z = A^-1 b in the ring: Cramer's rule where A is small, a free generator otherwise.
 #include "proof/normal_form.hpp"
 
-namespace lagen {
+namespace lagen::proof {
 
 namespace {
 
@@ -43,4 +43,4 @@ Fraction NormalForm::component(NodeId node)
     return ring_.divide(determinant(matrix, n), whole);
 }
 
-} // namespace lagen
+} // namespace lagen::proof

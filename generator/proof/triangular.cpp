@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <set>
 
-namespace lagen {
+namespace lagen::proof {
 
 namespace {
 
@@ -65,7 +65,7 @@ Analysed analyse(const Graph& graph, const ProofSetting& setting, std::size_t in
 {
     const NodeId constraint = setting.constraints[index];
     const std::vector<SolvedConstraint> none;
-    NormalForm forms(graph, setting, none, {constraint}, {20'000, 20'000'000});
+    NormalForm forms(graph, setting, none, constraint, {}, {20'000, 20'000'000});
     const Polynomial h = forms.of(constraint).num;
     const std::set<NodeId> excluded = entangled(graph, constraint);
     Analysed result;
@@ -146,4 +146,4 @@ std::vector<SolvedConstraint> triangular_constraints(const Graph& graph, const P
     return solved;
 }
 
-} // namespace lagen
+} // namespace lagen::proof

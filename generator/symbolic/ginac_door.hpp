@@ -17,12 +17,12 @@ namespace lagen {
 class SymbolTable {
   public:
     /// The symbol called `name`, made at its first use.
-    GiNaC::symbol symbol(const std::string& name);
+    GiNaC::realsymbol symbol(const std::string& name);
     /// The name of a symbol of this table; InternalError for any other.
     [[nodiscard]] const std::string& name_of(const GiNaC::symbol& symbol) const;
 
   private:
-    std::map<std::string, GiNaC::symbol> symbols_;
+    std::map<std::string, GiNaC::realsymbol> symbols_;
     std::map<GiNaC::ex, std::string, GiNaC::ex_is_less> names_; ///< looked up, never iterated: its order is GiNaC's
 };
 

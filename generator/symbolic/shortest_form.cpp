@@ -12,7 +12,7 @@ namespace {
 constexpr double term_limit = 2000;       ///< of an expanded sum
 constexpr std::size_t factor_terms = 40;  ///< of a polynomial handed to GiNaC::factor
 constexpr int factor_degree = 16;         ///< its total degree, summed over its symbols
-constexpr std::size_t parenthesis_cost = 3;
+constexpr std::size_t parenthesis_cost = 2;
 
 /// A bound of the number of terms after expansion.
 double expanded_terms(const GiNaC::ex& e) {

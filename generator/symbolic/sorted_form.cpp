@@ -131,14 +131,13 @@ std::pair<bool, Tree> signed_tree(const SortedTerm& term) {
     return {false, fraction_tree(-term.coefficient, factors)};
 }
 
-/// Terms in their order, except that a positive one comes first where there is one.
+/// Terms in their order; where the first one is negative, positive ones come before the others.
 Tree sum_tree(const std::vector<SortedTerm>& terms) {
     std::vector<std::pair<bool, Tree>> parts;
     for (const SortedTerm& term : terms)
         parts.push_back(signed_tree(term));
-    const auto positive = std::find_if(parts.begin(), parts.end(), [](const auto& part) { return !part.first; });
-    if (positive != parts.end())
-        std::rotate(parts.begin(), positive, positive + 1);
+    if (!parts.empty() && parts.front().first)
+        std::stable_partition(parts.begin(), parts.end(), [](const auto& part) { return !part.first; });
     std::vector<Tree> trees;
     for (auto& [negative, tree] : parts)
         trees.push_back(negative ? negate(std::move(tree)) : std::move(tree));

@@ -6,7 +6,7 @@
 
 namespace lagen {
 
-GiNaC::symbol SymbolTable::symbol(const std::string& name) {
+GiNaC::realsymbol SymbolTable::symbol(const std::string& name) {
     const auto known = symbols_.find(name);
     if (known != symbols_.end())
         return known->second;

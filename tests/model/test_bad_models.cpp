@@ -128,7 +128,15 @@ TEST_CASE("a setting must name a parameter and have a value over parameters")
     CHECK(error("mas", "2") == "the model has no parameter 'mas' to set | did you mean 'mass'?");
     CHECK(error("q", "2") == "'q' is a base coordinate, not a parameter | known parameters: mass");
     CHECK(error("mass", "q") ==
-          "the value set for parameter 'mass' may not depend on a base coordinate ('q') | allowed here: parameter");
+          "the value set for parameter 'mass' may not depend on a base coordinate ('q') | allowed here: parameters");
     CHECK(error("mass", "2*mass") ==
           "the parameters depend on each other in a cycle: mass -> mass | give one of them a value of its own");
+}
+
+TEST_CASE("long lines are no slower than short ones")
+{
+    std::string text = "title = 'x'\nparameters = { ";
+    for (int k = 0; k < 4000; ++k) text += "a" + std::to_string(k) + " = { b = '" + std::string(400, '1') + "' }, ";
+    text += "z = 1 }\n";
+    CHECK_THAT(error_of("m.toml", text), Contains("m.toml:2:"));
 }

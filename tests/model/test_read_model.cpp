@@ -105,7 +105,7 @@ TEST_CASE("decimals, bare or quoted, are exact")
                                                   "coordinates = ['q']\n[algebroid]\nkind = 'tangent'\n");
     CHECK(model.parameters[0].value->number == lagen::Rational(1, 10));
     CHECK(model.parameters[1].value->number == lagen::Rational(1, 10));
-    CHECK(to_text(model.parameters[2].value) == "-102.5");
+    CHECK(to_text(model.parameters[2].value) == "-205/2");
     CHECK(model.parameters[3].value->number == 16);
 }
 

@@ -13,26 +13,12 @@
 
 namespace lagen {
 
-namespace detail {
-
-/// The spacing of numbers next to 1, also for packs (by their lane type).
-template <class S>
-[[nodiscard]] constexpr auto unit_spacing() noexcept
-{
-    if constexpr (std::numeric_limits<S>::is_specialized)
-        return std::numeric_limits<S>::epsilon();
-    else
-        return std::numeric_limits<typename S::value_type>::epsilon();
-}
-
-} // namespace detail
-
 /// 2 n epsilon: a pivot of an n x n elimination that is smaller than this multiple of the entries it was computed from
 /// consists of rounding errors only, so the matrix cannot be told from a singular one.
 template <class S>
 [[nodiscard]] S singular_tolerance(int n) noexcept
 {
-    return S(2 * n) * S(detail::unit_spacing<S>());
+    return S(2 * n) * S(std::numeric_limits<real_t<S>>::epsilon());
 }
 
 /// P A = L U of an N x N matrix. The pivot of column k is the entry that is largest relative to its row; the matrix

@@ -27,10 +27,12 @@ struct IntegerOf<8> {
     using type = std::int64_t;
 };
 
-// g++ ignores the attribute where N is a template parameter of an alias; a member typedef is what both compilers take.
+// A member typedef is what both compilers take as a dependent vector type. The alignment is at most 16 bytes, because Eigen aligns
+// its arrays to no more than that without AVX, and clang refuses an array less aligned than its entries.
 template <class T, int N>
 struct VectorOf {
-    typedef T type __attribute__((vector_size(sizeof(T) * static_cast<std::size_t>(N))));
+    static constexpr std::size_t bytes = sizeof(T) * static_cast<std::size_t>(N);
+    typedef T type __attribute__((vector_size(bytes), aligned(bytes < 16 ? bytes : 16)));
 };
 
 } // namespace detail

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// The parts of reading a scene.
+#pragma once
+
+#include "model/model_reader.hpp"
+
+namespace lagen {
+
+/// What `block` says, on top of `scene` (empty, or the scene that it is like). Parameters set on the command line win
+/// over the scene's.
+[[nodiscard]] Scene read_scene(const ModelReader& reader, Scene scene, const TomlEntry& block,
+                               const std::vector<Setting>& settings);
+
+void read_initial(const ModelReader& reader, Scene& scene, const TomlEntry& block);
+void read_scene_parameters(const ModelReader& reader, Scene& scene, const TomlEntry& block);
+
+/// Throws ModelError unless `initial` has every base coordinate, and every fibre coordinate or every momentum.
+void require_complete(const ModelReader& reader, const Scene& scene);
+
+/// Throws ModelError where the scene's parameter values close a cycle.
+void require_acyclic_scene(const ModelReader& reader, const Scene& scene);
+
+/// A closed expression over parameters.
+[[nodiscard]] Tree over_parameters(const ModelReader& reader, const TomlValue& value, const std::string& what);
+
+} // namespace lagen

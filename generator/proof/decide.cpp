@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// The decision: normal form first (it is the proof and the residual's text), then certified points.
+#include "proof/decide.hpp"
+
+#include "proof/print_fraction.hpp"
+#include "proof/sample.hpp"
+#include "proof/triangular.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lagen {
+
+using namespace proof;
+
+const char* to_text(ProofStatus status)
+{
+    switch (status) {
+    case ProofStatus::proved: return "proved";
+    case ProofStatus::refuted: return "refuted";
+    case ProofStatus::undecided: break;
+    }
+    return "undecided";
+}
+
+class ZeroDecider::State {
+  public:
+    State(const Graph& graph, ProofSetting setting, ProofBudget budget)
+        : graph_(graph), setting_(std::move(setting)), budget_(budget), constraints_(triangular_constraints(graph, setting_)),
+          operands_(nonnegative_operands(graph, setting_.defined)), sampler_(graph, setting_, constraints_, budget)
+    {
+    }
+
+    [[nodiscard]] Decision decide(NodeId residual);
+    [[nodiscard]] Signs signs(NodeId value);
+    [[nodiscard]] std::optional<std::vector<std::pair<std::string, std::string>>> sample_point();
+    [[nodiscard]] double largest_bound(NodeId residual, std::size_t points);
+
+  private:
+    /// What algebra says about a residual.
+    struct Algebra {
+        bool zero = false;
+        bool division_by_zero = false;
+        std::string text; ///< of the normal form
+        std::string note; ///< why there is no verdict from here
+    };
+
+    [[nodiscard]] NormalForm normal_form(NodeId node, Angles angles = Angles::split) const
+    {
+        return {graph_, setting_, constraints_, node, operands_, {budget_.terms, budget_.products}, angles};
+    }
+    [[nodiscard]] Algebra reduce(NodeId residual) const;
+    void search_witness(const Evaluation& evaluation, bool prove, Decision& decision);
+    [[nodiscard]] Ball refine(const Evaluation& evaluation, const SamplePoint& point, bool raise) const;
+    [[nodiscard]] std::size_t affordable_tries(const Evaluation& evaluation) const;
+
+    const Graph& graph_;
+    ProofSetting setting_;
+    ProofBudget budget_;
+    std::vector<SolvedConstraint> constraints_;
+    std::vector<NonnegativeOperand> operands_;
+    Sampler sampler_;
+};
+
+namespace {
+
+std::string joined(const std::string& a, const std::string& b)
+{
+    return a.empty() || b.empty() ? a + b : a + "; " + b;
+}
+
+/// "1e-74": the next power of ten above, as a text.
+std::string power_of_ten_above(double bound)
+{
+    return "1e" + std::to_string(static_cast<int>(std::ceil(std::log10(bound))));
+}
+
+/// A nonzero double of the right sign even where the value under- or overflows.
+double nonzero_double(const Ball& value)
+{
+    const double sign = arb_is_negative(value.get()) != 0 ? -1 : 1;
+    const double magnitude = std::abs(value.middle());
+    return sign * std::clamp(magnitude, std::numeric_limits<double>::denorm_min(), std::numeric_limits<double>::max());
+}
+
+} // namespace
+
+ZeroDecider::State::Algebra ZeroDecider::State::reduce(NodeId residual) const
+{
+    Algebra result;
+    try {
+        NormalForm forms = normal_form(residual);
+        const Fraction form = forms.of(residual);
+        result.text = to_text(forms.ring(), form);
+        if (form.is_zero() && !forms.condition().empty())
+            result.note = "zero wherever " + forms.condition() + " != 0, which is not shown on the whole domain";
+        result.zero = form.is_zero() && forms.condition().empty();
+        return result;
+    } catch (const BudgetExhausted& error) {
+        result.note = error.what();
+    } catch (const VanishingDivisor& error) {
+        result.note = error.what();
+        result.division_by_zero = true;
+    }
+    result.text = to_text(graph_, residual, 400);
+    return result;
+}
+
+std::size_t ZeroDecider::State::affordable_tries(const Evaluation& evaluation) const
+{
+    constexpr std::size_t most_operations = 4'000'000;
+    return std::clamp<std::size_t>(most_operations / (evaluation.size() + 1), 4, 2 * budget_.tries);
+}
+
+/// The residual at a point: at the first precision, and where its sign stays open (and `raise`) at up to eight times that.
+Ball ZeroDecider::State::refine(const Evaluation& evaluation, const SamplePoint& point, bool raise) const
+{
+    Ball value;
+    for (slong precision = budget_.precision; precision <= 8 * budget_.precision; precision *= 2) {
+        value = evaluation.enclose(sampler_.enclosures(point, evaluation.inputs(), precision), precision)[0];
+        if (value.excludes_zero() || !raise) break;
+    }
+    return value;
+}
+
+void ZeroDecider::State::search_witness(const Evaluation& evaluation, bool prove, Decision& decision)
+{
+    std::size_t finite = 0;
+    double bound = 0;
+    const std::size_t tries = affordable_tries(evaluation);
+    for (std::size_t k = 0; k < tries; ++k) {
+        const SamplePoint* point = sampler_.regular(k);
+        if (point == nullptr) break;
+        const auto exact = evaluation.exactly(sampler_.exact_values(*point, evaluation.inputs()));
+        const bool zero = exact && sgn((*exact)[0]) == 0;
+        const Ball value = exact ? Ball((*exact)[0], budget_.precision)
+                                 : refine(evaluation, *point, !prove && finite < budget_.points);
+        if (!value.is_finite()) continue;
+        ++finite;
+        if (!zero && value.excludes_zero()) {
+            decision.status = ProofStatus::refuted;
+            decision.witness = Witness{sampler_.text(*point, evaluation.inputs()), nonzero_double(value)};
+            return;
+        }
+        bound = std::max(bound, value.bound());
+        if (prove) {
+            decision.status = ProofStatus::proved;
+            return;
+        }
+    }
+    if (finite == 0) {
+        decision.evidence = "no regular point found in " + std::to_string(budget_.tries) + " tries";
+        return;
+    }
+    const std::string points = " at " + std::to_string(finite) + (finite == 1 ? " point" : " points");
+    decision.evidence = (bound == 0 ? "r = 0" : "|r| < " + power_of_ten_above(bound)) + points;
+}
+
+Decision ZeroDecider::State::decide(NodeId residual)
+{
+    Decision decision;
+    const Algebra algebra = reduce(residual);
+    decision.residual = algebra.text;
+    if (algebra.division_by_zero) {
+        decision.evidence = algebra.note;
+        return decision;
+    }
+    const Evaluation evaluation(graph_, {residual});
+    search_witness(evaluation, algebra.zero, decision);
+    if (algebra.zero && decision.status == ProofStatus::refuted)
+        throw InternalError("the residual " + to_text(graph_, residual, 200) + " has the normal form 0 and a point where it is not zero");
+    if (decision.status == ProofStatus::undecided) decision.evidence = joined(decision.evidence, algebra.note);
+    return decision;
+}
+
+Signs ZeroDecider::State::signs(NodeId value)
+{
+    Signs known;
+    for (const Angles angles : {Angles::split, Angles::whole}) {
+        try {
+            NormalForm forms = normal_form(value, angles);
+            const Fraction form = forms.of(value);
+            if (forms.condition().empty()) known = both(known, forms.ring().signs(form));
+        } catch (const BudgetExhausted&) {
+            continue; // nothing learnt
+        } catch (const VanishingDivisor&) {
+            return {};
+        }
+    }
+    return known;
+}
+
+std::optional<std::vector<std::pair<std::string, std::string>>> ZeroDecider::State::sample_point()
+{
+    const SamplePoint* point = sampler_.regular(0);
+    if (point == nullptr) return std::nullopt;
+    return sampler_.text(*point, {});
+}
+
+double ZeroDecider::State::largest_bound(NodeId residual, std::size_t points)
+{
+    const Evaluation evaluation(graph_, {residual});
+    double bound = 0;
+    std::size_t done = 0;
+    for (std::size_t k = 0; done < points; ++k) {
+        const SamplePoint* point = sampler_.regular(k);
+        if (point == nullptr) break;
+        const Ball value = refine(evaluation, *point, false);
+        if (!value.is_finite()) continue;
+        bound = std::max(bound, value.bound());
+        ++done;
+    }
+    return done == 0 ? std::numeric_limits<double>::infinity() : bound;
+}
+
+ZeroDecider::ZeroDecider(const Graph& graph, ProofSetting setting, ProofBudget budget)
+    : state_(std::make_unique<State>(graph, std::move(setting), budget))
+{
+}
+
+ZeroDecider::~ZeroDecider() = default;
+
+Decision ZeroDecider::decide(NodeId residual) const
+{
+    return state_->decide(residual);
+}
+
+bool ZeroDecider::proves_positive(NodeId value) const
+{
+    return state_->signs(value).certainly_positive();
+}
+
+bool ZeroDecider::proves_nonzero(NodeId value) const
+{
+    return state_->signs(value).certainly_nonzero();
+}
+
+std::optional<std::vector<std::pair<std::string, std::string>>> ZeroDecider::sample_point() const
+{
+    return state_->sample_point();
+}
+
+double ZeroDecider::largest_bound(NodeId residual, std::size_t points) const
+{
+    return state_->largest_bound(residual, points);
+}
+
+} // namespace lagen

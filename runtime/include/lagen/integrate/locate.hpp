@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+/// Roots and boundaries inside a step, on the step's own variable theta in [0, 1].
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace lagen::detail {
+
+/// A bracket that has shrunk to `width`: the sign at `after` is that at the end of the first bracket.
+template <class Real>
+struct Bracket {
+    Real before;
+    Real after;
+};
+
+/// The crossing of `value` between a (value ga) and b (value gb of the other sign, or zero): the Illinois variant of regula falsi
+/// [Dowell and Jarratt 1971], every third trial a bisection, so that the bracket shrinks at least by 2 in three trials.
+template <class Real, class Function>
+Bracket<Real> locate_crossing(Real a, Real ga, Real b, Real gb, Real width, const Function& value) noexcept
+{
+    const bool rising = ga < Real(0);
+    int kept = 0;
+    for (int trial = 0; trial < 240 && b - a > width; ++trial) {
+        Real x = (a + b) / Real(2);
+        if (trial % 3 != 2 && gb != ga) {
+            // A trial within the width of an end would not shrink the bracket below it: step just inside.
+            const Real least = std::min(width, (b - a) / Real(2)) * Real(0.75);
+            const Real secant = b - gb * (b - a) / (gb - ga);
+            if (secant > a && secant < b) x = std::clamp(secant, a + least, b - least);
+        }
+        if (!(x > a && x < b)) break;
+        const Real g = value(x);
+        const bool crossed = rising ? !(g < Real(0)) : !(g > Real(0));
+        if (crossed) {
+            b = x;
+            gb = g;
+            if (kept > 0) ga /= Real(2);
+            kept = 1;
+        } else {
+            a = x;
+            ga = g;
+            if (kept < 0) gb /= Real(2);
+            kept = -1;
+        }
+    }
+    return {a, b};
+}
+
+/// The boundary between theta = 0, where `inside` holds, and 1, where it does not.
+template <class Real, class Predicate>
+Bracket<Real> locate_boundary(Real width, const Predicate& inside) noexcept
+{
+    Bracket<Real> bracket{Real(0), Real(1)};
+    while (bracket.after - bracket.before > width) {
+        const Real middle = (bracket.before + bracket.after) / Real(2);
+        if (!(middle > bracket.before && middle < bracket.after)) break;
+        (inside(middle) ? bracket.before : bracket.after) = middle;
+    }
+    return bracket;
+}
+
+} // namespace lagen::detail

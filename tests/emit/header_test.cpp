@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "emit/print_header.hpp"
+
+#include "../support/golden.hpp"
+#include "hand_built.hpp"
+
+using namespace lagen;
+using namespace lagen::testing;
+
+TEST_CASE("a module without mechanics becomes a header", "[emit]") { check_golden("product.hpp", print_header(product_module())); }
+
+TEST_CASE("the header of a pendulum reads as if written by hand", "[emit]")
+{
+    check_golden("pendulum.hpp", print_header(pendulum_module()));
+}
+
+TEST_CASE("a definite matrix is factorised in the order of least fill", "[emit]")
+{
+    // an arrow that points up: elimination from the front would fill the whole matrix
+    const std::vector<std::vector<bool>> arrow{
+        {true, true, true, true}, {true, true, false, false}, {true, false, true, false}, {true, false, false, true}};
+    check_golden("arrow.hpp", print_header(solve_module("arrow", arrow, MatrixStructure::positive_definite)));
+}
+
+TEST_CASE("a matrix of unknown definiteness goes to pivoted LU, one of order two to the closed form", "[emit]")
+{
+    const std::vector<std::vector<bool>> full(3, std::vector<bool>(3, true));
+    check_golden("pivoted.hpp", print_header(solve_module("pivoted", full, MatrixStructure::symmetric)));
+    const std::vector<std::vector<bool>> two(2, std::vector<bool>(2, true));
+    check_golden("closed_form.hpp", print_header(solve_module("closed_form", two, MatrixStructure::general)));
+}
+
+TEST_CASE("text of the user cannot break out of a comment or a string", "[emit]")
+{
+    KernelModule module = product_module();
+    module.title = "evil\n#error one\r\\";
+    module.base[0].text = "*/ int x; \?\?/ \\";
+    module.base[0].unit = "m\n";
+    module.kernels[0].entry_names = {"a\"b\\n"};
+    const std::string text = print_header(module);
+    CHECK(text.find("\n#error") == std::string::npos);
+    CHECK(text.find('\\' + std::string("\n")) == std::string::npos);
+    CHECK(text.find("\?\?/") == std::string::npos);
+    CHECK(text.find("/// product: evil #error one /\n") != std::string::npos);
+    CHECK(text.find("S x = S(0); ///< * / int x; ? ?/ / [m]\n") != std::string::npos);
+    CHECK(text.find("f_names = {\"a\\\"b\\\\n\"};") != std::string::npos);
+}
+
+TEST_CASE("the same module gives the same bytes", "[emit]")
+{
+    CHECK(print_header(pendulum_module()) == print_header(pendulum_module()));
+    CHECK(print_header(pendulum_module()).size() > 1000);
+}
+
+TEST_CASE("names that C++ cannot bear are altered and stay distinct", "[emit]")
+{
+    CHECK(cpp_names({"class", "I", "y0", "S", "t", "x", "theta_1"}) ==
+          std::vector<std::string>{"class_", "I_", "y0_", "S_", "t_", "x", "theta_1"});
+    CHECK(cpp_names({"θ", "Ω", "é"}) == std::vector<std::string>{"theta", "Omega", "u00E9"});
+    CHECK(cpp_names({"θ", "theta", "x[1]", "x_1"}) == std::vector<std::string>{"theta_", "theta", "x_1_", "x_1"});
+    CHECK(cpp_names({"class", "class_", "class_1_"}) == std::vector<std::string>{"class_1_1_", "class_", "class_1_"});
+    CHECK(cpp_names({"_a", "a__b", ""}) == std::vector<std::string>{"n_a", "a_b", "n"});
+}
+
+TEST_CASE("shared terms avoid the names of the model", "[emit]")
+{
+    KernelModule module = empty_module("clash");
+    Graph& graph = *module.graph;
+    module.base = {declare(graph, "w0"), declare(graph, "s"), declare(graph, "ds")};
+    const NodeId shared = graph.add(module.base[0].input, module.base[1].input);
+    const NodeId root = graph.apply(Op::sqrt, shared);
+    module.kernels = {vector_kernel("rhs", {graph.multiply(root, module.base[2].input), root, shared}, KernelShape::right_hand_side)};
+    const std::string text = print_header(module);
+    CHECK(text.find("const S s_ = s[1];\n") != std::string::npos);
+    CHECK(text.find("const S ds_ = s[2];\n") != std::string::npos);
+    CHECK(text.find("const S u0 = w0 + s_;\n") != std::string::npos);
+    CHECK(text.find("const S w0 = s[0];\n") != std::string::npos);
+}
