@@ -30,8 +30,7 @@ std::vector<std::size_t> count_uses(const Graph& graph, const std::vector<NodeId
 bool repeats_operands(const Graph& graph, NodeId id)
 {
     const Op op = graph.op(id);
-    return is_linear_algebra(op) || op == Op::power || op == Op::minimum || op == Op::maximum || op == Op::sign ||
-           half_integer_exponent(graph, id) != 0;
+    return is_linear_algebra(op) || op == Op::power || op == Op::minimum || op == Op::maximum || op == Op::sign;
 }
 
 /// For every angle the node of its sine and of its cosine, where both are used.
@@ -133,14 +132,6 @@ class Walk {
 bool needs_chain(const Graph& graph, NodeId id)
 {
     return graph.op(id) == Op::power && std::abs(static_cast<std::int32_t>(graph.payload(id))) > 4;
-}
-
-int half_integer_exponent(const Graph& graph, NodeId id)
-{
-    if (graph.op(id) != Op::real_power || !graph.is_constant(graph.operands(id)[1])) return 0;
-    const Rational twice = 2 * graph.value(graph.operands(id)[1]);
-    const bool small = twice.get_den() == 1 && abs(twice.get_num()) <= 9;
-    return small && twice.get_num() % 2 != 0 ? static_cast<int>(twice.get_num().get_si()) : 0;
 }
 
 BodyPlan plan_body(const Graph& graph, std::span<const NodeId> outputs)

@@ -18,7 +18,4 @@ struct BodyPlan {
 /// True where a power is spelled out by a chain of squares, a statement each (|exponent| > 4).
 [[nodiscard]] bool needs_chain(const Graph& graph, NodeId id);
 
-/// A real power with exponent k/2, |k| <= 9: spelled with sqrt. Returns k, or 0 for any other node.
-[[nodiscard]] int half_integer_exponent(const Graph& graph, NodeId id);
-
 } // namespace lagen

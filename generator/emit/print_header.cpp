@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace lagen {
 
 namespace {
@@ -17,10 +19,24 @@ std::string unit_text(const Quantity& quantity)
     return text.empty() ? "" : " ///< " + text;
 }
 
-/// `S name = value; ///< text [unit]`. A default that is not a rational number is computed in the scalar itself.
-void print_member(TextBlock& out, const std::string& name, const std::string& value, const Quantity& quantity)
+/// `S name = value; ///< text [unit]` a line, comments one below the other.
+void print_members(TextBlock& out, const std::vector<std::string>& names, const std::vector<std::string>& values,
+                   const std::vector<Quantity>& quantities)
 {
-    out.line(fmt::format("S {} = {};", name, value) + unit_text(quantity));
+    constexpr std::size_t widest = 60;
+    out.indent(1);
+    std::vector<std::string> lines;
+    std::size_t width = 0;
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        lines.push_back(fmt::format("S {} = {};", names[k], values[k]));
+        if (lines.back().size() <= widest) width = std::max(width, lines.back().size());
+    }
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        const std::string text = unit_text(quantities[k]);
+        const std::size_t gap = text.empty() || lines[k].size() > width ? 0 : width - lines[k].size();
+        out.line(lines[k] + std::string(gap, ' ') + text);
+    }
+    out.indent(-1);
 }
 
 std::string default_value(const KernelModule& module, NodeId node)
@@ -39,13 +55,12 @@ void print_parameters(TextBlock& out, const KernelModule& module, const ModuleNa
 {
     out.blank();
     out.comment("Physical parameters with the defaults of the model.");
+    if (names.parameters.empty()) return out.line("struct Parameters {} parameters;");
+    std::vector<std::string> values;
+    for (std::size_t k = 0; k < module.parameters.size(); ++k)
+        values.push_back(k < module.parameter_defaults.size() ? default_value(module, module.parameter_defaults[k]) : "S(0)");
     out.line("struct Parameters {");
-    out.indent(1);
-    for (std::size_t k = 0; k < module.parameters.size(); ++k) {
-        const std::string value = k < module.parameter_defaults.size() ? default_value(module, module.parameter_defaults[k]) : "S(0)";
-        print_member(out, names.parameters[k], value, module.parameters[k]);
-    }
-    out.indent(-1);
+    print_members(out, names.parameters, values, module.parameters);
     out.line("} parameters;");
 }
 
@@ -56,9 +71,7 @@ void print_group(TextBlock& out, const std::string& type, const std::vector<Quan
     out.blank();
     out.comment(text);
     out.line(fmt::format("struct {} {{", type));
-    out.indent(1);
-    for (std::size_t k = 0; k < quantities.size(); ++k) print_member(out, members[k], "S(0)", quantities[k]);
-    out.indent(-1);
+    print_members(out, members, std::vector<std::string>(members.size(), "S(0)"), quantities);
     out.line("};");
 }
 
@@ -99,9 +112,10 @@ void print_constants(TextBlock& out, const KernelModule& module)
     const std::size_t n = module.base.size();
     const std::size_t r = module.fibre.size();
     out.line("using Scalar = S;");
-    out.line(fmt::format("static constexpr int dimension = {};       // lanes of State", n + r));
-    out.line(fmt::format("static constexpr int base_dimension = {};  // the first of them", n));
-    out.line(fmt::format("static constexpr int fibre_dimension = {}; // the others", r));
+    out.comment("Lanes of State: base coordinates, then the others.");
+    out.line(fmt::format("static constexpr int dimension = {};", n + r));
+    out.line(fmt::format("static constexpr int base_dimension = {};", n));
+    out.line(fmt::format("static constexpr int fibre_dimension = {};", r));
     out.line(fmt::format("using State = Eigen::Matrix<S, {}, 1>;", n + r));
     out.blank();
     out.line(fmt::format("static constexpr const char* model_name = {};", string_literal(module.model)));

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "emit/spell.hpp"
 
-#include "emit/plan_body.hpp"
 #include "graph/operators.hpp"
 
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <utility>
 
 namespace lagen {
 
@@ -52,17 +52,23 @@ Spelling Speller::operation(NodeId id)
     case Op::pi: return print_pi();
     case Op::add: return add(operand[0], operand[1]);
     case Op::subtract: return subtract(operand[0], operand[1]);
-    case Op::multiply: return {at_least(2, operand[0]) + " * " + at_least(3, operand[1]), 2};
+    case Op::multiply: return multiply(operand[0], operand[1]);
     case Op::divide: return {at_least(2, operand[0]) + " / " + at_least(3, operand[1]), 2};
     case Op::negate: return {"-" + at_least(2, operand[0]), 1};
     case Op::power: return power(operand[0], static_cast<std::int32_t>(graph_.payload(id)));
-    case Op::real_power: return real_power(id);
     case Op::input: throw InternalError("an input without a local name: " + graph_.input_name(id));
     case Op::factor:
     case Op::solve:
     case Op::component: throw InternalError("linear algebra inside an expression");
     default: return is_comparison(graph_.op(id)) ? comparison(id) : function(id);
     }
+}
+
+/// Numbers stand in front.
+Spelling Speller::multiply(NodeId a, NodeId b)
+{
+    if (graph_.is_constant(b) && !graph_.is_constant(a)) std::swap(a, b);
+    return {at_least(2, a) + " * " + at_least(3, b), 2};
 }
 
 /// a + b with signs drawn out, so that "+ -" never stands in the text; -a + b is b - a, bit for bit.
@@ -88,9 +94,12 @@ std::optional<Spelling> Speller::negated(NodeId id)
     if (op == Op::constant && graph_.value(id) < 0) return print_literal(-graph_.value(id));
     if (op == Op::negate) return (*this)(operand[0]);
     if (op != Op::multiply && op != Op::divide) return std::nullopt;
+    NodeId a = operand[0];
+    NodeId b = operand[1];
+    if (op == Op::multiply && graph_.is_constant(b)) std::swap(a, b);
     const std::string sign = op == Op::multiply ? " * " : " / ";
-    if (const auto minus = negated(operand[0])) return Spelling{enclose(*minus, 2) + sign + at_least(3, operand[1]), 2};
-    if (const auto minus = negated(operand[1])) return Spelling{at_least(2, operand[0]) + sign + enclose(*minus, 3), 2};
+    if (const auto minus = negated(a)) return Spelling{enclose(*minus, 2) + sign + at_least(3, b), 2};
+    if (const auto minus = negated(b)) return Spelling{at_least(2, a) + sign + enclose(*minus, 3), 2};
     return std::nullopt;
 }
 
@@ -100,20 +109,6 @@ Spelling Speller::power(NodeId base, int exponent)
     const Spelling positive = repeated(at_least(5, base), std::abs(exponent));
     if (exponent > 0) return positive;
     return {"S(1) / " + enclose(positive, 3), 2};
-}
-
-/// b^(k/2) = b^((|k|-1)/2) sqrt(b), or one over it; any other exponent by pow.
-Spelling Speller::real_power(NodeId id)
-{
-    const std::span<const NodeId> operand = graph_.operands(id);
-    const int twice = half_integer_exponent(graph_, id);
-    if (twice == 0) return {fmt::format("{}({}, {})", call("pow"), (*this)(operand[0]).text, (*this)(operand[1]).text), 5};
-    const std::string base = at_least(5, operand[0]);
-    const int whole = (std::abs(twice) - 1) / 2;
-    Spelling result{fmt::format("{}({})", call("sqrt"), (*this)(operand[0]).text), 5};
-    if (whole > 0) result = {fmt::format("{} * {}", repeated(base, whole).text, result.text), 2};
-    if (twice < 0) result = {"S(1) / " + enclose(result, 3), 2};
-    return result;
 }
 
 Spelling Speller::function(NodeId id)

@@ -34,9 +34,9 @@ class Speller {
   private:
     Spelling add(NodeId a, NodeId b);
     Spelling subtract(NodeId a, NodeId b);
+    Spelling multiply(NodeId a, NodeId b);
     std::optional<Spelling> negated(NodeId id);
     Spelling power(NodeId base, int exponent);
-    Spelling real_power(NodeId id);
     Spelling function(NodeId id);
     Spelling condition(NodeId id);
     Spelling comparison(NodeId id);

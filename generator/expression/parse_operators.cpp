@@ -101,14 +101,12 @@ Operand Parser::parse_power(Operand base)
 Operand Parser::parse_comparison(Operand left)
 {
     const Token sign = take();
-    const auto chained = [this] {
-        fail_here(fmt::format("{} follows a comparison", here()),
-                  "a chain a < b < c is written as two comparisons, a < b and b < c");
-    };
-    if (left.tree->kind == TreeKind::compare) require_value(left);
+    require_value(left);
     Operand right = parse(Binding::sum);
     require_value(right);
-    if (binding_of(token_.kind) == Binding::comparison) chained();
+    if (binding_of(token_.kind) == Binding::comparison)
+        fail_here(fmt::format("{} follows a comparison", here()),
+                  "a chain a < b < c is written as two comparisons, a < b and b < c");
     const std::size_t begin = left.begin;
     const std::size_t end = right.end;
     TreeNode node;

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "../support/compiled.hpp"
+#include "hand_built.hpp"
+
+#include <random>
+
+using namespace lagen;
+using namespace lagen::testing;
+
+namespace {
+
+/// Seeded values of every input; the diagonals a_ii of solve modules dominate.
+std::vector<Point> points_of(const KernelModule& module, unsigned seed, std::size_t count)
+{
+    std::mt19937 random(seed);
+    const auto next = [&] { return -1 + 2 * static_cast<double>(random()) / 4294967295.0; };
+    std::vector<Point> points(count);
+    for (Point& point : points)
+        for (const NodeId input : module.graph->inputs()) {
+            const std::string& name = module.graph->input_name(input);
+            const bool diagonal = name.size() == 4 && name[0] == 'a' && name[1] == name[3];
+            point[name] = diagonal ? 4 + next() : next() + (name == "l" || name == "m" ? 2 : 0);
+        }
+    return points;
+}
+
+CompiledCase sampled(KernelModule module, unsigned seed)
+{
+    std::vector<Point> points = points_of(module, seed, 3);
+    return {std::move(module), std::move(points)};
+}
+
+/// Every operator once.
+KernelModule operators_module()
+{
+    KernelModule module = empty_module("operators");
+    Graph& g = *module.graph;
+    module.parameters = {declare(g, "I"), declare(g, "y0")};
+    module.parameter_defaults = {g.apply(Op::sqrt, g.constant(2)), g.divide(g.pi(), g.constant(3))};
+    module.base = {declare(g, "class"), declare(g, "θ"), declare(g, "energy")};
+    const NodeId a = module.base[0].input;
+    const NodeId b = module.base[1].input;
+    const NodeId c = g.add(g.power(module.base[2].input, 2), g.constant(Rational(1, 10)));
+    std::vector<NodeId> values;
+    for (Op op = Op::sin; op <= Op::abs; op = static_cast<Op>(static_cast<int>(op) + 1)) {
+        if (op == Op::atan2) continue;
+        const bool bounded = op == Op::asin || op == Op::acos;
+        values.push_back(g.apply(op, op == Op::log ? c : bounded ? g.divide(a, g.constant(2)) : a));
+    }
+    values.push_back(g.apply(Op::atan2, a, b));
+    values.push_back(g.apply(Op::real_power, c, a));
+    values.push_back(g.apply(Op::real_power, c, g.constant(Rational(-5, 2))));
+    for (const int exponent : {-7, -3, -1, 4, 5, 13, 64}) values.push_back(g.power(c, exponent));
+    values.push_back(g.apply(Op::minimum, a, b));
+    values.push_back(g.apply(Op::maximum, a, g.multiply(b, c)));
+    values.push_back(g.apply(Op::sign, a));
+    for (Op op = Op::less; op <= Op::not_equal; op = static_cast<Op>(static_cast<int>(op) + 1))
+        values.push_back(g.select(g.apply(op, a, b), c, g.apply(op, a, g.constant(0))));
+    values.push_back(g.multiply(g.pi(), g.subtract(a, g.multiply(g.constant(Rational(-1, 7)), g.subtract(b, c)))));
+    values.push_back(g.subtract(module.parameters[0].input, g.multiply(module.parameters[1].input, module.time)));
+    module.kernels = {vector_kernel("values_of", values), scalar_kernel("energy", g.negate(g.multiply(g.negate(a), c)))};
+    return module;
+}
+
+std::vector<CompiledCase> all_cases()
+{
+    const std::vector<std::vector<bool>> arrow{
+        {true, true, true, true}, {true, true, false, false}, {true, false, true, false}, {true, false, false, true}};
+    const auto full = [](std::size_t n) { return std::vector<std::vector<bool>>(n, std::vector<bool>(n, true)); };
+    return {sampled(product_module(), 1),
+            sampled(pendulum_module(), 2),
+            sampled(operators_module(), 3),
+            sampled(solve_module("arrow", arrow, MatrixStructure::positive_definite), 4),
+            sampled(solve_module("definite", full(5), MatrixStructure::positive_definite), 5),
+            sampled(solve_module("pivoted", full(4), MatrixStructure::general), 6),
+            sampled(solve_module("pivoted_symmetric", full(3), MatrixStructure::symmetric), 7),
+            sampled(solve_module("closed_form", full(2), MatrixStructure::positive_definite), 8)};
+}
+
+} // namespace
+
+TEST_CASE("g++ compiles generated headers without a warning and they agree with the interpreter", "[emit][compile]")
+{
+    compare_compiled("emit", "g++", all_cases(), 200);
+}
+
+TEST_CASE("clang++ compiles generated headers without a warning and they agree with the interpreter", "[emit][compile]")
+{
+    if (run_shell("clang++ --version").status != 0) {
+        WARN("no clang++ on this machine");
+        return;
+    }
+    compare_compiled("emit", "clang++", all_cases(), 200);
+}
