@@ -54,7 +54,7 @@ void add_runtime(ContentHash& hash, const std::string& folder)
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(fs::path(folder) / "lagen"))
         if (entry.is_regular_file() && entry.path().extension() == ".hpp") files.push_back(entry.path());
     std::sort(files.begin(), files.end());
-    for (const fs::path& file : files) hash.add(fs::relative(file, folder).string()).add(read_file(file.string()));
+    for (const fs::path& file : files) hash.add(fs::relative(file, folder).string()).add(content_of_file(file.string()));
 }
 
 void add_compiler(ContentHash& hash, const std::vector<std::string>& command)

@@ -117,7 +117,7 @@ void plot_table(const Table& table, const std::vector<Panel>& panels, const std:
     const ProcessResult result = run_process({"gnuplot", folder + "/script.gp"});
     if (!result.started || result.exit_code != 0)
         throw MachineError(fmt::format("error: gnuplot failed with exit code {}\n{}", result.exit_code, result.error));
-    write_file(path, read_file(picture));
+    write_file(path, content_of_file(picture));
 }
 
 } // namespace lagen

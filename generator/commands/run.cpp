@@ -169,7 +169,7 @@ void integrate_scene(const std::string& program, const ProgramInput& input, RunO
     if (result.exit_code != 0 && result.exit_code != 1)
         throw MachineError(
             fmt::format("error: the compiled scene ended with exit code {}\n{}", result.exit_code, result.error));
-    read_report(read_file(input.report_file), outcome);
+    read_report(content_of_file(input.report_file), outcome);
     outcome.table.count = outcome.table.lines().size();
 }
 

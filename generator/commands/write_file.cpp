@@ -102,7 +102,7 @@ void write_standard_output(std::string_view content)
     if (error != 0) throw MachineError(fmt::format("error: cannot write to standard output: {}", std::strerror(error)));
 }
 
-std::string read_file(const std::string& path)
+std::string content_of_file(const std::string& path)
 {
     std::FILE* file = std::fopen(path.c_str(), "rb");
     if (file == nullptr) throw MachineError(fmt::format("error: cannot read '{}': {}", path, std::strerror(errno)));

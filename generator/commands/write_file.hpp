@@ -16,6 +16,6 @@ void write_file(const std::string& path, std::string_view content);
 void write_standard_output(std::string_view content);
 
 /// The whole content of a file; MachineError where it cannot be read.
-[[nodiscard]] std::string read_file(const std::string& path);
+[[nodiscard]] std::string content_of_file(const std::string& path);
 
 } // namespace lagen

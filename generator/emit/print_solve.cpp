@@ -63,13 +63,14 @@ PrintedFactor print_closed_form(const SolveContext& context, NodeId id, std::siz
     std::string value = diagonal;
     if (!other.empty()) value += (value.empty() ? "-" : " - ") + other;
     const std::string determinant = define(context, fmt::format("det{}", number), value.empty() ? "S(0)" : value);
-    if (check) {
-        const std::string size = [&] {
-            const std::string abs = context.spell.call("abs");
-            if (diagonal.empty() || other.empty()) return fmt::format("{}({})", abs, determinant);
-            return fmt::format("({0}({1}) + {0}({2}))", abs, diagonal, other);
-        }();
-        report_singular(context, fmt::format("{}({}) <= singular_tolerance<S>(2) * {}", context.spell.call("abs"), determinant, size));
+    const bool definite = context.graph.payload(id) == static_cast<std::uint32_t>(MatrixStructure::positive_definite);
+    if (check && definite) { // the diagonal product is positive and the larger one
+        report_singular(context, fmt::format("{} <= singular_tolerance<S>(2) * ({})", determinant, diagonal));
+    } else if (check) {
+        const std::string abs = context.spell.call("abs");
+        const std::string size = diagonal.empty() || other.empty() ? fmt::format("{}({})", abs, determinant)
+                                                                   : fmt::format("({0}({1}) + {0}({2}))", abs, diagonal, other);
+        report_singular(context, fmt::format("{}({}) <= singular_tolerance<S>(2) * {}", abs, determinant, size));
     }
     if (solved) factor.name = define(context, fmt::format("inv_det{}", number), "S(1) / " + determinant);
     return factor;

@@ -120,25 +120,39 @@ class LagrangeDerivation {
         return terms;
     }
 
-    /// rho_a(L) and -(d2L/dy^a dx^i) rho^i_b y^b: both hold derivatives of the same coefficients, so they share one group
-    /// where terms cancel and the sum is shorter than its parts.
-    void append_gradient_and_drift(std::vector<TermGroup>& groups, std::size_t a) const {
-        const Sum gradient = along_anchor(a, lagrangian_);
-        Sum drift;
+    /// One group of a formula before it is simplified.
+    struct Group {
+        std::string label;
+        GiNaC::ex value;
+    };
+
+    /// Simplifies the groups each for itself; two that hold like terms are one group, or terms that cancel would be shown.
+    [[nodiscard]] std::vector<TermGroup> simplified(std::vector<Group> groups) const {
+        for (std::size_t k = 0; k < groups.size(); ++k)
+            for (std::size_t l = k + 1; l < groups.size(); ++l) {
+                const auto first = expanded_length(groups[k].value);
+                const auto second = expanded_length(groups[l].value);
+                const auto both = expanded_length(groups[k].value + groups[l].value);
+                if (!first || !second || !both || *first == 0 || *second == 0 || *both >= *first + *second)
+                    continue;
+                groups[k].value += groups[l].value;
+                groups[k].label += " - " + groups[l].label.substr(1);
+                groups.erase(groups.begin() + static_cast<std::ptrdiff_t>(l));
+                l = k;
+            }
+        std::vector<TermGroup> result;
+        for (const Group& group : groups)
+            append(result, group.label.c_str(), {group.value});
+        return result;
+    }
+
+    /// -(d2L/dy^a dx^i) rho^i_b y^b
+    [[nodiscard]] Sum drift_terms(std::size_t a) const {
+        Sum terms;
         for (std::size_t b = 0; b < y_.size(); ++b)
             for (const GiNaC::ex& term : along_anchor(b, p_[a]))
-                drift.push_back(-term * y_[b]);
-        std::vector<TermGroup> apart;
-        append(apart, "ρ_a(L)", gradient);
-        append(apart, "-(∂²L/∂y^a∂x^i) ρ^i_b y^b", drift);
-        if (apart.size() == 2) {
-            Sum both = gradient;
-            both.insert(both.end(), drift.begin(), drift.end());
-            const Tree together = shortest(total(both));
-            if (to_text(together).size() < to_text(apart[0].value).size() + to_text(apart[1].value).size())
-                apart = {{"ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b", together}};
-        }
-        groups.insert(groups.end(), apart.begin(), apart.end());
+                terms.push_back(-term * y_[b]);
+        return terms;
     }
 
     [[nodiscard]] EquationBlock kinematics() const {
@@ -181,10 +195,12 @@ class LagrangeDerivation {
             Equation next{LeftSide::time_derivative, algebroid_.fibre[a].name, {}, {}};
             for (std::size_t b = 0; b < y_.size(); ++b)
                 append(next.mass, algebroid_.fibre[b].name.c_str(), {p_[a].diff(y_[b])});
-            append_gradient_and_drift(next.groups, a);
+            std::vector<Group> groups = {{"ρ_a(L)", total(along_anchor(a, lagrangian_))},
+                                         {"-(∂²L/∂y^a∂x^i) ρ^i_b y^b", total(drift_terms(a))}};
             if (!is_declared("t"))
-                append(next.groups, "-∂²L/∂y^a∂t", {-p_[a].diff(symbols_.symbol("t"))});
-            append(next.groups, "-p_c C^c_ab y^b", bracket_terms(a, p_));
+                groups.push_back({"-∂²L/∂y^a∂t", -p_[a].diff(symbols_.symbol("t"))});
+            groups.push_back({"-p_c C^c_ab y^b", total(bracket_terms(a, p_))});
+            next.groups = simplified(std::move(groups));
             if (next.mass.empty())
                 next.left = LeftSide::zero;
             block.equations.push_back(std::move(next));

@@ -21,7 +21,10 @@ bool foldable(const Graph& graph, NodeId a, NodeId b)
     return graph.is_constant(a) && graph.is_constant(b) && bits(graph.value(a)) + bits(graph.value(b)) <= folded_bits;
 }
 
-bool is_negative(const Graph& graph, NodeId id) { return graph.is_constant(id) && sgn(graph.value(id)) < 0; }
+bool is_negative(const Graph& graph, NodeId id)
+{
+    return graph.is_constant(id) && sgn(graph.value(id)) < 0;
+}
 
 /// value^exponent, exponent != 0.
 Rational exact_power(const Rational& value, std::int64_t exponent)
@@ -97,7 +100,8 @@ NodeId Graph::multiply(NodeId a, NodeId b)
 
 NodeId Graph::divide(NodeId a, NodeId b)
 {
-    if (is_zero(b)) throw MathematicsError("division by zero: the divisor is the constant 0, a divisor other than 0 is required");
+    if (is_zero(b))
+        throw MathematicsError("division by zero: the divisor is the constant 0, a divisor other than 0 is required");
     if (is_zero(a) || is_one(b)) return a;
     if (a == b) return constant(1);
     if (foldable(*this, a, b)) return constant(Rational(value(a) / value(b)));
@@ -125,8 +129,7 @@ NodeId Graph::power(NodeId a, int exponent)
     if (ops_[a] == Op::sqrt && exponent % 2 == 0) return power(operands(a)[0], exponent / 2);
     if (ops_[a] == Op::power) {
         const std::int64_t product = std::int64_t{exponent} * static_cast<std::int32_t>(payloads_[a]);
-        if (product > -INT32_MAX && product < INT32_MAX)
-            return power(operands(a)[0], static_cast<int>(product));
+        if (product > -INT32_MAX && product < INT32_MAX) return power(operands(a)[0], static_cast<int>(product));
     }
     const NodeId only[] = {a};
     return intern(Op::power, only, static_cast<std::uint32_t>(exponent));

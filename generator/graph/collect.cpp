@@ -24,7 +24,7 @@ class Collector {
 
     void visit(NodeId id)
     {
-        Polynomial result = read(id);
+        Polynomial result = algebra_.contract_circles(read(id));
         if (uses_[id] > 1 && result.size() > largest_shared_sum) result = {algebra_.as_term(result)};
         values_[id] = std::move(result);
     }

@@ -120,7 +120,8 @@ class ReverseSweep {
         const LinearSystem system = system_of(graph_, id);
         const std::size_t n = system.order();
         const bool general = system.structure == MatrixStructure::general;
-        const auto lambda = graph_.solve(general ? system.transposed() : system.matrix, waiting->second, system.structure);
+        const auto lambda =
+            graph_.solve(general ? system.transposed() : system.matrix, waiting->second, system.structure);
         for (std::size_t i = 0; i < n; ++i) {
             if (active_[system.right[i]]) accumulate(system.right[i], lambda[i]);
             for (std::size_t j = 0; j < n; ++j)
@@ -153,9 +154,12 @@ std::vector<NodeId> directional(Graph& graph, std::span<const NodeId> outputs,
     for (const NodeId id : nodes) {
         if (!active[id] || std::ranges::find(inputs, id) != inputs.end()) continue;
         const Op op = graph.op(id);
-        if (op == Op::solve) solutions.emplace(id, solve_tangent(graph, system_of(graph, id), tangents));
-        else if (op == Op::component) tangents[id] = solutions.at(graph.operands(id)[0])[graph.payload(id)];
-        else if (op != Op::factor) tangents[id] = node_tangent(graph, id, tangents);
+        if (op == Op::solve)
+            solutions.emplace(id, solve_tangent(graph, system_of(graph, id), tangents));
+        else if (op == Op::component)
+            tangents[id] = solutions.at(graph.operands(id)[0])[graph.payload(id)];
+        else if (op != Op::factor)
+            tangents[id] = node_tangent(graph, id, tangents);
     }
     std::vector<NodeId> result;
     for (const NodeId output : outputs) result.push_back(tangents[output]);

@@ -13,41 +13,54 @@
 namespace lagen {
 namespace {
 
-template <class Scalar> Scalar rounded(mpfr_srcptr value)
+template <class Scalar>
+Scalar rounded(mpfr_srcptr value)
 {
-    if constexpr (std::is_same_v<Scalar, float>) return mpfr_get_flt(value, MPFR_RNDN);
-    else if constexpr (std::is_same_v<Scalar, double>) return mpfr_get_d(value, MPFR_RNDN);
-    else return mpfr_get_ld(value, MPFR_RNDN);
+    if constexpr (std::is_same_v<Scalar, float>)
+        return mpfr_get_flt(value, MPFR_RNDN);
+    else if constexpr (std::is_same_v<Scalar, double>)
+        return mpfr_get_d(value, MPFR_RNDN);
+    else
+        return mpfr_get_ld(value, MPFR_RNDN);
 }
 
 /// The nearest Scalar to a constant or to pi: one rounding, at the precision of Scalar.
-template <class Scalar> Scalar rounded(const Graph& graph, NodeId id)
+template <class Scalar>
+Scalar rounded(const Graph& graph, NodeId id)
 {
     mpfr_t value;
     mpfr_init2(value, std::numeric_limits<Scalar>::digits);
-    if (graph.op(id) == Op::pi) mpfr_const_pi(value, MPFR_RNDN);
-    else mpfr_set_q(value, graph.value(id).get_mpq_t(), MPFR_RNDN);
+    if (graph.op(id) == Op::pi)
+        mpfr_const_pi(value, MPFR_RNDN);
+    else
+        mpfr_set_q(value, graph.value(id).get_mpq_t(), MPFR_RNDN);
     const auto result = rounded<Scalar>(value);
     mpfr_clear(value);
     return result;
 }
 
-template <class Scalar> Value<Scalar> value_of(Op op)
+template <class Scalar>
+Value<Scalar> value_of(Op op)
 {
     const Operator& entry = operator_of(op);
-    if constexpr (std::is_same_v<Scalar, float>) return entry.value_float;
-    else if constexpr (std::is_same_v<Scalar, double>) return entry.value_double;
-    else return entry.value_long_double;
+    if constexpr (std::is_same_v<Scalar, float>)
+        return entry.value_float;
+    else if constexpr (std::is_same_v<Scalar, double>)
+        return entry.value_double;
+    else
+        return entry.value_long_double;
 }
 
 /// P A = L U by rows with partial pivoting; `regular` is false where a pivot is 0 or not a number.
-template <class Scalar> struct Factorisation {
+template <class Scalar>
+struct Factorisation {
     std::vector<Scalar> lu;
     std::vector<std::size_t> order; ///< row of A that stands in row i of L U
     bool regular = true;
 };
 
-template <class Scalar> Factorisation<Scalar> factorise(std::vector<Scalar> a, std::size_t n)
+template <class Scalar>
+Factorisation<Scalar> factorise(std::vector<Scalar> a, std::size_t n)
 {
     Factorisation<Scalar> result;
     result.order.resize(n);
@@ -68,7 +81,8 @@ template <class Scalar> Factorisation<Scalar> factorise(std::vector<Scalar> a, s
     return result;
 }
 
-template <class Scalar> std::vector<Scalar> substitute(const Factorisation<Scalar>& f, const std::vector<Scalar>& b)
+template <class Scalar>
+std::vector<Scalar> substitute(const Factorisation<Scalar>& f, const std::vector<Scalar>& b)
 {
     const std::size_t n = b.size();
     std::vector<Scalar> z(n, std::numeric_limits<Scalar>::quiet_NaN());
@@ -85,7 +99,8 @@ template <class Scalar> std::vector<Scalar> substitute(const Factorisation<Scala
 }
 
 /// The sweep: scalar values by node id; factorisations and solutions in their own tables.
-template <class Scalar> class Interpreter {
+template <class Scalar>
+class Interpreter {
   public:
     Interpreter(const Graph& graph, const std::map<std::string, Scalar>& inputs) : graph_(graph), inputs_(inputs) {}
 
@@ -125,7 +140,8 @@ template <class Scalar> class Interpreter {
     [[nodiscard]] Scalar input(NodeId id) const
     {
         const auto found = inputs_.find(graph_.input_name(id));
-        if (found == inputs_.end()) throw InternalError("evaluate() has no value for the input " + graph_.input_name(id));
+        if (found == inputs_.end())
+            throw InternalError("evaluate() has no value for the input " + graph_.input_name(id));
         return found->second;
     }
 

@@ -34,7 +34,10 @@ Exact integer_power(const Rational& a, std::int64_t n)
     return n < 0 ? quotient(1, result) : Exact(result);
 }
 
-Exact truth(bool condition) { return Rational(condition ? 1 : 0); }
+Exact truth(bool condition)
+{
+    return Rational(condition ? 1 : 0);
+}
 
 Exact apply(Op op, const std::vector<Rational>& x, std::uint32_t payload)
 {

@@ -31,6 +31,13 @@ void share_term_pairs(Form& form);
 /// Names the reciprocal of a divisor that at least two terms share: one division, the others multiply.
 void share_reciprocals(Form& form);
 
+/// Puts the named products that one term alone uses back into that term, so that it has one fraction bar.
+void inline_single_products(Form& form);
+
+/// Flips the signs of named sums and products where that saves negations. The identity of the atoms is lost: this is
+/// the last pass.
+void absorb_signs(Form& form);
+
 /// The form as nodes of `graph`, one an output.
 [[nodiscard]] std::vector<NodeId> rebuild(const Form& form, Graph& graph);
 

@@ -24,10 +24,17 @@ std::optional<Rational> exact_value(Op op, const Rational& a)
     case Op::sqrt: return exact_root(a);
     case Op::abs: return Rational(abs(a));
     case Op::sign: return Rational(sgn(a));
-    case Op::sin: case Op::tan: case Op::asin: case Op::atan: case Op::sinh: case Op::tanh:
-        return a == 0 ? std::optional<Rational>(0) : std::nullopt;
-    case Op::cos: case Op::cosh: case Op::exp: return a == 0 ? std::optional<Rational>(1) : std::nullopt;
-    case Op::acos: case Op::log: return a == 1 ? std::optional<Rational>(0) : std::nullopt;
+    case Op::sin:
+    case Op::tan:
+    case Op::asin:
+    case Op::atan:
+    case Op::sinh:
+    case Op::tanh: return a == 0 ? std::optional<Rational>(0) : std::nullopt;
+    case Op::cos:
+    case Op::cosh:
+    case Op::exp: return a == 0 ? std::optional<Rational>(1) : std::nullopt;
+    case Op::acos:
+    case Op::log: return a == 1 ? std::optional<Rational>(0) : std::nullopt;
     default: return std::nullopt;
     }
 }
@@ -73,7 +80,8 @@ NodeId Graph::apply(Op op, NodeId a, NodeId b)
     default: break;
     }
     if (operator_of(op).arity != 2)
-        throw InternalError(std::string("apply(op, a, b) wants a function of two operands, not ") + operator_of(op).name);
+        throw InternalError(std::string("apply(op, a, b) wants a function of two operands, not ") +
+                            operator_of(op).name);
     if (op == Op::real_power && is_constant(b)) {
         // Integer exponents are powers, half-integer ones powers of the root: both defined where a^b is.
         const Rational& exponent = value(b);

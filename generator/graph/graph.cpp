@@ -52,7 +52,10 @@ NodeId Graph::constant(const Rational& value)
     return it->second;
 }
 
-NodeId Graph::pi() { return intern(Op::pi, {}, 0); }
+NodeId Graph::pi()
+{
+    return intern(Op::pi, {}, 0);
+}
 
 NodeId Graph::input(const std::string& name)
 {
@@ -82,8 +85,14 @@ const std::string& Graph::input_name(NodeId id) const
     return names_[payloads_[id]];
 }
 
-bool Graph::is_zero(NodeId id) const { return is_constant(id) && sgn(constants_[payloads_[id]]) == 0; }
-bool Graph::is_one(NodeId id) const { return is_constant(id) && constants_[payloads_[id]] == 1; }
+bool Graph::is_zero(NodeId id) const
+{
+    return is_constant(id) && sgn(constants_[payloads_[id]]) == 0;
+}
+bool Graph::is_one(NodeId id) const
+{
+    return is_constant(id) && constants_[payloads_[id]] == 1;
+}
 
 NodeId Graph::sum(std::span<const NodeId> terms)
 {

@@ -9,12 +9,24 @@ namespace lagen {
 namespace {
 
 constexpr std::array<std::pair<Function, Op>, 18> function_ops{{
-    {Function::sin, Op::sin},         {Function::cos, Op::cos},         {Function::tan, Op::tan},
-    {Function::asin, Op::asin},       {Function::acos, Op::acos},       {Function::atan, Op::atan},
-    {Function::atan2, Op::atan2},     {Function::sinh, Op::sinh},       {Function::cosh, Op::cosh},
-    {Function::tanh, Op::tanh},       {Function::exp, Op::exp},         {Function::log, Op::log},
-    {Function::sqrt, Op::sqrt},       {Function::abs, Op::abs},         {Function::minimum, Op::minimum},
-    {Function::maximum, Op::maximum}, {Function::sign, Op::sign},       {Function::select, Op::select},
+    {Function::sin, Op::sin},
+    {Function::cos, Op::cos},
+    {Function::tan, Op::tan},
+    {Function::asin, Op::asin},
+    {Function::acos, Op::acos},
+    {Function::atan, Op::atan},
+    {Function::atan2, Op::atan2},
+    {Function::sinh, Op::sinh},
+    {Function::cosh, Op::cosh},
+    {Function::tanh, Op::tanh},
+    {Function::exp, Op::exp},
+    {Function::log, Op::log},
+    {Function::sqrt, Op::sqrt},
+    {Function::abs, Op::abs},
+    {Function::minimum, Op::minimum},
+    {Function::maximum, Op::maximum},
+    {Function::sign, Op::sign},
+    {Function::select, Op::select},
 }};
 
 Op op_of(Function function)
@@ -58,9 +70,8 @@ NodeId lower_divide(Graph& graph, const TreeNode& tree, NodeId a, NodeId b)
 NodeId lower_power(Graph& graph, const TreeNode& tree, NodeId base, NodeId exponent)
 {
     if (graph.is_zero(base) && graph.is_constant(exponent) && sgn(graph.value(exponent)) <= 0)
-        throw ModelError("0^" + graph.value(exponent).get_str() +
-                             " has no value: the base" + quoted(tree.arguments[0]) +
-                             " is 0 everywhere, a positive exponent is required",
+        throw ModelError("0^" + graph.value(exponent).get_str() + " has no value: the base" +
+                             quoted(tree.arguments[0]) + " is 0 everywhere, a positive exponent is required",
                          tree.where, "check the base for terms that cancel");
     return graph.apply(Op::real_power, base, exponent);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// The rows of the operator table. A derivative rule returns (d node / d operand k) * t with as few new nodes as it can.
+/// The rows of the operator table. A derivative rule returns (d node / d operand k) * t with as few new nodes as it
+/// can.
 #include "graph/operators.hpp"
 
 #include <array>
@@ -9,12 +10,24 @@
 namespace lagen {
 namespace {
 
-NodeId operand(const Graph& g, NodeId node, std::size_t k) { return g.operands(node)[k]; }
+NodeId operand(const Graph& g, NodeId node, std::size_t k)
+{
+    return g.operands(node)[k];
+}
 
 /// t * sign: the rule of a sum, difference or minus sign.
-NodeId of_add(Graph&, NodeId, std::size_t, NodeId t) { return t; }
-NodeId of_subtract(Graph& g, NodeId, std::size_t k, NodeId t) { return k == 0 ? t : g.negate(t); }
-NodeId of_negate(Graph& g, NodeId, std::size_t, NodeId t) { return g.negate(t); }
+NodeId of_add(Graph&, NodeId, std::size_t, NodeId t)
+{
+    return t;
+}
+NodeId of_subtract(Graph& g, NodeId, std::size_t k, NodeId t)
+{
+    return k == 0 ? t : g.negate(t);
+}
+NodeId of_negate(Graph& g, NodeId, std::size_t, NodeId t)
+{
+    return g.negate(t);
+}
 NodeId of_multiply(Graph& g, NodeId node, std::size_t k, NodeId t)
 {
     return g.multiply(operand(g, node, 1 - k), t);
@@ -64,13 +77,19 @@ NodeId of_tan(Graph& g, NodeId node, std::size_t, NodeId t)
 }
 
 /// 1 - a^2, under the roots of the inverse sine and cosine.
-NodeId complement(Graph& g, NodeId a) { return g.subtract(g.constant(1), g.power(a, 2)); }
+NodeId complement(Graph& g, NodeId a)
+{
+    return g.subtract(g.constant(1), g.power(a, 2));
+}
 
 NodeId of_asin(Graph& g, NodeId node, std::size_t, NodeId t)
 {
     return g.divide(t, g.apply(Op::sqrt, complement(g, operand(g, node, 0))));
 }
-NodeId of_acos(Graph& g, NodeId node, std::size_t k, NodeId t) { return g.negate(of_asin(g, node, k, t)); }
+NodeId of_acos(Graph& g, NodeId node, std::size_t k, NodeId t)
+{
+    return g.negate(of_asin(g, node, k, t));
+}
 NodeId of_atan(Graph& g, NodeId node, std::size_t, NodeId t)
 {
     return g.divide(t, g.add(g.constant(1), g.power(operand(g, node, 0), 2)));
@@ -93,9 +112,18 @@ NodeId of_cosh(Graph& g, NodeId node, std::size_t, NodeId t)
 {
     return g.multiply(g.apply(Op::sinh, operand(g, node, 0)), t);
 }
-NodeId of_tanh(Graph& g, NodeId node, std::size_t, NodeId t) { return g.multiply(complement(g, node), t); }
-NodeId of_exp(Graph& g, NodeId node, std::size_t, NodeId t) { return g.multiply(node, t); }
-NodeId of_log(Graph& g, NodeId node, std::size_t, NodeId t) { return g.divide(t, operand(g, node, 0)); }
+NodeId of_tanh(Graph& g, NodeId node, std::size_t, NodeId t)
+{
+    return g.multiply(complement(g, node), t);
+}
+NodeId of_exp(Graph& g, NodeId node, std::size_t, NodeId t)
+{
+    return g.multiply(node, t);
+}
+NodeId of_log(Graph& g, NodeId node, std::size_t, NodeId t)
+{
+    return g.divide(t, operand(g, node, 0));
+}
 NodeId of_abs(Graph& g, NodeId node, std::size_t, NodeId t)
 {
     return g.multiply(g.divide(operand(g, node, 0), node), t);
@@ -114,7 +142,10 @@ NodeId of_maximum(Graph& g, NodeId node, std::size_t k, NodeId t)
     const NodeId zero = g.constant(0);
     return k == 0 ? g.select(first, t, zero) : g.select(first, zero, t);
 }
-NodeId of_step(Graph& g, NodeId, std::size_t, NodeId) { return g.constant(0); }
+NodeId of_step(Graph& g, NodeId, std::size_t, NodeId)
+{
+    return g.constant(0);
+}
 NodeId of_select(Graph& g, NodeId node, std::size_t k, NodeId t)
 {
     const NodeId condition = operand(g, node, 0);
@@ -124,7 +155,8 @@ NodeId of_select(Graph& g, NodeId node, std::size_t k, NodeId t)
 }
 
 /// x^n by squaring; 1 / x^-n for a negative n.
-template <class Scalar> Scalar integer_power(Scalar x, std::int32_t n)
+template <class Scalar>
+Scalar integer_power(Scalar x, std::int32_t n)
 {
     Scalar result = 1;
     for (std::uint32_t rest = n < 0 ? 0U - static_cast<std::uint32_t>(n) : static_cast<std::uint32_t>(n); rest != 0;
@@ -139,8 +171,7 @@ Operator row(Op op, const char* name, const char* spelling, Notation notation, i
 {
     const bool commutative = op == Op::add || op == Op::multiply || op == Op::minimum || op == Op::maximum ||
                              op == Op::equal || op == Op::not_equal;
-    return {op,     name,  spelling, notation, arity, precedence, commutative,
-            weight, value, value,    value,    rule};
+    return {op, name, spelling, notation, arity, precedence, commutative, weight, value, value, value, rule};
 }
 
 Operator bare(Op op, const char* name, Notation notation, int arity)
@@ -160,7 +191,8 @@ Operator function(Op op, const char* name, double weight, Function value, Contri
     return row(op, name, name, Notation::call, 1, 5, weight, value, rule);
 }
 
-template <class Function> Operator comparison(Op op, const char* sign, Function value)
+template <class Function>
+Operator comparison(Op op, const char* sign, Function value)
 {
     return row(op, sign, sign, Notation::infix, 2, 0, 1, value, of_step);
 }
@@ -182,7 +214,8 @@ std::array<Operator, 37> make_table()
         row(Op::multiply, "*", "*", N::infix, 2, 2, 1, LAGEN_VALUE(x[0] * x[1]), of_multiply),
         row(Op::divide, "/", "/", N::infix, 2, 2, 6, LAGEN_VALUE(x[0] / x[1]), of_divide),
         row(Op::negate, "-", "-", N::prefix, 1, 3, 1, LAGEN_VALUE(-x[0]), of_negate),
-        row(Op::power, "^", "", N::integer, 1, 4, 1,
+        row(
+            Op::power, "^", "", N::integer, 1, 4, 1,
             [](const auto* x, std::int32_t n) { return integer_power(x[0], n); }, of_power),
         row(Op::real_power, "^", "pow", N::infix, 2, 4, 40, LAGEN_VALUE(std::pow(x[0], x[1])), of_real_power),
         function(Op::sqrt, "sqrt", 8, LAGEN_VALUE(std::sqrt(x[0])), of_sqrt),
@@ -226,7 +259,10 @@ std::span<const Operator> operator_table()
     return table;
 }
 
-const Operator& operator_of(Op op) { return operator_table()[static_cast<std::size_t>(op)]; }
+const Operator& operator_of(Op op)
+{
+    return operator_table()[static_cast<std::size_t>(op)];
+}
 
 int power_multiplications(std::int64_t n)
 {

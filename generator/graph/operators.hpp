@@ -17,7 +17,8 @@ enum class Notation {
 };
 
 /// The value of an operation from the values of its operands; the integer is the payload (exponent of `power`).
-template <class Scalar> using Value = Scalar (*)(const Scalar*, std::int32_t);
+template <class Scalar>
+using Value = Scalar (*)(const Scalar*, std::int32_t);
 
 /// (d node / d operand k) * t, built so that both forward (t a tangent) and reverse (t an adjoint) mode read it.
 using Contribution = NodeId (*)(Graph& graph, NodeId node, std::size_t k, NodeId t);

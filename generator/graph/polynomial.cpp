@@ -33,8 +33,10 @@ Monomial product(const Monomial& a, const Monomial& b)
     auto i = a.begin();
     auto j = b.begin();
     while (i != a.end() || j != b.end()) {
-        if (j == b.end() || (i != a.end() && i->atom < j->atom)) result.push_back(*i++);
-        else if (i == a.end() || j->atom < i->atom) result.push_back(*j++);
+        if (j == b.end() || (i != a.end() && i->atom < j->atom))
+            result.push_back(*i++);
+        else if (i == a.end() || j->atom < i->atom)
+            result.push_back(*j++);
         else {
             const int exponent = i->exponent + j->exponent;
             if (std::abs(exponent) > largest_exponent) throw FormRefused{};
@@ -108,7 +110,10 @@ void sort_terms(Polynomial& a)
 
 } // namespace
 
-bool less(const Polynomial& a, const Polynomial& b) { return compare(a, b) < 0; }
+bool less(const Polynomial& a, const Polynomial& b)
+{
+    return compare(a, b) < 0;
+}
 
 bool Algebra::KeyLess::operator()(const Atom& a, const Atom& b) const
 {
@@ -178,8 +183,10 @@ Polynomial Algebra::add(const Polynomial& a, const Polynomial& b)
     auto i = a.begin();
     auto j = b.begin();
     while (i != a.end() || j != b.end()) {
-        if (j == b.end() || (i != a.end() && i->monomial < j->monomial)) result.push_back(*i++);
-        else if (i == a.end() || j->monomial < i->monomial) result.push_back(*j++);
+        if (j == b.end() || (i != a.end() && i->monomial < j->monomial))
+            result.push_back(*i++);
+        else if (i == a.end() || j->monomial < i->monomial)
+            result.push_back(*j++);
         else {
             const Rational sum = i->coefficient + j->coefficient;
             if (sum != 0) result.push_back({sum, i->monomial});
@@ -218,8 +225,10 @@ Polynomial Algebra::distribute(const Polynomial& a, const Polynomial& b)
     sort_terms(products);
     Polynomial result;
     for (Term& term : products) {
-        if (result.empty() || result.back().monomial != term.monomial) result.push_back(std::move(term));
-        else result.back().coefficient += term.coefficient;
+        if (result.empty() || result.back().monomial != term.monomial)
+            result.push_back(std::move(term));
+        else
+            result.back().coefficient += term.coefficient;
         if (result.back().coefficient == 0) result.pop_back();
     }
     return result;

@@ -61,8 +61,11 @@ class Algebra {
     /// term^n, n != 0.
     [[nodiscard]] Term power(const Term& term, int n);
 
-    /// Divides out the content: rational (sign of the first term, gcd of numerators over lcm of denominators) times the common
-    /// monomial. `a` becomes primitive.
+    /// c m sin(a)^2 + c m cos(a)^2 = c m, wherever both terms stand.
+    [[nodiscard]] Polynomial contract_circles(Polynomial a);
+
+    /// Divides out the content: rational (sign of the first term, gcd of numerators over lcm of denominators) times the
+    /// common monomial. `a` becomes primitive.
     [[nodiscard]] Term extract_content(Polynomial& a) const;
 
   private:

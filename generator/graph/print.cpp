@@ -59,7 +59,8 @@ void expand(const Graph& graph, NodeId id, std::vector<Piece>& pieces)
             if (k != 0) pieces.push_back({", ", 0, 0});
             pieces.push_back({{}, operands[k], 0});
         }
-        if (entry.op == Op::component) pieces.push_back({std::string(", ").append(std::to_string(graph.payload(id))), 0, 0});
+        if (entry.op == Op::component)
+            pieces.push_back({std::string(", ").append(std::to_string(graph.payload(id))), 0, 0});
         pieces.push_back({")", 0, 0});
         break;
     }

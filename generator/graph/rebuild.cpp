@@ -33,8 +33,9 @@ class Builder {
             nodes_[id] = graph_.select(sum(atom.operands[0]), sum(atom.operands[1]), sum(atom.operands[2]));
             break;
         default:
-            nodes_[id] = atom.operands.size() == 1 ? graph_.apply(atom.op, sum(atom.operands[0]))
-                                                   : graph_.apply(atom.op, sum(atom.operands[0]), sum(atom.operands[1]));
+            nodes_[id] = atom.operands.size() == 1
+                             ? graph_.apply(atom.op, sum(atom.operands[0]))
+                             : graph_.apply(atom.op, sum(atom.operands[0]), sum(atom.operands[1]));
         }
     }
 

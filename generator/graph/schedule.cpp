@@ -7,7 +7,10 @@
 namespace lagen {
 namespace {
 
-bool is_leaf(const Graph& graph, NodeId id) { return operator_of(graph.op(id)).notation == Notation::leaf; }
+bool is_leaf(const Graph& graph, NodeId id)
+{
+    return operator_of(graph.op(id)).notation == Notation::leaf;
+}
 
 /// Which reachable nodes get a name.
 std::vector<bool> named_nodes(const Graph& graph, const std::vector<NodeId>& nodes,

@@ -7,8 +7,8 @@
 namespace lagen {
 
 /// `temporaries` are the reachable nodes that deserve a name, in order of evaluation (operands first, few live values):
-/// nodes that are used more than once, all operands of `factor` and `solve` that are neither leaves nor constants, and every
-/// `factor` and `solve` itself. Leaves (constants, pi, inputs), `component` and cheap signs of leaves are never
+/// nodes that are used more than once, all operands of `factor` and `solve` that are neither leaves nor constants, and
+/// every `factor` and `solve` itself. Leaves (constants, pi, inputs), `component` and cheap signs of leaves are never
 /// temporaries; every other node has one use and is printed inside it.
 struct Schedule {
     std::vector<NodeId> temporaries;

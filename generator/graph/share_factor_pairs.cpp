@@ -93,8 +93,10 @@ Monomial replaced(const Monomial& monomial, const Monomial& part, Factor replace
         if (factor.exponent != 0) result.push_back(factor);
     }
     const auto place = std::ranges::lower_bound(result, replacement.atom, {}, &Factor::atom);
-    if (place != result.end() && place->atom == replacement.atom) place->exponent += replacement.exponent;
-    else result.insert(place, replacement);
+    if (place != result.end() && place->atom == replacement.atom)
+        place->exponent += replacement.exponent;
+    else
+        result.insert(place, replacement);
     return result;
 }
 

@@ -82,8 +82,10 @@ void rewrite(Form& form, Uses& uses, const Polynomial& old, const Pair& pair, co
     for (const Place& place : node.mapped()) {
         const bool own = !place.root && name.monomial.size() == 1 && place.atom == name.monomial[0].atom;
         if (!own) at(form, place) = next;
-        if (own) uses[old].push_back(place);
-        else if (next.size() > 1) uses[next].push_back(place);
+        if (own)
+            uses[old].push_back(place);
+        else if (next.size() > 1)
+            uses[next].push_back(place);
     }
 }
 

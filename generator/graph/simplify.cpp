@@ -27,6 +27,8 @@ void improve(Form& form, Order order)
     share_term_pairs(form);
     share_reciprocals(form);
     share_factor_pairs(form);
+    inline_single_products(form);
+    absorb_signs(form);
 }
 
 std::optional<std::vector<NodeId>> attempt(Graph& graph, const Form& collected, Order order)
@@ -52,7 +54,8 @@ std::optional<Form> collected(const Graph& graph, std::span<const NodeId> output
 }
 
 /// Replaces single outputs of `best` by another candidate's where that makes the whole lighter.
-void mix(const Graph& graph, std::vector<NodeId>& best, double& weight, const std::vector<std::vector<NodeId>>& candidates)
+void mix(const Graph& graph, std::vector<NodeId>& best, double& weight,
+         const std::vector<std::vector<NodeId>>& candidates)
 {
     constexpr std::size_t largest_effort = 2'000'000; // nodes visited
     if (best.size() * candidates.size() * reachable(graph, best).size() > largest_effort) return;
@@ -62,8 +65,10 @@ void mix(const Graph& graph, std::vector<NodeId>& best, double& weight, const st
             if (candidate[k] == kept) continue;
             best[k] = candidate[k];
             const double tried = count_operations(graph, best).weight;
-            if (tried < weight) weight = tried;
-            else best[k] = kept;
+            if (tried < weight)
+                weight = tried;
+            else
+                best[k] = kept;
         }
 }
 

@@ -51,8 +51,8 @@ std::vector<Block> connected_blocks(const Graph& graph, std::span<const NodeId> 
 
 } // namespace
 
-std::vector<std::vector<NodeId>> Graph::solve(std::span<const NodeId> matrix,
-                                              const std::vector<std::vector<NodeId>>& columns, MatrixStructure structure)
+std::vector<std::vector<NodeId>>
+Graph::solve(std::span<const NodeId> matrix, const std::vector<std::vector<NodeId>>& columns, MatrixStructure structure)
 {
     const std::size_t n = columns.empty() ? 0 : columns.front().size();
     for (const auto& column : columns)

@@ -99,7 +99,9 @@ void read_numbers(const ModelReader& reader, Scene& scene, TableReader& table)
     take("step", scene.step);
     Tree tolerance, relative, absolute;
     const bool one = take("tolerance", tolerance);
-    const bool two = take("relative", relative) | take("absolute", absolute);
+    const bool has_relative = take("relative", relative);
+    const bool has_absolute = take("absolute", absolute);
+    const bool two = has_relative || has_absolute;
     if (one && two) {
         throw ModelError(fmt::format("scene '{}' gives 'tolerance' and also 'relative' or 'absolute'", scene.name),
                          scene.where, "'tolerance' means both; keep it or the other two");

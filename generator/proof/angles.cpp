@@ -143,7 +143,8 @@ Elementary::SineCosine Elementary::sine_cosine(const Fraction& angle)
         for (const Part& part : generic)
             whole = ring_.add(whole, ring_.times(ring_.constant(part.coefficient), part.atom));
         // The number in front is kept in the coefficient, so that a - b and b - a meet in one unit.
-        mpq_class number(whole.num[0].coefficient < 0 ? mpz_class(-content(whole.num)) : content(whole.num), whole.scale);
+        mpq_class number(whole.num[0].coefficient < 0 ? mpz_class(-content(whole.num)) : content(whole.num),
+                         whole.scale);
         number.canonicalize();
         generic = {{number, ring_.times(ring_.constant(1 / number), whole)}};
     }

@@ -27,7 +27,8 @@ const char* to_text(ProofStatus status)
 class ZeroDecider::State {
   public:
     State(const Graph& graph, ProofSetting setting, ProofBudget budget)
-        : graph_(graph), setting_(std::move(setting)), budget_(budget), constraints_(triangular_constraints(graph, setting_)),
+        : graph_(graph), setting_(std::move(setting)), budget_(budget),
+          constraints_(triangular_constraints(graph, setting_)),
           operands_(nonnegative_operands(graph, setting_.defined)), sampler_(graph, setting_, constraints_, budget)
     {
     }
@@ -92,7 +93,7 @@ ZeroDecider::State::Algebra ZeroDecider::State::reduce(NodeId residual) const
     try {
         NormalForm forms = normal_form(residual);
         const Fraction form = forms.of(residual);
-        result.text = to_text(forms.ring(), form);
+        result.text = to_text(forms.ring(), forms.readable(form));
         if (form.is_zero() && !forms.condition().empty())
             result.note = "zero wherever " + forms.condition() + " != 0, which is not shown on the whole domain";
         result.zero = form.is_zero() && forms.condition().empty();
@@ -113,7 +114,8 @@ std::size_t ZeroDecider::State::affordable_tries(const Evaluation& evaluation) c
     return std::clamp<std::size_t>(most_operations / (evaluation.size() + 1), 4, 2 * budget_.tries);
 }
 
-/// The residual at a point: at the first precision, and where its sign stays open (and `raise`) at up to eight times that.
+/// The residual at a point: at the first precision, and where its sign stays open (and `raise`) at up to eight times
+/// that.
 Ball ZeroDecider::State::refine(const Evaluation& evaluation, const SamplePoint& point, bool raise) const
 {
     Ball value;
@@ -137,13 +139,14 @@ void ZeroDecider::State::search_witness(const Evaluation& evaluation, bool prove
         const Ball value = exact ? Ball((*exact)[0], budget_.precision)
                                  : refine(evaluation, *point, !prove && finite < budget_.points);
         if (!value.is_finite()) continue;
-        ++finite;
         if (!zero && value.excludes_zero()) {
             decision.status = ProofStatus::refuted;
             decision.witness = Witness{sampler_.text(*point, evaluation.inputs()), nonzero_double(value)};
             return;
         }
-        bound = std::max(bound, value.bound());
+        // The evidence speaks of the first points alone: later ones are looked at with one precision only.
+        if (finite < std::max<std::size_t>(budget_.points, 1)) bound = std::max(bound, value.bound());
+        ++finite;
         if (prove) {
             decision.status = ProofStatus::proved;
             return;
@@ -153,6 +156,7 @@ void ZeroDecider::State::search_witness(const Evaluation& evaluation, bool prove
         decision.evidence = "no regular point found in " + std::to_string(budget_.tries) + " tries";
         return;
     }
+    finite = std::min(finite, std::max<std::size_t>(budget_.points, 1));
     const std::string points = " at " + std::to_string(finite) + (finite == 1 ? " point" : " points");
     decision.evidence = (bound == 0 ? "r = 0" : "|r| < " + power_of_ten_above(bound)) + points;
 }
@@ -169,7 +173,8 @@ Decision ZeroDecider::State::decide(NodeId residual)
     const Evaluation evaluation(graph_, {residual});
     search_witness(evaluation, algebra.zero, decision);
     if (algebra.zero && decision.status == ProofStatus::refuted)
-        throw InternalError("the residual " + to_text(graph_, residual, 200) + " has the normal form 0 and a point where it is not zero");
+        throw InternalError("the residual " + to_text(graph_, residual, 200) +
+                            " has the normal form 0 and a point where it is not zero");
     if (decision.status == ProofStatus::undecided) decision.evidence = joined(decision.evidence, algebra.note);
     return decision;
 }

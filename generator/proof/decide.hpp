@@ -17,8 +17,8 @@ enum class ProofStatus { proved, refuted, undecided };
 
 [[nodiscard]] const char* to_text(ProofStatus status);
 
-/// A point where a residual is certainly not zero. Values are exact rationals ("3/5") or, where a constraint forces an irrational
-/// number, a decimal with at least 17 correct digits; every variable that the setting names is listed.
+/// A point where a residual is certainly not zero. Values are exact rationals ("3/5") or, where a constraint forces an
+/// irrational number, a decimal with at least 17 correct digits; every variable that the setting names is listed.
 struct Witness {
     std::vector<std::pair<std::string, std::string>> point;
     double value = 0; ///< of the residual there (rounded; its enclosure excludes 0)
@@ -28,25 +28,28 @@ struct Decision {
     ProofStatus status = ProofStatus::undecided;
     std::string residual; ///< normal form as text, "0" where proved; deterministic
     std::optional<Witness> witness;
-    std::string evidence; ///< for `undecided`: what is known, e.g. "|r| < 1e-74 at 3 points; term budget of 20000 exhausted"
+    std::string
+        evidence; ///< for `undecided`: what is known, e.g. "|r| < 1e-74 at 3 points; term budget of 20000 exhausted"
 };
 
 /// What holds of the variables.
 
 struct ProofSetting {
-    std::vector<NodeId> variables;   ///< input nodes: base coordinates first, then others (fibre), in order of declaration
+    std::vector<NodeId>
+        variables; ///< input nodes: base coordinates first, then others (fibre), in order of declaration
     std::vector<NodeId> parameters;  ///< input nodes, universally quantified over the domain
     std::vector<NodeId> constraints; ///< nodes that vanish on M; triangular (see triangular_constraints)
     std::vector<NodeId> domain;      ///< comparison nodes that hold (<, >, !=)
-    std::vector<NodeId> defined;     ///< further nodes whose definedness belongs to "everything in the model is defined" (rho, C, L)
+    std::vector<NodeId>
+        defined; ///< further nodes whose definedness belongs to "everything in the model is defined" (rho, C, L)
 };
 
 struct ProofBudget {
-    std::size_t terms = 20000;   ///< monomials of one polynomial
+    std::size_t terms = 20000;         ///< monomials of one polynomial
     std::size_t products = 20'000'000; ///< term products over one decision
-    std::size_t points = 3;      ///< regular witness points wanted
-    std::size_t tries = 200;     ///< sampled points before giving up on finding them
-    long precision = 256;        ///< bits of the first enclosure (doubled up to 8 times the value)
+    std::size_t points = 3;            ///< regular witness points wanted
+    std::size_t tries = 200;           ///< sampled points before giving up on finding them
+    long precision = 256;              ///< bits of the first enclosure (doubled up to 8 times the value)
 };
 
 /// A base constraint that is not triangular; `index` says which one of ProofSetting::constraints.
@@ -79,7 +82,8 @@ class ZeroDecider {
     /// A regular sample point (all of `variables` and `parameters`), or nothing where none was found.
     [[nodiscard]] std::optional<std::vector<std::pair<std::string, std::string>>> sample_point() const;
 
-    /// Re-evaluates at `points` random exact points to 60 digits: the largest certified bound of |value|; for `check --verify` and tests.
+    /// Re-evaluates at `points` random exact points to 60 digits: the largest certified bound of |value|; for `check
+    /// --verify` and tests.
     [[nodiscard]] double largest_bound(NodeId residual, std::size_t points) const;
 
   private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Elementary functions of fractions as ring elements. Arguments of sin, cos and exp are split into rational multiples
-/// of "atoms" (power products over a denominator); each atom has one unit, and the addition theorems do the rest. Roots are
-/// generators w with w^q = radicand; |p| is a generator with square p^2; log splits off what is certainly positive.
+/// of "atoms" (power products over a denominator); each atom has one unit, and the addition theorems do the rest. Roots
+/// are generators w with w^q = radicand; |p| is a generator with square p^2; log splits off what is certainly positive.
 /// Every rule holds wherever its argument is defined and the domain holds; what no rule covers becomes a free generator
 /// keyed by its arguments, which can only miss zeros.
 #pragma once
@@ -64,6 +64,7 @@ class Elementary {
     [[nodiscard]] Fraction number_root(const mpq_class& number, unsigned degree);
     [[nodiscard]] Fraction root_generator(const Polynomial& radicand, unsigned degree);
     [[nodiscard]] Fraction remaining_root(const Polynomial& radicand, unsigned degree);
+    [[nodiscard]] std::optional<Fraction> denested(const Polynomial& radicand);
     [[nodiscard]] Fraction absolute_generator(const Polynomial& p);
     [[nodiscard]] Fraction number_logarithm(const mpq_class& number);
     [[nodiscard]] Fraction factor_logarithm(const Polynomial& p);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Ball arithmetic, node by node. Arb answers "not finite" for every argument outside a function's domain, and so it spreads
-/// to all that depends on it.
+/// Ball arithmetic, node by node. Arb answers "not finite" for every argument outside a function's domain, and so it
+/// spreads to all that depends on it.
 #include "proof/enclosure.hpp"
 
 #include <arb_mat.h>

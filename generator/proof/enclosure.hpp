@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Certified enclosures of graph nodes in ball arithmetic (Arb), and exact rational values where every operation is rational.
+/// Certified enclosures of graph nodes in ball arithmetic (Arb), and exact rational values where every operation is
+/// rational.
 #pragma once
 
 #include "graph/graph.hpp"
@@ -47,8 +48,8 @@ class Evaluation {
   public:
     Evaluation(const Graph& graph, std::vector<NodeId> roots);
 
-    /// Enclosures of the roots; comparisons are 1 or 0 where certain, else not finite. A branch of select that is certainly not
-    /// taken is ignored.
+    /// Enclosures of the roots; comparisons are 1 or 0 where certain, else not finite. A branch of select that is
+    /// certainly not taken is ignored.
     [[nodiscard]] std::vector<Ball> enclose(const BallInputs& inputs, slong precision) const;
     /// Exact values of the roots; nothing where an operation is not rational, divides by 0 or outgrows 20000 bits.
     [[nodiscard]] std::optional<std::vector<Rational>> exactly(const ExactInputs& inputs) const;
@@ -59,7 +60,8 @@ class Evaluation {
     [[nodiscard]] Ball enclose_node(NodeId node, const std::vector<Ball>& values, slong precision) const;
     [[nodiscard]] Ball enclose_component(NodeId node, const std::vector<Ball>& values, slong precision) const;
     [[nodiscard]] bool exact_node(NodeId node, const std::vector<Rational>& values, Rational& result) const;
-    template <class Value> [[nodiscard]] const Value& operand(NodeId node, std::size_t k, const std::vector<Value>& values) const
+    template <class Value>
+    [[nodiscard]] const Value& operand(NodeId node, std::size_t k, const std::vector<Value>& values) const
     {
         return values[slots_.at(graph_.operands(node)[k])];
     }

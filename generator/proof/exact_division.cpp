@@ -22,7 +22,8 @@ Remainder remainder_of(const Polynomial& p)
 }
 
 /// remainder -= factor * m * q
-void subtract_multiple(Remainder& remainder, const Polynomial& q, const Monomial& m, const mpz_class& factor, Work& work)
+void subtract_multiple(Remainder& remainder, const Polynomial& q, const Monomial& m, const mpz_class& factor,
+                       Work& work)
 {
     work.spend(q.size());
     for (const Term& term : q) {
@@ -49,13 +50,15 @@ bool divide_exactly(const Polynomial& p, const Polynomial& q, Polynomial& quotie
     if (p.empty()) return true;
     Term term;
     // The trailing terms must divide too: this refuses most hopeless cases at no cost.
-    if (!divide_term(p.back().monomial, p.back().coefficient, q.back().monomial, q.back().coefficient, term)) return false;
+    if (!divide_term(p.back().monomial, p.back().coefficient, q.back().monomial, q.back().coefficient, term))
+        return false;
     if (!divide_term(p[0].monomial, p[0].coefficient, q[0].monomial, q[0].coefficient, term)) return false;
     Remainder remainder = remainder_of(p);
     const std::size_t most = 4 * p.size() + 64;
     while (!remainder.empty()) {
         const auto& [monomial, coefficient] = *remainder.begin();
-        if (quotient.size() > most || !divide_term(monomial, coefficient, q[0].monomial, q[0].coefficient, term)) return false;
+        if (quotient.size() > most || !divide_term(monomial, coefficient, q[0].monomial, q[0].coefficient, term))
+            return false;
         quotient.push_back(term);
         subtract_multiple(remainder, q, term.monomial, term.coefficient, work);
     }

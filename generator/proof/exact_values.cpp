@@ -28,7 +28,8 @@ bool exact_power(const Rational& base, std::int32_t exponent, Rational& result)
 
 bool exact_root(const Rational& a, Rational& result)
 {
-    if (sgn(a) < 0 || !mpz_perfect_square_p(a.get_num_mpz_t()) || !mpz_perfect_square_p(a.get_den_mpz_t())) return false;
+    if (sgn(a) < 0 || !mpz_perfect_square_p(a.get_num_mpz_t()) || !mpz_perfect_square_p(a.get_den_mpz_t()))
+        return false;
     result = Rational(sqrt(a.get_num()), sqrt(a.get_den()));
     return true;
 }

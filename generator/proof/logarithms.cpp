@@ -34,7 +34,8 @@ Fraction Elementary::factor_logarithm(const Polynomial& p)
     if (const Fraction* inner = exponent_of(p)) return *inner;
     if (p.size() == 1 && p[0].coefficient == 1 && p[0].monomial.size() == 1 && p[0].monomial.exponent(0) == 1) {
         const Generator generator = ring_.generator(p[0].monomial.generator(0));
-        // A root w >= 0 with w^q = r, and log w defined: log w = log(r) / q. (Not for |x|, a root of degree 2 of a square.)
+        // A root w >= 0 with w^q = r, and log w defined: log w = log(r) / q. (Not for |x|, a root of degree 2 of a
+        // square.)
         if (generator.power > 0 && !generator.range.low.infinite && generator.text.compare(0, 4, "abs(") != 0) {
             const Fraction log = logarithm(ring_.of(generator.relation));
             return ring_.times(ring_.constant(mpq_class(1, generator.power)), log);

@@ -6,8 +6,9 @@
 
 namespace lagen::proof {
 
-NormalForm::NormalForm(const Graph& graph, const ProofSetting& setting, const std::vector<SolvedConstraint>& constraints,
-                       NodeId root, const std::vector<NonnegativeOperand>& operands, Work budget, Angles angles)
+NormalForm::NormalForm(const Graph& graph, const ProofSetting& setting,
+                       const std::vector<SolvedConstraint>& constraints, NodeId root,
+                       const std::vector<NonnegativeOperand>& operands, Work budget, Angles angles)
     : graph_(graph), setting_(setting), constraints_(constraints), operands_(nonnegative_operands(graph, {root})),
       ring_(budget), elementary_(ring_, angles)
 {
@@ -90,12 +91,34 @@ void NormalForm::solve_constraint(const SolvedConstraint& solved)
     } else {
         // V = leading * v satisfies the monic V^k = -leading^(k-1) lower.
         const Fraction ratio = ring_.of(leading);
-        Generator scaled{"(" + graph_.input_name(solved.variable) + "*(" + to_text(ring_, leading) + "))", {}, 0, {}, -1, false};
+        const std::string& name = graph_.input_name(solved.variable);
+        Generator scaled{name + "*(" + to_text(ring_, leading) + ")", {}, 0, {}, -1, false};
         scaled.power = solved.degree;
         scaled.relation = ring_.times(negate(ring_.power(leading, solved.degree - 1)), lower);
-        substitutes_[solved.variable] = ring_.divide(ring_.of(ring_.add_generator(scaled)), ratio);
+        const GeneratorId multiple = ring_.add_generator(scaled);
+        multiples_.push_back({multiple, id, leading});
+        substitutes_[solved.variable] = ring_.divide(ring_.of(multiple), ratio);
     }
     done_.clear();
+}
+
+Fraction NormalForm::readable(const Fraction& a)
+{
+    Fraction result = a;
+    for (const Multiple& entry : multiples_) {
+        Polynomial sum;
+        for (const Term& term : result.num) {
+            const unsigned exponent = term.monomial.exponent_of(entry.multiple);
+            const Polynomial image =
+                multiply_term(ring_.power(entry.leading, exponent),
+                              term.monomial.without(entry.multiple) * Monomial(entry.coordinate, exponent),
+                              term.coefficient, ring_.work());
+            sum = add_scaled(sum, image, 1, ring_.work());
+        }
+        result.num = std::move(sum);
+        result = ring_.normalised(std::move(result));
+    }
+    return result;
 }
 
 Fraction NormalForm::of(NodeId node)

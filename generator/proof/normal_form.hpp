@@ -22,23 +22,27 @@ struct NonnegativeOperand {
     bool positive = false; ///< of log, or of a negative power
 };
 
-/// Those that `roots` need; branches of select are left out, and so are operands that contain other functions than sin and cos
-/// (their signs are not needed to normalise the others).
-[[nodiscard]] std::vector<NonnegativeOperand> nonnegative_operands(const Graph& graph, const std::vector<NodeId>& roots);
+/// Those that `roots` need; branches of select are left out, and so are operands that contain other functions than sin
+/// and cos (their signs are not needed to normalise the others).
+[[nodiscard]] std::vector<NonnegativeOperand> nonnegative_operands(const Graph& graph,
+                                                                   const std::vector<NodeId>& roots);
 
 /// Normal forms under one setting. One object serves one decision.
 class NormalForm {
   public:
-    /// `root`: the node of interest; `operands`: of roots and logarithms elsewhere in the model, whose definedness may be
-    /// used besides that of `root`.
-    NormalForm(const Graph& graph, const ProofSetting& setting, const std::vector<SolvedConstraint>& constraints, NodeId root,
-               const std::vector<NonnegativeOperand>& operands, Work budget, Angles angles = Angles::split);
+    /// `root`: the node of interest; `operands`: of roots and logarithms elsewhere in the model, whose definedness may
+    /// be used besides that of `root`.
+    NormalForm(const Graph& graph, const ProofSetting& setting, const std::vector<SolvedConstraint>& constraints,
+               NodeId root, const std::vector<NonnegativeOperand>& operands, Work budget,
+               Angles angles = Angles::split);
 
-    /// Throws BudgetExhausted or VanishingDivisor. Zero proves that the node vanishes wherever everything is defined, except
-    /// where `condition()` vanishes.
+    /// Throws BudgetExhausted or VanishingDivisor. Zero proves that the node vanishes wherever everything is defined,
+    /// except where `condition()` vanishes.
     [[nodiscard]] Fraction of(NodeId node);
     /// A divisor that reduction used and that was not shown to be nonzero on the domain; empty: none.
     [[nodiscard]] const std::string& condition() const { return condition_; }
+    /// The same value in the names of the model: without the multiples of coordinates that constraints were solved for.
+    [[nodiscard]] Fraction readable(const Fraction& a);
     [[nodiscard]] Ring& ring() { return ring_; }
     [[nodiscard]] GeneratorId generator_of(NodeId input) const { return inputs_.at(input); }
 
@@ -53,7 +57,10 @@ class NormalForm {
     [[nodiscard]] Fraction function(NodeId node);
     [[nodiscard]] Fraction component(NodeId node);
     [[nodiscard]] Fraction determinant(const std::vector<Fraction>& matrix, std::size_t n);
-    [[nodiscard]] const Fraction& operand(NodeId node, std::size_t k) const { return done_.at(graph_.operands(node)[k]); }
+    [[nodiscard]] const Fraction& operand(NodeId node, std::size_t k) const
+    {
+        return done_.at(graph_.operands(node)[k]);
+    }
 
     const Graph& graph_;
     const ProofSetting& setting_;
@@ -65,6 +72,14 @@ class NormalForm {
     std::map<NodeId, Fraction> substitutes_; ///< of inputs that constraints solve
     std::map<NodeId, Fraction> done_;
     std::string condition_;
+
+    /// `multiple` = leading * coordinate, monic in its constraint.
+    struct Multiple {
+        GeneratorId multiple;
+        GeneratorId coordinate;
+        Polynomial leading;
+    };
+    std::vector<Multiple> multiples_;
 };
 
 } // namespace lagen::proof

@@ -128,9 +128,10 @@ Polynomial multiply(const Polynomial& p, const Polynomial& q, Work& work)
     if (p.empty() || q.empty()) return {};
     if (q.size() == 1) return multiply_term(p, q[0].monomial, q[0].coefficient, work);
     if (p.size() == 1) return multiply_term(q, p[0].monomial, p[0].coefficient, work);
+    // Paid in advance: a product that cannot be finished is not begun.
+    work.spend(p.size() * q.size() * (1 + limbs(p[0].coefficient) / 4));
     std::unordered_map<Monomial, mpz_class, MonomialHash> sums;
     for (const Term& a : p) {
-        work.spend(q.size() * (1 + limbs(a.coefficient) / 4));
         for (const Term& b : q) {
             mpz_class& sum = sums[a.monomial * b.monomial];
             sum += a.coefficient * b.coefficient;
@@ -184,8 +185,7 @@ mpz_class content(const Polynomial& p)
 Polynomial divide_content(Polynomial p, const mpz_class& divisor)
 {
     if (divisor == 1) return p;
-    for (Term& term : p)
-        mpz_divexact(term.coefficient.get_mpz_t(), term.coefficient.get_mpz_t(), divisor.get_mpz_t());
+    for (Term& term : p) mpz_divexact(term.coefficient.get_mpz_t(), term.coefficient.get_mpz_t(), divisor.get_mpz_t());
     return p;
 }
 

@@ -32,11 +32,11 @@ struct Fraction {
 };
 
 struct Generator {
-    std::string text;         ///< in the expression language
-    Range range;              ///< of its values on the domain
-    unsigned power = 0;       ///< generator^power = relation; 0: free
+    std::string text;   ///< in the expression language
+    Range range;        ///< of its values on the domain
+    unsigned power = 0; ///< generator^power = relation; 0: free
     Polynomial relation;
-    int partner = -1;         ///< of a cosine: its sine (and of a sine: its cosine)
+    int partner = -1; ///< of a cosine: its sine (and of a sine: its cosine)
     bool is_sine = false;
 };
 
@@ -102,13 +102,15 @@ class Ring {
     [[nodiscard]] const Polynomial& relation_power(GeneratorId id, unsigned exponent);
     [[nodiscard]] Signs signs(const Polynomial& p, int depth);
     [[nodiscard]] Signs range_signs(const Polynomial& p) const;
+    [[nodiscard]] Signs end_signs(const Polynomial& p, int depth);
     [[nodiscard]] Signs sum_signs(const Polynomial& p, const mpz_class& coefficient, const SignFact& fact);
     [[nodiscard]] Signs fact_signs(const Polynomial& p, int depth);
 
     Work work_;
     std::vector<Generator> generators_;
     std::map<std::string, GeneratorId> keys_;
-    std::vector<Polynomial> factors_; ///< primitive, leading coefficient positive, no monomial content unless a generator
+    std::vector<Polynomial>
+        factors_; ///< primitive, leading coefficient positive, no monomial content unless a generator
     std::map<std::string, std::size_t> factor_keys_;
     std::map<std::pair<GeneratorId, unsigned>, Polynomial> relation_powers_;
     std::vector<SignFact> facts_;

@@ -44,7 +44,8 @@ Elementary::Factored Elementary::factored(const Fraction& a)
     Factored result{mpq_class(unit, a.scale), {}};
     result.number.canonicalize();
     for (const auto& [index, power] : above) result.factors.push_back({ring_.factor(index), static_cast<int>(power)});
-    for (const auto& [index, power] : a.factors) result.factors.push_back({ring_.factor(index), -static_cast<int>(power)});
+    for (const auto& [index, power] : a.factors)
+        result.factors.push_back({ring_.factor(index), -static_cast<int>(power)});
     return result;
 }
 
@@ -60,7 +61,8 @@ Fraction Elementary::root_generator(const Polynomial& radicand, unsigned degree)
     const std::string key = "root" + std::to_string(degree) + ':' + key_of(radicand);
     const GeneratorId id = ring_.keyed(key, [&] {
         const std::string inner = to_text(ring_, radicand, longest_text);
-        const std::string text = degree == 2 ? "sqrt(" + inner + ")" : "(" + inner + ")^(1/" + std::to_string(degree) + ")";
+        const std::string text =
+            degree == 2 ? "sqrt(" + inner + ")" : "(" + inner + ")^(1/" + std::to_string(degree) + ")";
         const Range range = ring_.signs(radicand).zero ? Range::nonnegative() : Range::positive();
         return ring_.add_generator({text, range, degree, radicand, -1, false});
     });
@@ -87,10 +89,32 @@ Fraction Elementary::number_root(const mpq_class& number, unsigned degree)
     return result;
 }
 
+/// sqrt(a + b sqrt n) = sqrt((a + d)/2) + sign(b) sqrt((a - d)/2) where d = sqrt(a^2 - b^2 n) is an integer and a > 0.
+std::optional<Fraction> Elementary::denested(const Polynomial& radicand)
+{
+    if (radicand.size() != 2 || !radicand[1].monomial.is_one() || radicand[1].coefficient <= 0) return std::nullopt;
+    for (std::size_t k = 0; k < radicand[0].monomial.size(); ++k) {
+        const Generator& generator = ring_.generator(radicand[0].monomial.generator(k));
+        if (generator.power != 2 || !is_constant(generator.relation) || generator.range.low.infinite)
+            return std::nullopt;
+    }
+    const mpz_class &a = radicand[1].coefficient, &b = radicand[0].coefficient;
+    const Polynomial square = ring_.power({{radicand[0].monomial, 1}}, 2);
+    if (!is_constant(square) || square.empty()) return std::nullopt;
+    const mpz_class discriminant = a * a - b * b * square[0].coefficient;
+    if (discriminant < 0 || !mpz_perfect_square_p(discriminant.get_mpz_t())) return std::nullopt;
+    const mpz_class d = sqrt(discriminant);
+    mpq_class larger(a + d, 2), smaller(a - d, 2);
+    larger.canonicalize();
+    smaller.canonicalize();
+    return ring_.add(number_root(larger, 2), number_root(smaller, 2), sgn(b));
+}
+
 Fraction Elementary::remaining_root(const Polynomial& radicand, unsigned degree)
 {
     if (is_one(radicand)) return ring_.constant(1);
     if (degree == 2) {
+        if (const auto simple = denested(radicand)) return *simple;
         std::vector<Polynomial> forms = ring_.rewritings(radicand);
         forms.insert(forms.begin(), radicand);
         Polynomial square;

@@ -26,8 +26,22 @@ Rational ratio(long above, long below)
 
 Rational small_number(std::uint64_t random)
 {
-    static constexpr std::array<std::pair<int, int>, 16> table{
-        {{1, 1}, {2, 1}, {0, 1}, {-1, 1}, {1, 2}, {3, 1}, {-2, 1}, {3, 2}, {1, 3}, {-1, 2}, {2, 3}, {4, 1}, {5, 2}, {-3, 1}, {3, 4}, {5, 1}}};
+    static constexpr std::array<std::pair<int, int>, 16> table{{{1, 1},
+                                                                {2, 1},
+                                                                {0, 1},
+                                                                {-1, 1},
+                                                                {1, 2},
+                                                                {3, 1},
+                                                                {-2, 1},
+                                                                {3, 2},
+                                                                {1, 3},
+                                                                {-1, 2},
+                                                                {2, 3},
+                                                                {4, 1},
+                                                                {5, 2},
+                                                                {-3, 1},
+                                                                {3, 4},
+                                                                {5, 1}}};
     const auto& [above, below] = table[random % table.size()];
     return ratio(above, below);
 }
@@ -36,8 +50,8 @@ Rational small_number(std::uint64_t random)
 Rational spherical_number(std::uint64_t random)
 {
     static constexpr std::array<std::pair<int, int>, 20> table{
-        {{0, 1}, {3, 5}, {4, 5}, {0, 1}, {-3, 5}, {-4, 5}, {1, 3}, {2, 3}, {-1, 3}, {-2, 3},
-         {2, 7}, {3, 7}, {6, 7}, {-2, 7}, {-3, 7}, {-6, 7}, {5, 13}, {12, 13}, {1, 2}, {1, 1}}};
+        {{0, 1}, {3, 5}, {4, 5}, {0, 1},  {-3, 5}, {-4, 5}, {1, 3},  {2, 3},   {-1, 3}, {-2, 3},
+         {2, 7}, {3, 7}, {6, 7}, {-2, 7}, {-3, 7}, {-6, 7}, {5, 13}, {12, 13}, {1, 2},  {1, 1}}};
     const auto& [above, below] = table[random % table.size()];
     return ratio(above, below);
 }
@@ -55,8 +69,7 @@ Rational into_bounds(Rational value, const std::optional<Rational>& low, const s
 
 Sampler::Sampler(const Graph& graph, const ProofSetting& setting, const std::vector<SolvedConstraint>& constraints,
                  const ProofBudget& budget)
-    : graph_(graph), setting_(setting), constraints_(constraints), budget_(budget),
-      conditions_(graph, [&setting] {
+    : graph_(graph), setting_(setting), constraints_(constraints), budget_(budget), conditions_(graph, [&setting] {
           std::vector<NodeId> all = setting.domain;
           all.insert(all.end(), setting.defined.begin(), setting.defined.end());
           return all;
@@ -70,7 +83,8 @@ Sampler::Sampler(const Graph& graph, const ProofSetting& setting, const std::vec
     all.insert(all.end(), setting.parameters.begin(), setting.parameters.end());
     // Inputs that the setting does not name are sampled like the others.
     all.insert(all.end(), conditions_.inputs().begin(), conditions_.inputs().end());
-    for (const Evaluation& equation : equations_) all.insert(all.end(), equation.inputs().begin(), equation.inputs().end());
+    for (const Evaluation& equation : equations_)
+        all.insert(all.end(), equation.inputs().begin(), equation.inputs().end());
     for (const NodeId input : all) {
         bool free = places_.count(input) == 0;
         places_.emplace(input, places_.size());
@@ -126,7 +140,8 @@ std::optional<SamplePoint> Sampler::attempt(std::size_t number, bool exact_only)
 {
     SamplePoint point;
     point.number = number;
-    for (const NodeId input : free_) point.exact[input] = draw(number, input, exact_only && constrained_.count(input) > 0);
+    for (const NodeId input : free_)
+        point.exact[input] = draw(number, input, exact_only && constrained_.count(input) > 0);
     for (std::size_t k = 0; k < constraints_.size(); ++k) {
         const bool upper = number == 0 || mix(number * 31 + k) % 2 == 0;
         point.upper.push_back(upper);
@@ -171,7 +186,8 @@ ExactInputs Sampler::exact_values(const SamplePoint& point, const std::vector<No
     return values;
 }
 
-std::vector<std::pair<std::string, std::string>> Sampler::text(const SamplePoint& point, const std::vector<NodeId>& more) const
+std::vector<std::pair<std::string, std::string>> Sampler::text(const SamplePoint& point,
+                                                               const std::vector<NodeId>& more) const
 {
     constexpr slong digits = 20;
     std::vector<NodeId> order = setting_.variables;

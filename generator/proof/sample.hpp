@@ -8,11 +8,12 @@
 
 namespace lagen::proof {
 
-/// A point: exact values of most inputs; the coordinates that a constraint makes irrational are recomputed at each precision.
+/// A point: exact values of most inputs; the coordinates that a constraint makes irrational are recomputed at each
+/// precision.
 struct SamplePoint {
-    std::size_t number = 0;     ///< in the sequence of tries
+    std::size_t number = 0; ///< in the sequence of tries
     ExactInputs exact;
-    std::vector<bool> upper;    ///< which root each constraint takes, in the order of solving
+    std::vector<bool> upper; ///< which root each constraint takes, in the order of solving
 };
 
 class Sampler {
@@ -23,12 +24,13 @@ class Sampler {
     /// The k-th regular point, or nullptr where the tries do not find as many. Cached: the same at each call.
     [[nodiscard]] const SamplePoint* regular(std::size_t k);
     /// Enclosures of the inputs, `more` (inputs outside the setting) included.
-    [[nodiscard]] BallInputs enclosures(const SamplePoint& point, const std::vector<NodeId>& more, slong precision) const;
+    [[nodiscard]] BallInputs enclosures(const SamplePoint& point, const std::vector<NodeId>& more,
+                                        slong precision) const;
     /// Exact values of the inputs; those that are irrational are missing.
     [[nodiscard]] ExactInputs exact_values(const SamplePoint& point, const std::vector<NodeId>& more) const;
     /// Names and values, variables first, then parameters, then `more`.
     [[nodiscard]] std::vector<std::pair<std::string, std::string>> text(const SamplePoint& point,
-                                                                         const std::vector<NodeId>& more) const;
+                                                                        const std::vector<NodeId>& more) const;
 
   private:
     struct Bounds {
@@ -46,12 +48,12 @@ class Sampler {
     const ProofSetting& setting_;
     const std::vector<SolvedConstraint>& constraints_;
     ProofBudget budget_;
-    Evaluation conditions_; ///< the domain, then what must be defined
+    Evaluation conditions_;             ///< the domain, then what must be defined
     std::vector<Evaluation> equations_; ///< the constraints in the order of solving
     std::map<NodeId, Bounds> bounds_;
-    std::map<NodeId, std::size_t> places_;    ///< of inputs in the sequence
-    std::map<NodeId, bool> constrained_;      ///< inputs of constraints
-    std::vector<NodeId> free_;                ///< inputs of the setting that no constraint solves
+    std::map<NodeId, std::size_t> places_; ///< of inputs in the sequence
+    std::map<NodeId, bool> constrained_;   ///< inputs of constraints
+    std::vector<NodeId> free_;             ///< inputs of the setting that no constraint solves
     std::vector<SamplePoint> found_;
     std::size_t next_ = 0;
 };

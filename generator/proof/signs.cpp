@@ -74,6 +74,36 @@ Signs Ring::fact_signs(const Polynomial& p, int depth)
     return known;
 }
 
+/// A polynomial that is affine in a bounded generator lies between its values at the two ends.
+Signs Ring::end_signs(const Polynomial& p, int depth)
+{
+    std::map<GeneratorId, unsigned> degrees;
+    for (const Term& term : p)
+        for (std::size_t k = 0; k < term.monomial.size(); ++k) {
+            unsigned& degree = degrees[term.monomial.generator(k)];
+            degree = std::max(degree, term.monomial.exponent(k));
+        }
+    for (const auto& [id, degree] : degrees) {
+        const Range range = generators_[id].range;
+        if (degree != 1 || range.low.infinite || range.high.infinite) continue;
+        Signs ends[2];
+        for (int k = 0; k < 2; ++k) {
+            const mpq_class& end = (k == 0 ? range.low : range.high).value;
+            std::vector<Term> terms;
+            for (const Term& term : p) {
+                const bool has = term.monomial.exponent_of(id) == 1;
+                terms.push_back({term.monomial.without(id), term.coefficient * (has ? end.get_num() : end.get_den())});
+            }
+            ends[k] = signs(collect(std::move(terms), work_), depth + 1);
+        }
+        return {ends[0].negative || ends[1].negative,
+                ends[0].zero || ends[1].zero || (ends[0].negative && ends[1].positive) ||
+                    (ends[0].positive && ends[1].negative),
+                ends[0].positive || ends[1].positive};
+    }
+    return {};
+}
+
 std::vector<Polynomial> Ring::rewritings(const Polynomial& p)
 {
     std::vector<GeneratorId> cosines;
@@ -127,6 +157,7 @@ Signs Ring::signs(const Polynomial& p, int depth)
     Polynomial root;
     if (depth < deepest && p.size() > 1 && square_root(primitive(p), root, work_))
         known = both(known, proof::power(signs(root, depth + 1), 2));
+    if (depth < deepest && !settled()) known = both(known, end_signs(p, depth));
     if (settled() || depth > 0) return known;
     for (const Polynomial& form : rewritings(p)) known = both(known, signs(form, depth + 1));
     return known;

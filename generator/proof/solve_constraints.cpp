@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Points on the constraint set: each constraint h(v) = a v^k + b v + c is solved for its coordinate, from its values at
-/// v = 0, 1 and -1; exactly where the root is rational, else in ball arithmetic.
+/// Points on the constraint set: each constraint h(v) = a v^k + b v + c is solved for its coordinate, from its values
+/// at v = 0, 1 and -1; exactly where the root is rational, else in ball arithmetic.
 #include "proof/sample.hpp"
 
 namespace lagen::proof {

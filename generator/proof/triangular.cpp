@@ -82,7 +82,8 @@ Analysed analyse(const Graph& graph, const ProofSetting& setting, std::size_t in
     return result;
 }
 
-/// An order in which every constraint comes after those whose coordinates it needs; empty where they wait for each other.
+/// An order in which every constraint comes after those whose coordinates it needs; empty where they wait for each
+/// other.
 std::vector<std::size_t> solving_order(const std::vector<Analysed>& all, const std::vector<Candidate>& chosen)
 {
     std::vector<std::size_t> order;
@@ -109,9 +110,8 @@ bool assign(const std::vector<Analysed>& all, std::vector<Candidate>& chosen, st
     const std::size_t k = chosen.size();
     if (k == all.size()) return k == 0 || !solving_order(all, chosen).empty();
     for (const Candidate& candidate : all[k].candidates) {
-        const bool taken = std::any_of(chosen.begin(), chosen.end(), [&](const Candidate& other) {
-            return other.variable == candidate.variable;
-        });
+        const bool taken = std::any_of(chosen.begin(), chosen.end(),
+                                       [&](const Candidate& other) { return other.variable == candidate.variable; });
         if (taken) continue;
         chosen.push_back(candidate);
         if (assign(all, chosen, budget)) return true;
@@ -127,7 +127,8 @@ std::vector<SolvedConstraint> triangular_constraints(const Graph& graph, const P
     std::vector<Analysed> all;
     std::vector<Candidate> chosen;
     for (std::size_t k = 0; k < setting.constraints.size(); ++k) {
-        const std::string what = "base constraint " + std::to_string(k + 1) + ", " + to_text(graph, setting.constraints[k], 120);
+        const std::string what =
+            "base constraint " + std::to_string(k + 1) + ", " + to_text(graph, setting.constraints[k], 120);
         try {
             all.push_back(analyse(graph, setting, k));
         } catch (const std::runtime_error& error) {
@@ -136,9 +137,10 @@ std::vector<SolvedConstraint> triangular_constraints(const Graph& graph, const P
         std::size_t budget = most_assignments;
         chosen.clear();
         if (!assign(all, chosen, budget))
-            throw TriangularityError(what + ", is not triangular: it must solve for a base coordinate that no other constraint "
-                                            "solves for, linearly or as a power with a constant coefficient",
-                                     k);
+            throw TriangularityError(
+                what + ", is not triangular: it must solve for a base coordinate that no other constraint "
+                       "solves for, linearly or as a power with a constant coefficient",
+                k);
     }
     std::vector<SolvedConstraint> solved;
     for (const std::size_t k : solving_order(all, chosen))

@@ -7,8 +7,8 @@
 
 namespace lagen::proof {
 
-/// The constraints in an order in which each can be solved from what the earlier ones leave. Coordinates that stand under a
-/// function or in a divisor of a constraint are not solved for. Throws TriangularityError.
+/// The constraints in an order in which each can be solved from what the earlier ones leave. Coordinates that stand
+/// under a function or in a divisor of a constraint are not solved for. Throws TriangularityError.
 [[nodiscard]] std::vector<SolvedConstraint> triangular_constraints(const Graph& graph, const ProofSetting& setting);
 
 } // namespace lagen::proof

@@ -161,7 +161,7 @@ class Sorter {
         if (door == std::end(function_doors))
             throw MathematicsError("the derivation left the function " + text + ", which the language does not have");
         std::vector<Tree> arguments;
-        std::string key = std::to_string(100 + static_cast<int>(door->function));
+        std::string key = function_key(door->function);
         bool constant = true;
         bool negative = false;
         for (std::size_t k = 0; k < e.nops(); ++k) {
@@ -187,6 +187,8 @@ class Sorter {
 };
 
 } // namespace
+
+std::string function_key(Function function) { return std::to_string(100 + static_cast<int>(function)); }
 
 SortedTerm sort_expression(const GiNaC::ex& expression, const SymbolTable& symbols, const Order& order) {
     return Sorter(symbols, order)(expression);

@@ -4,7 +4,6 @@
 #include "symbolic/sorted_form.hpp"
 
 #include <algorithm>
-#include <optional>
 
 namespace lagen {
 namespace {
@@ -174,6 +173,64 @@ SortedTerm collected(const SortedTerm& expanded) {
     return sorted_sum(sums);
 }
 
+/// cos for sin and sin for cos of the same argument, squared; nothing for other factors and lower powers.
+std::optional<SortedFactor> complement(const SortedFactor& factor) {
+    const bool call_of_one = factor.terms.empty() && factor.base->kind == TreeKind::call && factor.exponent >= 2;
+    if (!call_of_one || (factor.base->function != Function::sin && factor.base->function != Function::cos))
+        return {};
+    const Function other = factor.base->function == Function::sin ? Function::cos : Function::sin;
+    SortedFactor result = factor;
+    result.base = call(other, factor.base->arguments);
+    result.exponent = 2;
+    result.key.replace(2, function_key(other).size(), function_key(other));
+    return result;
+}
+
+/// One use of T sin^2 + T cos^2 = T or of T - T sin^2 = T cos^2 (and with cos); false where there is none.
+bool join_squares(std::map<std::string, SortedTerm>& terms) {
+    for (const auto& [key, term] : terms)
+        for (const SortedFactor& factor : term.factors) {
+            const std::optional<SortedFactor> other = complement(factor);
+            if (!other)
+                continue;
+            SortedFactor square = factor;
+            square.exponent = 2;
+            const SortedTerm rest = divided(term, {square});
+            const SortedTerm partner = sorted_product({rest, product_of({*other}, 1)});
+            const auto beside = terms.find(partner.key);
+            const auto whole = terms.find(rest.key);
+            const bool sum = beside != terms.end() && beside->second.coefficient == term.coefficient;
+            const bool difference = whole != terms.end() && whole->second.coefficient == -term.coefficient;
+            if (!sum && !difference)
+                continue;
+            SortedTerm joined = sum ? rest : partner;
+            joined.coefficient = sum ? Rational(term.coefficient) : Rational(-term.coefficient);
+            const std::string used = key;
+            terms.erase(sum ? beside : whole);
+            terms.erase(used);
+            const auto [slot, fresh] = terms.emplace(joined.key, joined);
+            if (!fresh)
+                slot->second.coefficient += joined.coefficient;
+            if (slot->second.coefficient == 0)
+                terms.erase(slot);
+            return true;
+        }
+    return false;
+}
+
+/// The expanded sum with sin^2 + cos^2 = 1 used as often as it shortens the sum: every use takes a term away.
+SortedTerm with_joined_squares(const SortedTerm& expanded) {
+    std::map<std::string, SortedTerm> terms;
+    for (const SortedTerm& term : terms_in(expanded))
+        terms.emplace(term.key, term);
+    while (join_squares(terms)) {
+    }
+    std::vector<SortedTerm> list;
+    for (const auto& [key, term] : terms)
+        list.push_back(term);
+    return sorted_sum(list);
+}
+
 std::size_t cost_of(const Tree& tree) {
     const std::string text = to_text(tree);
     const auto parentheses = std::count(text.begin(), text.end(), '(');
@@ -203,9 +260,11 @@ Tree shortest_form(const GiNaC::ex& expression, const SymbolTable& symbols, cons
         Shortest shortest;
         if (expanded_terms(expression) <= term_limit) {
             const SortedTerm expanded = sort_expression(expression.expand(), symbols, order);
-            shortest.offer(tree_of(expanded));
-            shortest.offer(tree_of(collected(expanded)));
-            shortest.offer(tree_of(with_common_factor(terms_in(expanded))));
+            for (const SortedTerm& sum : {expanded, with_joined_squares(expanded)}) {
+                shortest.offer(tree_of(sum));
+                shortest.offer(tree_of(collected(sum)));
+                shortest.offer(tree_of(with_common_factor(terms_in(sum))));
+            }
             if (const std::optional<GiNaC::ex> product = factored(expression))
                 shortest.offer(from_ginac(*product, symbols, order));
         }
@@ -216,6 +275,13 @@ Tree shortest_form(const GiNaC::ex& expression, const SymbolTable& symbols, cons
     } catch (const std::exception& error) {
         throw MathematicsError(std::string("an expression could not be rewritten: ") + error.what());
     }
+}
+
+std::optional<std::size_t> expanded_length(const GiNaC::ex& expression) {
+    if (expanded_terms(expression) > term_limit)
+        return {};
+    const GiNaC::ex expanded = expression.expand();
+    return expanded.is_zero() ? 0 : terms_of(expanded);
 }
 
 } // namespace lagen

@@ -34,6 +34,9 @@ struct SortedTerm {
 [[nodiscard]] SortedTerm sorted_product(const std::vector<SortedTerm>& factors);
 [[nodiscard]] SortedTerm sorted_sum(const std::vector<SortedTerm>& terms);
 
+/// The part of a function's key that stands for the function, after the two characters of its group.
+[[nodiscard]] std::string function_key(Function function);
+
 /// Trees as a person writes them: one fraction bar, roots as sqrt, a minus in front turned into a difference where one fits.
 [[nodiscard]] Tree tree_of(const SortedTerm& term);
 

@@ -38,9 +38,10 @@ template <class S>
 class arrow {
   public:
     using Scalar = S;
-    static constexpr int dimension = 11;       // lanes of State
-    static constexpr int base_dimension = 7;  // the first of them
-    static constexpr int fibre_dimension = 4; // the others
+    /// Lanes of State: base coordinates, then the others.
+    static constexpr int dimension = 11;
+    static constexpr int base_dimension = 7;
+    static constexpr int fibre_dimension = 4;
     using State = Eigen::Matrix<S, 11, 1>;
 
     static constexpr const char* model_name = "arrow";
@@ -50,8 +51,7 @@ class arrow {
     static constexpr std::array<const char*, 0> parameter_names = {};
 
     /// Physical parameters with the defaults of the model.
-    struct Parameters {
-    } parameters;
+    struct Parameters {} parameters;
 
     /// Base coordinates, the first lanes of State.
     struct Base {

@@ -33,9 +33,10 @@ template <class S>
 class closed_form {
   public:
     using Scalar = S;
-    static constexpr int dimension = 6;       // lanes of State
-    static constexpr int base_dimension = 4;  // the first of them
-    static constexpr int fibre_dimension = 2; // the others
+    /// Lanes of State: base coordinates, then the others.
+    static constexpr int dimension = 6;
+    static constexpr int base_dimension = 4;
+    static constexpr int fibre_dimension = 2;
     using State = Eigen::Matrix<S, 6, 1>;
 
     static constexpr const char* model_name = "closed_form";
@@ -44,8 +45,7 @@ class closed_form {
     static constexpr std::array<const char*, 0> parameter_names = {};
 
     /// Physical parameters with the defaults of the model.
-    struct Parameters {
-    } parameters;
+    struct Parameters {} parameters;
 
     /// Base coordinates, the first lanes of State.
     struct Base {

@@ -39,9 +39,10 @@ template <class S>
 class pendulum {
   public:
     using Scalar = S;
-    static constexpr int dimension = 2;       // lanes of State
-    static constexpr int base_dimension = 1;  // the first of them
-    static constexpr int fibre_dimension = 1; // the others
+    /// Lanes of State: base coordinates, then the others.
+    static constexpr int dimension = 2;
+    static constexpr int base_dimension = 1;
+    static constexpr int fibre_dimension = 1;
     using State = Eigen::Matrix<S, 2, 1>;
 
     static constexpr const char* model_name = "pendulum";
@@ -51,8 +52,8 @@ class pendulum {
 
     /// Physical parameters with the defaults of the model.
     struct Parameters {
-        S m = S(1); ///< mass [kg]
-        S l = S(0.5); ///< length [m]
+        S m = S(1);            ///< mass [kg]
+        S l = S(0.5);          ///< length [m]
         S g = S(981) / S(100); ///< gravity [m/s^2]
     } parameters;
 

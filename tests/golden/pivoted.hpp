@@ -36,9 +36,10 @@ template <class S>
 class pivoted {
   public:
     using Scalar = S;
-    static constexpr int dimension = 9;       // lanes of State
-    static constexpr int base_dimension = 6;  // the first of them
-    static constexpr int fibre_dimension = 3; // the others
+    /// Lanes of State: base coordinates, then the others.
+    static constexpr int dimension = 9;
+    static constexpr int base_dimension = 6;
+    static constexpr int fibre_dimension = 3;
     using State = Eigen::Matrix<S, 9, 1>;
 
     static constexpr const char* model_name = "pivoted";
@@ -48,8 +49,7 @@ class pivoted {
     static constexpr std::array<const char*, 0> parameter_names = {};
 
     /// Physical parameters with the defaults of the model.
-    struct Parameters {
-    } parameters;
+    struct Parameters {} parameters;
 
     /// Base coordinates, the first lanes of State.
     struct Base {

@@ -28,9 +28,10 @@ template <class S>
 class product {
   public:
     using Scalar = S;
-    static constexpr int dimension = 2;       // lanes of State
-    static constexpr int base_dimension = 2;  // the first of them
-    static constexpr int fibre_dimension = 0; // the others
+    /// Lanes of State: base coordinates, then the others.
+    static constexpr int dimension = 2;
+    static constexpr int base_dimension = 2;
+    static constexpr int fibre_dimension = 0;
     using State = Eigen::Matrix<S, 2, 1>;
 
     static constexpr const char* model_name = "product";
@@ -39,8 +40,7 @@ class product {
     static constexpr std::array<const char*, 0> parameter_names = {};
 
     /// Physical parameters with the defaults of the model.
-    struct Parameters {
-    } parameters;
+    struct Parameters {} parameters;
 
     /// Base coordinates, the first lanes of State.
     struct Base {

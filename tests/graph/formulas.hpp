@@ -26,7 +26,8 @@ class Random {
     std::uint64_t state_;
 };
 
-/// A random rational expression of `steps` operations in x, y, z; no division by sums that may vanish unless `divisions`.
+/// A random rational expression of `steps` operations in x, y, z; no division by sums that may vanish unless
+/// `divisions`.
 inline NodeId random_rational(Graph& g, Random& random, int steps, bool divisions)
 {
     std::vector<NodeId> pool{g.input("x"), g.input("y"), g.input("z"), g.constant(2), g.constant(Rational(-3, 2))};

@@ -219,3 +219,18 @@ TEST_CASE("a byte order mark and line ends of two characters change nothing")
     CHECK(to_text(model.lagrangian) == "v_x^2/2 - x");
     CHECK(model.base.coordinates[0].where.begin == 27);
 }
+
+TEST_CASE("invariants and observables may use momenta, energy and each other; unused definitions are read too")
+{
+    const std::string head =
+        "[base]\ncoordinates = ['q']\n[fibre]\ncoordinates = ['v']\n[algebroid]\nkind = 'tangent'\n";
+    const Model model = read_model_text("m.toml", head + "[invariants]\nspin = 'p_v + energy'\n[observables]\n"
+                                                         "double = '2*spin'\n[definitions]\nkinetic = 'p_v^2/2'\n");
+    CHECK(to_text(model.invariants[0].value) == "p_v + energy");
+    CHECK(to_text(model.observables[0].value) == "2*(p_v + energy)");
+    CHECK_THROWS_WITH(read_model_text("m.toml", head + "[definitions]\nunused = 'w'\n"),
+                      Catch::Contains("m.toml:8:11: error: unknown symbol 'w'"));
+    CHECK_THROWS_WITH(
+        read_model_text("m.toml", head + "[definitions]\nkinetic = 'p_v^2/2'\n[lagrangian]\nL = 'kinetic'\n"),
+        Catch::Contains("unknown symbol 'p_v'"));
+}

@@ -11,7 +11,7 @@ TEST_CASE("the JSON reader keeps numbers as written, members in order and unesca
 {
     const json::Value value = json::parse(R"( {"b": [1.50, -2e3, true, null], "a": "x\"\\\n\u00e9\u20ac"} )");
     CHECK(value.keys == std::vector<std::string>{"b", "a"});
-    CHECK(value["b"].texts() == std::vector<std::string>{"1.50", "-2e3", "true", ""});
+    CHECK(value["b"].texts() == std::vector<std::string>{"1.50", "-2e3", "true", "null"});
     CHECK(value["b"][1].number() == -2000.0L);
     CHECK(value["a"].text == "x\"\\\n\xc3\xa9\xe2\x82\xac");
 }

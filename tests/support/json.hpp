@@ -18,7 +18,7 @@ enum class Kind { null, boolean, number, text, array, object };
 
 struct Value {
     Kind kind = Kind::null;
-    std::string text;           ///< of a text (unescaped), a number (as written), a boolean ("true", "false")
+    std::string text;           ///< of a text (unescaped), a number (as written), a word ("true", "false", "null")
     std::vector<Value> entries; ///< of an array, and the values of an object
     std::vector<std::string> keys; ///< of an object, one an entry
 

@@ -24,7 +24,7 @@ struct double_pendulum {
 
     lagen::Status rhs(double, const State& x, State& dx) const noexcept
     {
-        const auto& [m1, m2, l1, l2, g] = parameters;
+        const auto [m1, m2, l1, l2, g] = parameters;
         const double u = x[2], v = x[3];
         const double sin_a = std::sin(x[0]), cos_a = std::cos(x[0]);
         const double sin_b = std::sin(x[1]), cos_b = std::cos(x[1]);

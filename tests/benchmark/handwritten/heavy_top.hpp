@@ -19,7 +19,7 @@ struct heavy_top {
 
     lagen::Status rhs(double, const State& s, State& ds) const noexcept
     {
-        const auto& [I1, I2, I3, mgl, e1, e2, e3] = parameters;
+        const auto [I1, I2, I3, mgl, e1, e2, e3] = parameters;
         const double g1 = s[0], g2 = s[1], g3 = s[2];
         const double w1 = s[3], w2 = s[4], w3 = s[5];
         ds[0] = g2 * w3 - g3 * w2;

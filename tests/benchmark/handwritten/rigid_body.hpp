@@ -17,7 +17,7 @@ struct rigid_body {
 
     lagen::Status rhs(double, const State& s, State& ds) const noexcept
     {
-        const auto& [I1, I2, I3] = parameters;
+        const auto [I1, I2, I3] = parameters;
         const double w1 = s[0], w2 = s[1], w3 = s[2];
         ds[0] = (I2 - I3) * w2 * w3 / I1;
         ds[1] = (I3 - I1) * w3 * w1 / I2;

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT
+/// The program behind `lagen run`: integrates one model with one method as its arguments say. The whole generated main is
+///   #include "model.hpp"
+///   #include "lagen/driver.hpp"
+///   int main(int argc, char** argv) { return lagen::drive<lagen::models::NAME<double>, lagen::METHOD>(argc, argv); }
+///
+/// Arguments, each followed by its value (numbers as strtod reads them, hexadecimal included):
+///   --parameters v,v,..   every parameter, in the order of the header; left out: the defaults
+///   --initial v,v,..      every state lane, base first; required
+///   --start T --end T     the interval; start is 0 where left out, end is required and may be smaller
+///   --step H              fixed-step methods; required there (positive; the sign follows the interval)
+///   --relative R --absolute A   adaptive methods; default 1e-9 each
+///   --max-steps N
+///   --samples N | --interval H | --at-file FILE   rows at N even times, every H from the start on (and the end), or at the
+///                         numbers of FILE (separated by space or comma, in the direction of time). Default: --samples 201
+///   --events name:direction:stop:count,..   direction rising, falling or any; stop 0 or 1; count from 1; names of the header
+///   --columns c,c,..      s0, s1, .. state lanes; o0, o1, .. entries of observables(); left out: every state lane; "-": none
+///   --format csv|binary   rows on standard output: CSV numbers by %.17g, commas, "\n", no heading; or native doubles, row after row
+///   --report FILE         where the report goes ("-": standard error)
+///
+/// A row is t, then the columns. Rows appear while the run goes on. The report, at the end of every run, has lines KEY=VALUE in
+/// this order, numbers by %.17g, those in brackets only where the model has the part:
+///   status=ok             as to_text(Status)
+///   t=10                  time of the last good state
+///   failed_at=10          time at which the run met what ended it; the same as t where nothing failed
+///   steps=  rejected=  rhs_calls=  rows=  seconds=
+///   event=NAME@T          one line an event found, in the order of the run
+///   [energy=INITIAL,MAX_DRIFT]  [invariant:NAME=INITIAL,MAX_DRIFT]  [constraints=MAX]   max |value - initial|, max |constraint|
+///                         over all accepted steps
+///   state=v,v,..          the last good state
+/// Exit codes: 0 ok or stopped by an event, 1 another status, 4 wrong arguments (one sentence on standard error, no report),
+/// 5 a file could not be read or written, 130 interrupted (SIGINT, SIGTERM: rows so far are kept, the report is written).
+#pragma once
+
+#include "lagen/driver/arguments.hpp"
+#include "lagen/driver/record.hpp"
+#include "lagen/integrate.hpp"
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace lagen {
+
+namespace detail {
+
+/// Set by SIGINT and SIGTERM: a handler can reach nothing but a static object.
+inline volatile std::sig_atomic_t drive_interrupted = 0;
+extern "C" inline void lagen_drive_interrupt(int) { drive_interrupted = 1; }
+
+/// How many names an optional array has; `names(k)` only where it has any.
+template <class M>
+constexpr std::size_t observable_count() noexcept
+{
+    if constexpr (requires { M::observables_names; }) return M::observables_names.size();
+    return 0;
+}
+
+/// Everything made of the arguments that needs the model.
+template <class M>
+struct DrivePlan {
+    M model;
+    typename M::State initial;
+    Interval<double> span{0, 0};
+    std::vector<double> times;
+    std::vector<EventRequest<double, typename M::State>> events;
+    std::vector<std::string> event_names;
+    std::vector<Column> columns;
+};
+
+template <class M>
+Complaint plan_values(const DriveArguments& given, DrivePlan<M>& plan)
+{
+    if (given.initial.size() != static_cast<std::size_t>(M::dimension))
+        return "--initial: " + std::to_string(given.initial.size()) + " numbers, " + std::to_string(M::dimension) + " are required";
+    for (std::size_t i = 0; i < given.initial.size(); ++i) plan.initial[static_cast<Eigen::Index>(i)] = given.initial[i];
+    if (given.parameters.empty()) return {};
+    std::size_t count = 0;
+    if constexpr (requires { M::parameter_names; }) count = M::parameter_names.size();
+    if (given.parameters.size() != count)
+        return "--parameters: " + std::to_string(given.parameters.size()) + " numbers, " + std::to_string(count) + " are required";
+    if constexpr (requires { plan.model.parameter(std::size_t{0}); })
+        for (std::size_t k = 0; k < count; ++k) plan.model.parameter(k) = given.parameters[k];
+    return {};
+}
+
+template <class M>
+Complaint plan_times(const DriveArguments& given, DrivePlan<M>& plan)
+{
+    if (!given.end) return "--end is required";
+    plan.span = {given.start.value_or(0.0), *given.end};
+    if (!given.at_file.empty()) return read_times(given.at_file, plan.times);
+    if (given.interval) {
+        if (!(*given.interval > 0)) return "--interval: " + number_text(*given.interval) + " is not positive";
+        const double pieces = std::abs(plan.span.end - plan.span.start) / *given.interval;
+        if (!(pieces <= most_rows)) return "--interval: " + number_text(*given.interval) + " makes more than 1e8 rows";
+        plan.times = spaced_times(plan.span.start, plan.span.end, *given.interval);
+        return {};
+    }
+    const std::size_t samples = given.samples.value_or(201);
+    if (static_cast<double>(samples) > most_rows) return "--samples: more than 1e8 rows";
+    plan.times = even_times(plan.span.start, plan.span.end, samples);
+    return {};
+}
+
+/// "s3" or "o1".
+template <class M>
+Complaint plan_columns(const DriveArguments& given, DrivePlan<M>& plan)
+{
+    if (!given.columns) {
+        for (Eigen::Index i = 0; i < M::dimension; ++i) plan.columns.push_back({false, i});
+        return {};
+    }
+    if (*given.columns == "-") return {};
+    for (const std::string& text : split(*given.columns, ',')) {
+        const bool observable = !text.empty() && text[0] == 'o';
+        const std::size_t count = observable ? observable_count<M>() : static_cast<std::size_t>(M::dimension);
+        const auto index = text.empty() || (text[0] != 's' && !observable) ? std::nullopt : read_count(text.substr(1));
+        if (!index || *index >= count) return "--columns: \"" + text + "\" is neither a state lane nor an observable of the model";
+        plan.columns.push_back({observable, static_cast<Eigen::Index>(*index)});
+    }
+    return {};
+}
+
+/// "name:direction:stop:count"; a name may hold colons itself.
+template <class M>
+Complaint plan_event(const std::string& text, DrivePlan<M>& plan)
+{
+    std::vector<std::string> parts = split(text, ':');
+    const Complaint wrong = "--events: \"" + text + "\" is not name:direction:stop:count with an event of the model";
+    if (parts.size() < 4) return wrong;
+    std::string name = parts[0];
+    for (std::size_t i = 1; i + 3 < parts.size(); ++i) name += ':' + parts[i];
+    const std::string& direction = parts[parts.size() - 3];
+    const std::string& stop = parts[parts.size() - 2];
+    const auto count = read_count(parts.back());
+    EventRequest<double, typename M::State> request;
+    bool known = false;
+    if constexpr (HasEvents<M>)
+        for (std::size_t k = 0; k < M::events_names.size() && !known; ++k) {
+            known = name == M::events_names[k];
+            request.index = k;
+        }
+    if (!known || !count || *count == 0 || (stop != "0" && stop != "1")) return wrong;
+    if (direction == "rising") request.direction = Crossing::rising;
+    else if (direction == "falling") request.direction = Crossing::falling;
+    else if (direction != "any") return wrong;
+    request.stop = stop == "1";
+    request.count = *count;
+    plan.events.push_back(request);
+    plan.event_names.push_back(name);
+    return {};
+}
+
+template <class M, class Method>
+Complaint plan_method(const DriveArguments& given, Method& method)
+{
+    if constexpr (requires { method.step; }) {
+        if (!given.step || !(*given.step > 0)) return "--step: a positive step is required by this method";
+        method.step = *given.step;
+    } else {
+        method.relative = given.relative.value_or(method.tolerance);
+        method.absolute = given.absolute.value_or(method.tolerance);
+        if (!method.control().is_valid()) return "--relative, --absolute: not negative and not both zero is required";
+    }
+    return {};
+}
+
+template <class M, class Method>
+Complaint make_plan(const DriveArguments& given, DrivePlan<M>& plan, Method& method)
+{
+    Complaint complaint = plan_values(given, plan);
+    if (complaint.empty()) complaint = plan_times(given, plan);
+    if (complaint.empty()) complaint = plan_columns(given, plan);
+    if (complaint.empty()) complaint = plan_method<M>(given, method);
+    for (const std::string& event : split(given.events, ','))
+        if (complaint.empty()) complaint = plan_event(event, plan);
+    return complaint;
+}
+
+template <class M>
+std::string report_text(const DrivePlan<M>& plan, const Run<M>& run, const DriveRecord<M>& record, double seconds)
+{
+    std::string text = std::string("status=") + to_text(run.status()) + '\n';
+    text += "t=" + number_text(run.t) + "\nfailed_at=" + number_text(run.failed_at) + '\n';
+    text += "steps=" + std::to_string(run.steps) + "\nrejected=" + std::to_string(run.rejected) + '\n';
+    text += "rhs_calls=" + std::to_string(run.rhs_calls) + "\nrows=" + std::to_string(record.rows()) + '\n';
+    text += "seconds=" + number_text(seconds) + '\n';
+    for (const auto& found : run.events) text += "event=" + plan.event_names[found.request] + '@' + number_text(found.t) + '\n';
+    text += record.report() + "state=";
+    for (Eigen::Index i = 0; i < run.state.size(); ++i) text += (i == 0 ? "" : ",") + number_text(run.state[i]);
+    return text + '\n';
+}
+
+/// False where the text could not be written.
+inline bool write_report(const std::string& path, const std::string& text)
+{
+    if (path.empty()) return true;
+    std::FILE* file = path == "-" ? stderr : std::fopen(path.c_str(), "w");
+    if (file == nullptr) return false;
+    bool good = std::fwrite(text.data(), 1, text.size(), file) == text.size();
+    if (file == stderr) return std::fflush(file) == 0 && good;
+    return std::fclose(file) == 0 && good;
+}
+
+inline int complain(const std::string& complaint, int code)
+{
+    std::fprintf(stderr, "error: %s\n", complaint.c_str());
+    return code;
+}
+
+} // namespace detail
+
+/// The whole program; see the top of the file. Returns the exit code.
+template <class M, class Method>
+int drive(int argc, char** argv)
+{
+    static_assert(std::is_same_v<typename M::Scalar, double>, "lagen run integrates in double");
+    detail::DriveArguments given;
+    detail::DrivePlan<M> plan;
+    Method method{};
+    detail::Complaint complaint = detail::read_arguments(argc, argv, given);
+    if (complaint.empty()) complaint = detail::make_plan(given, plan, method);
+    if (!complaint.empty()) return detail::complain(complaint, complaint.starts_with("--at-file") ? 5 : 4);
+
+    std::signal(SIGINT, detail::lagen_drive_interrupt);
+    std::signal(SIGTERM, detail::lagen_drive_interrupt);
+    detail::DriveRecord<M> record(plan.model, plan.columns, given.format == "binary", stdout);
+    Options<M> options{.at = plan.times, .events = plan.events, .signal = &detail::drive_interrupted};
+    if (given.max_steps) options.max_steps = *given.max_steps;
+
+    const auto begin = std::chrono::steady_clock::now();
+    const auto run = integrate(plan.model, plan.initial, plan.span, method, options, record);
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+
+    const bool rows_written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+    if (!rows_written) return detail::complain("the rows could not be written to standard output", 5);
+    if (!detail::write_report(given.report, detail::report_text(plan, run, record, seconds.count())))
+        return detail::complain("the report could not be written to \"" + given.report + "\"", 5);
+    if (run.status() == Status::interrupted) return 130;
+    return run ? 0 : 1;
+}
+
+} // namespace lagen

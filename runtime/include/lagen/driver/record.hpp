@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+/// What the program behind `lagen run` writes: rows while the run goes on, drifts and the report at its end.
+#pragma once
+
+#include "lagen/integrate/run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lagen::detail {
+
+inline std::string number_text(double value)
+{
+    char text[40];
+    std::snprintf(text, sizeof text, "%.17g", value);
+    return text;
+}
+
+/// A column: state lane or entry of observables().
+struct Column {
+    bool observable = false;
+    Eigen::Index index = 0;
+};
+
+/// First value and largest distance from it.
+struct Drift {
+    std::string key;
+    double initial = 0;
+    double most = 0;
+    bool begun = false;
+
+    void see(double value) noexcept
+    {
+        if (!begun) initial = value;
+        begun = true;
+        // A NaN is a drift without bound and must not be forgotten by the next comparison.
+        const double distance = std::abs(value - initial);
+        if (!(distance <= most)) most = distance;
+    }
+};
+
+/// The observer of a run: row(t, s) writes, operator() follows what should be constant.
+template <class M>
+class DriveRecord {
+  public:
+    using State = typename M::State;
+
+    DriveRecord(const M& model, std::vector<Column> columns, bool binary, std::FILE* out)
+        : model_(model), columns_(std::move(columns)), binary_(binary), out_(out)
+    {
+        if constexpr (HasEnergy<M>) drifts_.push_back({"energy"});
+        if constexpr (requires { M::invariants_names; })
+            for (const char* name : M::invariants_names) drifts_.push_back({std::string("invariant:") + name});
+    }
+
+    void row(double t, const State& s)
+    {
+        write(t, true);
+        if constexpr (requires { model_.observables(t, s); }) {
+            const auto observables = model_.observables(t, s);
+            for (const Column& column : columns_) write(column.observable ? observables[column.index] : s[column.index], false);
+        } else {
+            for (const Column& column : columns_) write(s[column.index], false);
+        }
+        if (!binary_) std::fputc('\n', out_);
+        ++rows_;
+    }
+
+    void operator()(double t, const State& s)
+    {
+        std::size_t next = 0;
+        if constexpr (HasEnergy<M>) drifts_[next++].see(static_cast<double>(model_.energy(t, s)));
+        if constexpr (requires { M::invariants_names; }) {
+            const auto values = model_.invariants(t, s);
+            for (Eigen::Index i = 0; i < values.size(); ++i) drifts_[next++].see(static_cast<double>(values[i]));
+        }
+        if constexpr (HasConstraints<M>) {
+            const auto values = model_.constraints(t, s);
+            for (Eigen::Index i = 0; i < values.size(); ++i) {
+                const double size = std::abs(static_cast<double>(values[i]));
+                if (!(size <= constraint_)) constraint_ = size;
+            }
+        }
+    }
+
+    [[nodiscard]] std::size_t rows() const noexcept { return rows_; }
+
+    /// The lines of the report that this record knows.
+    [[nodiscard]] std::string report() const
+    {
+        std::string text;
+        for (const Drift& drift : drifts_)
+            text += drift.key + '=' + number_text(drift.initial) + ',' + number_text(drift.most) + '\n';
+        if constexpr (HasConstraints<M>) text += "constraints=" + number_text(constraint_) + '\n';
+        return text;
+    }
+
+  private:
+    void write(double value, bool first)
+    {
+        if (binary_) {
+            std::fwrite(&value, sizeof value, 1, out_);
+        } else {
+            std::fprintf(out_, first ? "%.17g" : ",%.17g", value);
+        }
+    }
+
+    const M& model_;
+    std::vector<Column> columns_;
+    bool binary_;
+    std::FILE* out_;
+    std::vector<Drift> drifts_;
+    double constraint_ = 0;
+    std::size_t rows_ = 0;
+};
+
+} // namespace lagen::detail

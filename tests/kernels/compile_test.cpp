@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "../support/compiled.hpp"
+#include "models.hpp"
+
+using namespace lagen;
+using namespace lagen::testing;
+
+TEST_CASE("the compiled kernels of every model agree with the interpreter in four scalars", "[kernels][compile]")
+{
+    std::vector<CompiledCase> cases;
+    for (const std::string& file : model_files()) {
+        KernelModule module = kernels_of(read_model(file));
+        std::vector<Point> points;
+        for (unsigned seed = 1; seed < 4; ++seed) {
+            points.push_back(random_point(module, seed));
+            points.back()["t"] = 0.25;
+        }
+        cases.push_back({std::move(module), std::move(points)});
+    }
+    REQUIRE(cases.size() >= 10);
+    compare_compiled("models", "g++", cases, 2000);
+    if (run_shell("clang++ --version").status == 0) compare_compiled("models", "clang++", cases, 2000);
+}
+
+TEST_CASE("the header of a model is the same in a second generation", "[kernels]")
+{
+    for (const std::string& file : model_files()) {
+        const std::string first = print_header(kernels_of(read_model(file)));
+        CHECK(first.find("class ") != std::string::npos);
+        CHECK(first == print_header(kernels_of(read_model(file))));
+    }
+}

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "models.hpp"
+
+using namespace lagen;
+using namespace lagen::testing;
+
+namespace {
+
+const char* const oscillator = R"(name = "oscillator"
+[base]
+coordinates = ["x"]
+[algebroid]
+kind = "tangent"
+[lagrangian]
+L = "v_x^2/2 - x^2/2"
+[observables]
+double_x = "2*x"
+[scene.a]
+initial = { x = 1, v_x = 0 }
+duration = 1
+observe = ["x", "energy", "double_x"]
+[scene.a.events]
+zero = { when = "x" }
+same = { when = "v_x" }
+[scene.b]
+initial = { x = 1, v_x = 0 }
+duration = 1
+[scene.b.events]
+zero = { when = "x - 1" }
+same = { when = "v_x" }
+)";
+
+std::string message_of(const Model& model, const VerifiedAlgebroid& verified, const KernelRequest& request)
+{
+    try {
+        static_cast<void>(lagrange_kernels(model, verified, request));
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "nothing thrown";
+}
+
+} // namespace
+
+TEST_CASE("only the kernels asked for are made", "[kernels]")
+{
+    const Model model = read_model_text("test.toml", oscillator);
+    KernelRequest request;
+    request.only = {"energy", "rhs"};
+    const KernelModule module = kernels_of(model, request);
+    REQUIRE(module.kernels.size() == 2);
+    CHECK(module.kernels[0].name == "rhs");
+    CHECK(module.kernels[1].name == "energy");
+    CHECK(kernels_of(model).kernels.size() == 8);
+}
+
+TEST_CASE("a kernel that does not exist is refused with the list of those that do", "[kernels]")
+{
+    const Model model = read_model_text("test.toml", oscillator);
+    KernelRequest request;
+    request.only = {"enrgy"};
+    CHECK(message_of(model, verify(model), request) ==
+          "error: there is no kernel 'enrgy'; there are rhs, mass_matrix, momentum, energy, lagrangian, constraints, domain, "
+          "observables, invariants, events, jacobian\nhint: did you mean 'energy'?");
+}
+
+TEST_CASE("events of all scenes are distinct, those of one scene bear their own names", "[kernels]")
+{
+    const Model model = read_model_text("test.toml", oscillator);
+    CHECK(find_kernel(kernels_of(model), "events").entry_names == std::vector<std::string>{"zero", "same", "b.zero"});
+    KernelRequest request;
+    request.scene = &model.scenes[1];
+    CHECK(find_kernel(kernels_of(model, request), "events").entry_names == std::vector<std::string>{"zero", "same"});
+}
+
+TEST_CASE("what a scene observes beyond lanes and observables joins the observables", "[kernels]")
+{
+    const Model model = read_model_text("test.toml", oscillator);
+    KernelRequest request;
+    request.scene = &model.scenes[0];
+    const KernelModule module = kernels_of(model, request);
+    CHECK(find_kernel(module, "observables").entry_names == std::vector<std::string>{"double_x", "energy"});
+    CHECK(values_of(module, "observables", {{"x", 3}, {"v_x", 4}}) == std::vector<double>{6, 12.5});
+}
+
+TEST_CASE("a model without a Lagrangian or with a degenerate one has no kernels", "[kernels]")
+{
+    Model model = read_model_text("test.toml", oscillator);
+    VerifiedAlgebroid verified = verify(model);
+    verified.regularity.kind = Regularity::Kind::degenerate;
+    verified.regularity.rank = 0;
+    CHECK(message_of(model, verified, {}) ==
+          "error: the Lagrangian of model 'oscillator' is degenerate: d2L/dy2 has rank 0, and the Lagrangian form needs rank 1\n"
+          "hint: the velocities cannot be solved for; give every fibre coordinate a kinetic term");
+    model.lagrangian = nullptr;
+    CHECK(message_of(model, verified, {}) == "error: model 'oscillator' has no Lagrangian; the Lagrangian form needs [lagrangian] L");
+}
