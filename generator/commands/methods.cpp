@@ -18,6 +18,7 @@ constexpr std::array entries{
     MethodEntry{"euler", "Euler", "1", false, false, "explicit Euler"},
     MethodEntry{"midpoint", "Midpoint", "2", false, false, "explicit midpoint (Runge 1895)"},
     MethodEntry{"heun", "Heun", "2", false, false, "explicit trapezoidal rule (Heun 1900)"},
+    MethodEntry{"ralston", "Ralston", "2", false, false, "two stages with least truncation error (Ralston 1962)"},
     MethodEntry{"kutta3", "Kutta3", "3", false, false, "Kutta's third-order method (1901)"},
     MethodEntry{"rk4", "Rk4", "4", false, false, "the classical Runge-Kutta method (Kutta 1901)"},
     MethodEntry{"rk38", "Rk38", "4", false, false, "the 3/8 rule (Kutta 1901)"},

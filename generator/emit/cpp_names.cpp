@@ -15,39 +15,50 @@ namespace {
 
 /// Keywords and alternative tokens of C++20.
 constexpr std::string_view keywords[] = {
-    "alignas", "alignof", "and", "and_eq", "asm", "auto", "bitand", "bitor", "bool", "break", "case", "catch", "char",
-    "char8_t", "char16_t", "char32_t", "class", "compl", "concept", "const", "consteval", "constexpr", "constinit",
-    "const_cast", "continue", "co_await", "co_return", "co_yield", "decltype", "default", "delete", "do", "double",
-    "dynamic_cast", "else", "enum", "explicit", "export", "extern", "false", "float", "for", "friend", "goto", "if",
-    "inline", "int", "long", "mutable", "namespace", "new", "noexcept", "not", "not_eq", "nullptr", "operator", "or",
-    "or_eq", "private", "protected", "public", "register", "reinterpret_cast", "requires", "return", "short", "signed",
-    "sizeof", "static", "static_assert", "static_cast", "struct", "switch", "template", "this", "thread_local", "throw",
-    "true", "try", "typedef", "typeid", "typename", "union", "unsigned", "using", "virtual", "void", "volatile",
-    "wchar_t", "while", "xor", "xor_eq",
+    "alignas",     "alignof",   "and",        "and_eq",    "asm",      "auto",         "bitand",
+    "bitor",       "bool",      "break",      "case",      "catch",    "char",         "char8_t",
+    "char16_t",    "char32_t",  "class",      "compl",     "concept",  "const",        "consteval",
+    "constexpr",   "constinit", "const_cast", "continue",  "co_await", "co_return",    "co_yield",
+    "decltype",    "default",   "delete",     "do",        "double",   "dynamic_cast", "else",
+    "enum",        "explicit",  "export",     "extern",    "false",    "float",        "for",
+    "friend",      "goto",      "if",         "inline",    "int",      "long",         "mutable",
+    "namespace",   "new",       "noexcept",   "not",       "not_eq",   "nullptr",      "operator",
+    "or",          "or_eq",     "private",    "protected", "public",   "register",     "reinterpret_cast",
+    "requires",    "return",    "short",      "signed",    "sizeof",   "static",       "static_assert",
+    "static_cast", "struct",    "switch",     "template",  "this",     "thread_local", "throw",
+    "true",        "try",       "typedef",    "typeid",    "typename", "union",        "unsigned",
+    "using",       "virtual",   "void",       "volatile",  "wchar_t",  "while",        "xor",
+    "xor_eq",
 };
 
 /// Macros and functions that <cmath>, <complex.h>, <cstdlib> and their like may put into the global namespace.
 constexpr std::string_view library[] = {
-    "I", "M_1_PI", "M_2_PI", "M_2_SQRTPI", "M_E", "M_LN10", "M_LN2", "M_LOG10E", "M_LOG2E", "M_PI", "M_PI_2", "M_PI_4",
-    "M_SQRT1_2", "M_SQRT2", "NAN", "INFINITY", "HUGE_VAL", "HUGE_VALF", "HUGE_VALL", "NULL", "EOF", "DOMAIN", "SING",
-    "OVERFLOW", "UNDERFLOW", "PLOSS", "TLOSS", "RAND_MAX", "assert", "errno", "linux", "unix", "major", "minor",
-    "stdin", "stdout", "stderr", "signgam", "complex", "imaginary", "abs", "acos", "acosh", "asin", "asinh", "atan",
-    "atan2", "atanh", "cbrt", "ceil", "copysign", "cos", "cosh", "div", "drem", "erf", "erfc", "exp", "exp10", "exp2",
-    "expm1", "fabs", "fdim", "finite", "floor", "fma", "fmax", "fmin", "fmod", "frexp", "gamma", "hypot", "ilogb",
-    "index", "isinf", "isnan", "j0", "j1", "jn", "labs", "ldexp", "lgamma", "llrint", "llround", "log", "log10",
-    "log1p", "log2", "logb", "lrint", "lround", "modf", "nan", "nearbyint", "nextafter", "nexttoward", "pow", "pow10",
-    "remainder", "remquo", "rint", "round", "scalb", "scalbln", "scalbn", "significand", "sin", "sincos", "sinh",
-    "sqrt", "tan", "tanh", "tgamma", "time", "trunc", "y0", "y1", "yn",
+    "I",         "M_1_PI",  "M_2_PI",  "M_2_SQRTPI", "M_E",       "M_LN10",     "M_LN2",       "M_LOG10E", "M_LOG2E",
+    "M_PI",      "M_PI_2",  "M_PI_4",  "M_SQRT1_2",  "M_SQRT2",   "NAN",        "INFINITY",    "HUGE_VAL", "HUGE_VALF",
+    "HUGE_VALL", "NULL",    "EOF",     "DOMAIN",     "SING",      "OVERFLOW",   "UNDERFLOW",   "PLOSS",    "TLOSS",
+    "RAND_MAX",  "assert",  "errno",   "linux",      "unix",      "major",      "minor",       "stdin",    "stdout",
+    "stderr",    "signgam", "complex", "imaginary",  "abs",       "acos",       "acosh",       "asin",     "asinh",
+    "atan",      "atan2",   "atanh",   "cbrt",       "ceil",      "copysign",   "cos",         "cosh",     "div",
+    "drem",      "erf",     "erfc",    "exp",        "exp10",     "exp2",       "expm1",       "fabs",     "fdim",
+    "finite",    "floor",   "fma",     "fmax",       "fmin",      "fmod",       "frexp",       "gamma",    "hypot",
+    "ilogb",     "index",   "isinf",   "isnan",      "j0",        "j1",         "jn",          "labs",     "ldexp",
+    "lgamma",    "llrint",  "llround", "log",        "log10",     "log1p",      "log2",        "logb",     "lrint",
+    "lround",    "modf",    "nan",     "nearbyint",  "nextafter", "nexttoward", "pow",         "pow10",    "remainder",
+    "remquo",    "rint",    "round",   "scalb",      "scalbln",   "scalbn",     "significand", "sin",      "sincos",
+    "sinh",      "sqrt",    "tan",     "tanh",       "tgamma",    "time",       "trunc",       "y0",       "y1",
+    "yn",
 };
 
 /// Types and namespaces that the header itself uses.
 constexpr std::string_view own[] = {
-    "S", "Scalar", "State", "Base", "Fibre", "Momenta", "Parameters", "Eigen", "Status", "StatusOf", "lagen", "std", "t",
+    "S",     "Scalar", "State",    "Base",  "Fibre", "Momenta", "Parameters",
+    "Eigen", "Status", "StatusOf", "lagen", "std",   "t",
 };
 
 constexpr std::string_view greek_small[] = {
-    "alpha", "beta",    "gamma", "delta", "epsilon", "zeta",  "eta",   "theta",   "iota", "kappa", "lambda", "mu", "nu",
-    "xi",    "omicron", "pi",    "rho",   "sigma",   "sigma", "tau",   "upsilon", "phi",  "chi",   "psi",    "omega",
+    "alpha", "beta",   "gamma",   "delta", "epsilon", "zeta",    "eta",   "theta", "iota",
+    "kappa", "lambda", "mu",      "nu",    "xi",      "omicron", "pi",    "rho",   "sigma",
+    "sigma", "tau",    "upsilon", "phi",   "chi",     "psi",     "omega",
 };
 
 /// U+03B1..U+03C9 and U+0391..U+03A9 by name, everything else as uXXXX.

@@ -10,11 +10,31 @@ namespace {
 /// Names that mean something inside every member function.
 std::set<std::string> class_scope_names(const KernelModule& module, const std::string& class_name)
 {
-    std::set<std::string> names{
-        class_name, "S",      "Scalar", "State",      "t",         "s",          "ds",           "values",
-        "status",   "select", "result", "parameters", "parameter", "state",      "state_names",  "parameter_names",
-        "dimension", "base_dimension", "fibre_dimension", "model_name", "model_hash", "status_t", "parameter_status",
-        "singular_tolerance", "PivotedLu"};
+    std::set<std::string> names{class_name,
+                                "S",
+                                "Scalar",
+                                "State",
+                                "t",
+                                "s",
+                                "ds",
+                                "values",
+                                "status",
+                                "select",
+                                "result",
+                                "parameters",
+                                "parameter",
+                                "state",
+                                "state_names",
+                                "parameter_names",
+                                "dimension",
+                                "base_dimension",
+                                "fibre_dimension",
+                                "model_name",
+                                "model_hash",
+                                "status_t",
+                                "parameter_status",
+                                "singular_tolerance",
+                                "PivotedLu"};
     for (const Kernel& kernel : module.kernels) {
         names.insert(kernel.name);
         for (const char* suffix : {"_names", "_rows", "_columns", "_values"}) names.insert(kernel.name + suffix);

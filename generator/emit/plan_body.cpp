@@ -10,14 +10,24 @@ namespace {
 /// Operations inside one printed expression; longer ones are cut by a named term.
 constexpr std::size_t largest_expression = 16;
 
-bool is_leaf(Op op) { return op == Op::constant || op == Op::pi || op == Op::input; }
+bool is_leaf(Op op)
+{
+    return op == Op::constant || op == Op::pi || op == Op::input;
+}
 
 /// Never named on their own: leaves and entries of a solution.
-bool has_name_already(Op op) { return is_leaf(op) || op == Op::component; }
+bool has_name_already(Op op)
+{
+    return is_leaf(op) || op == Op::component;
+}
 
-bool is_linear_algebra(Op op) { return op == Op::factor || op == Op::solve; }
+bool is_linear_algebra(Op op)
+{
+    return op == Op::factor || op == Op::solve;
+}
 
-std::vector<std::size_t> count_uses(const Graph& graph, const std::vector<NodeId>& nodes, std::span<const NodeId> outputs)
+std::vector<std::size_t> count_uses(const Graph& graph, const std::vector<NodeId>& nodes,
+                                    std::span<const NodeId> outputs)
 {
     std::vector<std::size_t> uses(graph.size(), 0);
     for (const NodeId id : nodes)
@@ -75,7 +85,9 @@ std::vector<bool> choose_named(const Graph& graph, const std::vector<NodeId>& no
         if (total >= largest_expression) named[id] = true;
     }
     for (const NodeId id : outputs) // an output that nothing else uses is printed where it is stored
-        if (uses[id] == 1 && !is_linear_algebra(graph.op(id)) && partner[id] == static_cast<NodeId>(-1) && !needs_chain(graph, id)) named[id] = false;
+        if (uses[id] == 1 && !is_linear_algebra(graph.op(id)) && partner[id] == static_cast<NodeId>(-1) &&
+            !needs_chain(graph, id))
+            named[id] = false;
     return named;
 }
 

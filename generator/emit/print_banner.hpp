@@ -10,7 +10,8 @@ namespace lagen {
 /// Licence, title, hash, how to regenerate, warnings, equations, operation counts, parameters and layout of the state.
 void print_banner(TextBlock& out, const KernelModule& module);
 
-/// Operations of the outputs as trees, every shared part counted at each of its uses (may be astronomical, hence double).
+/// Operations of the outputs as trees, every shared part counted at each of its uses (may be astronomical, hence
+/// double).
 [[nodiscard]] double count_unshared(const Graph& graph, std::span<const NodeId> outputs);
 
 } // namespace lagen

@@ -48,8 +48,8 @@ class BodyPrinter {
         for (const NodeId id : plan_.order) print_node(id);
         for (const NodeId pivot : std::span(roots).subspan(request_.outputs.size())) {
             if (graph_.op(pivot) == Op::factor) continue; // checked where it stands
-            body_.statements.push_back(
-                fmt::format("StatusOf<S>::fail(status, {} == S(0), Status::singular_mass_matrix);", spell_.at_least(1, pivot)));
+            body_.statements.push_back(fmt::format(
+                "StatusOf<S>::fail(status, {} == S(0), Status::singular_mass_matrix);", spell_.at_least(1, pivot)));
             body_.has_status = true;
         }
         for (const NodeId id : request_.outputs) body_.values.push_back(spell_(id).text);
@@ -122,9 +122,8 @@ class BodyPrinter {
     void print_factor_node(NodeId id)
     {
         const bool check = is_checked(id);
-        const bool solved = std::ranges::any_of(plan_.order, [&](NodeId user) {
-            return graph_.op(user) == Op::solve && graph_.operands(user)[0] == id;
-        });
+        const bool solved = std::ranges::any_of(
+            plan_.order, [&](NodeId user) { return graph_.op(user) == Op::solve && graph_.operands(user)[0] == id; });
         factors_[id] = print_factor(context(), id, factors_.size(), check, solved);
         body_.has_status = body_.has_status || check;
         body_.has_pivoting = body_.has_pivoting || factors_[id].kind == PrintedFactor::Kind::pivoted;
@@ -171,6 +170,9 @@ std::vector<bool> depends_on(const Graph& graph, std::span<const NodeId> inputs)
     return depends;
 }
 
-Body print_body(const BodyRequest& request) { return BodyPrinter(request).print(); }
+Body print_body(const BodyRequest& request)
+{
+    return BodyPrinter(request).print();
+}
 
 } // namespace lagen

@@ -21,9 +21,9 @@ struct LocalNames {
 
 /// Which factorisations a function checks.
 enum class Checking {
-    none,           ///< the function returns no status
-    state,          ///< those that depend on time or state
-    parameters,     ///< those that depend on neither
+    none,       ///< the function returns no status
+    state,      ///< those that depend on time or state
+    parameters, ///< those that depend on neither
 };
 
 struct Body {
@@ -36,8 +36,8 @@ struct Body {
 };
 
 /// `moving` are the inputs that change during a run (time and state): factorisations that depend on none of them
-/// are checked once, before it. `pivots` are further factorisations to check, and divisors whose vanishing is a singular
-/// matrix too.
+/// are checked once, before it. `pivots` are further factorisations to check, and divisors whose vanishing is a
+/// singular matrix too.
 struct BodyRequest {
     const Graph& graph;
     const LocalNames& names;

@@ -58,14 +58,15 @@ void print_parameters(TextBlock& out, const KernelModule& module, const ModuleNa
     if (names.parameters.empty()) return out.line("struct Parameters {} parameters;");
     std::vector<std::string> values;
     for (std::size_t k = 0; k < module.parameters.size(); ++k)
-        values.push_back(k < module.parameter_defaults.size() ? default_value(module, module.parameter_defaults[k]) : "S(0)");
+        values.push_back(k < module.parameter_defaults.size() ? default_value(module, module.parameter_defaults[k])
+                                                              : "S(0)");
     out.line("struct Parameters {");
     print_members(out, names.parameters, values, module.parameters);
     out.line("} parameters;");
 }
 
-void print_group(TextBlock& out, const std::string& type, const std::vector<Quantity>& quantities, const std::vector<std::string>& members,
-                 const std::string& text)
+void print_group(TextBlock& out, const std::string& type, const std::vector<Quantity>& quantities,
+                 const std::vector<std::string>& members, const std::string& text)
 {
     if (quantities.empty()) return;
     out.blank();
@@ -86,8 +87,10 @@ void print_state(TextBlock& out, const KernelModule& module, const ModuleNames& 
         out.indent(1);
         out.line("State s;");
         std::size_t lane = 0;
-        for (const std::string& member : names.base) out.line(fmt::format("s[{}] = {};", lane++, base ? "base." + member : "S(0)"));
-        for (const std::string& member : names.fibre) out.line(fmt::format("s[{}] = {};", lane++, fibre ? "fibre." + member : "S(0)"));
+        for (const std::string& member : names.base)
+            out.line(fmt::format("s[{}] = {};", lane++, base ? "base." + member : "S(0)"));
+        for (const std::string& member : names.fibre)
+            out.line(fmt::format("s[{}] = {};", lane++, fibre ? "fibre." + member : "S(0)"));
         out.line("return s;");
         out.indent(-1);
         out.line("}");
@@ -104,7 +107,8 @@ std::string name_array(const std::string& array, const std::vector<const std::ve
     std::vector<std::string> literals;
     for (const auto* group : groups)
         for (const Quantity& quantity : *group) literals.push_back(string_literal(quantity.name));
-    return fmt::format("static constexpr std::array<const char*, {}> {} = {{{}}};", literals.size(), array, joined(literals));
+    return fmt::format("static constexpr std::array<const char*, {}> {} = {{{}}};", literals.size(), array,
+                       joined(literals));
 }
 
 void print_constants(TextBlock& out, const KernelModule& module)
@@ -135,7 +139,8 @@ void print_parameter_access(TextBlock& out, const ModuleNames& names)
     out.line("[[nodiscard]] S& parameter(std::size_t k) noexcept");
     out.line("{");
     out.indent(1);
-    out.line(fmt::format("constexpr std::array<S Parameters::*, {}> members = {{{}}};", members.size(), joined(members)));
+    out.line(
+        fmt::format("constexpr std::array<S Parameters::*, {}> members = {{{}}};", members.size(), joined(members)));
     out.line("return parameters.*members[k];");
     out.indent(-1);
     out.line("}");

@@ -8,8 +8,8 @@ namespace lagen {
 
 [[nodiscard]] std::string print_header(const KernelModule& module);
 
-/// A name as a C++ identifier: keywords, macros and names that the header itself uses gain a trailing '_', Greek is transliterated,
-/// other letters become "uXXXX"; distinct names stay distinct (a second clash gains another '_').
+/// A name as a C++ identifier: keywords, macros and names that the header itself uses gain a trailing '_', Greek is
+/// transliterated, other letters become "uXXXX"; distinct names stay distinct (a second clash gains another '_').
 [[nodiscard]] std::vector<std::string> cpp_names(const std::vector<std::string>& names);
 
 } // namespace lagen

@@ -19,9 +19,15 @@ std::vector<NodeId> outputs_of(const Kernel& kernel)
     return nodes;
 }
 
-std::string maybe_unused(bool used) { return used ? "" : "[[maybe_unused]] "; }
+std::string maybe_unused(bool used)
+{
+    return used ? "" : "[[maybe_unused]] ";
+}
 
-bool reads(const Body& body, NodeId id) { return std::ranges::count(body.inputs, id) > 0; }
+bool reads(const Body& body, NodeId id)
+{
+    return std::ranges::count(body.inputs, id) > 0;
+}
 
 bool reads_state(const Body& body, const KernelModule& module)
 {
@@ -34,7 +40,8 @@ bool reads_state(const Body& body, const KernelModule& module)
 /// "S t, const State& s" with what the body leaves unread marked.
 std::string arguments(const Body& body, const KernelModule& module)
 {
-    return fmt::format("{}S t, {}const State& s", maybe_unused(reads(body, module.time)), maybe_unused(reads_state(body, module)));
+    return fmt::format("{}S t, {}const State& s", maybe_unused(reads(body, module.time)),
+                       maybe_unused(reads_state(body, module)));
 }
 
 void load(TextBlock& out, const Body& body, const ModuleNames& names, const KernelModule& module)
@@ -42,7 +49,8 @@ void load(TextBlock& out, const Body& body, const ModuleNames& names, const Kern
     std::size_t lane = 0;
     for (const auto* group : {&module.base, &module.fibre})
         for (const Quantity& quantity : *group) {
-            if (reads(body, quantity.input)) out.line(fmt::format("const S {} = s[{}];", names.locals.inputs.at(quantity.input), lane));
+            if (reads(body, quantity.input))
+                out.line(fmt::format("const S {} = s[{}];", names.locals.inputs.at(quantity.input), lane));
             ++lane;
         }
     for (std::size_t k = 0; k < module.parameters.size(); ++k) {
@@ -79,23 +87,29 @@ void close(TextBlock& out)
     out.line("}");
 }
 
-bool is_full(const KernelOutput& output) { return output.entries.size() == output.rows * output.columns; }
+bool is_full(const KernelOutput& output)
+{
+    return output.entries.size() == output.rows * output.columns;
+}
 
-void print_right_hand_side(TextBlock& out, const KernelModule& module, const Kernel& kernel, const Body& body, const ModuleNames& names)
+void print_right_hand_side(TextBlock& out, const KernelModule& module, const Kernel& kernel, const Body& body,
+                           const ModuleNames& names)
 {
     const std::string& target = kernel.output.name;
     const bool writes = kernel.output.rows > 0;
-    open(out, fmt::format("[[nodiscard]] status_t<S> {}({}, {}State& {}) const noexcept", kernel.name, arguments(body, module),
-                          maybe_unused(writes), target));
+    open(out, fmt::format("[[nodiscard]] status_t<S> {}({}, {}State& {}) const noexcept", kernel.name,
+                          arguments(body, module), maybe_unused(writes), target));
     print_statements(out, body, names, module);
     std::vector<std::string> values(kernel.output.rows, "S(0)");
     for (std::size_t k = 0; k < body.values.size(); ++k) values[kernel.output.entries[k].row] = body.values[k];
-    for (std::size_t row = 0; row < values.size(); ++row) out.line(fmt::format("{}[{}] = {};", target, row, values[row]));
+    for (std::size_t row = 0; row < values.size(); ++row)
+        out.line(fmt::format("{}[{}] = {};", target, row, values[row]));
     out.line(body.has_status ? "return status;" : "return StatusOf<S>::good();");
     close(out);
 }
 
-void print_scalar(TextBlock& out, const KernelModule& module, const Kernel& kernel, const Body& body, const ModuleNames& names)
+void print_scalar(TextBlock& out, const KernelModule& module, const Kernel& kernel, const Body& body,
+                  const ModuleNames& names)
 {
     open(out, fmt::format("[[nodiscard]] S {}({}) const noexcept", kernel.name, arguments(body, module)));
     print_statements(out, body, names, module);
@@ -104,7 +118,8 @@ void print_scalar(TextBlock& out, const KernelModule& module, const Kernel& kern
 }
 
 /// A name array where entries have names, and a column or a matrix by value.
-void print_array(TextBlock& out, const KernelModule& module, const Kernel& kernel, const Body& body, const ModuleNames& names)
+void print_array(TextBlock& out, const KernelModule& module, const Kernel& kernel, const Body& body,
+                 const ModuleNames& names)
 {
     const KernelOutput& output = kernel.output;
     const bool column = kernel.shape == KernelShape::vector;
@@ -130,8 +145,10 @@ void print_pattern(TextBlock& out, const Kernel& kernel)
         columns.push_back(std::to_string(entry.column));
     }
     out.comment(fmt::format("Where the entries of {}_values stand, by rows, counted from 0.", kernel.name));
-    out.line(fmt::format("static constexpr std::array<int, {}> {}_rows = {{{}}};", rows.size(), kernel.name, joined(rows)));
-    out.line(fmt::format("static constexpr std::array<int, {}> {}_columns = {{{}}};", rows.size(), kernel.name, joined(columns)));
+    out.line(
+        fmt::format("static constexpr std::array<int, {}> {}_rows = {{{}}};", rows.size(), kernel.name, joined(rows)));
+    out.line(fmt::format("static constexpr std::array<int, {}> {}_columns = {{{}}};", rows.size(), kernel.name,
+                         joined(columns)));
     out.blank();
 }
 
@@ -146,19 +163,20 @@ void print_dense(TextBlock& out, const Kernel& kernel)
     out.line(fmt::format("{}_values(t, s, values);", kernel.name));
     out.line(fmt::format("{} result = {}::Zero();", type, type));
     if (count > 0)
-        out.line(fmt::format("for (std::size_t k = 0; k < {}; ++k) result({}_rows[k], {}_columns[k]) = values[k];", count, kernel.name,
-                             kernel.name));
+        out.line(fmt::format("for (std::size_t k = 0; k < {}; ++k) result({}_rows[k], {}_columns[k]) = values[k];",
+                             count, kernel.name, kernel.name));
     out.line("return result;");
     close(out);
 }
 
-void print_sparse(TextBlock& out, const KernelModule& module, const Kernel& kernel, const Body& body, const ModuleNames& names)
+void print_sparse(TextBlock& out, const KernelModule& module, const Kernel& kernel, const Body& body,
+                  const ModuleNames& names)
 {
     const std::size_t count = kernel.output.entries.size();
     print_pattern(out, kernel);
     print_documentation(out, kernel);
-    open(out, fmt::format("void {}_values({}, {}std::array<S, {}>& values) const noexcept", kernel.name, arguments(body, module),
-                          maybe_unused(count > 0), count));
+    open(out, fmt::format("void {}_values({}, {}std::array<S, {}>& values) const noexcept", kernel.name,
+                          arguments(body, module), maybe_unused(count > 0), count));
     print_statements(out, body, names, module);
     for (std::size_t k = 0; k < count; ++k) out.line(fmt::format("values[{}] = {};", k, body.values[k]));
     close(out);
@@ -170,19 +188,21 @@ void print_entry_names(TextBlock& out, const Kernel& kernel)
     if (kernel.entry_names.empty()) return;
     std::vector<std::string> literals;
     for (const std::string& name : kernel.entry_names) literals.push_back(string_literal(name));
-    out.line(fmt::format("static constexpr std::array<const char*, {}> {}_names = {{{}}};", literals.size(), kernel.name, joined(literals)));
+    out.line(fmt::format("static constexpr std::array<const char*, {}> {}_names = {{{}}};", literals.size(),
+                         kernel.name, joined(literals)));
 }
 
 } // namespace
 
-void print_kernel(TextBlock& out, const KernelModule& module, const ModuleNames& names, const Kernel& kernel, KernelNeeds& needs)
+void print_kernel(TextBlock& out, const KernelModule& module, const ModuleNames& names, const Kernel& kernel,
+                  KernelNeeds& needs)
 {
     const std::vector<NodeId> outputs = outputs_of(kernel);
     const bool has_status = kernel.shape == KernelShape::right_hand_side;
     LocalNames locals = names.locals;
     locals.taken.insert(kernel.output.name);
-    const Body body = print_body({*module.graph, locals, outputs, kernel.pivots, names.moving,
-                                  has_status ? Checking::state : Checking::none});
+    const Body body = print_body(
+        {*module.graph, locals, outputs, kernel.pivots, names.moving, has_status ? Checking::state : Checking::none});
     needs.linear = needs.linear || body.has_status || body.has_pivoting;
     out.blank();
     print_entry_names(out, kernel);
@@ -212,7 +232,8 @@ void print_parameter_status(TextBlock& out, const KernelModule& module, const Mo
     const Body body = print_body({*module.graph, names.locals, {}, checked, names.moving, Checking::parameters});
     needs.linear = needs.linear || body.has_status || body.has_pivoting;
     out.blank();
-    out.comment("What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor");
+    out.comment("What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a "
+                "divisor");
     out.comment("made of them has no inverse. Call it once after the parameters are set; integrate() does.");
     open(out, "[[nodiscard]] status_t<S> parameter_status() const noexcept");
     print_statements(out, body, names, module);

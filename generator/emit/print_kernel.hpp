@@ -12,7 +12,8 @@ struct KernelNeeds {
     bool linear = false; ///< lagen/linear.hpp
 };
 
-void print_kernel(TextBlock& out, const KernelModule& module, const ModuleNames& names, const Kernel& kernel, KernelNeeds& needs);
+void print_kernel(TextBlock& out, const KernelModule& module, const ModuleNames& names, const Kernel& kernel,
+                  KernelNeeds& needs);
 
 /// parameter_status(): the factorisations and divisors of all kernels that depend on parameters alone.
 void print_parameter_status(TextBlock& out, const KernelModule& module, const ModuleNames& names, KernelNeeds& needs);

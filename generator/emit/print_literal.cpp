@@ -29,7 +29,10 @@ std::string print_double(double value)
     return text;
 }
 
-bool fits_53_bits(const mpz_class& value) { return mpz_sizeinbase(value.get_mpz_t(), 2) <= 53; }
+bool fits_53_bits(const mpz_class& value)
+{
+    return mpz_sizeinbase(value.get_mpz_t(), 2) <= 53;
+}
 
 std::string print_integer(const mpz_class& value)
 {
@@ -64,7 +67,10 @@ Spelling print_literal(const Rational& value)
     return {fmt::format("{} / {}", print_integer(p), print_integer(q)), 2};
 }
 
-Spelling print_pi() { return {"(S(3.141592653589793) + S(1.2246467991473532e-16))", 5}; }
+Spelling print_pi()
+{
+    return {"(S(3.141592653589793) + S(1.2246467991473532e-16))", 5};
+}
 
 std::string comment_text(std::string_view text)
 {

@@ -35,7 +35,8 @@ std::string minus_products(const std::string& first, const std::vector<std::pair
 
 void report_singular(const SolveContext& context, const std::string& condition)
 {
-    context.statements.push_back(fmt::format("StatusOf<S>::fail(status, {}, Status::singular_mass_matrix);", condition));
+    context.statements.push_back(
+        fmt::format("StatusOf<S>::fail(status, {}, Status::singular_mass_matrix);", condition));
 }
 
 std::string define(const SolveContext& context, const std::string& wish, const std::string& value)
@@ -68,17 +69,19 @@ PrintedFactor print_closed_form(const SolveContext& context, NodeId id, std::siz
         report_singular(context, fmt::format("{} <= singular_tolerance<S>(2) * ({})", determinant, diagonal));
     } else if (check) {
         const std::string abs = context.spell.call("abs");
-        const std::string size = diagonal.empty() || other.empty() ? fmt::format("{}({})", abs, determinant)
-                                                                   : fmt::format("({0}({1}) + {0}({2}))", abs, diagonal, other);
+        const std::string size = diagonal.empty() || other.empty()
+                                     ? fmt::format("{}({})", abs, determinant)
+                                     : fmt::format("({0}({1}) + {0}({2}))", abs, diagonal, other);
         report_singular(context, fmt::format("{}({}) <= singular_tolerance<S>(2) * {}", abs, determinant, size));
     }
     if (solved) factor.name = define(context, fmt::format("inv_det{}", number), "S(1) / " + determinant);
     return factor;
 }
 
-/// A = L D L^T, column by column: v_ij = a_ij - sum_k l_ik v_jk, d_j = v_jj, l_ij = v_ij / d_j. A pivot that is a rounding
-/// error of its diagonal entry means that the matrix is singular.
-PrintedFactor print_ldlt(const SolveContext& context, NodeId id, std::size_t n, std::size_t number, bool check, bool solved)
+/// A = L D L^T, column by column: v_ij = a_ij - sum_k l_ik v_jk, d_j = v_jj, l_ij = v_ij / d_j. A pivot that is a
+/// rounding error of its diagonal entry means that the matrix is singular.
+PrintedFactor print_ldlt(const SolveContext& context, NodeId id, std::size_t n, std::size_t number, bool check,
+                         bool solved)
 {
     const std::vector<NodeId> entries(context.graph.operands(id).begin(), context.graph.operands(id).end());
     std::vector<std::vector<bool>> pattern(n, std::vector<bool>(n));
@@ -93,7 +96,9 @@ PrintedFactor print_ldlt(const SolveContext& context, NodeId id, std::size_t n, 
     const auto entry = [&](std::size_t i, std::size_t j) { // lower triangle of the permuted matrix
         return entry_text(context, entries[factor.elimination[i] * n + factor.elimination[j]]);
     };
-    const auto named = [&](const char* prefix, std::size_t i, std::size_t j) { return fmt::format("{}{}_{}_{}", prefix, number, i, j); };
+    const auto named = [&](const char* prefix, std::size_t i, std::size_t j) {
+        return fmt::format("{}{}_{}_{}", prefix, number, i, j);
+    };
     for (std::size_t j = 0; j < n; ++j) {
         bool below = false;
         for (std::size_t i = j; i < n; ++i) {
@@ -110,7 +115,8 @@ PrintedFactor print_ldlt(const SolveContext& context, NodeId id, std::size_t n, 
         if (!solved && !below) continue;
         factor.reciprocals[j] = define(context, fmt::format("r{}_{}", number, j), "S(1) / " + v[j][j]);
         for (std::size_t i = j + 1; i < n; ++i)
-            if (!v[i][j].empty()) factor.l[i][j] = define(context, named("l", i, j), v[i][j] + " * " + factor.reciprocals[j]);
+            if (!v[i][j].empty())
+                factor.l[i][j] = define(context, named("l", i, j), v[i][j] + " * " + factor.reciprocals[j]);
     }
     return factor;
 }
@@ -121,7 +127,8 @@ PrintedFactor print_pivoted(const SolveContext& context, NodeId id, std::size_t 
     factor.order = n;
     factor.name = context.fresh(fmt::format("lu{}", number));
     std::string entries;
-    for (const NodeId entry : context.graph.operands(id)) entries += (entries.empty() ? "" : ", ") + context.spell(entry).text;
+    for (const NodeId entry : context.graph.operands(id))
+        entries += (entries.empty() ? "" : ", ") + context.spell(entry).text;
     context.statements.push_back(fmt::format("PivotedLu<S, {}> {};", n, factor.name));
     const std::string call = fmt::format("{}.factor({{{}}})", factor.name, entries);
     if (check)
@@ -132,24 +139,30 @@ PrintedFactor print_pivoted(const SolveContext& context, NodeId id, std::size_t 
 }
 
 std::vector<std::string> solve_closed_form(const SolveContext& context, const PrintedFactor& factor,
-                                           const std::vector<std::string>& b, std::size_t number, const std::vector<bool>& wanted)
+                                           const std::vector<std::string>& b, std::size_t number,
+                                           const std::vector<bool>& wanted)
 {
     std::vector<std::string> z(2);
     const std::vector<std::string>& a = factor.entries;
-    const auto product = [](const std::string& x, const std::string& y) { return x.empty() || y.empty() ? std::string() : x + " * " + y; };
+    const auto product = [](const std::string& x, const std::string& y) {
+        return x.empty() || y.empty() ? std::string() : x + " * " + y;
+    };
     for (std::size_t k = 0; k < 2; ++k) {
         if (!wanted[k]) continue;
         std::string value = k == 0 ? product(a[3], b[0]) : product(a[0], b[1]);
         const std::string minus = k == 0 ? product(a[1], b[1]) : product(a[2], b[0]);
         if (!minus.empty()) value += (value.empty() ? "-" : " - ") + minus;
-        z[k] = value.empty() ? "S(0)" : define(context, fmt::format("z{}_{}", number, k), fmt::format("({}) * {}", value, factor.name));
+        z[k] = value.empty()
+                   ? "S(0)"
+                   : define(context, fmt::format("z{}_{}", number, k), fmt::format("({}) * {}", value, factor.name));
     }
     return z;
 }
 
 /// L f = b, z = L^-T (f / d).
-std::vector<std::string> solve_ldlt(const SolveContext& context, const PrintedFactor& factor, const std::vector<std::string>& b,
-                                    std::size_t number, const std::vector<bool>& wanted)
+std::vector<std::string> solve_ldlt(const SolveContext& context, const PrintedFactor& factor,
+                                    const std::vector<std::string>& b, std::size_t number,
+                                    const std::vector<bool>& wanted)
 {
     const std::size_t n = factor.order;
     std::vector<std::string> f(n);
@@ -158,7 +171,8 @@ std::vector<std::string> solve_ldlt(const SolveContext& context, const PrintedFa
         for (std::size_t k = 0; k < i; ++k)
             if (!factor.l[i][k].empty() && !f[k].empty()) products.emplace_back(factor.l[i][k], f[k]);
         const std::string& right = b[factor.elimination[i]];
-        f[i] = products.empty() ? right : define(context, fmt::format("f{}_{}", number, i), minus_products(right, products));
+        f[i] = products.empty() ? right
+                                : define(context, fmt::format("f{}_{}", number, i), minus_products(right, products));
     }
     std::vector<bool> needed(n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -219,8 +233,8 @@ PrintedFactor print_factor(const SolveContext& context, NodeId id, std::size_t n
     return print_pivoted(context, id, n, number, check);
 }
 
-std::vector<std::string> print_solution(const SolveContext& context, const PrintedFactor& factor, NodeId id, std::size_t number,
-                                        const std::vector<bool>& wanted)
+std::vector<std::string> print_solution(const SolveContext& context, const PrintedFactor& factor, NodeId id,
+                                        std::size_t number, const std::vector<bool>& wanted)
 {
     const std::span<const NodeId> right = context.graph.operands(id).subspan(1);
     if (factor.kind == PrintedFactor::Kind::pivoted) {

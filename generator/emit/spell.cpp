@@ -17,7 +17,10 @@ std::string enclose(const Spelling& spelling, int precedence)
     return spelling.precedence >= precedence ? spelling.text : "(" + spelling.text + ")";
 }
 
-bool is_comparison(Op op) { return op >= Op::less && op <= Op::not_equal; }
+bool is_comparison(Op op)
+{
+    return op >= Op::less && op <= Op::not_equal;
+}
 
 /// b * b * .. * b, at most four factors; the fourth power is the square of the square.
 Spelling repeated(const std::string& base, int count)
@@ -36,7 +39,10 @@ std::string Speller::call(const std::string& function)
     return function;
 }
 
-std::string Speller::at_least(int precedence, NodeId id) { return enclose((*this)(id), precedence); }
+std::string Speller::at_least(int precedence, NodeId id)
+{
+    return enclose((*this)(id), precedence);
+}
 
 Spelling Speller::operator()(NodeId id)
 {
@@ -117,8 +123,10 @@ Spelling Speller::function(NodeId id)
     const auto text = [&](std::size_t k) { return (*this)(operand[k]).text; };
     switch (graph_.op(id)) {
     case Op::select: return {fmt::format("select({}, {}, {})", condition(operand[0]).text, text(1), text(2)), 5};
-    case Op::minimum: return {fmt::format("select({0} < {1}, {0}, {1})", at_least(1, operand[0]), at_least(1, operand[1])), 5};
-    case Op::maximum: return {fmt::format("select({0} > {1}, {0}, {1})", at_least(1, operand[0]), at_least(1, operand[1])), 5};
+    case Op::minimum:
+        return {fmt::format("select({0} < {1}, {0}, {1})", at_least(1, operand[0]), at_least(1, operand[1])), 5};
+    case Op::maximum:
+        return {fmt::format("select({0} > {1}, {0}, {1})", at_least(1, operand[0]), at_least(1, operand[1])), 5};
     case Op::sign: {
         const std::string x = at_least(1, operand[0]);
         return {fmt::format("select({0} > S(0), S(1), select({0} < S(0), S(-1), S(0)))", x), 5};
@@ -135,10 +143,15 @@ Spelling Speller::condition(NodeId id)
 {
     if (has_name(id) || !is_comparison(graph_.op(id))) return {at_least(1, id) + " != S(0)", 0};
     const std::span<const NodeId> operand = graph_.operands(id);
-    return {fmt::format("{} {} {}", at_least(1, operand[0]), operator_of(graph_.op(id)).spelling, at_least(1, operand[1])), 0};
+    return {
+        fmt::format("{} {} {}", at_least(1, operand[0]), operator_of(graph_.op(id)).spelling, at_least(1, operand[1])),
+        0};
 }
 
 /// A comparison as a number.
-Spelling Speller::comparison(NodeId id) { return {fmt::format("select({}, S(1), S(0))", condition(id).text), 5}; }
+Spelling Speller::comparison(NodeId id)
+{
+    return {fmt::format("select({}, S(1), S(0))", condition(id).text), 5};
+}
 
 } // namespace lagen

@@ -20,7 +20,8 @@ class Speller {
     void name(NodeId id, std::string text) { names_[id] = std::move(text); }
     [[nodiscard]] bool has_name(NodeId id) const { return !names_[id].empty(); }
 
-    /// The node by its name, else its operation on its operands. Parts without a name nest no deeper than plan_body allows.
+    /// The node by its name, else its operation on its operands. Parts without a name nest no deeper than plan_body
+    /// allows.
     Spelling operator()(NodeId id);
     /// The operation itself, even where the node has a name.
     Spelling operation(NodeId id);

@@ -12,7 +12,8 @@ class TextBlock {
   public:
     /// Lines from now on stand `levels` further to the right (negative: to the left).
     void indent(int levels) { level_ += levels; }
-    /// One line; a longer one is broken at spaces outside of string literals, its continuation eight columns further right.
+    /// One line; a longer one is broken at spaces outside of string literals, its continuation eight columns further
+    /// right.
     void line(std::string_view text);
     void blank() { text_ += '\n'; }
     /// `/// text`, sanitised by comment_text; an empty text gives a bare `///`.

@@ -13,17 +13,20 @@ namespace lagen {
 
 namespace {
 
-const std::vector<std::string> kernel_names{"rhs",    "mass_matrix", "momentum",   "energy", "lagrangian", "constraints",
-                                            "domain", "observables", "invariants", "events", "jacobian"};
+const std::vector<std::string> kernel_names{"rhs",        "mass_matrix", "momentum", "energy",
+                                            "lagrangian", "constraints", "domain",   "observables",
+                                            "invariants", "events",      "jacobian"};
 
 void refuse_what_has_no_kernels(const Model& model, const VerifiedAlgebroid& verified)
 {
     if (!model.lagrangian)
-        throw MathematicsError(fmt::format("error: model '{}' has no Lagrangian; the Lagrangian form needs [lagrangian] L", model.name));
+        throw MathematicsError(
+            fmt::format("error: model '{}' has no Lagrangian; the Lagrangian form needs [lagrangian] L", model.name));
     if (verified.regularity.kind == Regularity::Kind::degenerate)
-        throw MathematicsError(fmt::format("error: the Lagrangian of model '{}' is degenerate: d2L/dy2 has rank {}, and the Lagrangian form "
-                                           "needs rank {}\nhint: the velocities cannot be solved for; give every fibre coordinate a kinetic term",
-                                           model.name, verified.regularity.rank, model.fibre.coordinates.size()));
+        throw MathematicsError(fmt::format(
+            "error: the Lagrangian of model '{}' is degenerate: d2L/dy2 has rank {}, and the Lagrangian form "
+            "needs rank {}\nhint: the velocities cannot be solved for; give every fibre coordinate a kinetic term",
+            model.name, verified.regularity.rank, model.fibre.coordinates.size()));
 }
 
 void refuse_unknown(const std::vector<std::string>& only)
@@ -43,7 +46,8 @@ class ModuleBuilder {
   public:
     ModuleBuilder(const Model& model, const VerifiedAlgebroid& verified, const KernelRequest& request)
         : model_(model), verified_(verified), request_(request), graph_(std::make_shared<Graph>()),
-          nodes_(lagrange_nodes(*graph_, model, verified, wants("rhs") || wants("jacobian"))), lower_(*graph_, nodes_.binding)
+          nodes_(lagrange_nodes(*graph_, model, verified, wants("rhs") || wants("jacobian"))),
+          lower_(*graph_, nodes_.binding)
     {
     }
 
@@ -69,7 +73,10 @@ class ModuleBuilder {
         return request_.only.empty() || std::ranges::find(request_.only, name) != request_.only.end();
     }
 
-    [[nodiscard]] static Quantity quantity(const Symbol& symbol, NodeId input) { return {symbol.name, symbol.text, symbol.unit, input}; }
+    [[nodiscard]] static Quantity quantity(const Symbol& symbol, NodeId input)
+    {
+        return {symbol.name, symbol.text, symbol.unit, input};
+    }
 
     void describe()
     {
@@ -81,8 +88,10 @@ class ModuleBuilder {
         module_.time = nodes_.time;
         for (std::size_t k = 0; k < model_.parameters.size(); ++k)
             module_.parameters.push_back(quantity(model_.parameters[k].symbol, nodes_.parameters[k]));
-        for (std::size_t i = 0; i < nodes_.x.size(); ++i) module_.base.push_back(quantity(model_.base.coordinates[i], nodes_.x[i]));
-        for (std::size_t a = 0; a < nodes_.y.size(); ++a) module_.fibre.push_back(quantity(model_.fibre.coordinates[a], nodes_.y[a]));
+        for (std::size_t i = 0; i < nodes_.x.size(); ++i)
+            module_.base.push_back(quantity(model_.base.coordinates[i], nodes_.x[i]));
+        for (std::size_t a = 0; a < nodes_.y.size(); ++a)
+            module_.fibre.push_back(quantity(model_.fibre.coordinates[a], nodes_.y[a]));
         module_.parameter_defaults = defaults();
     }
 
@@ -97,7 +106,8 @@ class ModuleBuilder {
             for (std::size_t k = 0; k < count; ++k) {
                 const Parameter& parameter = model_.parameters[k];
                 const std::vector<std::string> uses = names_in(parameter.value);
-                const bool ready = std::ranges::all_of(uses, [&](const std::string& use) { return known.contains(use); });
+                const bool ready =
+                    std::ranges::all_of(uses, [&](const std::string& use) { return known.contains(use); });
                 if (known.contains(parameter.symbol.name) || !ready) continue;
                 known[parameter.symbol.name] = result[k] = Lowering(*graph_, known)(parameter.value);
                 ++done;
@@ -115,7 +125,8 @@ class ModuleBuilder {
         outputs.insert(outputs.end(), kernel.pivots.begin(), kernel.pivots.end());
         outputs = simplify(*graph_, outputs);
         for (std::size_t k = 0; k < kernel.output.entries.size(); ++k) kernel.output.entries[k].node = outputs[k];
-        for (std::size_t k = 0; k < kernel.pivots.size(); ++k) kernel.pivots[k] = outputs[kernel.output.entries.size() + k];
+        for (std::size_t k = 0; k < kernel.pivots.size(); ++k)
+            kernel.pivots[k] = outputs[kernel.output.entries.size() + k];
         module_.kernels.push_back(std::move(kernel));
     }
 
@@ -143,7 +154,8 @@ class ModuleBuilder {
         kernel.pivots = nodes_.pivots;
         kernel.documentation = {"The equations of motion, ds = (xdot, ydot): xdot^i = rho^i_a y^a and",
                                 "W_ab ydot^b = rho_a(L) - (d2L/dy^a dx^i) rho^i_b y^b - d2L/dy^a dt - p_c C^c_ab y^b.",
-                                "Answers singular_mass_matrix where W has no inverse at this state; what depends on the parameters alone is",
+                                "Answers singular_mass_matrix where W has no inverse at this state; what depends on "
+                                "the parameters alone is",
                                 "checked by parameter_status() instead, once. s and ds may be the same object."};
         add(std::move(kernel));
     }
@@ -159,7 +171,12 @@ class ModuleBuilder {
             add(std::move(kernel));
         }
         if (wants("momentum") && r > 0)
-            add({"momentum", KernelShape::vector, column("p", nodes_.momentum), {fmt::format("p_a = dL/dy^a, shape ({}).", r)}, {}, {}});
+            add({"momentum",
+                 KernelShape::vector,
+                 column("p", nodes_.momentum),
+                 {fmt::format("p_a = dL/dy^a, shape ({}).", r)},
+                 {},
+                 {}});
         if (wants("energy"))
             add({"energy", KernelShape::scalar, column("E", {nodes_.energy}), {"E = y^a p_a - L."}, {}, {}});
         if (wants("lagrangian"))
@@ -200,7 +217,8 @@ class ModuleBuilder {
         for (const NamedTree& entry : *request_.scene->observe) {
             const auto known = [&](const auto& other) { return other.first == entry.name; };
             const auto lane = [&](const Quantity& other) { return other.name == entry.name; };
-            if (std::ranges::any_of(trees, known) || std::ranges::any_of(module_.base, lane) || std::ranges::any_of(module_.fibre, lane))
+            if (std::ranges::any_of(trees, known) || std::ranges::any_of(module_.base, lane) ||
+                std::ranges::any_of(module_.fibre, lane))
                 continue;
             trees.emplace_back(entry.name, entry.value);
         }
@@ -213,7 +231,8 @@ class ModuleBuilder {
         std::vector<NodeId> values;
         std::vector<std::string> names;
         for (const Tree& tree : verified_.algebroid.domain) {
-            if (tree->kind != TreeKind::compare) throw InternalError("a domain that is no comparison: " + to_text(tree));
+            if (tree->kind != TreeKind::compare)
+                throw InternalError("a domain that is no comparison: " + to_text(tree));
             const NodeId a = lower_(tree->arguments[0]);
             const NodeId b = lower_(tree->arguments[1]);
             const bool less = tree->comparison == Comparison::less || tree->comparison == Comparison::less_equal;
@@ -222,11 +241,16 @@ class ModuleBuilder {
             names.push_back(to_text(tree));
         }
         if (values.empty()) return;
-        add({"domain", KernelShape::vector, column("domain", values), {"Positive inside the domain of the model."}, std::move(names), {}});
+        add({"domain",
+             KernelShape::vector,
+             column("domain", values),
+             {"Positive inside the domain of the model."},
+             std::move(names),
+             {}});
     }
 
-    /// Of the one scene asked for, or of all; the same event of two scenes once, different ones of one name with the scene's
-    /// name in front.
+    /// Of the one scene asked for, or of all; the same event of two scenes once, different ones of one name with the
+    /// scene's name in front.
     [[nodiscard]] NamedTrees events() const
     {
         NamedTrees trees;

@@ -12,8 +12,8 @@
 namespace lagen {
 
 struct KernelRequest {
-    std::vector<std::string> only;         ///< kernel names wanted; empty: all
-    const Scene* scene = nullptr;          ///< events and observed expressions of this scene only; null: events of every scene
+    std::vector<std::string> only; ///< kernel names wanted; empty: all
+    const Scene* scene = nullptr;  ///< events and observed expressions of this scene only; null: events of every scene
 };
 
 /// Throws MathematicsError where there is no Lagrangian or it is degenerate.

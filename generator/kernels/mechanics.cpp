@@ -35,7 +35,10 @@ std::vector<PairBracket> bracket_of_pairs(Graph& graph, Lowering& lower, const A
     return brackets;
 }
 
-void add_to(Graph& graph, NodeId& sum, NodeId term) { sum = graph.add(sum, term); }
+void add_to(Graph& graph, NodeId& sum, NodeId term)
+{
+    sum = graph.add(sum, term);
+}
 
 /// Entries that are alone in their row and in their column.
 std::vector<NodeId> single_blocks(const Graph& graph, const std::vector<NodeId>& W, std::size_t r)
@@ -50,7 +53,8 @@ std::vector<NodeId> single_blocks(const Graph& graph, const std::vector<NodeId>&
                 if (k != a && !graph.is_zero(W[k * r + b])) ++others;
             }
             const NodeId pivot = W[a * r + b];
-            if (others == 0 && !graph.is_constant(pivot) && std::ranges::find(pivots, pivot) == pivots.end()) pivots.push_back(pivot);
+            if (others == 0 && !graph.is_constant(pivot) && std::ranges::find(pivots, pivot) == pivots.end())
+                pivots.push_back(pivot);
         }
     return pivots;
 }
@@ -85,14 +89,16 @@ void bind_names(const Model& model, LagrangeNodes& nodes)
     for (std::size_t a = 0; a < model.fibre.momenta.size() && a < nodes.momentum.size(); ++a)
         nodes.binding[model.fibre.momenta[a].name] = nodes.momentum[a];
     nodes.binding["t"] = nodes.time;
-    for (std::size_t k = 0; k < model.parameters.size(); ++k) nodes.binding[model.parameters[k].symbol.name] = nodes.parameters[k];
+    for (std::size_t k = 0; k < model.parameters.size(); ++k)
+        nodes.binding[model.parameters[k].symbol.name] = nodes.parameters[k];
     for (std::size_t i = 0; i < nodes.x.size(); ++i) nodes.binding[model.base.coordinates[i].name] = nodes.x[i];
     for (std::size_t a = 0; a < nodes.y.size(); ++a) nodes.binding[model.fibre.coordinates[a].name] = nodes.y[a];
 }
 
 /// W_ab ydot^b = rho_a(L) - [d/dt p_a along (xdot, 1) at fixed y] - p_c C^c_ab y^b.                     [Martinez 2001]
-std::vector<NodeId> accelerations_of(Graph& graph, const LagrangeNodes& nodes, const std::vector<NodeId>& rho, const std::vector<NodeId>& dL_dx,
-                                     const std::vector<PairBracket>& brackets, MatrixStructure structure)
+std::vector<NodeId> accelerations_of(Graph& graph, const LagrangeNodes& nodes, const std::vector<NodeId>& rho,
+                                     const std::vector<NodeId>& dL_dx, const std::vector<PairBracket>& brackets,
+                                     MatrixStructure structure)
 {
     const std::size_t n = nodes.x.size();
     const std::size_t r = nodes.y.size();
@@ -106,7 +112,8 @@ std::vector<NodeId> accelerations_of(Graph& graph, const LagrangeNodes& nodes, c
         for (std::size_t i = 0; i < n; ++i) add_to(graph, force, graph.multiply(rho[i * r + a], dL_dx[i]));
         right[a] = graph.subtract(force, drift[a]);
     }
-    for (const PairBracket& entry : brackets) { // p_c C^c_ab y^b in row a and, by antisymmetry, -p_c C^c_ab y^a in row b
+    for (const PairBracket& entry :
+         brackets) { // p_c C^c_ab y^b in row a and, by antisymmetry, -p_c C^c_ab y^a in row b
         const NodeId moment = graph.multiply(entry.value, nodes.momentum[entry.c]);
         right[entry.a] = graph.subtract(right[entry.a], graph.multiply(moment, nodes.y[entry.b]));
         right[entry.b] = graph.add(right[entry.b], graph.multiply(moment, nodes.y[entry.a]));
@@ -125,7 +132,8 @@ LagrangeNodes lagrange_nodes(Graph& graph, const Model& model, const VerifiedAlg
     Lowering lower(graph);
     nodes.lagrangian = lower(model.lagrangian);
     std::vector<NodeId> rho(n * r, graph.constant(0));
-    for (const AnchorValue& entry : verified.algebroid.rho) add_to(graph, rho[entry.i * r + entry.a], lower(entry.value));
+    for (const AnchorValue& entry : verified.algebroid.rho)
+        add_to(graph, rho[entry.i * r + entry.a], lower(entry.value));
     const std::vector<PairBracket> brackets = bracket_of_pairs(graph, lower, verified.algebroid);
 
     std::vector<NodeId> variables = nodes.y;
@@ -142,7 +150,8 @@ LagrangeNodes lagrange_nodes(Graph& graph, const Model& model, const VerifiedAlg
         for (std::size_t a = 0; a < r; ++a) add_to(graph, nodes.xdot[i], graph.multiply(rho[i * r + a], nodes.y[a]));
     nodes.W = fibre_hessian(graph, nodes);
     if (accelerations) {
-        const auto structure = verified.regularity.positive_definite ? MatrixStructure::positive_definite : MatrixStructure::symmetric;
+        const auto structure =
+            verified.regularity.positive_definite ? MatrixStructure::positive_definite : MatrixStructure::symmetric;
         nodes.ydot = accelerations_of(graph, nodes, rho, dL_dx, brackets, structure);
         nodes.pivots = single_blocks(graph, nodes.W, r);
     }

@@ -95,6 +95,19 @@ bool may_factor(const GiNaC::ex& polynomial) {
     return degree <= factor_degree;
 }
 
+/// GiNaC::factor leaves sums inside its factors in groups of its own choice; expanded, each factor is unique up to sign.
+GiNaC::ex with_expanded_factors(const GiNaC::ex& e) {
+    if (GiNaC::is_a<GiNaC::mul>(e)) {
+        GiNaC::exvector parts;
+        for (std::size_t k = 0; k < e.nops(); ++k)
+            parts.push_back(with_expanded_factors(e.op(k)));
+        return GiNaC::ex(GiNaC::dynallocate<GiNaC::mul>(parts));
+    }
+    if (GiNaC::is_a<GiNaC::power>(e))
+        return GiNaC::pow(e.op(0).expand(), e.op(1));
+    return e.expand();
+}
+
 /// Numerator and denominator factored; nothing where that would cost too much.
 std::optional<GiNaC::ex> factored(const GiNaC::ex& e) {
     Atoms atoms;
@@ -106,7 +119,7 @@ std::optional<GiNaC::ex> factored(const GiNaC::ex& e) {
     const GiNaC::ex below = fraction.op(1).expand();
     if (!may_factor(above) || !may_factor(below))
         return {};
-    return atoms.show(GiNaC::factor(above) / GiNaC::factor(below));
+    return atoms.show(with_expanded_factors(GiNaC::factor(above)) / with_expanded_factors(GiNaC::factor(below)));
 }
 
 SortedTerm product_of(std::vector<SortedFactor> factors, const Rational& coefficient) {
@@ -171,6 +184,17 @@ SortedTerm collected(const SortedTerm& expanded) {
     for (const auto& [key, group] : groups)
         sums.push_back(sorted_product({group.first, with_common_factor(group.second)}));
     return sorted_sum(sums);
+}
+
+/// A product whose sums are collected each for itself.
+SortedTerm with_collected_factors(const SortedTerm& product) {
+    std::vector<SortedTerm> parts = {product_of({}, product.coefficient)};
+    for (const SortedFactor& factor : product.factors) {
+        const bool sum = !factor.terms.empty() && factor.exponent == 1;
+        const SortedTerm part = product_of({factor}, 1);
+        parts.push_back(sum ? collected(part) : part);
+    }
+    return sorted_product(parts);
 }
 
 /// cos for sin and sin for cos of the same argument, squared; nothing for other factors and lower powers.
@@ -265,8 +289,11 @@ Tree shortest_form(const GiNaC::ex& expression, const SymbolTable& symbols, cons
                 shortest.offer(tree_of(collected(sum)));
                 shortest.offer(tree_of(with_common_factor(terms_in(sum))));
             }
-            if (const std::optional<GiNaC::ex> product = factored(expression))
-                shortest.offer(from_ginac(*product, symbols, order));
+            if (const std::optional<GiNaC::ex> product = factored(expression)) {
+                const SortedTerm sorted = sort_expression(*product, symbols, order);
+                shortest.offer(tree_of(sorted));
+                shortest.offer(tree_of(with_collected_factors(sorted)));
+            }
         }
         shortest.offer(from_ginac(expression, symbols, order));
         return shortest.best();

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// A generated right-hand side beside the hand-written one, each called through a function that is not inlined and inlined into
-/// RK4. Compiled by scripts/benchmark with -D MODEL=heavy_top and both folders on the include path.
+/// A generated right-hand side beside the hand-written one, each called through a function that is not inlined and
+/// inlined into RK4. Compiled by scripts/benchmark with -D MODEL=heavy_top and both folders on the include path.
 ///   pair compare          the largest difference, relative to the largest entry
 ///   pair count KIND N     N right-hand sides of one KIND (called_generated, called_handwritten, rk4_generated,
 ///                         rk4_handwritten) inside a function of that name, for callgrind
 ///   pair time             ns a right-hand side of each kind: least of interleaved rounds
 #define TEXT_OF_(x) #x
 #define TEXT_OF(x) TEXT_OF_(x)
-#define HEADER_(folder, model) TEXT_OF(folder/model.hpp)
+#define HEADER_(folder, model) TEXT_OF(folder / model.hpp)
 
 #include HEADER_(generated, MODEL)
 #include HEADER_(handwritten, MODEL)
@@ -64,7 +64,10 @@ extern "C" {
 {
     return model.rhs(0, s, ds);
 }
-[[gnu::noinline]] void rk4_generated(const Generated& model, State& s, double h, long steps) { rk4(model, s, h, steps); }
+[[gnu::noinline]] void rk4_generated(const Generated& model, State& s, double h, long steps)
+{
+    rk4(model, s, h, steps);
+}
 [[gnu::noinline]] void rk4_handwritten(const Handwritten& model, State& s, double h, long steps)
 {
     rk4(model, s, h, steps);

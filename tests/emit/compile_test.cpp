@@ -58,7 +58,8 @@ KernelModule operators_module()
         values.push_back(g.select(g.apply(op, a, b), c, g.apply(op, a, g.constant(0))));
     values.push_back(g.multiply(g.pi(), g.subtract(a, g.multiply(g.constant(Rational(-1, 7)), g.subtract(b, c)))));
     values.push_back(g.subtract(module.parameters[0].input, g.multiply(module.parameters[1].input, module.time)));
-    module.kernels = {vector_kernel("values_of", values), scalar_kernel("energy", g.negate(g.multiply(g.negate(a), c)))};
+    module.kernels = {vector_kernel("values_of", values),
+                      scalar_kernel("energy", g.negate(g.multiply(g.negate(a), c)))};
     return module;
 }
 

@@ -6,7 +6,8 @@
 
 namespace lagen::testing {
 
-inline Quantity declare(Graph& graph, const std::string& name, const std::string& text = {}, const std::string& unit = {})
+inline Quantity declare(Graph& graph, const std::string& name, const std::string& text = {},
+                        const std::string& unit = {})
 {
     return {name, text, unit, graph.input(name)};
 }
@@ -32,7 +33,8 @@ inline Kernel scalar_kernel(const std::string& name, NodeId value)
     return kernel;
 }
 
-inline Kernel vector_kernel(const std::string& name, const std::vector<NodeId>& values, KernelShape shape = KernelShape::vector)
+inline Kernel vector_kernel(const std::string& name, const std::vector<NodeId>& values,
+                            KernelShape shape = KernelShape::vector)
 {
     Kernel kernel;
     kernel.name = name;
@@ -50,7 +52,8 @@ inline KernelModule product_module()
     Graph& graph = *module.graph;
     module.title = "Sine times y";
     module.base = {declare(graph, "x"), declare(graph, "y")};
-    module.kernels = {scalar_kernel("f", graph.multiply(graph.apply(Op::sin, module.base[0].input), module.base[1].input))};
+    module.kernels = {
+        scalar_kernel("f", graph.multiply(graph.apply(Op::sin, module.base[0].input), module.base[1].input))};
     return module;
 }
 
@@ -61,7 +64,8 @@ inline KernelModule pendulum_module()
     Graph& graph = *module.graph;
     module.title = "Planar pendulum";
     module.equations = {"θ̇ = v", "m l² v̇ = −m g l sin θ"};
-    module.parameters = {declare(graph, "m", "mass", "kg"), declare(graph, "l", "length", "m"), declare(graph, "g", "gravity", "m/s^2")};
+    module.parameters = {declare(graph, "m", "mass", "kg"), declare(graph, "l", "length", "m"),
+                         declare(graph, "g", "gravity", "m/s^2")};
     module.parameter_defaults = {graph.constant(1), graph.constant(Rational(1, 2)), graph.constant(Rational(981, 100))};
     module.base = {declare(graph, "th", "angle from the lowest point", "rad")};
     module.fibre = {declare(graph, "v", "angular velocity", "rad/s")};
@@ -79,15 +83,17 @@ inline KernelModule pendulum_module()
     const NodeId kinetic = graph.divide(graph.multiply(inertia, graph.power(v, 2)), graph.constant(2));
     const NodeId potential = graph.negate(graph.multiply(weight, graph.apply(Op::cos, th)));
     module.kernels = {rhs, scalar_kernel("energy", graph.add(kinetic, potential))};
-    Kernel tip = vector_kernel("tip", {graph.multiply(l, graph.apply(Op::sin, th)), graph.multiply(l, graph.apply(Op::cos, th))});
+    Kernel tip = vector_kernel(
+        "tip", {graph.multiply(l, graph.apply(Op::sin, th)), graph.multiply(l, graph.apply(Op::cos, th))});
     tip.entry_names = {"tip x", "tip y"};
     module.kernels.push_back(tip);
     return module;
 }
 
-/// z = A^-1 b for an n x n matrix of state lanes a_ij (symmetric: lower triangle) and b_i, as a right-hand side of the n
-/// lanes b; the others stand still. Entries where `pattern` is false are zero.
-inline KernelModule solve_module(const std::string& name, const std::vector<std::vector<bool>>& pattern, MatrixStructure structure)
+/// z = A^-1 b for an n x n matrix of state lanes a_ij (symmetric: lower triangle) and b_i, as a right-hand side of the
+/// n lanes b; the others stand still. Entries where `pattern` is false are zero.
+inline KernelModule solve_module(const std::string& name, const std::vector<std::vector<bool>>& pattern,
+                                 MatrixStructure structure)
 {
     KernelModule module = empty_module(name);
     Graph& graph = *module.graph;

@@ -7,7 +7,10 @@
 using namespace lagen;
 using namespace lagen::testing;
 
-TEST_CASE("a module without mechanics becomes a header", "[emit]") { check_golden("product.hpp", print_header(product_module())); }
+TEST_CASE("a module without mechanics becomes a header", "[emit]")
+{
+    check_golden("product.hpp", print_header(product_module()));
+}
 
 TEST_CASE("the header of a pendulum reads as if written by hand", "[emit]")
 {
@@ -69,7 +72,8 @@ TEST_CASE("shared terms avoid the names of the model", "[emit]")
     module.base = {declare(graph, "w0"), declare(graph, "s"), declare(graph, "ds")};
     const NodeId shared = graph.add(module.base[0].input, module.base[1].input);
     const NodeId root = graph.apply(Op::sqrt, shared);
-    module.kernels = {vector_kernel("rhs", {graph.multiply(root, module.base[2].input), root, shared}, KernelShape::right_hand_side)};
+    module.kernels = {
+        vector_kernel("rhs", {graph.multiply(root, module.base[2].input), root, shared}, KernelShape::right_hand_side)};
     const std::string text = print_header(module);
     CHECK(text.find("const S s_ = s[1];\n") != std::string::npos);
     CHECK(text.find("const S ds_ = s[2];\n") != std::string::npos);

@@ -3,8 +3,8 @@
 
 #include "emit/json.hpp"
 #include "emit/plan_body.hpp"
-#include "emit/spell.hpp"
 #include "emit/print_solve.hpp"
+#include "emit/spell.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -20,7 +20,8 @@ TEST_CASE("literals are exact in every scalar", "[emit]")
     CHECK(print_literal(Rational(1, 10)).text == "S(1) / S(10)");
     CHECK(print_literal(Rational("4294967296")).text == "S(4294967296.0)");
     CHECK(print_literal(Rational("9007199254740993")).text == "(S(9007199254740992.0) + S(1.0))");
-    CHECK(print_literal(Rational("1/10000000000000000000000000000000000000000")).text == "(S(1e-40) + S(7.070712060011986e-57))");
+    CHECK(print_literal(Rational("1/10000000000000000000000000000000000000000")).text ==
+          "(S(1e-40) + S(7.070712060011986e-57))");
 }
 
 namespace {
@@ -47,7 +48,8 @@ TEST_CASE("expressions have the fewest parentheses and no sign behind a sign", "
     CHECK(spelled(g, g.add(g.negate(a), b)) == "b - a");
     CHECK(spelled(g, g.power(a, 3)) == "a * a * a");
     CHECK(spelled(g, g.power(a, -2)) == "S(1) / (a * a)");
-    CHECK(spelled(g, g.apply(Op::real_power, a, g.constant(Rational(-3, 2)))) == "S(1) / (sqrt(a) * sqrt(a) * sqrt(a))");
+    CHECK(spelled(g, g.apply(Op::real_power, a, g.constant(Rational(-3, 2)))) ==
+          "S(1) / (sqrt(a) * sqrt(a) * sqrt(a))");
     CHECK(spelled(g, g.apply(Op::real_power, a, b)) == "pow(a, b)");
     CHECK(spelled(g, g.select(g.apply(Op::less, a, b), a, g.apply(Op::sign, c))) ==
           "select(a < b, a, select(c > S(0), S(1), select(c < S(0), S(-1), S(0))))");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Arrows between rooms point one way: the include graph is read from the files and compared with the plan. A shared include
-/// root would let a backward include build.
+/// Arrows between rooms point one way: the include graph is read from the files and compared with the plan. A shared
+/// include root would let a backward include build.
 #include "source_tree.hpp"
 
 #include <catch2/catch.hpp>
@@ -96,8 +96,10 @@ TEST_CASE("every include between rooms follows an arrow of the house")
 
 TEST_CASE("a backward include is found")
 {
-    const SourceText backward{"generator/graph/graph.cpp", {"#include \"graph/graph.hpp\"", "#include \"model/model.hpp\""}};
-    const SourceText runtime{"runtime/include/lagen/x.hpp", {"#include \"lagen/status.hpp\"", " # include \"emit/json.hpp\""}};
+    const SourceText backward{"generator/graph/graph.cpp",
+                              {"#include \"graph/graph.hpp\"", "#include \"model/model.hpp\""}};
+    const SourceText runtime{"runtime/include/lagen/x.hpp",
+                             {"#include \"lagen/status.hpp\"", " # include \"emit/json.hpp\""}};
     const SourceText generator{"generator/emit/json.cpp", {"#include \"lagen/status.hpp\""}};
     CHECK(backward_includes({backward, runtime, generator}, planned_arrows()) ==
           std::vector<std::string>{"generator/graph/graph.cpp:2 includes \"model/model.hpp\" of model",
@@ -115,7 +117,8 @@ TEST_CASE("a library is known only to the rooms that stand on it")
 {
     CHECK(misplaced_libraries(cpp_files(read_tree({"generator", "runtime"}))) == std::vector<std::string>{});
     const SourceText wrong{"generator/geometry/verify.cpp", {"#include <ginac/ginac.h>", "#include <vector>"}};
-    CHECK(misplaced_libraries({wrong}) == std::vector<std::string>{"generator/geometry/verify.cpp:1 includes ginac/ginac.h"});
+    CHECK(misplaced_libraries({wrong}) ==
+          std::vector<std::string>{"generator/geometry/verify.cpp:1 includes ginac/ginac.h"});
 }
 
 TEST_CASE("the runtime includes nothing but itself, Eigen and the standard library")
@@ -125,7 +128,8 @@ TEST_CASE("the runtime includes nothing but itself, Eigen and the standard libra
         for (const Include& include : includes_of(file)) {
             INFO(file.path << ":" << include.line << " includes " << include.target);
             if (include.quoted) {
-                CHECK(std::filesystem::exists(std::filesystem::path(LAGEN_SOURCE_DIR) / "runtime/include" / include.target));
+                CHECK(std::filesystem::exists(std::filesystem::path(LAGEN_SOURCE_DIR) / "runtime/include" /
+                                              include.target));
                 ++own;
             } else {
                 CHECK((include.target.starts_with("Eigen/") || include.target.find('.') == std::string::npos));

@@ -16,12 +16,15 @@ constexpr std::size_t largest_allowed = 400;
 
 const std::vector<std::string>& hand_written()
 {
-    static const std::vector<std::string> folders{"",       "generator", "runtime", "models", "tests",
-                                                  "scripts", "cmake",    "docs",    ".ci"};
+    static const std::vector<std::string> folders{"",        "generator", "runtime", "models", "tests",
+                                                  "scripts", "cmake",     "docs",    ".ci"};
     return folders;
 }
 
-bool is_script(const SourceText& text) { return !text.lines.empty() && text.lines[0].starts_with("#!"); }
+bool is_script(const SourceText& text)
+{
+    return !text.lines.empty() && text.lines[0].starts_with("#!");
+}
 
 /// The licence that a file must name, or "" where none is asked.
 std::string licence_of(const SourceText& text)
@@ -40,7 +43,8 @@ TEST_CASE("every C++ file and script names its licence in its first lines")
     std::size_t checked = 0;
     for (const SourceText& text : read_tree(folders)) {
         const std::string licence = licence_of(text);
-        if (licence.empty() || text.path.starts_with("tests/consumer/") || text.path.starts_with("tests/golden/")) continue;
+        if (licence.empty() || text.path.starts_with("tests/consumer/") || text.path.starts_with("tests/golden/"))
+            continue;
         INFO(text.path);
         REQUIRE(text.lines.size() > 1);
         CHECK(text.lines[is_script(text) ? 1 : 0].ends_with("SPDX-License-Identifier: " + licence));
@@ -63,7 +67,14 @@ TEST_CASE("no file names a folder of the machine on which it was written")
     std::vector<std::string> folders = hand_written();
     folders.insert(folders.end(), {"generated", "LICENSES"});
     // Written in two parts, so that this file keeps to its own rule.
-    const std::vector<std::string> prefixes{"/ho" "me/", "/wo" "rk/", "/ro" "ot/", "/Us" "ers/"};
+    const std::vector<std::string> prefixes{"/ho"
+                                            "me/",
+                                            "/wo"
+                                            "rk/",
+                                            "/ro"
+                                            "ot/",
+                                            "/Us"
+                                            "ers/"};
     for (const SourceText& text : read_tree(folders))
         for (std::size_t k = 0; k < text.lines.size(); ++k)
             for (const std::string& prefix : prefixes) {

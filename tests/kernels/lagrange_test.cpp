@@ -51,8 +51,12 @@ std::vector<double> top_by_hand(const Values& p)
     const auto at = [&](const char* name) { return p.at(name); };
     const double g1 = at("g1"), g2 = at("g2"), g3 = at("g3"), w1 = at("w1"), w2 = at("w2"), w3 = at("w3");
     const double I1 = at("I1"), I2 = at("I2"), I3 = at("I3"), mgl = at("mgl");
-    return {g2 * w3 - g3 * w2, g3 * w1 - g1 * w3, g1 * w2 - g2 * w1, ((I2 - I3) * w2 * w3 + mgl * g2) / I1,
-            ((I3 - I1) * w3 * w1 - mgl * g1) / I2, (I1 - I2) * w1 * w2 / I3};
+    return {g2 * w3 - g3 * w2,
+            g3 * w1 - g1 * w3,
+            g1 * w2 - g2 * w1,
+            ((I2 - I3) * w2 * w3 + mgl * g2) / I1,
+            ((I3 - I1) * w3 * w1 - mgl * g1) / I2,
+            (I1 - I2) * w1 * w2 / I3};
 }
 
 } // namespace
@@ -76,9 +80,13 @@ TEST_CASE("momenta, energy and lagrangian are names in observables, invariants a
 {
     const KernelModule module = kernels_of_text(heavy_top);
     const Values p = random_point(module, 7);
-    const double kinetic = (p.at("I1") * p.at("w1") * p.at("w1") + p.at("I2") * p.at("w2") * p.at("w2") + p.at("I3") * p.at("w3") * p.at("w3")) / 2;
+    const double kinetic = (p.at("I1") * p.at("w1") * p.at("w1") + p.at("I2") * p.at("w2") * p.at("w2") +
+                            p.at("I3") * p.at("w3") * p.at("w3")) /
+                           2;
     const double potential = p.at("mgl") * p.at("g3");
-    const auto close = [](double a, double b) { return std::abs(a - b) <= tolerance::roundoff(32) * (1 + std::abs(b)); };
+    const auto close = [](double a, double b) {
+        return std::abs(a - b) <= tolerance::roundoff(32) * (1 + std::abs(b));
+    };
     CHECK(close(values_of(module, "energy", p)[0], kinetic + potential));
     CHECK(close(values_of(module, "lagrangian", p)[0], kinetic - potential));
     CHECK(find_kernel(module, "observables").entry_names == std::vector<std::string>{"p3", "total"});
@@ -142,7 +150,8 @@ kind = "tangent"
 L = "v1*v2 - x1^2 - 3*x1*x2"
 )");
     // d/dt v2 = -2 x1 - 3 x2, d/dt v1 = -3 x1
-    CHECK(values_of(module, "rhs", {{"t", 0}, {"x1", 1}, {"x2", 2}, {"v1", 5}, {"v2", 7}}) == std::vector<double>{5, 7, -3, -8});
+    CHECK(values_of(module, "rhs", {{"t", 0}, {"x1", 1}, {"x2", 2}, {"v1", 5}, {"v2", 7}}) ==
+          std::vector<double>{5, 7, -3, -8});
 }
 
 TEST_CASE("explicit time in the Lagrangian enters through the momenta", "[kernels]")
@@ -179,7 +188,8 @@ TEST_CASE("energy is constant along the right-hand side of every model", "[kerne
             double size = 0;
             for (const double value : evaluate<double>(graph, rhs, point)) size = std::max(size, std::abs(value));
             REQUIRE(size > 0);
-            CHECK(std::abs(evaluate<double>(graph, rate, point)[0]) <= tolerance::roundoff(4096) * (1 + size) * (1 + size));
+            CHECK(std::abs(evaluate<double>(graph, rate, point)[0]) <=
+                  tolerance::roundoff(4096) * (1 + size) * (1 + size));
         }
     }
 }
@@ -196,7 +206,8 @@ TEST_CASE("the Jacobian of every model agrees with central differences", "[kerne
             for (const Quantity& quantity : *group) lanes.push_back(quantity.name);
         const std::vector<double> values = values_of(module, "jacobian", point);
         std::vector<std::vector<double>> dense(lanes.size(), std::vector<double>(lanes.size(), 0.0));
-        for (std::size_t k = 0; k < values.size(); ++k) dense[jacobian.output.entries[k].row][jacobian.output.entries[k].column] = values[k];
+        for (std::size_t k = 0; k < values.size(); ++k)
+            dense[jacobian.output.entries[k].row][jacobian.output.entries[k].column] = values[k];
         const double h = 6e-6;
         for (std::size_t column = 0; column < lanes.size(); ++column) {
             Values above = point;
@@ -206,7 +217,8 @@ TEST_CASE("the Jacobian of every model agrees with central differences", "[kerne
             const std::vector<double> up = values_of(module, "rhs", above);
             const std::vector<double> down = values_of(module, "rhs", below);
             for (std::size_t row = 0; row < lanes.size(); ++row)
-                CHECK(std::abs(dense[row][column] - (up[row] - down[row]) / (2 * h)) <= tolerance::difference * (100 + std::abs(up[row]) * 100));
+                CHECK(std::abs(dense[row][column] - (up[row] - down[row]) / (2 * h)) <=
+                      tolerance::difference * (100 + std::abs(up[row]) * 100));
         }
     }
 }

@@ -21,7 +21,10 @@ inline KernelModule kernels_of(const Model& model, const KernelRequest& request 
     return lagrange_kernels(model, verify(model), request);
 }
 
-inline KernelModule kernels_of_text(const std::string& text) { return kernels_of(read_model_text("test.toml", text)); }
+inline KernelModule kernels_of_text(const std::string& text)
+{
+    return kernels_of(read_model_text("test.toml", text));
+}
 
 inline const Kernel& find_kernel(const KernelModule& module, const std::string& name)
 {

@@ -60,7 +60,8 @@ TEST_CASE("a kernel that does not exist is refused with the list of those that d
     KernelRequest request;
     request.only = {"enrgy"};
     CHECK(message_of(model, verify(model), request) ==
-          "error: there is no kernel 'enrgy'; there are rhs, mass_matrix, momentum, energy, lagrangian, constraints, domain, "
+          "error: there is no kernel 'enrgy'; there are rhs, mass_matrix, momentum, energy, lagrangian, constraints, "
+          "domain, "
           "observables, invariants, events, jacobian\nhint: did you mean 'energy'?");
 }
 
@@ -90,8 +91,10 @@ TEST_CASE("a model without a Lagrangian or with a degenerate one has no kernels"
     verified.regularity.kind = Regularity::Kind::degenerate;
     verified.regularity.rank = 0;
     CHECK(message_of(model, verified, {}) ==
-          "error: the Lagrangian of model 'oscillator' is degenerate: d2L/dy2 has rank 0, and the Lagrangian form needs rank 1\n"
+          "error: the Lagrangian of model 'oscillator' is degenerate: d2L/dy2 has rank 0, and the Lagrangian form "
+          "needs rank 1\n"
           "hint: the velocities cannot be solved for; give every fibre coordinate a kinetic term");
     model.lagrangian = nullptr;
-    CHECK(message_of(model, verified, {}) == "error: model 'oscillator' has no Lagrangian; the Lagrangian form needs [lagrangian] L");
+    CHECK(message_of(model, verified, {}) ==
+          "error: model 'oscillator' has no Lagrangian; the Lagrangian form needs [lagrangian] L");
 }

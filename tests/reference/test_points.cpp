@@ -26,7 +26,8 @@ std::vector<Scalar> kernel_values(const KernelModule& module, const std::string&
     const auto set = [&](const Quantity& quantity, const std::string& text) {
         inputs[module.graph->input_name(quantity.input)] = static_cast<Scalar>(std::stold(text));
     };
-    for (std::size_t k = 0; k < module.parameters.size(); ++k) set(module.parameters[k], reference.parameters[k].second);
+    for (std::size_t k = 0; k < module.parameters.size(); ++k)
+        set(module.parameters[k], reference.parameters[k].second);
     for (std::size_t i = 0; i < module.base.size(); ++i) set(module.base[i], state[i]);
     for (std::size_t a = 0; a < module.fibre.size(); ++a) set(module.fibre[a], state[module.base.size() + a]);
 

@@ -20,7 +20,10 @@ inline std::string read_text(const std::string& path)
     return text.str();
 }
 
-inline void write_text(const std::string& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
+inline void write_text(const std::string& path, const std::string& text)
+{
+    std::ofstream(path, std::ios::binary) << text;
+}
 
 /// What a shell command prints, both streams, and its exit status (0: success).
 struct Shell {
@@ -34,7 +37,8 @@ inline Shell run_shell(const std::string& command)
     std::FILE* pipe = popen((command + " 2>&1").c_str(), "r");
     if (pipe == nullptr) return shell;
     char buffer[4096];
-    for (std::size_t count = 0; (count = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;) shell.output.append(buffer, count);
+    for (std::size_t count = 0; (count = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;)
+        shell.output.append(buffer, count);
     shell.status = pclose(pipe);
     return shell;
 }
@@ -50,7 +54,8 @@ inline void check_golden(const std::string& name, const std::string& text)
     }
     const std::string actual = std::string(LAGEN_BINARY_DIR) + "/" + name + ".actual";
     write_text(actual, text);
-    FAIL(run_shell("diff -u '" + path + "' '" + actual + "'").output << "set LAGEN_UPDATE_GOLDEN=1 to accept the new text");
+    FAIL(run_shell("diff -u '" + path + "' '" + actual + "'").output
+         << "set LAGEN_UPDATE_GOLDEN=1 to accept the new text");
 }
 
 } // namespace lagen::testing

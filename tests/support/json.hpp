@@ -18,8 +18,8 @@ enum class Kind { null, boolean, number, text, array, object };
 
 struct Value {
     Kind kind = Kind::null;
-    std::string text;           ///< of a text (unescaped), a number (as written), a word ("true", "false", "null")
-    std::vector<Value> entries; ///< of an array, and the values of an object
+    std::string text;              ///< of a text (unescaped), a number (as written), a word ("true", "false", "null")
+    std::vector<Value> entries;    ///< of an array, and the values of an object
     std::vector<std::string> keys; ///< of an object, one an entry
 
     /// The member `key`; throws where there is none.
@@ -131,10 +131,12 @@ class Reader {
             ++at_;
             const char escape = peek();
             ++at_;
-            if (escape == 'u') append_code_point(result);
+            if (escape == 'u')
+                append_code_point(result);
             else if (const auto k = std::string_view("\"\\/bfnrt").find(escape); k != std::string_view::npos)
                 result += "\"\\/\b\f\n\r\t"[k];
-            else fail("unknown escape");
+            else
+                fail("unknown escape");
         }
         ++at_;
         return result;
@@ -201,7 +203,10 @@ class Reader {
 
 } // namespace detail
 
-[[nodiscard]] inline Value parse(std::string_view text) { return detail::Reader(text).document(); }
+[[nodiscard]] inline Value parse(std::string_view text)
+{
+    return detail::Reader(text).document();
+}
 
 /// Throws std::runtime_error where the file cannot be read.
 [[nodiscard]] inline Value read_file(const std::string& path)

@@ -50,8 +50,8 @@ ReferenceCase read_case(const json::Value& file)
     for (const json::Value& sample : file["samples"].entries)
         reference.samples.push_back({sample["t"].text, sample["state"].texts()});
     for (const json::Value& point : file["points"].entries)
-        reference.points.push_back({point["state"].texts(), point["state_dot"].texts(), point["momenta"].texts(),
-                                    point["energy"].text});
+        reference.points.push_back(
+            {point["state"].texts(), point["state_dot"].texts(), point["momenta"].texts(), point["energy"].text});
     return reference;
 }
 
@@ -106,7 +106,8 @@ void write_algebroid(std::ostringstream& out, const ReferenceCase& reference)
         done.push_back(key);
         std::vector<std::pair<std::string, std::string>> entries;
         for (const ReferenceBracket& other : reference.brackets)
-            if (other.a == bracket.a && other.b == bracket.b) entries.emplace_back(reference.fibre[other.c], other.value);
+            if (other.a == bracket.a && other.b == bracket.b)
+                entries.emplace_back(reference.fibre[other.c], other.value);
         write_entries(out, key, entries);
     }
     out << '\n';

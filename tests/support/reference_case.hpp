@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// The cases of tests/data: mechanical systems with trajectories and derivatives at points, and structure functions with
-/// their verdicts, as records and as model files of kind `general`. See tests/data/README.md.
+/// The cases of tests/data: mechanical systems with trajectories and derivatives at points, and structure functions
+/// with their verdicts, as records and as model files of kind `general`. See tests/data/README.md.
 #pragma once
 
 #include <string>
@@ -17,9 +17,9 @@ struct ReferenceBracket {
 
 /// d(state)/dt and what goes with it at one state; decimal texts.
 struct ReferencePoint {
-    std::vector<std::string> state;       ///< base, then fibre
-    std::vector<std::string> state_dot;   ///< same order
-    std::vector<std::string> momenta;     ///< p_a = dL/dy^a, shape (r)
+    std::vector<std::string> state;     ///< base, then fibre
+    std::vector<std::string> state_dot; ///< same order
+    std::vector<std::string> momenta;   ///< p_a = dL/dy^a, shape (r)
     std::string energy;
 };
 
@@ -51,7 +51,7 @@ struct ReferenceCase {
 
 /// One entry of tests/data/definitions/definitions.json.
 struct ReferenceDefinition {
-    ReferenceCase algebroid;          ///< name, base, fibre (e1, e2, ...), rho, brackets, parameters (value 1)
+    ReferenceCase algebroid; ///< name, base, fibre (e1, e2, ...), rho, brackets, parameters (value 1)
     bool valid = false;
     std::vector<std::string> failing; ///< names of the checks that are refuted
 };

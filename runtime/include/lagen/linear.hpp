@@ -22,8 +22,8 @@ template <class S>
 }
 
 /// P A = L U of an N x N matrix. The pivot of column k is the entry that is largest relative to its row; the matrix
-/// counts as singular where that entry, relative to its row and column, is below singular_tolerance: a decision that scaling
-/// rows or columns (units) does not change.
+/// counts as singular where that entry, relative to its row and column, is below singular_tolerance: a decision that
+/// scaling rows or columns (units) does not change.
 template <class S, int N>
 class PivotedLu {
   public:

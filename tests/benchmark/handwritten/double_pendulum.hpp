@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// The planar double pendulum, by hand. With M = m1 + m2, c = cos(a - b), s = sin(a - b), Lagrange's equations divided by
-/// l1 and by m2 l2 are
+/// The planar double pendulum, by hand. With M = m1 + m2, c = cos(a - b), s = sin(a - b), Lagrange's equations divided
+/// by l1 and by m2 l2 are
 ///   M l1 u' + m2 c l2 v' = f1 = -m2 s l2 v^2 - M g sin a,      c l1 u' + l2 v' = f2 = s l1 u^2 - g sin b,
 /// solved by the adjugate; sin and cos of the difference come from those of a and b, which are needed anyway.
 #pragma once
