@@ -110,7 +110,7 @@ void inline_single_products(Form& form)
             if (holders.size() > 1 || factor->exponent != 1 || own.monomial == holder) continue;
             if (!touched.insert(holder).second || touched.contains(own.monomial)) continue;
             Term rest{1, holder};
-            std::erase_if(rest.monomial, [&](const Factor& f) { return f.atom == atom; });
+            std::erase_if(rest.monomial, [name = atom](const Factor& f) { return f.atom == name; });
             const Term next = form.algebra.multiply(rest, own);
             for (const Place& place : uses.at(holder))
                 for (Term& term : at(form, place))

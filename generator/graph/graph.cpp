@@ -44,9 +44,11 @@ NodeId Graph::intern(Op op, std::span<const NodeId> operands, std::uint32_t payl
 
 NodeId Graph::constant(const Rational& value)
 {
-    const auto [it, inserted] = constant_ids_.try_emplace(value.get_str(62), 0);
+    Rational canonical = value; // mpq_class(2, 4) is not 1/2 until it is told so
+    canonical.canonicalize();
+    const auto [it, inserted] = constant_ids_.try_emplace(canonical.get_str(62), 0);
     if (inserted) {
-        constants_.push_back(value);
+        constants_.push_back(std::move(canonical));
         it->second = intern(Op::constant, {}, static_cast<std::uint32_t>(constants_.size() - 1));
     }
     return it->second;

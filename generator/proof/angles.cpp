@@ -27,7 +27,8 @@ mpq_class common_divisor(const mpq_class& a, const mpq_class& b)
 Fraction Elementary::pi()
 {
     return ring_.of(ring_.keyed("pi", [this] {
-        Generator generator{"pi", Range::between(3, mpq_class(22, 7)), 0, {}, -1, false};
+        const Range range{End{false, 3, true}, End{false, mpq_class(22, 7), true}, true};
+        Generator generator{"pi", range, 0, {}, -1, false};
         return ring_.add_generator(generator);
     }));
 }

@@ -52,6 +52,7 @@ class ZeroDecider::State {
         return {graph_, setting_, constraints_, node, operands_, {budget_.terms, budget_.products}, angles};
     }
     [[nodiscard]] Algebra reduce(NodeId residual) const;
+    [[nodiscard]] bool is_multiple(NodeId residual) const;
     void search_witness(const Evaluation& evaluation, bool prove, Decision& decision);
     [[nodiscard]] Ball refine(const Evaluation& evaluation, const SamplePoint& point, bool raise) const;
     [[nodiscard]] std::size_t affordable_tries(const Evaluation& evaluation) const;
@@ -87,6 +88,22 @@ double nonzero_double(const Ball& value)
 
 } // namespace
 
+/// Modulo the constraints with constant leading coefficients: is the residual 0 or a multiple of one of the others?
+bool ZeroDecider::State::is_multiple(NodeId residual) const
+{
+    std::vector<SolvedConstraint> sound, others;
+    for (const SolvedConstraint& solved : constraints_) (solved.monic ? sound : others).push_back(solved);
+    NormalForm forms(graph_, setting_, sound, residual, operands_, {budget_.terms, budget_.products});
+    const Polynomial numerator = forms.of(residual).num;
+    Polynomial quotient;
+    for (const SolvedConstraint& solved : others) {
+        const Polynomial constraint = forms.of(setting_.constraints[solved.constraint]).num;
+        const Polynomial primitive = divide_content(constraint, content(constraint));
+        if (divide_exactly(numerator, primitive, quotient, forms.ring().work())) return true;
+    }
+    return numerator.empty();
+}
+
 ZeroDecider::State::Algebra ZeroDecider::State::reduce(NodeId residual) const
 {
     Algebra result;
@@ -94,9 +111,9 @@ ZeroDecider::State::Algebra ZeroDecider::State::reduce(NodeId residual) const
         NormalForm forms = normal_form(residual);
         const Fraction form = forms.of(residual);
         result.text = to_text(forms.ring(), forms.readable(form));
-        if (form.is_zero() && !forms.condition().empty())
+        result.zero = form.is_zero() && (forms.condition().empty() || is_multiple(residual));
+        if (form.is_zero() && !result.zero)
             result.note = "zero wherever " + forms.condition() + " != 0, which is not shown on the whole domain";
-        result.zero = form.is_zero() && forms.condition().empty();
         return result;
     } catch (const BudgetExhausted& error) {
         result.note = error.what();
@@ -104,7 +121,7 @@ ZeroDecider::State::Algebra ZeroDecider::State::reduce(NodeId residual) const
         result.note = error.what();
         result.division_by_zero = true;
     }
-    result.text = to_text(graph_, residual, 400);
+    result.text = to_text(graph_, residual, 397); // the cut adds three dots
     return result;
 }
 

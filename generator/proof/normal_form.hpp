@@ -13,7 +13,8 @@ struct SolvedConstraint {
     std::size_t constraint = 0; ///< index in ProofSetting::constraints
     NodeId variable = 0;
     unsigned degree = 1;
-    bool pure = true; ///< no terms of degrees 1 .. degree - 1
+    bool pure = true;  ///< no terms of degrees 1 .. degree - 1
+    bool monic = true; ///< the leading coefficient is a number
 };
 
 /// An operand of sqrt, log or a real power that must be defined: it is not negative.

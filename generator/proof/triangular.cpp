@@ -144,7 +144,7 @@ std::vector<SolvedConstraint> triangular_constraints(const Graph& graph, const P
     }
     std::vector<SolvedConstraint> solved;
     for (const std::size_t k : solving_order(all, chosen))
-        solved.push_back({k, chosen[k].variable, chosen[k].degree, chosen[k].pure});
+        solved.push_back({k, chosen[k].variable, chosen[k].degree, chosen[k].pure, chosen[k].cost < 2});
     return solved;
 }
 

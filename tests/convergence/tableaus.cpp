@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Order conditions of the tableaus: in rational arithmetic where they are rational, else to the digits they are published to.
+/// Order conditions of the tableaus: in rational arithmetic where they are rational, else to the digits they are
+/// published to.
 #include "lagen/integrate.hpp"
 #include "support/rooted_trees.hpp"
 
@@ -14,8 +15,14 @@ namespace tableau = lagen::tableau;
 
 namespace {
 
-cpp_rational number(const Fraction& f) { return cpp_rational(f.numerator, f.denominator); }
-long double number(const Decimal& d) { return d.value; }
+cpp_rational number(const Fraction& f)
+{
+    return cpp_rational(f.numerator, f.denominator);
+}
+long double number(const Decimal& d)
+{
+    return d.value;
+}
 
 template <class Array>
 auto numbers(const Array& values)

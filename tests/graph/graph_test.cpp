@@ -8,6 +8,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
+
 using namespace lagen;
 
 TEST_CASE("equal expressions are the same node, whatever the order of commutative operands")
@@ -136,7 +138,7 @@ TEST_CASE("a chain of a million nodes is walked without recursion")
     for (int k = 0; k < 1'000'000; ++k) chain = k % 2 == 0 ? g.multiply(chain, x) : g.add(chain, x);
     const NodeId roots[] = {chain};
     CHECK(reachable(g, roots).size() > 900'000);
-    CHECK(evaluate<double>(g, roots, {{"x", 0.5}})[0] == Approx(0.5));
+    CHECK(evaluate<double>(g, roots, {{"x", 0.5}})[0] == 1.0);
     CHECK(to_text(g, chain, 10).size() == 13);
     CHECK(schedule(g, roots).temporaries.empty());
 }

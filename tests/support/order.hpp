@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// The order of convergence that a series of runs shows: the least-squares slope of log(error) against log(h), after a plateau
-/// filter.
+/// The order of convergence that a series of runs shows: the least-squares slope of log(error) against log(h), after a
+/// plateau filter.
 #pragma once
 
 #include <cmath>
@@ -14,8 +14,8 @@ struct ErrorPoint {
     long double error;
 };
 
-/// Slope over the points, coarse to fine, that lie above `floor` (round-off) and still decrease; NaN where fewer than three do,
-/// so that every comparison with it fails.
+/// Slope over the points, coarse to fine, that lie above `floor` (round-off) and still decrease; NaN where fewer than
+/// three do, so that every comparison with it fails.
 inline double measured_order(const std::vector<ErrorPoint>& points, long double floor)
 {
     std::vector<ErrorPoint> kept;

@@ -112,14 +112,16 @@ struct Arenstorf {
     Status rhs(double, const State& s, State& ds) const noexcept
     {
         const double mu = 0.012277471, other = 1 - mu, x = s[0], y = s[1], u = s[2], v = s[3];
-        const double d1 = std::pow((x + mu) * (x + mu) + y * y, 1.5), d2 = std::pow((x - other) * (x - other) + y * y, 1.5);
+        const double d1 = std::pow((x + mu) * (x + mu) + y * y, 1.5),
+                     d2 = std::pow((x - other) * (x - other) + y * y, 1.5);
         ds << u, v, x + 2 * v - other * (x + mu) / d1 - mu * (x - other) / d2, y - 2 * u - other * y / d1 - mu * y / d2;
         return Status::ok;
     }
 };
 
-/// Heavy top about its fixed point, state (q0..q3 unit quaternion body to space, body angular velocity): the benchmark of
-/// Bruls and Cardona, A = diag(15.234375, 0.46875, 15.234375), m g = 15 * 9.81 at (0, 1, 0) in the body, gravity along -z.
+/// Heavy top about its fixed point, state (q0..q3 unit quaternion body to space, body angular velocity): the benchmark
+/// of Bruls and Cardona, A = diag(15.234375, 0.46875, 15.234375), m g = 15 * 9.81 at (0, 1, 0) in the body, gravity
+/// along -z.
 struct HeavyTop {
     using Scalar = double;
     using State = Eigen::Matrix<double, 7, 1>;
@@ -129,10 +131,12 @@ struct HeavyTop {
     {
         const double a = 15.234375, b = 0.46875, weight = 15 * 9.81;
         const double q0 = s[0], q1 = s[1], q2 = s[2], q3 = s[3], u = s[4], v = s[5], w = s[6];
-        // Third row of the rotation matrix: the space's z axis in the body.
-        const double g1 = 2 * (q1 * q3 - q0 * q2), g3 = q0 * q0 - q1 * q1 - q2 * q2 + q3 * q3;
+        // The space's z axis in the body: third row of the rotation matrix of q / |q|.
+        const double square = q0 * q0 + q1 * q1 + q2 * q2 + q3 * q3;
+        const double g1 = 2 * (q1 * q3 - q0 * q2) / square, g3 = (q0 * q0 - q1 * q1 - q2 * q2 + q3 * q3) / square;
         ds << (-q1 * u - q2 * v - q3 * w) / 2, (q0 * u + q2 * w - q3 * v) / 2, (q0 * v + q3 * u - q1 * w) / 2,
-            (q0 * w + q1 * v - q2 * u) / 2, ((b - a) * v * w - weight * g3) / a, 0.0, ((a - b) * u * v + weight * g1) / a;
+            (q0 * w + q1 * v - q2 * u) / 2, ((b - a) * v * w - weight * g3) / a, 0.0,
+            ((a - b) * u * v + weight * g1) / a;
         return Status::ok;
     }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Rooted trees and the order conditions of Runge-Kutta methods [Hairer, Norsett, Wanner II.2]: sum_i b_i Phi_i(t) = 1 / gamma(t).
+/// Rooted trees and the order conditions of Runge-Kutta methods [Hairer, Norsett, Wanner II.2]: sum_i b_i Phi_i(t) = 1
+/// / gamma(t).
 #pragma once
 
 #include <algorithm>
@@ -48,11 +49,11 @@ inline std::vector<RootedTree> rooted_trees(std::size_t order)
     return list;
 }
 
-/// Largest |sum_i weights_i Phi_i(t) - theta^order / gamma(t)| over the trees of order `from` to `to`; a(i, j) by rows of the
-/// strict lower triangle.
+/// Largest |sum_i weights_i Phi_i(t) - theta^order / gamma(t)| over the trees of order `from` to `to`; a(i, j) by rows
+/// of the strict lower triangle.
 template <class Number>
-Number worst_residual(const std::vector<Number>& a, const std::vector<Number>& weights, std::size_t from, std::size_t to,
-                      const Number& theta = Number(1))
+Number worst_residual(const std::vector<Number>& a, const std::vector<Number>& weights, std::size_t from,
+                      std::size_t to, const Number& theta = Number(1))
 {
     const std::vector<RootedTree> trees = rooted_trees(to);
     const std::size_t stages = weights.size();

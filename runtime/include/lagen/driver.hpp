@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// The program behind `lagen run`: integrates one model with one method as its arguments say. The whole generated main is
+/// The program behind `lagen run`: integrates one model with one method as its arguments say. The whole generated main
+/// is
 ///   #include "model.hpp"
 ///   #include "lagen/driver.hpp"
 ///   int main(int argc, char** argv) { return lagen::drive<lagen::models::NAME<double>, lagen::METHOD>(argc, argv); }
@@ -11,25 +12,32 @@
 ///   --step H              fixed-step methods; required there (positive; the sign follows the interval)
 ///   --relative R --absolute A   adaptive methods; default 1e-9 each
 ///   --max-steps N
-///   --samples N | --interval H | --at-file FILE   rows at N even times, every H from the start on (and the end), or at the
-///                         numbers of FILE (separated by space or comma, in the direction of time). Default: --samples 201
-///   --events name:direction:stop:count,..   direction rising, falling or any; stop 0 or 1; count from 1; names of the header
-///   --columns c,c,..      s0, s1, .. state lanes; o0, o1, .. entries of observables(); left out: every state lane; "-": none
-///   --format csv|binary   rows on standard output: CSV numbers by %.17g, commas, "\n", no heading; or native doubles, row after row
+///   --samples N | --interval H | --at-file FILE   rows at N even times, every H from the start on (and the end), or at
+///   the
+///                         numbers of FILE (separated by space or comma, in the direction of time). Default: --samples
+///                         201
+///   --events name:direction:stop:count,..   direction rising, falling or any; stop 0 or 1; count from 1; names of the
+///   header
+///   --columns c,c,..      s0, s1, .. state lanes; o0, o1, .. entries of observables(); left out: every state lane;
+///   "-": none
+///   --format csv|binary   rows on standard output: CSV numbers by %.17g, commas, "\n", no heading; or native doubles,
+///   row after row
 ///   --report FILE         where the report goes ("-": standard error)
 ///
-/// A row is t, then the columns. Rows appear while the run goes on. The report, at the end of every run, has lines KEY=VALUE in
-/// this order, numbers by %.17g, those in brackets only where the model has the part:
+/// A row is t, then the columns. Rows appear while the run goes on. The report, at the end of every run, has lines
+/// KEY=VALUE in this order, numbers by %.17g, those in brackets only where the model has the part:
 ///   status=ok             as to_text(Status)
 ///   t=10                  time of the last good state
 ///   failed_at=10          time at which the run met what ended it; the same as t where nothing failed
 ///   steps=  rejected=  rhs_calls=  rows=  seconds=
 ///   event=NAME@T          one line an event found, in the order of the run
-///   [energy=INITIAL,MAX_DRIFT]  [invariant:NAME=INITIAL,MAX_DRIFT]  [constraints=MAX]   max |value - initial|, max |constraint|
+///   [energy=INITIAL,MAX_DRIFT]  [invariant:NAME=INITIAL,MAX_DRIFT]  [constraints=MAX]   max |value - initial|, max
+///   |constraint|
 ///                         over all accepted steps
 ///   state=v,v,..          the last good state
-/// Exit codes: 0 ok or stopped by an event, 1 another status, 4 wrong arguments (one sentence on standard error, no report),
-/// 5 a file could not be read or written, 130 interrupted (SIGINT, SIGTERM: rows so far are kept, the report is written).
+/// Exit codes: 0 ok or stopped by an event, 1 another status, 4 wrong arguments (one sentence on standard error, no
+/// report), 5 a file could not be read or written, 130 interrupted (SIGINT, SIGTERM: rows so far are kept, the report
+/// is written).
 #pragma once
 
 #include "lagen/driver/arguments.hpp"
@@ -49,7 +57,10 @@ namespace detail {
 
 /// Set by SIGINT and SIGTERM: a handler can reach nothing but a static object.
 inline volatile std::sig_atomic_t drive_interrupted = 0;
-extern "C" inline void lagen_drive_interrupt(int) { drive_interrupted = 1; }
+extern "C" inline void lagen_drive_interrupt(int)
+{
+    drive_interrupted = 1;
+}
 
 /// How many names an optional array has; `names(k)` only where it has any.
 template <class M>
@@ -75,13 +86,16 @@ template <class M>
 Complaint plan_values(const DriveArguments& given, DrivePlan<M>& plan)
 {
     if (given.initial.size() != static_cast<std::size_t>(M::dimension))
-        return "--initial: " + std::to_string(given.initial.size()) + " numbers, " + std::to_string(M::dimension) + " are required";
-    for (std::size_t i = 0; i < given.initial.size(); ++i) plan.initial[static_cast<Eigen::Index>(i)] = given.initial[i];
+        return "--initial: " + std::to_string(given.initial.size()) + " numbers, " + std::to_string(M::dimension) +
+               " are required";
+    for (std::size_t i = 0; i < given.initial.size(); ++i)
+        plan.initial[static_cast<Eigen::Index>(i)] = given.initial[i];
     if (given.parameters.empty()) return {};
     std::size_t count = 0;
     if constexpr (requires { M::parameter_names; }) count = M::parameter_names.size();
     if (given.parameters.size() != count)
-        return "--parameters: " + std::to_string(given.parameters.size()) + " numbers, " + std::to_string(count) + " are required";
+        return "--parameters: " + std::to_string(given.parameters.size()) + " numbers, " + std::to_string(count) +
+               " are required";
     if constexpr (requires { plan.model.parameter(std::size_t{0}); })
         for (std::size_t k = 0; k < count; ++k) plan.model.parameter(k) = given.parameters[k];
     return {};
@@ -119,7 +133,8 @@ Complaint plan_columns(const DriveArguments& given, DrivePlan<M>& plan)
         const bool observable = !text.empty() && text[0] == 'o';
         const std::size_t count = observable ? observable_count<M>() : static_cast<std::size_t>(M::dimension);
         const auto index = text.empty() || (text[0] != 's' && !observable) ? std::nullopt : read_count(text.substr(1));
-        if (!index || *index >= count) return "--columns: \"" + text + "\" is neither a state lane nor an observable of the model";
+        if (!index || *index >= count)
+            return "--columns: \"" + text + "\" is neither a state lane nor an observable of the model";
         plan.columns.push_back({observable, static_cast<Eigen::Index>(*index)});
     }
     return {};
@@ -145,9 +160,12 @@ Complaint plan_event(const std::string& text, DrivePlan<M>& plan)
             request.index = k;
         }
     if (!known || !count || *count == 0 || (stop != "0" && stop != "1")) return wrong;
-    if (direction == "rising") request.direction = Crossing::rising;
-    else if (direction == "falling") request.direction = Crossing::falling;
-    else if (direction != "any") return wrong;
+    if (direction == "rising")
+        request.direction = Crossing::rising;
+    else if (direction == "falling")
+        request.direction = Crossing::falling;
+    else if (direction != "any")
+        return wrong;
     request.stop = stop == "1";
     request.count = *count;
     plan.events.push_back(request);
@@ -189,7 +207,8 @@ std::string report_text(const DrivePlan<M>& plan, const Run<M>& run, const Drive
     text += "steps=" + std::to_string(run.steps) + "\nrejected=" + std::to_string(run.rejected) + '\n';
     text += "rhs_calls=" + std::to_string(run.rhs_calls) + "\nrows=" + std::to_string(record.rows()) + '\n';
     text += "seconds=" + number_text(seconds) + '\n';
-    for (const auto& found : run.events) text += "event=" + plan.event_names[found.request] + '@' + number_text(found.t) + '\n';
+    for (const auto& found : run.events)
+        text += "event=" + plan.event_names[found.request] + '@' + number_text(found.t) + '\n';
     text += record.report() + "state=";
     for (Eigen::Index i = 0; i < run.state.size(); ++i) text += (i == 0 ? "" : ",") + number_text(run.state[i]);
     return text + '\n';

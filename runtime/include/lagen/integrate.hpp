@@ -19,15 +19,17 @@ namespace lagen {
 /// Integrates ds/dt = model.rhs(t, s) from span.start to span.end, which may lie before it.
 /// @param model   RightHandSide; its optional parts `domain`, `events` and `parameter_status` are used where they are
 /// @param s       initial state
-/// @param method  Rk4{.step = h}, Dop853{.tolerance = e}, Yoshida6{.step = h}, ...; the last fixed step is shortened to end on time
+/// @param method  Rk4{.step = h}, Dop853{.tolerance = e}, Yoshida6{.step = h}, ...; the last fixed step is shortened to
+/// end on time
 /// @param options rows at given times, events, caps: `{.at = times, .max_steps = 1000}`
-/// @param observer called as observer(t, s) at the start and after every accepted step; where it has row(t, s), rows go there
+/// @param observer called as observer(t, s) at the start and after every accepted step; where it has row(t, s), rows go
+/// there
 ///                 instead of into the result
 /// @return the last good state, what was counted and found, and a status. Statuses: ok, stopped_by_event, non_finite,
-///         step_too_small, too_many_steps, left_domain, interrupted, invalid_input, not_separable, and what the model answers
-///         (singular_mass_matrix). On failure the state is the one after the last accepted step; on left_domain the last
-///         point found inside. Values inside a step come from the method's dense output, or from a shorter step of the same
-///         method, so the sequence of steps does not depend on the rows.
+///         step_too_small, too_many_steps, left_domain, interrupted, invalid_input, not_separable, and what the model
+///         answers (singular_mass_matrix). On failure the state is the one after the last accepted step; on left_domain
+///         the last point found inside. Values inside a step come from the method's dense output, or from a shorter
+///         step of the same method, so the sequence of steps does not depend on the rows.
 template <RightHandSide M, class Method, class Observer>
 Run<M> integrate(const M& model, const std::type_identity_t<typename M::State>& s,
                  std::type_identity_t<Interval<real_t<typename M::Scalar>>> span, const Method& method,

@@ -9,6 +9,9 @@
 namespace lagen {
 
 /// The name of the status as `lagen run` prints it.
-inline std::ostream& operator<<(std::ostream& out, Status status) { return out << to_text(status); }
+inline std::ostream& operator<<(std::ostream& out, Status status)
+{
+    return out << to_text(status);
+}
 
 } // namespace lagen

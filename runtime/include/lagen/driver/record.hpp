@@ -63,7 +63,8 @@ class DriveRecord {
         write(t, true);
         if constexpr (requires { model_.observables(t, s); }) {
             const auto observables = model_.observables(t, s);
-            for (const Column& column : columns_) write(column.observable ? observables[column.index] : s[column.index], false);
+            for (const Column& column : columns_)
+                write(column.observable ? observables[column.index] : s[column.index], false);
         } else {
             for (const Column& column : columns_) write(s[column.index], false);
         }

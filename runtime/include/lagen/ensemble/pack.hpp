@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-/// Pack<T, N>: N lanes of T on the compiler's vector extension (g++, clang), a scalar for generated models and fixed-step
-/// methods: N trajectories at once. N is a power of two. Comparisons answer a Mask, `select` chooses a lane, a kernel answers
-/// a status a lane. Elementary functions are libm's, a lane at a time.
+/// Pack<T, N>: N lanes of T on the compiler's vector extension (g++, clang), a scalar for generated models and
+/// fixed-step methods: N trajectories at once. N is a power of two. Comparisons answer a Mask, `select` chooses a lane,
+/// a kernel answers a status a lane. Elementary functions are libm's, a lane at a time.
 #pragma once
 
 #include "lagen/kernel.hpp"
@@ -27,8 +27,8 @@ struct IntegerOf<8> {
     using type = std::int64_t;
 };
 
-// A member typedef is what both compilers take as a dependent vector type. The alignment is at most 16 bytes, because Eigen aligns
-// its arrays to no more than that without AVX, and clang refuses an array less aligned than its entries.
+// A member typedef is what both compilers take as a dependent vector type. The alignment is at most 16 bytes, because
+// Eigen aligns its arrays to no more than that without AVX, and clang refuses an array less aligned than its entries.
 template <class T, int N>
 struct VectorOf {
     static constexpr std::size_t bytes = sizeof(T) * static_cast<std::size_t>(N);
@@ -77,11 +77,7 @@ struct Pack {
     /// The same value in every lane.
     Pack(T value) noexcept : lanes(Vector{} + value) {}
     /// An integer literal in every lane.
-    Pack(int value) noexcept
-        requires(!std::is_same_v<T, int>)
-        : Pack(static_cast<T>(value))
-    {
-    }
+    Pack(int value) noexcept requires(!std::is_same_v<T, int>) : Pack(static_cast<T>(value)) {}
     explicit Pack(const std::array<T, static_cast<std::size_t>(N)>& values) noexcept : lanes{}
     {
         for (int lane = 0; lane < N; ++lane) lanes[lane] = values[static_cast<std::size_t>(lane)];
@@ -97,10 +93,26 @@ struct Pack {
     [[nodiscard]] T operator[](int lane) const noexcept { return lanes[lane]; }
     void set(int lane, T value) noexcept { lanes[lane] = value; }
 
-    Pack& operator+=(const Pack& b) noexcept { lanes += b.lanes; return *this; }
-    Pack& operator-=(const Pack& b) noexcept { lanes -= b.lanes; return *this; }
-    Pack& operator*=(const Pack& b) noexcept { lanes *= b.lanes; return *this; }
-    Pack& operator/=(const Pack& b) noexcept { lanes /= b.lanes; return *this; }
+    Pack& operator+=(const Pack& b) noexcept
+    {
+        lanes += b.lanes;
+        return *this;
+    }
+    Pack& operator-=(const Pack& b) noexcept
+    {
+        lanes -= b.lanes;
+        return *this;
+    }
+    Pack& operator*=(const Pack& b) noexcept
+    {
+        lanes *= b.lanes;
+        return *this;
+    }
+    Pack& operator/=(const Pack& b) noexcept
+    {
+        lanes /= b.lanes;
+        return *this;
+    }
 
     friend Pack operator+(const Pack& a, const Pack& b) noexcept { return of(a.lanes + b.lanes); }
     friend Pack operator-(const Pack& a, const Pack& b) noexcept { return of(a.lanes - b.lanes); }
@@ -154,10 +166,10 @@ LAGEN_PACK_FUNCTION(sinh) LAGEN_PACK_FUNCTION(cosh) LAGEN_PACK_FUNCTION(tanh)
 LAGEN_PACK_FUNCTION(exp) LAGEN_PACK_FUNCTION(log) LAGEN_PACK_FUNCTION(sqrt)
 LAGEN_PACK_FUNCTION(abs) LAGEN_PACK_FUNCTION(fabs)
 #undef LAGEN_PACK_FUNCTION
-// clang-format on
+    // clang-format on
 
-template <class T, int N>
-[[nodiscard]] Pack<T, N> atan2(const Pack<T, N>& y, const Pack<T, N>& x) noexcept
+    template <class T, int N>
+    [[nodiscard]] Pack<T, N> atan2(const Pack<T, N>& y, const Pack<T, N>& x) noexcept
 {
     return detail::by_lane(y, x, [](T a, T b) { return std::atan2(a, b); });
 }
@@ -228,7 +240,15 @@ struct Eigen::NumTraits<lagen::Pack<T, N>> : Eigen::GenericNumTraits<lagen::Pack
     using NonInteger = lagen::Pack<T, N>;
     using Nested = lagen::Pack<T, N>;
     using Literal = lagen::Pack<T, N>;
-    enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 1, ReadCost = 1, AddCost = 1, MulCost = 1 };
+    enum {
+        IsComplex = 0,
+        IsInteger = 0,
+        IsSigned = 1,
+        RequireInitialization = 1,
+        ReadCost = 1,
+        AddCost = 1,
+        MulCost = 1
+    };
     static Real epsilon() { return Real(std::numeric_limits<T>::epsilon()); }
     static Real dummy_precision() { return Real(Eigen::NumTraits<T>::dummy_precision()); }
     static Real highest() { return Real(std::numeric_limits<T>::max()); }

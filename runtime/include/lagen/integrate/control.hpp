@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Step control of the adaptive methods, as in Hairer's codes: the scaled error norm, the PI controller and the first step.
+/// Step control of the adaptive methods, as in Hairer's codes: the scaled error norm, the PI controller and the first
+/// step.
 #pragma once
 
 #include "lagen/integrate/tableau.hpp"
@@ -17,9 +18,9 @@ struct StepControl {
     double first_step = 0;
     double max_step = 0;
     double safety = 0.9;
-    double shrink = 0.2;  ///< a new step is at least this fraction of the old one
-    double grow = 10;     ///< and at most this multiple
-    double beta = 0.04;   ///< PI control [Gustafsson 1991]; zero: the classical control
+    double shrink = 0.2; ///< a new step is at least this fraction of the old one
+    double grow = 10;    ///< and at most this multiple
+    double beta = 0.04;  ///< PI control [Gustafsson 1991]; zero: the classical control
 
     [[nodiscard]] constexpr double relative_tolerance() const noexcept { return relative < 0 ? tolerance : relative; }
     [[nodiscard]] constexpr double absolute_tolerance() const noexcept { return absolute < 0 ? tolerance : absolute; }
@@ -29,13 +30,14 @@ struct StepControl {
         const double r = relative_tolerance();
         const double a = absolute_tolerance();
         constexpr double large = std::numeric_limits<double>::max();
-        return r >= 0 && a >= 0 && r + a > 0 && r <= large && a <= large && first_step >= 0 && max_step >= 0 && safety > 0 &&
-               safety < 1 && shrink > 0 && shrink < 1 && grow > 1 && beta >= 0 && beta <= 0.2;
+        return r >= 0 && a >= 0 && r + a > 0 && r <= large && a <= large && first_step >= 0 && max_step >= 0 &&
+               safety > 0 && safety < 1 && shrink > 0 && shrink < 1 && grow > 1 && beta >= 0 && beta <= 0.2;
     }
 };
 
-/// What a user writes: `Dop853{.tolerance = 1e-10}`. `tolerance` sets both tolerances; `relative` and `absolute` override it where
-/// they are not negative. Zero `first_step` chooses one, zero `max_step` sets no cap. The other numbers are those of Hairer's codes.
+/// What a user writes: `Dop853{.tolerance = 1e-10}`. `tolerance` sets both tolerances; `relative` and `absolute`
+/// override it where they are not negative. Zero `first_step` chooses one, zero `max_step` sets no cap. The other
+/// numbers are those of Hairer's codes.
 template <class Family>
 struct AdaptiveMethod {
     double tolerance = Family::defaults.tolerance;
@@ -61,7 +63,8 @@ namespace detail {
 
 /// sum over lanes of (e / (atol + rtol max(|s|, |s1|)))^2.
 template <class State>
-typename State::Scalar squared_error(const StepControl& control, const State& s, const State& s1, const State& e) noexcept
+typename State::Scalar squared_error(const StepControl& control, const State& s, const State& s1,
+                                     const State& e) noexcept
 {
     using Real = typename State::Scalar;
     using std::abs;
@@ -121,8 +124,8 @@ class Controller {
     bool rejected_ = false;
 };
 
-/// A first step from the sizes of s, f and a difference of f [Hairer, Norsett, Wanner II.4, algorithm of hinit], signed like
-/// `length` and no longer. One call of the right-hand side, at x = s + h f; `x` and `f1` are scratch.
+/// A first step from the sizes of s, f and a difference of f [Hairer, Norsett, Wanner II.4, algorithm of hinit], signed
+/// like `length` and no longer. One call of the right-hand side, at x = s + h f; `x` and `f1` are scratch.
 template <class M>
 typename M::Scalar first_step(const M& model, const StepControl& control, int order, typename M::Scalar t,
                               typename M::Scalar length, const typename M::State& s, const typename M::State& f,

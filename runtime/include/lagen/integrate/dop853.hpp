@@ -12,7 +12,8 @@ namespace lagen {
 /// See integrate/march.hpp for what the march asks of a stepper.
 template <class M>
 class Dop853Stepper {
-    static_assert(!is_pack<typename M::Scalar>, "adaptive methods choose one step for one trajectory: use a fixed-step method with packs");
+    static_assert(!is_pack<typename M::Scalar>,
+                  "adaptive methods choose one step for one trajectory: use a fixed-step method with packs");
 
   public:
     using Scalar = typename M::Scalar;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// `lagen::Dopri5{.tolerance = 1e-8}`: the pair 5(4) of Dormand and Prince [J. Comput. Appl. Math. 6 (1980) 19], with the dense
-/// output of order 4 of Hairer's dopri5.f (Shampine's).
+/// `lagen::Dopri5{.tolerance = 1e-8}`: the pair 5(4) of Dormand and Prince [J. Comput. Appl. Math. 6 (1980) 19], with
+/// the dense output of order 4 of Hairer's dopri5.f (Shampine's).
 #pragma once
 
 #include "lagen/integrate/embedded.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-/// The stepper of embedded pairs 5(4) whose last stage is the derivative at the end of the step (seven stages, six calls a step).
-/// A tableau adds: `error` (b minus the embedded weights), and `dense(theta, weights)`, the interpolant's weights
+/// The stepper of embedded pairs 5(4) whose last stage is the derivative at the end of the step (seven stages, six
+/// calls a step). A tableau adds: `error` (b minus the embedded weights), and `dense(theta, weights)`, the
+/// interpolant's weights
 ///   s(t + theta h) = s + h sum_i weights[i] K_i.
 #pragma once
 
@@ -11,7 +12,8 @@ namespace lagen {
 /// See integrate/march.hpp for what the march asks of a stepper.
 template <class Tableau, class M>
 class EmbeddedStepper {
-    static_assert(!is_pack<typename M::Scalar>, "adaptive methods choose one step for one trajectory: use a fixed-step method with packs");
+    static_assert(!is_pack<typename M::Scalar>,
+                  "adaptive methods choose one step for one trajectory: use a fixed-step method with packs");
 
   public:
     using Scalar = typename M::Scalar;

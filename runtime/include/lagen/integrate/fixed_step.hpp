@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// Explicit Runge-Kutta methods with a fixed step: `lagen::Rk4{.step = 0.01}`. Work with every scalar, packs included.
-/// Between steps they have no interpolant; a value inside a step is a shorter step of the same method from the beginning of
-/// that step, so that it has the full order and leaves the sequence of steps alone.
+/// Between steps they have no interpolant; a value inside a step is a shorter step of the same method from the
+/// beginning of that step, so that it has the full order and leaves the sequence of steps alone.
 #pragma once
 
 #include "lagen/integrate/tableau.hpp"
@@ -125,7 +125,8 @@ class FixedStepper {
     }
 
     /// The state at t + theta h, 0 <= theta <= 1: a step of length theta h.
-    status_t<Scalar> interpolate(const M& model, Real t, const State& s, Real h, const State&, Real theta, State& out) noexcept
+    status_t<Scalar> interpolate(const M& model, Real t, const State& s, Real h, const State&, Real theta,
+                                 State& out) noexcept
     {
         const auto status = stages(model, t, s, theta * h);
         detail::add_weighted<Tableau::b, 0, Tableau::stages>(s, theta * h, k_, out);

@@ -14,8 +14,9 @@ struct Bracket {
     Real after;
 };
 
-/// The crossing of `value` between a (value ga) and b (value gb of the other sign, or zero): the Illinois variant of regula falsi
-/// [Dowell and Jarratt 1971], every third trial a bisection, so that the bracket shrinks at least by 2 in three trials.
+/// The crossing of `value` between a (value ga) and b (value gb of the other sign, or zero): the Illinois variant of
+/// regula falsi [Dowell and Jarratt 1971], every third trial a bisection, so that the bracket shrinks at least by 2 in
+/// three trials.
 template <class Real, class Function>
 Bracket<Real> locate_crossing(Real a, Real ga, Real b, Real gb, Real width, const Function& value) noexcept
 {

@@ -28,7 +28,8 @@ class March {
     /// Adaptive steps are long and their interpolants cheap: events are looked for in four pieces of each.
     static constexpr int pieces = Stepper::adaptive ? 4 : 1;
 
-    March(const M& model, const State& s, Interval<Real> span, const Method& method, const Options<M>& options, Observer& observer)
+    March(const M& model, const State& s, Interval<Real> span, const Method& method, const Options<M>& options,
+          Observer& observer)
         : model_(model), span_(span), method_(method), options_(options), observer_(observer), stepper_(method),
           watch_(model, options.events), s_(s), s1_(s), inner_(s), t_(span.start)
     {
@@ -95,8 +96,7 @@ class March {
         }
     }
 
-    void choose_first_step(Real length) noexcept
-        requires(Stepper::adaptive)
+    void choose_first_step(Real length) noexcept requires(Stepper::adaptive)
     {
         const Real first = static_cast<Real>(method_.control().first_step);
         h_ = first > Real(0) ? first : size(length == Real(0) ? Real(0) : stepper_.first_step(model_, t_, length, s_));
@@ -139,7 +139,8 @@ class March {
 
     // ---- one step ----
 
-    /// The signed length of the next step, and whether it ends the interval. An end within rounding of the step's is the step's.
+    /// The signed length of the next step, and whether it ends the interval. An end within rounding of the step's is
+    /// the step's.
     std::pair<Real, bool> next_length() const noexcept
     {
         const Real rest = size(span_.end - t_);
@@ -180,8 +181,7 @@ class March {
     }
 
     /// Accepts or rejects a step of an adaptive method and proposes the next length.
-    Status judge(Status status, Real h, Real t1) noexcept
-        requires(Stepper::adaptive)
+    Status judge(Status status, Real h, Real t1) noexcept requires(Stepper::adaptive)
     {
         retry_ = true;
         const Real error = status == Status::ok ? stepper_.error() : Real(0);
@@ -204,7 +204,8 @@ class March {
         return Status::ok;
     }
 
-    /// `reason` where the next step would be lost in the rounding of time; a run into the domain's boundary is called so.
+    /// `reason` where the next step would be lost in the rounding of time; a run into the domain's boundary is called
+    /// so.
     Status size_verdict(Status reason, Real t1) noexcept
     {
         const Real scale = std::max(size(t_), epsilon * size(span_.end - span_.start));
@@ -268,7 +269,8 @@ class March {
     {
         if (theta == Real(1)) return {t1, &s1_};
         if (theta == Real(0)) return {t_, &s_};
-        if (!StatusOf<Scalar>::all_good(stepper_.interpolate(model_, t_, s_, h, s1_, theta, inner_)) && !is_pack<Scalar>)
+        if (!StatusOf<Scalar>::all_good(stepper_.interpolate(model_, t_, s_, h, s1_, theta, inner_)) &&
+            !is_pack<Scalar>)
             inner_ = s_ + theta * (s1_ - s_);
         freeze(s_, inner_);
         return {t_ + theta * h, &inner_};

@@ -17,12 +17,13 @@ namespace lagen {
 enum class Crossing { rising, falling, any };
 
 /// An event to look for: entry `index` of the model's `events`, or `when` where that is given.
-/// A crossing is a change of sign from the beginning of a step to its end; a value of exactly zero at the beginning is none.
+/// A crossing is a change of sign from the beginning of a step to its end; a value of exactly zero at the beginning is
+/// none.
 template <class Real, class State>
 struct EventRequest {
     std::size_t index = 0;
     Crossing direction = Crossing::any;
-    bool stop = false;     ///< the run ends at the count-th crossing
+    bool stop = false; ///< the run ends at the count-th crossing
     std::size_t count = 1;
     std::function<Real(Real t, const State& s)> when{};
 };
@@ -35,7 +36,8 @@ struct EventFound {
     State state;
 };
 
-/// Everything optional of a run. Rows at `at`: sorted in the direction of the run; those outside the interval are left out.
+/// Everything optional of a run. Rows at `at`: sorted in the direction of the run; those outside the interval are left
+/// out.
 template <class M>
 struct Options {
     using Real = real_t<typename M::Scalar>;
@@ -63,9 +65,9 @@ struct [[nodiscard]] Run {
     std::size_t steps = 0;    ///< accepted
     std::size_t rejected = 0;
     std::size_t rhs_calls = 0;
-    std::vector<Real> times;  ///< of the rows
+    std::vector<Real> times; ///< of the rows
     std::vector<State> states;
-    std::vector<EventFound<Real, State>> events; ///< in the order of the run
+    std::vector<EventFound<Real, State>> events;       ///< in the order of the run
     status_t<Scalar> lanes = StatusOf<Scalar>::good(); ///< a status a lane of a pack; else the status
     Status outcome = Status::ok;
 

@@ -2,8 +2,8 @@
 /// Partitioned (splitting) methods for separable systems
 ///   xdot = f(y, t),   ydot = g(x, t),
 /// where x are the first M::base_dimension lanes and y the others: compositions of drifts x += a h f(y) and kicks
-/// y += b h g(x). Symplectic where x and y are canonical coordinates. Separability is the caller's to know: a probe at the
-/// start refuses a right-hand side that plainly is not separable, and can miss one that is only nearly so.
+/// y += b h g(x). Symplectic where x and y are canonical coordinates. Separability is the caller's to know: a probe at
+/// the start refuses a right-hand side that plainly is not separable, and can miss one that is only nearly so.
 #pragma once
 
 #include "lagen/integrate/tableau.hpp"
@@ -126,7 +126,8 @@ class SplittingStepper {
     void accept() noexcept {}
 
     /// The state at t + theta h, 0 <= theta <= 1: a step of length theta h.
-    status_t<Scalar> interpolate(const M& model, Real t, const State& s, Real h, const State&, Real theta, State& out) noexcept
+    status_t<Scalar> interpolate(const M& model, Real t, const State& s, Real h, const State&, Real theta,
+                                 State& out) noexcept
     {
         return attempt(model, t, s, theta * h, out);
     }
@@ -137,7 +138,8 @@ class SplittingStepper {
     status_t<Scalar> probe(const M& model, Real t, const State& s, const State& here, int begin, int end) noexcept
     {
         State moved = s;
-        for (int lane = begin; lane < end; ++lane) moved[lane] += Scalar(Real(1) / Real(64)) * (Scalar(1) + s[lane] * s[lane]);
+        for (int lane = begin; lane < end; ++lane)
+            moved[lane] += Scalar(Real(1) / Real(64)) * (Scalar(1) + s[lane] * s[lane]);
         auto verdict = StatusOf<Scalar>::good();
         const auto status = model.rhs(Scalar(t), moved, ds_);
         ++calls_;

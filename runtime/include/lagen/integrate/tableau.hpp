@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// Exact coefficients, and the stage sums of an explicit Runge-Kutta method:
 ///   X_i = s + h sum_{j<i} a_ij K_j,   K_i = f(t + c_i h, X_i),   s1 = s + h sum_i b_i K_i.
-/// A tableau is a type with constexpr members: stages, order, a (rows of the strict lower triangle one after another), b, c.
+/// A tableau is a type with constexpr members: stages, order, a (rows of the strict lower triangle one after another),
+/// b, c.
 #pragma once
 
 #include "lagen/kernel.hpp"
@@ -48,7 +49,10 @@ struct Decimal {
 namespace detail {
 
 /// Where a_ij lies in the strict lower triangle, by rows.
-constexpr std::size_t lower_index(std::size_t i, std::size_t j) noexcept { return i * (i - 1) / 2 + j; }
+constexpr std::size_t lower_index(std::size_t i, std::size_t j) noexcept
+{
+    return i * (i - 1) / 2 + j;
+}
 
 /// sum_j weights[offset + j] k[j][lane], j < count; coefficients that are exactly zero cost nothing.
 template <auto& weights, std::size_t offset, std::size_t... j, class Stages>
@@ -59,7 +63,8 @@ auto weighted_lane(const Stages& k, Eigen::Index lane, std::index_sequence<j...>
     using Real = real_t<Scalar>;
     Scalar sum = Scalar(0);
     const auto add = [&]<std::size_t stage>() {
-        if constexpr (!weights[offset + stage].is_zero()) sum += weights[offset + stage].template as<Real>() * k[stage][lane];
+        if constexpr (!weights[offset + stage].is_zero())
+            sum += weights[offset + stage].template as<Real>() * k[stage][lane];
     };
     (add.template operator()<j>(), ...);
     return sum;
@@ -93,7 +98,8 @@ status_t<typename State::Scalar> check_finite(const State& s) noexcept
     return status;
 }
 
-/// Stages first..last-1 (from 0) of `Tableau`: X_i, then K_i. Returns the first failure; goes on after one (packs have other lanes).
+/// Stages first..last-1 (from 0) of `Tableau`: X_i, then K_i. Returns the first failure; goes on after one (packs have
+/// other lanes).
 template <class Tableau, std::size_t first, std::size_t last, class M, class Stages>
 status_t<typename M::Scalar> evaluate_stages(const M& model, real_t<typename M::Scalar> t, const typename M::State& s,
                                              real_t<typename M::Scalar> h, typename M::State& x, Stages& k) noexcept

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-/// `lagen::Tsit5{.tolerance = 1e-8}`: the pair 5(4) of Tsitouras [Comput. Math. Appl. 62 (2011) 770] with its free interpolant of
-/// order 4. The coefficients are roots of the order conditions (40 digits), the interpolant's are published to 16 to 20 digits.
+/// `lagen::Tsit5{.tolerance = 1e-8}`: the pair 5(4) of Tsitouras [Comput. Math. Appl. 62 (2011) 770] with its free
+/// interpolant of order 4. The coefficients are roots of the order conditions (40 digits), the interpolant's are
+/// published to 16 to 20 digits.
 #pragma once
 
 #include "lagen/integrate/embedded.hpp"

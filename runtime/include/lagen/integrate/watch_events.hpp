@@ -27,7 +27,8 @@ class EventWatch {
     };
 
     EventWatch(const M& model, std::span<const Request> requests)
-        : model_(model), requests_(requests), before_(requests.size()), after_(requests.size()), seen_(requests.size(), 0)
+        : model_(model), requests_(requests), before_(requests.size()), after_(requests.size()),
+          seen_(requests.size(), 0)
     {
         crossed_.reserve(2 * requests.size());
     }
@@ -46,8 +47,9 @@ class EventWatch {
 
     void begin(Real t, const State& s) { evaluate(t, s, before_); }
 
-    /// Crossings in (0, last] of a step, in order; those after a stop are left out. `at(theta)` answers the time and the state
-    /// inside the step; `pieces` parts of the step are looked at one by one, so that two crossings in one step can be told.
+    /// Crossings in (0, last] of a step, in order; those after a stop are left out. `at(theta)` answers the time and
+    /// the state inside the step; `pieces` parts of the step are looked at one by one, so that two crossings in one
+    /// step can be told.
     template <class At>
     const std::vector<Crossed>& look(Real last, int pieces, Real width, const At& at)
     {
@@ -87,7 +89,8 @@ class EventWatch {
         return false;
     }
 
-    /// Sorts the crossings of one piece by time (requests in their order where times agree), counts, and cuts after a stop.
+    /// Sorts the crossings of one piece by time (requests in their order where times agree), counts, and cuts after a
+    /// stop.
     bool order_and_count(std::size_t first)
     {
         const auto begin = crossed_.begin() + static_cast<std::ptrdiff_t>(first);
@@ -109,7 +112,8 @@ class EventWatch {
         if constexpr (HasEvents<M> && !is_pack<Scalar>) {
             const auto all = model_.events(t, s);
             for (std::size_t r = 0; r < requests_.size(); ++r)
-                values[r] = requests_[r].when ? requests_[r].when(t, s) : all[static_cast<Eigen::Index>(requests_[r].index)];
+                values[r] =
+                    requests_[r].when ? requests_[r].when(t, s) : all[static_cast<Eigen::Index>(requests_[r].index)];
         } else {
             for (std::size_t r = 0; r < requests_.size(); ++r) values[r] = requests_[r].when(t, s);
         }

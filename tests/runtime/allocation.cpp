@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Nothing is allocated in a step: the number of allocations does not depend on the number of steps.
+#include "lagen/lagen.hpp"
+#include "support/problems.hpp"
+
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <new>
+
+namespace {
+
+std::size_t allocations = 0;
+
+} // namespace
+
+void* operator new(std::size_t size)
+{
+    ++allocations;
+    if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
+    throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept
+{
+    std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept
+{
+    std::free(memory);
+}
+
+using namespace lagen;
+using Pendulum = problems::Pendulum<double>;
+
+TEST_CASE("A longer run allocates no more than a short one")
+{
+    const auto count = [](const auto& method, double end) {
+        // An event that is watched and never crossed: th = 2 is above the amplitude.
+        const std::array<EventRequest<double, Pendulum::State>, 1> never{
+            {{.when = [](double, const Pendulum::State& s) { return s[0] - 2; }}}};
+        const std::size_t before = allocations;
+        const auto run = integrate(Pendulum{}, Pendulum::State(1, 0), {0.0, end}, method, {.events = never});
+        const std::size_t after = allocations;
+        CHECK(run.status() == Status::ok);
+        CHECK(run.events.empty());
+        return after - before;
+    };
+    const auto check = [&](const auto& method) { CHECK(count(method, 100.0) == count(method, 1.0)); };
+    check(Rk4{.step = 0.01});
+    check(Rk4{.step = 0.01, .compensated = true});
+    check(Yoshida6{.step = 0.01});
+    check(Dopri5{});
+    check(Tsit5{});
+    check(Dop853{});
+    const std::size_t before = allocations;
+    const auto plain = integrate(Pendulum{}, Pendulum::State(1, 0), {0.0, 100.0}, Dop853{});
+    CHECK(plain.steps > 50);
+    CHECK(allocations == before);
+}

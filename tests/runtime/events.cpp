@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Events: location, direction, count, stop, order, own functions.
+#include "lagen/lagen.hpp"
+#include "support/problems.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace lagen;
+using Pendulum = problems::Pendulum<double>;
+using State = Pendulum::State;
+using Request = EventRequest<double, State>;
+
+namespace {
+
+/// Period of the pendulum released at rest at th = 1: 4 K(sin^2(1/2)) by the arithmetic-geometric mean.
+double period()
+{
+    long double a = 1, b = std::cos(0.5L);
+    while (a - b > 1e-19L * a) {
+        const long double mean = (a + b) / 2;
+        b = std::sqrt(a * b);
+        a = mean;
+    }
+    return static_cast<double>(2 * std::acos(-1.0L) / a);
+}
+
+const State start(1.0, 0.0);
+
+} // namespace
+
+TEST_CASE("Crossings of the pendulum are found to 1e-12 with every dense output")
+{
+    const std::array<Request, 1> bottom{{{.index = 0}}};
+    const auto check = [&](const auto& method, double accuracy) {
+        const auto run = integrate(Pendulum{}, start, {0.0, 10.0}, method, {.events = bottom});
+        REQUIRE(run.events.size() == 3);
+        for (std::size_t k = 0; k < 3; ++k) {
+            CHECK_THAT(run.events[k].t, Catch::WithinAbs(period() * (2 * static_cast<double>(k) + 1) / 4, accuracy));
+            CHECK(std::abs(run.events[k].state[0]) < 1e-14);
+        }
+    };
+    check(Dop853{.tolerance = 1e-14}, 1e-12);
+    check(Dopri5{.tolerance = 1e-14, .max_step = 1e-3}, 1e-12);
+    check(Tsit5{.tolerance = 1e-14, .max_step = 1e-3}, 1e-12);
+    check(Yoshida6{.step = 0.005}, 1e-12);
+    check(Rk4{.step = 0.0005}, 1e-12);
+}
+
+TEST_CASE("Direction and count choose crossings; stop ends the run there")
+{
+    const std::array<Request, 1> rising{{{.index = 0, .direction = Crossing::rising}}};
+    const auto one = integrate(Pendulum{}, start, {0.0, 10.0}, Dop853{.tolerance = 1e-13}, {.events = rising});
+    REQUIRE(one.events.size() == 1);
+    CHECK_THAT(one.events[0].t, Catch::WithinAbs(period() * 0.75, 1e-11));
+    CHECK(one.status() == Status::ok);
+
+    const std::array<Request, 1> second{{{.index = 0, .direction = Crossing::falling, .stop = true, .count = 2}}};
+    const std::array<double, 3> at{1.0, 5.0, 9.0};
+    const auto stopped =
+        integrate(Pendulum{}, start, {0.0, 10.0}, Dop853{.tolerance = 1e-13}, {.at = at, .events = second});
+    CHECK(stopped.status() == Status::stopped_by_event);
+    CHECK(static_cast<bool>(stopped));
+    CHECK(stopped.events.size() == 2);
+    CHECK_THAT(stopped.t, Catch::WithinAbs(period() * 1.25, 1e-11));
+    CHECK(stopped.state == stopped.events[1].state);
+    CHECK(stopped.times == std::vector<double>{1.0, 5.0});
+}
+
+TEST_CASE("Two events in one step are both found, in order of time")
+{
+    // th = 1/2 is passed before th = 1/4; the requests have them the other way round.
+    const std::array<Request, 2> both{{
+        {.when = [](double, const State& s) { return s[0] - 0.25; }},
+        {.when = [](double, const State& s) { return s[0] - 0.5; }},
+    }};
+    const auto run = integrate(Pendulum{}, start, {0.0, 2.0}, Rk4{.step = 2.0}, {.events = both});
+    CHECK(run.steps == 1);
+    REQUIRE(run.events.size() == 2);
+    CHECK(run.events[0].request == 1);
+    CHECK(run.events[1].request == 0);
+    CHECK(run.events[0].t < run.events[1].t);
+}
+
+TEST_CASE("There and back within one adaptive step counts as two crossings")
+{
+    // An event function of time alone, with both zeros inside the only step.
+    const std::array<Request, 1> bump{{{.when = [](double t, const State&) { return (t - 0.2) * (t - 0.6); }}}};
+    const auto run = integrate(Pendulum{}, State(0.1, 0), {0.0, 1.0},
+                               Dop853{.tolerance = 1e9, .first_step = 1, .max_step = 1}, {.events = bump});
+    CHECK(run.steps == 1);
+    REQUIRE(run.events.size() == 2);
+    CHECK_THAT(run.events[0].t, Catch::WithinAbs(0.2, 1e-15));
+    CHECK_THAT(run.events[1].t, Catch::WithinAbs(0.6, 1e-15));
+}
+
+TEST_CASE("Events of a run backward in time are found with the directions of the run")
+{
+    const std::array<Request, 1> falling{{{.index = 0, .direction = Crossing::falling, .stop = true}}};
+    const auto run = integrate(Pendulum{}, start, {0.0, -10.0}, Dop853{.tolerance = 1e-13}, {.events = falling});
+    CHECK(run.status() == Status::stopped_by_event);
+    CHECK_THAT(run.t, Catch::WithinAbs(-period() / 4, 1e-11));
+}
+
+TEST_CASE("A start on an event is not a crossing")
+{
+    const std::array<Request, 1> bottom{{{.index = 0, .stop = true}}};
+    const auto run = integrate(Pendulum{}, State(0, 1), {0.0, 1.0}, Dop853{}, {.events = bottom});
+    CHECK(run.status() == Status::ok);
+    CHECK(run.events.empty());
+}
