@@ -36,7 +36,7 @@ std::vector<NonnegativeOperand> nonnegative_operands(const Graph& graph, const s
         if (op == Op::real_power) {
             const bool constant = graph.is_constant(operands[1]);
             if (constant && graph.value(operands[1]).get_den() == 1) continue;
-            positive = constant && sgn(graph.value(operands[1])) < 0;
+            positive = !constant || sgn(graph.value(operands[1])) < 0;
         }
         if (is_simple(graph, operands[0])) found.push_back({operands[0], positive});
     }

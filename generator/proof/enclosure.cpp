@@ -65,12 +65,14 @@ Ball unary(Op op, const Ball& a, slong precision)
     return result;
 }
 
-void real_power(arb_ptr z, arb_srcptr x, arb_srcptr y, slong precision)
+/// A constant exponent: x >= 0, x > 0 where it is negative, any x where it is an integer. Any other exponent: x > 0,
+/// also where it happens to be an integer at the point, so that x^y is defined on open sets only and equals exp(y log
+/// x).
+void real_power(arb_ptr z, arb_srcptr x, arb_srcptr y, bool constant, slong precision)
 {
-    // Arb extends x^y to negative x for integer y; a real power is defined for x > 0, and at 0 for y > 0.
-    if (arb_is_zero(x) != 0 && arb_is_positive(y) != 0) {
+    if (constant && arb_is_zero(x) != 0 && arb_is_positive(y) != 0) {
         arb_zero(z);
-    } else if (arb_is_positive(x) != 0 || arb_is_int(y) != 0) {
+    } else if (arb_is_positive(x) != 0 || (constant && arb_is_int(y) != 0)) {
         arb_pow(z, x, y, precision);
     } else {
         arb_indeterminate(z);
@@ -154,7 +156,9 @@ Ball Evaluation::enclose_node(NodeId node, const std::vector<Ball>& values, slon
     case Op::subtract: arb_sub(z, a.get(), b.get(), precision); break;
     case Op::multiply: arb_mul(z, a.get(), b.get(), precision); break;
     case Op::divide: arb_div(z, a.get(), b.get(), precision); break;
-    case Op::real_power: real_power(z, a.get(), b.get(), precision); break;
+    case Op::real_power:
+        real_power(z, a.get(), b.get(), graph_.is_constant(graph_.operands(node)[1]), precision);
+        break;
     case Op::atan2: arb_atan2(z, a.get(), b.get(), precision); break;
     case Op::minimum: arb_min(z, a.get(), b.get(), precision); break;
     case Op::maximum: arb_max(z, a.get(), b.get(), precision); break;

@@ -8,7 +8,8 @@ namespace lagen::proof {
 Fraction Elementary::log_generator(const Polynomial& p)
 {
     const GeneratorId id = ring_.keyed("log:" + key_of(p), [&] {
-        return ring_.add_generator({"log(" + to_text(ring_, p, 160) + ")", {}, 0, {}, -1, false});
+        const Range range = is_constant(p) && p[0].coefficient > 1 ? Range::positive() : Range{};
+        return ring_.add_generator({"log(" + to_text(ring_, p, 160) + ")", range, 0, {}, -1, false});
     });
     logs_.emplace(id, p);
     return ring_.of(id);

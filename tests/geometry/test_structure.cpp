@@ -9,6 +9,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <cmath>
+
 using namespace lagen;
 using Lines = std::vector<std::string>;
 
@@ -128,8 +131,8 @@ TEST_CASE("so(5) and gl(4) by name satisfy Jacobi in every index") {
 
 TEST_CASE("a named algebra of another rank is refused where it is named") {
     CHECK_THROWS_WITH(verified_text("[fibre]\ncoordinates = [\"a\", \"b\"]\n[algebroid]\nkind = \"lie_algebra\"\nalgebra = \"so(3)\"\n"),
-                      "test.toml:5:12: error: the Lie algebra so(3) has rank 3, but the fibre has 2 coordinates\n"
-                      "algebra = \"so(3)\"\n           ^~~~~\nhint: give [fibre] one coordinate for each basis element");
+                      "test.toml:6:11: error: the Lie algebra so(3) has rank 3, but the fibre has 2 coordinates\n"
+                      "  algebra = \"so(3)\"\n            ^~~~~~~\n  hint: give [fibre] one coordinate for each basis element");
 }
 
 TEST_CASE("a division by something that is zero everywhere is refused where it stands") {
@@ -156,7 +159,7 @@ TEST_CASE("a model that is defined nowhere is undecided and says so") {
 
 // The second route: residuals formed in GiNaC by differentiation of expanded expressions.
 TEST_CASE("anchor residuals from GiNaC and from the graph agree at points where they are not zero") {
-    const Model model = read_model_text("test.toml", "name = \"test\"\n" + std::string(R"(
+    const Model model = read_model_text("test.toml", "name = \"test\"\n" + std::string(R"toml(
 [base]
 coordinates = ["x", "y"]
 [fibre]
@@ -166,7 +169,7 @@ a = { x = "-y*(x^2 + y^2)", y = "x*sin(x*y)" }
 b = { x = "x/(1 + y^2)", y = "exp(y)" }
 [algebroid.bracket]
 "a,b" = { a = "x", b = "y*cos(x)" }
-)"));
+)toml"));
     const Algebroid algebroid = build_algebroid(model);
     SymbolTable symbols;
     const GiNaC::realsymbol x[] = {symbols.symbol("x"), symbols.symbol("y")};

@@ -57,6 +57,16 @@ TEST_CASE("cancellation counts only where the divisor is not zero, and x/x is 1 
     CHECK(status(problem, "(x^2 - 1)/(x - 1) - x - 1") == "proved");
 }
 
+TEST_CASE("a power with a variable exponent is defined for positive bases alone")
+{
+    Problem problem({{"x", "y"}, {}, {}, {}, {}});
+    CHECK(problem.decide("(-1)^x - abs((-1)^x)").evidence == "no regular point found in 200 tries");
+    CHECK(status(problem, "x^y - abs(x)^y") == "proved");
+    CHECK(problem.decider->proves_positive(problem.node("x^y")));
+    CHECK_FALSE(problem.decider->proves_positive(problem.node("x^(1/3)")));
+    CHECK(problem.decider->proves_positive(problem.node("x^(-1/3)")));
+}
+
 TEST_CASE("powers, multiples and towers beyond the budget end at once without a wrong verdict")
 {
     Problem problem({{"x", "y"}, {}, {}, {}, {}});
