@@ -2,12 +2,14 @@
 /// main: options to a command, errors to standard error and an exit code. No mathematics.
 #include "commands/command.hpp"
 #include "commands/options.hpp"
+#include "commands/write_file.hpp"
 
 #include <fmt/core.h>
 
 #include <array>
 #include <csignal>
 #include <cstdio>
+#include <fcntl.h>
 #include <new>
 #include <unistd.h>
 
@@ -65,7 +67,7 @@ ExitCode dispatch(const std::vector<std::string>& arguments)
 
 extern "C" void on_interrupt(int)
 {
-    constexpr char text[] = "\nlagen: interrupted\n";
+    constexpr char text[] = "lagen: interrupted\n";
     [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text, sizeof text - 1);
     ::_exit(static_cast<int>(ExitCode::interrupted));
 }
@@ -73,16 +75,29 @@ extern "C" void on_interrupt(int)
 int report(const std::string& text, ExitCode code)
 {
     std::fflush(stdout);
-    fmt::print(stderr, "{}{}", text, text.ends_with('\n') ? "" : "\n");
+    write_standard_error(text + (text.ends_with('\n') ? "" : "\n"));
     return static_cast<int>(code);
+}
+
+/// A standard stream that the caller closed is taken by the null device, so that no file of ours gets its number; what
+/// is written to it fails (it is open for reading) and is reported.
+void fill_standard_streams()
+{
+    for (int file = ::open("/dev/null", O_RDONLY); file >= 0; file = ::open("/dev/null", O_RDONLY)) {
+        if (file <= STDERR_FILENO) continue;
+        ::close(file);
+        return;
+    }
 }
 
 } // namespace
 
 int main(int argc, char** argv)
 {
+    fill_standard_streams();
     std::signal(SIGINT, on_interrupt);
     std::signal(SIGTERM, on_interrupt);
+    std::signal(SIGHUP, on_interrupt);
     std::signal(SIGPIPE, SIG_IGN);
     try {
         const ExitCode code = dispatch(std::vector<std::string>(argv + 1, argv + argc));

@@ -41,12 +41,49 @@ std::string first_with(const VerifiedAlgebroid& verified, ProofStatus status)
     return verified.note;
 }
 
+/// The model's content: its file, and what the command line changed in it.
+std::string hash_of(const CheckedModel& checked)
+{
+    ContentHash hash;
+    hash.add(checked.model.file->text);
+    for (const Setting& setting : checked.settings) hash.add(setting.name).add(setting.value.text);
+    return hash.hex16();
+}
+
+/// A word as a shell reads it, on one line: it stands in a comment of the header.
+std::string shell_word(std::string text)
+{
+    for (char& c : text)
+        if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+    const char* plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.,/";
+    if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
+    std::string quoted = "'";
+    for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return quoted + "'";
+}
+
+/// With every option that changes the header; the model by its name alone, so that the bytes are the same everywhere.
+std::string regenerate_command(const CheckedModel& checked, const GenerateRequest& request, const std::string& name)
+{
+    const std::string file = std::filesystem::path(checked.model.file->name).filename().string();
+    std::string command = "lagen generate " + shell_word(file);
+    for (const Setting& setting : checked.settings)
+        command += " --set " + shell_word(setting.name + "=" + setting.value.text);
+    std::string only;
+    for (const std::string& kernel : request.only) only += (only.empty() ? "" : ",") + kernel;
+    if (!only.empty()) command += " --only " + shell_word(only);
+    if (checked.unchecked && checked.verified.verdict == Verdict::invalid) command += " --unchecked";
+    return fmt::format("{} -o {}.hpp", command, name);
+}
+
 } // namespace
 
 CheckedModel load(const std::string& path, const std::vector<Setting>& settings, bool unchecked)
 {
     CheckedModel checked;
     checked.model = read_model(path, settings);
+    checked.settings = settings;
+    checked.unchecked = unchecked;
     checked.verified = verify(checked.model);
     const VerifiedAlgebroid& verified = checked.verified;
     if (verified.verdict == Verdict::invalid) {
@@ -73,9 +110,8 @@ Generated generate(const CheckedModel& checked, const GenerateRequest& request)
     Generated generated;
     generated.module = lagrange_kernels(model, checked.verified, kernels);
     KernelModule& module = generated.module;
-    module.hash = ContentHash().add(model.file->text).hex16();
-    module.regenerate = fmt::format("lagen generate {} -o {}.hpp",
-                                    std::filesystem::path(model.file->name).filename().string(), module.name);
+    module.hash = hash_of(checked);
+    module.regenerate = regenerate_command(checked, request, module.name);
     module.warnings = checked.warnings;
     module.equations = lines_of(print_text(derive_lagrange(model, checked.verified.algebroid)));
     generated.header = print_header(module);

@@ -19,6 +19,8 @@ struct CheckedModel {
     Model model;
     VerifiedAlgebroid verified;
     std::vector<std::string> warnings; ///< undecided, or refuted but asked to go on
+    std::vector<Setting> settings;     ///< what the command line changed
+    bool unchecked = false;            ///< a refuted model was to go on
 };
 
 /// Reads and verifies; a refuted model throws MathematicsError unless `unchecked`.

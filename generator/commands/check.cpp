@@ -56,7 +56,7 @@ ExitCode check_one(const std::string& path, const Options& options, std::string&
         }
         return code_of(verified.verdict);
     } catch (const Error& error) {
-        fmt::print(stderr, "{}{}", error.what(), std::string_view(error.what()).ends_with('\n') ? "" : "\n");
+        write_standard_error(std::string(error.what()) + (std::string_view(error.what()).ends_with('\n') ? "" : "\n"));
         if (json != nullptr)
             json->begin_object()
                 .key("model")

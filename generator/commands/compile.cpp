@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/compile.hpp"
 
+#include "commands/compile_cache.hpp"
 #include "commands/places.hpp"
 #include "commands/process.hpp"
+#include "commands/temporary_folder.hpp"
 #include "commands/write_file.hpp"
 #include "content_hash.hpp"
 #include "diagnostic.hpp"
@@ -14,7 +16,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
-#include <unistd.h>
 
 namespace lagen {
 
@@ -66,27 +67,6 @@ void add_compiler(ContentHash& hash, const std::vector<std::string>& command)
     for (const std::string& word : command) hash.add(word);
 }
 
-/// A folder that is removed with everything in it.
-class ScratchFolder {
-  public:
-    explicit ScratchFolder(const std::string& parent) : path_(parent + "/build-XXXXXX")
-    {
-        if (::mkdtemp(path_.data()) == nullptr)
-            throw MachineError(fmt::format("error: cannot make a folder in '{}'", parent));
-    }
-    ~ScratchFolder()
-    {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-    [[nodiscard]] const std::string& path() const { return path_; }
-
-  private:
-    std::string path_;
-};
-
 void call_compiler(std::vector<std::string> command, const std::string& source, const std::string& program)
 {
     command.insert(command.end(), {source, "-o", program});
@@ -117,16 +97,17 @@ Compiled compile_program(const std::string& header, const std::string& main)
 
     const std::string cache = cache_folder();
     Compiled compiled{fmt::format("{}/{}", cache, hash.hex32()), true, 0};
-    if (::access(compiled.program.c_str(), X_OK) == 0) return compiled;
+    if (use_cached(compiled.program)) return compiled;
     const auto start = std::chrono::steady_clock::now();
-    const ScratchFolder scratch(cache);
-    write_file(scratch.path() + "/model.hpp", header);
-    write_file(scratch.path() + "/main.cpp", main);
-    call_compiler(command, scratch.path() + "/main.cpp", scratch.path() + "/program");
+    const TemporaryFolder scratch(cache, "build");
+    write_file(scratch.file("model.hpp"), header);
+    write_file(scratch.file("main.cpp"), main);
+    call_compiler(command, scratch.file("main.cpp"), scratch.file("program"));
     // Renamed into place whole: two runs at once may both compile, neither sees half a program.
     std::error_code error;
-    fs::rename(scratch.path() + "/program", compiled.program, error);
+    fs::rename(scratch.file("program"), compiled.program, error);
     if (error) throw MachineError(fmt::format("error: cannot write '{}': {}", compiled.program, error.message()));
+    trim_cache(cache);
     compiled.cached = false;
     compiled.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return compiled;

@@ -44,7 +44,7 @@ ExitCode run_generate(Arguments arguments)
     if (options.has("depfile") && !options.has("output")) throw UsageError("lagen generate: --depfile needs --output");
     const std::string model = options.positional()[0];
     const CheckedModel checked = load(model, options.settings(), options.has("unchecked"));
-    for (const std::string& warning : checked.warnings) fmt::print(stderr, "warning: {}\n", warning);
+    for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
     GenerateRequest request;
     request.only = split_list(options.get("only"));
     const std::string output = options.has("output") ? options.get("output") : "-";

@@ -39,7 +39,8 @@ void print_help(const CommandSyntax& syntax, const po::options_description& desc
 {
     std::ostringstream text;
     text << description;
-    fmt::print("lagen {} {}\n\n{}\n\n{}", syntax.command, syntax.positional, syntax.purpose, text.str());
+    const std::string arguments = *syntax.positional == '\0' ? "" : std::string(" ") + syntax.positional;
+    fmt::print("usage: lagen {}{} [options]\n\n{}\n\n{}", syntax.command, arguments, syntax.purpose, text.str());
 }
 
 void check_positional(const CommandSyntax& syntax, const std::vector<std::string>& positional)
@@ -74,6 +75,13 @@ Options::Options(const CommandSyntax& syntax, std::span<const std::string> argum
                       .style(style)
                       .run(),
                   map);
+    } catch (const po::unknown_option& error) {
+        std::vector<std::string> known;
+        for (const OptionEntry& entry : syntax.options) known.push_back("--" + long_name(entry));
+        const std::string nearest = nearest_name(error.get_option_name(), known);
+        throw UsageError(fmt::format("lagen {0}: unknown option '{1}'{2} (see lagen {0} --help)", command_,
+                                     error.get_option_name(),
+                                     nearest.empty() ? "" : fmt::format(", did you mean '{}'?", nearest)));
     } catch (const po::error& error) {
         throw UsageError(fmt::format("lagen {}: {} (see lagen {} --help)", command_, error.what(), command_));
     }

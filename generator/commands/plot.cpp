@@ -3,6 +3,7 @@
 
 #include "commands/options.hpp"
 #include "commands/process.hpp"
+#include "commands/temporary_folder.hpp"
 #include "commands/write_file.hpp"
 
 #include <fmt/core.h>
@@ -100,21 +101,12 @@ void plot_table(const Table& table, const std::vector<Panel>& panels, const std:
 {
     require_plot_format(path);
     if (table.count == 0 || panels.empty()) throw MachineError("error: there is nothing to plot: the run gave no rows");
-    namespace fs = std::filesystem;
-    std::string folder = (fs::temp_directory_path() / "lagen-plot-XXXXXX").string();
-    if (::mkdtemp(folder.data()) == nullptr)
-        throw MachineError(fmt::format("error: cannot make a folder like '{}'", folder));
-    struct Removed {
-        std::string path;
-        ~Removed()
-        {
-            std::error_code ignored;
-            fs::remove_all(path, ignored);
-        }
-    } const removed{folder};
-    const std::string picture = folder + "/picture" + extension_of(path);
-    write_file(folder + "/script.gp", script_of(table, panels, title, extension_of(path), picture));
-    const ProcessResult result = run_process({"gnuplot", folder + "/script.gp"});
+    const TemporaryFolder folder(shared_temporary_folder(), "lagen-plot");
+    const std::string picture = folder.file("picture" + extension_of(path));
+    const std::string script = folder.file("script.gp");
+    write_file(script, script_of(table, panels, title, extension_of(path), picture));
+    const ProcessResult result = run_process({"gnuplot", script});
+    if (result.interrupted) throw Error(ExitCode::interrupted, "lagen: interrupted while drawing");
     if (!result.started || result.exit_code != 0)
         throw MachineError(fmt::format("error: gnuplot failed with exit code {}\n{}", result.exit_code, result.error));
     write_file(path, content_of_file(picture));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/process.hpp"
 
+#include "commands/temporary_folder.hpp"
 #include "diagnostic.hpp"
 
 #include <fmt/core.h>
@@ -28,10 +29,11 @@ volatile pid_t running_child = 0;
 extern "C" void on_interrupt_of_child(int)
 {
     interrupts = interrupts + 1;
-    if (running_child > 0) ::kill(running_child, interrupts > 1 ? SIGKILL : SIGINT);
+    // The whole group: a compiler driver's own children too.
+    if (running_child > 0) ::kill(-running_child, interrupts > 1 ? SIGKILL : SIGINT);
 }
 
-/// SIGINT and SIGTERM go to the child while this lives; a second one kills it.
+/// Interrupts, also those that were held back before, go to the child while this lives; a second one kills it.
 class InterruptsForwarded {
   public:
     InterruptsForwarded()
@@ -41,12 +43,17 @@ class InterruptsForwarded {
         action.sa_handler = on_interrupt_of_child;
         sigaction(SIGINT, &action, &before_int_);
         sigaction(SIGTERM, &action, &before_term_);
+        sigaction(SIGHUP, &action, &before_hup_);
+        const sigset_t signals = interrupt_signals();
+        sigprocmask(SIG_UNBLOCK, &signals, &before_mask_);
     }
     ~InterruptsForwarded()
     {
         running_child = 0;
+        sigprocmask(SIG_SETMASK, &before_mask_, nullptr);
         sigaction(SIGINT, &before_int_, nullptr);
         sigaction(SIGTERM, &before_term_, nullptr);
+        sigaction(SIGHUP, &before_hup_, nullptr);
     }
     InterruptsForwarded(const InterruptsForwarded&) = delete;
     InterruptsForwarded& operator=(const InterruptsForwarded&) = delete;
@@ -54,6 +61,8 @@ class InterruptsForwarded {
   private:
     struct sigaction before_int_ {};
     struct sigaction before_term_ {};
+    struct sigaction before_hup_ {};
+    sigset_t before_mask_{};
 };
 
 struct Pipe {
@@ -91,10 +100,12 @@ pid_t spawn(const std::string& program, const std::vector<std::string>& argument
     // Its own process group: ctrl-C on the terminal reaches lagen alone, which passes it on once.
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
-    sigset_t defaults;
-    sigemptyset(&defaults);
-    for (const int signal : {SIGINT, SIGTERM, SIGPIPE}) sigaddset(&defaults, signal);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
+    sigset_t nothing;
+    sigemptyset(&nothing);
+    posix_spawnattr_setsigmask(&attributes, &nothing);
+    sigset_t defaults = interrupt_signals();
+    sigaddset(&defaults, SIGPIPE);
     posix_spawnattr_setsigdefault(&attributes, &defaults);
     pid_t child = 0;
     failure = ::posix_spawn(&child, program.c_str(), &actions, &attributes, pointers.data(), environ);
@@ -151,7 +162,7 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
         return result;
     }
     running_child = child;
-    if (interrupts > 0) ::kill(child, SIGINT);
+    if (interrupts > 0) ::kill(-child, SIGINT);
     output.close_end(1);
     error.close_end(1);
     drain(output, error, result, sink);

@@ -13,11 +13,12 @@ struct ProcessResult {
     bool started = true;      ///< false: the program was not found or could not be executed
     std::string output;       ///< standard output, unless a sink took it
     std::string error;        ///< standard error
-    bool interrupted = false; ///< SIGINT or SIGTERM reached lagen while the child ran
+    bool interrupted = false; ///< SIGINT, SIGTERM or SIGHUP reached lagen while the child ran
 };
 
 /// Runs `arguments[0]` (looked up in PATH) and waits. `sink` receives standard output piece by piece where given. An
-/// interrupt is passed to the child (once; it may finish its report), then noted.
+/// interrupt is passed to the child and its children (once; it may finish its report), then noted; a second one kills
+/// them.
 [[nodiscard]] ProcessResult run_process(const std::vector<std::string>& arguments,
                                         const std::function<void(const char*, std::size_t)>& sink = {});
 

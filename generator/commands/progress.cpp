@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/progress.hpp"
 
+#include "commands/write_file.hpp"
+
 #include <fmt/core.h>
 
-#include <cstdio>
 #include <cstdlib>
 #include <unistd.h>
 
@@ -29,14 +30,13 @@ void Progress::show(const std::string& rows)
     if (end == std::string::npos || end == 0) return;
     const std::size_t before = rows.rfind('\n', end - 1);
     const double time = std::strtod(rows.c_str() + (before == std::string::npos ? 0 : before + 1), nullptr);
-    fmt::print(stderr, "\r{:3.0f} %  t = {:.6g}   ", 100 * (time - start_) / (end_ - start_), time);
-    std::fflush(stderr);
+    write_standard_error(fmt::format("\r{:3.0f} %  t = {:.6g}   ", 100 * (time - start_) / (end_ - start_), time));
     shown_ = true;
 }
 
 void Progress::clear()
 {
-    if (shown_) fmt::print(stderr, "\r{:40}\r", "");
+    if (shown_) write_standard_error(fmt::format("\r{:40}\r", ""));
     shown_ = false;
 }
 

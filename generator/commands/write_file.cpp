@@ -102,6 +102,11 @@ void write_standard_output(std::string_view content)
     if (error != 0) throw MachineError(fmt::format("error: cannot write to standard output: {}", std::strerror(error)));
 }
 
+void write_standard_error(std::string_view text)
+{
+    (void)write_all(STDERR_FILENO, text);
+}
+
 std::string content_of_file(const std::string& path)
 {
     std::FILE* file = std::fopen(path.c_str(), "rb");

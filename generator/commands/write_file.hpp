@@ -15,6 +15,9 @@ void write_file(const std::string& path, std::string_view content);
 /// Writes to standard output and reports failure (a closed pipe, a full disk) as MachineError.
 void write_standard_output(std::string_view content);
 
+/// Writes to standard error as well as it can: a message that nobody can read is no reason to fail.
+void write_standard_error(std::string_view text);
+
 /// The whole content of a file; MachineError where it cannot be read.
 [[nodiscard]] std::string content_of_file(const std::string& path);
 

@@ -11,24 +11,24 @@
 namespace lagen {
 namespace {
 
-std::string right_text(const Equation& equation) {
+std::string right_text(const Equation& equation)
+{
     std::vector<Tree> terms;
     for (const SignedTree& term : right_side_terms(equation))
         terms.push_back(term.negative ? negate(term.tree) : term.tree);
-    if (terms.empty())
-        return "0";
+    if (terms.empty()) return "0";
     return to_text(terms.size() == 1 ? terms[0] : add(terms));
 }
 
-void write_left(JsonWriter& json, const Equation& equation) {
+void write_left(JsonWriter& json, const Equation& equation)
+{
     json.key("left").begin_object();
     switch (equation.left) {
     case LeftSide::time_derivative: json.key("kind").value("time_derivative"); break;
     case LeftSide::symbol: json.key("kind").value("symbol"); break;
     case LeftSide::zero: json.key("kind").value("zero"); break;
     }
-    if (equation.left != LeftSide::zero)
-        json.key("symbol").value(equation.symbol);
+    if (equation.left != LeftSide::zero) json.key("symbol").value(equation.symbol);
     if (!equation.mass.empty()) {
         json.key("mass").begin_array();
         for (const TermGroup& entry : equation.mass)
@@ -38,7 +38,8 @@ void write_left(JsonWriter& json, const Equation& equation) {
     json.end_object();
 }
 
-void write_equation(JsonWriter& json, const Equation& equation) {
+void write_equation(JsonWriter& json, const Equation& equation)
+{
     json.begin_object();
     write_left(json, equation);
     json.key("right").value(right_text(equation));
@@ -50,15 +51,15 @@ void write_equation(JsonWriter& json, const Equation& equation) {
 
 } // namespace
 
-std::string print_json(const EquationSet& equations) {
+std::string print_json(const EquationSet& equations)
+{
     JsonWriter json;
     json.begin_object().key("model").value(equations.model).key("title").value(equations.title);
     json.key("form").value(equations.form).key("blocks").begin_array();
     for (const EquationBlock& block : equations.blocks) {
         json.begin_object().key("title").value(block.title).key("formula").value(block.formula);
         json.key("equations").begin_array();
-        for (const Equation& equation : block.equations)
-            write_equation(json, equation);
+        for (const Equation& equation : block.equations) write_equation(json, equation);
         json.end_array().end_object();
     }
     json.end_array().end_object();

@@ -7,11 +7,10 @@
 namespace lagen {
 namespace {
 
-constexpr const char* greek_names[] = {"alpha", "beta",  "gamma",   "delta", "epsilon", "zeta", "eta",   "theta",
-                                       "iota",  "kappa", "lambda",  "mu",    "nu",      "xi",   "pi",    "rho",
-                                       "sigma", "tau",   "upsilon", "phi",   "chi",     "psi",  "omega", "Gamma",
-                                       "Delta", "Theta", "Lambda",  "Xi",    "Pi",      "Sigma", "Upsilon", "Phi",
-                                       "Psi",   "Omega"};
+constexpr const char* greek_names[] = {
+    "alpha", "beta",  "gamma",  "delta", "epsilon", "zeta",  "eta",     "theta", "iota", "kappa", "lambda", "mu",
+    "nu",    "xi",    "pi",     "rho",   "sigma",   "tau",   "upsilon", "phi",   "chi",  "psi",   "omega",  "Gamma",
+    "Delta", "Theta", "Lambda", "Xi",    "Pi",      "Sigma", "Upsilon", "Phi",   "Psi",  "Omega"};
 
 struct GreekLetter {
     const char* letter;
@@ -20,36 +19,40 @@ struct GreekLetter {
 
 /// Capital letters that look Latin have no LaTeX command of their own.
 constexpr GreekLetter greek_letters[] = {
-    {"α", "\\alpha"},  {"β", "\\beta"},    {"γ", "\\gamma"},  {"δ", "\\delta"}, {"ε", "\\varepsilon"}, {"ζ", "\\zeta"},
-    {"η", "\\eta"},    {"θ", "\\theta"},   {"ι", "\\iota"},   {"κ", "\\kappa"}, {"λ", "\\lambda"},     {"μ", "\\mu"},
-    {"ν", "\\nu"},     {"ξ", "\\xi"},      {"ο", "o"},        {"π", "\\pi"},    {"ρ", "\\rho"},        {"σ", "\\sigma"},
-    {"ς", "\\varsigma"}, {"τ", "\\tau"},   {"υ", "\\upsilon"}, {"φ", "\\varphi"}, {"χ", "\\chi"},      {"ψ", "\\psi"},
-    {"ω", "\\omega"},  {"ϕ", "\\phi"},     {"ϑ", "\\vartheta"}, {"Γ", "\\Gamma"}, {"Δ", "\\Delta"},    {"Θ", "\\Theta"},
-    {"Λ", "\\Lambda"}, {"Ξ", "\\Xi"},      {"Π", "\\Pi"},     {"Σ", "\\Sigma"}, {"Υ", "\\Upsilon"},    {"Φ", "\\Phi"},
-    {"Ψ", "\\Psi"},    {"Ω", "\\Omega"}};
+    {"α", "\\alpha"},   {"β", "\\beta"},     {"γ", "\\gamma"}, {"δ", "\\delta"},    {"ε", "\\varepsilon"},
+    {"ζ", "\\zeta"},    {"η", "\\eta"},      {"θ", "\\theta"}, {"ι", "\\iota"},     {"κ", "\\kappa"},
+    {"λ", "\\lambda"},  {"μ", "\\mu"},       {"ν", "\\nu"},    {"ξ", "\\xi"},       {"ο", "o"},
+    {"π", "\\pi"},      {"ρ", "\\rho"},      {"σ", "\\sigma"}, {"ς", "\\varsigma"}, {"τ", "\\tau"},
+    {"υ", "\\upsilon"}, {"φ", "\\varphi"},   {"χ", "\\chi"},   {"ψ", "\\psi"},      {"ω", "\\omega"},
+    {"ϕ", "\\phi"},     {"ϑ", "\\vartheta"}, {"Γ", "\\Gamma"}, {"Δ", "\\Delta"},    {"Θ", "\\Theta"},
+    {"Λ", "\\Lambda"},  {"Ξ", "\\Xi"},       {"Π", "\\Pi"},    {"Σ", "\\Sigma"},    {"Υ", "\\Upsilon"},
+    {"Φ", "\\Phi"},     {"Ψ", "\\Psi"},      {"Ω", "\\Omega"}};
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_digit(char c)
+{
+    return c >= '0' && c <= '9';
+}
 
 /// A word without digits or '_'.
-std::string word(const std::string& text) {
-    if (std::find(std::begin(greek_names), std::end(greek_names), text) != std::end(greek_names))
-        return "\\" + text;
-    const bool ascii = std::all_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
-    if (ascii)
-        return text.size() == 1 ? text : "\\mathit{" + text + "}";
+std::string word(const std::string& text)
+{
+    if (std::find(std::begin(greek_names), std::end(greek_names), text) != std::end(greek_names)) return "\\" + text;
+    const bool ascii =
+        std::all_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+    if (ascii) return text.size() == 1 ? text : "\\mathit{" + text + "}";
     std::string latex;
     for (std::size_t k = 0; k < text.size();) {
-        const auto found = std::find_if(std::begin(greek_letters), std::end(greek_letters), [&](const GreekLetter& entry) {
-            return text.compare(k, std::string_view(entry.letter).size(), entry.letter) == 0;
-        });
+        const auto found =
+            std::find_if(std::begin(greek_letters), std::end(greek_letters), [&](const GreekLetter& entry) {
+                return text.compare(k, std::string_view(entry.letter).size(), entry.letter) == 0;
+            });
         if (found != std::end(greek_letters)) {
             latex += std::string(latex.empty() ? "" : " ") + found->latex;
             k += std::string_view(found->letter).size();
             continue;
         }
         std::size_t end = k + 1;
-        while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U)
-            ++end;
+        while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) ++end;
         latex += "\\text{" + text.substr(k, end - k) + "}";
         k = end;
     }
@@ -62,9 +65,13 @@ struct Parts {
     std::string subscript;
 };
 
-std::string joined(const Parts& parts) { return parts.subscript.empty() ? parts.body : parts.body + "_{" + parts.subscript + "}"; }
+std::string joined(const Parts& parts)
+{
+    return parts.subscript.empty() ? parts.body : parts.body + "_{" + parts.subscript + "}";
+}
 
-Parts split(const std::string& name) {
+Parts split(const std::string& name)
+{
     Parts parts;
     std::vector<std::string> pieces(1);
     for (const char c : name)
@@ -75,52 +82,51 @@ Parts split(const std::string& name) {
     for (std::size_t k = 0; k < pieces.size(); ++k) {
         const std::string& piece = pieces[k];
         std::size_t digits = piece.size();
-        while (digits > 0 && is_digit(piece[digits - 1]))
-            --digits;
+        while (digits > 0 && is_digit(piece[digits - 1])) --digits;
         const std::string body = digits == 0 ? "" : word(piece.substr(0, digits));
         const std::string number = piece.substr(digits);
         if (parts.body.empty()) {
             parts.body = body;
-            if (!body.empty() && !number.empty())
-                parts.subscript = number;
+            if (!body.empty() && !number.empty()) parts.subscript = number;
             continue;
         }
         const std::string inner = body.empty() ? number : joined({body, number});
-        if (!inner.empty())
-            parts.subscript += (parts.subscript.empty() ? "" : ",") + inner;
+        if (!inner.empty()) parts.subscript += (parts.subscript.empty() ? "" : ",") + inner;
     }
-    if (parts.body.empty())
-        return {"\\mathit{" + escape_latex(name) + "}", ""};
+    if (parts.body.empty()) return {"\\mathit{" + escape_latex(name) + "}", ""};
     return parts;
 }
 
 } // namespace
 
-LatexNames::LatexNames(const std::vector<SymbolText>& symbols) {
+LatexNames::LatexNames(const std::vector<SymbolText>& symbols)
+{
     for (const SymbolText& symbol : symbols)
-        if (!symbol.latex.empty())
-            given_.emplace(symbol.name, symbol.latex);
+        if (!symbol.latex.empty()) given_.emplace(symbol.name, symbol.latex);
 }
 
-std::string LatexNames::symbol(const std::string& name) const {
+std::string LatexNames::symbol(const std::string& name) const
+{
     const auto given = given_.find(name);
     return given != given_.end() ? given->second : joined(split(name));
 }
 
-std::string LatexNames::dotted(const std::string& name) const {
+std::string LatexNames::dotted(const std::string& name) const
+{
     const auto given = given_.find(name);
-    if (given != given_.end())
-        return "\\dot{" + given->second + "}";
+    if (given != given_.end()) return "\\dot{" + given->second + "}";
     const Parts parts = split(name);
     return joined({"\\dot{" + parts.body + "}", parts.subscript});
 }
 
-std::string LatexNames::raisable(const std::string& name) const {
+std::string LatexNames::raisable(const std::string& name) const
+{
     const auto given = given_.find(name);
     return given != given_.end() ? "{" + given->second + "}" : joined(split(name));
 }
 
-std::string escape_latex(std::string_view text) {
+std::string escape_latex(std::string_view text)
+{
     std::string escaped;
     for (const char c : text) {
         switch (c) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Names of a model as LaTeX symbols: the user's own LaTeX where there is one, else Greek letters by name, trailing digits
-/// and what follows '_' as subscripts, several letters in one \mathit.
+/// Names of a model as LaTeX symbols: the user's own LaTeX where there is one, else Greek letters by name, trailing
+/// digits and what follows '_' as subscripts, several letters in one \mathit.
 #pragma once
 
 #include "expression/equation_set.hpp"

@@ -6,32 +6,32 @@
 
 namespace lagen {
 
-SignedTree without_sign(const Tree& tree) {
-    if (tree->kind == TreeKind::negate)
-        return {true, tree->arguments[0]};
-    if (tree->kind == TreeKind::number && tree->number < 0)
-        return {true, number(-tree->number)};
+SignedTree without_sign(const Tree& tree)
+{
+    if (tree->kind == TreeKind::negate) return {true, tree->arguments[0]};
+    if (tree->kind == TreeKind::number && tree->number < 0) return {true, number(-tree->number)};
     return {false, tree};
 }
 
-std::vector<SignedTree> right_side_terms(const Equation& equation) {
+std::vector<SignedTree> right_side_terms(const Equation& equation)
+{
     std::vector<SignedTree> terms;
     for (const TermGroup& group : equation.groups) {
         if (group.value->kind != TreeKind::add) {
             terms.push_back(without_sign(group.value));
             continue;
         }
-        for (const Tree& term : group.value->arguments)
-            terms.push_back(without_sign(term));
+        for (const Tree& term : group.value->arguments) terms.push_back(without_sign(term));
     }
-    const auto positive = std::find_if(terms.begin(), terms.end(), [](const SignedTree& term) { return !term.negative; });
-    if (positive != terms.end())
-        std::rotate(terms.begin(), positive, positive + 1);
+    const auto positive =
+        std::find_if(terms.begin(), terms.end(), [](const SignedTree& term) { return !term.negative; });
+    if (positive != terms.end()) std::rotate(terms.begin(), positive, positive + 1);
     return terms;
 }
 
 std::vector<std::string> wrap_terms(const std::vector<std::pair<bool, std::string>>& terms, std::size_t first,
-                                    std::size_t later, std::size_t width) {
+                                    std::size_t later, std::size_t width)
+{
     std::vector<std::string> lines(1);
     std::size_t used = first;
     for (const auto& [negative, text] : terms) {
@@ -49,15 +49,15 @@ std::vector<std::string> wrap_terms(const std::vector<std::pair<bool, std::strin
     return lines;
 }
 
-std::size_t columns_of(std::string_view text) {
+std::size_t columns_of(std::string_view text)
+{
     std::size_t columns = 0;
     for (std::size_t k = 0; k < text.size(); ++k) {
         const auto byte = static_cast<unsigned char>(text[k]);
         const auto next = static_cast<unsigned char>(k + 1 < text.size() ? text[k + 1] : 0);
         const bool continuation = (byte & 0xC0U) == 0x80U;
         const bool combining = byte == 0xCC || (byte == 0xCD && next < 0xB0); // U+0300 .. U+036F
-        if (!continuation && !combining)
-            ++columns;
+        if (!continuation && !combining) ++columns;
     }
     return columns;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Equations as UTF-8 text: products by a space, powers raised, a dot over the letter of a name such as x or w1 and d/dt
-/// before any other.
+/// Equations as UTF-8 text: products by a space, powers raised, a dot over the letter of a name such as x or w1 and
+/// d/dt before any other.
 #include "emit/print_equations.hpp"
 #include "emit/print_equations_terms.hpp"
 
@@ -20,26 +20,27 @@ struct Piece {
     Hold hold;
 };
 
-std::string raised_digits(const std::string& digits) {
+std::string raised_digits(const std::string& digits)
+{
     static constexpr const char* raised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
     std::string text;
-    for (const char c : digits)
-        text += c == '-' ? "⁻" : raised[c - '0'];
+    for (const char c : digits) text += c == '-' ? "⁻" : raised[c - '0'];
     return text;
 }
 
 class TextWriter {
   public:
-    std::string write(const Tree& tree, Hold at_least) {
+    std::string write(const Tree& tree, Hold at_least)
+    {
         const Piece piece = write_piece(tree);
         return piece.hold >= at_least ? piece.text : "(" + piece.text + ")";
     }
 
   private:
-    Piece write_piece(const Tree& tree) {
+    Piece write_piece(const Tree& tree)
+    {
         written_ += 1;
-        if (written_ > longest_formula)
-            return {"...", Hold::atom};
+        if (written_ > longest_formula) return {"...", Hold::atom};
         switch (tree->kind) {
         case TreeKind::number: return write_number(tree->number);
         case TreeKind::pi: return {"π", Hold::atom};
@@ -48,7 +49,8 @@ class TextWriter {
         case TreeKind::add: return write_sum(tree);
         case TreeKind::multiply: return write_product(tree);
         case TreeKind::divide:
-            return {write(tree->arguments[0], Hold::product) + "/" + write(tree->arguments[1], Hold::power), Hold::quotient};
+            return {write(tree->arguments[0], Hold::product) + "/" + write(tree->arguments[1], Hold::power),
+                    Hold::quotient};
         case TreeKind::power: return write_power(tree);
         case TreeKind::call: return write_call(tree);
         case TreeKind::apply:
@@ -57,12 +59,14 @@ class TextWriter {
         return {to_text(tree), Hold::sum};
     }
 
-    static Piece write_number(const Rational& value) {
+    static Piece write_number(const Rational& value)
+    {
         const Hold hold = value < 0 ? Hold::sign : value.get_den() == 1 ? Hold::atom : Hold::quotient;
         return {value.get_str(), hold};
     }
 
-    Piece write_sum(const Tree& tree) {
+    Piece write_sum(const Tree& tree)
+    {
         std::string text;
         for (const Tree& argument : tree->arguments) {
             const SignedTree term = without_sign(argument);
@@ -72,14 +76,15 @@ class TextWriter {
         return {text, Hold::sum};
     }
 
-    Piece write_product(const Tree& tree) {
+    Piece write_product(const Tree& tree)
+    {
         std::string text;
-        for (const Tree& factor : tree->arguments)
-            text += (text.empty() ? "" : " ") + write(factor, Hold::product);
+        for (const Tree& factor : tree->arguments) text += (text.empty() ? "" : " ") + write(factor, Hold::product);
         return {text, Hold::product};
     }
 
-    Piece write_power(const Tree& tree) {
+    Piece write_power(const Tree& tree)
+    {
         const Tree& exponent = tree->arguments[1];
         const std::string base = write(tree->arguments[0], Hold::atom);
         if (exponent->kind == TreeKind::number && exponent->number.get_den() == 1)
@@ -87,11 +92,10 @@ class TextWriter {
         return {base + "^" + write(exponent, Hold::atom), Hold::power};
     }
 
-    Piece write_call(const Tree& tree) {
-        if (tree->function == Function::sqrt)
-            return {"√" + write(tree->arguments[0], Hold::atom), Hold::power};
-        if (tree->function == Function::abs)
-            return {"|" + write(tree->arguments[0], Hold::sum) + "|", Hold::atom};
+    Piece write_call(const Tree& tree)
+    {
+        if (tree->function == Function::sqrt) return {"√" + write(tree->arguments[0], Hold::atom), Hold::power};
+        if (tree->function == Function::abs) return {"|" + write(tree->arguments[0], Hold::sum) + "|", Hold::atom};
         std::string text = entry_of(tree->function).name;
         for (std::size_t k = 0; k < tree->arguments.size(); ++k)
             text += (k == 0 ? "(" : ", ") + write(tree->arguments[k], Hold::sum);
@@ -102,10 +106,10 @@ class TextWriter {
 };
 
 /// One ASCII letter, alone or before digits and subscripts: the names that bear a dot well.
-bool bears_dot(const std::string& name) {
+bool bears_dot(const std::string& name)
+{
     const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
-    if (name.empty())
-        return false;
+    if (name.empty()) return false;
     const auto first = static_cast<unsigned char>(name[0]);
     if (first >= 0xCE && first <= 0xCF && name.size() >= 2) // Greek
         return name.size() == 2 || name[2] == '_' || (name[2] >= '0' && name[2] <= '9');
@@ -113,29 +117,26 @@ bool bears_dot(const std::string& name) {
 }
 
 /// Composed characters where Unicode has them (normal form C), else the letter and a combining dot.
-std::string dotted(const std::string& name) {
+std::string dotted(const std::string& name)
+{
     static constexpr std::pair<char, const char*> composed[] = {
-        {'a', "ȧ"}, {'b', "ḃ"}, {'c', "ċ"}, {'d', "ḋ"}, {'e', "ė"}, {'f', "ḟ"}, {'g', "ġ"}, {'h', "ḣ"}, {'m', "ṁ"},
-        {'n', "ṅ"}, {'o', "ȯ"}, {'p', "ṗ"}, {'r', "ṙ"}, {'s', "ṡ"}, {'t', "ṫ"}, {'w', "ẇ"}, {'x', "ẋ"}, {'y', "ẏ"},
-        {'z', "ż"}, {'A', "Ȧ"}, {'B', "Ḃ"}, {'C', "Ċ"}, {'D', "Ḋ"}, {'E', "Ė"}, {'F', "Ḟ"}, {'G', "Ġ"}, {'H', "Ḣ"},
-        {'I', "İ"}, {'M', "Ṁ"}, {'N', "Ṅ"}, {'O', "Ȯ"}, {'P', "Ṗ"}, {'R', "Ṙ"}, {'S', "Ṡ"}, {'T', "Ṫ"}, {'W', "Ẇ"},
-        {'X', "Ẋ"}, {'Y', "Ẏ"}, {'Z', "Ż"}};
-    if (!bears_dot(name))
-        return "d/dt " + name;
+        {'a', "ȧ"}, {'b', "ḃ"}, {'c', "ċ"}, {'d', "ḋ"}, {'e', "ė"}, {'f', "ḟ"}, {'g', "ġ"}, {'h', "ḣ"},
+        {'m', "ṁ"}, {'n', "ṅ"}, {'o', "ȯ"}, {'p', "ṗ"}, {'r', "ṙ"}, {'s', "ṡ"}, {'t', "ṫ"}, {'w', "ẇ"},
+        {'x', "ẋ"}, {'y', "ẏ"}, {'z', "ż"}, {'A', "Ȧ"}, {'B', "Ḃ"}, {'C', "Ċ"}, {'D', "Ḋ"}, {'E', "Ė"},
+        {'F', "Ḟ"}, {'G', "Ġ"}, {'H', "Ḣ"}, {'I', "İ"}, {'M', "Ṁ"}, {'N', "Ṅ"}, {'O', "Ȯ"}, {'P', "Ṗ"},
+        {'R', "Ṙ"}, {'S', "Ṡ"}, {'T', "Ṫ"}, {'W', "Ẇ"}, {'X', "Ẋ"}, {'Y', "Ẏ"}, {'Z', "Ż"}};
+    if (!bears_dot(name)) return "d/dt " + name;
     for (const auto& [letter, text] : composed)
-        if (name[0] == letter)
-            return text + name.substr(1);
+        if (name[0] == letter) return text + name.substr(1);
     const std::size_t size = static_cast<unsigned char>(name[0]) >= 0x80 ? 2 : 1;
     return name.substr(0, size) + "\u0307" + name.substr(size);
 }
 
-std::string left_side(const Equation& equation) {
-    if (equation.left == LeftSide::zero)
-        return "0";
-    if (equation.left == LeftSide::symbol)
-        return equation.symbol;
-    if (equation.mass.empty())
-        return dotted(equation.symbol);
+std::string left_side(const Equation& equation)
+{
+    if (equation.left == LeftSide::zero) return "0";
+    if (equation.left == LeftSide::symbol) return equation.symbol;
+    if (equation.mass.empty()) return dotted(equation.symbol);
     std::string text;
     for (const TermGroup& entry : equation.mass) {
         const SignedTree mass = without_sign(entry.value);
@@ -146,12 +147,12 @@ std::string left_side(const Equation& equation) {
     return text;
 }
 
-void print_block(std::string& text, const EquationBlock& block) {
+void print_block(std::string& text, const EquationBlock& block)
+{
     const bool fits = columns_of(block.title) + 3 + columns_of(block.formula) <= page_width;
     text += "\n" + block.title + (fits ? ":  " : ":\n  ") + block.formula + "\n";
     std::size_t widest = 0;
-    for (const Equation& equation : block.equations)
-        widest = std::max(widest, columns_of(left_side(equation)));
+    for (const Equation& equation : block.equations) widest = std::max(widest, columns_of(left_side(equation)));
     widest = std::min(widest, page_width / 2);
     for (const Equation& equation : block.equations) {
         const std::string left = left_side(equation);
@@ -160,8 +161,7 @@ void print_block(std::string& text, const EquationBlock& block) {
         std::vector<std::pair<bool, std::string>> terms;
         for (const SignedTree& term : right_side_terms(equation))
             terms.emplace_back(term.negative, TextWriter().write(term.tree, Hold::quotient));
-        if (terms.empty())
-            terms.emplace_back(false, "0");
+        if (terms.empty()) terms.emplace_back(false, "0");
         const std::size_t margin = widest + 5;
         const std::vector<std::string> lines = wrap_terms(terms, std::max(columns, widest) + 5, margin, page_width);
         for (std::size_t k = 0; k < lines.size(); ++k)
@@ -171,11 +171,11 @@ void print_block(std::string& text, const EquationBlock& block) {
 
 } // namespace
 
-std::string print_text(const EquationSet& equations) {
+std::string print_text(const EquationSet& equations)
+{
     std::string text = (equations.title.empty() ? equations.model : equations.title) + "\n";
     for (const EquationBlock& block : equations.blocks)
-        if (!block.equations.empty())
-            print_block(text, block);
+        if (!block.equations.empty()) print_block(text, block);
     return text;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// A Lie algebroid in local coordinates: anchor rho^i_a and structure functions C^c_ab as sparse arrays of closed trees.
-/// n = 0 (a Lie algebra), r > n, r < n and directions in ker rho all occur.
+/// A Lie algebroid in local coordinates: anchor rho^i_a and structure functions C^c_ab as sparse arrays of closed
+/// trees. n = 0 (a Lie algebra), r > n, r < n and directions in ker rho all occur.
 #pragma once
 
 #include "model/model.hpp"
@@ -23,11 +23,11 @@ struct StructureValue {
 };
 
 struct Algebroid {
-    std::vector<Symbol> base;         ///< x^i, n of them
-    std::vector<Symbol> fibre;        ///< y^a, r of them
+    std::vector<Symbol> base;  ///< x^i, n of them
+    std::vector<Symbol> fibre; ///< y^a, r of them
     std::vector<std::string> parameters;
-    std::vector<AnchorValue> rho;     ///< nonzero entries
-    std::vector<StructureValue> C;    ///< nonzero entries
+    std::vector<AnchorValue> rho;  ///< nonzero entries
+    std::vector<StructureValue> C; ///< nonzero entries
     std::vector<Tree> constraints;
     std::vector<Tree> domain;
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// A model on one graph: rho, C, L and constraints lowered once, the proof setting, and the deciding of each kind of claim.
+/// A model on one graph: rho, C, L and constraints lowered once, the proof setting, and the deciding of each kind of
+/// claim.
 #pragma once
 
 #include "geometry/fibre_hessian.hpp"
@@ -12,7 +13,8 @@ namespace lagen {
 
 class Claims {
   public:
-    /// Throws ModelError where the base constraints are not triangular, and where a divisor of the model is zero everywhere.
+    /// Throws ModelError where the base constraints are not triangular, and where a divisor of the model is zero
+    /// everywhere.
     Claims(const Model& model, const Algebroid& algebroid);
 
     /// antisymmetry, anchor, jacobi
@@ -28,7 +30,8 @@ class Claims {
     void refuse_zero_divisors();
     [[nodiscard]] Decision decide(NodeId residual) const;
     [[nodiscard]] std::string sign_hint(const std::vector<Residual>& residuals, std::size_t a, std::size_t b);
-    void decide_anchor_derivative(VerifiedAlgebroid& verified, const std::string& name, const std::string& text, NodeId f);
+    void decide_anchor_derivative(VerifiedAlgebroid& verified, const std::string& name, const std::string& text,
+                                  NodeId f);
     [[nodiscard]] std::vector<std::pair<NodeId, NodeId>> parameter_values();
 
     const Model& model_;

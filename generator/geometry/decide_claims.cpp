@@ -6,7 +6,8 @@
 namespace lagen {
 
 /// The flip of one sign in [e_a, e_b] with which all its anchor equations hold, as a hint; empty where there is none.
-std::string Claims::sign_hint(const std::vector<Residual>& residuals, std::size_t a, std::size_t b) {
+std::string Claims::sign_hint(const std::vector<Residual>& residuals, std::size_t a, std::size_t b)
+{
     for (const ColumnEntry& entry : lowered_.C(a, b)) {
         std::vector<NodeId> repaired(lowered_.x.size(), graph_.constant(0));
         for (const Residual& residual : residuals)
@@ -26,7 +27,8 @@ std::string Claims::sign_hint(const std::vector<Residual>& residuals, std::size_
     return {};
 }
 
-void Claims::decide_structure(VerifiedAlgebroid& verified) {
+void Claims::decide_structure(VerifiedAlgebroid& verified)
+{
     ResidualList list;
     append_antisymmetry(list, graph_, lowered_);
     append_anchor(list, graph_, *partial_, lowered_);
@@ -42,8 +44,7 @@ void Claims::decide_structure(VerifiedAlgebroid& verified) {
         }
         if (residual.name == "anchor" && check.decision.status == ProofStatus::refuted) {
             const std::pair<std::size_t, std::size_t> pair(residual.indices[0], residual.indices[1]);
-            if (!hints.contains(pair))
-                hints[pair] = sign_hint(list.residuals, pair.first, pair.second);
+            if (!hints.contains(pair)) hints[pair] = sign_hint(list.residuals, pair.first, pair.second);
             check.hint = hints[pair];
         }
         verified.checks.push_back(std::move(check));
@@ -51,7 +52,9 @@ void Claims::decide_structure(VerifiedAlgebroid& verified) {
 }
 
 /// rho_a(f) = 0 for every section; indices (section, text).
-void Claims::decide_anchor_derivative(VerifiedAlgebroid& verified, const std::string& name, const std::string& text, NodeId f) {
+void Claims::decide_anchor_derivative(VerifiedAlgebroid& verified, const std::string& name, const std::string& text,
+                                      NodeId f)
+{
     for (std::size_t a = 0; a < lowered_.r(); ++a) {
         std::vector<NodeId> terms;
         partial_->append_anchor_derivative(terms, lowered_.anchor[a], f, false);
@@ -63,14 +66,16 @@ void Claims::decide_anchor_derivative(VerifiedAlgebroid& verified, const std::st
     }
 }
 
-void Claims::decide_surfaces(VerifiedAlgebroid& verified) {
+void Claims::decide_surfaces(VerifiedAlgebroid& verified)
+{
     for (std::size_t k = 0; k < algebroid_.constraints.size(); ++k)
         decide_anchor_derivative(verified, "tangency", to_text(algebroid_.constraints[k]), setting_.constraints[k]);
     for (const NamedTree& casimir : model_.base.casimirs)
         decide_anchor_derivative(verified, "casimir", casimir.name, (*lower_)(casimir.value));
 }
 
-void Claims::decide_invariants(VerifiedAlgebroid& verified, const std::vector<NamedTree>& extra) {
+void Claims::decide_invariants(VerifiedAlgebroid& verified, const std::vector<NamedTree>& extra)
+{
     EquationsOfMotion motion(graph_, lowered_, hessian_ ? &*hessian_ : nullptr, time_);
     Binding binding = motion.names(model_);
     binding.insert(binding_.begin(), binding_.end());

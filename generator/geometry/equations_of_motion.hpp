@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Rates along Lagrange's equations, kept polynomial where that is possible: momenta and energy have rates of their own, so that only
-/// functions of y that are not written in them need W^-1.
-///   pdot_a = rho_a(L) - p_c C^c_ab y^b,   dE/dt = -dL/dt - p_c C^c_ab y^a y^b,   W ydot = pdot - (d2L/dydx) xdot - d2L/dydt
+/// Rates along Lagrange's equations, kept polynomial where that is possible: momenta and energy have rates of their
+/// own, so that only functions of y that are not written in them need W^-1.
+///   pdot_a = rho_a(L) - p_c C^c_ab y^b,   dE/dt = -dL/dt - p_c C^c_ab y^a y^b,   W ydot = pdot - (d2L/dydx) xdot -
+///   d2L/dydt
 #pragma once
 
 #include "geometry/fibre_hessian.hpp"
@@ -20,7 +21,8 @@ struct Rate {
 class EquationsOfMotion {
   public:
     /// `hessian` null: no Lagrangian. `time` is absent where the model declares a symbol t of its own.
-    EquationsOfMotion(Graph& graph, const LoweredAlgebroid& algebroid, const FibreHessian* hessian, std::optional<NodeId> time);
+    EquationsOfMotion(Graph& graph, const LoweredAlgebroid& algebroid, const FibreHessian* hessian,
+                      std::optional<NodeId> time);
 
     /// Stand-ins for momenta, `energy` and `lagrangian` (unless the model declares these names), to lower claims with.
     [[nodiscard]] Binding names(const Model& model) const;

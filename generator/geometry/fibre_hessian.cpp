@@ -9,13 +9,13 @@
 namespace lagen {
 namespace {
 
-std::vector<std::vector<std::size_t>> coupled_blocks(const Graph& graph, const FibreHessian& hessian) {
+std::vector<std::vector<std::size_t>> coupled_blocks(const Graph& graph, const FibreHessian& hessian)
+{
     const std::size_t r = hessian.momenta.size();
     std::vector<std::vector<std::size_t>> blocks;
     std::vector<bool> seen(r, false);
     for (std::size_t start = 0; start < r; ++start) {
-        if (seen[start])
-            continue;
+        if (seen[start]) continue;
         std::vector<std::size_t> block = {start};
         seen[start] = true;
         for (std::size_t next = 0; next < block.size(); ++next)
@@ -32,7 +32,8 @@ std::vector<std::vector<std::size_t>> coupled_blocks(const Graph& graph, const F
 
 } // namespace
 
-FibreHessian fibre_hessian(Graph& graph, NodeId lagrangian, const std::vector<NodeId>& y) {
+FibreHessian fibre_hessian(Graph& graph, NodeId lagrangian, const std::vector<NodeId>& y)
+{
     FibreHessian result;
     result.lagrangian = lagrangian;
     result.momenta = gradient(graph, lagrangian, y);
@@ -53,7 +54,8 @@ FibreHessian fibre_hessian(Graph& graph, NodeId lagrangian, const std::vector<No
 
 NodeId minor_determinant(Graph& graph, const FibreHessian& hessian, const std::vector<std::size_t>& rows,
                          const std::vector<std::size_t>& columns, std::optional<std::size_t> replaced,
-                         const std::vector<NodeId>& right) {
+                         const std::vector<NodeId>& right)
+{
     const std::size_t m = columns.size();
     if (m > determinant_limit || rows.size() != m)
         throw InternalError("a minor of size " + std::to_string(m) + " was asked for");
@@ -65,12 +67,10 @@ NodeId minor_determinant(Graph& graph, const FibreHessian& hessian, const std::v
         std::vector<NodeId> terms;
         std::size_t position = 0;
         for (std::size_t column = 0; column < m; ++column) {
-            if (!(set >> column & 1U))
-                continue;
+            if (!(set >> column & 1U)) continue;
             const NodeId entry = replaced == column ? right[row] : hessian.W(rows[row], columns[column]);
             const NodeId term = graph.multiply(entry, minors[set & ~(std::size_t{1} << column)]);
-            if (!graph.is_zero(term))
-                terms.push_back((row + position) % 2 == 0 ? term : graph.negate(term));
+            if (!graph.is_zero(term)) terms.push_back((row + position) % 2 == 0 ? term : graph.negate(term));
             ++position;
         }
         minors[set] = graph.sum(terms);

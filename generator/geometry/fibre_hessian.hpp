@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// The Lagrangian with its momenta p_a = dL/dy^a and fibre Hessian W_ab = d2L/dy^a dy^b on the graph, W split into the blocks
-/// of coupled fibre coordinates.
+/// The Lagrangian with its momenta p_a = dL/dy^a and fibre Hessian W_ab = d2L/dy^a dy^b on the graph, W split into the
+/// blocks of coupled fibre coordinates.
 #pragma once
 
 #include "geometry/lowered_algebroid.hpp"
@@ -24,7 +24,8 @@ struct FibreHessian {
 [[nodiscard]] FibreHessian fibre_hessian(Graph& graph, NodeId lagrangian, const std::vector<NodeId>& y);
 
 /// det of the submatrix W(rows, columns), by minors of growing size that share their sub-determinants. rows and columns
-/// have equal sizes of at most `determinant_limit`; column `replaced` (a position in `columns`), where given, is `right` instead.
+/// have equal sizes of at most `determinant_limit`; column `replaced` (a position in `columns`), where given, is
+/// `right` instead.
 [[nodiscard]] NodeId minor_determinant(Graph& graph, const FibreHessian& hessian, const std::vector<std::size_t>& rows,
                                        const std::vector<std::size_t>& columns,
                                        std::optional<std::size_t> replaced = {}, const std::vector<NodeId>& right = {});

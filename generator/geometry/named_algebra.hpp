@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Named Lie algebras by their matrices: so(n), su(2), se(2), se(3), so(2,1), sl(2), heis(3), aff(1), gl(n), R^n and direct sums
-/// "A + B". Structure constants are not typed in: they are read off the commutators of the basis matrices.
+/// Named Lie algebras by their matrices: so(n), su(2), se(2), se(3), so(2,1), sl(2), heis(3), aff(1), gl(n), R^n and
+/// direct sums "A + B". Structure constants are not typed in: they are read off the commutators of the basis matrices.
 #pragma once
 
 #include "expression/tree.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Regularity of the fibre Hessian W = d2L/dy2: generic rank by certified witnesses, `regular` only where det W is proved
-/// nonzero on the whole domain, definiteness by leading minors.
+/// Regularity of the fibre Hessian W = d2L/dy2: generic rank by certified witnesses, `regular` only where det W is
+/// proved nonzero on the whole domain, definiteness by leading minors.
 #pragma once
 
 #include "geometry/fibre_hessian.hpp"

@@ -8,7 +8,8 @@ namespace {
 using Terms = std::vector<std::vector<NodeId>>; ///< a list of terms for each value of the free index
 
 /// Makes one residual of each nonempty list; the free index is the last of its indices.
-void close(ResidualList& list, Graph& graph, const char* name, std::vector<std::size_t> indices, const Terms& terms) {
+void close(ResidualList& list, Graph& graph, const char* name, std::vector<std::size_t> indices, const Terms& terms)
+{
     indices.push_back(0);
     for (std::size_t free = 0; free < terms.size(); ++free) {
         if (terms[free].empty()) {
@@ -22,7 +23,8 @@ void close(ResidualList& list, Graph& graph, const char* name, std::vector<std::
 
 /// terms[v] += rho_a(C^v_bc) + C^m_bc C^v_am
 void append_cyclic(Terms& terms, Graph& graph, BaseGradient& partial, const LoweredAlgebroid& algebroid, std::size_t a,
-                   std::size_t b, std::size_t c) {
+                   std::size_t b, std::size_t c)
+{
     for (const ColumnEntry& inner : algebroid.C(b, c)) {
         partial.append_anchor_derivative(terms[inner.index], algebroid.anchor[a], inner.value, false);
         for (const ColumnEntry& outer : algebroid.C(a, inner.index))
@@ -32,23 +34,22 @@ void append_cyclic(Terms& terms, Graph& graph, BaseGradient& partial, const Lowe
 
 } // namespace
 
-void append_antisymmetry(ResidualList& list, Graph& graph, const LoweredAlgebroid& algebroid) {
+void append_antisymmetry(ResidualList& list, Graph& graph, const LoweredAlgebroid& algebroid)
+{
     const std::size_t r = algebroid.r();
     for (std::size_t a = 0; a < r; ++a) {
         for (std::size_t b = a; b < r; ++b) {
-            if (!algebroid.given[a * r + b] || !algebroid.given[b * r + a])
-                continue;
+            if (!algebroid.given[a * r + b] || !algebroid.given[b * r + a]) continue;
             Terms terms(r);
-            for (const ColumnEntry& entry : algebroid.C(a, b))
-                terms[entry.index].push_back(entry.value);
-            for (const ColumnEntry& entry : algebroid.C(b, a))
-                terms[entry.index].push_back(entry.value);
+            for (const ColumnEntry& entry : algebroid.C(a, b)) terms[entry.index].push_back(entry.value);
+            for (const ColumnEntry& entry : algebroid.C(b, a)) terms[entry.index].push_back(entry.value);
             close(list, graph, "antisymmetry", {a, b}, terms);
         }
     }
 }
 
-void append_anchor(ResidualList& list, Graph& graph, BaseGradient& partial, const LoweredAlgebroid& algebroid) {
+void append_anchor(ResidualList& list, Graph& graph, BaseGradient& partial, const LoweredAlgebroid& algebroid)
+{
     const std::size_t n = algebroid.x.size();
     for (std::size_t a = 0; a < algebroid.r(); ++a) {
         for (std::size_t b = a + 1; b < algebroid.r(); ++b) {
@@ -65,7 +66,8 @@ void append_anchor(ResidualList& list, Graph& graph, BaseGradient& partial, cons
     }
 }
 
-void append_jacobi(ResidualList& list, Graph& graph, BaseGradient& partial, const LoweredAlgebroid& algebroid) {
+void append_jacobi(ResidualList& list, Graph& graph, BaseGradient& partial, const LoweredAlgebroid& algebroid)
+{
     const std::size_t r = algebroid.r();
     for (std::size_t a = 0; a < r; ++a) {
         for (std::size_t b = a + 1; b < r; ++b) {

@@ -6,7 +6,8 @@
 
 namespace lagen {
 
-/// An expression that should vanish. `indices` are numbers of fibre or base coordinates, in the order of `Check::indices`.
+/// An expression that should vanish. `indices` are numbers of fibre or base coordinates, in the order of
+/// `Check::indices`.
 struct Residual {
     std::string name;
     std::vector<std::size_t> indices;

@@ -5,7 +5,8 @@
 
 namespace lagen {
 
-const char* to_text(Verdict verdict) {
+const char* to_text(Verdict verdict)
+{
     switch (verdict) {
     case Verdict::valid: return "valid";
     case Verdict::invalid: return "invalid";
@@ -16,20 +17,20 @@ const char* to_text(Verdict verdict) {
 
 namespace {
 
-Verdict verdict_of(const VerifiedAlgebroid& verified) {
+Verdict verdict_of(const VerifiedAlgebroid& verified)
+{
     Verdict verdict = verified.note.empty() ? Verdict::valid : Verdict::undecided;
     for (const Check& check : verified.checks) {
-        if (check.decision.status == ProofStatus::refuted)
-            return Verdict::invalid;
-        if (check.decision.status == ProofStatus::undecided)
-            verdict = Verdict::undecided;
+        if (check.decision.status == ProofStatus::refuted) return Verdict::invalid;
+        if (check.decision.status == ProofStatus::undecided) verdict = Verdict::undecided;
     }
     return verdict;
 }
 
 } // namespace
 
-VerifiedAlgebroid verify(const Model& model, const std::vector<NamedTree>& extra_invariants) {
+VerifiedAlgebroid verify(const Model& model, const std::vector<NamedTree>& extra_invariants)
+{
     VerifiedAlgebroid verified;
     verified.algebroid = build_algebroid(model);
     Claims claims(model, verified.algebroid);

@@ -14,10 +14,11 @@
 namespace lagen {
 
 struct Check {
-    std::string name;                 ///< "anchor", "jacobi", ...
-    std::vector<std::string> indices; ///< names, e.g. {"w1", "w2", "g3"} for anchor (a, b, i); {"w1","w2","w3","w1"} for jacobi (a, b, c, v)
+    std::string name; ///< "anchor", "jacobi", ...
+    std::vector<std::string>
+        indices; ///< names, e.g. {"w1", "w2", "g3"} for anchor (a, b, i); {"w1","w2","w3","w1"} for jacobi (a, b, c, v)
     Decision decision;
-    std::string hint;                 ///< may be empty
+    std::string hint; ///< may be empty
 };
 
 enum class Verdict { valid, invalid, undecided };
@@ -26,10 +27,10 @@ enum class Verdict { valid, invalid, undecided };
 /// Of the fibre Hessian W = d2L/dy2.
 struct Regularity {
     enum class Kind { regular, generically_regular, degenerate, absent, undecided } kind = Kind::absent;
-    std::size_t rank = 0;                 ///< generic rank, by a witness
-    bool positive_definite = false;       ///< proved on the whole domain
-    bool for_given_parameters = false;    ///< `regular` and `positive_definite` rest on the parameter values of the file
-    std::string evidence;                 ///< why `undecided`; may be empty
+    std::size_t rank = 0;              ///< generic rank, by a witness
+    bool positive_definite = false;    ///< proved on the whole domain
+    bool for_given_parameters = false; ///< `regular` and `positive_definite` rest on the parameter values of the file
+    std::string evidence;              ///< why `undecided`; may be empty
     std::vector<std::vector<std::pair<std::string, std::string>>> singular_at; ///< known singular points
 };
 

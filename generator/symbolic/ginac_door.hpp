@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// The doors between closed trees and GiNaC. GiNaC orders terms and chooses signs by hashes of addresses, so what comes back is
-/// sorted by content and its signs are chosen anew: the content-first term of a sum is positive, -1 is pulled out through
-/// products, integer powers, even and odd functions. Equal expressions come back as the same text on every run.
-/// GiNaC counts references without atomics: one thread only.
+/// The doors between closed trees and GiNaC. GiNaC orders terms and chooses signs by hashes of addresses, so what comes
+/// back is sorted by content and its signs are chosen anew: the content-first term of a sum is positive, -1 is pulled
+/// out through products, integer powers, even and odd functions. Equal expressions come back as the same text on every
+/// run. GiNaC counts references without atomics: one thread only.
 #pragma once
 
 #include "expression/tree.hpp"
@@ -35,11 +35,12 @@ struct Order {
 /// What a tree may cost when it is written out without sharing.
 inline constexpr std::size_t symbolic_size_limit = 50'000;
 
-/// A closed, smooth tree in GiNaC. Throws MathematicsError where it has more than `symbolic_size_limit` nodes without sharing, where it has
-/// a function or comparison that is not smooth, and where GiNaC finds a pole (division by zero).
+/// A closed, smooth tree in GiNaC. Throws MathematicsError where it has more than `symbolic_size_limit` nodes without
+/// sharing, where it has a function or comparison that is not smooth, and where GiNaC finds a pole (division by zero).
 [[nodiscard]] GiNaC::ex to_ginac(const Tree& tree, SymbolTable& symbols);
 
-/// The tree of a real expression. Throws MathematicsError where the expression holds a number that is not a real rational.
+/// The tree of a real expression. Throws MathematicsError where the expression holds a number that is not a real
+/// rational.
 [[nodiscard]] Tree from_ginac(const GiNaC::ex& expression, const SymbolTable& symbols, const Order& order);
 
 } // namespace lagen

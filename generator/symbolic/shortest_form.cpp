@@ -8,23 +8,22 @@
 namespace lagen {
 namespace {
 
-constexpr double term_limit = 2000;       ///< of an expanded sum
-constexpr std::size_t factor_terms = 40;  ///< of a polynomial handed to GiNaC::factor
-constexpr int factor_degree = 16;         ///< its total degree, summed over its symbols
+constexpr double term_limit = 2000;      ///< of an expanded sum
+constexpr std::size_t factor_terms = 40; ///< of a polynomial handed to GiNaC::factor
+constexpr int factor_degree = 16;        ///< its total degree, summed over its symbols
 constexpr std::size_t parenthesis_cost = 2;
 
 /// A bound of the number of terms after expansion.
-double expanded_terms(const GiNaC::ex& e) {
+double expanded_terms(const GiNaC::ex& e)
+{
     if (GiNaC::is_a<GiNaC::add>(e)) {
         double sum = 0;
-        for (std::size_t k = 0; k < e.nops(); ++k)
-            sum += expanded_terms(e.op(k));
+        for (std::size_t k = 0; k < e.nops(); ++k) sum += expanded_terms(e.op(k));
         return sum;
     }
     if (GiNaC::is_a<GiNaC::mul>(e)) {
         double product = 1;
-        for (std::size_t k = 0; k < e.nops() && product <= term_limit; ++k)
-            product *= expanded_terms(e.op(k));
+        for (std::size_t k = 0; k < e.nops() && product <= term_limit; ++k) product *= expanded_terms(e.op(k));
         return product;
     }
     if (GiNaC::is_a<GiNaC::power>(e) && e.op(1).info(GiNaC::info_flags::posint)) {
@@ -40,20 +39,17 @@ double expanded_terms(const GiNaC::ex& e) {
 /// Functions and roots replaced by symbols, so that polynomial algorithms apply; the same one by the same symbol.
 class Atoms {
   public:
-    GiNaC::ex hide(const GiNaC::ex& e) {
-        if (GiNaC::is_a<GiNaC::numeric>(e) || GiNaC::is_a<GiNaC::symbol>(e))
-            return e;
+    GiNaC::ex hide(const GiNaC::ex& e)
+    {
+        if (GiNaC::is_a<GiNaC::numeric>(e) || GiNaC::is_a<GiNaC::symbol>(e)) return e;
         if (GiNaC::is_a<GiNaC::add>(e) || GiNaC::is_a<GiNaC::mul>(e)) {
             GiNaC::exvector parts;
-            for (std::size_t k = 0; k < e.nops(); ++k)
-                parts.push_back(hide(e.op(k)));
-            if (GiNaC::is_a<GiNaC::add>(e))
-                return GiNaC::ex(GiNaC::dynallocate<GiNaC::add>(parts));
+            for (std::size_t k = 0; k < e.nops(); ++k) parts.push_back(hide(e.op(k)));
+            if (GiNaC::is_a<GiNaC::add>(e)) return GiNaC::ex(GiNaC::dynallocate<GiNaC::add>(parts));
             return GiNaC::ex(GiNaC::dynallocate<GiNaC::mul>(parts));
         }
         if (GiNaC::is_a<GiNaC::power>(e)) {
-            if (e.op(1).info(GiNaC::info_flags::integer))
-                return GiNaC::pow(hide(e.op(0)), e.op(1));
+            if (e.op(1).info(GiNaC::info_flags::integer)) return GiNaC::pow(hide(e.op(0)), e.op(1));
             // b^(p/q) = (b^(1/q))^p: one atom for all powers of one root
             if (GiNaC::is_a<GiNaC::numeric>(e.op(1)) && e.op(1).info(GiNaC::info_flags::rational)) {
                 const GiNaC::numeric exponent = GiNaC::ex_to<GiNaC::numeric>(e.op(1));
@@ -67,10 +63,10 @@ class Atoms {
     [[nodiscard]] GiNaC::ex show(const GiNaC::ex& e) const { return e.subs(back_, GiNaC::subs_options::no_pattern); }
 
   private:
-    GiNaC::ex atom(const GiNaC::ex& e) {
+    GiNaC::ex atom(const GiNaC::ex& e)
+    {
         const auto known = forward_.find(e);
-        if (known != forward_.end())
-            return known->second;
+        if (known != forward_.end()) return known->second;
         const GiNaC::realsymbol symbol;
         forward_.emplace(e, symbol);
         back_[symbol] = e;
@@ -80,102 +76,100 @@ class Atoms {
     GiNaC::exmap forward_, back_;
 };
 
-std::size_t terms_of(const GiNaC::ex& e) { return GiNaC::is_a<GiNaC::add>(e) ? e.nops() : 1; }
+std::size_t terms_of(const GiNaC::ex& e)
+{
+    return GiNaC::is_a<GiNaC::add>(e) ? e.nops() : 1;
+}
 
-bool may_factor(const GiNaC::ex& polynomial) {
-    if (terms_of(polynomial) > factor_terms)
-        return false;
+bool may_factor(const GiNaC::ex& polynomial)
+{
+    if (terms_of(polynomial) > factor_terms) return false;
     int degree = 0;
     GiNaC::exset symbols;
     for (auto node = polynomial.preorder_begin(); node != polynomial.preorder_end(); ++node)
-        if (GiNaC::is_a<GiNaC::symbol>(*node))
-            symbols.insert(*node);
-    for (const GiNaC::ex& symbol : symbols)
-        degree += polynomial.degree(symbol);
+        if (GiNaC::is_a<GiNaC::symbol>(*node)) symbols.insert(*node);
+    for (const GiNaC::ex& symbol : symbols) degree += polynomial.degree(symbol);
     return degree <= factor_degree;
 }
 
-/// GiNaC::factor leaves sums inside its factors in groups of its own choice; expanded, each factor is unique up to sign.
-GiNaC::ex with_expanded_factors(const GiNaC::ex& e) {
+/// GiNaC::factor leaves sums inside its factors in groups of its own choice; expanded, each factor is unique up to
+/// sign.
+GiNaC::ex with_expanded_factors(const GiNaC::ex& e)
+{
     if (GiNaC::is_a<GiNaC::mul>(e)) {
         GiNaC::exvector parts;
-        for (std::size_t k = 0; k < e.nops(); ++k)
-            parts.push_back(with_expanded_factors(e.op(k)));
+        for (std::size_t k = 0; k < e.nops(); ++k) parts.push_back(with_expanded_factors(e.op(k)));
         return GiNaC::ex(GiNaC::dynallocate<GiNaC::mul>(parts));
     }
-    if (GiNaC::is_a<GiNaC::power>(e))
-        return GiNaC::pow(e.op(0).expand(), e.op(1));
+    if (GiNaC::is_a<GiNaC::power>(e)) return GiNaC::pow(e.op(0).expand(), e.op(1));
     return e.expand();
 }
 
 /// Numerator and denominator factored; nothing where that would cost too much.
-std::optional<GiNaC::ex> factored(const GiNaC::ex& e) {
+std::optional<GiNaC::ex> factored(const GiNaC::ex& e)
+{
     Atoms atoms;
     const GiNaC::ex hidden = atoms.hide(e);
-    if (expanded_terms(hidden) > factor_terms)
-        return {};
+    if (expanded_terms(hidden) > factor_terms) return {};
     const GiNaC::ex fraction = hidden.numer_denom();
     const GiNaC::ex above = fraction.op(0).expand();
     const GiNaC::ex below = fraction.op(1).expand();
-    if (!may_factor(above) || !may_factor(below))
-        return {};
+    if (!may_factor(above) || !may_factor(below)) return {};
     return atoms.show(with_expanded_factors(GiNaC::factor(above)) / with_expanded_factors(GiNaC::factor(below)));
 }
 
-SortedTerm product_of(std::vector<SortedFactor> factors, const Rational& coefficient) {
+SortedTerm product_of(std::vector<SortedFactor> factors, const Rational& coefficient)
+{
     SortedTerm term{coefficient, std::move(factors), {}};
     return sorted_product({term});
 }
 
 /// What both have in common: the factors of `a` with the smaller of both exponents.
-std::vector<SortedFactor> common_factors(const std::vector<SortedFactor>& a, const std::vector<SortedFactor>& b) {
+std::vector<SortedFactor> common_factors(const std::vector<SortedFactor>& a, const std::vector<SortedFactor>& b)
+{
     std::vector<SortedFactor> common;
     for (const SortedFactor& factor : a) {
-        const auto other =
-            std::find_if(b.begin(), b.end(), [&](const SortedFactor& candidate) { return candidate.key == factor.key; });
-        if (other == b.end() || (factor.exponent < 0) != (other->exponent < 0))
-            continue;
+        const auto other = std::find_if(b.begin(), b.end(),
+                                        [&](const SortedFactor& candidate) { return candidate.key == factor.key; });
+        if (other == b.end() || (factor.exponent < 0) != (other->exponent < 0)) continue;
         common.push_back(factor);
-        if (abs(other->exponent) < abs(factor.exponent))
-            common.back().exponent = other->exponent;
+        if (abs(other->exponent) < abs(factor.exponent)) common.back().exponent = other->exponent;
     }
     return common;
 }
 
-SortedTerm divided(const SortedTerm& term, std::vector<SortedFactor> divisor) {
-    for (SortedFactor& factor : divisor)
-        factor.exponent = -factor.exponent;
+SortedTerm divided(const SortedTerm& term, std::vector<SortedFactor> divisor)
+{
+    for (SortedFactor& factor : divisor) factor.exponent = -factor.exponent;
     return sorted_product({term, product_of(std::move(divisor), 1)});
 }
 
 /// A sum with the factors that all terms share drawn out in front.
-SortedTerm with_common_factor(const std::vector<SortedTerm>& terms) {
+SortedTerm with_common_factor(const std::vector<SortedTerm>& terms)
+{
     std::vector<SortedFactor> common = terms.front().factors;
-    for (const SortedTerm& term : terms)
-        common = common_factors(common, term.factors);
+    for (const SortedTerm& term : terms) common = common_factors(common, term.factors);
     std::vector<SortedTerm> rest;
-    for (const SortedTerm& term : terms)
-        rest.push_back(divided(term, common));
+    for (const SortedTerm& term : terms) rest.push_back(divided(term, common));
     return sorted_product({sorted_sum(rest), product_of(common, 1)});
 }
 
-std::vector<SortedTerm> terms_in(const SortedTerm& sum) {
-    if (sum.factors.size() != 1 || sum.factors[0].terms.empty() || sum.factors[0].exponent != 1)
-        return {sum};
+std::vector<SortedTerm> terms_in(const SortedTerm& sum)
+{
+    if (sum.factors.size() != 1 || sum.factors[0].terms.empty() || sum.factors[0].exponent != 1) return {sum};
     std::vector<SortedTerm> terms = sum.factors[0].terms;
-    for (SortedTerm& term : terms)
-        term.coefficient *= sum.coefficient;
+    for (SortedTerm& term : terms) term.coefficient *= sum.coefficient;
     return terms;
 }
 
 /// Terms with the same monomial in the variables together: (I2 - I3) w2 w3 - mgl g2.
-SortedTerm collected(const SortedTerm& expanded) {
+SortedTerm collected(const SortedTerm& expanded)
+{
     std::map<std::string, std::pair<SortedTerm, std::vector<SortedTerm>>> groups;
     for (const SortedTerm& term : terms_in(expanded)) {
         std::vector<SortedFactor> variable;
         for (const SortedFactor& factor : term.factors)
-            if (!factor.constant)
-                variable.push_back(factor);
+            if (!factor.constant) variable.push_back(factor);
         const SortedTerm monomial = product_of(variable, 1);
         auto& group = groups.try_emplace(monomial.key, monomial, std::vector<SortedTerm>{}).first->second;
         group.second.push_back(divided(term, variable));
@@ -187,7 +181,8 @@ SortedTerm collected(const SortedTerm& expanded) {
 }
 
 /// A product whose sums are collected each for itself.
-SortedTerm with_collected_factors(const SortedTerm& product) {
+SortedTerm with_collected_factors(const SortedTerm& product)
+{
     std::vector<SortedTerm> parts = {product_of({}, product.coefficient)};
     for (const SortedFactor& factor : product.factors) {
         const bool sum = !factor.terms.empty() && factor.exponent == 1;
@@ -198,10 +193,10 @@ SortedTerm with_collected_factors(const SortedTerm& product) {
 }
 
 /// cos for sin and sin for cos of the same argument, squared; nothing for other factors and lower powers.
-std::optional<SortedFactor> complement(const SortedFactor& factor) {
+std::optional<SortedFactor> complement(const SortedFactor& factor)
+{
     const bool call_of_one = factor.terms.empty() && factor.base->kind == TreeKind::call && factor.exponent >= 2;
-    if (!call_of_one || (factor.base->function != Function::sin && factor.base->function != Function::cos))
-        return {};
+    if (!call_of_one || (factor.base->function != Function::sin && factor.base->function != Function::cos)) return {};
     const Function other = factor.base->function == Function::sin ? Function::cos : Function::sin;
     SortedFactor result = factor;
     result.base = call(other, factor.base->arguments);
@@ -211,12 +206,12 @@ std::optional<SortedFactor> complement(const SortedFactor& factor) {
 }
 
 /// One use of T sin^2 + T cos^2 = T or of T - T sin^2 = T cos^2 (and with cos); false where there is none.
-bool join_squares(std::map<std::string, SortedTerm>& terms) {
+bool join_squares(std::map<std::string, SortedTerm>& terms)
+{
     for (const auto& [key, term] : terms)
         for (const SortedFactor& factor : term.factors) {
             const std::optional<SortedFactor> other = complement(factor);
-            if (!other)
-                continue;
+            if (!other) continue;
             SortedFactor square = factor;
             square.exponent = 2;
             const SortedTerm rest = divided(term, {square});
@@ -225,48 +220,46 @@ bool join_squares(std::map<std::string, SortedTerm>& terms) {
             const auto whole = terms.find(rest.key);
             const bool sum = beside != terms.end() && beside->second.coefficient == term.coefficient;
             const bool difference = whole != terms.end() && whole->second.coefficient == -term.coefficient;
-            if (!sum && !difference)
-                continue;
+            if (!sum && !difference) continue;
             SortedTerm joined = sum ? rest : partner;
             joined.coefficient = sum ? Rational(term.coefficient) : Rational(-term.coefficient);
             const std::string used = key;
             terms.erase(sum ? beside : whole);
             terms.erase(used);
             const auto [slot, fresh] = terms.emplace(joined.key, joined);
-            if (!fresh)
-                slot->second.coefficient += joined.coefficient;
-            if (slot->second.coefficient == 0)
-                terms.erase(slot);
+            if (!fresh) slot->second.coefficient += joined.coefficient;
+            if (slot->second.coefficient == 0) terms.erase(slot);
             return true;
         }
     return false;
 }
 
 /// The expanded sum with sin^2 + cos^2 = 1 used as often as it shortens the sum: every use takes a term away.
-SortedTerm with_joined_squares(const SortedTerm& expanded) {
+SortedTerm with_joined_squares(const SortedTerm& expanded)
+{
     std::map<std::string, SortedTerm> terms;
-    for (const SortedTerm& term : terms_in(expanded))
-        terms.emplace(term.key, term);
+    for (const SortedTerm& term : terms_in(expanded)) terms.emplace(term.key, term);
     while (join_squares(terms)) {
     }
     std::vector<SortedTerm> list;
-    for (const auto& [key, term] : terms)
-        list.push_back(term);
+    for (const auto& [key, term] : terms) list.push_back(term);
     return sorted_sum(list);
 }
 
-std::size_t cost_of(const Tree& tree) {
+std::size_t cost_of(const Tree& tree)
+{
     const std::string text = to_text(tree);
     const auto parentheses = std::count(text.begin(), text.end(), '(');
     return text.size() + parenthesis_cost * static_cast<std::size_t>(parentheses);
 }
 
+/// Keeps the first of the cheapest trees offered.
 class Shortest {
   public:
-    void offer(Tree tree) {
+    void offer(Tree tree)
+    {
         const std::size_t cost = cost_of(tree);
-        if (best_ && cost >= cost_)
-            return;
+        if (best_ && cost >= cost_) return;
         best_ = std::move(tree);
         cost_ = cost;
     }
@@ -279,15 +272,17 @@ class Shortest {
 
 } // namespace
 
-Tree shortest_form(const GiNaC::ex& expression, const SymbolTable& symbols, const Order& order) {
+Tree shortest_form(const GiNaC::ex& expression, const SymbolTable& symbols, const Order& order)
+{
     try {
         Shortest shortest;
         if (expanded_terms(expression) <= term_limit) {
             const SortedTerm expanded = sort_expression(expression.expand(), symbols, order);
             for (const SortedTerm& sum : {expanded, with_joined_squares(expanded)}) {
-                shortest.offer(tree_of(sum));
+                const SortedTerm common = with_common_factor(terms_in(sum));
+                if (common.key != sum.key) shortest.offer(tree_of(common));
                 shortest.offer(tree_of(collected(sum)));
-                shortest.offer(tree_of(with_common_factor(terms_in(sum))));
+                shortest.offer(tree_of(sum));
             }
             if (const std::optional<GiNaC::ex> product = factored(expression)) {
                 const SortedTerm sorted = sort_expression(*product, symbols, order);
@@ -304,9 +299,9 @@ Tree shortest_form(const GiNaC::ex& expression, const SymbolTable& symbols, cons
     }
 }
 
-std::optional<std::size_t> expanded_length(const GiNaC::ex& expression) {
-    if (expanded_terms(expression) > term_limit)
-        return {};
+std::optional<std::size_t> expanded_length(const GiNaC::ex& expression)
+{
+    if (expanded_terms(expression) > term_limit) return {};
     const GiNaC::ex expanded = expression.expand();
     return expanded.is_zero() ? 0 : terms_of(expanded);
 }

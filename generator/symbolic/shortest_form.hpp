@@ -8,12 +8,14 @@
 
 namespace lagen {
 
-/// The shortest text (a pair of parentheses counts as a few characters more) among: expanded; expanded with the coefficients
-/// of each monomial in the variables factored; both with sin^2 + cos^2 = 1 used; factored as a whole; as derived. Rewritings that would cost too much are left out,
-/// by bounds that depend on the expression alone, so that the choice is the same on every run.
+/// The shortest text (a pair of parentheses counts as a few characters more) among: expanded; expanded with the
+/// coefficients of each monomial in the variables factored; both with sin^2 + cos^2 = 1 used; factored as a whole; as
+/// derived. Rewritings that would cost too much are left out, by bounds that depend on the expression alone, so that
+/// the choice is the same on every run.
 [[nodiscard]] Tree shortest_form(const GiNaC::ex& expression, const SymbolTable& symbols, const Order& order);
 
-/// The number of terms of an expression when it is expanded and like terms are joined; nothing where expanding costs too much.
+/// The number of terms of an expression when it is expanded and like terms are joined; nothing where expanding costs
+/// too much.
 [[nodiscard]] std::optional<std::size_t> expanded_length(const GiNaC::ex& expression);
 
 } // namespace lagen

@@ -9,39 +9,44 @@ namespace lagen {
 namespace {
 
 /// "|" and an ascending code for descending exponents, then the exponent itself where the code rounds.
-std::string exponent_key(const Rational& exponent) {
+std::string exponent_key(const Rational& exponent)
+{
     char code[40];
     std::snprintf(code, sizeof code, "^%012.4f", 500000.0 - exponent.get_d());
     return code + ("[" + exponent.get_str() + "]");
 }
 
 /// The key of a product: '~' sorts after every other character, so that x^2 y precedes x^2 and numbers stand last.
-std::string product_key(const std::vector<SortedFactor>& factors) {
+std::string product_key(const std::vector<SortedFactor>& factors)
+{
     std::string key;
-    for (const SortedFactor& factor : factors)
-        key += factor.key + exponent_key(factor.exponent) + ";";
+    for (const SortedFactor& factor : factors) key += factor.key + exponent_key(factor.exponent) + ";";
     return key + "~";
 }
 
-bool by_key(const SortedTerm& a, const SortedTerm& b) { return a.key < b.key; }
+bool by_key(const SortedTerm& a, const SortedTerm& b)
+{
+    return a.key < b.key;
+}
 
-std::string sum_key(const std::vector<SortedTerm>& terms) {
+std::string sum_key(const std::vector<SortedTerm>& terms)
+{
     std::string key = "(";
-    for (const SortedTerm& term : terms)
-        key += term.key + "*" + term.coefficient.get_str() + ",";
+    for (const SortedTerm& term : terms) key += term.key + "*" + term.coefficient.get_str() + ",";
     return key + ")";
 }
 
-bool is_constant(const std::vector<SortedTerm>& terms) {
+bool is_constant(const std::vector<SortedTerm>& terms)
+{
     for (const SortedTerm& term : terms)
         for (const SortedFactor& factor : term.factors)
-            if (!factor.constant)
-                return false;
+            if (!factor.constant) return false;
     return true;
 }
 
 /// The positive rational that leaves coprime integer coefficients, with the sign of the first term.
-Rational content_of(const std::vector<SortedTerm>& terms) {
+Rational content_of(const std::vector<SortedTerm>& terms)
+{
     mpz_class numerator = 0;
     mpz_class denominator = 1;
     for (const SortedTerm& term : terms) {
@@ -54,7 +59,8 @@ Rational content_of(const std::vector<SortedTerm>& terms) {
 }
 
 /// A sum as a factor; its terms are sorted and merged already.
-SortedFactor sum_factor(std::vector<SortedTerm> terms) {
+SortedFactor sum_factor(std::vector<SortedTerm> terms)
+{
     SortedFactor factor;
     factor.constant = is_constant(terms);
     factor.key = (factor.constant ? "2" : "5") + sum_key(terms);
@@ -63,43 +69,43 @@ SortedFactor sum_factor(std::vector<SortedTerm> terms) {
 }
 
 /// The terms of what is a sum up to its coefficient, the coefficient multiplied in.
-std::vector<SortedTerm> spread(const SortedTerm& term) {
-    if (term.factors.size() != 1 || term.factors[0].terms.empty() || term.factors[0].exponent != 1)
-        return {term};
+std::vector<SortedTerm> spread(const SortedTerm& term)
+{
+    if (term.factors.size() != 1 || term.factors[0].terms.empty() || term.factors[0].exponent != 1) return {term};
     std::vector<SortedTerm> terms = term.factors[0].terms;
-    for (SortedTerm& inner : terms)
-        inner.coefficient *= term.coefficient;
+    for (SortedTerm& inner : terms) inner.coefficient *= term.coefficient;
     return terms;
 }
 
 // ---- trees ----
 
-Tree raised(const Tree& base, const Rational& exponent) {
-    if (exponent == 1)
-        return base;
-    if (exponent == Rational(1, 2))
-        return call(Function::sqrt, {base});
+Tree raised(const Tree& base, const Rational& exponent)
+{
+    if (exponent == 1) return base;
+    if (exponent == Rational(1, 2)) return call(Function::sqrt, {base});
     return power(base, number(exponent));
 }
 
 Tree sum_tree(const std::vector<SortedTerm>& terms);
 
-Tree base_tree(const SortedFactor& factor) { return factor.terms.empty() ? factor.base : sum_tree(factor.terms); }
+Tree base_tree(const SortedFactor& factor)
+{
+    return factor.terms.empty() ? factor.base : sum_tree(factor.terms);
+}
 
-Tree product_or_one(std::vector<Tree> factors) {
-    if (factors.empty())
-        return number(1);
+Tree product_or_one(std::vector<Tree> factors)
+{
+    if (factors.empty()) return number(1);
     return factors.size() == 1 ? factors[0] : multiply(std::move(factors));
 }
 
 /// A term with positive coefficient as one fraction.
-Tree fraction_tree(const Rational& coefficient, const std::vector<SortedFactor>& factors) {
+Tree fraction_tree(const Rational& coefficient, const std::vector<SortedFactor>& factors)
+{
     std::vector<Tree> above;
     std::vector<Tree> below;
-    if (coefficient.get_den() != 1)
-        below.push_back(number(Rational(coefficient.get_den())));
-    if (coefficient.get_num() != 1)
-        above.push_back(number(Rational(coefficient.get_num())));
+    if (coefficient.get_den() != 1) below.push_back(number(Rational(coefficient.get_den())));
+    if (coefficient.get_num() != 1) above.push_back(number(Rational(coefficient.get_num())));
     for (const SortedFactor& factor : factors) {
         const bool inverse = factor.exponent < 0;
         const Rational exponent = abs(factor.exponent);
@@ -110,43 +116,42 @@ Tree fraction_tree(const Rational& coefficient, const std::vector<SortedFactor>&
 }
 
 /// The first factor above the bar that is a difference: -(a - b) c reads better as (b - a) c.
-SortedFactor* reversible(std::vector<SortedFactor>& factors) {
+SortedFactor* reversible(std::vector<SortedFactor>& factors)
+{
     for (SortedFactor& factor : factors)
-        if (factor.exponent == 1 &&
-            std::any_of(factor.terms.begin(), factor.terms.end(), [](const SortedTerm& t) { return t.coefficient < 0; }))
+        if (factor.exponent == 1 && std::any_of(factor.terms.begin(), factor.terms.end(),
+                                                [](const SortedTerm& t) { return t.coefficient < 0; }))
             return &factor;
     return nullptr;
 }
 
 /// The sign of a term and its tree without the sign.
-std::pair<bool, Tree> signed_tree(const SortedTerm& term) {
-    if (term.coefficient >= 0)
-        return {false, fraction_tree(term.coefficient, term.factors)};
+std::pair<bool, Tree> signed_tree(const SortedTerm& term)
+{
+    if (term.coefficient >= 0) return {false, fraction_tree(term.coefficient, term.factors)};
     std::vector<SortedFactor> factors = term.factors;
     SortedFactor* difference = reversible(factors);
-    if (difference == nullptr)
-        return {true, fraction_tree(-term.coefficient, factors)};
-    for (SortedTerm& inner : difference->terms)
-        inner.coefficient = -inner.coefficient;
+    if (difference == nullptr) return {true, fraction_tree(-term.coefficient, factors)};
+    for (SortedTerm& inner : difference->terms) inner.coefficient = -inner.coefficient;
     return {false, fraction_tree(-term.coefficient, factors)};
 }
 
 /// Terms in their order; where the first one is negative, positive ones come before the others.
-Tree sum_tree(const std::vector<SortedTerm>& terms) {
+Tree sum_tree(const std::vector<SortedTerm>& terms)
+{
     std::vector<std::pair<bool, Tree>> parts;
-    for (const SortedTerm& term : terms)
-        parts.push_back(signed_tree(term));
+    for (const SortedTerm& term : terms) parts.push_back(signed_tree(term));
     if (!parts.empty() && parts.front().first)
         std::stable_partition(parts.begin(), parts.end(), [](const auto& part) { return !part.first; });
     std::vector<Tree> trees;
-    for (auto& [negative, tree] : parts)
-        trees.push_back(negative ? negate(std::move(tree)) : std::move(tree));
+    for (auto& [negative, tree] : parts) trees.push_back(negative ? negate(std::move(tree)) : std::move(tree));
     return add(std::move(trees));
 }
 
 } // namespace
 
-SortedTerm sorted_product(const std::vector<SortedTerm>& factors) {
+SortedTerm sorted_product(const std::vector<SortedTerm>& factors)
+{
     SortedTerm result;
     result.coefficient = 1;
     std::map<std::string, SortedFactor> merged;
@@ -154,47 +159,41 @@ SortedTerm sorted_product(const std::vector<SortedTerm>& factors) {
         result.coefficient *= term.coefficient;
         for (const SortedFactor& factor : term.factors) {
             const auto [slot, fresh] = merged.emplace(factor.key, factor);
-            if (!fresh)
-                slot->second.exponent += factor.exponent;
+            if (!fresh) slot->second.exponent += factor.exponent;
         }
     }
     if (result.coefficient != 0)
         for (auto& [key, factor] : merged)
-            if (factor.exponent != 0)
-                result.factors.push_back(std::move(factor));
+            if (factor.exponent != 0) result.factors.push_back(std::move(factor));
     result.key = product_key(result.factors);
     return result;
 }
 
-SortedTerm sorted_sum(const std::vector<SortedTerm>& summands) {
+SortedTerm sorted_sum(const std::vector<SortedTerm>& summands)
+{
     std::map<std::string, SortedTerm> merged;
     for (const SortedTerm& summand : summands)
         for (const SortedTerm& term : spread(summand)) {
             const auto [slot, fresh] = merged.emplace(term.key, term);
-            if (!fresh)
-                slot->second.coefficient += term.coefficient;
+            if (!fresh) slot->second.coefficient += term.coefficient;
         }
     std::vector<SortedTerm> terms;
     for (auto& [key, term] : merged)
-        if (term.coefficient != 0)
-            terms.push_back(std::move(term));
-    if (terms.empty())
-        return {0, {}, product_key({})};
-    if (terms.size() == 1)
-        return terms[0];
+        if (term.coefficient != 0) terms.push_back(std::move(term));
+    if (terms.empty()) return {0, {}, product_key({})};
+    if (terms.size() == 1) return terms[0];
     std::sort(terms.begin(), terms.end(), by_key);
     const Rational content = content_of(terms);
-    for (SortedTerm& term : terms)
-        term.coefficient /= content;
+    for (SortedTerm& term : terms) term.coefficient /= content;
     SortedTerm result{content, {sum_factor(std::move(terms))}, {}};
     result.key = product_key(result.factors);
     return result;
 }
 
-Tree tree_of(const SortedTerm& term) {
+Tree tree_of(const SortedTerm& term)
+{
     const std::vector<SortedTerm> terms = spread(term);
-    if (terms.size() > 1)
-        return sum_tree(terms);
+    if (terms.size() > 1) return sum_tree(terms);
     auto [negative, tree] = signed_tree(term);
     return negative ? negate(std::move(tree)) : std::move(tree);
 }

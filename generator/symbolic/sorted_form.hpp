@@ -10,10 +10,10 @@ namespace lagen {
 
 struct SortedTerm;
 
-/// One base of a product. `terms` is not empty where the base is a sum: primitive, its first coefficient positive (except
-/// below a root, where the sum keeps its content).
+/// One base of a product. `terms` is not empty where the base is a sum: primitive, its first coefficient positive
+/// (except below a root, where the sum keeps its content).
 struct SortedFactor {
-    std::string key; ///< of the base
+    std::string key;       ///< of the base
     bool constant = false; ///< made of parameters and numbers alone
     Tree base;
     Rational exponent = 1;
@@ -37,7 +37,8 @@ struct SortedTerm {
 /// The part of a function's key that stands for the function, after the two characters of its group.
 [[nodiscard]] std::string function_key(Function function);
 
-/// Trees as a person writes them: one fraction bar, roots as sqrt, a minus in front turned into a difference where one fits.
+/// Trees as a person writes them: one fraction bar, roots as sqrt, a minus in front turned into a difference where one
+/// fits.
 [[nodiscard]] Tree tree_of(const SortedTerm& term);
 
 } // namespace lagen

@@ -6,32 +6,34 @@
 
 namespace lagen {
 
-GiNaC::realsymbol SymbolTable::symbol(const std::string& name) {
+GiNaC::realsymbol SymbolTable::symbol(const std::string& name)
+{
     const auto known = symbols_.find(name);
-    if (known != symbols_.end())
-        return known->second;
+    if (known != symbols_.end()) return known->second;
     const GiNaC::realsymbol fresh(name);
     names_.emplace(fresh, name);
     symbols_.emplace(name, fresh);
     return fresh;
 }
 
-const std::string& SymbolTable::name_of(const GiNaC::symbol& symbol) const {
+const std::string& SymbolTable::name_of(const GiNaC::symbol& symbol) const
+{
     const auto known = names_.find(symbol);
-    if (known == names_.end())
-        throw InternalError("a symbol came back from GiNaC that was never sent there");
+    if (known == names_.end()) throw InternalError("a symbol came back from GiNaC that was never sent there");
     return known->second;
 }
 
 namespace {
 
-GiNaC::numeric to_numeric(const Rational& value) {
+GiNaC::numeric to_numeric(const Rational& value)
+{
     const GiNaC::numeric numerator(value.get_num().get_str().c_str());
     const GiNaC::numeric denominator(value.get_den().get_str().c_str());
     return numerator / denominator;
 }
 
-GiNaC::ex apply_function(const TreeNode& node, const std::vector<GiNaC::ex>& a) {
+GiNaC::ex apply_function(const TreeNode& node, const std::vector<GiNaC::ex>& a)
+{
     switch (node.function) {
     case Function::sin: return GiNaC::sin(a[0]);
     case Function::cos: return GiNaC::cos(a[0]);
@@ -61,18 +63,17 @@ class ToGinac {
     explicit ToGinac(SymbolTable& symbols) : symbols_(symbols) {}
 
     /// Depth first with a stack of its own: trees may be thousands of levels deep.
-    GiNaC::ex operator()(const Tree& root) {
+    GiNaC::ex operator()(const Tree& root)
+    {
         std::vector<std::pair<const TreeNode*, std::size_t>> stack = {{root.get(), 0}};
         while (!stack.empty()) {
             auto& [node, next] = stack.back();
             if (next < node->arguments.size()) {
                 const TreeNode* child = node->arguments[next++].get();
-                if (!done_.contains(child))
-                    stack.emplace_back(child, 0);
+                if (!done_.contains(child)) stack.emplace_back(child, 0);
                 continue;
             }
-            if (!done_.contains(node))
-                finish(*node);
+            if (!done_.contains(node)) finish(*node);
             stack.pop_back();
         }
         return done_.at(root.get()).value;
@@ -84,7 +85,8 @@ class ToGinac {
         std::size_t size; ///< nodes when written out, saturated
     };
 
-    void finish(const TreeNode& node) {
+    void finish(const TreeNode& node)
+    {
         std::vector<GiNaC::ex> arguments;
         std::size_t size = 1;
         for (const Tree& argument : node.arguments) {
@@ -93,12 +95,14 @@ class ToGinac {
             size = std::min(size + done.size, symbolic_size_limit + 1);
         }
         if (size > symbolic_size_limit)
-            throw MathematicsError("the expression has more than " + std::to_string(symbolic_size_limit) +
-                                   " terms and factors when it is written out, too many for a formula that a person could read");
+            throw MathematicsError(
+                "the expression has more than " + std::to_string(symbolic_size_limit) +
+                " terms and factors when it is written out, too many for a formula that a person could read");
         done_.emplace(&node, Done{value_of(node, arguments), size});
     }
 
-    GiNaC::ex value_of(const TreeNode& node, const std::vector<GiNaC::ex>& a) {
+    GiNaC::ex value_of(const TreeNode& node, const std::vector<GiNaC::ex>& a)
+    {
         switch (node.kind) {
         case TreeKind::number: return to_numeric(node.number);
         case TreeKind::pi: return GiNaC::Pi;
@@ -130,7 +134,8 @@ class ToGinac {
 
 } // namespace
 
-GiNaC::ex to_ginac(const Tree& tree, SymbolTable& symbols) {
+GiNaC::ex to_ginac(const Tree& tree, SymbolTable& symbols)
+{
     try {
         return ToGinac(symbols)(tree);
     } catch (const Error&) {

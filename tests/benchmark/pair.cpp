@@ -7,7 +7,10 @@
 ///   pair time             ns a right-hand side of each kind: least of interleaved rounds
 #define TEXT_OF_(x) #x
 #define TEXT_OF(x) TEXT_OF_(x)
-#define HEADER_(folder, model) TEXT_OF(folder / model.hpp)
+// A space here would stand in the name of the file.
+// clang-format off
+#define HEADER_(folder, model) TEXT_OF(folder/model.hpp)
+// clang-format on
 
 #include HEADER_(generated, MODEL)
 #include HEADER_(handwritten, MODEL)

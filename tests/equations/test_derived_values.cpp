@@ -22,25 +22,25 @@ class Numbers {
   public:
     explicit Numbers(Values values) : values_(std::move(values)) {}
 
-    double operator()(const Tree& tree) {
+    double operator()(const Tree& tree)
+    {
         const NodeId outputs[] = {lower_(tree)};
-        for (const NodeId input : graph_.inputs())
-            values_.try_emplace(graph_.input_name(input), std::nan(""));
+        for (const NodeId input : graph_.inputs()) values_.try_emplace(graph_.input_name(input), std::nan(""));
         return evaluate<double>(graph_, outputs, values_)[0];
     }
 
-    double right(const Equation& equation) {
+    double right(const Equation& equation)
+    {
         double sum = 0;
-        for (const TermGroup& group : equation.groups)
-            sum += (*this)(group.value);
+        for (const TermGroup& group : equation.groups) sum += (*this)(group.value);
         return sum;
     }
 
     /// The largest absolute value among the groups and masses: the scale of rounding in an equation.
-    double scale(const Equation& equation, const Values& rates) {
+    double scale(const Equation& equation, const Values& rates)
+    {
         double largest = 1e-3;
-        for (const TermGroup& group : equation.groups)
-            largest = std::max(largest, std::abs((*this)(group.value)));
+        for (const TermGroup& group : equation.groups) largest = std::max(largest, std::abs((*this)(group.value)));
         for (const TermGroup& mass : equation.mass)
             largest = std::max(largest, std::abs((*this)(mass.value) * rates.at(mass.label)));
         return largest;
@@ -57,10 +57,10 @@ struct Point {
     Values rates;  ///< d(state)/dt
 };
 
-Point read_point(const ReferenceCase& reference, const Model& model, const ReferencePoint& given) {
+Point read_point(const ReferenceCase& reference, const Model& model, const ReferencePoint& given)
+{
     Point point;
-    for (const auto& [name, value] : reference.parameters)
-        point.values[name] = std::stod(value);
+    for (const auto& [name, value] : reference.parameters) point.values[name] = std::stod(value);
     std::vector<std::string> lanes = reference.base;
     lanes.insert(lanes.end(), reference.fibre.begin(), reference.fibre.end());
     for (std::size_t k = 0; k < lanes.size(); ++k) {
@@ -76,7 +76,8 @@ const double rounding = tolerance::roundoff(450);
 
 } // namespace
 
-TEST_CASE("kinematics, momenta, accelerations and energy of every reference case hold at its points") {
+TEST_CASE("kinematics, momenta, accelerations and energy of every reference case hold at its points")
+{
     std::size_t equations = 0;
     for (const ReferenceCase& reference : read_reference_cases()) {
         INFO(reference.name);
@@ -87,15 +88,15 @@ TEST_CASE("kinematics, momenta, accelerations and energy of every reference case
             const Point point = read_point(reference, model, given);
             Numbers number(point.values);
             for (const Equation& equation : set.blocks[0].equations)
-                CHECK(number.right(equation) ==
-                      Approx(point.rates.at(equation.symbol)).margin(rounding * number.scale(equation, point.rates)).epsilon(rounding));
+                CHECK(number.right(equation) == Approx(point.rates.at(equation.symbol))
+                                                    .margin(rounding * number.scale(equation, point.rates))
+                                                    .epsilon(rounding));
             for (const Equation& equation : set.blocks[1].equations)
                 CHECK(number.right(equation) ==
                       Approx(point.values.at(equation.symbol)).margin(rounding).epsilon(rounding));
             for (const Equation& equation : set.blocks[3].equations) {
                 double left = 0;
-                for (const TermGroup& mass : equation.mass)
-                    left += number(mass.value) * point.rates.at(mass.label);
+                for (const TermGroup& mass : equation.mass) left += number(mass.value) * point.rates.at(mass.label);
                 CHECK(std::abs(left - number.right(equation)) <= rounding * number.scale(equation, point.rates));
                 ++equations;
             }

@@ -113,7 +113,8 @@ b = { y = "y" }
 L = "m*(a^2 + b^2)/2 + k*a*b*cos(x)/4 + b*sin(t) - k*x^2/2"
 )toml";
 
-inline EquationSet derived(const char* text) {
+inline EquationSet derived(const char* text)
+{
     const Model model = read_model_text("written.toml", text);
     return derive_lagrange(model, build_algebroid(model));
 }

@@ -7,22 +7,23 @@
 
 namespace lagen {
 
-inline VerifiedAlgebroid verified_text(const std::string& text, const std::vector<NamedTree>& extra = {}) {
+inline VerifiedAlgebroid verified_text(const std::string& text, const std::vector<NamedTree>& extra = {})
+{
     return verify(read_model_text("test.toml", "name = \"test\"\n" + text), extra);
 }
 
 /// "anchor(w1, w2, g3) proved"
-inline std::string line_of(const Check& check) {
+inline std::string line_of(const Check& check)
+{
     std::string line = check.name + "(";
-    for (std::size_t k = 0; k < check.indices.size(); ++k)
-        line += (k == 0 ? "" : ", ") + check.indices[k];
+    for (std::size_t k = 0; k < check.indices.size(); ++k) line += (k == 0 ? "" : ", ") + check.indices[k];
     return line + ") " + to_text(check.decision.status);
 }
 
-inline std::vector<std::string> lines_of(const VerifiedAlgebroid& verified) {
+inline std::vector<std::string> lines_of(const VerifiedAlgebroid& verified)
+{
     std::vector<std::string> lines;
-    for (const Check& check : verified.checks)
-        lines.push_back(line_of(check));
+    for (const Check& check : verified.checks) lines.push_back(line_of(check));
     return lines;
 }
 

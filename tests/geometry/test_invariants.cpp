@@ -11,15 +11,15 @@ using namespace lagen;
 namespace {
 
 /// The statuses of claims about a model, in their order, as "proved refuted ...".
-std::string statuses(const std::string& text, const std::vector<std::string>& claims) {
+std::string statuses(const std::string& text, const std::vector<std::string>& claims)
+{
     std::vector<NamedTree> extra;
     for (const std::string& claim : claims)
         extra.push_back({claim, parse_expression(whole_text("<claim>", claim)), {}});
     const VerifiedAlgebroid verified = verified_text(text, extra);
     std::string line;
     for (const Check& check : verified.checks)
-        if (check.name == "invariant")
-            line += (line.empty() ? "" : " ") + std::string(to_text(check.decision.status));
+        if (check.name == "invariant") line += (line.empty() ? "" : " ") + std::string(to_text(check.decision.status));
     return line;
 }
 
@@ -44,7 +44,8 @@ kind = "lie_algebra"
 L = "(I1*w1^2 + I2*w2^2 + I3*w3^2)/2"
 )";
 
-std::string heavy_top(const std::string& lagrangian) {
+std::string heavy_top(const std::string& lagrangian)
+{
     return R"(
 [parameters]
 I1 = 1
@@ -60,51 +61,61 @@ coordinates = ["w1", "w2", "w3"]
 w1 = { g2 = "g3", g3 = "-g2" }
 w2 = { g1 = "-g3", g3 = "g1" }
 w3 = { g1 = "g2", g2 = "-g1" }
-)" + so3 + "[lagrangian]\nL = \"" + lagrangian + "\"\n";
+)" + so3 + "[lagrangian]\nL = \"" +
+           lagrangian + "\"\n";
 }
 
-std::string plane(const std::string& lagrangian, const std::string& more = "") {
+std::string plane(const std::string& lagrangian, const std::string& more = "")
+{
     return "[parameters]\nk = 1\n[base]\ncoordinates = [\"x\", \"y\"]\n" + more +
-           "[fibre]\ncoordinates = [\"u\", \"v\"]\n[algebroid]\nkind = \"tangent\"\n[lagrangian]\nL = \"" + lagrangian + "\"\n";
+           "[fibre]\ncoordinates = [\"u\", \"v\"]\n[algebroid]\nkind = \"tangent\"\n[lagrangian]\nL = \"" + lagrangian +
+           "\"\n";
 }
 
 } // namespace
 
-TEST_CASE("the free rigid body conserves energy and |Pi|^2 but no single momentum") {
+TEST_CASE("the free rigid body conserves energy and |Pi|^2 but no single momentum")
+{
     CHECK(statuses(rigid_body, {"energy", "I1*w1^2 + I2*w2^2 + I3*w3^2", "I1^2*w1^2 + I2^2*w2^2 + I3^2*w3^2",
                                 "p_w1^2 + p_w2^2 + p_w3^2", "p_w1", "w1^2 + w2^2 + w3^2"}) ==
           "proved proved proved proved refuted refuted");
 }
 
-TEST_CASE("the heavy top conserves area and length of the vertical, Lagrange's top also I3 w3") {
+TEST_CASE("the heavy top conserves area and length of the vertical, Lagrange's top also I3 w3")
+{
     const std::vector<std::string> claims = {"g1^2 + g2^2 + g3^2", "I1*w1*g1 + I2*w2*g2 + I3*w3*g3", "energy", "I3*w3"};
     CHECK(statuses(heavy_top("(I1*w1^2 + I2*w2^2 + I3*w3^2)/2 - mgl*g3"), claims) == "proved proved proved refuted");
     CHECK(statuses(heavy_top("(I1*(w1^2 + w2^2) + I3*w3^2)/2 - mgl*g3"),
                    {"g1*p_w1 + g2*p_w2 + g3*p_w3", "I3*w3", "w3"}) == "proved proved proved");
 }
 
-TEST_CASE("Kepler's problem conserves angular momentum and the Laplace vector") {
+TEST_CASE("Kepler's problem conserves angular momentum and the Laplace vector")
+{
     CHECK(statuses(plane("(u^2 + v^2)/2 + k/sqrt(x^2 + y^2)"),
                    {"x*v - y*u", "v*(x*v - y*u) - k*x/sqrt(x^2 + y^2)", "-u*(x*v - y*u) - k*y/sqrt(x^2 + y^2)",
                     "-u*(x*v - y*u) + k*y/sqrt(x^2 + y^2)", "energy"}) == "proved proved proved refuted proved");
 }
 
-TEST_CASE("the Henon-Heiles system conserves energy only") {
+TEST_CASE("the Henon-Heiles system conserves energy only")
+{
     CHECK(statuses(plane("(u^2 + v^2)/2 - (x^2 + y^2)/2 - x^2*y + y^3/3"),
                    {"(u^2 + v^2)/2 + (x^2 + y^2)/2 + x^2*y - y^3/3", "x*v - y*u"}) == "proved refuted");
 }
 
-TEST_CASE("a coupled mass matrix is solved exactly for the accelerations") {
+TEST_CASE("a coupled mass matrix is solved exactly for the accelerations")
+{
     const std::string coupled = plane("(2*u^2 + 2*u*v*cos(x - y) + v^2)/2 + 2*cos(x) + cos(y)");
     CHECK(statuses(coupled, {"(2*u^2 + 2*u*v*cos(x - y) + v^2)/2 - 2*cos(x) - cos(y)", "energy", "u"}) ==
           "proved proved refuted");
 }
 
-TEST_CASE("energy is refuted as an invariant where L depends on time") {
+TEST_CASE("energy is refuted as an invariant where L depends on time")
+{
     CHECK(statuses(plane("(u^2 + v^2)/2 - x*sin(t)"), {"energy", "v"}) == "refuted proved");
 }
 
-TEST_CASE("base coordinates that no section moves are invariants") {
+TEST_CASE("base coordinates that no section moves are invariants")
+{
     const std::string duffing = R"(
 [base]
 coordinates = ["q", "k", "c"]
@@ -119,7 +130,8 @@ L = "v^2/2 - k*q^2/2 - c*q^4/4"
     CHECK(statuses(duffing, {"k", "c", "k*c + c^2", "q"}) == "proved proved proved refuted");
 }
 
-TEST_CASE("a degenerate Lagrangian leaves undecided what needs its accelerations") {
+TEST_CASE("a degenerate Lagrangian leaves undecided what needs its accelerations")
+{
     const std::string text = plane("u^2/2 - x^2/2 + v*y");
     CHECK(statuses(text, {"energy", "u", "v"}) == "proved refuted undecided");
     const VerifiedAlgebroid verified = verified_text(text, {{"v", name("v"), {}}});
@@ -130,7 +142,9 @@ TEST_CASE("a degenerate Lagrangian leaves undecided what needs its accelerations
     CHECK(verified.verdict == Verdict::undecided);
 }
 
-TEST_CASE("without a Lagrangian only functions on the base can be invariant") {
-    const std::string text = "[base]\ncoordinates = [\"x\", \"k\"]\n[fibre]\ncoordinates = [\"v\"]\n[algebroid]\nkind = \"tangent\"\nover = [\"x\"]\n";
+TEST_CASE("without a Lagrangian only functions on the base can be invariant")
+{
+    const std::string text = "[base]\ncoordinates = [\"x\", \"k\"]\n[fibre]\ncoordinates = [\"v\"]\n[algebroid]\nkind "
+                             "= \"tangent\"\nover = [\"x\"]\n";
     CHECK(statuses(text, {"k", "x", "v"}) == "proved refuted undecided");
 }

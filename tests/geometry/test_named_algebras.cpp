@@ -12,7 +12,8 @@ using namespace lagen;
 namespace {
 
 /// "[1,2]=3 [1,3]=-2 ..." counted from 1.
-std::string brackets(const std::string& name) {
+std::string brackets(const std::string& name)
+{
     const std::optional<NamedAlgebra> algebra = named_algebra(name);
     REQUIRE(algebra);
     std::ostringstream text;
@@ -22,7 +23,8 @@ std::string brackets(const std::string& name) {
 }
 
 /// The largest |C^m_bc C^v_am + cyclic| over all indices.
-Rational jacobi_defect(const NamedAlgebra& algebra) {
+Rational jacobi_defect(const NamedAlgebra& algebra)
+{
     const std::size_t r = algebra.basis.size();
     std::map<std::array<std::size_t, 3>, Rational> C;
     for (const StructureConstant& entry : algebra.constants) {
@@ -48,7 +50,8 @@ Rational jacobi_defect(const NamedAlgebra& algebra) {
 
 } // namespace
 
-TEST_CASE("the commutators of the matrices are the brackets of the table") {
+TEST_CASE("the commutators of the matrices are the brackets of the table")
+{
     CHECK(brackets("so(3)") == "[1,2]=1*3 [1,3]=-1*2 [2,3]=1*1 ");
     CHECK(brackets("su(2)") == brackets("so(3)"));
     CHECK(brackets("se(2)") == "[1,2]=1*3 [1,3]=-1*2 ");
@@ -61,15 +64,17 @@ TEST_CASE("the commutators of the matrices are the brackets of the table") {
                                "[3,4]=1*5 [3,5]=-1*4 ");
 }
 
-TEST_CASE("the elementary matrices of gl(2) have the brackets E_ij E_kl - E_kl E_ij") {
+TEST_CASE("the elementary matrices of gl(2) have the brackets E_ij E_kl - E_kl E_ij")
+{
     CHECK(brackets("gl(2)") == "[1,2]=1*2 [1,3]=-1*3 [2,3]=1*1 [2,3]=-1*4 [2,4]=1*2 [3,4]=-1*3 ");
 }
 
-TEST_CASE("ranks and the Jacobi identity hold in every family") {
-    const std::pair<const char*, std::size_t> cases[] = {{"so(3)", 3}, {"su(2)", 3}, {"so(4)", 6}, {"so(5)", 10},
-                                                         {"se(2)", 3}, {"se(3)", 6}, {"so(2,1)", 3}, {"sl(2)", 3},
-                                                         {"heis(3)", 3}, {"aff(1)", 2}, {"gl(3)", 9}, {"R^3", 3},
-                                                         {"so(3) + R^2", 5}, {"se(2)+aff(1)+R", 6}};
+TEST_CASE("ranks and the Jacobi identity hold in every family")
+{
+    const std::pair<const char*, std::size_t> cases[] = {
+        {"so(3)", 3}, {"su(2)", 3},   {"so(4)", 6},       {"so(5)", 10},        {"se(2)", 3},
+        {"se(3)", 6}, {"so(2,1)", 3}, {"sl(2)", 3},       {"heis(3)", 3},       {"aff(1)", 2},
+        {"gl(3)", 9}, {"R^3", 3},     {"so(3) + R^2", 5}, {"se(2)+aff(1)+R", 6}};
     for (const auto& [name, rank] : cases) {
         INFO(name);
         const std::optional<NamedAlgebra> algebra = named_algebra(name);
@@ -79,7 +84,8 @@ TEST_CASE("ranks and the Jacobi identity hold in every family") {
     }
 }
 
-TEST_CASE("a sum of algebras is block diagonal") {
+TEST_CASE("a sum of algebras is block diagonal")
+{
     CHECK(brackets("aff(1) + heis(3)") == "[1,2]=1*2 [3,4]=1*5 ");
     const std::optional<NamedAlgebra> sum = named_algebra("aff(1) + heis(3)");
     CHECK(sum->name == "aff(1) + heis(3)");
@@ -87,7 +93,8 @@ TEST_CASE("a sum of algebras is block diagonal") {
     CHECK(sum->basis[2].front().row == 2);
 }
 
-TEST_CASE("unknown names, empty summands and huge ranks are no algebras") {
+TEST_CASE("unknown names, empty summands and huge ranks are no algebras")
+{
     for (const char* name : {"", "so", "so(x)", "so(3) +", "so(1)", "so(999999)", "R^0", "R^1000", "gl(12)", "sp(4)"}) {
         INFO(name);
         CHECK_FALSE(named_algebra(name).has_value());

@@ -9,16 +9,19 @@ using Kind = Regularity::Kind;
 
 namespace {
 
-Regularity regularity(const std::string& lagrangian, const std::string& parameters = "", const std::string& domain = "") {
-    return verified_text("[parameters]\n" + parameters + "[base]\ncoordinates = [\"x\", \"y\"]\n" + domain +
-                         "[fibre]\ncoordinates = [\"u\", \"v\"]\n[algebroid]\nkind = \"tangent\"\n[lagrangian]\nL = \"" +
-                         lagrangian + "\"\n")
+Regularity regularity(const std::string& lagrangian, const std::string& parameters = "", const std::string& domain = "")
+{
+    return verified_text(
+               "[parameters]\n" + parameters + "[base]\ncoordinates = [\"x\", \"y\"]\n" + domain +
+               "[fibre]\ncoordinates = [\"u\", \"v\"]\n[algebroid]\nkind = \"tangent\"\n[lagrangian]\nL = \"" +
+               lagrangian + "\"\n")
         .regularity;
 }
 
 } // namespace
 
-TEST_CASE("a constant positive mass matrix is regular and positive definite everywhere") {
+TEST_CASE("a constant positive mass matrix is regular and positive definite everywhere")
+{
     const Regularity result = regularity("u^2 + u*v + v^2");
     CHECK(result.kind == Kind::regular);
     CHECK(result.rank == 2);
@@ -26,13 +29,15 @@ TEST_CASE("a constant positive mass matrix is regular and positive definite ever
     CHECK_FALSE(result.for_given_parameters);
 }
 
-TEST_CASE("L = u v is regular and not definite") {
+TEST_CASE("L = u v is regular and not definite")
+{
     const Regularity result = regularity("u*v");
     CHECK(result.kind == Kind::regular);
     CHECK_FALSE(result.positive_definite);
 }
 
-TEST_CASE("a mass without a sign is positive by its value, with a domain for all values") {
+TEST_CASE("a mass without a sign is positive by its value, with a domain for all values")
+{
     const Regularity given = regularity("m*(u^2 + v^2)/2", "m = 3\n");
     CHECK(given.kind == Kind::regular);
     CHECK(given.positive_definite);
@@ -42,7 +47,8 @@ TEST_CASE("a mass without a sign is positive by its value, with a domain for all
     CHECK_FALSE(declared.for_given_parameters);
 }
 
-TEST_CASE("a rank that drops on a line is generic, and the line is met") {
+TEST_CASE("a rank that drops on a line is generic, and the line is met")
+{
     const Regularity result = regularity("(u^2 + sin(x)^2*v^2)/2");
     CHECK(result.kind == Kind::generically_regular);
     CHECK(result.rank == 2);
@@ -51,20 +57,23 @@ TEST_CASE("a rank that drops on a line is generic, and the line is met") {
     CHECK(result.singular_at[0][0] == std::pair<std::string, std::string>("x", "0"));
 }
 
-TEST_CASE("points outside the domain are not singular points of the model") {
+TEST_CASE("points outside the domain are not singular points of the model")
+{
     CHECK(regularity("(u^2 + x^2*v^2)/2").singular_at.size() == 1);
     CHECK(regularity("(u^2 + x^2*v^2)/2", "", "domain = [\"x > 0\"]\n").kind == Kind::regular);
     CHECK(regularity("(u^2 + x^2*v^2)/2 - 1/x").singular_at.empty());
 }
 
-TEST_CASE("degenerate Lagrangians have their generic rank") {
+TEST_CASE("degenerate Lagrangians have their generic rank")
+{
     CHECK(regularity("(u + v)^2").kind == Kind::degenerate);
     CHECK(regularity("(u + v)^2").rank == 1);
     CHECK(regularity("u*x - v*y").rank == 0);
     CHECK(regularity("(sin(x)*u + cos(x)*v)^2/2").kind == Kind::degenerate);
 }
 
-TEST_CASE("a chain of ten coupled coordinates is regular at a point although its determinant is not formed") {
+TEST_CASE("a chain of ten coupled coordinates is regular at a point although its determinant is not formed")
+{
     std::string coordinates;
     std::string lagrangian;
     for (int a = 0; a < 10; ++a) {
@@ -72,10 +81,11 @@ TEST_CASE("a chain of ten coupled coordinates is regular at a point although its
         coordinates += (a == 0 ? "\"" : ", \"") + y + "\"";
         lagrangian += (a == 0 ? "" : " + ") + y + "^2" + (a == 0 ? "" : " + y" + std::to_string(a - 1) + "*" + y);
     }
-    const Regularity result = verified_text("[fibre]\ncoordinates = [" + coordinates +
-                                            "]\n[algebroid]\nkind = \"lie_algebra\"\nalgebra = \"R^10\"\n[lagrangian]\nL = \"" +
-                                            lagrangian + "\"\n")
-                                  .regularity;
+    const Regularity result =
+        verified_text("[fibre]\ncoordinates = [" + coordinates +
+                      "]\n[algebroid]\nkind = \"lie_algebra\"\nalgebra = \"R^10\"\n[lagrangian]\nL = \"" + lagrangian +
+                      "\"\n")
+            .regularity;
     CHECK(result.kind == Kind::generically_regular);
     CHECK(result.rank == 10);
 }

@@ -47,7 +47,8 @@ w3 = { g1 = "g2", g2 = "-g1" }
 
 } // namespace
 
-TEST_CASE("the half-plane frame is valid with [a, b] = -a") {
+TEST_CASE("the half-plane frame is valid with [a, b] = -a")
+{
     const VerifiedAlgebroid verified = verified_text(half_plane + "\"a,b\" = { a = -1 }\n");
     CHECK(verified.verdict == Verdict::valid);
     CHECK(lines_of(verified) == Lines{"anchor(a, b, x) proved"});
@@ -55,7 +56,8 @@ TEST_CASE("the half-plane frame is valid with [a, b] = -a") {
     CHECK(verified.regularity.kind == Regularity::Kind::absent);
 }
 
-TEST_CASE("a wrong sign in a bracket is refuted with a witness, and the hint names the entry") {
+TEST_CASE("a wrong sign in a bracket is refuted with a witness, and the hint names the entry")
+{
     const VerifiedAlgebroid verified = verified_text(half_plane + "\"a,b\" = { a = 1 }\n");
     CHECK(verified.verdict == Verdict::invalid);
     REQUIRE(lines_of(verified) == Lines{"anchor(a, b, x) refuted"});
@@ -70,13 +72,15 @@ TEST_CASE("a wrong sign in a bracket is refuted with a witness, and the hint nam
     CHECK(check.hint == "the anchor equations of [a, b] hold with the opposite sign of its component a");
 }
 
-TEST_CASE("a refutation that no sign repairs has no hint") {
+TEST_CASE("a refutation that no sign repairs has no hint")
+{
     const VerifiedAlgebroid verified = verified_text(half_plane + "\"a,b\" = { a = -2 }\n");
     REQUIRE(verified.verdict == Verdict::invalid);
     CHECK(verified.checks[0].hint.empty());
 }
 
-TEST_CASE("on the sphere every tangency and Casimir equation is listed and proved") {
+TEST_CASE("on the sphere every tangency and Casimir equation is listed and proved")
+{
     const VerifiedAlgebroid verified = verified_text(sphere);
     CHECK(verified.verdict == Verdict::valid);
     CHECK(lines_of(verified) ==
@@ -88,7 +92,8 @@ TEST_CASE("on the sphere every tangency and Casimir equation is listed and prove
     CHECK(verified.trivial == 6);
 }
 
-TEST_CASE("an anchor that leaves the surface is refuted at a point of the surface") {
+TEST_CASE("an anchor that leaves the surface is refuted at a point of the surface")
+{
     std::string text = sphere;
     text.replace(text.find("w1 = { g2 = \"g3\""), 16, "w1 = { g2 = \"g1\"");
     const VerifiedAlgebroid verified = verified_text(text);
@@ -100,8 +105,10 @@ TEST_CASE("an anchor that leaves the surface is refuted at a point of the surfac
     CHECK(found->decision.witness->point.size() == 3);
 }
 
-TEST_CASE("brackets given in both orders must be opposite") {
-    const std::string head = "[fibre]\ncoordinates = [\"a\", \"b\"]\n[algebroid]\nkind = \"lie_algebra\"\n[algebroid.bracket]\n";
+TEST_CASE("brackets given in both orders must be opposite")
+{
+    const std::string head =
+        "[fibre]\ncoordinates = [\"a\", \"b\"]\n[algebroid]\nkind = \"lie_algebra\"\n[algebroid.bracket]\n";
     const VerifiedAlgebroid wrong = verified_text(head + "\"a,b\" = { b = 1 }\n\"b,a\" = { b = 1 }\n");
     CHECK(lines_of(wrong) == Lines{"antisymmetry(a, b, b) refuted"});
     CHECK(wrong.checks[0].decision.residual == "2");
@@ -114,13 +121,14 @@ TEST_CASE("brackets given in both orders must be opposite") {
     CHECK(alone.verdict == Verdict::valid);
 }
 
-TEST_CASE("so(5) and gl(4) by name satisfy Jacobi in every index") {
+TEST_CASE("so(5) and gl(4) by name satisfy Jacobi in every index")
+{
     for (const auto& [name, rank] : {std::pair("so(5)", 10), std::pair("gl(4)", 16), std::pair("so(3) + R^2", 5)}) {
         std::string coordinates;
-        for (int a = 0; a < rank; ++a)
-            coordinates += (a == 0 ? "\"y" : ", \"y") + std::to_string(a) + "\"";
-        const VerifiedAlgebroid verified = verified_text("[fibre]\ncoordinates = [" + coordinates +
-                                                         "]\n[algebroid]\nkind = \"lie_algebra\"\nalgebra = \"" + name + "\"\n");
+        for (int a = 0; a < rank; ++a) coordinates += (a == 0 ? "\"y" : ", \"y") + std::to_string(a) + "\"";
+        const VerifiedAlgebroid verified =
+            verified_text("[fibre]\ncoordinates = [" + coordinates +
+                          "]\n[algebroid]\nkind = \"lie_algebra\"\nalgebra = \"" + name + "\"\n");
         INFO(name);
         CHECK(verified.verdict == Verdict::valid);
         const auto r = static_cast<std::size_t>(rank);
@@ -129,13 +137,17 @@ TEST_CASE("so(5) and gl(4) by name satisfy Jacobi in every index") {
     }
 }
 
-TEST_CASE("a named algebra of another rank is refused where it is named") {
-    CHECK_THROWS_WITH(verified_text("[fibre]\ncoordinates = [\"a\", \"b\"]\n[algebroid]\nkind = \"lie_algebra\"\nalgebra = \"so(3)\"\n"),
-                      "test.toml:6:11: error: the Lie algebra so(3) has rank 3, but the fibre has 2 coordinates\n"
-                      "  algebra = \"so(3)\"\n            ^~~~~~~\n  hint: give [fibre] one coordinate for each basis element");
+TEST_CASE("a named algebra of another rank is refused where it is named")
+{
+    CHECK_THROWS_WITH(
+        verified_text(
+            "[fibre]\ncoordinates = [\"a\", \"b\"]\n[algebroid]\nkind = \"lie_algebra\"\nalgebra = \"so(3)\"\n"),
+        "test.toml:6:11: error: the Lie algebra so(3) has rank 3, but the fibre has 2 coordinates\n"
+        "  algebra = \"so(3)\"\n            ^~~~~~~\nhint: give [fibre] one coordinate for each basis element");
 }
 
-TEST_CASE("a division by something that is zero everywhere is refused where it stands") {
+TEST_CASE("a division by something that is zero everywhere is refused where it stands")
+{
     CHECK_THROWS_WITH(verified_text("[base]\ncoordinates = [\"x\"]\n[fibre]\ncoordinates = [\"v\"]\n"
                                     "[algebroid.anchor]\nv = { x = \"1/(sin(x)^2 + cos(x)^2 - 1)\" }\n"),
                       Catch::Contains("division by sin(x)^2 + cos(x)^2 - 1, which is zero everywhere") &&
@@ -143,22 +155,26 @@ TEST_CASE("a division by something that is zero everywhere is refused where it s
                           Catch::Contains("hint: a divisor must be nonzero somewhere on the domain"));
 }
 
-TEST_CASE("constraints that are not triangular are refused at the constraint") {
+TEST_CASE("constraints that are not triangular are refused at the constraint")
+{
     CHECK_THROWS_WITH(verified_text("[base]\ncoordinates = [\"x\", \"y\"]\nconstraints = [\"sin(x) + sin(y)\"]\n"
                                     "[fibre]\ncoordinates = [\"v\"]\n[algebroid.anchor]\nv = { x = 1 }\n"),
                       Catch::StartsWith("test.toml:4:17: error: ") &&
                           Catch::Contains("hint: each constraint must solve for a base coordinate"));
 }
 
-TEST_CASE("a model that is defined nowhere is undecided and says so") {
+TEST_CASE("a model that is defined nowhere is undecided and says so")
+{
     const VerifiedAlgebroid verified = verified_text("[base]\ncoordinates = [\"x\"]\n[fibre]\ncoordinates = [\"v\"]\n"
                                                      "[algebroid.anchor]\nv = { x = \"sqrt(-1 - x^2)\" }\n");
     CHECK(verified.verdict == Verdict::undecided);
-    CHECK(verified.note == "no point was found where everything in the model is defined and every condition of [base] holds");
+    CHECK(verified.note ==
+          "no point was found where everything in the model is defined and every condition of [base] holds");
 }
 
 // The second route: residuals formed in GiNaC by differentiation of expanded expressions.
-TEST_CASE("anchor residuals from GiNaC and from the graph agree at points where they are not zero") {
+TEST_CASE("anchor residuals from GiNaC and from the graph agree at points where they are not zero")
+{
     const Model model = read_model_text("test.toml", "name = \"test\"\n" + std::string(R"toml(
 [base]
 coordinates = ["x", "y"]
@@ -174,11 +190,9 @@ b = { x = "x/(1 + y^2)", y = "exp(y)" }
     SymbolTable symbols;
     const GiNaC::realsymbol x[] = {symbols.symbol("x"), symbols.symbol("y")};
     GiNaC::ex rho[2][2] = {};
-    for (const AnchorValue& entry : algebroid.rho)
-        rho[entry.i][entry.a] = to_ginac(entry.value, symbols);
+    for (const AnchorValue& entry : algebroid.rho) rho[entry.i][entry.a] = to_ginac(entry.value, symbols);
     GiNaC::ex C[2] = {};
-    for (const StructureValue& entry : algebroid.C)
-        C[entry.c] = to_ginac(entry.value, symbols);
+    for (const StructureValue& entry : algebroid.C) C[entry.c] = to_ginac(entry.value, symbols);
     Graph graph;
     Lowering lower(graph);
     const LoweredAlgebroid lowered = lower_algebroid(graph, lower, algebroid);

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// The folder of compiled scenes, kept small: each file is a program whose name is its key.
+#pragma once
+
+#include <string>
+
+namespace lagen {
+
+/// True where the program is there and may be executed; it counts as used just now.
+[[nodiscard]] bool use_cached(const std::string& program);
+
+/// Removes the programs used longest ago until at most 200 of them with at most 1 GiB are left, and what compilations
+/// that were killed have left for more than a day. Files with other names are not touched; failures are ignored.
+void trim_cache(const std::string& folder);
+
+} // namespace lagen
