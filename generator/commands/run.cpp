@@ -6,16 +6,17 @@
 #include "commands/plot.hpp"
 #include "commands/process.hpp"
 #include "commands/progress.hpp"
+#include "commands/scene_options.hpp"
 #include "commands/scene_program.hpp"
 #include "commands/start_state.hpp"
+#include "commands/temporary_folder.hpp"
 #include "commands/write_file.hpp"
-#include "expression/parse.hpp"
 #include "pipeline.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <filesystem>
+#include <cmath>
 
 namespace lagen {
 
@@ -26,136 +27,63 @@ const CommandSyntax syntax{
     "MODEL",
     "Generates, compiles and integrates a scene. CSV on standard output unless --output or --format json.",
     {{"scene", "NAME", "the scene; without it `default`, else the first"},
-     {"form", "FORM", "lagrange"},
+     {"form", "FORM", "lagrange", "lagrange"},
      {"method", "METHOD", "see `lagen methods`; without it the scene's, else dop853"},
      {"step", "H", "step of a fixed-step method"},
-     {"tolerance", "TOL", "relative and absolute tolerance of an adaptive method"},
-     {"t-end", "T", "end of the run"},
-     {"at", "T1,T2,..", "rows at exactly these times"},
+     {"tolerance", "TOL", "relative and absolute tolerance of an adaptive method; without it the scene's, else 1e-10"},
+     {"t-end", "T", "end of the run, backwards where it lies before the start; without it the scene's duration"},
+     {"at", "T1,T2,..", "rows at exactly these times; without --t-end the run goes on to the last of them"},
      {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
      {"output,o", "FILE", "the rows as CSV"},
      {"plot", "FILE", "a picture (.svg, .png, .pdf)"},
      {"unchecked", nullptr, "go on although the model is refuted"},
      {"format,f", "FORMAT", "text or json", "text"}}};
 
-/// A folder for the times and the report of one run.
-class ExchangeFolder {
-  public:
-    ExchangeFolder() : path_((std::filesystem::temp_directory_path() / "lagen-run-XXXXXX").string())
-    {
-        if (::mkdtemp(path_.data()) == nullptr)
-            throw MachineError(fmt::format("error: cannot make a folder like '{}'", path_));
-    }
-    ~ExchangeFolder()
-    {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    ExchangeFolder(const ExchangeFolder&) = delete;
-    ExchangeFolder& operator=(const ExchangeFolder&) = delete;
-    [[nodiscard]] std::string file(const char* name) const { return path_ + "/" + name; }
-
-  private:
-    std::string path_;
-};
-
-constexpr long double standard_tolerance = 1e-10L;
-
-Tree option_tree(const Model& model, const std::string& name, const std::string& text)
-{
-    return model.scope.close(parse_expression(whole_text("<--" + name + ">", text)));
-}
-
-/// The scene as the command line changes it.
-Scene scene_of(const Options& options, const Model& model)
-{
-    Scene scene = find_scene(model, options.get("scene"));
-    if (options.has("method")) scene.method = options.get("method");
-    const auto replace = [&](const char* name, Tree& tree) {
-        if (options.has(name)) tree = option_tree(model, name, options.get(name));
-    };
-    replace("step", scene.step);
-    if (options.has("tolerance")) scene.relative = scene.absolute = nullptr;
-    replace("tolerance", scene.tolerance);
-    if (options.has("t-end")) {
-        const Tree end = option_tree(model, "t-end", options.get("t-end"));
-        scene.duration = scene.start ? add({end, negate(scene.start)}) : end;
-    }
-    if (options.has("at")) {
-        scene.sampling = {Sampling::Kind::at, nullptr, 0, {}};
-        for (const std::string& time : split_list(options.get("at")))
-            scene.sampling.at.push_back(option_tree(model, "at", time));
-    }
-    for (const Setting& setting : options.settings()) // the command line wins over the scene
-        std::erase_if(scene.parameters, [&](const NamedTree& parameter) { return parameter.name == setting.name; });
-    if (!scene.form.empty() && scene.form != "lagrange")
-        throw ModelError(
-            fmt::format("scene '{}' asks for the form '{}', this version of lagen runs the form 'lagrange'", scene.name,
-                        scene.form),
-            scene.where);
-    return scene;
-}
-
-const MethodEntry& method_of(const Options& options, const Scene& scene)
-{
-    const std::string name = scene.method.empty() ? "dop853" : scene.method;
-    const MethodEntry* method = find_method(name);
-    if (method == nullptr) {
-        const std::string nearest = nearest_name(name, method_names());
-        const std::string hint =
-            nearest.empty() ? "`lagen methods` lists them" : fmt::format("did you mean '{}'?", nearest);
-        if (options.has("method"))
-            throw UsageError(fmt::format("lagen run: unknown method '{}'\nhint: {}", name, hint));
-        throw ModelError(fmt::format("unknown method '{}'", name), scene.method_where, hint);
-    }
-    if (method->adaptive || scene.step) return *method;
-    const std::string text =
-        fmt::format("method '{}' needs a step: give --step, or `step` in scene '{}'", name, scene.name);
-    if (options.has("method")) throw UsageError("lagen run: " + text);
-    throw ModelError(text, scene.where);
-}
-
-std::vector<long double> numbers(const std::vector<NamedNumber>& named)
+/// In the order of `named`, each as the compiled scene can hold it.
+std::vector<long double> numbers(const std::vector<NamedNumber>& named, const Scene& scene)
 {
     std::vector<long double> values;
-    values.reserve(named.size());
-    for (const auto& [name, value] : named) values.push_back(value);
+    for (const auto& [name, value] : named) {
+        if (!std::isfinite(static_cast<double>(value)))
+            throw ModelError(fmt::format("'{}' starts at {:.6g} in scene '{}', where at most 1.79769e+308 is possible",
+                                         name, value, scene.name),
+                             scene.where);
+        values.push_back(value);
+    }
     return values;
 }
 
-ProgramInput input_of(const KernelModule& module, const Scene& scene, const SceneValues& values,
-                      const ExchangeFolder& folder)
+ProgramInput input_of(const KernelModule& module, const Scene& scene, const SceneValues& values, bool stretch)
 {
-    if (!values.duration)
-        throw ModelError(fmt::format("scene '{}' has no duration", scene.name), scene.where,
-                         "give `duration`, or --t-end");
     ProgramInput input;
-    input.parameters = numbers(values.parameters);
+    input.parameters = numbers(values.parameters, scene);
+    for (const std::vector<NamedNumber>* group : {&values.base, &values.fibre, &values.momenta})
+        (void)numbers(*group, scene);
     input.initial = start_state(module, values);
-    input.start = values.start;
-    input.end = values.start + *values.duration;
     input.step = values.step;
     input.relative = values.relative.value_or(standard_tolerance);
     input.absolute = values.absolute.value_or(standard_tolerance);
-    input.sampling = scene.sampling.kind;
-    input.interval = values.interval;
-    input.samples = scene.sampling.count;
-    input.at_file = folder.file("times");
     input.events = &scene.events;
     input.columns = columns_of(module, scene);
-    input.report_file = folder.file("report");
-    if (scene.sampling.kind == Sampling::Kind::at) {
-        std::string times;
-        for (const long double time : values.at) times += fmt::format("{:.21g}\n", time);
-        write_file(input.at_file, times);
-    }
+    input.times = sample_times(scene, values, input.columns.size() + 1, stretch);
     return input;
+}
+
+/// Times and report go through files: an argument list has a limit.
+void use_folder(const TemporaryFolder& folder, ProgramInput& input)
+{
+    input.at_file = folder.file("times");
+    input.report_file = folder.file("report");
+    if (input.times.kind != Sampling::Kind::at) return;
+    std::string times;
+    for (const long double time : input.times.at) times += fmt::format("{:.21g}\n", time);
+    write_file(input.at_file, times);
 }
 
 /// Runs the program; the rows and the report go into `outcome`.
 void integrate_scene(const std::string& program, const ProgramInput& input, RunOutcome& outcome)
 {
-    Progress progress(static_cast<double>(input.start), static_cast<double>(input.end));
+    Progress progress(static_cast<double>(input.times.start), static_cast<double>(input.times.end));
     const ProcessResult result =
         run_process(program_arguments(program, input), [&](const char* bytes, std::size_t count) {
             outcome.table.rows.append(bytes, count);
@@ -163,7 +91,8 @@ void integrate_scene(const std::string& program, const ProgramInput& input, RunO
         });
     progress.clear();
     if (!result.started)
-        throw MachineError(fmt::format("error: the compiled scene could not be started: {}", result.error));
+        throw MachineError(fmt::format("error: the compiled scene could not be started: {}\nhint: remove '{}' to have it compiled again",
+                                       result.error, program));
     if (result.interrupted || result.exit_code == static_cast<int>(ExitCode::interrupted))
         throw Error(ExitCode::interrupted, "lagen: interrupted, nothing was written");
     if (result.exit_code != 0 && result.exit_code != 1)
@@ -188,7 +117,7 @@ void tell(const Options& options, const RunOutcome& outcome, bool as_json)
         write_standard_output(report_json(outcome));
     } else {
         if (!options.has("output")) write_standard_output(to_csv(outcome.table));
-        fmt::print(stderr, "{}", report_text(outcome));
+        write_standard_error(report_text(outcome));
     }
 }
 
@@ -199,21 +128,24 @@ ExitCode run_run(Arguments arguments)
     const Options options(syntax, arguments);
     if (options.help()) return ExitCode::done;
     const bool as_json = options.choice("format", {"text", "json"}) == "json";
-    if (options.has("form")) (void)options.choice("form", {"lagrange"});
+    (void)options.choice("form", {"lagrange"});
     if (options.has("plot")) require_plot_format(options.get("plot"));
 
     const CheckedModel checked = load(options.positional()[0], options.settings(), options.has("unchecked"));
-    for (const std::string& warning : checked.warnings) fmt::print(stderr, "warning: {}\n", warning);
+    for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
     const Model& model = checked.model;
     const Scene scene = scene_of(options, model);
     const MethodEntry& method = method_of(options, scene);
+    if (method.adaptive && options.has("step"))
+        write_standard_error(fmt::format("warning: --step is not used: {} chooses its steps itself\n", method.name));
     const SceneValues values = evaluate_scene(model, scene);
     GenerateRequest request;
     request.scene = &scene;
     const Generated generated = generate(checked, request);
-    const ExchangeFolder folder;
-    const ProgramInput input = input_of(generated.module, scene, values, folder);
+    ProgramInput input = input_of(generated.module, scene, values, options.has("at") && !options.has("t-end"));
     const Compiled compiled = compile_program(generated.header, program_text(generated.module.name, method));
+    const TemporaryFolder folder(shared_temporary_folder(), "lagen-run");
+    use_folder(folder, input);
 
     RunOutcome outcome;
     outcome.model = model.name;

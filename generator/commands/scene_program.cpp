@@ -118,7 +118,7 @@ std::vector<Column> columns_of(const KernelModule& module, const Scene& scene)
 std::vector<std::string> program_arguments(const std::string& program, const ProgramInput& input)
 {
     std::vector<std::string> arguments{
-        program, "--initial", list_of(input.initial), "--start", text_of(input.start), "--end", text_of(input.end)};
+        program, "--initial", list_of(input.initial), "--start", text_of(input.times.start), "--end", text_of(input.times.end)};
     const auto give = [&](const char* name, std::string value) {
         arguments.insert(arguments.end(), {name, std::move(value)});
     };
@@ -126,10 +126,10 @@ std::vector<std::string> program_arguments(const std::string& program, const Pro
     if (input.step) give("--step", text_of(*input.step));
     if (input.relative) give("--relative", text_of(*input.relative));
     if (input.absolute) give("--absolute", text_of(*input.absolute));
-    switch (input.sampling) {
-    case Sampling::Kind::standard: give("--samples", "201"); break;
-    case Sampling::Kind::count: give("--samples", std::to_string(input.samples)); break;
-    case Sampling::Kind::interval: give("--interval", text_of(*input.interval)); break;
+    switch (input.times.kind) {
+    case Sampling::Kind::standard:
+    case Sampling::Kind::count: give("--samples", std::to_string(input.times.count)); break;
+    case Sampling::Kind::interval: give("--interval", text_of(*input.times.interval)); break;
     case Sampling::Kind::at: give("--at-file", input.at_file); break;
     }
     if (input.events != nullptr && !input.events->empty()) give("--events", events_of(*input.events));

@@ -4,8 +4,8 @@
 
 #include "commands/methods.hpp"
 #include "commands/run_report.hpp"
+#include "commands/sample_times.hpp"
 #include "graph/kernel.hpp"
-#include "model/evaluate_scene.hpp"
 
 namespace lagen {
 
@@ -26,11 +26,8 @@ struct Column {
 struct ProgramInput {
     std::vector<long double> parameters;
     std::vector<long double> initial; ///< state lanes, base first
-    long double start = 0, end = 0;
+    SampleTimes times;
     std::optional<long double> step, relative, absolute;
-    Sampling::Kind sampling = Sampling::Kind::standard;
-    std::optional<long double> interval;
-    std::size_t samples = 201;
     std::string at_file; ///< path of the file with the times
     const std::vector<Event>* events = nullptr;
     std::vector<Column> columns;
