@@ -99,6 +99,7 @@ int main(int argc, char** argv)
     std::signal(SIGTERM, on_interrupt);
     std::signal(SIGHUP, on_interrupt);
     std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN); // a file at its limit: write says so
     try {
         const ExitCode code = dispatch(std::vector<std::string>(argv + 1, argv + argc));
         if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)

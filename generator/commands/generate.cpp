@@ -3,6 +3,7 @@
 #include "commands/command.hpp"
 #include "commands/options.hpp"
 #include "commands/write_file.hpp"
+#include "emit/json.hpp"
 #include "pipeline.hpp"
 
 #include <fmt/core.h>
@@ -20,6 +21,7 @@ const CommandSyntax syntax{"generate",
                             {"only", "KERNELS", "these kernels alone, e.g. rhs,energy"},
                             {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
                             {"unchecked", nullptr, "go on although the model is refuted; the header says so"},
+                            {"format,f", "FORMAT", "text (the header) or json (what it holds, and the header)", "text"},
                             {"depfile", "FILE", "write a dependency file for make or ninja (needs --output)"}}};
 
 /// A path as make and ninja read it in a dependency file.
@@ -34,12 +36,31 @@ std::string escaped(const std::string& path)
     return text;
 }
 
+/// {"model", "form", "class", "hash", "regenerate", "warnings", "kernels": [{"name", "rows", "columns"}], "header"}
+std::string module_json(const Generated& generated)
+{
+    const KernelModule& module = generated.module;
+    JsonWriter json;
+    json.begin_object().key("model").value(module.model).key("form").value(module.form);
+    json.key("class").value(module.name).key("hash").value(module.hash).key("regenerate").value(module.regenerate);
+    json.key("warnings").begin_array();
+    for (const std::string& warning : module.warnings) json.value(warning);
+    json.end_array().key("kernels").begin_array();
+    for (const Kernel& kernel : module.kernels) {
+        json.begin_object().key("name").value(kernel.name).key("rows").value(kernel.output.rows);
+        json.key("columns").value(kernel.output.columns).end_object();
+    }
+    json.end_array().key("header").value(generated.header).end_object();
+    return json.text() + "\n";
+}
+
 } // namespace
 
 ExitCode run_generate(Arguments arguments)
 {
     const Options options(syntax, arguments);
     if (options.help()) return ExitCode::done;
+    const bool as_json = options.choice("format", {"text", "json"}) == "json";
     (void)options.choice("form", {"lagrange"});
     if (options.has("depfile") && !options.has("output")) throw UsageError("lagen generate: --depfile needs --output");
     const std::string model = options.positional()[0];
@@ -48,7 +69,8 @@ ExitCode run_generate(Arguments arguments)
     GenerateRequest request;
     request.only = split_list(options.get("only"));
     const std::string output = options.has("output") ? options.get("output") : "-";
-    write_file(output, generate(checked, request).header);
+    const Generated generated = generate(checked, request);
+    write_file(output, as_json ? module_json(generated) : generated.header);
     if (options.has("depfile"))
         write_file(options.get("depfile"), fmt::format("{}: {}\n", escaped(output), escaped(model)));
     return ExitCode::done;

@@ -106,6 +106,7 @@ pid_t spawn(const std::string& program, const std::vector<std::string>& argument
     posix_spawnattr_setsigmask(&attributes, &nothing);
     sigset_t defaults = interrupt_signals();
     sigaddset(&defaults, SIGPIPE);
+    sigaddset(&defaults, SIGXFSZ);
     posix_spawnattr_setsigdefault(&attributes, &defaults);
     pid_t child = 0;
     failure = ::posix_spawn(&child, program.c_str(), &actions, &attributes, pointers.data(), environ);

@@ -8,6 +8,7 @@ namespace lagen::proof {
 namespace {
 
 constexpr unsigned largest_multiple = 256; ///< of an angle; cos(256 u) has 129 terms
+constexpr std::size_t most_parts = 64;     ///< terms of one argument: each brings generators of its own
 constexpr std::size_t longest_text = 160;  ///< of one generator
 
 /// The greatest rational that divides both.
@@ -35,6 +36,8 @@ Fraction Elementary::pi()
 
 std::vector<Elementary::Part> Elementary::parts(const Fraction& argument) const
 {
+    if (argument.num.size() > most_parts)
+        throw BudgetExhausted("an argument of sin, cos or exp has more than " + std::to_string(most_parts) + " terms");
     std::vector<Part> result;
     for (const Term& term : argument.num) {
         Part part;

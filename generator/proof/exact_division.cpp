@@ -48,6 +48,7 @@ bool divide_exactly(const Polynomial& p, const Polynomial& q, Polynomial& quotie
     quotient.clear();
     if (q.empty()) return false;
     if (p.empty()) return true;
+    work.spend(1 + p[0].monomial.size());
     Term term;
     // The trailing terms must divide too: this refuses most hopeless cases at no cost.
     if (!divide_term(p.back().monomial, p.back().coefficient, q.back().monomial, q.back().coefficient, term))

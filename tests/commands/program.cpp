@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// fork and exec, with both streams in files: no pipe can fill up and no shell is in between.
+#include "program.hpp"
+
+#include "support/golden.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fcntl.h>
+#include <filesystem>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace lagen::testing {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Removed when the test program ends.
+class Root {
+  public:
+    Root() : path_((fs::temp_directory_path() / "lagen-commands-XXXXXX").string())
+    {
+        if (::mkdtemp(path_.data()) == nullptr) std::abort();
+        for (const char* name : {"cache", "tmp", "models", "home"}) fs::create_directory(path_ + "/" + name);
+    }
+    ~Root()
+    {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    Root(const Root&) = delete;
+    Root& operator=(const Root&) = delete;
+
+    [[nodiscard]] std::string file(const std::string& name) const { return path_ + "/" + name; }
+    [[nodiscard]] std::string next(const char* stem) { return file(stem + std::to_string(++count_)); }
+
+  private:
+    std::string path_;
+    int count_ = 0;
+};
+
+Root& root()
+{
+    static Root one;
+    return one;
+}
+
+void redirect(int stream, const std::string& path)
+{
+    const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    if (file < 0 || ::dup2(file, stream) < 0) ::_exit(99);
+    ::close(file);
+}
+
+void set_environment(const Surroundings& around)
+{
+    ::setenv("LAGEN_CACHE", root().file("cache").c_str(), 1);
+    ::setenv("TMPDIR", root().file("tmp").c_str(), 1);
+    ::setenv("HOME", root().file("home").c_str(), 1);
+    ::setenv("CXXFLAGS", "-O1", 1); // compiles faster, and nothing here is timed
+    for (const char* name : {"CXX", "XDG_CACHE_HOME", "LAGEN_INCLUDE", "LAGEN_MODELS", "LAGEN_EIGEN_INCLUDE"})
+        ::unsetenv(name);
+    for (const auto& [name, value] : around.environment)
+        value.empty() ? ::unsetenv(name.c_str()) : ::setenv(name.c_str(), value.c_str(), 1);
+}
+
+[[noreturn]] void become_lagen(const std::vector<std::string>& arguments, const Surroundings& around,
+                               const Started& started)
+{
+    set_environment(around);
+    redirect(STDOUT_FILENO, around.output.empty() ? started.out : around.output);
+    redirect(STDERR_FILENO, started.err);
+    if (around.output_closed) ::close(STDOUT_FILENO);
+    if (around.error_closed) ::close(STDERR_FILENO);
+    if (::chdir(around.folder.empty() ? models_folder().c_str() : around.folder.c_str()) != 0) ::_exit(98);
+    if (around.largest_file > 0) {
+        const rlimit limit{static_cast<rlim_t>(around.largest_file), static_cast<rlim_t>(around.largest_file)};
+        ::setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    std::vector<char*> pointers{const_cast<char*>("lagen")};
+    for (const std::string& argument : arguments) pointers.push_back(const_cast<char*>(argument.c_str()));
+    pointers.push_back(nullptr);
+    ::execv(LAGEN_PROGRAM, pointers.data());
+    ::_exit(97);
+}
+
+} // namespace
+
+Started start_lagen(const std::vector<std::string>& arguments, const Surroundings& around)
+{
+    (void)models_folder();
+    Started started{0, root().next("out"), root().next("err")};
+    started.process = ::fork();
+    if (started.process == 0) become_lagen(arguments, around, started);
+    return started;
+}
+
+Outcome finish(const Started& started)
+{
+    int status = 0;
+    ::waitpid(started.process, &status, 0);
+    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    const Outcome outcome{code, read_text(started.out), read_text(started.err)};
+    CHECK(names_in(temporary_folder()).empty()); // whatever happened, nothing is left behind
+    return outcome;
+}
+
+Outcome lagen(const std::vector<std::string>& arguments, const Surroundings& around)
+{
+    return finish(start_lagen(arguments, around));
+}
+
+std::string fresh_folder()
+{
+    const std::string folder = root().next("folder");
+    fs::create_directory(folder);
+    return folder;
+}
+
+const std::string& models_folder()
+{
+    static const std::string folder = [] {
+        const std::string made = root().file("models");
+        for (const char* from : {"/models", "/tests/commands/models"})
+            for (const fs::directory_entry& entry : fs::directory_iterator(LAGEN_SOURCE_DIR + std::string(from)))
+                fs::copy_file(entry.path(), fs::path(made) / entry.path().filename());
+        return made;
+    }();
+    return folder;
+}
+
+std::vector<std::string> example_models()
+{
+    std::vector<std::string> names;
+    for (const std::string& name : names_in(LAGEN_SOURCE_DIR "/models"))
+        if (name.ends_with(".toml")) names.push_back(name.substr(0, name.size() - 5));
+    return names;
+}
+
+std::vector<std::string> names_in(const std::string& folder)
+{
+    std::vector<std::string> names;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+        names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+const std::string& temporary_folder()
+{
+    static const std::string folder = root().file("tmp");
+    return folder;
+}
+
+} // namespace lagen::testing

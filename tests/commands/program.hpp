@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// The program as its user meets it: arguments in, exit code and two streams out.
+#pragma once
+
+#include <string>
+#include <sys/types.h>
+#include <utility>
+#include <vector>
+
+namespace lagen::testing {
+
+struct Outcome {
+    int code = -1; ///< 128 + signal where it was killed
+    std::string out, err;
+};
+
+/// What differs from an ordinary call.
+struct Surroundings {
+    std::vector<std::pair<std::string, std::string>> environment; ///< an empty value removes the variable
+    std::string folder;                                           ///< to stand in; default: models_folder()
+    std::string output;                                           ///< standard output goes there instead
+    bool output_closed = false;
+    bool error_closed = false;
+    long largest_file = 0; ///< bytes; 0: no limit
+};
+
+/// Runs lagen. Programs that it compiles are shared by the whole test program.
+[[nodiscard]] Outcome lagen(const std::vector<std::string>& arguments, const Surroundings& around = {});
+
+/// The same, not waited for; `finish` waits.
+struct Started {
+    pid_t process = 0;
+    std::string out, err; ///< files
+};
+[[nodiscard]] Started start_lagen(const std::vector<std::string>& arguments, const Surroundings& around = {});
+[[nodiscard]] Outcome finish(const Started& started);
+
+/// A new empty folder, removed with everything else when the test program ends.
+[[nodiscard]] std::string fresh_folder();
+/// A folder with a copy of models/*.toml and of tests/commands/models/*.toml.
+[[nodiscard]] const std::string& models_folder();
+/// The example models by name, sorted.
+[[nodiscard]] std::vector<std::string> example_models();
+/// Names of everything in a folder, sorted.
+[[nodiscard]] std::vector<std::string> names_in(const std::string& folder);
+/// TMPDIR of every call: must be empty after each.
+[[nodiscard]] const std::string& temporary_folder();
+
+} // namespace lagen::testing
