@@ -28,14 +28,14 @@
 ///
 /// Operations (with shared terms computed once; "written out" without sharing):
 ///   kernel            + -      *      /  functions  solves  written out
-///   rhs                 7     16      0          3       1          120
+///   rhs                 6     17      0          2       1          102
 ///   mass_matrix         2      6      0          1       0           15
 ///   momentum            4      9      0          1       0           18
-///   energy              7     16      0          3       0           32
+///   energy              7     16      0          3       0           35
 ///   lagrangian          6     14      0          3       0           25
 ///   observables         4      4      0          2       0           16
 ///   events              0      1      0          1       0            2
-///   jacobian           14     30      0          3       5          720
+///   jacobian           16     28      0          2       5         1014
 ///
 /// Parameters:
 ///   m1 [kg]: upper mass
@@ -122,7 +122,14 @@ class double_pendulum {
     /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
-        return StatusOf<S>::good();
+        const S m2 = parameters.m2;
+        const S l1 = parameters.l1;
+        const S l2 = parameters.l2;
+        auto status = StatusOf<S>::good();
+        StatusOf<S>::fail(status, m2 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, l1 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, l2 == S(0), Status::singular_mass_matrix);
+        return status;
     }
 
     /// The equations of motion, ds = (xdot, ydot): xdot^i = rho^i_a y^a and
@@ -131,6 +138,7 @@ class double_pendulum {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
+        using std::abs;
         using std::cos;
         using std::sin;
         const S a = s[0];
@@ -143,26 +151,25 @@ class double_pendulum {
         const S l2 = parameters.l2;
         const S g = parameters.g;
         auto status = StatusOf<S>::good();
-        const S w0 = l1 * (m1 + m2);
-        const S w1 = l1 * w0;
-        const S w2 = a - b;
-        const S w3 = sin(w2);
-        const S w4 = cos(w2);
-        const S w5 = m2 * l2;
-        const S w6 = l1 * w5;
-        const S w7 = w4 * w6;
-        const S w8 = l2 * w5;
-        const S det0 = w1 * w8 - w7 * w7;
-        StatusOf<S>::fail(status, det0 <= singular_tolerance<S>(2) * (w1 * w8), Status::singular_mass_matrix);
+        const S w0 = m1 + m2;
+        const S w1 = w0 * l1;
+        const S w2 = m2 * l2;
+        const S w3 = sin(a);
+        const S w4 = cos(a);
+        const S w5 = sin(b);
+        const S w6 = cos(b);
+        const S w7 = w4 * w6 + w3 * w5;
+        const S w8 = w2 * w7;
+        const S w9 = l1 * w7;
+        const S det0 = w1 * l2 - w8 * w9;
+        StatusOf<S>::fail(status, abs(det0) <= singular_tolerance<S>(2) * (abs(w1 * l2) + abs(w8 * w9)),
+                Status::singular_mass_matrix);
         const S inv_det0 = S(1) / det0;
-        const S w9 = w3 * w6;
-        const S w10 = u - v;
-        const S w11 = u * w9;
-        const S w12 = v * w11;
-        const S w13 = w9 * (v * w10) - w0 * (g * sin(a)) - w12;
-        const S w14 = w12 + w10 * w11 - w5 * (g * sin(b));
-        const S z0_0 = (w8 * w13 - w7 * w14) * inv_det0;
-        const S z0_1 = (w1 * w14 - w7 * w13) * inv_det0;
+        const S w10 = w4 * w5 - w3 * w6;
+        const S w11 = w2 * w10 * (v * v) - w0 * g * w3;
+        const S w12 = -(g * w5 + l1 * w10 * (u * u));
+        const S z0_0 = (l2 * w11 - w8 * w12) * inv_det0;
+        const S z0_1 = (w1 * w12 - w9 * w11) * inv_det0;
         ds[0] = u;
         ds[1] = v;
         ds[2] = z0_0;
@@ -181,7 +188,7 @@ class double_pendulum {
         const S l1 = parameters.l1;
         const S l2 = parameters.l2;
         const S w0 = m2 * l2;
-        const S w1 = w0 * (l1 * cos(a - b));
+        const S w1 = l1 * w0 * cos(a - b);
         Eigen::Matrix<S, 2, 2> result;
         result(0, 0) = (m1 + m2) * (l1 * l1);
         result(0, 1) = w1;
@@ -206,7 +213,7 @@ class double_pendulum {
         const S w1 = m2 * l2;
         const S w2 = l1 * u;
         Eigen::Matrix<S, 2, 1> result;
-        result[0] = l1 * (v * w0 * w1 + (m1 + m2) * w2);
+        result[0] = l1 * (w1 * w0 * v + (m1 + m2) * w2);
         result[1] = w1 * (l2 * v + w0 * w2);
         return result;
     }
@@ -224,13 +231,13 @@ class double_pendulum {
         const S l1 = parameters.l1;
         const S l2 = parameters.l2;
         const S g = parameters.g;
-        const S w0 = l1 * u;
-        const S w1 = S(2) * g;
-        const S w2 = cos(a) * w1;
-        const S w3 = l2 * v;
-        const S w4 = m1 * l1 * (u * w0 - w2) + m2 * (l1 * (u * (w0 + w3 * (S(2) * cos(a - b))) - w2) + l2 * (v * w3 -
-                cos(b) * w1));
-        return S(0.5) * w4;
+        const S w0 = m2 * l2;
+        const S w1 = w0 * v;
+        const S w2 = l1 * u;
+        const S w3 = m1 + m2;
+        const S w4 = w3 * w2;
+        const S w5 = S(0.5) * l2 * v * w1 + w2 * (w4 + cos(a - b) * w1) - w3 * l1 * g * cos(a) - w0 * g * cos(b);
+        return w5 - S(0.5) * w2 * w4;
     }
 
     /// L(t, x, y).
@@ -248,8 +255,8 @@ class double_pendulum {
         const S g = parameters.g;
         const S w0 = S(2) * g;
         const S w1 = l1 * u;
-        const S w2 = m2 * l2 * (cos(b) * w0 + v * (l2 * v + w1 * (S(2) * cos(a - b)))) + l1 * (m1 + m2) * (u * w1 +
-                cos(a) * w0);
+        const S w2 = m2 * l2 * (w0 * cos(b) + v * (l2 * v + S(2) * cos(a - b) * w1)) + (m1 + m2) * l1 * (u * w1 + w0 *
+                cos(a));
         return S(0.5) * w2;
     }
 
@@ -306,46 +313,41 @@ class double_pendulum {
         const S l1 = parameters.l1;
         const S l2 = parameters.l2;
         const S g = parameters.g;
-        const S w0 = m2 * l1;
-        const S w1 = m1 * l1;
-        const S w2 = l1 * w0 + l1 * w1;
-        const S w3 = a - b;
-        const S w4 = sin(w3);
-        const S w5 = cos(w3);
-        const S w6 = l2 * w0;
-        const S w7 = w5 * w6;
-        const S w8 = m2 * l2;
-        const S w9 = l2 * w8;
-        const S det0 = w2 * w9 - w7 * w7;
+        const S w0 = (m1 + m2) * l1;
+        const S w1 = l1 * w0;
+        const S w2 = m2 * l2;
+        const S w3 = l1 * w2;
+        const S w4 = sin(a);
+        const S w5 = cos(a);
+        const S w6 = sin(b);
+        const S w7 = cos(b);
+        const S w8 = w3 * (w5 * w7 + w4 * w6);
+        const S w9 = l2 * w2;
+        const S det0 = w1 * w9 - w8 * w8;
         const S inv_det0 = S(1) / det0;
-        const S w10 = w6 * w4;
-        const S w11 = sin(a);
-        const S w12 = cos(a);
-        const S w13 = g * w11;
-        const S w14 = v * w10;
-        const S w15 = -(w13 * w1 + (w0 * w13 + v * w14));
-        const S w16 = u * w10;
-        const S w17 = sin(b);
-        const S w18 = cos(b);
-        const S w19 = g * w8;
-        const S w20 = u * w16 - w17 * w19;
-        const S z0_0 = (w9 * w15 - w7 * w20) * inv_det0;
-        const S z0_1 = (w2 * w20 - w7 * w15) * inv_det0;
-        const S w21 = v * v * w7 - w10 * z0_1;
-        const S w22 = g * w12;
-        const S w23 = -(w21 + (w0 * w22 + w1 * w22));
-        const S w24 = u * u * w7 + w10 * z0_0;
-        const S z1_0 = (w9 * w23 - w7 * w24) * inv_det0;
-        const S z1_1 = (w2 * w24 - w7 * w23) * inv_det0;
-        const S w25 = -(w18 * w19 + w24);
-        const S z2_0 = (w9 * w21 - w7 * w25) * inv_det0;
-        const S z2_1 = (w2 * w25 - w7 * w21) * inv_det0;
-        const S w26 = S(2) * w16;
-        const S z3_0 = (-w7 * w26) * inv_det0;
-        const S z3_1 = (w2 * w26) * inv_det0;
-        const S w27 = -S(2) * w14;
-        const S z4_0 = (w9 * w27) * inv_det0;
-        const S z4_1 = (-w7 * w27) * inv_det0;
+        const S w10 = w0 * g;
+        const S w11 = v * v;
+        const S w12 = w3 * (w5 * w6 - w4 * w7);
+        const S w13 = w12 * w11 - w10 * w4;
+        const S w14 = w2 * g;
+        const S w15 = w12 * u;
+        const S w16 = -(w14 * w6 + u * w15);
+        const S z0_0 = (w9 * w13 - w8 * w16) * inv_det0;
+        const S z0_1 = (w1 * w16 - w8 * w13) * inv_det0;
+        const S w17 = w8 * w11 + w12 * z0_1;
+        const S w18 = -(w10 * w5 + w17);
+        const S w19 = w8 * (u * u) - w12 * z0_0;
+        const S z1_0 = (w9 * w18 - w8 * w19) * inv_det0;
+        const S z1_1 = (w1 * w19 - w8 * w18) * inv_det0;
+        const S w20 = -(w14 * w7 + w19);
+        const S z2_0 = (w9 * w17 - w8 * w20) * inv_det0;
+        const S z2_1 = (w1 * w20 - w8 * w17) * inv_det0;
+        const S w21 = -S(2) * w15;
+        const S z3_0 = (-w8 * w21) * inv_det0;
+        const S z3_1 = (w1 * w21) * inv_det0;
+        const S w22 = w15 + w12 * (v + (v - u));
+        const S z4_0 = (w9 * w22) * inv_det0;
+        const S z4_1 = (-w8 * w22) * inv_det0;
         values[0] = S(1);
         values[1] = S(1);
         values[2] = z1_0;

@@ -131,7 +131,7 @@ class duffing {
         ds[0] = v;
         ds[1] = S(0);
         ds[2] = S(0);
-        ds[3] = -q * (k + c * (q * q)) / m;
+        ds[3] = -q * (k + q * q * c) / m;
         return StatusOf<S>::good();
     }
 
@@ -164,7 +164,7 @@ class duffing {
         const S v = s[3];
         const S m = parameters.m;
         const S w0 = q * q;
-        return v * v * (S(0.5) * m) + (c * w0 + S(2) * k) * (S(0.25) * w0);
+        return S(0.5) * m * (v * v) + S(0.25) * w0 * (w0 * c + S(2) * k);
     }
 
     /// L(t, x, y).
@@ -176,7 +176,7 @@ class duffing {
         const S v = s[3];
         const S m = parameters.m;
         const S w0 = q * q;
-        return v * v * (S(0.5) * m) - (c * w0 + S(2) * k) * (S(0.25) * w0);
+        return S(0.5) * m * (v * v) - S(0.25) * w0 * (w0 * c + S(2) * k);
     }
 
     static constexpr std::array<const char*, 1> observables_names = {"force"};
@@ -187,7 +187,7 @@ class duffing {
         const S k = s[1];
         const S c = s[2];
         Eigen::Matrix<S, 1, 1> result;
-        result[0] = -q * (k + c * (q * q));
+        result[0] = -q * (k + q * q * c);
         return result;
     }
 
@@ -214,9 +214,9 @@ class duffing {
         const S m = parameters.m;
         const S w0 = q * q;
         const S w1 = S(1) / m;
-        const S w2 = q * w1;
+        const S w2 = w1 * q;
         values[0] = S(1);
-        values[1] = -(k + c * (S(3) * w0)) * w1;
+        values[1] = -w1 * (k + S(3) * w0 * c);
         values[2] = -w2;
         values[3] = -w0 * w2;
     }

@@ -170,9 +170,9 @@ class heavy_top {
         ds[0] = g2 * w3 - g3 * w2;
         ds[1] = g3 * w1 - g1 * w3;
         ds[2] = g1 * w2 - g2 * w1;
-        ds[3] = ((I2 - I3) * (w2 * w3) - mgl * (e2 * g3 - e3 * g2)) / I1;
-        ds[4] = (mgl * (e1 * g3 - e3 * g1) - (I1 - I3) * (w1 * w3)) / I2;
-        ds[5] = ((I1 - I2) * (w1 * w2) - mgl * (e1 * g2 - e2 * g1)) / I3;
+        ds[3] = (mgl * (e3 * g2 - e2 * g3) + (I2 - I3) * w2 * w3) / I1;
+        ds[4] = (mgl * (e1 * g3 - e3 * g1) + (I3 - I1) * w3 * w1) / I2;
+        ds[5] = (mgl * (e2 * g1 - e1 * g2) + (I1 - I2) * w1 * w2) / I3;
         return StatusOf<S>::good();
     }
 
@@ -285,7 +285,7 @@ class heavy_top {
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
         Eigen::Matrix<S, 1, 1> result;
-        result[0] = g3 * (I3 * w3) + (g1 * (I1 * w1) + g2 * (I2 * w2));
+        result[0] = I3 * w3 * g3 + (I1 * w1 * g1 + I2 * w2 * g2);
         return result;
     }
 
@@ -330,13 +330,13 @@ class heavy_top {
         const S e2 = parameters.e2;
         const S e3 = parameters.e3;
         const S u0 = S(1) / I1;
-        const S u1 = mgl * u0;
-        const S u2 = (I2 - I3) * u0;
+        const S u1 = u0 * mgl;
+        const S u2 = u0 * (I2 - I3);
         const S u3 = S(1) / I2;
-        const S u4 = mgl * u3;
-        const S u5 = (I1 - I3) * u3;
+        const S u4 = u3 * mgl;
+        const S u5 = u3 * (I1 - I3);
         const S u6 = S(1) / I3;
-        const S u7 = mgl * u6;
+        const S u7 = u6 * mgl;
         const S u8 = (I1 - I2) * u6;
         values[0] = w3;
         values[1] = -w2;
@@ -350,18 +350,18 @@ class heavy_top {
         values[9] = -w1;
         values[10] = -g2;
         values[11] = g1;
-        values[12] = e3 * u1;
-        values[13] = -e2 * u1;
-        values[14] = w3 * u2;
-        values[15] = w2 * u2;
-        values[16] = -e3 * u4;
-        values[17] = e1 * u4;
-        values[18] = -w3 * u5;
-        values[19] = -w1 * u5;
-        values[20] = e2 * u7;
-        values[21] = -e1 * u7;
-        values[22] = w2 * u8;
-        values[23] = w1 * u8;
+        values[12] = u1 * e3;
+        values[13] = -u1 * e2;
+        values[14] = u2 * w3;
+        values[15] = u2 * w2;
+        values[16] = -u4 * e3;
+        values[17] = u4 * e1;
+        values[18] = -u5 * w3;
+        values[19] = -u5 * w1;
+        values[20] = u7 * e2;
+        values[21] = -u7 * e1;
+        values[22] = u8 * w2;
+        values[23] = u8 * w1;
     }
 
     /// The same as a dense matrix, shape (6, 6).

@@ -115,7 +115,7 @@ class henon_heiles {
         const S v = s[3];
         ds[0] = u;
         ds[1] = v;
-        ds[2] = (S(-0.5) - y) * (S(2) * x);
+        ds[2] = S(2) * x * (S(-0.5) - y);
         ds[3] = y * y - x * x - y;
         return StatusOf<S>::good();
     }
@@ -150,7 +150,7 @@ class henon_heiles {
         const S v = s[3];
         const S w0 = x * x;
         const S w1 = y * y;
-        return (S(3) * w0 - w1) * (S(1) / S(3) * y) + S(0.5) * (v * v + (u * u + (w0 + w1)));
+        return S(1) / S(3) * y * (S(3) * w0 - w1) + S(0.5) * (v * v + (u * u + (w0 + w1)));
     }
 
     /// L(t, x, y).
@@ -160,9 +160,9 @@ class henon_heiles {
         const S y = s[1];
         const S u = s[2];
         const S v = s[3];
-        const S w0 = x * x;
-        const S w1 = y * y;
-        return S(0.5) * (u * u + v * v - w0 - w1) - (S(3) * w0 - w1) * (S(1) / S(3) * y);
+        const S w0 = y * y;
+        const S w1 = x * x;
+        return S(1) / S(3) * y * (w0 - S(3) * w1) + S(0.5) * (u * u + v * v - w1 - w0);
     }
 
     static constexpr std::array<const char*, 1> observables_names = {"potential"};
@@ -173,7 +173,7 @@ class henon_heiles {
         const S y = s[1];
         const S w0 = x * x;
         Eigen::Matrix<S, 1, 1> result;
-        result[0] = S(0.5) * w0 + (S(6) * w0 + y * (S(3) - S(2) * y)) * (S(1) / S(6) * y);
+        result[0] = S(0.5) * w0 + S(1) / S(6) * y * (S(6) * w0 + y * (S(3) - S(2) * y));
         return result;
     }
 

@@ -151,12 +151,12 @@ class lagrange_top {
         const S I1 = parameters.I1;
         const S I3 = parameters.I3;
         const S mgl = parameters.mgl;
-        const S u0 = w3 * (I1 - I3);
+        const S u0 = (I1 - I3) * w3;
         const S u1 = S(1) / I1;
         ds[0] = g2 * w3 - g3 * w2;
         ds[1] = g3 * w1 - g1 * w3;
         ds[2] = g1 * w2 - g2 * w1;
-        ds[3] = (mgl * g2 + w2 * u0) * u1;
+        ds[3] = u1 * (mgl * g2 + w2 * u0);
         ds[4] = -u1 * (mgl * g1 + w1 * u0);
         ds[5] = S(0);
         return StatusOf<S>::good();
@@ -277,9 +277,9 @@ class lagrange_top {
         const S I3 = parameters.I3;
         const S mgl = parameters.mgl;
         const S u0 = S(1) / I1;
-        const S u1 = mgl * u0;
-        const S u2 = (I1 - I3) * u0;
-        const S u3 = w3 * u2;
+        const S u1 = u0 * mgl;
+        const S u2 = u0 * (I1 - I3);
+        const S u3 = u2 * w3;
         values[0] = w3;
         values[1] = -w2;
         values[2] = -g3;
@@ -294,10 +294,10 @@ class lagrange_top {
         values[11] = g1;
         values[12] = u1;
         values[13] = u3;
-        values[14] = w2 * u2;
+        values[14] = u2 * w2;
         values[15] = -u1;
         values[16] = -u3;
-        values[17] = -w1 * u2;
+        values[17] = -u2 * w1;
         values[18] = S(0);
         values[19] = S(0);
     }

@@ -148,7 +148,7 @@ class pendulum {
         const S m = parameters.m;
         const S l = parameters.l;
         Eigen::Matrix<S, 1, 1> result;
-        result[0] = w * (m * (l * l));
+        result[0] = m * (l * l) * w;
         return result;
     }
 
@@ -161,7 +161,7 @@ class pendulum {
         const S m = parameters.m;
         const S l = parameters.l;
         const S g = parameters.g;
-        return (l * (w * w) + (S(1) - cos(th)) * (S(2) * g)) * (l * (S(0.5) * m));
+        return S(0.5) * m * l * (l * (w * w) + S(2) * g * (S(1) - cos(th)));
     }
 
     /// L(t, x, y).
@@ -173,7 +173,7 @@ class pendulum {
         const S m = parameters.m;
         const S l = parameters.l;
         const S g = parameters.g;
-        return l * (S(0.5) * m) * (l * (w * w) - (S(1) - cos(th)) * (S(2) * g));
+        return S(0.5) * m * l * (l * (w * w) + S(2) * g * (cos(th) - S(1)));
     }
 
     static constexpr std::array<const char*, 3> observables_names = {"x", "height", "potential"};
@@ -191,7 +191,7 @@ class pendulum {
         Eigen::Matrix<S, 3, 1> result;
         result[0] = l * w0;
         result[1] = -l * w1;
-        result[2] = (S(1) - w1) * (l * (m * g));
+        result[2] = m * g * l * (S(1) - w1);
         return result;
     }
 

@@ -131,9 +131,9 @@ class rigid_body {
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        ds[0] = (I2 - I3) * (w2 * w3) / I1;
-        ds[1] = (I3 - I1) * (w1 * w3) / I2;
-        ds[2] = (I1 - I2) * (w1 * w2) / I3;
+        ds[0] = (I2 - I3) * w2 * w3 / I1;
+        ds[1] = (I3 - I1) * w3 * w1 / I2;
+        ds[2] = (I1 - I2) * w1 * w2 / I3;
         return StatusOf<S>::good();
     }
 
@@ -235,12 +235,12 @@ class rigid_body {
         const S u0 = (I2 - I3) / I1;
         const S u1 = (I1 - I3) / I2;
         const S u2 = (I1 - I2) / I3;
-        values[0] = w3 * u0;
-        values[1] = w2 * u0;
-        values[2] = -w3 * u1;
-        values[3] = -w1 * u1;
-        values[4] = w2 * u2;
-        values[5] = w1 * u2;
+        values[0] = u0 * w3;
+        values[1] = u0 * w2;
+        values[2] = -u1 * w3;
+        values[3] = -u1 * w1;
+        values[4] = u2 * w2;
+        values[5] = u2 * w1;
     }
 
     /// The same as a dense matrix, shape (3, 3).

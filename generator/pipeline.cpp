@@ -76,6 +76,14 @@ std::string regenerate_command(const CheckedModel& checked, const GenerateReques
     return fmt::format("{} -o {}.hpp", command, name);
 }
 
+/// A scene's program is told every parameter: defaults and hash in its header would make a new program of each change
+/// of a number.
+void forget_values(KernelModule& module)
+{
+    for (NodeId& value : module.parameter_defaults) value = module.graph->constant(0);
+    module.hash = std::string(16, '0');
+}
+
 } // namespace
 
 CheckedModel load(const std::string& path, const std::vector<Setting>& settings, bool unchecked)
@@ -114,6 +122,7 @@ Generated generate(const CheckedModel& checked, const GenerateRequest& request)
     module.regenerate = regenerate_command(checked, request, module.name);
     module.warnings = checked.warnings;
     module.equations = lines_of(print_text(derive_lagrange(model, checked.verified.algebroid)));
+    if (request.scene != nullptr) forget_values(module);
     generated.header = print_header(module);
     return generated;
 }

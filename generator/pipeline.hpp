@@ -29,7 +29,7 @@ struct CheckedModel {
 struct GenerateRequest {
     std::string form;              ///< empty: "lagrange"
     std::vector<std::string> only; ///< kernels; empty: all
-    const Scene* scene = nullptr;  ///< for `run`: this scene's events and observed expressions
+    const Scene* scene = nullptr;  ///< for `run`: this scene's events and observed expressions, defaults and hash 0
 };
 
 /// The header text, and the module that it was printed from.

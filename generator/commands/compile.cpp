@@ -48,6 +48,18 @@ std::vector<std::string> find_compiler()
                        "header; install g++ or set CXX");
 }
 
+/// The lines that are not comments alone: a new scene or title is no new program.
+std::string code_of(const std::string& header)
+{
+    std::istringstream stream(header);
+    std::string code;
+    for (std::string line; std::getline(stream, line);) {
+        const std::size_t first = line.find_first_not_of(' ');
+        if (first != std::string::npos && line.compare(first, 2, "//") != 0) code += line + '\n';
+    }
+    return code;
+}
+
 /// Every header of the runtime, by path: a change to any of them is a new key.
 void add_runtime(ContentHash& hash, const std::string& folder)
 {
@@ -55,7 +67,8 @@ void add_runtime(ContentHash& hash, const std::string& folder)
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(fs::path(folder) / "lagen"))
         if (entry.is_regular_file() && entry.path().extension() == ".hpp") files.push_back(entry.path());
     std::sort(files.begin(), files.end());
-    for (const fs::path& file : files) hash.add(fs::relative(file, folder).string()).add(content_of_file(file.string()));
+    for (const fs::path& file : files)
+        hash.add(fs::relative(file, folder).string()).add(content_of_file(file.string()));
 }
 
 void add_compiler(ContentHash& hash, const std::vector<std::string>& command)
@@ -91,7 +104,7 @@ Compiled compile_program(const std::string& header, const std::string& main)
     command.insert(command.end(), {"-std=c++20", "-O2", "-I" + runtime, "-isystem", eigen_folder()});
     for (const std::string& flag : words(std::getenv("CXXFLAGS"))) command.push_back(flag);
     ContentHash hash;
-    hash.add(header).add(main);
+    hash.add(code_of(header)).add(main);
     add_runtime(hash, runtime);
     add_compiler(hash, command);
 

@@ -55,9 +55,8 @@ void trim_cache(const std::string& folder)
             programs.push_back({used, entry->file_size(ignored), entry->path()});
         if (name.starts_with("build-") && now - used > oldest_build) fs::remove_all(entry->path(), ignored);
     }
-    std::sort(programs.begin(), programs.end(), [](const Program& a, const Program& b) {
-        return a.used != b.used ? a.used > b.used : a.path < b.path;
-    });
+    std::sort(programs.begin(), programs.end(),
+              [](const Program& a, const Program& b) { return a.used != b.used ? a.used > b.used : a.path < b.path; });
     std::uintmax_t bytes = 0;
     for (std::size_t k = 0; k < programs.size(); ++k) {
         bytes += programs[k].size;

@@ -8,14 +8,25 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 
 namespace lagen {
 
 namespace {
 
+// Pixels.
 constexpr int width = 900;
-constexpr int panel_height = 300;
+constexpr int panel_height = 270; ///< with the gap below it
+constexpr int panel_gap = 26;
+constexpr int top_margin = 44;
+constexpr int bottom_margin = 52;
+constexpr int left_margin = 84;
+
+// Characters.
+constexpr std::size_t longest_title = 110;
+constexpr std::size_t longest_name = 28;
 
 std::string extension_of(const std::string& path)
 {
@@ -58,30 +69,110 @@ std::string data_block(const Table& table)
     return text + "LAGEN_END\n";
 }
 
-std::string panel_text(const Table& table, const Panel& panel, bool last)
+bool begins_character(char c)
 {
-    std::string text = fmt::format("set ylabel {}\n{}", quoted(panel.label),
-                                   last ? fmt::format("set xlabel {}\n", quoted(table.columns[0])) : "");
+    return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+}
+
+std::size_t characters_of(const std::string& text)
+{
+    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), begins_character));
+}
+
+/// At most so many characters, the last three of them dots where some were cut off.
+std::string shortened(const std::string& text, std::size_t most)
+{
+    if (characters_of(text) <= most) return text;
+    std::size_t seen = 0;
+    const auto cut =
+        std::find_if(text.begin(), text.end(), [&](char c) { return begins_character(c) && ++seen > most - 3; });
+    return std::string(text.begin(), cut) + "...";
+}
+
+std::string with_unit(const std::string& text, const std::string& unit)
+{
+    return unit.empty() || unit == "1" ? text : fmt::format("{} [{}]", text, unit);
+}
+
+/// The unit of all columns, or "" where they differ or have none.
+std::string shared_unit(const Panel& panel)
+{
+    for (const std::string& unit : panel.units)
+        if (unit != panel.units.front()) return "";
+    return panel.units.empty() ? "" : panel.units.front();
+}
+
+/// What the legend calls the k-th column of a panel.
+std::string legend_of(const Table& table, const Panel& panel, std::size_t k)
+{
+    const std::string name = shortened(table.columns[panel.columns[k]], longest_name);
+    return shared_unit(panel).empty() && k < panel.units.size() ? with_unit(name, panel.units[k]) : name;
+}
+
+/// Pixels to the right of the panels for the longest legend.
+int legend_width(const Table& table, const std::vector<Panel>& panels)
+{
+    std::size_t longest = 0;
+    for (const Panel& panel : panels)
+        for (std::size_t k = 0; k < panel.columns.size(); ++k)
+            longest = std::max(longest, characters_of(legend_of(table, panel, k)));
+    return 60 + 8 * static_cast<int>(std::min<std::size_t>(longest, longest_name + 12));
+}
+
+/// Eight colours that colour-blind readers tell apart [Okabe, Ito 2008], then the same dashed and dotted.
+std::string line_styles()
+{
+    static constexpr std::array colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                           "#e69f00", "#56b4e9", "#000000", "#b8a800"};
+    std::string text;
+    for (std::size_t k = 0; k < 3 * colours.size(); ++k)
+        text += fmt::format("set linetype {} linecolor rgb '{}' linewidth 1.8 pointtype 7 dashtype {}\n", k + 1,
+                            colours[k % colours.size()], k / colours.size() + 1);
+    return text + fmt::format("set linetype cycle {}\n", 3 * colours.size());
+}
+
+/// Where the k-th panel stands, in fractions of the picture; all have the same left and right edges.
+std::string place_of(std::size_t k, int height)
+{
+    const auto from_top = [&](std::size_t panels, int pixels) {
+        return 1 - static_cast<double>(top_margin + pixels + panel_height * static_cast<int>(panels)) / height;
+    };
+    return fmt::format("set tmargin at screen {:.5f}\nset bmargin at screen {:.5f}\n", from_top(k, 0),
+                       from_top(k + 1, -panel_gap));
+}
+
+std::string panel_text(const Table& table, const Panel& panel, bool last, const std::string& time_unit)
+{
+    std::string text = fmt::format("set ylabel {}\n", quoted(with_unit(panel.label, shared_unit(panel))));
+    text += last ? fmt::format("set format x '%g'\nset xlabel {}\n", quoted(with_unit(table.columns[0], time_unit)))
+                 : "set format x ''\n";
     text += "plot ";
     const char* separator = "";
-    for (const std::size_t column : panel.columns) {
-        text += fmt::format("{}$rows using 1:{} with {} linewidth 1.6 title {}", separator, column + 1,
-                            table.count == 1 ? "points" : "lines", quoted(table.columns[column]));
+    for (std::size_t k = 0; k < panel.columns.size(); ++k) {
+        text += fmt::format("{}$rows using 1:{} with {} linetype {} title {}", separator, panel.columns[k] + 1,
+                            table.count == 1 ? "points" : "lines", k + 1, quoted(legend_of(table, panel, k)));
         separator = ", \\\n     ";
     }
     return text + "\n";
 }
 
 std::string script_of(const Table& table, const std::vector<Panel>& panels, const std::string& title,
-                      const std::string& extension, const std::string& picture)
+                      const std::string& extension, const std::string& picture, const std::string& time_unit)
 {
-    std::string script = terminal(extension, 60 + panel_height * static_cast<int>(panels.size()));
+    const int height = top_margin + panel_height * static_cast<int>(panels.size()) + bottom_margin - panel_gap;
+    const double right = 1 - static_cast<double>(legend_width(table, panels)) / width;
+    std::string script = terminal(extension, height);
     script += fmt::format("set output {}\nset datafile missing '?'\n", quoted(picture)) + data_block(table);
-    script += fmt::format("set multiplot layout {},1 title {}\nset grid linecolor rgb '#dddddd'\nset key outside right "
-                          "top\nset border linecolor rgb "
-                          "'#444444'\nset autoscale xfix\n",
-                          panels.size(), quoted(title));
-    for (std::size_t k = 0; k < panels.size(); ++k) script += panel_text(table, panels[k], k + 1 == panels.size());
+    script += line_styles();
+    script += fmt::format("set multiplot title {}\n", quoted(shortened(title, longest_title)));
+    script += fmt::format("set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\n",
+                          static_cast<double>(left_margin) / width, right);
+    script += fmt::format("set key at screen {:.5f}, graph 1 left top Left reverse samplen 2 width -1\n", right + 0.01);
+    script += "set grid linecolor rgb '#dddddd' linetype 1 linewidth 0.8 dashtype 1\n"
+              "set border 3 linecolor rgb '#444444'\nset tics nomirror out scale 0.6\nset autoscale xfix\n"
+              "set ylabel offset 0.5,0\n";
+    for (std::size_t k = 0; k < panels.size(); ++k)
+        script += place_of(k, height) + panel_text(table, panels[k], k + 1 == panels.size(), time_unit);
     return script + "unset multiplot\nunset output\n";
 }
 
@@ -97,14 +188,15 @@ void require_plot_format(const std::string& path)
         throw MachineError("error: gnuplot was not found\nhint: --plot draws with gnuplot; install gnuplot-nox");
 }
 
-void plot_table(const Table& table, const std::vector<Panel>& panels, const std::string& title, const std::string& path)
+void plot_table(const Table& table, const std::vector<Panel>& panels, const std::string& title, const std::string& path,
+                const std::string& time_unit)
 {
     require_plot_format(path);
     if (table.count == 0 || panels.empty()) throw MachineError("error: there is nothing to plot: the run gave no rows");
     const TemporaryFolder folder(shared_temporary_folder(), "lagen-plot");
     const std::string picture = folder.file("picture" + extension_of(path));
     const std::string script = folder.file("script.gp");
-    write_file(script, script_of(table, panels, title, extension_of(path), picture));
+    write_file(script, script_of(table, panels, title, extension_of(path), picture, time_unit));
     const ProcessResult result = run_process({"gnuplot", script});
     if (result.interrupted) throw Error(ExitCode::interrupted, "lagen: interrupted while drawing");
     if (!result.started || result.exit_code != 0)

@@ -91,8 +91,9 @@ void integrate_scene(const std::string& program, const ProgramInput& input, RunO
         });
     progress.clear();
     if (!result.started)
-        throw MachineError(fmt::format("error: the compiled scene could not be started: {}\nhint: remove '{}' to have it compiled again",
-                                       result.error, program));
+        throw MachineError(fmt::format(
+            "error: the compiled scene could not be started: {}\nhint: remove '{}' to have it compiled again",
+            result.error, program));
     if (result.interrupted || result.exit_code == static_cast<int>(ExitCode::interrupted))
         throw Error(ExitCode::interrupted, "lagen: interrupted, nothing was written");
     if (result.exit_code != 0 && result.exit_code != 1)

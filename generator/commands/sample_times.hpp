@@ -12,9 +12,9 @@ inline constexpr long double most_numbers = 2e7L;
 struct SampleTimes {
     long double start = 0, end = 0;
     Sampling::Kind kind = Sampling::Kind::standard;
-    std::size_t count = 201;               ///< of `standard` and `count`
-    std::optional<long double> interval;   ///< of `interval`
-    std::vector<long double> at;           ///< of `at`, sorted in the direction of time
+    std::size_t count = 201;             ///< of `standard` and `count`
+    std::optional<long double> interval; ///< of `interval`
+    std::vector<long double> at;         ///< of `at`, sorted in the direction of time
 };
 
 /// `columns` counts t too. A run goes backwards where its end lies before its start; one of no length has one row.

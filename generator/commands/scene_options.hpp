@@ -11,8 +11,8 @@ namespace lagen {
 inline constexpr long double standard_tolerance = 1e-10L;
 inline constexpr const char* standard_method = "dop853";
 
-/// The scene as --scene, --method, --step, --tolerance, --t-end, --at and --set change it. With --at and without --t-end
-/// the run is as long as its rows ask for.
+/// The scene as --scene, --method, --step, --tolerance, --t-end, --at and --set change it. With --at and without
+/// --t-end the run is as long as its rows ask for.
 [[nodiscard]] Scene scene_of(const Options& options, const Model& model);
 
 /// The scene's method; UsageError or ModelError (by where the name stands) where it is unknown or lacks a step.

@@ -117,8 +117,13 @@ std::vector<Column> columns_of(const KernelModule& module, const Scene& scene)
 
 std::vector<std::string> program_arguments(const std::string& program, const ProgramInput& input)
 {
-    std::vector<std::string> arguments{
-        program, "--initial", list_of(input.initial), "--start", text_of(input.times.start), "--end", text_of(input.times.end)};
+    std::vector<std::string> arguments{program,
+                                       "--initial",
+                                       list_of(input.initial),
+                                       "--start",
+                                       text_of(input.times.start),
+                                       "--end",
+                                       text_of(input.times.end)};
     const auto give = [&](const char* name, std::string value) {
         arguments.insert(arguments.end(), {name, std::move(value)});
     };

@@ -9,7 +9,8 @@
 namespace lagen {
 namespace {
 
-constexpr std::size_t line_width = 160;
+constexpr std::size_t line_width = 335;          ///< points; the text of an `article` in 10 pt is 345 wide
+constexpr std::size_t indent = 10;               ///< points, of \quad
 constexpr std::size_t longest_formula = 100'000; ///< nodes; a shared tree may be exponentially long when written out
 
 /// How tightly a text holds together, loosest first.
@@ -71,8 +72,7 @@ class LatexWriter {
             return {"\\frac{" + write(tree->arguments[0], Hold::sum) + "}{" + write(tree->arguments[1], Hold::sum) +
                         "}",
                     Hold::product};
-        case TreeKind::power:
-            return {write_base(tree->arguments[0]) + "^{" + write(tree->arguments[1], Hold::sum) + "}", Hold::power};
+        case TreeKind::power: return write_power(tree);
         case TreeKind::call: return write_call(tree);
         case TreeKind::compare: return write_comparison(tree);
         case TreeKind::apply: break;
@@ -86,6 +86,17 @@ class LatexWriter {
         const std::string fraction =
             "\\frac{" + Rational(abs(value)).get_num().get_str() + "}{" + value.get_den().get_str() + "}";
         return {(value < 0 ? "-" : "") + fraction, value < 0 ? Hold::sign : Hold::product};
+    }
+
+    /// sin^2(x) rather than (sin(x))^2.
+    Piece write_power(const Tree& tree)
+    {
+        const std::string exponent = "^{" + write(tree->arguments[1], Hold::sum) + "}";
+        if (!raised_by_name(tree)) return {write_base(tree->arguments[0]) + exponent, Hold::power};
+        const Tree& call = tree->arguments[0];
+        return {latex_function(call->function) + exponent + "\\left(" + write(call->arguments[0], Hold::sum) +
+                    "\\right)",
+                Hold::power};
     }
 
     /// A symbol may be raised although it is no atom: its own subscript stays below.
@@ -134,6 +145,75 @@ class LatexWriter {
     std::size_t written_ = 0;
 };
 
+/// How wide our own LaTeX comes out in points at 10 pt, near enough to break lines by.
+class WidthMeter {
+  public:
+    explicit WidthMeter(std::string_view text) : text_(text) {}
+
+    /// Up to the end of the text or of the group.
+    std::size_t measure()
+    {
+        std::size_t width = 0;
+        while (at_ < text_.size() && text_[at_] != '}') width += measure_item();
+        return width;
+    }
+
+  private:
+    std::size_t measure_item()
+    {
+        const char c = text_[at_];
+        if (c == '\\') return measure_command();
+        ++at_;
+        switch (c) {
+        case '{': {
+            const std::size_t width = measure();
+            at_ += at_ < text_.size() ? 1 : 0;
+            return width;
+        }
+        case '^':
+        case '_': return at_ < text_.size() ? measure_item() * 7 / 10 : 0;
+        case ' ': return 0;
+        case '+':
+        case '-':
+        case '=': return 12;
+        case '(':
+        case ')': return 4;
+        default: return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U ? 0 : 6; // of UTF-8 the first byte only
+        }
+    }
+
+    std::size_t measure_command()
+    {
+        const std::size_t begin = ++at_;
+        while (at_ < text_.size() &&
+               ((text_[at_] >= 'a' && text_[at_] <= 'z') || (text_[at_] >= 'A' && text_[at_] <= 'Z')))
+            ++at_;
+        const std::string_view word = text_.substr(begin, at_ - begin);
+        if (word.empty()) { // a spacing or an escaped character
+            at_ += at_ < text_.size() ? 1 : 0;
+            return 2;
+        }
+        if (word == "frac") {
+            const std::size_t numerator = measure_item();
+            return std::max(numerator, at_ < text_.size() ? measure_item() : 0) + 2;
+        }
+        static constexpr std::string_view silent[] = {"left",   "right",        "dot", "mathit",
+                                                      "mathrm", "operatorname", "text"};
+        if (std::find(std::begin(silent), std::end(silent), word) != std::end(silent)) return 0;
+        static constexpr std::string_view spelled[] = {"sin",  "cos",  "tan", "arcsin", "arccos", "arctan", "sinh",
+                                                       "cosh", "tanh", "exp", "log",    "min",    "max"};
+        return std::find(std::begin(spelled), std::end(spelled), word) != std::end(spelled) ? 5 * word.size() : 6;
+    }
+
+    std::string_view text_;
+    std::size_t at_ = 0;
+};
+
+std::size_t typeset_width(std::string_view text)
+{
+    return WidthMeter(text).measure();
+}
+
 std::string left_side(const Equation& equation, const LatexNames& names)
 {
     if (equation.left == LeftSide::zero) return "0";
@@ -152,6 +232,10 @@ std::string left_side(const Equation& equation, const LatexNames& names)
 void print_block(std::string& text, const EquationBlock& block, const LatexNames& names)
 {
     text += "\\paragraph{" + escape_latex(block.title) + "} $" + block.latex_formula + "$\n\\begin{align*}\n";
+    std::size_t widest = 0; // the left sides share a column
+    for (const Equation& equation : block.equations)
+        widest = std::max(widest, typeset_width(left_side(equation, names)));
+    const std::size_t margin = std::min(widest, line_width / 2) + 12;
     for (std::size_t e = 0; e < block.equations.size(); ++e) {
         const Equation& equation = block.equations[e];
         std::vector<std::pair<bool, std::string>> terms;
@@ -159,7 +243,7 @@ void print_block(std::string& text, const EquationBlock& block, const LatexNames
             terms.emplace_back(term.negative, LatexWriter(names).write(term.tree, Hold::product));
         if (terms.empty()) terms.emplace_back(false, "0");
         text += "  " + left_side(equation, names) + " &= ";
-        const std::vector<std::string> lines = wrap_terms(terms, 0, 0, line_width);
+        const std::vector<std::string> lines = wrap_terms(terms, margin, margin + indent, line_width, typeset_width);
         for (std::size_t k = 0; k < lines.size(); ++k) text += (k == 0 ? "" : " \\\\\n  &\\quad ") + lines[k];
         text += e + 1 < block.equations.size() ? " \\\\\n" : "\n";
     }

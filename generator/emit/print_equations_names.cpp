@@ -70,6 +70,18 @@ std::string joined(const Parts& parts)
     return parts.subscript.empty() ? parts.body : parts.body + "_{" + parts.subscript + "}";
 }
 
+/// Where the first letter or command of a given symbol ends if a subscript follows it ("\\omega_1": 6), else 0.
+std::size_t letter_before_subscript(const std::string& latex)
+{
+    const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+    std::size_t end = 1;
+    if (!latex.empty() && latex[0] == '\\')
+        while (end < latex.size() && is_letter(latex[end])) ++end;
+    else if (latex.empty() || !is_letter(latex[0]))
+        return 0;
+    return end > 0 && end < latex.size() && latex[end] == '_' ? end : 0;
+}
+
 Parts split(const std::string& name)
 {
     Parts parts;
@@ -114,7 +126,11 @@ std::string LatexNames::symbol(const std::string& name) const
 std::string LatexNames::dotted(const std::string& name) const
 {
     const auto given = given_.find(name);
-    if (given != given_.end()) return "\\dot{" + given->second + "}";
+    if (given != given_.end()) {
+        const std::size_t letter = letter_before_subscript(given->second);
+        if (letter == 0) return "\\dot{" + given->second + "}";
+        return "\\dot{" + given->second.substr(0, letter) + "}" + given->second.substr(letter);
+    }
     const Parts parts = split(name);
     return joined({"\\dot{" + parts.body + "}", parts.subscript});
 }

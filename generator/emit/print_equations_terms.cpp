@@ -13,6 +13,22 @@ SignedTree without_sign(const Tree& tree)
     return {false, tree};
 }
 
+bool raised_by_name(const Tree& tree)
+{
+    if (tree->kind != TreeKind::power || tree->arguments[0]->kind != TreeKind::call) return false;
+    const Tree& exponent = tree->arguments[1];
+    if (exponent->kind != TreeKind::number || exponent->number.get_den() != 1 || exponent->number < 2) return false;
+    switch (tree->arguments[0]->function) {
+    case Function::sin:
+    case Function::cos:
+    case Function::tan:
+    case Function::sinh:
+    case Function::cosh:
+    case Function::tanh: return true;
+    default: return false;
+    }
+}
+
 std::vector<SignedTree> right_side_terms(const Equation& equation)
 {
     std::vector<SignedTree> terms;
@@ -30,14 +46,14 @@ std::vector<SignedTree> right_side_terms(const Equation& equation)
 }
 
 std::vector<std::string> wrap_terms(const std::vector<std::pair<bool, std::string>>& terms, std::size_t first,
-                                    std::size_t later, std::size_t width)
+                                    std::size_t later, std::size_t width, std::size_t (*measure)(std::string_view))
 {
     std::vector<std::string> lines(1);
     std::size_t used = first;
     for (const auto& [negative, text] : terms) {
         const bool leading = lines.size() == 1 && lines.back().empty();
         const std::string piece = leading ? (negative ? "-" + text : text) : (negative ? "- " : "+ ") + text;
-        const std::size_t columns = columns_of(piece) + 1;
+        const std::size_t columns = measure(piece) + 1;
         if (!leading && used + columns > width) {
             lines.push_back(piece);
             used = later + columns;

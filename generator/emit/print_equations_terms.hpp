@@ -19,10 +19,15 @@ struct SignedTree {
 /// A coefficient of the left side without its sign.
 [[nodiscard]] SignedTree without_sign(const Tree& tree);
 
+/// A power that is written at the function's name, sin^2(x): of a circular or hyperbolic function, with a whole
+/// exponent of 2 or more (sin^-1 would read as the inverse).
+[[nodiscard]] bool raised_by_name(const Tree& tree);
+
 /// Lines of " + term" and " - term" pieces, broken before a sign where a line would exceed `width` columns. `first` and
-/// `later` are the widths that stand before the first and the following lines.
+/// `later` are the widths that stand before the first and the following lines; `measure` is the width of a piece.
 [[nodiscard]] std::vector<std::string> wrap_terms(const std::vector<std::pair<bool, std::string>>& terms,
-                                                  std::size_t first, std::size_t later, std::size_t width);
+                                                  std::size_t first, std::size_t later, std::size_t width,
+                                                  std::size_t (*measure)(std::string_view));
 
 /// Columns of a UTF-8 text on a terminal: code points, combining marks not counted.
 [[nodiscard]] std::size_t columns_of(std::string_view text);

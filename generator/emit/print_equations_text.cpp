@@ -86,6 +86,12 @@ class TextWriter {
     Piece write_power(const Tree& tree)
     {
         const Tree& exponent = tree->arguments[1];
+        if (raised_by_name(tree)) {
+            const Tree& call = tree->arguments[0];
+            return {entry_of(call->function).name + raised_digits(exponent->number.get_str()) + "(" +
+                        write(call->arguments[0], Hold::sum) + ")",
+                    Hold::power};
+        }
         const std::string base = write(tree->arguments[0], Hold::atom);
         if (exponent->kind == TreeKind::number && exponent->number.get_den() == 1)
             return {base + raised_digits(exponent->number.get_str()), Hold::power};
@@ -163,7 +169,8 @@ void print_block(std::string& text, const EquationBlock& block)
             terms.emplace_back(term.negative, TextWriter().write(term.tree, Hold::quotient));
         if (terms.empty()) terms.emplace_back(false, "0");
         const std::size_t margin = widest + 5;
-        const std::vector<std::string> lines = wrap_terms(terms, std::max(columns, widest) + 5, margin, page_width);
+        const std::vector<std::string> lines =
+            wrap_terms(terms, std::max(columns, widest) + 5, margin, page_width, columns_of);
         for (std::size_t k = 0; k < lines.size(); ++k)
             text += (k == 0 ? "" : std::string(margin, ' ')) + lines[k] + "\n";
     }

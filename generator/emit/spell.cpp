@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <utility>
 
@@ -32,6 +33,14 @@ Spelling repeated(const std::string& base, int count)
 }
 
 } // namespace
+
+Speller::Speller(const Graph& graph) : graph_(graph), names_(graph.size()), latest_(graph.size())
+{
+    for (NodeId id = 0; id < graph.size(); ++id) {
+        latest_[id] = graph.op(id) == Op::input ? id : 0;
+        for (const NodeId operand : graph.operands(id)) latest_[id] = std::max(latest_[id], latest_[operand]);
+    }
+}
 
 std::string Speller::call(const std::string& function)
 {
@@ -70,10 +79,15 @@ Spelling Speller::operation(NodeId id)
     }
 }
 
-/// Numbers stand in front.
+/// Numbers stand in front, then what depends on the earlier inputs (parameters before coordinates); a product goes on
+/// from its left end, without parentheses. Multiplication commutes bit for bit.
 Spelling Speller::multiply(NodeId a, NodeId b)
 {
-    if (graph_.is_constant(b) && !graph_.is_constant(a)) std::swap(a, b);
+    const auto chain = [&](NodeId id) { return graph_.op(id) == Op::multiply && !has_name(id); };
+    if (graph_.is_constant(b) && !graph_.is_constant(a))
+        std::swap(a, b);
+    else if (!graph_.is_constant(a) && (chain(a) == chain(b) ? latest_[b] < latest_[a] : chain(b)))
+        std::swap(a, b);
     return {at_least(2, a) + " * " + at_least(3, b), 2};
 }
 

@@ -14,7 +14,7 @@ namespace lagen {
 
 class Speller {
   public:
-    explicit Speller(const Graph& graph) : graph_(graph), names_(graph.size()) {}
+    explicit Speller(const Graph& graph);
 
     /// From now on the node is written as this name (or closed expression).
     void name(NodeId id, std::string text) { names_[id] = std::move(text); }
@@ -44,6 +44,7 @@ class Speller {
 
     const Graph& graph_;
     std::vector<std::string> names_;
+    std::vector<NodeId> latest_; ///< by node: the latest input that it depends on
     std::set<std::string> functions_;
 };
 

@@ -79,6 +79,7 @@ void Claims::make_decider()
             for (const ColumnEntry& entry : column)
                 if (!graph_.is_constant(entry.value)) setting_.defined.push_back(entry.value);
     if (hessian_) setting_.defined.push_back(hessian_->lagrangian);
+    for (const NamedTree& casimir : model_.base.casimirs) setting_.defined.push_back((*lower_)(casimir.value));
     std::sort(setting_.defined.begin(), setting_.defined.end());
     setting_.defined.erase(std::unique(setting_.defined.begin(), setting_.defined.end()), setting_.defined.end());
     // One constraint more each time, so that the one that is refused is known by its place.
@@ -119,9 +120,9 @@ void Claims::refuse_zero_divisors()
 }
 
 /// The decision, its witness free of fibre coordinates and time that the residual does not depend on.
-Decision Claims::decide(NodeId residual) const
+Decision Claims::decide(NodeId residual, const ZeroDecider& decider) const
 {
-    Decision decision = decider_->decide(residual);
+    Decision decision = decider.decide(residual);
     if (!decision.witness) return decision;
     std::set<std::string> unused;
     for (const NodeId y : lowered_.y) unused.insert(graph_.input_name(y));

@@ -28,7 +28,7 @@ class Claims {
     void lower_model();
     void make_decider();
     void refuse_zero_divisors();
-    [[nodiscard]] Decision decide(NodeId residual) const;
+    [[nodiscard]] Decision decide(NodeId residual, const ZeroDecider& decider) const;
     [[nodiscard]] std::string sign_hint(const std::vector<Residual>& residuals, std::size_t a, std::size_t b);
     void decide_anchor_derivative(VerifiedAlgebroid& verified, const std::string& name, const std::string& text,
                                   NodeId f);

@@ -37,7 +37,7 @@ void Claims::decide_structure(VerifiedAlgebroid& verified)
     verified.trivial += list.trivial;
     std::map<std::pair<std::size_t, std::size_t>, std::string> hints;
     for (const Residual& residual : list.residuals) {
-        Check check{residual.name, {}, decide(residual.value), {}};
+        Check check{residual.name, {}, decide(residual.value, *decider_), {}};
         for (std::size_t k = 0; k < residual.indices.size(); ++k) {
             const bool base = residual.name == "anchor" && k == 2;
             check.indices.push_back((base ? algebroid_.base : algebroid_.fibre)[residual.indices[k]].name);
@@ -62,7 +62,7 @@ void Claims::decide_anchor_derivative(VerifiedAlgebroid& verified, const std::st
             ++verified.trivial;
             continue;
         }
-        verified.checks.push_back({name, {algebroid_.fibre[a].name, text}, decide(graph_.sum(terms)), {}});
+        verified.checks.push_back({name, {algebroid_.fibre[a].name, text}, decide(graph_.sum(terms), *decider_), {}});
     }
 }
 
@@ -84,11 +84,16 @@ void Claims::decide_invariants(VerifiedAlgebroid& verified, const std::vector<Na
     claims.insert(claims.end(), extra.begin(), extra.end());
     for (const NamedTree& claim : claims) {
         Check check{"invariant", {claim.name}, {}, {}};
-        const Rate rate = motion.rate(lower(claim.value));
-        if (!rate.value)
+        const NodeId f = lower(claim.value);
+        const Rate rate = motion.rate(f);
+        if (!rate.value) {
             check.decision.evidence = rate.obstacle;
-        else
-            check.decision = decide(*rate.value);
+        } else {
+            // d log(x)/dt = xdot/x is defined where log(x) is not: the claim is about points where f is.
+            ProofSetting setting = setting_;
+            setting.defined.push_back(motion.in_states(f));
+            check.decision = decide(*rate.value, ZeroDecider(graph_, setting));
+        }
         verified.checks.push_back(std::move(check));
     }
 }

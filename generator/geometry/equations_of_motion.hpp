@@ -30,6 +30,9 @@ class EquationsOfMotion {
     /// df/dt of a node that may contain the stand-ins; the result is free of them.
     [[nodiscard]] Rate rate(NodeId f);
 
+    /// f with momenta and energy written out in x, y, t.
+    [[nodiscard]] NodeId in_states(NodeId f) { return without_stand_ins({f})[0]; }
+
   private:
     [[nodiscard]] std::vector<NodeId> without_stand_ins(const std::vector<NodeId>& nodes);
     [[nodiscard]] std::optional<NodeId> along_accelerations(const std::vector<NodeId>& f_y, std::string& obstacle);

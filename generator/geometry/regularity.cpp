@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Rank, regularity and definiteness of W, block by block.
 #include "geometry/regularity.hpp"
+#include "geometry/rational_matrix.hpp"
+#include "geometry/singular_points.hpp"
 #include "graph/differentiate.hpp"
 #include "graph/evaluate.hpp"
 
@@ -12,9 +14,10 @@ namespace {
 
 using Block = std::vector<std::size_t>;
 using Replacements = std::vector<std::pair<NodeId, NodeId>>;
-using Point = std::vector<std::pair<std::string, std::string>>;
+using Point = NamedPoint;
 
-constexpr std::size_t singular_point_limit = 8;
+/// For ranks, where a witness is usually all that is needed.
+constexpr ProofBudget witness_budget{.products = 200'000};
 
 /// The values of an exact sample point; nothing where one of them is a decimal (an irrational coordinate, rounded).
 std::optional<std::map<std::string, Rational>> exact_values(const Point& point)
@@ -29,23 +32,16 @@ std::optional<std::map<std::string, Rational>> exact_values(const Point& point)
     return values;
 }
 
-/// Rank over the rationals by elimination. `matrix` has m rows of m entries.
-std::size_t rank_of(std::vector<Rational> matrix, std::size_t m)
+/// Entries of a block by rows where all of them are numbers; empty otherwise.
+std::vector<Rational> constant_entries(const Graph& graph, const FibreHessian& hessian, const Block& block)
 {
-    std::size_t rank = 0;
-    for (std::size_t column = 0; column < m && rank < m; ++column) {
-        std::size_t pivot = rank;
-        while (pivot < m && matrix[pivot * m + column] == 0) ++pivot;
-        if (pivot == m) continue;
-        for (std::size_t k = 0; k < m; ++k) swap(matrix[pivot * m + k], matrix[rank * m + k]);
-        for (std::size_t row = rank + 1; row < m; ++row) {
-            const Rational factor = matrix[row * m + column] / matrix[rank * m + column];
-            for (std::size_t k = column; k < m && factor != 0; ++k)
-                matrix[row * m + k] -= factor * matrix[rank * m + k];
+    std::vector<Rational> entries;
+    for (const std::size_t a : block)
+        for (const std::size_t b : block) {
+            if (!graph.is_constant(hessian.W(a, b))) return {};
+            entries.push_back(graph.value(hessian.W(a, b)));
         }
-        ++rank;
-    }
-    return rank;
+    return entries;
 }
 
 struct GenericRank {
@@ -71,6 +67,8 @@ GenericRank rank_at_point(const Graph& graph, const FibreHessian& hessian, const
 /// A symmetric matrix has a nonzero principal minor of the size of its rank.
 GenericRank generic_rank(Graph& graph, const FibreHessian& hessian, const Block& block, const ZeroDecider& decider)
 {
+    const std::vector<Rational> entries = constant_entries(graph, hessian, block);
+    if (!entries.empty()) return {rank_of(entries, block.size()), true};
     if (block.size() > determinant_limit) return rank_at_point(graph, hessian, block, decider);
     for (std::size_t size = block.size(); size > 0; --size)
         for (std::size_t set = 0; set < std::size_t{1} << block.size(); ++set) {
@@ -85,13 +83,20 @@ GenericRank generic_rank(Graph& graph, const FibreHessian& hessian, const Block&
     return {0, true};
 }
 
-/// Leading principal minors of every block, the determinant of the block last.
+/// Leading principal minors of every block, the determinant of the block last; none of a block that is too large. A
+/// block of numbers has one entry: 1 where it is positive definite, else -1, or 0 where it is singular.
 std::vector<std::vector<NodeId>> leading_minors(Graph& graph, const FibreHessian& hessian)
 {
     std::vector<std::vector<NodeId>> result;
     for (const Block& block : hessian.blocks) {
         std::vector<NodeId> minors;
-        for (std::size_t size = 1; size <= block.size() && block.size() <= determinant_limit; ++size) {
+        const std::size_t m = block.size();
+        if (const std::vector<Rational> entries = constant_entries(graph, hessian, block); !entries.empty()) {
+            const int sign = is_positive_definite(entries, m) ? 1 : rank_of(entries, m) == m ? -1 : 0;
+            result.push_back({graph.constant(sign)});
+            continue;
+        }
+        for (std::size_t size = 1; size <= m && m <= determinant_limit; ++size) {
             const Block part(block.begin(), block.begin() + static_cast<std::ptrdiff_t>(size));
             minors.push_back(minor_determinant(graph, hessian, part, part));
         }
@@ -118,52 +123,20 @@ Shown show_everywhere(const ZeroDecider& decider, const std::vector<std::vector<
     return shown;
 }
 
-/// The setting with the parameters at their values.
-ProofSetting with_values(Graph& graph, const ProofSetting& setting, const Replacements& values)
+/// The determinants of the blocks that have one.
+std::vector<NodeId> determinants_of(const std::vector<std::vector<NodeId>>& minors)
 {
-    ProofSetting result;
-    result.variables = setting.variables;
-    result.constraints = substitute(graph, setting.constraints, values);
-    result.domain = substitute(graph, setting.domain, values);
-    result.defined = substitute(graph, setting.defined, values);
-    return result;
-}
-
-/// Points of M = R^n with one coordinate zero where a determinant vanishes although everything is defined there.
-void find_singular_points(Graph& graph, Regularity& result, const ProofSetting& setting, const ZeroDecider& decider,
-                          const std::vector<std::vector<NodeId>>& minors)
-{
-    const auto sample = decider.sample_point();
-    const auto values = sample ? exact_values(*sample) : std::nullopt;
-    if (!values || !setting.constraints.empty()) return;
-    for (const NodeId variable : setting.variables) {
-        Point point = *sample;
-        std::map<std::string, Rational> there = *values;
-        there[graph.input_name(variable)] = 0;
-        for (auto& [name, text] : point)
-            if (name == graph.input_name(variable)) text = "0";
-        const std::vector<Rational> inside = evaluate_exactly(graph, setting.domain, there);
-        if (inside.size() != setting.domain.size() ||
-            std::any_of(inside.begin(), inside.end(), [](const Rational& holds) { return holds == 0; }))
-            continue;
-        std::vector<NodeId> nodes = setting.defined;
-        for (const std::vector<NodeId>& block : minors)
-            if (!block.empty()) nodes.push_back(block.back());
-        try {
-            const Replacements zero = {{variable, graph.constant(0)}};
-            const std::vector<NodeId> replaced = substitute(graph, nodes, zero);
-            const bool singular = std::any_of(replaced.begin() + static_cast<std::ptrdiff_t>(setting.defined.size()),
-                                              replaced.end(), [&](NodeId id) { return graph.is_zero(id); });
-            if (singular && result.singular_at.size() < singular_point_limit) result.singular_at.push_back(point);
-        } catch (const Error&) {
-            // A division by zero: this point does not belong to the model.
-        }
-    }
+    std::vector<NodeId> determinants;
+    for (const std::vector<NodeId>& block : minors)
+        if (!block.empty()) determinants.push_back(block.back());
+    return determinants;
 }
 
 /// Adds the blocks' ranks; false where one of them is not known.
 bool add_ranks(Graph& graph, const FibreHessian& hessian, const ZeroDecider& decider, Regularity& result)
 {
+    result.rank = 0;
+    result.evidence.clear();
     for (const Block& block : hessian.blocks) {
         const GenericRank generic = generic_rank(graph, hessian, block, decider);
         if (!generic.decided) {
@@ -183,14 +156,15 @@ Regularity decide_regularity(Graph& graph, const FibreHessian& hessian, const Pr
 {
     Regularity result;
     result.kind = Regularity::Kind::undecided;
-    if (!add_ranks(graph, hessian, decider, result)) return result;
+    const ZeroDecider quick(graph, setting, witness_budget);
+    if (!add_ranks(graph, hessian, quick, result) && !add_ranks(graph, hessian, decider, result)) return result;
     if (result.rank < hessian.momenta.size()) {
         result.kind = Regularity::Kind::degenerate;
         return result;
     }
     result.kind = Regularity::Kind::generically_regular;
     std::vector<std::vector<NodeId>> minors = leading_minors(graph, hessian);
-    Shown shown = show_everywhere(decider, minors);
+    const Shown shown = show_everywhere(decider, minors);
     if (shown.regular && shown.positive_definite) {
         result.kind = Regularity::Kind::regular;
         result.positive_definite = true;
@@ -200,12 +174,14 @@ Regularity decide_regularity(Graph& graph, const FibreHessian& hessian, const Pr
         if (shown.regular)
             result.kind = Regularity::Kind::regular;
         else
-            find_singular_points(graph, result, setting, decider, minors);
+            result.singular_at = singular_points(graph, setting, determinants_of(minors));
         return result;
     }
     try {
-        const ProofSetting there = with_values(graph, setting, defaults);
-        for (std::vector<NodeId>& block : minors) block = substitute(graph, block, defaults);
+        const ProofSetting there = replaced(graph, setting, defaults);
+        FibreHessian at_defaults = hessian;
+        at_defaults.hessian = substitute(graph, hessian.hessian, defaults);
+        minors = leading_minors(graph, at_defaults);
         const ZeroDecider valued(graph, there);
         const Shown given = show_everywhere(valued, minors);
         result.for_given_parameters = given.positive_definite || (given.regular && !shown.regular);
@@ -213,7 +189,7 @@ Regularity decide_regularity(Graph& graph, const FibreHessian& hessian, const Pr
         if (given.regular || shown.regular)
             result.kind = Regularity::Kind::regular;
         else
-            find_singular_points(graph, result, there, valued, minors);
+            result.singular_at = singular_points(graph, there, determinants_of(minors));
     } catch (const Error&) {
         // The values of the file make something undefined: the claim for all parameters stands alone.
         if (shown.regular) result.kind = Regularity::Kind::regular;

@@ -38,20 +38,34 @@ void flip_users(Polynomial& polynomial, AtomId atom)
         if (is_odd_in(term.monomial, atom)) term.coefficient = -term.coefficient;
 }
 
-/// What flipping the sign of `atom` costs (negative: saves), in signs that must be computed.
-int flip_cost(const Form& form, AtomId atom, const std::vector<Place>& users)
+/// Signs that must be computed, then terms that are subtracted.
+struct SignCost {
+    int signs = 0;
+    int minuses = 0;
+    friend auto operator<=>(const SignCost&, const SignCost&) = default;
+
+    void count(const Polynomial& polynomial, int times)
+    {
+        signs += costs_sign(polynomial) ? times : 0;
+        for (const Term& term : polynomial) minuses += sgn(term.coefficient) < 0 ? times : 0;
+    }
+};
+
+/// What flipping the sign of `atom` costs (negative: saves).
+SignCost flip_cost(const Form& form, AtomId atom, const std::vector<Place>& users)
 {
-    int cost = 0;
+    SignCost cost;
     for (const Place& place : users) {
         Polynomial flipped = at(form, place);
-        cost -= costs_sign(flipped) ? 1 : 0;
+        cost.count(flipped, -1);
         flip_users(flipped, atom);
-        cost += costs_sign(flipped) ? 1 : 0;
+        cost.count(flipped, 1);
     }
     Polynomial own = form.algebra[atom].operands[0];
-    cost -= costs_sign(own) ? 1 : 0;
+    cost.count(own, -1);
     for (Term& term : own) term.coefficient = -term.coefficient;
-    return cost + (costs_sign(own) ? 1 : 0);
+    cost.count(own, 1);
+    return cost;
 }
 
 using Users = std::map<AtomId, std::vector<Place>>;
@@ -83,7 +97,7 @@ bool flip_inner_sum(Form& form, AtomId atom, const Users& users)
     for (const Term& term : own)
         for (const Factor& factor : term.monomial) {
             const auto inner = users.find(factor.atom);
-            if (inner == users.end() || flip_cost(form, inner->first, inner->second) >= 0) continue;
+            if (inner == users.end() || flip_cost(form, inner->first, inner->second).signs >= 0) continue;
             flip(form, inner->first, inner->second);
             return true;
         }
@@ -126,11 +140,12 @@ void absorb_signs(Form& form)
 {
     Users users = users_of_sums(form);
     for (const auto& [atom, places] : users) {
-        const int cost = flip_cost(form, atom, places);
-        if (cost > 0) continue;
+        const SignCost cost = flip_cost(form, atom, places);
+        if (cost.signs > 0) continue;
         flip(form, atom, places);
-        // An even exchange pays where a sum inside takes the new sign: -(a + (b - c) d) = (c - b) d - a.
-        if (cost == 0 && !flip_inner_sum(form, atom, users)) flip(form, atom, places);
+        // An even exchange pays where a sum inside takes the new sign: -(a + (b - c) d) = (c - b) d - a, and where
+        // fewer terms are subtracted: a - m (b - c) = a + m (c - b), so that rows of cyclic equations look alike.
+        if (cost.signs == 0 && !flip_inner_sum(form, atom, users) && cost.minuses >= 0) flip(form, atom, places);
     }
 }
 

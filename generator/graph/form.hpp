@@ -21,6 +21,13 @@ struct Form {
 /// The outputs with like terms collected. Throws FormRefused where the budget does not suffice.
 [[nodiscard]] Form collect(const Graph& graph, std::span<const NodeId> outputs, Expansion expansion);
 
+/// Multiplies closed sums out where terms cancel by it.
+void cancel_terms(Form& form);
+
+/// Divides the rows of linear systems by the factors that all their terms share. Every atom that it divided by, which
+/// must not vanish, is appended as a root of its own; answers their number.
+std::size_t divide_rows(Form& form);
+
 /// Draws the factor that most terms of a sum share out of it, again and again, in all sums (multivariate Horner).
 void draw_out_factors(Form& form);
 
@@ -40,6 +47,10 @@ void absorb_signs(Form& form);
 
 /// The form as nodes of `graph`, one an output.
 [[nodiscard]] std::vector<NodeId> rebuild(const Form& form, Graph& graph);
+
+/// The outputs with sines and cosines of sums a + b, a - b written in those of a and b, where these are there already
+/// and the loss of relative accuracy does no harm.
+[[nodiscard]] std::vector<NodeId> add_angles(Graph& graph, std::span<const NodeId> outputs);
 
 /// A polynomial of a form: operand `operand` of an atom, or a root.
 struct Place {

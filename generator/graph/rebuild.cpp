@@ -2,6 +2,7 @@
 /// A form back to nodes: numerators over denominators, powers by shared squares, signs absorbed into differences.
 #include "graph/form.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <map>
 #include <set>
@@ -11,7 +12,8 @@ namespace {
 
 class Builder {
   public:
-    Builder(const Form& form, Graph& graph) : form_(form), graph_(graph), nodes_(form.algebra.size())
+    Builder(const Form& form, Graph& graph)
+        : form_(form), graph_(graph), nodes_(form.algebra.size()), latest_(form.algebra.size())
     {
         for (const Place& place : live_places(form))
             for (const Term& term : at(form, place))
@@ -21,6 +23,7 @@ class Builder {
     void build(AtomId id)
     {
         const Atom& atom = form_.algebra[id];
+        latest_[id] = latest_input(atom);
         switch (atom.op) {
         case Op::input:
         case Op::pi: nodes_[id] = atom.payload; break;
@@ -55,11 +58,47 @@ class Builder {
   private:
     static AtomId only_atom(const Polynomial& polynomial) { return polynomial.at(0).monomial.at(0).atom; }
 
+    /// 1 + the input, last in order of declaration, that the atom depends on; 0 where there is none.
+    [[nodiscard]] NodeId latest_input(const Atom& atom) const
+    {
+        if (atom.op == Op::input) return atom.payload + 1;
+        NodeId latest = 0;
+        for (const Polynomial& operand : atom.operands)
+            for (const Term& term : operand)
+                for (const Factor& factor : term.monomial) latest = std::max(latest, latest_[factor.atom]);
+        return latest;
+    }
+
+    /// Factors by the latest input that they depend on, so that products of parameters, declared before the state,
+    /// come first: a compiler moves them out of loops.
+    const Monomial& ordered(const Monomial& monomial)
+    {
+        const auto [place, inserted] = orders_.try_emplace(monomial, monomial);
+        Monomial& order = place->second;
+        if (!inserted) return order;
+        std::ranges::stable_sort(order, {}, [this](const Factor& factor) { return latest_[factor.atom]; });
+        if (order.size() > 2) take_turns(order[order.size() - 2], order[order.size() - 1]);
+        return order;
+    }
+
+    /// Of two inputs at the end of a product, the one that stood last more often comes first: cyclic rows read
+    /// a w2 w3, b w3 w1, c w1 w2, one shape that vectorises (heavy top by g++ 12 -O2: 58 instructions, 63 otherwise).
+    void take_turns(Factor& first, Factor& last)
+    {
+        const auto is_plain = [this](const Factor& f) {
+            return f.exponent == 1 && form_.algebra[f.atom].op == Op::input;
+        };
+        if (!is_plain(first) || !is_plain(last)) return;
+        if (turns_[last.atom] > turns_[first.atom]) std::swap(first, last);
+        --turns_[first.atom];
+        ++turns_[last.atom];
+    }
+
     NodeId product(const Rational& coefficient, const Monomial& monomial)
     {
         NodeId above = graph_.constant(coefficient);
         NodeId below = graph_.constant(1);
-        for (const Factor& factor : monomial) {
+        for (const Factor& factor : ordered(monomial)) {
             NodeId& side = factor.exponent > 0 ? above : below;
             side = graph_.multiply(side, power(factor.atom, std::abs(factor.exponent)));
         }
@@ -94,6 +133,9 @@ class Builder {
     const Form& form_;
     Graph& graph_;
     std::vector<NodeId> nodes_;
+    std::vector<NodeId> latest_; ///< by atom: latest_input
+    std::map<Monomial, Monomial> orders_;
+    std::map<AtomId, int> turns_; ///< how much oftener an input stands last than last but one
     std::map<AtomId, std::vector<NodeId>> solutions_;
     std::map<AtomId, std::set<int>> exponents_;
 };

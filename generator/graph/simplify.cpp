@@ -4,6 +4,7 @@
 
 #include "graph/form.hpp"
 
+#include <algorithm>
 #include <optional>
 
 namespace lagen {
@@ -31,27 +32,79 @@ void improve(Form& form, Order order)
     absorb_signs(form);
 }
 
-std::optional<std::vector<NodeId>> attempt(Graph& graph, const Form& collected, Order order)
+std::optional<Form> collected(const Graph& graph, std::span<const NodeId> outputs, Expansion expansion)
 {
+    std::optional<Form> form;
     try {
-        Form form = collected;
-        improve(form, order);
-        return rebuild(form, graph);
+        form = collect(graph, outputs, expansion);
+        Form shorter = *form;
+        cancel_terms(shorter);
+        return shorter;
     } catch (const FormRefused&) {
-        return std::nullopt; // too large in this form
-    } catch (const MathematicsError&) {
-        return std::nullopt; // a divisor vanishes identically: the outputs stay as written
+        return form; // too large to collect (nothing), or to look for terms that cancel
     }
 }
 
-std::optional<Form> collected(const Graph& graph, std::span<const NodeId> outputs, Expansion expansion)
-{
-    try {
-        return collect(graph, outputs, expansion);
-    } catch (const FormRefused&) {
-        return std::nullopt;
+/// The candidates, and what those with divided rows were divided by. A divisor of one is zero only where the matrix is
+/// singular as written, so all of them may be asked for whenever one is needed.
+struct Portfolio {
+    Portfolio(Graph& owner, const std::vector<NodeId>& written) : graph(owner), candidates{written}
+    {
+        undivided = factors_of(written);
     }
-}
+
+    void add_forms(std::span<const NodeId> outputs, Expansion expansion)
+    {
+        const auto form = collected(graph, outputs, expansion);
+        if (!form) return;
+        for (const Order order : {Order::factor_then_share, Order::share_then_factor, Order::share_only})
+            for (const bool divided : {false, true}) attempt(*form, order, divided);
+    }
+
+    /// Do the outputs contain a matrix whose rows were divided?
+    [[nodiscard]] bool has_divided(const std::vector<NodeId>& outputs) const
+    {
+        return !std::ranges::includes(undivided, factors_of(outputs));
+    }
+
+    Graph& graph;
+    std::vector<std::vector<NodeId>> candidates;
+    std::vector<NodeId> divisors;
+    std::vector<NodeId> undivided; ///< factorisations of the candidates with rows as they were, ascending
+
+  private:
+    [[nodiscard]] std::vector<NodeId> factors_of(const std::vector<NodeId>& outputs) const
+    {
+        std::vector<NodeId> factors = reachable(graph, outputs);
+        std::erase_if(factors, [this](NodeId id) { return graph.op(id) != Op::factor; });
+        return factors;
+    }
+
+    void attempt(const Form& written, Order order, bool divided)
+    {
+        try {
+            Form form = written;
+            if (divided && divide_rows(form) == 0) return;
+            improve(form, order);
+            std::vector<NodeId> outputs = rebuild(form, graph);
+            const std::vector<NodeId> appended(outputs.begin() + static_cast<std::ptrdiff_t>(written.roots.size()),
+                                               outputs.end());
+            outputs.resize(written.roots.size());
+            note(divided ? divisors : undivided, divided ? appended : factors_of(outputs));
+            candidates.push_back(std::move(outputs));
+        } catch (const FormRefused&) {      // too large in this form
+        } catch (const MathematicsError&) { // a divisor vanishes identically: the outputs stay as written
+        }
+    }
+
+    static void note(std::vector<NodeId>& sorted, const std::vector<NodeId>& more)
+    {
+        sorted.insert(sorted.end(), more.begin(), more.end());
+        std::ranges::sort(sorted);
+        const auto repeated = std::ranges::unique(sorted);
+        sorted.erase(repeated.begin(), repeated.end());
+    }
+};
 
 /// Replaces single outputs of `best` by another candidate's where that makes the whole lighter.
 void mix(const Graph& graph, std::vector<NodeId>& best, double& weight,
@@ -76,24 +129,28 @@ void mix(const Graph& graph, std::vector<NodeId>& best, double& weight,
 
 std::vector<NodeId> simplify(Graph& graph, std::span<const NodeId> outputs)
 {
+    std::vector<NodeId> divisors;
+    return simplify(graph, outputs, divisors);
+}
+
+std::vector<NodeId> simplify(Graph& graph, std::span<const NodeId> outputs, std::vector<NodeId>& divisors)
+{
     std::vector<NodeId> best(outputs.begin(), outputs.end());
     if (reachable(graph, outputs).size() > largest_graph) return best;
     double weight = count_operations(graph, best).weight;
-    std::vector<std::vector<NodeId>> candidates{best};
-    for (const Expansion expansion : {Expansion::none, Expansion::monomials, Expansion::all}) {
-        const auto form = collected(graph, outputs, expansion);
-        if (!form) continue;
-        for (const Order order : {Order::factor_then_share, Order::share_then_factor, Order::share_only})
-            if (auto candidate = attempt(graph, *form, order)) candidates.push_back(std::move(*candidate));
-    }
-    for (const auto& candidate : candidates) {
+    Portfolio portfolio(graph, best);
+    for (const Expansion expansion : {Expansion::none, Expansion::monomials, Expansion::all})
+        portfolio.add_forms(outputs, expansion);
+    if (const auto added = add_angles(graph, outputs); added != best) portfolio.add_forms(added, Expansion::none);
+    for (const auto& candidate : portfolio.candidates) {
         const double tried = count_operations(graph, candidate).weight;
         if (tried < weight) {
             weight = tried;
             best = candidate;
         }
     }
-    mix(graph, best, weight, candidates);
+    mix(graph, best, weight, portfolio.candidates);
+    if (portfolio.has_divided(best)) divisors = portfolio.divisors;
     return best;
 }
 

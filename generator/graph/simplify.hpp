@@ -23,4 +23,9 @@ struct OperationCount {
 /// the values agree wherever the original is defined.
 [[nodiscard]] std::vector<NodeId> simplify(Graph& graph, std::span<const NodeId> outputs);
 
+/// The same; `divisors` receives what rows of matrices were divided by: where one of these is zero, a matrix that stood
+/// in the outputs is singular, and the new one may not be.
+[[nodiscard]] std::vector<NodeId> simplify(Graph& graph, std::span<const NodeId> outputs,
+                                           std::vector<NodeId>& divisors);
+
 } // namespace lagen

@@ -123,10 +123,14 @@ class ModuleBuilder {
         std::vector<NodeId> outputs;
         for (const KernelEntry& entry : kernel.output.entries) outputs.push_back(entry.node);
         outputs.insert(outputs.end(), kernel.pivots.begin(), kernel.pivots.end());
-        outputs = simplify(*graph_, outputs);
+        std::vector<NodeId> divisors;
+        outputs = simplify(*graph_, outputs, divisors);
         for (std::size_t k = 0; k < kernel.output.entries.size(); ++k) kernel.output.entries[k].node = outputs[k];
         for (std::size_t k = 0; k < kernel.pivots.size(); ++k)
             kernel.pivots[k] = outputs[kernel.output.entries.size() + k];
+        if (kernel.shape == KernelShape::right_hand_side)
+            for (const NodeId divisor : divisors)
+                if (std::ranges::find(kernel.pivots, divisor) == kernel.pivots.end()) kernel.pivots.push_back(divisor);
         module_.kernels.push_back(std::move(kernel));
     }
 

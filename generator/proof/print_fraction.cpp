@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+/// Texts of polynomials and fractions.
 #include "proof/print_fraction.hpp"
 
 namespace lagen::proof {

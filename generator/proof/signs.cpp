@@ -9,7 +9,8 @@ namespace lagen::proof {
 
 namespace {
 
-constexpr int deepest = 3; ///< products of facts that are looked through
+constexpr int deepest = 3;              ///< products of facts that are looked through
+constexpr std::size_t most_terms = 300; ///< of a polynomial whose sign is asked for; rational ranges are slow
 
 /// p / (content and sign), so that proportional polynomials are equal.
 Polynomial primitive(const Polynomial& p)
@@ -142,6 +143,8 @@ Signs Ring::signs(const Polynomial& p, int depth)
 {
     if (p.empty()) return {false, true, false};
     if (is_constant(p)) return signs_of(p[0].coefficient);
+    if (p.size() > most_terms) return {};
+    work_.spend(10 * p.size());
     Signs known = range_signs(p);
     const auto settled = [&known] { return static_cast<int>(known.negative) + known.zero + known.positive <= 1; };
     if (settled()) return known;

@@ -89,7 +89,7 @@ void set_environment(const Surroundings& around)
 
 } // namespace
 
-Started start_lagen(const std::vector<std::string>& arguments, const Surroundings& around)
+Started start_call(const std::vector<std::string>& arguments, const Surroundings& around)
 {
     (void)models_folder();
     Started started{0, root().next("out"), root().next("err")};
@@ -108,9 +108,9 @@ Outcome finish(const Started& started)
     return outcome;
 }
 
-Outcome lagen(const std::vector<std::string>& arguments, const Surroundings& around)
+Outcome call(const std::vector<std::string>& arguments, const Surroundings& around)
 {
-    return finish(start_lagen(arguments, around));
+    return finish(start_call(arguments, around));
 }
 
 std::string fresh_folder()

@@ -16,23 +16,23 @@ struct Outcome {
 
 /// What differs from an ordinary call.
 struct Surroundings {
-    std::vector<std::pair<std::string, std::string>> environment; ///< an empty value removes the variable
-    std::string folder;                                           ///< to stand in; default: models_folder()
-    std::string output;                                           ///< standard output goes there instead
+    std::vector<std::pair<std::string, std::string>> environment{}; ///< an empty value removes the variable
+    std::string folder{};                                           ///< to stand in; default: models_folder()
+    std::string output{};                                           ///< standard output goes there instead
     bool output_closed = false;
     bool error_closed = false;
     long largest_file = 0; ///< bytes; 0: no limit
 };
 
 /// Runs lagen. Programs that it compiles are shared by the whole test program.
-[[nodiscard]] Outcome lagen(const std::vector<std::string>& arguments, const Surroundings& around = {});
+[[nodiscard]] Outcome call(const std::vector<std::string>& arguments, const Surroundings& around = {});
 
 /// The same, not waited for; `finish` waits.
 struct Started {
     pid_t process = 0;
     std::string out, err; ///< files
 };
-[[nodiscard]] Started start_lagen(const std::vector<std::string>& arguments, const Surroundings& around = {});
+[[nodiscard]] Started start_call(const std::vector<std::string>& arguments, const Surroundings& around = {});
 [[nodiscard]] Outcome finish(const Started& started);
 
 /// A new empty folder, removed with everything else when the test program ends.

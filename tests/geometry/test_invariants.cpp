@@ -148,3 +148,34 @@ TEST_CASE("without a Lagrangian only functions on the base can be invariant")
                              "= \"tangent\"\nover = [\"x\"]\n";
     CHECK(statuses(text, {"k", "x", "v"}) == "proved refuted undecided");
 }
+
+TEST_CASE("an invariant with a logarithm is a claim about the points where the logarithm is defined")
+{
+    // |x| - x is not constant where x < 0, but log(x) is not defined there.
+    CHECK(statuses(plane("(u^2 + v^2)/2"), {"abs(x) - x + log(2*x) - log(x)", "abs(x) - x", "log(-1 - x^2)"}) ==
+          "proved refuted undecided");
+    CHECK(statuses(plane("(u^2 + v^2)/2"), {"abs(p_u) - u + log(2*p_u) - log(u)"}) == "proved");
+}
+
+TEST_CASE("invariants may hold on the constraint alone and may depend on time")
+{
+    const std::string top = heavy_top("(I1*w1^2 + I2*w2^2 + I3*w3^2)/2 - mgl*g3");
+    CHECK(statuses(top, {"energy*(g1^2 + g2^2 + g3^2)", "energy*(g1^2 + g2^2 + g3^2 - 2)",
+                         "energy*(g1^2 + g2^2 + g3^2 - 1) + g3*0", "(g1^2 + g2^2 + g3^2 - 1)*t", "g3*t"}) ==
+          "proved proved proved proved refuted");
+    const std::string falling = plane("(u^2 + v^2)/2 - k*y");
+    CHECK(statuses(falling, {"y - v*t - k*t^2/2", "v + k*t", "v - k*t", "x - u*t", "energy + t"}) ==
+          "proved proved refuted proved refuted");
+}
+
+TEST_CASE("a Lagrangian that is not quadratic has its own mass matrix in each invariant")
+{
+    // p = v/sqrt(1 - v^2) for the relativistic particle, W = (1 - v^2)^(-3/2)
+    const std::string relativistic = plane("-sqrt(1 - u^2 - v^2) - x^2/2");
+    CHECK(statuses(relativistic, {"energy", "v/sqrt(1 - u^2 - v^2)", "1/sqrt(1 - u^2 - v^2) + x^2/2",
+                                  "1/sqrt(1 - u^2 - v^2) - x^2/2", "v"}) ==
+          "proved proved proved refuted refuted");
+    // W = diag(x, 1) is singular at x = 0: x u^2 is conserved wherever the accelerations exist.
+    CHECK(statuses(plane("(x*u^2 + v^2)/2"), {"x*u^2", "x*u", "v"}) == "proved refuted proved");
+    CHECK(statuses(plane("exp(k*t)*(u^2 - x^2)/2 + v^2/2"), {"p_u", "v", "energy"}) == "refuted proved refuted");
+}

@@ -64,6 +64,23 @@ TEST_CASE("points outside the domain are not singular points of the model")
     CHECK(regularity("(u^2 + x^2*v^2)/2 - 1/x").singular_at.empty());
 }
 
+TEST_CASE("where a root or a logarithm of the Lagrangian is undefined there are no singular points")
+{
+    CHECK(regularity("(u^2 + x^2*v^2)/2 + sqrt(y + 1 - x^2)").singular_at.size() == 1);
+    CHECK(regularity("(u^2 + x^2*v^2)/2 + sqrt(x^2 - y^2 - 1)*y").singular_at.empty());
+    CHECK(regularity("(u^2 + x*v^2)/2 + log(x - 1)").kind == Kind::regular);
+}
+
+TEST_CASE("singular points are found on a constraint too")
+{
+    const std::string circle = "constraints = [\"x^2 + y^2 - 1\"]\n";
+    const Regularity result = regularity("(u^2 + (1 - y^2)*v^2)/2", "", circle);
+    CHECK(result.kind == Kind::generically_regular);
+    REQUIRE(result.singular_at.size() == 1);
+    CHECK(result.singular_at[0][0] == std::pair<std::string, std::string>("x", "0"));
+    CHECK(result.singular_at[0][1] == std::pair<std::string, std::string>("y", "1"));
+}
+
 TEST_CASE("degenerate Lagrangians have their generic rank")
 {
     CHECK(regularity("(u + v)^2").kind == Kind::degenerate);
@@ -72,20 +89,53 @@ TEST_CASE("degenerate Lagrangians have their generic rank")
     CHECK(regularity("(sin(x)*u + cos(x)*v)^2/2").kind == Kind::degenerate);
 }
 
-TEST_CASE("a chain of ten coupled coordinates is regular at a point although its determinant is not formed")
+namespace {
+
+/// L on R^10 with `diagonal` y_a^2 + `coupling` y_a y_(a+1).
+Regularity chain_of_ten(const std::string& diagonal, const std::string& coupling, const std::string& parameters = "")
 {
     std::string coordinates;
     std::string lagrangian;
     for (int a = 0; a < 10; ++a) {
         const std::string y = "y" + std::to_string(a);
         coordinates += (a == 0 ? "\"" : ", \"") + y + "\"";
-        lagrangian += (a == 0 ? "" : " + ") + y + "^2" + (a == 0 ? "" : " + y" + std::to_string(a - 1) + "*" + y);
+        lagrangian += (a == 0 ? "" : " + ") + diagonal + "*" + y + "^2";
+        if (a > 0) lagrangian += " + " + coupling + "*y" + std::to_string(a - 1) + "*" + y;
     }
-    const Regularity result =
-        verified_text("[fibre]\ncoordinates = [" + coordinates +
-                      "]\n[algebroid]\nkind = \"lie_algebra\"\nalgebra = \"R^10\"\n[lagrangian]\nL = \"" + lagrangian +
-                      "\"\n")
-            .regularity;
+    return verified_text(parameters + "[fibre]\ncoordinates = [" + coordinates +
+                         "]\n[algebroid]\nkind = \"lie_algebra\"\nalgebra = \"R^10\"\n[lagrangian]\nL = \"" +
+                         lagrangian + "\"\n")
+        .regularity;
+}
+
+} // namespace
+
+TEST_CASE("a constant mass matrix of any size is decided by elimination")
+{
+    const Regularity definite = chain_of_ten("1", "1");
+    CHECK(definite.kind == Kind::regular);
+    CHECK(definite.rank == 10);
+    CHECK(definite.positive_definite);
+    CHECK_FALSE(definite.for_given_parameters);
+    const Regularity indefinite = chain_of_ten("1", "2");
+    CHECK(indefinite.kind == Kind::regular);
+    CHECK_FALSE(indefinite.positive_definite);
+    CHECK(chain_of_ten("0", "1").kind == Kind::regular);
+    CHECK(chain_of_ten("0", "0").kind == Kind::degenerate);
+}
+
+TEST_CASE("a large mass matrix with parameters is definite at the values of the file")
+{
+    const Regularity given = chain_of_ten("m", "1", "[parameters]\nm = 1\n");
+    CHECK(given.kind == Kind::regular);
+    CHECK(given.rank == 10);
+    CHECK(given.positive_definite);
+    CHECK(given.for_given_parameters);
+}
+
+TEST_CASE("a large mass matrix that depends on the state is regular where it is known to be")
+{
+    const Regularity result = chain_of_ten("(1 + y0^2)", "1");
     CHECK(result.kind == Kind::generically_regular);
     CHECK(result.rank == 10);
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+/// The zero decision: identities.
 #include "problem.hpp"
 
 #include <catch2/catch.hpp>

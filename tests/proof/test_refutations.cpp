@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+/// The zero decision: refutations.
 #include "../support/tolerances.hpp"
 #include "problem.hpp"
 

@@ -70,29 +70,64 @@ auto weighted_lane(const Stages& k, Eigen::Index lane, std::index_sequence<j...>
     return sum;
 }
 
-/// out = s + h sum_j weights[offset + j] k[j], j < count, lane by lane: one pass and no temporaries.
-template <auto& weights, std::size_t offset, std::size_t count, class State, class Stages>
-void add_weighted(const State& s, real_t<typename State::Scalar> h, const Stages& k, State& out) noexcept
+/// The same sum as an Eigen expression, added in the same order: it reads whole registers of lanes, where the loop over
+/// lanes costs up to twice the instructions. `count` at least 1; the first weights may be zero.
+template <auto& weights, std::size_t offset, std::size_t count, class Stages>
+[[gnu::always_inline]] inline auto weighted_expression(const Stages& k) noexcept
 {
-    for (Eigen::Index lane = 0; lane < s.size(); ++lane)
-        out[lane] = s[lane] + h * weighted_lane<weights, offset>(k, lane, std::make_index_sequence<count>{});
+    using Real = typename Stages::value_type::Scalar;
+    constexpr std::size_t last = count - 1;
+    constexpr bool skipped = weights[offset + last].is_zero();
+    if constexpr (count == 1)
+        return weights[offset].template as<Real>() * k[0];
+    else if constexpr (skipped)
+        return weighted_expression<weights, offset, last>(k);
+    else if constexpr (count == 2 && weights[offset].is_zero())
+        return weights[offset + 1].template as<Real>() * k[1];
+    else
+        return weighted_expression<weights, offset, last>(k) + weights[offset + last].template as<Real>() * k[last];
+}
+
+/// Scalars that Eigen keeps several of in a register; others (packs, multiprecision) go lane by lane.
+template <class State>
+inline constexpr bool has_registers = std::is_floating_point_v<typename State::Scalar>;
+
+/// out = s + h sum_j weights[offset + j] k[j], j < count, in one pass and without temporaries.
+template <auto& weights, std::size_t offset, std::size_t count, class State, class Stages>
+[[gnu::always_inline]] inline void add_weighted(const State& s, const real_t<typename State::Scalar>& h,
+                                                const Stages& k, State& out) noexcept
+{
+    if constexpr (has_registers<State>) {
+        out = s + h * weighted_expression<weights, offset, count>(k);
+    } else {
+        for (Eigen::Index lane = 0; lane < s.size(); ++lane)
+            out[lane] = s[lane] + h * weighted_lane<weights, offset>(k, lane, std::make_index_sequence<count>{});
+    }
 }
 
 /// out = h sum_j weights[j] k[j].
 template <auto& weights, class State, class Stages>
-void weighted_sum(real_t<typename State::Scalar> h, const Stages& k, State& out) noexcept
+void weighted_sum(const real_t<typename State::Scalar>& h, const Stages& k, State& out) noexcept
 {
-    for (Eigen::Index lane = 0; lane < out.size(); ++lane)
-        out[lane] = h * weighted_lane<weights, 0>(k, lane, std::make_index_sequence<weights.size()>{});
+    if constexpr (has_registers<State>) {
+        out = h * weighted_expression<weights, 0, weights.size()>(k);
+    } else {
+        for (Eigen::Index lane = 0; lane < out.size(); ++lane)
+            out[lane] = h * weighted_lane<weights, 0>(k, lane, std::make_index_sequence<weights.size()>{});
+    }
 }
 
 /// A status good or `non_finite`: x - x is zero exactly where x is finite, in every scalar and lane.
 template <class State>
-status_t<typename State::Scalar> check_finite(const State& s) noexcept
+[[gnu::always_inline]] inline status_t<typename State::Scalar> check_finite(const State& s) noexcept
 {
     using Scalar = typename State::Scalar;
     Scalar sum = Scalar(0);
-    for (Eigen::Index lane = 0; lane < s.size(); ++lane) sum += s[lane] - s[lane];
+    if constexpr (has_registers<State>) {
+        sum = (s - s).sum();
+    } else {
+        for (Eigen::Index lane = 0; lane < s.size(); ++lane) sum += s[lane] - s[lane];
+    }
     auto status = StatusOf<Scalar>::good();
     StatusOf<Scalar>::fail(status, sum != Scalar(0), Status::non_finite);
     return status;
@@ -101,8 +136,9 @@ status_t<typename State::Scalar> check_finite(const State& s) noexcept
 /// Stages first..last-1 (from 0) of `Tableau`: X_i, then K_i. Returns the first failure; goes on after one (packs have
 /// other lanes).
 template <class Tableau, std::size_t first, std::size_t last, class M, class Stages>
-status_t<typename M::Scalar> evaluate_stages(const M& model, real_t<typename M::Scalar> t, const typename M::State& s,
-                                             real_t<typename M::Scalar> h, typename M::State& x, Stages& k) noexcept
+[[gnu::always_inline]] inline status_t<typename M::Scalar>
+evaluate_stages(const M& model, const real_t<typename M::Scalar>& t, const typename M::State& s,
+                const real_t<typename M::Scalar>& h, typename M::State& x, Stages& k) noexcept
 {
     using Scalar = typename M::Scalar;
     using Real = real_t<Scalar>;

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// `lagen check`: verdicts, exit codes and the JSON of the interface.
+#include "program.hpp"
+
+#include "support/json.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace lagen::testing;
+namespace json = lagen::json;
+
+TEST_CASE("every example model is proved")
+{
+    std::vector<std::string> arguments{"check", "--format", "json"};
+    for (const std::string& name : example_models()) arguments.push_back(name + ".toml");
+    const Outcome outcome = call(arguments);
+    CHECK(outcome.code == 0);
+    CHECK(outcome.err.empty());
+    const json::Value list = json::parse(outcome.out);
+    REQUIRE(list.size() == example_models().size());
+    REQUIRE(list.size() >= 10);
+    for (std::size_t k = 0; k < list.size(); ++k) {
+        CHECK(list[k]["model"].text == example_models()[k]);
+        CHECK(list[k]["verdict"].text == "valid");
+        CHECK(list[k]["regularity"]["status"].text == "regular");
+    }
+}
+
+TEST_CASE("a refuted model shows its residual and a witness, and exits 1")
+{
+    const Outcome outcome = call({"check", "refuted.toml"});
+    CHECK(outcome.code == 1);
+    CHECK(outcome.out == "refuted: invalid\n"
+                         "  anchor        1 refuted\n"
+                         "  structural 0  1 residuals\n"
+                         "  regularity    regular, rank 2, positive definite\n"
+                         "\n"
+                         "refuted: anchor (u, v, y)\n"
+                         "  residual 1\n"
+                         "  at x = 1, y = 2: 1\n");
+    const json::Value value = json::parse(call({"check", "refuted.toml", "--format", "json"}).out);
+    CHECK(value["verdict"].text == "invalid");
+    CHECK(value["trivial"].text == "1");
+    const json::Value& check = value["checks"][0];
+    CHECK(check["name"].text == "anchor");
+    CHECK(check["indices"].texts() == std::vector<std::string>{"u", "v", "y"});
+    CHECK(check["status"].text == "refuted");
+    CHECK(check["residual"].text == "1");
+    CHECK(check["witness"].keys == std::vector<std::string>{"x", "y"});
+    CHECK(check["value"].number() == 1);
+}
+
+TEST_CASE("an undecided model exits 2")
+{
+    const Outcome outcome = call({"check", "undecided.toml", "--format", "json"});
+    CHECK(outcome.code == 2);
+    const json::Value value = json::parse(outcome.out);
+    CHECK(value["verdict"].text == "undecided");
+    CHECK(value["checks"][0]["status"].text == "undecided");
+    CHECK_FALSE(value["checks"][0].has("witness"));
+}
+
+TEST_CASE("a degenerate Lagrangian leaves the verdict as it is")
+{
+    const Outcome outcome = call({"check", "degenerate.toml"});
+    CHECK(outcome.code == 0);
+    CHECK(outcome.out == "degenerate: valid\n  regularity    degenerate, rank 0\n");
+}
+
+TEST_CASE("over several models the exit code is 3 before 1 before 2 before 0, and each is reported")
+{
+    const auto code = [](const std::vector<std::string>& models) {
+        std::vector<std::string> arguments{"check"};
+        arguments.insert(arguments.end(), models.begin(), models.end());
+        return call(arguments).code;
+    };
+    CHECK(code({"pendulum.toml", "kepler.toml"}) == 0);
+    CHECK(code({"pendulum.toml", "undecided.toml", "kepler.toml"}) == 2);
+    CHECK(code({"refuted.toml", "undecided.toml"}) == 1);
+    CHECK(code({"undecided.toml", "refuted.toml", "nope.toml", "pendulum.toml"}) == 3);
+    const Outcome outcome = call({"check", "nope.toml", "refuted.toml", "pendulum.toml", "--format", "json"});
+    const json::Value list = json::parse(outcome.out);
+    REQUIRE(list.size() == 3);
+    CHECK(list[0]["verdict"].text == "error");
+    CHECK(list[0]["model"].text == "nope.toml");
+    CHECK(list[1]["verdict"].text == "invalid");
+    CHECK(list[2]["verdict"].text == "valid");
+    CHECK(outcome.err == "error: the model file 'nope.toml' does not exist\nhint: give the path of a .toml file\n");
+}
+
+TEST_CASE("--invariant decides a function from the command line, exactly")
+{
+    const auto verdict = [](const std::string& expression) {
+        const Outcome outcome = call({"check", "kepler.toml", "--invariant", expression, "--format", "json"});
+        return std::pair(outcome.code, json::parse(outcome.out)["verdict"].text);
+    };
+    CHECK(verdict("x*v - y*u") == std::pair(0, std::string("valid")));
+    CHECK(verdict("u^2 + v^2 - 2*k/r") == std::pair(0, std::string("valid")));
+    CHECK(verdict("u^2 + v^2 - 2.000000000000000000001*k/r") == std::pair(1, std::string("invalid")));
+    const Outcome outcome = call({"check", "kepler.toml", "--invariant", "x*p_v - y*p_u"});
+    CHECK(outcome.code == 0); // momenta may stand there too
+}

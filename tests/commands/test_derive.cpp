@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// `lagen derive` in its three formats.
+#include "program.hpp"
+
+#include "support/golden.hpp"
+#include "support/json.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace lagen::testing;
+
+TEST_CASE("the equations of every model are the same text in fresh processes, in each format")
+{
+    for (const std::string& name : example_models()) {
+        for (const std::string format : {"text", "latex", "json"}) {
+            INFO(name << " as " << format);
+            const Outcome first = call({"derive", name + ".toml", "--format", format});
+            CHECK(first.code == 0);
+            CHECK(first.err.empty());
+            CHECK(first.out.size() > 200);
+            CHECK(first.out.ends_with('\n'));
+            for (int k = 0; k < 3; ++k)
+                CHECK(call({"derive", name + ".toml", "--format", format},
+                           {.environment = {{"PADDING", std::string(static_cast<std::size_t>(997 * k), 'x')}}})
+                          .out == first.out);
+            if (format == "json") CHECK(lagen::json::parse(first.out).size() > 2);
+        }
+    }
+}
+
+TEST_CASE("Euler's equations of the rigid body are those of the textbook")
+{
+    const std::string text = call({"derive", "rigid_body.toml"}).out;
+    INFO(text);
+    CHECK(text.find("\n  I1 ẇ1 = (I2 - I3) w2 w3\n  I2 ẇ2 = (I3 - I1) w1 w3\n  I3 ẇ3 = (I1 - I2) w1 w2\n") !=
+          std::string::npos);
+}
+
+TEST_CASE("-o writes the equations to a file")
+{
+    const std::string folder = fresh_folder();
+    const Outcome outcome =
+        call({"derive", models_folder() + "/pendulum.toml", "--format", "latex", "-o", "a.tex"}, {.folder = folder});
+    CHECK(outcome.code == 0);
+    CHECK(outcome.out.empty());
+    CHECK(read_text(folder + "/a.tex") == call({"derive", "pendulum.toml", "--format", "latex"}).out);
+}

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// `lagen generate`: the same bytes always, whole files or none, and what the banner says.
+#include "program.hpp"
+
+#include "support/golden.hpp"
+#include "support/json.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+
+using namespace lagen::testing;
+
+namespace {
+
+std::string line_of(const std::string& text, int number)
+{
+    std::istringstream stream(text);
+    std::string line;
+    for (int k = 0; k < number; ++k) std::getline(stream, line);
+    return line;
+}
+
+} // namespace
+
+TEST_CASE("twenty fresh processes write the same bytes for every model, from any folder and by any path")
+{
+    const std::string elsewhere = fresh_folder();
+    for (const std::string& name : example_models()) {
+        INFO(name);
+        const Outcome first = call({"generate", name + ".toml"});
+        REQUIRE(first.code == 0);
+        REQUIRE(first.out.size() > 4000);
+        CHECK(first.err.empty());
+        for (int k = 1; k < 19; ++k) {
+            // Another size of environment and of arguments moves stack and heap.
+            std::string path = name + ".toml";
+            for (int dots = 0; dots < k; ++dots) path = "./" + path;
+            const std::string padding(static_cast<std::size_t>(37 * k), 'x');
+            const Outcome again = call({"generate", path}, {.environment = {{"PADDING", padding}}});
+            REQUIRE(again.out == first.out);
+        }
+        const Outcome other = call({"generate", models_folder() + "/" + name + ".toml"}, {.folder = elsewhere});
+        CHECK(other.out == first.out);
+    }
+}
+
+TEST_CASE("generated/ is what the models give today")
+{
+    for (const std::string& name : example_models()) {
+        const std::string path = LAGEN_SOURCE_DIR "/generated/" + name + ".hpp";
+        const std::string text = call({"generate", name + ".toml"}).out;
+        if (std::getenv("LAGEN_UPDATE_GOLDEN") != nullptr) write_text(path, text);
+        if (read_text(path) == text) continue;
+        const std::string actual = fresh_folder() + "/" + name + ".hpp";
+        write_text(actual, text);
+        FAIL_CHECK(run_shell("diff -u '" + path + "' '" + actual + "'").output
+                   << "`scripts/regenerate` accepts the new text");
+    }
+    std::vector<std::string> headers;
+    for (const std::string& name : example_models()) headers.push_back(name + ".hpp");
+    CHECK(names_in(LAGEN_SOURCE_DIR "/generated") == headers);
+}
+
+TEST_CASE("the hash and the command in the banner follow what the command line changed")
+{
+    const std::string plain = call({"generate", "pendulum.toml"}).out;
+    CHECK(line_of(plain, 4) == "///   lagen generate pendulum.toml -o pendulum.hpp");
+    const std::string changed =
+        call({"generate", "pendulum.toml", "--set", "g=1/3", "--set", "l=2 * 3", "--only", "rhs,energy"}).out;
+    CHECK(line_of(changed, 4) ==
+          "///   lagen generate pendulum.toml --set g=1/3 --set 'l=2 * 3' --only rhs,energy -o pendulum.hpp");
+    CHECK(line_of(changed, 3).substr(0, 40) != line_of(plain, 3).substr(0, 40));
+    CHECK(changed.find("mass_matrix(") == std::string::npos);
+    CHECK(changed.find("g = S(1) / S(3)") != std::string::npos);
+    CHECK(call({"generate", "pendulum.toml", "--set", "g=1/3", "--set", "l=2 * 3", "--only", "rhs,energy"}).out ==
+          changed);
+}
+
+TEST_CASE("no setting can leave the comment that repeats it")
+{
+    const Outcome outcome = call({"generate", "pendulum.toml", "--set", "g=1\n+2"});
+    REQUIRE(outcome.code == 0);
+    CHECK(line_of(outcome.out, 4) == "///   lagen generate pendulum.toml --set 'g=1 +2' -o pendulum.hpp");
+}
+
+TEST_CASE("--format json holds the header and says what is in it")
+{
+    const lagen::json::Value value = lagen::json::parse(call({"generate", "kepler.toml", "--format", "json"}).out);
+    CHECK(value["class"].text == "kepler");
+    CHECK(value["header"].text == call({"generate", "kepler.toml"}).out);
+    CHECK(value["kernels"][0]["name"].text == "rhs");
+    CHECK(value["kernels"][0]["rows"].text == "4");
+    CHECK(value["warnings"].size() == 0);
+    CHECK(value["hash"].text.size() == 16);
+}
+
+TEST_CASE("--depfile names header and model as make reads them")
+{
+    const std::string folder = fresh_folder();
+    std::filesystem::copy_file(models_folder() + "/pendulum.toml", folder + "/my $model.toml");
+    // The name is no identifier, so the model needs one of its own.
+    write_text(folder + "/my $model.toml", "name = \"swing\"\n" + read_text(folder + "/my $model.toml"));
+    const Outcome outcome =
+        call({"generate", "my $model.toml", "-o", "a#b.hpp", "--depfile", "a.d"}, {.folder = folder});
+    CHECK(outcome.code == 0);
+    CHECK(outcome.out.empty());
+    CHECK(read_text(folder + "/a.d") == "a\\#b.hpp: my\\ $$model.toml\n");
+    CHECK(names_in(folder) == std::vector<std::string>{"a#b.hpp", "a.d", "my $model.toml"});
+}
+
+TEST_CASE("a refused model leaves the header that was there, and no other file")
+{
+    const std::string folder = fresh_folder();
+    write_text(folder + "/old.hpp", "old\n");
+    for (const auto& [model, code] : {std::pair("refuted", 1), std::pair("degenerate", 1), std::pair("nope", 3)}) {
+        const Outcome outcome = call({"generate", models_folder() + "/" + model + ".toml", "-o", folder + "/old.hpp"});
+        CHECK(outcome.code == code);
+        CHECK(outcome.out.empty());
+        CHECK_FALSE(outcome.err.empty());
+    }
+    CHECK(read_text(folder + "/old.hpp") == "old\n");
+    CHECK(names_in(folder) == std::vector<std::string>{"old.hpp"});
+}
+
+TEST_CASE("an output that is a link stays a link and its file gets the header")
+{
+    const std::string folder = fresh_folder();
+    std::filesystem::create_directory(folder + "/real");
+    write_text(folder + "/real/top.hpp", "old\n");
+    std::filesystem::create_symlink("real/top.hpp", folder + "/top.hpp");
+    REQUIRE(call({"generate", models_folder() + "/heavy_top.toml", "-o", "top.hpp"}, {.folder = folder}).code == 0);
+    CHECK(std::filesystem::is_symlink(folder + "/top.hpp"));
+    CHECK(read_text(folder + "/real/top.hpp") == call({"generate", "heavy_top.toml"}).out);
+    CHECK(names_in(folder + "/real") == std::vector<std::string>{"top.hpp"});
+}
+
+TEST_CASE("a refuted model is refused with its reason; --unchecked goes on and the header says so")
+{
+    const Outcome refused = call({"generate", "refuted.toml"});
+    CHECK(refused.code == 1);
+    CHECK(refused.err == "error: model 'refuted' is refuted: anchor (u, v, y), residual 1\n"
+                         "hint: see `lagen check refuted.toml`; --unchecked goes on all the same\n");
+    const Outcome forced = call({"generate", "refuted.toml", "--unchecked"});
+    CHECK(forced.code == 0);
+    const std::string said = "this model is REFUTED and was generated with --unchecked: anchor (u, v, y), residual 1";
+    CHECK(forced.err == "warning: " + said + "\n");
+    CHECK(forced.out.find("/// WARNING: " + said + "\n") != std::string::npos);
+    CHECK(line_of(forced.out, 4) == "///   lagen generate refuted.toml --unchecked -o refuted.hpp");
+}
+
+TEST_CASE("an undecided model is generated with a warning, and exits 0")
+{
+    const Outcome outcome = call({"generate", "undecided.toml"});
+    CHECK(outcome.code == 0);
+    CHECK_THAT(outcome.err, Catch::StartsWith("warning: this model is not proved: invariant (identity), residual "));
+    CHECK(outcome.out.find("/// WARNING: this model is not proved: invariant (identity), residual ") !=
+          std::string::npos);
+}
+
+TEST_CASE("a degenerate Lagrangian is refused in Lagrange form")
+{
+    for (const char* command : {"generate", "run"}) {
+        const Outcome outcome = call({command, "degenerate.toml"});
+        CHECK(outcome.code == 1);
+        CHECK(outcome.out.empty());
+        CHECK(outcome.err == "error: the Lagrangian of model 'degenerate' is degenerate: d2L/dy2 has rank 0, and the "
+                             "Lagrangian form needs rank 1\n"
+                             "hint: the velocities cannot be solved for; give every fibre coordinate a kinetic term\n");
+    }
+}
+
+TEST_CASE("an unknown kernel is answered with the nearest one")
+{
+    const Outcome outcome = call({"generate", "pendulum.toml", "--only", "rsh"});
+    CHECK(outcome.code == 4);
+    CHECK_THAT(outcome.err, Catch::EndsWith("hint: did you mean 'rhs'?\n"));
+}

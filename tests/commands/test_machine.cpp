@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// What the machine may lack: a compiler, room on a disk, somebody who reads, patience.
+#include "program.hpp"
+
+#include "support/golden.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+using namespace lagen::testing;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::vector<std::string> short_run{"run", "oscillator.toml", "--at", "1"};
+
+/// An executable shell script.
+std::string script(const std::string& body)
+{
+    const std::string path = fresh_folder() + "/compiler";
+    write_text(path, "#!/bin/sh\n" + body);
+    fs::permissions(path, fs::perms::owner_all);
+    return path;
+}
+
+/// A compiler whose programs report success and do nothing else, and which counts its calls in `witness`.
+std::string quick_compiler(const std::string& witness)
+{
+    return script("echo called >>" + witness + R"(
+while [ "$1" != -o ]; do shift; done
+cat >"$2" <<'END'
+#!/bin/sh
+while [ "$1" != --report ]; do shift; done
+echo status=ok >"$2"
+END
+chmod +x "$2"
+)");
+}
+
+/// True where a process whose command line holds `word` is alive.
+bool alive(const std::string& word)
+{
+    for (const fs::directory_entry& entry : fs::directory_iterator("/proc")) {
+        const std::string line = read_text(entry.path().string() + "/cmdline");
+        if (line.find(word) != std::string::npos) return true;
+    }
+    return false;
+}
+
+} // namespace
+
+TEST_CASE("a second run compiles nothing, whatever changes in comments and numbers; another compiler is another key")
+{
+    const std::string witness = fresh_folder() + "/called";
+    const Surroundings counted{.environment = {{"CXX", quick_compiler(witness)}}};
+    CHECK(call(short_run, counted).code == 0);
+    CHECK(read_text(witness) == "called\n");
+    CHECK(call(short_run, counted).code == 0);
+    const std::string folder = fresh_folder();
+    write_text(folder + "/oscillator.toml",
+               "title = \"Another title\"\n" + read_text(models_folder() + "/oscillator.toml"));
+    CHECK(
+        call({"run", "oscillator.toml", "--t-end", "7"}, {.environment = counted.environment, .folder = folder}).code ==
+        0);
+    CHECK(read_text(witness) == "called\n");
+    for (const char* setting : {"g=9.81", "g=1", "m=2"})
+        CHECK(call({"run", "pendulum.toml", "--set", setting}, counted).code == 0);
+    CHECK(read_text(witness) == "called\ncalled\n");
+    CHECK(call({"run", "oscillator.toml", "--method", "tsit5"}, counted).code == 0);
+    CHECK(read_text(witness) == "called\ncalled\ncalled\n");
+    const std::string other = fresh_folder() + "/called";
+    CHECK(call(short_run, {.environment = {{"CXX", quick_compiler(other)}}}).code == 0);
+    CHECK(read_text(other) == "called\n");
+}
+
+TEST_CASE("CXXFLAGS is part of the key and reaches the compiler")
+{
+    REQUIRE(call(short_run).code == 0);
+    const Outcome outcome = call(short_run, {.environment = {{"CXXFLAGS", "--no-such-flag"}}});
+    CHECK(outcome.code == 5);
+    CHECK(outcome.err.find("--no-such-flag") != std::string::npos);
+}
+
+TEST_CASE("without a compiler the run says which was looked for")
+{
+    const Outcome named = call(short_run, {.environment = {{"CXX", "/nonexistent"}}});
+    CHECK(named.code == 5);
+    CHECK(named.out.empty());
+    CHECK(named.err == "error: the C++ compiler '/nonexistent' (from CXX) was not found\n"
+                       "hint: `run` compiles the generated header; unset CXX or name a C++20 compiler\n");
+    const Outcome none = call(short_run, {.environment = {{"PATH", "/nonexistent"}}});
+    CHECK(none.code == 5);
+    CHECK(none.err == "error: no C++ compiler was found (tried c++, g++, clang++)\n"
+                      "hint: `run` compiles the generated header; install g++ or set CXX\n");
+}
+
+TEST_CASE("a compiler that fails is quoted, and leaves nothing in the cache")
+{
+    const std::string cache = fresh_folder();
+    const Outcome outcome = call(
+        short_run, {.environment = {{"CXX", script("echo 'it is broken' >&2\nexit 3\n")}, {"LAGEN_CACHE", cache}}});
+    CHECK(outcome.code == 5);
+    CHECK(outcome.out.empty());
+    CHECK_THAT(outcome.err, Catch::StartsWith("error: the C++ compiler failed with exit code 3\n"));
+    CHECK_THAT(outcome.err, Catch::EndsWith("\nit is broken\n"));
+    CHECK(names_in(cache).empty());
+    const Outcome silent = call(short_run, {.environment = {{"CXX", "true"}, {"LAGEN_CACHE", cache}}});
+    CHECK(silent.code == 5);
+    CHECK_THAT(silent.err, Catch::StartsWith("error: cannot write '" + cache + "/"));
+    CHECK(names_in(cache).empty());
+}
+
+TEST_CASE("a cache that cannot be used is replaced by the next place")
+{
+    const std::string home = fresh_folder();
+    const std::string compiler = quick_compiler(home + "/called");
+    const Outcome outcome =
+        call(short_run, {.environment = {{"LAGEN_CACHE", "/dev/null/cache"}, {"HOME", home}, {"CXX", compiler}}});
+    CHECK(outcome.code == 0);
+    CHECK(names_in(home + "/.cache/lagen").size() == 1);
+}
+
+TEST_CASE("the cache forgets what was used longest ago")
+{
+    const std::string cache = fresh_folder();
+    for (int k = 0; k < 205; ++k) {
+        char name[40];
+        std::snprintf(name, sizeof name, "%032x", k);
+        write_text(cache + "/" + name, "old");
+        fs::last_write_time(cache + "/" + name, fs::file_time_type::clock::now() - std::chrono::hours(1000 - k));
+    }
+    write_text(cache + "/notes.txt", "mine");
+    const std::string compiler = quick_compiler(cache + "/called");
+    REQUIRE(call(short_run, {.environment = {{"LAGEN_CACHE", cache}, {"CXX", compiler}}}).code == 0);
+    const std::vector<std::string> names = names_in(cache);
+    CHECK(names.size() == 202); // 200 programs and two files that are none
+    CHECK(read_text(cache + "/notes.txt") == "mine");
+    CHECK_FALSE(fs::exists(cache + "/00000000000000000000000000000005")); // the sixth oldest made room
+    CHECK(fs::exists(cache + "/00000000000000000000000000000006"));
+}
+
+TEST_CASE("a full disk is reported and no partial file is left")
+{
+    const std::string folder = fresh_folder();
+    write_text(folder + "/old.hpp", "old\n");
+    const Outcome header =
+        call({"generate", models_folder() + "/kepler.toml", "-o", "old.hpp"}, {.folder = folder, .largest_file = 1000});
+    CHECK(header.code == 5);
+    CHECK(header.err == "error: cannot write 'old.hpp': File too large\n");
+    CHECK(read_text(folder + "/old.hpp") == "old\n");
+    CHECK(names_in(folder) == std::vector<std::string>{"old.hpp"});
+
+    const Outcome device = call({"generate", "kepler.toml", "-o", "/dev/full"});
+    CHECK(device.code == 5);
+    CHECK(device.err == "error: cannot write '/dev/full': No space left on device\n");
+    for (const char* command : {"generate", "derive", "check"}) {
+        const Outcome stream = call({command, "kepler.toml"}, {.output = "/dev/full"});
+        CHECK(stream.code == 5);
+        CHECK(stream.err == "error: cannot write to standard output: No space left on device\n");
+    }
+    CHECK(call({"--help"}, {.output = "/dev/full"}).code == 5);
+    const Outcome rows = call({"run", "oscillator.toml", "-o", "/dev/full"});
+    CHECK(rows.code == 5);
+    CHECK(rows.err == "error: cannot write '/dev/full': No space left on device\n");
+}
+
+TEST_CASE("an output folder that is missing or not a folder is reported")
+{
+    const Outcome missing = call({"generate", "kepler.toml", "-o", "no/such/k.hpp"});
+    CHECK(missing.code == 5);
+    CHECK(missing.err == "error: cannot write 'no/such/k.hpp': No such file or directory\n");
+    const Outcome folder = call({"generate", "kepler.toml", "-o", "."});
+    CHECK(folder.code == 5);
+    CHECK(folder.err == "error: cannot write '.': Is a directory\n");
+    const Outcome kernel = call({"generate", "kepler.toml", "-o", "/proc/k.hpp"}); // nobody may create files there
+    CHECK(kernel.code == 5);
+    CHECK_THAT(kernel.err, Catch::StartsWith("error: cannot write '/proc/k.hpp': "));
+}
+
+TEST_CASE("closed standard streams are noticed and no file takes their place")
+{
+    const Outcome closed = call(short_run, {.output_closed = true});
+    CHECK(closed.code == 5);
+    CHECK(closed.err == "error: cannot write to standard output: Bad file descriptor\n");
+    CHECK(call(short_run, {.error_closed = true}).code == 0);
+    CHECK(call({"generate", "refuted.toml"}, {.error_closed = true}).code == 1);
+}
+
+TEST_CASE("a reader who goes away ends the program with an error")
+{
+    int ends[2];
+    REQUIRE(::pipe(ends) == 0);
+    ::close(ends[0]);
+    const Outcome outcome = call({"generate", "kepler.toml"}, {.output = "/dev/fd/" + std::to_string(ends[1])});
+    ::close(ends[1]);
+    CHECK(outcome.code == 5);
+    CHECK(outcome.err == "error: cannot write to standard output: Broken pipe\n");
+}
+
+TEST_CASE("--plot without gnuplot is said before the run")
+{
+    const std::string folder = fresh_folder();
+    const Outcome outcome = call({"run", models_folder() + "/oscillator.toml", "--plot", "a.svg"},
+                                 {.environment = {{"PATH", "/nonexistent"}}, .folder = folder});
+    CHECK(outcome.code == 5);
+    CHECK(outcome.out.empty());
+    CHECK(outcome.err == "error: gnuplot was not found\nhint: --plot draws with gnuplot; install gnuplot-nox\n");
+    CHECK(names_in(folder).empty());
+}
+
+TEST_CASE("an interrupt in mid-run exits 130 with one line, no file and no process left")
+{
+    REQUIRE(call(short_run).code == 0); // compiled already
+    const std::string folder = fresh_folder();
+    const std::string mark = "2718281828"; // the end of this run, to be found among the processes
+    for (const int signal : {SIGINT, SIGTERM}) {
+        const Started started = start_call({"run", models_folder() + "/oscillator.toml", "--t-end", mark, "--at", "0",
+                                            "-o", "rows.csv", "--tolerance", "1e-14"},
+                                           {.folder = folder});
+        for (int k = 0; k < 300 && !alive(std::string("--end") + '\0' + mark); ++k)
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        REQUIRE(::kill(started.process, signal) == 0);
+        const Outcome outcome = finish(started);
+        CHECK(outcome.code == 130);
+        CHECK(outcome.out.empty());
+        CHECK(outcome.err == "lagen: interrupted, nothing was written\n");
+        CHECK(names_in(folder).empty());
+        CHECK_FALSE(alive(mark));
+    }
+}
+
+TEST_CASE("an interrupt while compiling stops the compiler and its children")
+{
+    const std::string cache = fresh_folder();
+    const std::string compiler = script("sleep 31.4159\necho not reached\n");
+    const Started started = start_call(short_run, {.environment = {{"CXX", compiler}, {"LAGEN_CACHE", cache}}});
+    for (int k = 0; k < 300 && !alive("31.4159"); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    REQUIRE(alive("31.4159"));
+    REQUIRE(::kill(started.process, SIGINT) == 0);
+    const Outcome outcome = finish(started);
+    CHECK(outcome.code == 130);
+    CHECK(outcome.err == "lagen: interrupted while compiling\n");
+    CHECK(names_in(cache).empty());
+    CHECK_FALSE(alive("31.4159"));
+}

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// `lagen methods`: every name is a type of the runtime that integrates.
+#include "program.hpp"
+
+#include "support/golden.hpp"
+#include "support/json.hpp"
+
+#include "commands/methods.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+using namespace lagen::testing;
+namespace json = lagen::json;
+
+TEST_CASE("lagen methods names every integrator of the interface")
+{
+    const json::Value list = json::parse(call({"methods", "--format", "json"}).out);
+    std::vector<std::string> names;
+    for (const json::Value& entry : list.entries) names.push_back(entry["name"].text);
+    for (const char* name : {"euler", "midpoint", "rk4", "dopri5", "tsit5", "dop853"})
+        CHECK(std::count(names.begin(), names.end(), name) == 1);
+    CHECK(list.size() == lagen::method_table().size());
+    CHECK(list[0].keys == std::vector<std::string>{"name", "order", "adaptive", "separable_only", "text"});
+    const std::string text = call({"methods"}).out;
+    CHECK(std::count(text.begin(), text.end(), '\n') == static_cast<std::ptrdiff_t>(list.size()));
+    CHECK(text.find("\ndop853        order 8(5,3)  tolerance ") != std::string::npos);
+}
+
+TEST_CASE("every method's type integrates the generated oscillator to its accuracy")
+{
+    const std::string folder = fresh_folder();
+    REQUIRE(call({"generate", models_folder() + "/oscillator.toml", "-o", "oscillator.hpp"}, {.folder = folder}).code ==
+            0);
+    std::string calls;
+    for (const lagen::MethodEntry& entry : lagen::method_table())
+        calls += std::string("    show(lagen::") + entry.type +
+                 (entry.adaptive ? "{.tolerance = 1e-8}" : "{.step = 0x1p-9}") + ", " + entry.order[0] + ");\n";
+    write_text(folder + "/main.cpp", R"(#include "oscillator.hpp"
+#include "lagen/integrate.hpp"
+#include <cstdio>
+template <class Method> void show(const Method& method, int order)
+{
+    using Model = lagen::models::oscillator<double>;
+    const auto run = lagen::integrate(Model{}, Model::state({.x = 1}, {.v = 0}), {0.0, 1.0}, method);
+    const double error = std::abs(run.state[0] - std::cos(1.0)) + std::abs(run.state[1] + std::sin(1.0));
+    const double allowed = std::max(1e-7, 2 * std::pow(0x1p-9, order));
+    std::puts(run && run.t == 1.0 && error <= allowed ? "good" : "bad");
+}
+int main()
+{
+)" + calls + "}\n");
+    const Shell build =
+        run_shell("c++ -std=c++20 -O0 -I" LAGEN_SOURCE_DIR "/runtime/include $(pkg-config --cflags eigen3) -I" +
+                  folder + " " + folder + "/main.cpp -o " + folder + "/main");
+    INFO(build.output);
+    REQUIRE(build.status == 0);
+    std::string expected;
+    for (std::size_t k = 0; k < lagen::method_table().size(); ++k) expected += "good\n";
+    CHECK(run_shell(folder + "/main").output == expected);
+}

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// `lagen run` where all goes well: rows, columns, events, drifts, and what the command line changes.
+#include "program.hpp"
+
+#include "support/golden.hpp"
+#include "support/json.hpp"
+#include "support/tolerances.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <cstdlib>
+
+using namespace lagen::testing;
+namespace json = lagen::json;
+namespace tolerance = lagen::tolerance;
+
+namespace {
+
+/// A run that must succeed, as JSON.
+json::Value run(std::vector<std::string> arguments, const Surroundings& around = {})
+{
+    arguments.insert(arguments.begin(), "run");
+    arguments.insert(arguments.end(), {"--format", "json"});
+    const Outcome outcome = call(arguments, around);
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    return json::parse(outcome.out);
+}
+
+std::vector<double> column(const json::Value& value, std::size_t k)
+{
+    std::vector<double> numbers;
+    for (const json::Value& row : value["rows"].entries) numbers.push_back(std::strtod(row[k].text.c_str(), nullptr));
+    return numbers;
+}
+
+double number(const json::Value& value)
+{
+    return std::strtod(value.text.c_str(), nullptr);
+}
+
+} // namespace
+
+TEST_CASE("run --format json has exactly the members of the interface, and every number is %.17g")
+{
+    const json::Value value = run({"oscillator.toml", "--at", "0,1/3,1"});
+    CHECK(value.keys == std::vector<std::string>{"model", "scene", "form", "method", "status", "t", "steps", "rejected",
+                                                 "rhs_calls", "seconds", "columns", "rows", "events", "invariants"});
+    CHECK(value["model"].text == "oscillator");
+    CHECK(value["scene"].text == "default");
+    CHECK(value["form"].text == "lagrange");
+    CHECK(value["method"].text == "dop853");
+    CHECK(value["status"].text == "ok");
+    CHECK(value["columns"].texts() == std::vector<std::string>{"t", "x", "v"});
+    CHECK(number(value["steps"]) > 2);
+    CHECK(number(value["rhs_calls"]) > number(value["steps"]));
+    CHECK(value["events"].size() == 0);
+    const json::Value& energy = value["invariants"]["energy"];
+    CHECK(energy.keys == std::vector<std::string>{"initial", "max_drift"});
+    CHECK(energy["initial"].text == "0.5");
+    CHECK(number(energy["max_drift"]) < 1e-9);
+    REQUIRE(value["rows"].size() == 3);
+    CHECK(value["rows"][1][0].text == "0.33333333333333331");
+    for (const json::Value& row : value["rows"].entries) {
+        const double t = number(row[0]);
+        CHECK(std::abs(number(row[1]) - std::cos(t)) < 1e-9);
+        CHECK(std::abs(number(row[2]) + std::sin(t)) < 1e-9);
+        for (const json::Value& entry : row.entries) {
+            char text[40];
+            std::snprintf(text, sizeof text, "%.17g", number(entry));
+            CHECK(entry.text == text);
+        }
+    }
+}
+
+TEST_CASE("CSV has a heading, CRLF line ends and 201 even rows, and -o writes the same bytes")
+{
+    const Outcome outcome = call({"run", "oscillator.toml"});
+    CHECK(outcome.code == 0);
+    CHECK(outcome.out.substr(0, 14) == "t,x,v\r\n0,1,0\r\n");
+    std::size_t rows = 0;
+    for (std::size_t at = 0; (at = outcome.out.find('\n', at)) != std::string::npos; ++at) {
+        REQUIRE(outcome.out[at - 1] == '\r');
+        ++rows;
+    }
+    CHECK(rows == 202);
+    CHECK(outcome.out.find("\r\n0.0050000000000000001,") != std::string::npos);
+    CHECK_THAT(outcome.err, Catch::StartsWith("oscillator, scene default: ok at t = 1; dop853, "));
+    const std::string folder = fresh_folder();
+    const Outcome filed = call({"run", "oscillator.toml", "-o", folder + "/rows.csv"});
+    CHECK(filed.code == 0);
+    CHECK(filed.out.empty());
+    CHECK(read_text(folder + "/rows.csv") == outcome.out);
+    CHECK(names_in(folder) == std::vector<std::string>{"rows.csv"});
+}
+
+TEST_CASE("--at gives rows at exactly these times, sorted, and stretches the run to the last of them")
+{
+    const json::Value value = run({"oscillator.toml", "--at", "3,0.1, pi/2 ,2"});
+    const std::vector<double> times = column(value, 0);
+    CHECK(times == std::vector<double>{0.1, 1.5707963267948966, 2, 3});
+    CHECK(value["t"].text == "3");
+    for (std::size_t k = 0; k < times.size(); ++k) CHECK(std::abs(column(value, 1)[k] - std::cos(times[k])) < 1e-9);
+    const Outcome outside = call({"run", "oscillator.toml", "--at", "1,1.5", "--t-end", "1.25"});
+    CHECK(outside.code == 3);
+    CHECK(outside.err == "<--at>:1:1: error: a row is wanted at t = 1.5, outside of the run from 0 to 1.25\n"
+                         "  1.5\n  ^~~\n");
+}
+
+TEST_CASE("a run goes backwards where its end lies before its start")
+{
+    const json::Value value = run({"oscillator.toml", "--t-end", "-2", "--at", "-2,0,-1"});
+    CHECK(column(value, 0) == std::vector<double>{0, -1, -2});
+    CHECK(std::abs(column(value, 2)[2] + std::sin(-2.0)) < 1e-9);
+    CHECK(column(run({"oscillator.toml", "--t-end", "0"}), 1) == std::vector<double>{1});
+}
+
+TEST_CASE("a scene's `samples` and `sample` say how many rows there are")
+{
+    const std::string folder = fresh_folder();
+    write_text(folder + "/oscillator.toml", read_text(models_folder() + "/oscillator.toml") +
+                                                "[scene.few]\nlike = \"default\"\nsamples = 5\n"
+                                                "[scene.spaced]\nlike = \"default\"\nsample = 0.4\n"
+                                                "[scene.listed]\nlike = \"default\"\nat = [1, 0.5]\n");
+    const auto times = [&](const char* scene) {
+        return column(run({"oscillator.toml", "--scene", scene}, {.folder = folder}), 0);
+    };
+    CHECK(times("few") == std::vector<double>{0, 0.25, 0.5, 0.75, 1});
+    CHECK(times("spaced") == std::vector<double>{0, 0.4, 0.8, 1});
+    CHECK(times("listed") == std::vector<double>{0.5, 1});
+}
+
+TEST_CASE("`observe` says which columns there are; an event that stops a run is a success")
+{
+    const json::Value value = run({"pendulum.toml", "--scene", "first_turn"});
+    CHECK(value["status"].text == "stopped_by_event");
+    CHECK(value["columns"].texts() == std::vector<std::string>{"t", "th", "w", "height", "energy"});
+    REQUIRE(value["events"].size() == 1);
+    CHECK(value["events"][0]["name"].text == "over_the_top");
+    const double t = number(value["events"][0]["t"]);
+    CHECK(t == number(value["t"]));
+    CHECK(std::abs(t - 0.571730904456) < 1e-10);
+    REQUIRE(value["rows"].size() == 12);
+    for (const json::Value& row : value["rows"].entries)
+        CHECK(std::abs(number(row[3]) + 1.1 * std::cos(number(row[1]))) <= tolerance::roundoff(8));
+}
+
+TEST_CASE("momenta in `initial` start the body whose momenta they are")
+{
+    const json::Value value = run({"rigid_body.toml", "--scene", "from_momenta", "--at", "0"});
+    CHECK(value["columns"].texts() == std::vector<std::string>{"t", "w1", "w2", "w3"});
+    const json::Value& row = value["rows"][0];
+    CHECK(number(row[1]) == 0);
+    CHECK(number(row[2]) == 20.0 / 23); // 2/2.3, rounded once
+    CHECK(number(row[3]) == 10.0 / 34);
+    CHECK(value["invariants"].keys == std::vector<std::string>{"energy", "momentum_squared"});
+    CHECK(std::abs(number(value["invariants"]["momentum_squared"]["initial"]) - 5) <= 5 * tolerance::roundoff(8));
+}
+
+TEST_CASE("--set wins over the scene's parameters, exactly")
+{
+    // E(0) = (1 - b x) v^2/2 - 1/x with x = 1, v = 2; the scene says b = 1/2.
+    const auto energy = [](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"fall.toml", "--scene", "weighted", "--at", "0"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run(arguments)["invariants"]["energy"]["initial"].text;
+    };
+    CHECK(energy({}) == "0");
+    CHECK(energy({"--set", "b=1/4"}) == "0.5");
+    CHECK(energy({"--set", "b=1/4", "--set", "b=3/4"}) == "-0.5");
+}
+
+TEST_CASE("--method, --step and --tolerance win over the scene")
+{
+    const json::Value coarse = run({"oscillator.toml", "--method", "euler", "--step", "1/4", "--at", "1"});
+    CHECK(coarse["method"].text == "euler");
+    CHECK(coarse["steps"].text == "4");
+    // (1 + h J)^4 applied to (1, 0) with h = 1/4: the real part of (1 - i/4)^4 is 1 - 6/16 + 1/256, all exact in
+    // binary.
+    CHECK(number(coarse["rows"][0][1]) == 1 - 6.0 / 16 + 1.0 / 256);
+    const auto drift = [](const char* wanted) {
+        return number(run({"oscillator.toml", "--tolerance", wanted})["invariants"]["energy"]["max_drift"]);
+    };
+    CHECK(drift("1e-13") < 1e-12);
+    CHECK(drift("1e-13") < drift("1e-4"));
+    const Outcome unused = call({"run", "oscillator.toml", "--step", "1", "--at", "1"});
+    CHECK(unused.code == 0);
+    CHECK_THAT(unused.err, Catch::StartsWith("warning: --step is not used: dop853 chooses its steps itself\n"));
+}
+
+TEST_CASE("--plot draws SVG and PNG")
+{
+    const std::string folder = fresh_folder();
+    const Outcome outcome = call({"run", "oscillator.toml", "-o", folder + "/a.csv", "--plot", folder + "/a.svg"});
+    CHECK(outcome.code == 0);
+    const std::string svg = read_text(folder + "/a.svg");
+    CHECK(svg.find("<svg") != std::string::npos);
+    CHECK(svg.find("</svg>") != std::string::npos);
+    CHECK(call({"run", "oscillator.toml", "-o", folder + "/a.csv", "--plot", folder + "/a.png"}).code == 0);
+    CHECK(read_text(folder + "/a.png").substr(0, 4) == "\x89PNG");
+    CHECK(names_in(folder) == std::vector<std::string>{"a.csv", "a.png", "a.svg"});
+}
