@@ -31,11 +31,11 @@
 ///   rhs                 6     17      0          2       1          102
 ///   mass_matrix         2      6      0          1       0           15
 ///   momentum            4      9      0          1       0           18
-///   energy              7     16      0          3       0           35
+///   energy              7     16      0          3       0           32
 ///   lagrangian          6     14      0          3       0           25
 ///   observables         4      4      0          2       0           16
 ///   events              0      1      0          1       0            2
-///   jacobian           16     28      0          2       5         1014
+///   jacobian           16     28      0          2       5          800
 ///
 /// Parameters:
 ///   m1 [kg]: upper mass
@@ -231,13 +231,13 @@ class double_pendulum {
         const S l1 = parameters.l1;
         const S l2 = parameters.l2;
         const S g = parameters.g;
-        const S w0 = m2 * l2;
-        const S w1 = w0 * v;
-        const S w2 = l1 * u;
-        const S w3 = m1 + m2;
-        const S w4 = w3 * w2;
-        const S w5 = S(0.5) * l2 * v * w1 + w2 * (w4 + cos(a - b) * w1) - w3 * l1 * g * cos(a) - w0 * g * cos(b);
-        return w5 - S(0.5) * w2 * w4;
+        const S w0 = l1 * u;
+        const S w1 = S(2) * g;
+        const S w2 = w1 * cos(a);
+        const S w3 = l2 * v;
+        const S w4 = m1 * l1 * (u * w0 - w2) + m2 * (l1 * (u * (w0 + S(2) * cos(a - b) * w3) - w2) + l2 * (v * w3 - w1 *
+                cos(b)));
+        return S(0.5) * w4;
     }
 
     /// L(t, x, y).
@@ -313,41 +313,41 @@ class double_pendulum {
         const S l1 = parameters.l1;
         const S l2 = parameters.l2;
         const S g = parameters.g;
-        const S w0 = (m1 + m2) * l1;
-        const S w1 = l1 * w0;
+        const S w0 = m1 + m2;
+        const S w1 = w0 * l1;
         const S w2 = m2 * l2;
-        const S w3 = l1 * w2;
-        const S w4 = sin(a);
-        const S w5 = cos(a);
-        const S w6 = sin(b);
-        const S w7 = cos(b);
-        const S w8 = w3 * (w5 * w7 + w4 * w6);
-        const S w9 = l2 * w2;
-        const S det0 = w1 * w9 - w8 * w8;
+        const S w3 = sin(a);
+        const S w4 = cos(a);
+        const S w5 = sin(b);
+        const S w6 = cos(b);
+        const S w7 = w4 * w6 + w3 * w5;
+        const S w8 = w2 * w7;
+        const S w9 = l1 * w7;
+        const S det0 = w1 * l2 - w8 * w9;
         const S inv_det0 = S(1) / det0;
         const S w10 = w0 * g;
         const S w11 = v * v;
-        const S w12 = w3 * (w5 * w6 - w4 * w7);
-        const S w13 = w12 * w11 - w10 * w4;
-        const S w14 = w2 * g;
-        const S w15 = w12 * u;
-        const S w16 = -(w14 * w6 + u * w15);
-        const S z0_0 = (w9 * w13 - w8 * w16) * inv_det0;
-        const S z0_1 = (w1 * w16 - w8 * w13) * inv_det0;
-        const S w17 = w8 * w11 + w12 * z0_1;
-        const S w18 = -(w10 * w5 + w17);
-        const S w19 = w8 * (u * u) - w12 * z0_0;
-        const S z1_0 = (w9 * w18 - w8 * w19) * inv_det0;
-        const S z1_1 = (w1 * w19 - w8 * w18) * inv_det0;
-        const S w20 = -(w14 * w7 + w19);
-        const S z2_0 = (w9 * w17 - w8 * w20) * inv_det0;
-        const S z2_1 = (w1 * w20 - w8 * w17) * inv_det0;
+        const S w12 = w4 * w5 - w3 * w6;
+        const S w13 = w2 * w12;
+        const S w14 = w13 * w11 - w10 * w3;
+        const S w15 = l1 * w12 * u;
+        const S w16 = -(g * w5 + u * w15);
+        const S z0_0 = (l2 * w14 - w8 * w16) * inv_det0;
+        const S z0_1 = (w1 * w16 - w9 * w14) * inv_det0;
+        const S w17 = w2 * (w7 * w11 + w12 * z0_1);
+        const S w18 = -(w10 * w4 + w17);
+        const S w19 = l1 * (w7 * (u * u) - w12 * z0_0);
+        const S z1_0 = (l2 * w18 - w8 * w19) * inv_det0;
+        const S z1_1 = (w1 * w19 - w9 * w18) * inv_det0;
+        const S w20 = -(g * w6 + w19);
+        const S z2_0 = (l2 * w17 - w8 * w20) * inv_det0;
+        const S z2_1 = (w1 * w20 - w9 * w17) * inv_det0;
         const S w21 = -S(2) * w15;
         const S z3_0 = (-w8 * w21) * inv_det0;
         const S z3_1 = (w1 * w21) * inv_det0;
-        const S w22 = w15 + w12 * (v + (v - u));
-        const S z4_0 = (w9 * w22) * inv_det0;
-        const S z4_1 = (-w8 * w22) * inv_det0;
+        const S w22 = w13 * (u + (v + (v - u)));
+        const S z4_0 = (l2 * w22) * inv_det0;
+        const S z4_1 = (-w9 * w22) * inv_det0;
         values[0] = S(1);
         values[1] = S(1);
         values[2] = z1_0;

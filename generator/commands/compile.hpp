@@ -13,10 +13,9 @@ struct Compiled {
 };
 
 /// Compiles a program of two files: `header` (included as "model.hpp") and `main`. The cache key is the content of
-/// both (comments apart), of every header of the runtime, the compiler (path, size, time) and the flags. CXX names the compiler (with
-/// arguments, if any), else c++, g++ or clang++; CXXFLAGS is added. The cache
-/// is kept below 200 programs and 1 GiB. Throws MachineError: no compiler, or its message
-/// when it fails.
+/// both (comments apart), of every header of the runtime, the compiler (path, size, time) and the flags. CXX names the
+/// compiler (with arguments, if any), else c++, g++ or clang++; CXXFLAGS is added. The cache is kept below 200 programs
+/// and 1 GiB. Throws MachineError: no compiler, or its message when it fails.
 [[nodiscard]] Compiled compile_program(const std::string& header, const std::string& main);
 
 } // namespace lagen

@@ -119,7 +119,7 @@ int legend_width(const Table& table, const std::vector<Panel>& panels)
     return 60 + 8 * static_cast<int>(std::min<std::size_t>(longest, longest_name + 12));
 }
 
-/// Eight colours that colour-blind readers tell apart [Okabe, Ito 2008], then the same dashed and dotted.
+/// Eight colours that colour-blind readers tell apart [Okabe-Ito 2008], then the same dashed and dotted.
 std::string line_styles()
 {
     static constexpr std::array colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
@@ -176,6 +176,21 @@ std::string script_of(const Table& table, const std::vector<Panel>& panels, cons
     return script + "unset multiplot\nunset output\n";
 }
 
+/// The bytes of the picture; gnuplot works in a folder of its own.
+std::string picture_of(const Table& table, const std::vector<Panel>& panels, const std::string& title,
+                       const std::string& extension, const std::string& time_unit)
+{
+    const TemporaryFolder folder(shared_temporary_folder(), "lagen-plot");
+    const std::string picture = folder.file("picture" + extension);
+    const std::string script = folder.file("script.gp");
+    write_file(script, script_of(table, panels, title, extension, picture, time_unit));
+    const ProcessResult result = run_process({"gnuplot", script});
+    if (result.interrupted) throw Error(ExitCode::interrupted, "lagen: interrupted while drawing");
+    if (!result.started || result.exit_code != 0)
+        throw MachineError(fmt::format("error: gnuplot failed with exit code {}\n{}", result.exit_code, result.error));
+    return content_of_file(picture);
+}
+
 } // namespace
 
 void require_plot_format(const std::string& path)
@@ -193,15 +208,7 @@ void plot_table(const Table& table, const std::vector<Panel>& panels, const std:
 {
     require_plot_format(path);
     if (table.count == 0 || panels.empty()) throw MachineError("error: there is nothing to plot: the run gave no rows");
-    const TemporaryFolder folder(shared_temporary_folder(), "lagen-plot");
-    const std::string picture = folder.file("picture" + extension_of(path));
-    const std::string script = folder.file("script.gp");
-    write_file(script, script_of(table, panels, title, extension_of(path), picture, time_unit));
-    const ProcessResult result = run_process({"gnuplot", script});
-    if (result.interrupted) throw Error(ExitCode::interrupted, "lagen: interrupted while drawing");
-    if (!result.started || result.exit_code != 0)
-        throw MachineError(fmt::format("error: gnuplot failed with exit code {}\n{}", result.exit_code, result.error));
-    write_file(path, content_of_file(picture));
+    write_file(path, picture_of(table, panels, title, extension_of(path), time_unit));
 }
 
 } // namespace lagen

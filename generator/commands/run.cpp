@@ -81,8 +81,10 @@ void use_folder(const TemporaryFolder& folder, ProgramInput& input)
 }
 
 /// Runs the program; the rows and the report go into `outcome`.
-void integrate_scene(const std::string& program, const ProgramInput& input, RunOutcome& outcome)
+void integrate_scene(const std::string& program, ProgramInput input, RunOutcome& outcome)
 {
+    const TemporaryFolder folder(shared_temporary_folder(), "lagen-run");
+    use_folder(folder, input);
     Progress progress(static_cast<double>(input.times.start), static_cast<double>(input.times.end));
     const ProcessResult result =
         run_process(program_arguments(program, input), [&](const char* bytes, std::size_t count) {
@@ -143,10 +145,8 @@ ExitCode run_run(Arguments arguments)
     GenerateRequest request;
     request.scene = &scene;
     const Generated generated = generate(checked, request);
-    ProgramInput input = input_of(generated.module, scene, values, options.has("at") && !options.has("t-end"));
+    const ProgramInput input = input_of(generated.module, scene, values, options.has("at") && !options.has("t-end"));
     const Compiled compiled = compile_program(generated.header, program_text(generated.module.name, method));
-    const TemporaryFolder folder(shared_temporary_folder(), "lagen-run");
-    use_folder(folder, input);
 
     RunOutcome outcome;
     outcome.model = model.name;

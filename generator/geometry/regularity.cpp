@@ -110,7 +110,7 @@ struct Shown {
     bool positive_definite = true;
 };
 
-Shown show_everywhere(const ZeroDecider& decider, const std::vector<std::vector<NodeId>>& minors)
+Shown show_by_minors(const ZeroDecider& decider, const std::vector<std::vector<NodeId>>& minors)
 {
     Shown shown;
     for (const std::vector<NodeId>& block : minors) {
@@ -120,6 +120,59 @@ Shown show_everywhere(const ZeroDecider& decider, const std::vector<std::vector<
         shown.regular =
             shown.regular && (shown.positive_definite || (!block.empty() && decider.proves_nonzero(block.back())));
     }
+    return shown;
+}
+
+/// Operations whose value exists, and is continuous, at all real operands.
+bool is_total(const Graph& graph, NodeId node)
+{
+    switch (graph.op(node)) {
+    case Op::constant:
+    case Op::pi:
+    case Op::input:
+    case Op::add:
+    case Op::subtract:
+    case Op::multiply:
+    case Op::negate:
+    case Op::sin:
+    case Op::cos:
+    case Op::atan:
+    case Op::sinh:
+    case Op::cosh:
+    case Op::tanh:
+    case Op::exp: return true;
+    case Op::power: return static_cast<std::int32_t>(graph.payload(node)) >= 0;
+    case Op::divide: return graph.is_constant(graph.operands(node)[1]);
+    default: return false;
+    }
+}
+
+/// For a W that is regular everywhere: the domain is all of R^N, so that its signature is the one at the origin.
+bool is_definite_at_origin(Graph& graph, const FibreHessian& hessian, const ProofSetting& setting)
+{
+    if (!setting.constraints.empty() || !setting.domain.empty()) return false;
+    std::vector<NodeId> roots = setting.defined;
+    roots.insert(roots.end(), hessian.hessian.begin(), hessian.hessian.end());
+    const std::vector<NodeId> needed = reachable(graph, roots);
+    if (!std::all_of(needed.begin(), needed.end(), [&](NodeId node) { return is_total(graph, node); })) return false;
+    Replacements origin;
+    for (const NodeId node : needed)
+        if (graph.op(node) == Op::input) origin.emplace_back(node, graph.constant(0));
+    FibreHessian there = hessian;
+    there.hessian = substitute(graph, hessian.hessian, origin);
+    return std::all_of(there.blocks.begin(), there.blocks.end(), [&](const Block& block) {
+        const std::vector<Rational> entries = constant_entries(graph, there, block);
+        return !entries.empty() && is_positive_definite(entries, block.size());
+    });
+}
+
+/// What holds of W on the whole domain. Definiteness by leading minors, else by the signature at one point.
+Shown show(Graph& graph, const FibreHessian& hessian, const ProofSetting& setting, const ZeroDecider& decider,
+           const std::vector<std::vector<NodeId>>& minors)
+{
+    Shown shown = show_by_minors(decider, minors);
+    shown.positive_definite =
+        shown.positive_definite || (shown.regular && is_definite_at_origin(graph, hessian, setting));
     return shown;
 }
 
@@ -164,7 +217,7 @@ Regularity decide_regularity(Graph& graph, const FibreHessian& hessian, const Pr
     }
     result.kind = Regularity::Kind::generically_regular;
     std::vector<std::vector<NodeId>> minors = leading_minors(graph, hessian);
-    const Shown shown = show_everywhere(decider, minors);
+    const Shown shown = show(graph, hessian, setting, decider, minors);
     if (shown.regular && shown.positive_definite) {
         result.kind = Regularity::Kind::regular;
         result.positive_definite = true;
@@ -183,7 +236,7 @@ Regularity decide_regularity(Graph& graph, const FibreHessian& hessian, const Pr
         at_defaults.hessian = substitute(graph, hessian.hessian, defaults);
         minors = leading_minors(graph, at_defaults);
         const ZeroDecider valued(graph, there);
-        const Shown given = show_everywhere(valued, minors);
+        const Shown given = show(graph, at_defaults, there, valued, minors);
         result.for_given_parameters = given.positive_definite || (given.regular && !shown.regular);
         result.positive_definite = given.positive_definite;
         if (given.regular || shown.regular)

@@ -86,10 +86,14 @@ std::vector<NodeId> add_angles(Graph& graph, std::span<const NodeId> outputs)
         const NodeId a = graph.operands(angle)[0];
         const NodeId b = graph.operands(angle)[1];
         if (!pairs.contains(a) || !pairs.contains(b)) continue;
-        const NodeId sin_cos = graph.multiply(now(Op::sin, a), now(Op::cos, b));
-        const NodeId cos_sin = graph.multiply(now(Op::cos, a), now(Op::sin, b));
-        const NodeId cos_cos = graph.multiply(now(Op::cos, a), now(Op::cos, b));
-        const NodeId sin_sin = graph.multiply(now(Op::sin, a), now(Op::sin, b));
+        const NodeId sin_a = now(Op::sin, a);
+        const NodeId cos_a = now(Op::cos, a);
+        const NodeId sin_b = now(Op::sin, b);
+        const NodeId cos_b = now(Op::cos, b);
+        const NodeId sin_cos = graph.multiply(sin_a, cos_b);
+        const NodeId cos_sin = graph.multiply(cos_a, sin_b);
+        const NodeId cos_cos = graph.multiply(cos_a, cos_b);
+        const NodeId sin_sin = graph.multiply(sin_a, sin_b);
         if (pair.sine != none)
             replaced[pair.sine] = minus ? graph.subtract(sin_cos, cos_sin) : graph.add(sin_cos, cos_sin);
         if (pair.cosine != none)

@@ -3,9 +3,12 @@
 #include "graph/simplify.hpp"
 
 #include "graph/form.hpp"
+#include "graph/probe_rounding.hpp"
 
 #include <algorithm>
+#include <initializer_list>
 #include <optional>
+#include <cstdlib>
 
 namespace lagen {
 namespace {
@@ -53,12 +56,12 @@ struct Portfolio {
         undivided = factors_of(written);
     }
 
-    void add_forms(std::span<const NodeId> outputs, Expansion expansion)
+    /// Forms of `outputs`, which have the values of the written ones, in every expansion of the list.
+    void add_forms(const std::vector<NodeId>& outputs, std::initializer_list<Expansion> expansions)
     {
-        const auto form = collected(graph, outputs, expansion);
-        if (!form) return;
-        for (const Order order : {Order::factor_then_share, Order::share_then_factor, Order::share_only})
-            for (const bool divided : {false, true}) attempt(*form, order, divided);
+        const std::size_t known = candidates.size();
+        for (const Expansion expansion : expansions) add_forms(outputs, expansion);
+        give_back_digits(outputs, known);
     }
 
     /// Do the outputs contain a matrix whose rows were divided?
@@ -73,6 +76,29 @@ struct Portfolio {
     std::vector<NodeId> undivided; ///< factorisations of the candidates with rows as they were, ascending
 
   private:
+    void add_forms(const std::vector<NodeId>& outputs, Expansion expansion)
+    {
+        const auto form = collected(graph, outputs, expansion);
+        if (!form) return;
+        for (const Order order : {Order::factor_then_share, Order::share_then_factor, Order::share_only})
+            for (const bool divided : {false, true}) attempt(*form, order, divided);
+    }
+
+    /// Outputs of the candidates from `first` on that lose digits become those of `outputs` again.
+    void give_back_digits(const std::vector<NodeId>& outputs, std::size_t first)
+    {
+        const bool alone = std::all_of(candidates.begin() + static_cast<std::ptrdiff_t>(first), candidates.end(),
+                                       [&](const auto& candidate) { return candidate == outputs; });
+        if (alone || std::getenv("NOGATE")) return;
+        note(undivided, factors_of(outputs));
+        const RoundingProbe probe(graph, outputs);
+        for (std::size_t c = first; c < candidates.size(); ++c) {
+            const std::vector<bool> keeps = probe.keeps_digits(candidates[c]);
+            for (std::size_t k = 0; k < outputs.size(); ++k)
+                if (!keeps[k]) candidates[c][k] = outputs[k];
+        }
+    }
+
     [[nodiscard]] std::vector<NodeId> factors_of(const std::vector<NodeId>& outputs) const
     {
         std::vector<NodeId> factors = reachable(graph, outputs);
@@ -139,9 +165,8 @@ std::vector<NodeId> simplify(Graph& graph, std::span<const NodeId> outputs, std:
     if (reachable(graph, outputs).size() > largest_graph) return best;
     double weight = count_operations(graph, best).weight;
     Portfolio portfolio(graph, best);
-    for (const Expansion expansion : {Expansion::none, Expansion::monomials, Expansion::all})
-        portfolio.add_forms(outputs, expansion);
-    if (const auto added = add_angles(graph, outputs); added != best) portfolio.add_forms(added, Expansion::none);
+    portfolio.add_forms(best, {Expansion::none, Expansion::monomials, Expansion::all});
+    if (const auto added = add_angles(graph, outputs); added != best) portfolio.add_forms(added, {Expansion::none});
     for (const auto& candidate : portfolio.candidates) {
         const double tried = count_operations(graph, candidate).weight;
         if (tried < weight) {

@@ -133,7 +133,9 @@ struct Model {
     std::vector<Symbol> notes;           ///< [about] of definitions, Casimirs, observables, invariants and t
     std::vector<Scene> scenes;           ///< in the order of the file
 
-    Scope scope;            ///< symbols and definitions: what expressions from the command line may use
+    Scope scope;            ///< symbols and definitions: what L may use
+    Scope observer;         ///< with momenta, energy, lagrangian, observables and invariants: what expressions from the
+                            ///< command line may use
 };
 
 /// The scene called `name`; with an empty name `default`, else the first. Throws ModelError where there is none.

@@ -60,6 +60,7 @@ Model read_model_text(const std::string& name, std::string text, const std::vect
     read_quantities(reader);
     read_about(reader, about);
     read_scenes(reader, scenes, settings);
+    reader.model.observer = std::move(reader.observer);
     return std::move(reader.model);
 }
 

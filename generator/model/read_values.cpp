@@ -60,11 +60,11 @@ std::string read_text(const TomlValue& value, const std::string& what)
     if (value.kind != TomlKind::string) refuse_type(value, what, "a string");
     const std::size_t at = first_control_character(value.text.text);
     if (at != value.text.text.size()) {
-        const Character point = character_at(value.text.text, at);
+        const CodePoint point = decode_utf8(value.text.text, at);
         throw ModelError(
             fmt::format("{} contains the control character U+{:04X}; printable characters on one line are required",
                         what, static_cast<unsigned>(point.value)),
-            value.text.range(at, point.next));
+            value.text.range(at, at + point.length));
     }
     return value.text.text;
 }

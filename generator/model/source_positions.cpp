@@ -2,6 +2,8 @@
 /// Lines, columns and UTF-8.
 #include "model/source_positions.hpp"
 
+#include "diagnostic.hpp"
+
 #include <algorithm>
 
 namespace lagen {
@@ -60,41 +62,13 @@ std::size_t SourcePositions::byte_of(std::size_t line, std::size_t column) const
     return std::min(at, line_end);
 }
 
-std::size_t first_invalid_utf8(std::string_view text)
-{
-    std::size_t at = 0;
-    while (at < text.size()) {
-        const unsigned lead = byte(text, at);
-        const std::size_t length = sequence_length(lead);
-        if (length == 0 || at + length > text.size()) return at;
-        for (std::size_t k = 1; k < length; ++k) {
-            if ((byte(text, at + k) & 0xC0U) != 0x80U) return at;
-        }
-        const unsigned second = length > 1 ? byte(text, at + 1) : 0;
-        const bool overlong = (lead == 0xE0 && second < 0xA0) || (lead == 0xF0 && second < 0x90);
-        const bool outside = (lead == 0xED && second >= 0xA0) || (lead == 0xF4 && second >= 0x90);
-        if (overlong || outside) return at;
-        at += length;
-    }
-    return at;
-}
-
-Character character_at(std::string_view text, std::size_t at)
-{
-    const unsigned lead = byte(text, at);
-    const std::size_t length = std::max<std::size_t>(1, sequence_length(lead));
-    char32_t value = length == 1 ? lead : lead & (0xFFU >> (length + 1));
-    for (std::size_t k = 1; k < length; ++k) value = (value << 6U) | (byte(text, at + k) & 0x3FU);
-    return {value, at + length};
-}
-
 std::size_t first_control_character(std::string_view text)
 {
     std::size_t at = 0;
     while (at < text.size()) {
-        const Character point = character_at(text, at);
+        const CodePoint point = decode_utf8(text, at);
         if (is_control(point.value)) return at;
-        at = point.next;
+        at += std::max<std::size_t>(1, point.length);
     }
     return at;
 }

@@ -28,17 +28,6 @@ class SourcePositions {
         milestones_; ///< the byte of every 64th character, so that long lines cost no more than short ones
 };
 
-/// The first byte that is not part of valid UTF-8 (overlong forms, surrogates and values above U+10FFFF are invalid),
-/// or the text's size where all is well.
-[[nodiscard]] std::size_t first_invalid_utf8(std::string_view text);
-
-/// The code point that starts at `byte` of valid UTF-8, and the byte after it.
-struct Character {
-    char32_t value;
-    std::size_t next;
-};
-[[nodiscard]] Character character_at(std::string_view text, std::size_t byte);
-
 /// The first byte of `text` at which a control character stands: C0, DEL, C1, line and paragraph separators and the
 /// marks that reverse the direction of writing; the text's size where there is none.
 [[nodiscard]] std::size_t first_control_character(std::string_view text);

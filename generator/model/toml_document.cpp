@@ -105,8 +105,8 @@ std::string reworded(std::string_view text)
 
 void require_utf8(const std::shared_ptr<const SourceFile>& file)
 {
-    const std::size_t bad = first_invalid_utf8(file->text);
-    if (bad == file->text.size()) return;
+    const std::size_t bad = find_invalid_utf8(file->text);
+    if (bad == std::string::npos) return;
     throw ModelError(fmt::format("byte 0x{:02X} is not valid UTF-8 here; a model file must be UTF-8 text",
                                  static_cast<unsigned>(static_cast<unsigned char>(file->text[bad]))),
                      SourceRange{file, bad, bad + 1}, "save the file with the encoding UTF-8");

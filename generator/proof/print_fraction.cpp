@@ -2,6 +2,8 @@
 /// Texts of polynomials and fractions.
 #include "proof/print_fraction.hpp"
 
+#include <algorithm>
+
 namespace lagen::proof {
 
 namespace {
@@ -22,6 +24,14 @@ std::string term_text(const Ring& ring, const Term& term)
         text += power_text(ring.generator(term.monomial.generator(k)).text, term.monomial.exponent(k));
     }
     return text;
+}
+
+/// The first bytes of a text, at most `size`, ending between two UTF-8 characters.
+std::string cut(const std::string& text, std::size_t size)
+{
+    if (text.size() <= size) return text;
+    while (size > 0 && (static_cast<unsigned char>(text[size]) & 0xC0U) == 0x80U) --size;
+    return text.substr(0, size);
 }
 
 std::string denominator_text(const Ring& ring, const Fraction& a, std::size_t limit)
@@ -45,14 +55,18 @@ std::string denominator_text(const Ring& ring, const Fraction& a, std::size_t li
 std::string to_text(const Ring& ring, const Polynomial& p, std::size_t limit)
 {
     if (p.empty()) return "0";
-    const std::string tail = " ... (" + std::to_string(p.size()) + " terms)";
+    const std::string tail = p.size() == 1 ? "" : " ... (" + std::to_string(p.size()) + " terms)";
     std::string text;
     for (std::size_t k = 0; k < p.size(); ++k) {
         std::string piece = k == 0 ? "" : " + ";
         if (p[k].coefficient < 0) piece = k == 0 ? "-" : " - ";
         piece += term_text(ring, p[k]);
         const bool last = k + 1 == p.size();
-        if (text.size() + piece.size() + (last ? 0 : tail.size()) > limit) return text + tail;
+        if (text.size() + piece.size() + (last ? 0 : tail.size()) > limit) {
+            // A first term that is too long on its own is cut; of later ones only whole terms are shown.
+            if (k == 0) text = cut(piece, limit - std::min(limit, tail.size() + 3)) + "...";
+            return text + tail;
+        }
         text += piece;
     }
     return text;

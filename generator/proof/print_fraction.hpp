@@ -7,7 +7,8 @@
 
 namespace lagen::proof {
 
-/// At most `limit` characters; a longer sum is cut after a whole term and ends with "... (123 terms)".
+/// At most `limit` bytes (100 at least); a longer sum is cut after a whole term, or in its first term ("..."), and ends
+/// with "... (123 terms)".
 [[nodiscard]] std::string to_text(const Ring& ring, const Fraction& a, std::size_t limit = 400);
 [[nodiscard]] std::string to_text(const Ring& ring, const Polynomial& p, std::size_t limit = 400);
 

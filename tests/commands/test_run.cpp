@@ -141,7 +141,9 @@ TEST_CASE("`observe` says which columns there are; an event that stops a run is 
     const double t = number(value["events"][0]["t"]);
     CHECK(t == number(value["t"]));
     CHECK(std::abs(t - 0.571730904456) < 1e-10);
-    REQUIRE(value["rows"].size() == 12);
+    REQUIRE(value["rows"].size() == 13); // t = 0, 0.05, .., 0.55, and the event's
+    CHECK(column(value, 0).back() == t);
+    CHECK(std::abs(column(value, 1).back() - 3.14159265358979) < 1e-12);
     for (const json::Value& row : value["rows"].entries)
         CHECK(std::abs(number(row[3]) + 1.1 * std::cos(number(row[1]))) <= tolerance::roundoff(8));
 }

@@ -48,7 +48,7 @@ Rational value_of(const Tree& tree)
 
 TEST_CASE("four hundred random expressions have the values that exact arithmetic elsewhere gives them")
 {
-    std::ifstream file(LAGEN_TESTS "/data/expressions.txt");
+    std::ifstream file(LAGEN_SOURCE_DIR "/tests/data/expressions.txt");
     std::size_t count = 0;
     for (std::string line; std::getline(file, line);) {
         const std::size_t equals = line.find(" = ");

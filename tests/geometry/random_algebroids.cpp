@@ -47,7 +47,8 @@ std::vector<mpq_class> coordinates_of(const std::vector<Matrix>& basis, const Ma
 Matrix matrix(std::size_t m, std::initializer_list<std::array<int, 3>> entries)
 {
     Matrix result(m * m);
-    for (const auto& [i, j, value] : entries) result[static_cast<std::size_t>(i) * m + static_cast<std::size_t>(j)] = value;
+    for (const auto& [i, j, value] : entries)
+        result[static_cast<std::size_t>(i) * m + static_cast<std::size_t>(j)] = value;
     return result;
 }
 
@@ -55,13 +56,15 @@ std::vector<Matrix> matrix_algebra(std::size_t number, std::size_t& m)
 {
     m = number % 5 < 3 ? 3 : 2;
     switch (number % 5) {
-    case 0: return {matrix(3, {{{2, 1, 1}}, {{1, 2, -1}}}), matrix(3, {{{0, 2, 1}}, {{2, 0, -1}}}),
-                    matrix(3, {{{1, 0, 1}}, {{0, 1, -1}}})};
-    case 1: return {matrix(3, {{{0, 1, 1}}}), matrix(3, {{{1, 2, 1}}}), matrix(3, {{{0, 2, 1}}}),
-                    matrix(3, {{{0, 0, 1}}, {{2, 2, -1}}})};
+    case 0:
+        return {matrix(3, {{{2, 1, 1}}, {{1, 2, -1}}}), matrix(3, {{{0, 2, 1}}, {{2, 0, -1}}}),
+                matrix(3, {{{1, 0, 1}}, {{0, 1, -1}}})};
+    case 1:
+        return {matrix(3, {{{0, 1, 1}}}), matrix(3, {{{1, 2, 1}}}), matrix(3, {{{0, 2, 1}}}),
+                matrix(3, {{{0, 0, 1}}, {{2, 2, -1}}})};
     case 2: return {matrix(3, {{{1, 0, 1}}, {{0, 1, -1}}}), matrix(3, {{{0, 2, 1}}}), matrix(3, {{{1, 2, 1}}})};
-    case 3: return {matrix(2, {{{0, 0, 1}}}), matrix(2, {{{0, 1, 1}}}), matrix(2, {{{1, 0, 1}}}),
-                    matrix(2, {{{1, 1, 1}}})};
+    case 3:
+        return {matrix(2, {{{0, 0, 1}}}), matrix(2, {{{0, 1, 1}}}), matrix(2, {{{1, 0, 1}}}), matrix(2, {{{1, 1, 1}}})};
     default: return {matrix(2, {{{0, 0, 1}}, {{1, 1, -1}}}), matrix(2, {{{0, 1, 1}}}), matrix(2, {{{1, 0, 1}}})};
     }
 }
@@ -180,16 +183,14 @@ RandomAlgebroid in_frame(const RandomAlgebroid& old, const FrameChange& change)
     for (std::size_t i = 0; i < n; ++i)
         for (std::size_t a = 0; a < r; ++a) {
             result.anchor(i, a) = Quotient();
-            for (std::size_t b = 0; b < r; ++b)
-                result.anchor(i, a) = result.anchor(i, a) + A(a, b) * old.anchor(i, b);
+            for (std::size_t b = 0; b < r; ++b) result.anchor(i, a) = result.anchor(i, a) + A(a, b) * old.anchor(i, b);
         }
     for (std::size_t a = 0; a < r; ++a)
         for (std::size_t b = 0; b < r; ++b) {
             std::vector<Quotient> inner(r);
             for (std::size_t d = 0; d < r; ++d) {
                 for (std::size_t p = 0; p < r; ++p)
-                    for (std::size_t q = 0; q < r; ++q)
-                        inner[d] = inner[d] + A(a, p) * A(b, q) * old.bracket(d, p, q);
+                    for (std::size_t q = 0; q < r; ++q) inner[d] = inner[d] + A(a, p) * A(b, q) * old.bracket(d, p, q);
                 for (std::size_t i = 0; i < n; ++i) {
                     inner[d] = inner[d] + result.anchor(i, a) * A(b, d).derivative(Variable(i));
                     inner[d] = inner[d] - result.anchor(i, b) * A(a, d).derivative(Variable(i));
@@ -287,8 +288,7 @@ bool holds_at(const RandomAlgebroid& algebroid, const Point& point)
                     const std::size_t cycles[3][3] = {{a, b, d}, {b, d, a}, {d, a, b}};
                     for (const auto& [p, q, w] : cycles) {
                         residual += along_anchor(algebroid, p, algebroid.bracket(v, q, w), point);
-                        for (std::size_t m = 0; m < r; ++m)
-                            residual += C[(m * r + q) * r + w] * C[(v * r + p) * r + m];
+                        for (std::size_t m = 0; m < r; ++m) residual += C[(m * r + q) * r + w] * C[(v * r + p) * r + m];
                     }
                     if (residual != 0) return false;
                 }
@@ -326,7 +326,8 @@ std::string model_text(const RandomAlgebroid& algebroid)
     for (std::size_t a = 0; a < algebroid.r; ++a)
         for (std::size_t i = 0; i < algebroid.n; ++i)
             if (!algebroid.anchor(i, a).is_zero())
-                text += "anchor.w" + std::to_string(a) + "." + names[i] + " = \"" + algebroid.anchor(i, a).text() + "\"\n";
+                text +=
+                    "anchor.w" + std::to_string(a) + "." + names[i] + " = \"" + algebroid.anchor(i, a).text() + "\"\n";
     for (std::size_t a = 0; a < algebroid.r; ++a)
         for (std::size_t b = a + 1; b < algebroid.r; ++b)
             for (std::size_t c_ = 0; c_ < algebroid.r; ++c_)
@@ -354,7 +355,9 @@ RandomAlgebroid mutated(const RandomAlgebroid& algebroid, Dice& dice)
     Quotient change;
     switch (dice.below(entry.is_zero() ? 2 : 5)) {
     case 0: change = Quotient(Polynomial(mpq_class(1, ten15))); break;
-    case 1: change = Quotient((algebroid.n == 3 ? sphere(2) : Polynomial::of(k)) * random_monomial(dice, algebroid.n)); break;
+    case 1:
+        change = Quotient((algebroid.n == 3 ? sphere(2) : Polynomial::of(k)) * random_monomial(dice, algebroid.n));
+        break;
     case 2: change = Quotient(-2) * entry; break;
     case 3: change = Quotient(Polynomial(mpq_class(1, ten13))) * entry; break;
     default: change = Quotient(Polynomial::of(k) - Polynomial(1)) * entry; break;

@@ -173,8 +173,7 @@ TEST_CASE("a Lagrangian that is not quadratic has its own mass matrix in each in
     // p = v/sqrt(1 - v^2) for the relativistic particle, W = (1 - v^2)^(-3/2)
     const std::string relativistic = plane("-sqrt(1 - u^2 - v^2) - x^2/2");
     CHECK(statuses(relativistic, {"energy", "v/sqrt(1 - u^2 - v^2)", "1/sqrt(1 - u^2 - v^2) + x^2/2",
-                                  "1/sqrt(1 - u^2 - v^2) - x^2/2", "v"}) ==
-          "proved proved proved refuted refuted");
+                                  "1/sqrt(1 - u^2 - v^2) - x^2/2", "v"}) == "proved proved proved refuted refuted");
     // W = diag(x, 1) is singular at x = 0: x u^2 is conserved wherever the accelerations exist.
     CHECK(statuses(plane("(x*u^2 + v^2)/2"), {"x*u^2", "x*u", "v"}) == "proved refuted proved");
     CHECK(statuses(plane("exp(k*t)*(u^2 - x^2)/2 + v^2/2"), {"p_u", "v", "energy"}) == "refuted proved refuted");

@@ -57,6 +57,38 @@ TEST_CASE("a rank that drops on a line is generic, and the line is met")
     CHECK(result.singular_at[0][0] == std::pair<std::string, std::string>("x", "0"));
 }
 
+TEST_CASE("a matrix that is regular on all of R^n is definite where it is at the origin")
+{
+    // A pendulum chain in relative angles; its leading minors are not squares to read off.
+    const char* text = R"toml(
+[base]
+coordinates = ["a", "b", "c"]
+[fibre]
+coordinates = ["u", "v", "w"]
+[algebroid]
+kind = "tangent"
+[definitions]
+X1 = "cos(a)*u"
+Y1 = "sin(a)*u"
+X2 = "X1 + cos(a + b)*(u + v)"
+Y2 = "Y1 + sin(a + b)*(u + v)"
+X3 = "X2 + cos(a + b + c)*(u + v + w)"
+Y3 = "Y2 + sin(a + b + c)*(u + v + w)"
+[lagrangian]
+L = "(X1^2 + Y1^2 + X2^2 + Y2^2 + X3^2 + Y3^2)/2"
+)toml";
+    const Regularity chain = verified_text(text).regularity;
+    CHECK(chain.kind == Kind::regular);
+    CHECK(chain.positive_definite);
+    CHECK_FALSE(chain.for_given_parameters);
+    // Regular on both sides of x = 0 with another signature on each: the domain is not connected.
+    const Regularity split = regularity("(u^2 + (x^3 + x)*v^2)/2", "", "domain = [\"x != 0\"]\n");
+    CHECK(split.kind == Kind::regular);
+    CHECK_FALSE(split.positive_definite);
+    CHECK_FALSE(regularity("(u^2 - v^2)/2 + sin(x)*u*v").positive_definite);
+    CHECK_FALSE(regularity("(u^2 + v^2/x)/2").positive_definite);
+}
+
 TEST_CASE("points outside the domain are not singular points of the model")
 {
     CHECK(regularity("(u^2 + x^2*v^2)/2").singular_at.size() == 1);

@@ -104,7 +104,7 @@ class pendulum {
         const S l = parameters.l;
         const S g = parameters.g;
         ds[0] = v;
-        ds[1] = -l * (m * g) * sin(th) / (m * (l * l));
+        ds[1] = -m * g * l * sin(th) / (m * (l * l));
         return StatusOf<S>::good();
     }
 
@@ -116,7 +116,7 @@ class pendulum {
         const S m = parameters.m;
         const S l = parameters.l;
         const S g = parameters.g;
-        return m * (l * l) * (v * v) / S(2) - l * (m * g) * cos(th);
+        return m * (l * l) * (v * v) / S(2) - m * g * l * cos(th);
     }
 
     static constexpr std::array<const char*, 2> tip_names = {"tip x", "tip y"};

@@ -69,7 +69,7 @@ class product {
         using std::sin;
         const S x = s[0];
         const S y = s[1];
-        return y * sin(x);
+        return sin(x) * y;
     }
 };
 

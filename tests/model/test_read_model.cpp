@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// What a model file says is what the record holds: order, exactness, defaults, positions.
+#include "expression/parse.hpp"
 #include "model/read_model.hpp"
 
 #include <catch2/catch.hpp>
@@ -233,4 +234,26 @@ TEST_CASE("invariants and observables may use momenta, energy and each other; un
     CHECK_THROWS_WITH(
         read_model_text("m.toml", head + "[definitions]\nkinetic = 'p_v^2/2'\n[lagrangian]\nL = 'kinetic'\n"),
         Catch::Contains("unknown symbol 'p_v'"));
+}
+
+TEST_CASE("expressions from outside may use momenta, energy, observables and invariants by name")
+{
+    const lagen::Model model = lagen::read_model_text("m.toml", R"(name = "m"
+[base]
+coordinates = ["x"]
+[algebroid]
+kind = "tangent"
+[lagrangian]
+L = "v_x^2/2 - x"
+[observables]
+height = "2*x"
+[invariants]
+twice = "2*energy"
+)");
+    const auto closed = [&](const std::string& text) {
+        return lagen::to_text(model.observer.close(lagen::parse_expression(lagen::whole_text("e", text))));
+    };
+    CHECK(closed("twice - height*p_v_x") == "2*energy - 2*x*p_v_x");
+    CHECK(closed("lagrangian + t") == "v_x^2/2 - x + t");
+    CHECK_THROWS_AS(model.scope.close(lagen::parse_expression(lagen::whole_text("e", "energy"))), lagen::ModelError);
 }

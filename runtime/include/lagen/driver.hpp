@@ -24,7 +24,8 @@
 ///   row after row
 ///   --report FILE         where the report goes ("-": standard error)
 ///
-/// A row is t, then the columns. Rows appear while the run goes on. The report, at the end of every run, has lines
+/// A row is t, then the columns. Rows appear while the run goes on, at exactly the times asked for; where an event stops
+/// the run, one more row stands at the end, at the time of the event (unless that was asked for anyway). The report, at the end of every run, has lines
 /// KEY=VALUE in this order, numbers by %.17g, those in brackets only where the model has the part:
 ///   status=ok             as to_text(Status)
 ///   t=10                  time of the last good state
@@ -106,7 +107,10 @@ Complaint plan_times(const DriveArguments& given, DrivePlan<M>& plan)
 {
     if (!given.end) return "--end is required";
     plan.span = {given.start.value_or(0.0), *given.end};
-    if (!given.at_file.empty()) return read_times(given.at_file, plan.times);
+    if (!given.at_file.empty()) {
+        Complaint complaint = read_times(given.at_file, plan.times);
+        return complaint.empty() ? check_order(plan.times, plan.span.end < plan.span.start) : complaint;
+    }
     if (given.interval) {
         if (!(*given.interval > 0)) return "--interval: " + number_text(*given.interval) + " is not positive";
         const double pieces = std::abs(plan.span.end - plan.span.start) / *given.interval;
@@ -243,7 +247,7 @@ int drive(int argc, char** argv)
     Method method{};
     detail::Complaint complaint = detail::read_arguments(argc, argv, given);
     if (complaint.empty()) complaint = detail::make_plan(given, plan, method);
-    if (!complaint.empty()) return detail::complain(complaint, complaint.starts_with("--at-file") ? 5 : 4);
+    if (!complaint.empty()) return detail::complain(complaint, complaint.starts_with("--at-file") && complaint.ends_with("opened") ? 5 : 4);
 
     std::signal(SIGINT, detail::lagen_drive_interrupt);
     std::signal(SIGTERM, detail::lagen_drive_interrupt);
@@ -254,6 +258,7 @@ int drive(int argc, char** argv)
     const auto begin = std::chrono::steady_clock::now();
     const auto run = integrate(plan.model, plan.initial, plan.span, method, options, record);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+    if (run.status() == Status::stopped_by_event && record.last_time() != run.t) record.row(run.t, run.state);
 
     const bool rows_written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
     if (!rows_written) return detail::complain("the rows could not be written to standard output", 5);

@@ -155,4 +155,17 @@ inline Complaint read_times(const std::string& path, std::vector<double>& times)
     return {};
 }
 
+/// Times must not run against the direction of the run: rows are written once, on the way.
+inline Complaint check_order(const std::vector<double>& times, bool backward)
+{
+    for (std::size_t k = 1; k < times.size(); ++k)
+        if (backward ? times[k] > times[k - 1] : times[k] < times[k - 1]) {
+            char text[160];
+            std::snprintf(text, sizeof text, "--at-file: %.17g stands after %.17g, times in the direction of the run are required",
+                          times[k], times[k - 1]);
+            return text;
+        }
+    return {};
+}
+
 } // namespace lagen::detail

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -60,6 +61,7 @@ class DriveRecord {
 
     void row(double t, const State& s)
     {
+        last_time_ = t;
         write(t, true);
         if constexpr (requires { model_.observables(t, s); }) {
             const auto observables = model_.observables(t, s);
@@ -90,6 +92,8 @@ class DriveRecord {
     }
 
     [[nodiscard]] std::size_t rows() const noexcept { return rows_; }
+    /// Of the last row; NaN before the first.
+    [[nodiscard]] double last_time() const noexcept { return last_time_; }
 
     /// The lines of the report that this record knows.
     [[nodiscard]] std::string report() const
@@ -118,6 +122,7 @@ class DriveRecord {
     std::vector<Drift> drifts_;
     double constraint_ = 0;
     std::size_t rows_ = 0;
+    double last_time_ = std::numeric_limits<double>::quiet_NaN();
 };
 
 } // namespace lagen::detail

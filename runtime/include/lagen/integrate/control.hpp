@@ -84,10 +84,11 @@ typename State::Scalar squared_error(const StepControl& control, const State& s,
 template <class Real>
 class Controller {
   public:
-    Controller(const StepControl& control, int error_order) noexcept
+    /// `share` of beta is taken from the integral exponent: 0.75 in dopri5.f, 0.2 in dop853.f.
+    Controller(const StepControl& control, int error_order, Real share) noexcept
         : beta_(static_cast<Real>(control.beta)), safety_(static_cast<Real>(control.safety)),
           most_(Real(1) / static_cast<Real>(control.shrink)), least_(Real(1) / static_cast<Real>(control.grow)),
-          exponent_(Real(1) / Real(error_order) - beta_ * Real(0.75))
+          exponent_(Real(1) / Real(error_order) - beta_ * share)
     {
     }
 

@@ -23,6 +23,7 @@ class EmbeddedStepper {
     static constexpr int order = Tableau::order;
     static constexpr int dense_order = 4;
     static constexpr int error_order = 5; ///< the error of the embedded formula is of this order in h
+    static constexpr double beta_share = 0.75;
 
     template <class Method>
     explicit EmbeddedStepper(const Method& method) noexcept : control_(method.control())

@@ -69,6 +69,7 @@ class March {
         if (length - length != Real(0) || !watch_.is_valid()) return Status::invalid_input;
         if (is_pack<Scalar> && !watch_.empty()) return Status::invalid_input;
         forward_ = !(length < Real(0));
+        if (!rows_are_in_order()) return Status::invalid_input;
         if (!step_is_valid()) return Status::invalid_input;
         auto status = check_finite(s_);
         if constexpr (requires { model_.parameter_status(); })
@@ -100,7 +101,7 @@ class March {
     {
         const Real first = static_cast<Real>(method_.control().first_step);
         h_ = first > Real(0) ? first : size(length == Real(0) ? Real(0) : stepper_.first_step(model_, t_, length, s_));
-        controller_ = Controller<Real>(method_.control(), Stepper::error_order);
+        controller_ = Controller<Real>(method_.control(), Stepper::error_order, Real(Stepper::beta_share));
     }
 
     /// Failures of lanes are kept, and those lanes stay as they are; a failure of every lane ends the run.
@@ -147,9 +148,12 @@ class March {
         Real length = h_;
         bool last = false;
         if constexpr (Stepper::adaptive) {
+            // A rest of up to 1.01 steps is one step, so that no tiny one is left; but never beyond the cap.
             const Real cap = static_cast<Real>(method_.control().max_step);
+            Real reaches = Real(1.01) * length;
             if (cap > Real(0) && length > cap) length = cap;
-            last = Real(1.01) * length >= rest;
+            if (cap > Real(0) && reaches > cap) reaches = cap;
+            last = reaches >= rest;
         } else {
             last = rest <= length + Real(8) * epsilon * reach();
         }
@@ -297,6 +301,16 @@ class March {
 
     bool is_after(Real a, Real b) const noexcept { return forward_ ? a > b : a < b; }
 
+    /// In the direction of the run, and none of them NaN.
+    [[nodiscard]] bool rows_are_in_order() const noexcept
+    {
+        for (std::size_t k = 0; k < options_.at.size(); ++k) {
+            if (options_.at[k] != options_.at[k]) return false;
+            if (k > 0 && is_after(options_.at[k - 1], options_.at[k])) return false;
+        }
+        return true;
+    }
+
     void skip_rows_before_start() noexcept
     {
         while (row_ < options_.at.size() && is_after(span_.start, options_.at[row_])) ++row_;
@@ -329,7 +343,7 @@ class March {
     Observer& observer_;
     Stepper stepper_;
     EventWatch<M> watch_;
-    Controller<Real> controller_{StepControl{}, 5};
+    Controller<Real> controller_{StepControl{}, 5, Real(0)};
     Run<M> run_;
     State s_, s1_, inner_;
     Real t_;

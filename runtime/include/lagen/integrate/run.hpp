@@ -17,8 +17,11 @@ namespace lagen {
 enum class Crossing { rising, falling, any };
 
 /// An event to look for: entry `index` of the model's `events`, or `when` where that is given.
-/// A crossing is a change of sign from the beginning of a step to its end; a value of exactly zero at the beginning is
-/// none.
+/// A crossing is a change of sign, or the arrival at exactly zero, between two looks; a value of exactly zero at the
+/// start of the run is none. Fixed-step methods look at the end of every step, adaptive ones (whose steps are long) four
+/// times a step: an even number of crossings between two looks, and a touch that does not change the sign, are not seen;
+/// a smaller step or a cap `max_step` finds them.
+/// Crossings of one instant are reported in the order of the requests, all of them, also where one stops the run.
 template <class Real, class State>
 struct EventRequest {
     std::size_t index = 0;
@@ -36,8 +39,8 @@ struct EventFound {
     State state;
 };
 
-/// Everything optional of a run. Rows at `at`: sorted in the direction of the run; those outside the interval are left
-/// out.
+/// Everything optional of a run. Rows at `at`: sorted in the direction of the run (invalid_input otherwise), equal ones
+/// as often as they stand there; those outside the interval are left out.
 template <class M>
 struct Options {
     using Real = real_t<typename M::Scalar>;
@@ -45,7 +48,7 @@ struct Options {
 
     std::span<const Real> at{};
     std::span<const EventRequest<Real, State>> events{};
-    std::size_t max_steps = 100'000'000; ///< accepted and rejected together
+    std::size_t max_steps = 100'000'000; ///< accepted and rejected together; rows do not count
     const std::atomic<bool>* cancel = nullptr;
     const volatile std::sig_atomic_t* signal = nullptr; ///< as cancel, for a signal handler: not zero ends the run
     /// Called every 256 steps with the fraction of the interval that is done.

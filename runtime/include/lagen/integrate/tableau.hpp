@@ -33,7 +33,9 @@ struct Fraction {
     }
 };
 
-/// A coefficient that is published as a decimal fraction only; exact to the digits of a long double.
+/// A coefficient that is published as a decimal fraction only; exact to the digits of a long double (19 on x86), also
+/// where the scalar has more: methods made of Decimals (Tsit5, Dop853, McLachlan4, Yoshida6) satisfy their order
+/// conditions to about 1e-18 in any wider scalar, those made of Fractions to all its digits.
 struct Decimal {
     long double value = 0.0L;
 
@@ -56,7 +58,7 @@ constexpr std::size_t lower_index(std::size_t i, std::size_t j) noexcept
 
 /// sum_j weights[offset + j] k[j][lane], j < count; coefficients that are exactly zero cost nothing.
 template <auto& weights, std::size_t offset, std::size_t... j, class Stages>
-auto weighted_lane(const Stages& k, Eigen::Index lane, std::index_sequence<j...>) noexcept
+[[gnu::always_inline]] inline auto weighted_lane(const Stages& k, Eigen::Index lane, std::index_sequence<j...>) noexcept
 {
     using State = typename Stages::value_type;
     using Scalar = typename State::Scalar;
@@ -70,51 +72,21 @@ auto weighted_lane(const Stages& k, Eigen::Index lane, std::index_sequence<j...>
     return sum;
 }
 
-/// The same sum as an Eigen expression, added in the same order: it reads whole registers of lanes, where the loop over
-/// lanes costs up to twice the instructions. `count` at least 1; the first weights may be zero.
-template <auto& weights, std::size_t offset, std::size_t count, class Stages>
-[[gnu::always_inline]] inline auto weighted_expression(const Stages& k) noexcept
-{
-    using Real = typename Stages::value_type::Scalar;
-    constexpr std::size_t last = count - 1;
-    constexpr bool skipped = weights[offset + last].is_zero();
-    if constexpr (count == 1)
-        return weights[offset].template as<Real>() * k[0];
-    else if constexpr (skipped)
-        return weighted_expression<weights, offset, last>(k);
-    else if constexpr (count == 2 && weights[offset].is_zero())
-        return weights[offset + 1].template as<Real>() * k[1];
-    else
-        return weighted_expression<weights, offset, last>(k) + weights[offset + last].template as<Real>() * k[last];
-}
-
-/// Scalars that Eigen keeps several of in a register; others (packs, multiprecision) go lane by lane.
-template <class State>
-inline constexpr bool has_registers = std::is_floating_point_v<typename State::Scalar>;
-
-/// out = s + h sum_j weights[offset + j] k[j], j < count, in one pass and without temporaries.
+/// out = s + h sum_j weights[offset + j] k[j], j < count, lane by lane: one pass and no temporaries. (Measured: the same
+/// sums as Eigen expressions execute a tenth fewer instructions in RK4 and half as many again in DOP853.)
 template <auto& weights, std::size_t offset, std::size_t count, class State, class Stages>
-[[gnu::always_inline]] inline void add_weighted(const State& s, const real_t<typename State::Scalar>& h,
-                                                const Stages& k, State& out) noexcept
+void add_weighted(const State& s, const real_t<typename State::Scalar>& h, const Stages& k, State& out) noexcept
 {
-    if constexpr (has_registers<State>) {
-        out = s + h * weighted_expression<weights, offset, count>(k);
-    } else {
-        for (Eigen::Index lane = 0; lane < s.size(); ++lane)
-            out[lane] = s[lane] + h * weighted_lane<weights, offset>(k, lane, std::make_index_sequence<count>{});
-    }
+    for (Eigen::Index lane = 0; lane < s.size(); ++lane)
+        out[lane] = s[lane] + h * weighted_lane<weights, offset>(k, lane, std::make_index_sequence<count>{});
 }
 
 /// out = h sum_j weights[j] k[j].
 template <auto& weights, class State, class Stages>
 void weighted_sum(const real_t<typename State::Scalar>& h, const Stages& k, State& out) noexcept
 {
-    if constexpr (has_registers<State>) {
-        out = h * weighted_expression<weights, 0, weights.size()>(k);
-    } else {
-        for (Eigen::Index lane = 0; lane < out.size(); ++lane)
-            out[lane] = h * weighted_lane<weights, 0>(k, lane, std::make_index_sequence<weights.size()>{});
-    }
+    for (Eigen::Index lane = 0; lane < out.size(); ++lane)
+        out[lane] = h * weighted_lane<weights, 0>(k, lane, std::make_index_sequence<weights.size()>{});
 }
 
 /// A status good or `non_finite`: x - x is zero exactly where x is finite, in every scalar and lane.
@@ -123,11 +95,7 @@ template <class State>
 {
     using Scalar = typename State::Scalar;
     Scalar sum = Scalar(0);
-    if constexpr (has_registers<State>) {
-        sum = (s - s).sum();
-    } else {
-        for (Eigen::Index lane = 0; lane < s.size(); ++lane) sum += s[lane] - s[lane];
-    }
+    for (Eigen::Index lane = 0; lane < s.size(); ++lane) sum += s[lane] - s[lane];
     auto status = StatusOf<Scalar>::good();
     StatusOf<Scalar>::fail(status, sum != Scalar(0), Status::non_finite);
     return status;

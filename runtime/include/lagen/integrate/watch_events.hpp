@@ -89,22 +89,28 @@ class EventWatch {
         return false;
     }
 
-    /// Sorts the crossings of one piece by time (requests in their order where times agree), counts, and cuts after a
-    /// stop.
+    /// Sorts the crossings of one piece by time (requests in their order where times agree), counts, and cuts after the
+    /// instant of a stop.
     bool order_and_count(std::size_t first)
     {
         const auto begin = crossed_.begin() + static_cast<std::ptrdiff_t>(first);
         std::sort(begin, crossed_.end(), [](const Crossed& a, const Crossed& b) {
             return a.theta < b.theta || (a.theta == b.theta && a.request < b.request);
         });
+        bool stopped = false;
+        Real instant = Real(0);
         for (std::size_t i = first; i < crossed_.size(); ++i) {
+            if (stopped && crossed_[i].theta > instant) {
+                crossed_.resize(i);
+                break;
+            }
             const Request& request = requests_[crossed_[i].request];
             if (++seen_[crossed_[i].request] < request.count || !request.stop) continue;
             crossed_[i].stop = true;
-            crossed_.resize(i + 1);
-            return true;
+            instant = crossed_[i].theta;
+            stopped = true;
         }
-        return false;
+        return stopped;
     }
 
     void evaluate(Real t, const State& s, std::vector<Real>& values)

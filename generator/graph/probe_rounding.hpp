@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Does another form of some outputs lose digits? Both are evaluated with a significand of 24 bits, and in double, at
+/// states where sums of the original nearly cancel: there (a - b)^2 keeps its digits and a^2 - 2 a b + b^2 has none.
+/// No tolerance of the user's enters; the states, and so the verdicts, are the same on every machine.
+#pragma once
+
+#include "graph/graph.hpp"
+
+#include <vector>
+
+namespace lagen {
+
+/// Remembers how well `outputs` do as they are written.
+class RoundingProbe {
+  public:
+    RoundingProbe(const Graph& graph, std::span<const NodeId> outputs);
+
+    /// For every output: does `form` (one node an output, in the same graph) keep its digits? It does where nowhere its
+    /// relative error, the largest of a group of neighbouring states, is more than `allowed_loss` times that of the
+    /// original.
+    [[nodiscard]] std::vector<bool> keeps_digits(std::span<const NodeId> form) const;
+
+    /// Factor between errors from which on a form is refused.
+    static constexpr double allowed_loss = 10;
+
+  private:
+    using State = std::vector<double>; ///< a value for every input of the graph, in their order
+
+    /// States around one cancellation, with what is known of the outputs there.
+    struct Group {
+        std::vector<State> states;
+        std::vector<std::vector<double>> exact; ///< [state][output], in double
+        std::vector<double> worst;              ///< [output]: largest relative error of the original; NaN: no verdict
+    };
+
+    void choose_groups(const std::vector<NodeId>& nodes);
+    void add_group(std::vector<State> states);
+    [[nodiscard]] std::vector<double> worst_errors(const Group& group, std::span<const NodeId> form,
+                                                   const std::vector<NodeId>& nodes) const;
+
+    const Graph& graph_;
+    std::vector<NodeId> outputs_;
+    std::vector<NodeId> nodes_; ///< reachable from the outputs
+    std::vector<Group> groups_;
+};
+
+} // namespace lagen
