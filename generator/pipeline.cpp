@@ -101,7 +101,7 @@ CheckedModel load(const std::string& path, const std::vector<Setting>& settings,
                 "error: model '{}' is refuted: {}\nhint: see `lagen check {}`; --unchecked goes on all the same",
                 checked.model.name, what, path));
         }
-        checked.warnings.push_back(fmt::format("this model is REFUTED and was generated with --unchecked: {}", what));
+        checked.warnings.push_back(fmt::format("this model is REFUTED: {}", what));
     } else if (verified.verdict == Verdict::undecided) {
         checked.warnings.push_back(
             fmt::format("this model is not proved: {} is undecided", first_with(verified, ProofStatus::undecided)));

@@ -6,6 +6,8 @@
 #include "emit/print_equations.hpp"
 #include "pipeline.hpp"
 
+#include <fmt/core.h>
+
 namespace lagen {
 
 namespace {
@@ -26,8 +28,12 @@ ExitCode run_derive(Arguments arguments)
     if (options.help()) return ExitCode::done;
     const std::string format = options.choice("format", {"text", "latex", "json"});
     (void)options.choice("form", {"lagrange"});
-    const Model model = read_model(options.positional()[0], options.settings());
-    const EquationSet equations = derive_lagrange(model, build_algebroid(model));
+    // A refuted model has equations too, and reading them may show why; they come with the warning.
+    const CheckedModel checked = load(options.positional()[0], options.settings(), true);
+    for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
+    if (checked.verified.regularity.kind == Regularity::Kind::degenerate)
+        write_standard_error("warning: the Lagrangian is degenerate: the accelerations are not determined by the equations\n");
+    const EquationSet equations = derive_lagrange(checked.model, checked.verified.algebroid);
     const std::string text = format == "text"    ? print_text(equations)
                              : format == "latex" ? print_latex(equations)
                                                  : print_json(equations);

@@ -54,7 +54,7 @@ std::string summary_line(const VerifiedAlgebroid& verified, const std::string& k
     std::array<std::size_t, 3> counts{};
     for (const Check& check : verified.checks)
         if (check.name == kind) ++counts[static_cast<std::size_t>(check.decision.status)];
-    std::string text = fmt::format("  {:<14}", kind);
+    std::string text = fmt::format("  {:<16}", kind);
     const char* separator = "";
     for (const ProofStatus status : {ProofStatus::proved, ProofStatus::refuted, ProofStatus::undecided}) {
         const std::size_t count = counts[static_cast<std::size_t>(status)];
@@ -68,8 +68,8 @@ std::string summary_line(const VerifiedAlgebroid& verified, const std::string& k
 std::string failure_text(const Check& check)
 {
     const Decision& decision = check.decision;
-    std::string text = fmt::format("\n{}: {} {}\n  residual {}\n", to_text(decision.status), check.name,
-                                   indices_text(check), decision.residual);
+    std::string text = fmt::format("\n{}: {} {}\n", to_text(decision.status), check.name, indices_text(check));
+    if (!decision.residual.empty()) text += fmt::format("  residual {}\n", decision.residual);
     if (decision.witness)
         text += fmt::format("  at {}: {:.17g}\n", point_text(decision.witness->point), decision.witness->value);
     if (!decision.evidence.empty()) text += fmt::format("  {}\n", decision.evidence);
@@ -80,10 +80,14 @@ std::string failure_text(const Check& check)
 std::string regularity_text(const Regularity& regularity)
 {
     if (regularity.kind == Regularity::Kind::absent) return "";
-    std::string text = fmt::format("  {:<14}{}, rank {}{}\n", "regularity", kind_text(regularity.kind), regularity.rank,
-                                   regularity.positive_definite ? ", positive definite" : "");
+    std::string text = fmt::format("  {:<16}{}, rank {}{}{}\n", "regularity", kind_text(regularity.kind), regularity.rank,
+                                   regularity.positive_definite ? ", positive definite" : "",
+                                   regularity.for_given_parameters ? " (for the parameter values of the file)" : "");
+    if (regularity.kind == Regularity::Kind::degenerate)
+        text += fmt::format("  {:<16}`generate` and `run` refuse a degenerate Lagrangian\n", "");
+    if (!regularity.evidence.empty()) text += fmt::format("  {:<16}{}\n", "", regularity.evidence);
     for (const Point& point : regularity.singular_at)
-        text += fmt::format("  {:<14}singular at {}\n", "", point_text(point));
+        text += fmt::format("  {:<16}singular at {}\n", "", point_text(point));
     return text;
 }
 
@@ -115,7 +119,7 @@ std::string report_text(const std::string& model, const VerifiedAlgebroid& verif
 {
     std::string text = fmt::format("{}: {}\n", model, to_text(verified.verdict));
     for (const std::string& kind : kinds_of(verified)) text += summary_line(verified, kind);
-    if (verified.trivial > 0) text += fmt::format("  {:<14}{} residuals\n", "structural 0", verified.trivial);
+    if (verified.trivial > 0) text += fmt::format("  {:<16}{} residuals\n", "trivially zero", verified.trivial);
     text += regularity_text(verified.regularity);
     if (!verified.note.empty()) text += fmt::format("  note: {}\n", verified.note);
     for (const Check& check : verified.checks)
@@ -132,6 +136,8 @@ void report_json(JsonWriter& json, const std::string& model, const VerifiedAlgeb
     const Regularity& regularity = verified.regularity;
     json.key("regularity").begin_object().key("status").value(kind_text(regularity.kind));
     json.key("rank").value(regularity.rank).key("positive_definite").value(regularity.positive_definite);
+    json.key("for_given_parameters").value(regularity.for_given_parameters);
+    if (!regularity.evidence.empty()) json.key("evidence").value(regularity.evidence);
     json.key("singular_at").begin_array();
     for (const Point& point : regularity.singular_at) point_json(json, point);
     json.end_array().end_object();

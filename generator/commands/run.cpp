@@ -105,11 +105,24 @@ void integrate_scene(const std::string& program, ProgramInput input, RunOutcome&
     outcome.table.count = outcome.table.lines().size();
 }
 
-std::vector<Panel> panels_of(const std::vector<Column>& columns, std::size_t base_lanes)
+/// The unit that [about] gives to a name, or "".
+std::string unit_of(const Model& model, const std::string& name)
 {
+    for (const auto* symbols : {&model.base.coordinates, &model.fibre.coordinates, &model.fibre.momenta, &model.notes})
+        for (const Symbol& symbol : *symbols)
+            if (symbol.name == name) return symbol.unit;
+    return "";
+}
+
+std::vector<Panel> panels_of(const std::vector<Column>& columns, const Model& model)
+{
+    const std::size_t base_lanes = model.base.coordinates.size();
     std::vector<Panel> panels{{"base coordinates", {}}, {"fibre coordinates", {}}, {"observables", {}}};
-    for (std::size_t k = 0; k < columns.size(); ++k)
-        panels[!columns[k].state ? 2 : columns[k].index < base_lanes ? 0 : 1].columns.push_back(k + 1);
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+        Panel& panel = panels[!columns[k].state ? 2 : columns[k].index < base_lanes ? 0 : 1];
+        panel.columns.push_back(k + 1);
+        panel.units.push_back(unit_of(model, columns[k].name));
+    }
     std::erase_if(panels, [](const Panel& panel) { return panel.columns.empty(); });
     return panels;
 }
@@ -139,6 +152,9 @@ ExitCode run_run(Arguments arguments)
     const Model& model = checked.model;
     const Scene scene = scene_of(options, model);
     const MethodEntry& method = method_of(options, scene);
+    if (method.separable_only && model.base.coordinates.empty())
+        throw UsageError(fmt::format("lagen run: {} splits a system x' = f(y), y' = g(x), and model '{}' has no base coordinates x",
+                                     method.name, model.name));
     if (method.adaptive && options.has("step"))
         write_standard_error(fmt::format("warning: --step is not used: {} chooses its steps itself\n", method.name));
     const SceneValues values = evaluate_scene(model, scene);
@@ -158,8 +174,8 @@ ExitCode run_run(Arguments arguments)
     integrate_scene(compiled.program, input, outcome);
     if (options.has("output")) write_file(options.get("output"), to_csv(outcome.table));
     if (options.has("plot"))
-        plot_table(outcome.table, panels_of(input.columns, model.base.coordinates.size()),
-                   model.title.empty() ? model.name : model.title, options.get("plot"));
+        plot_table(outcome.table, panels_of(input.columns, model), model.title.empty() ? model.name : model.title,
+                   options.get("plot"), unit_of(model, "t"));
     tell(options, outcome, as_json);
     return outcome.status == "ok" || outcome.status == "stopped_by_event" ? ExitCode::done : ExitCode::refuted;
 }

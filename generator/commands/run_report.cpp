@@ -5,6 +5,8 @@
 
 #include <fmt/core.h>
 
+#include <cstdlib>
+
 namespace lagen {
 
 namespace {
@@ -60,14 +62,18 @@ std::string report_json(const RunOutcome& outcome)
 
 std::string report_text(const RunOutcome& outcome)
 {
+    const auto brief = [](const std::string& number, int digits) {
+        return number.empty() ? number : fmt::format("{:.{}g}", std::strtod(number.c_str(), nullptr), digits);
+    };
     std::string text =
         fmt::format("{}, scene {}: {} at t = {}; {}, {} steps ({} rejected), {} right-hand sides, {} rows\n",
-                    outcome.model, outcome.scene, outcome.status, outcome.where, outcome.method, outcome.steps,
+                    outcome.model, outcome.scene, outcome.status, brief(outcome.where, 9), outcome.method, outcome.steps,
                     outcome.rejected, outcome.rhs_calls, outcome.table.count);
     for (const EventFound& event : outcome.events)
-        text += fmt::format("  event {} at t = {}\n", event.name, event.time);
+        text += fmt::format("  event {} at t = {}\n", event.name, brief(event.time, 15));
     for (const Drift& drift : outcome.invariants)
-        text += fmt::format("  {}: {} at the start, largest drift {}\n", drift.name, drift.initial, drift.max_drift);
+        text += fmt::format("  {}: {} at the start, largest drift {}\n", drift.name,
+                            brief(drift.initial, 9), brief(drift.max_drift, 3));
     return text;
 }
 

@@ -153,6 +153,8 @@ void read_report(const std::string& text, RunOutcome& outcome)
         begin = end + 1;
     }
     if (outcome.status.empty()) throw InternalError("the program of a scene gave no report");
+    // A run that failed before its first step has conserved nothing.
+    if (outcome.steps == "0" && outcome.status != "ok" && outcome.status != "stopped_by_event") outcome.invariants.clear();
 }
 
 } // namespace lagen

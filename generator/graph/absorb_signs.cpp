@@ -42,7 +42,6 @@ void flip_users(Polynomial& polynomial, AtomId atom)
 struct SignCost {
     int signs = 0;
     int minuses = 0;
-    friend auto operator<=>(const SignCost&, const SignCost&) = default;
 
     void count(const Polynomial& polynomial, int times)
     {

@@ -229,7 +229,16 @@ class ModuleBuilder {
         return trees;
     }
 
-    /// a < b as b - a, a > b as a - b, a != b as (a - b)^2: positive inside the domain.
+    [[nodiscard]] bool depends_on_parameters_alone(std::initializer_list<NodeId> nodes) const
+    {
+        const std::vector<NodeId> below = reachable(*graph_, std::vector<NodeId>(nodes));
+        const auto moves = [&](const Quantity& lane) { return std::ranges::find(below, lane.input) != below.end(); };
+        return !std::ranges::any_of(module_.base, moves) && !std::ranges::any_of(module_.fibre, moves) &&
+               std::ranges::find(below, module_.time) == below.end();
+    }
+
+    /// a < b as b - a, a > b as a - b, a != b as (a - b)^2: positive inside the domain. What holds of the parameters alone
+    /// cannot change along a run and is left out: a scene is refused where its parameters violate it.
     void add_domain()
     {
         std::vector<NodeId> values;
@@ -240,6 +249,7 @@ class ModuleBuilder {
             const NodeId a = lower_(tree->arguments[0]);
             const NodeId b = lower_(tree->arguments[1]);
             const bool less = tree->comparison == Comparison::less || tree->comparison == Comparison::less_equal;
+            if (depends_on_parameters_alone({a, b})) continue;
             const NodeId difference = less ? graph_->subtract(b, a) : graph_->subtract(a, b);
             values.push_back(tree->comparison == Comparison::not_equal ? graph_->power(difference, 2) : difference);
             names.push_back(to_text(tree));

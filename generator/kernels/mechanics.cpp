@@ -150,8 +150,11 @@ LagrangeNodes lagrange_nodes(Graph& graph, const Model& model, const VerifiedAlg
         for (std::size_t a = 0; a < r; ++a) add_to(graph, nodes.xdot[i], graph.multiply(rho[i * r + a], nodes.y[a]));
     nodes.W = fibre_hessian(graph, nodes);
     if (accelerations) {
-        const auto structure =
-            verified.regularity.positive_definite ? MatrixStructure::positive_definite : MatrixStructure::symmetric;
+        // What holds for the file's parameter values alone says nothing of a header whose parameters may be changed.
+        const Regularity& regularity = verified.regularity;
+        const auto structure = regularity.positive_definite && !regularity.for_given_parameters
+                                   ? MatrixStructure::positive_definite
+                                   : MatrixStructure::symmetric;
         nodes.ydot = accelerations_of(graph, nodes, rho, dL_dx, brackets, structure);
         nodes.pivots = single_blocks(graph, nodes.W, r);
     }

@@ -143,7 +143,7 @@ TEST_CASE("a refuted model is refused with its reason; --unchecked goes on and t
                          "hint: see `lagen check refuted.toml`; --unchecked goes on all the same\n");
     const Outcome forced = call({"generate", "refuted.toml", "--unchecked"});
     CHECK(forced.code == 0);
-    const std::string said = "this model is REFUTED and was generated with --unchecked: anchor (u, v, y), residual 1";
+    const std::string said = "this model is REFUTED: anchor (u, v, y), residual 1";
     CHECK(forced.err == "warning: " + said + "\n");
     CHECK(forced.out.find("/// WARNING: " + said + "\n") != std::string::npos);
     CHECK(line_of(forced.out, 4) == "///   lagen generate refuted.toml --unchecked -o refuted.hpp");

@@ -17,7 +17,7 @@ std::string refuted(const std::string& text)
     return lines;
 }
 
-const std::string line_and_frame = R"(
+const std::string line_and_frame = R"toml(
 [base]
 coordinates = ["x", "y"]
 [fibre]
@@ -25,12 +25,12 @@ coordinates = ["a", "b"]
 [algebroid.anchor]
 a = { x = 1 }
 b = { y = "x" }
-)";
+)toml";
 
 /// T R^3 x R with [a, b] = f k, k in the kernel of the anchor.
 std::string kernel_valued(const std::string& ab, const std::string& bc, const std::string& ca)
 {
-    return R"(
+    return R"toml(
 [base]
 coordinates = ["x", "y", "z"]
 [fibre]
@@ -38,7 +38,7 @@ coordinates = ["a", "b", "c", "k"]
 [algebroid]
 anchor = { a.x = 1, b.y = 1, c.z = 1 }
 [algebroid.bracket]
-"a,b" = { k = ")" +
+"a,b" = { k = ")toml" +
            ab + "\" }\n\"b,c\" = { k = \"" + bc + "\" }\n\"c,a\" = { k = \"" + ca + "\" }\n";
 }
 
@@ -64,26 +64,25 @@ TEST_CASE("an anchor that is a morphism does not make Jacobi's identity hold")
 TEST_CASE("an algebroid that holds on a surface alone is refuted where the model does not declare the surface")
 {
     const std::string base = "[base]\ncoordinates = [\"x\", \"y\"]\n";
-    const std::string rest = R"(
+    const std::string rest = R"toml(
 [fibre]
 coordinates = ["a", "b"]
 [algebroid.anchor]
 a = { x = "-y", y = "x" }
-b = { x = "-y*(x^2 + y^2)",
-                      y = "x*(x^2 + y^2)"
+b = { x = "-y*(x^2 + y^2)", y = "x*(x^2 + y^2)"
 }
 [algebroid.bracket]
 "a,b" = { a = "x^2 + y^2 - 1" }
-)";
+)toml";
     CHECK(refuted(base + "constraints = [\"x^2 + y^2 - 1\"]\n" + rest).empty());
-CHECK(refuted(base + rest) == "anchor(a, b, x) refuted\nanchor(a, b, y) refuted\n");
-CHECK(refuted(base + "constraints = [\"x^2 + y^2 - 2\"]\n" + rest) ==
-      "anchor(a, b, x) refuted\nanchor(a, b, y) refuted\n");
+    CHECK(refuted(base + rest) == "anchor(a, b, x) refuted\nanchor(a, b, y) refuted\n");
+    CHECK(refuted(base + "constraints = [\"x^2 + y^2 - 2\"]\n" + rest) ==
+          "anchor(a, b, x) refuted\nanchor(a, b, y) refuted\n");
 }
 
 TEST_CASE("a bracket that is right for one value of a parameter is refuted with another value")
 {
-    const VerifiedAlgebroid verified = verified_text(R"(
+    const VerifiedAlgebroid verified = verified_text(R"toml(
 [parameters]
 k = 1
 [base]
@@ -95,19 +94,19 @@ a = { x = 1 }
 b = { y = "exp(x)" }
 [algebroid.bracket]
 "a,b" = { b = "k" }
-)");
+)toml");
     REQUIRE(verified.checks.back().decision.witness);
-CHECK(verified.verdict == Verdict::invalid);
-CHECK(verified.checks.back().decision.residual == "-k*exp(x) + exp(x)");
-const auto point = verified.checks.back().decision.witness->point;
-REQUIRE(point.size() == 3);
-CHECK(point[2].first == "k");
-CHECK(point[2].second != "1");
+    CHECK(verified.verdict == Verdict::invalid);
+    CHECK(verified.checks.back().decision.residual == "-k*exp(x) + exp(x)");
+    const auto point = verified.checks.back().decision.witness->point;
+    REQUIRE(point.size() == 3);
+    CHECK(point[2].first == "k");
+    CHECK(point[2].second != "1");
 }
 
 TEST_CASE("a domain decides what a root is, and a contradictory one proves nothing")
 {
-    const std::string rest = R"(
+    const std::string rest = R"toml(
 [fibre]
 coordinates = ["a", "b"]
 [algebroid.anchor]
@@ -115,12 +114,12 @@ a = { x = 1 }
 b = { y = "sqrt(x^2)" }
 [algebroid.bracket]
 "a,b" = { b = "1/x" }
-)";
+)toml";
     const auto with_domain = [&](const std::string& domain) {
-    return verified_text("[parameters]\nm = -1\n[base]\ncoordinates = [\"x\", \"y\"]\n" + domain + rest).verdict;
+        return verified_text("[parameters]\nm = -1\n[base]\ncoordinates = [\"x\", \"y\"]\n" + domain + rest).verdict;
     };
-CHECK(with_domain("") == Verdict::valid);
-CHECK(with_domain("domain = [\"x > 0\"]\n") == Verdict::valid);
-CHECK(with_domain("domain = [\"x > 0\", \"x < 0\"]\n") == Verdict::undecided);
-CHECK(with_domain("domain = [\"x*m > 0\", \"m > 0\"]\n") == Verdict::valid);
+    CHECK(with_domain("") == Verdict::valid);
+    CHECK(with_domain("domain = [\"x > 0\"]\n") == Verdict::valid);
+    CHECK(with_domain("domain = [\"x > 0\", \"x < 0\"]\n") == Verdict::undecided);
+    CHECK(with_domain("domain = [\"x*m > 0\", \"m > 0\"]\n") == Verdict::valid);
 }
