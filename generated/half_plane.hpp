@@ -35,7 +35,7 @@
 ///   lagrangian          1      3      0          0       0            4
 ///   domain              0      0      0          0       0            0
 ///   observables         0      0      0          1       0            1
-///   invariants          1      4      1          0       0            7
+///   invariants          1      1      1          0       0            4
 ///   events              0      0      0          0       0            0
 ///   jacobian            1      1      0          0       0            2
 ///
@@ -187,10 +187,10 @@ class half_plane {
         const S y = s[1];
         const S a = s[2];
         const S b = s[3];
-        const S w0 = S(1) / y;
+        const S w0 = a / y;
         Eigen::Matrix<S, 2, 1> result;
-        result[0] = w0 * a;
-        result[1] = w0 * (y * b + x * a);
+        result[0] = w0;
+        result[1] = b + x * w0;
         return result;
     }
 

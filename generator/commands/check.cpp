@@ -23,9 +23,7 @@ const CommandSyntax syntax{"check",
 std::vector<NamedTree> extra_invariants(const Options& options, const Model& model)
 {
     std::vector<NamedTree> invariants;
-    std::vector<std::string> momenta;
-    for (const Symbol& momentum : model.fibre.momenta) momenta.push_back(momentum.name);
-    const Scope scope = model.scope.with(momenta);
+    const Scope& scope = model.observer;
     for (const std::string& text : options.all("invariant")) {
         const Tree tree = parse_expression(whole_text("<--invariant>", text));
         invariants.push_back({text, scope.close(tree), tree->where});

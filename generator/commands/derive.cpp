@@ -32,7 +32,8 @@ ExitCode run_derive(Arguments arguments)
     const CheckedModel checked = load(options.positional()[0], options.settings(), true);
     for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
     if (checked.verified.regularity.kind == Regularity::Kind::degenerate)
-        write_standard_error("warning: the Lagrangian is degenerate: the accelerations are not determined by the equations\n");
+        write_standard_error(
+            "warning: the Lagrangian is degenerate: the accelerations are not determined by the equations\n");
     const EquationSet equations = derive_lagrange(checked.model, checked.verified.algebroid);
     const std::string text = format == "text"    ? print_text(equations)
                              : format == "latex" ? print_latex(equations)

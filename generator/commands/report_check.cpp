@@ -80,8 +80,8 @@ std::string failure_text(const Check& check)
 std::string regularity_text(const Regularity& regularity)
 {
     if (regularity.kind == Regularity::Kind::absent) return "";
-    std::string text = fmt::format("  {:<16}{}, rank {}{}{}\n", "regularity", kind_text(regularity.kind), regularity.rank,
-                                   regularity.positive_definite ? ", positive definite" : "",
+    std::string text = fmt::format("  {:<16}{}, rank {}{}{}\n", "regularity", kind_text(regularity.kind),
+                                   regularity.rank, regularity.positive_definite ? ", positive definite" : "",
                                    regularity.for_given_parameters ? " (for the parameter values of the file)" : "");
     if (regularity.kind == Regularity::Kind::degenerate)
         text += fmt::format("  {:<16}`generate` and `run` refuse a degenerate Lagrangian\n", "");

@@ -153,8 +153,9 @@ ExitCode run_run(Arguments arguments)
     const Scene scene = scene_of(options, model);
     const MethodEntry& method = method_of(options, scene);
     if (method.separable_only && model.base.coordinates.empty())
-        throw UsageError(fmt::format("lagen run: {} splits a system x' = f(y), y' = g(x), and model '{}' has no base coordinates x",
-                                     method.name, model.name));
+        throw UsageError(
+            fmt::format("lagen run: {} splits a system x' = f(y), y' = g(x), and model '{}' has no base coordinates x",
+                        method.name, model.name));
     if (method.adaptive && options.has("step"))
         write_standard_error(fmt::format("warning: --step is not used: {} chooses its steps itself\n", method.name));
     const SceneValues values = evaluate_scene(model, scene);

@@ -67,13 +67,13 @@ std::string report_text(const RunOutcome& outcome)
     };
     std::string text =
         fmt::format("{}, scene {}: {} at t = {}; {}, {} steps ({} rejected), {} right-hand sides, {} rows\n",
-                    outcome.model, outcome.scene, outcome.status, brief(outcome.where, 9), outcome.method, outcome.steps,
-                    outcome.rejected, outcome.rhs_calls, outcome.table.count);
+                    outcome.model, outcome.scene, outcome.status, brief(outcome.where, 9), outcome.method,
+                    outcome.steps, outcome.rejected, outcome.rhs_calls, outcome.table.count);
     for (const EventFound& event : outcome.events)
         text += fmt::format("  event {} at t = {}\n", event.name, brief(event.time, 15));
     for (const Drift& drift : outcome.invariants)
-        text += fmt::format("  {}: {} at the start, largest drift {}\n", drift.name,
-                            brief(drift.initial, 9), brief(drift.max_drift, 3));
+        text += fmt::format("  {}: {} at the start, largest drift {}\n", drift.name, brief(drift.initial, 9),
+                            brief(drift.max_drift, 3));
     return text;
 }
 

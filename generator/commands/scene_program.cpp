@@ -153,8 +153,10 @@ void read_report(const std::string& text, RunOutcome& outcome)
         begin = end + 1;
     }
     if (outcome.status.empty()) throw InternalError("the program of a scene gave no report");
-    // A run that failed before its first step has conserved nothing.
-    if (outcome.steps == "0" && outcome.status != "ok" && outcome.status != "stopped_by_event") outcome.invariants.clear();
+    // A run that was refused at its start has measured nothing.
+    const bool refused = outcome.status == "not_separable" || outcome.status == "invalid_input" ||
+                         outcome.status == "singular_mass_matrix";
+    if (refused && outcome.steps == "0") outcome.invariants.clear();
 }
 
 } // namespace lagen

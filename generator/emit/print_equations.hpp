@@ -6,7 +6,8 @@
 
 namespace lagen {
 
-[[nodiscard]] std::string print_text(const EquationSet& equations);  ///< UTF-8, aligned, at most 120 columns where terms allow
+[[nodiscard]] std::string
+print_text(const EquationSet& equations); ///< UTF-8, aligned, at most 120 columns where terms allow
 [[nodiscard]] std::string print_latex(const EquationSet& equations); ///< a compilable fragment: align* blocks (amsmath)
 [[nodiscard]] std::string print_json(const EquationSet& equations);
 

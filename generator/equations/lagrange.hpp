@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Lagrange's equations on a Lie algebroid, symbolic, for a person to read:
 ///   xdot^i = rho^i_a y^a,   p_a = dL/dy^a,   d/dt p_a = rho_a(L) - p_c C^c_ab y^b                    (momentum form)
-///   W_ab ydot^b = rho_a(L) - (d2L/dy^a dx^i) rho^i_b y^b - d2L/dy^a dt - p_c C^c_ab y^b                (acceleration form)
-///   E_L = y^a p_a - L                                                                     [Martinez 2001]
+///   W_ab ydot^b = rho_a(L) - (d2L/dy^a dx^i) rho^i_b y^b - d2L/dy^a dt - p_c C^c_ab y^b                (acceleration
+///   form) E_L = y^a p_a - L                                                                     [Martinez 2001]
 /// Derived with GiNaC, in an order and with signs of our own, so that the text is the same on every run.
 #pragma once
 

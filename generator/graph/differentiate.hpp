@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Derivatives on the graph, exact, by the rules of the operator table. abs' = x/|x|; sign, comparisons have derivative 0;
-/// select, minimum and maximum differentiate their branches. A solve z = A^-1 b has dz = A^-1 (db - dA z) on the
+/// Derivatives on the graph, exact, by the rules of the operator table. abs' = x/|x|; sign, comparisons have derivative
+/// 0; select, minimum and maximum differentiate their branches. A solve z = A^-1 b has dz = A^-1 (db - dA z) on the
 /// same factorisation; adjoint: lambda = A^-T zbar, bbar = lambda, Abar = -lambda z^T (A^T shares the factor where A is
 /// symmetric).
 #pragma once

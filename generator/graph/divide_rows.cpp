@@ -81,8 +81,7 @@ std::size_t divide_rows(Form& form)
     std::vector<AtomId> divisors;
     for (const auto& [factor, solves] : systems_of(form)) divide_system(form, factor, solves, divisors);
     std::ranges::sort(divisors);
-    const auto repeated = std::ranges::unique(divisors);
-    divisors.erase(repeated.begin(), repeated.end());
+    divisors.erase(std::unique(divisors.begin(), divisors.end()), divisors.end());
     for (const AtomId divisor : divisors) form.roots.push_back({{1, {{divisor, 1}}}});
     return divisors.size();
 }

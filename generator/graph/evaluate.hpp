@@ -11,8 +11,8 @@
 
 namespace lagen {
 
-/// The values of `outputs` in double, long double, given values of the inputs (missing input: InternalError). A singular factorisation
-/// gives NaN. Instantiated for float, double, long double.
+/// The values of `outputs` in double, long double, given values of the inputs (missing input: InternalError). A
+/// singular factorisation gives NaN. Instantiated for float, double, long double.
 template <class Scalar>
 [[nodiscard]] std::vector<Scalar> evaluate(const Graph& graph, std::span<const NodeId> outputs,
                                            const std::map<std::string, Scalar>& inputs);

@@ -18,20 +18,43 @@ using NodeId = std::uint32_t;
 
 /// One entry a node kind; value, derivative, cost and spelling of each stand in graph/operators.*, nowhere else.
 enum class Op : std::uint8_t {
-    constant,   ///< exact rational, `value(id)`
+    constant, ///< exact rational, `value(id)`
     pi,
-    input,      ///< a named input, `input_name(id)`
-    add, subtract, multiply, divide,
+    input, ///< a named input, `input_name(id)`
+    add,
+    subtract,
+    multiply,
+    divide,
     negate,
     power,      ///< integer power, exponent `payload(id)` (as int32_t), never 0 or 1; negative allowed
     real_power, ///< a^b for anything else
-    sqrt, sin, cos, tan, asin, acos, atan, atan2, sinh, cosh, tanh, exp, log, abs,
-    minimum, maximum, sign,
-    less, less_equal, greater, greater_equal, equal, not_equal, ///< 1 or 0
-    select,     ///< operands c, a, b: a where c != 0, else b
-    factor,     ///< factorisation of an n x n matrix; operands: its n*n entries by rows; payload: MatrixStructure
-    solve,      ///< operands: a `factor` node, then the n entries of b; z = A^-1 b
-    component,  ///< operand: a `solve` node; payload: k, the entry z_k
+    sqrt,
+    sin,
+    cos,
+    tan,
+    asin,
+    acos,
+    atan,
+    atan2,
+    sinh,
+    cosh,
+    tanh,
+    exp,
+    log,
+    abs,
+    minimum,
+    maximum,
+    sign,
+    less,
+    less_equal,
+    greater,
+    greater_equal,
+    equal,
+    not_equal, ///< 1 or 0
+    select,    ///< operands c, a, b: a where c != 0, else b
+    factor,    ///< factorisation of an n x n matrix; operands: its n*n entries by rows; payload: MatrixStructure
+    solve,     ///< operands: a `factor` node, then the n entries of b; z = A^-1 b
+    component, ///< operand: a `solve` node; payload: k, the entry z_k
 };
 
 /// What is known of a matrix that is factorised.
@@ -49,24 +72,24 @@ class Graph {
     NodeId pi();
     NodeId input(const std::string& name); ///< the same name is the same node
 
-    // Operations. Each applies the exact local rules that hold everywhere the operands are defined (x + 0, 1 * x, constants
-    // folded exactly, -(-x), x - x, x + x = 2 x, x * x = x^2, a sign pulled out of products, operands of commutative
-    // operations ordered by id, 0 * x = 0), then interns.
+    // Operations. Each applies the exact local rules that hold everywhere the operands are defined (x + 0, 1 * x,
+    // constants folded exactly, -(-x), x - x, x + x = 2 x, x * x = x^2, a sign pulled out of products, operands of
+    // commutative operations ordered by id, 0 * x = 0), then interns.
     NodeId add(NodeId a, NodeId b);
     NodeId subtract(NodeId a, NodeId b);
     NodeId multiply(NodeId a, NodeId b);
     NodeId divide(NodeId a, NodeId b); ///< throws MathematicsError where b is the constant 0
     NodeId negate(NodeId a);
     NodeId power(NodeId a, int exponent);
-    NodeId apply(Op op, NodeId a);                         ///< sqrt .. abs, sign
-    NodeId apply(Op op, NodeId a, NodeId b);               ///< real_power, atan2, minimum, maximum, comparisons
+    NodeId apply(Op op, NodeId a);           ///< sqrt .. abs, sign
+    NodeId apply(Op op, NodeId a, NodeId b); ///< real_power, atan2, minimum, maximum, comparisons
     NodeId select(NodeId condition, NodeId a, NodeId b);
     /// The components z_0 .. z_{n-1} of A^-1 b; `matrix` has n*n entries by rows. n = 1 is a division; a diagonal or
     /// block-diagonal matrix is split into its blocks, so that only coupled unknowns share a factorisation.
     std::vector<NodeId> solve(std::span<const NodeId> matrix, std::span<const NodeId> right, MatrixStructure structure);
     /// Several right-hand sides: columns[k] is a vector of n entries; one factorisation.
-    std::vector<std::vector<NodeId>> solve(std::span<const NodeId> matrix, const std::vector<std::vector<NodeId>>& columns,
-                                           MatrixStructure structure);
+    std::vector<std::vector<NodeId>> solve(std::span<const NodeId> matrix,
+                                           const std::vector<std::vector<NodeId>>& columns, MatrixStructure structure);
 
     NodeId sum(std::span<const NodeId> terms);       ///< left to right; empty: 0
     NodeId product(std::span<const NodeId> factors); ///< left to right; empty: 1
@@ -76,8 +99,8 @@ class Graph {
     [[nodiscard]] Op op(NodeId id) const { return ops_[id]; }
     [[nodiscard]] std::span<const NodeId> operands(NodeId id) const;
     [[nodiscard]] std::uint32_t payload(NodeId id) const { return payloads_[id]; }
-    [[nodiscard]] const Rational& value(NodeId id) const;          ///< of a constant
-    [[nodiscard]] const std::string& input_name(NodeId id) const;  ///< of an input
+    [[nodiscard]] const Rational& value(NodeId id) const;         ///< of a constant
+    [[nodiscard]] const std::string& input_name(NodeId id) const; ///< of an input
     [[nodiscard]] bool is_constant(NodeId id) const { return ops_[id] == Op::constant; }
     [[nodiscard]] bool is_zero(NodeId id) const; ///< the constant 0 (structurally; not a proof of anything else)
     [[nodiscard]] bool is_one(NodeId id) const;
@@ -101,7 +124,8 @@ class Graph {
 /// The nodes that `roots` depend on, themselves included, in ascending (topological) order.
 [[nodiscard]] std::vector<NodeId> reachable(const Graph& graph, std::span<const NodeId> roots);
 
-/// The node as a readable text, for tests and messages; shared parts are written out, cut at `limit` characters with "...".
+/// The node as a readable text, for tests and messages; shared parts are written out, cut at `limit` characters with
+/// "...".
 [[nodiscard]] std::string to_text(const Graph& graph, NodeId id, std::size_t limit = 400);
 
 } // namespace lagen

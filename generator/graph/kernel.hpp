@@ -19,7 +19,7 @@ struct KernelEntry {
 
 /// An array that a kernel writes. Entries that are not listed are zero. Rows and columns count from 0.
 struct KernelOutput {
-    std::string name;  ///< as in C++ ("ds", "values")
+    std::string name; ///< as in C++ ("ds", "values")
     std::size_t rows = 1;
     std::size_t columns = 1;
     std::vector<KernelEntry> entries; ///< by rows
@@ -56,21 +56,21 @@ struct Quantity {
 
 /// Everything that one generated class holds.
 struct KernelModule {
-    std::string name;       ///< class name: model name, with _FORM for forms other than lagrange
-    std::string model;      ///< model name
+    std::string name;  ///< class name: model name, with _FORM for forms other than lagrange
+    std::string model; ///< model name
     std::string title;
-    std::string form;       ///< "lagrange"
-    std::string hash;       ///< of the model's content, 16 hexadecimal digits
-    std::string regenerate; ///< the command that makes this header again
+    std::string form;                   ///< "lagrange"
+    std::string hash;                   ///< of the model's content, 16 hexadecimal digits
+    std::string regenerate;             ///< the command that makes this header again
     std::vector<std::string> warnings;  ///< e.g. that the model was not proved
     std::vector<std::string> equations; ///< the equations in UTF-8, a line each, for the banner
     std::shared_ptr<Graph> graph;
-    NodeId time = 0;                     ///< the input t
+    NodeId time = 0; ///< the input t
     std::vector<Quantity> parameters;
     std::vector<NodeId> parameter_defaults; ///< closed nodes without inputs, one a parameter
-    std::vector<Quantity> base;  ///< first lanes of State
-    std::vector<Quantity> fibre; ///< the other lanes (fibre coordinates, or momenta)
-    std::string fibre_name = "Fibre"; ///< the struct of the second group: "Fibre" or "Momenta"
+    std::vector<Quantity> base;             ///< first lanes of State
+    std::vector<Quantity> fibre;            ///< the other lanes (fibre coordinates, or momenta)
+    std::string fibre_name = "Fibre";       ///< the struct of the second group: "Fibre" or "Momenta"
     std::vector<Kernel> kernels;
 };
 

@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <cstdio>
 
 namespace lagen {
 
@@ -58,8 +56,7 @@ std::vector<std::size_t> inputs_to_move(const Graph& graph, NodeId sum)
 }
 
 /// Moves input k until the sum vanishes but for 1e-7 of its operands (secants); false where it does not.
-bool cancel(const Graph& graph, NodeId sum, const std::vector<NodeId>& nodes, std::vector<double>& state,
-            std::size_t k)
+bool cancel(const Graph& graph, NodeId sum, const std::vector<NodeId>& nodes, std::vector<double>& state, std::size_t k)
 {
     const auto value = [&](double x) {
         state[k] = x;
@@ -153,7 +150,7 @@ std::vector<bool> RoundingProbe::keeps_digits(std::span<const NodeId> form) cons
         const auto worst = worst_errors(group, form, nodes);
         for (std::size_t k = 0; k < form.size(); ++k)
             if (!(worst[k] <= allowed_loss * std::max(group.worst[k], least_error)) && std::isfinite(group.worst[k]))
-{ keeps[k] = false; if (std::getenv("DBG")) std::fprintf(stderr,"out %zu: %s\n  vs %s\n worst %.3g against %.3g (states %zu)\n",k,to_text(graph_,form[k]).c_str(),to_text(graph_,outputs_[k]).c_str(),worst[k],group.worst[k],group.states.size()); }
+                keeps[k] = false;
     }
     return keeps;
 }

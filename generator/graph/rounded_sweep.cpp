@@ -64,7 +64,9 @@ class Sweep {
             return;
         }
         case Op::component: values_[id] = solutions_.at(operands[0])[graph_.payload(id)]; return;
-        case Op::power: values_[id] = power(values_[operands[0]], static_cast<std::int32_t>(graph_.payload(id))); return;
+        case Op::power:
+            values_[id] = power(values_[operands[0]], static_cast<std::int32_t>(graph_.payload(id)));
+            return;
         default: break;
         }
         double x[3]{};

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <initializer_list>
 #include <optional>
-#include <cstdlib>
 
 namespace lagen {
 namespace {
@@ -89,7 +88,7 @@ struct Portfolio {
     {
         const bool alone = std::all_of(candidates.begin() + static_cast<std::ptrdiff_t>(first), candidates.end(),
                                        [&](const auto& candidate) { return candidate == outputs; });
-        if (alone || std::getenv("NOGATE")) return;
+        if (alone) return;
         note(undivided, factors_of(outputs));
         const RoundingProbe probe(graph, outputs);
         for (std::size_t c = first; c < candidates.size(); ++c) {
@@ -127,8 +126,7 @@ struct Portfolio {
     {
         sorted.insert(sorted.end(), more.begin(), more.end());
         std::ranges::sort(sorted);
-        const auto repeated = std::ranges::unique(sorted);
-        sorted.erase(repeated.begin(), repeated.end());
+        sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
     }
 };
 

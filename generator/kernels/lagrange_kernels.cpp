@@ -237,8 +237,8 @@ class ModuleBuilder {
                std::ranges::find(below, module_.time) == below.end();
     }
 
-    /// a < b as b - a, a > b as a - b, a != b as (a - b)^2: positive inside the domain. What holds of the parameters alone
-    /// cannot change along a run and is left out: a scene is refused where its parameters violate it.
+    /// a < b as b - a, a > b as a - b, a != b as (a - b)^2: positive inside the domain. What holds of the parameters
+    /// alone cannot change along a run and is left out: a scene is refused where its parameters violate it.
     void add_domain()
     {
         std::vector<NodeId> values;

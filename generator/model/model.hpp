@@ -38,10 +38,10 @@ struct Parameter {
 };
 
 struct Base {
-    std::vector<Symbol> coordinates;  ///< x^i; empty where M is a point
-    std::vector<Tree> constraints;    ///< closed trees over x and parameters; M is their common zero set
-    std::vector<NamedTree> casimirs;  ///< claimed rho_a(f) = 0
-    std::vector<Tree> domain;         ///< strict comparisons (<, >, !=) that hold on M
+    std::vector<Symbol> coordinates; ///< x^i; empty where M is a point
+    std::vector<Tree> constraints;   ///< closed trees over x and parameters; M is their common zero set
+    std::vector<NamedTree> casimirs; ///< claimed rho_a(f) = 0
+    std::vector<Tree> domain;        ///< strict comparisons (<, >, !=) that hold on M
 };
 
 struct Fibre {
@@ -68,11 +68,11 @@ enum class AlgebroidKind { general, tangent, lie_algebra, action };
 
 struct AlgebroidBlock {
     AlgebroidKind kind = AlgebroidKind::general;
-    std::string algebra;                ///< a named Lie algebra (lie_algebra, action), or empty
+    std::string algebra; ///< a named Lie algebra (lie_algebra, action), or empty
     SourceRange algebra_where;
-    std::vector<std::size_t> over;      ///< tangent: the base coordinates that move, in order
-    std::vector<AnchorEntry> anchor;    ///< general, action
-    std::vector<BracketEntry> bracket;  ///< general, lie_algebra, action
+    std::vector<std::size_t> over;     ///< tangent: the base coordinates that move, in order
+    std::vector<AnchorEntry> anchor;   ///< general, action
+    std::vector<BracketEntry> bracket; ///< general, lie_algebra, action
     SourceRange where;
 };
 
@@ -106,8 +106,8 @@ struct Scene {
     Tree start;                     ///< null: 0
     Tree duration;                  ///< null where the scene gives none
     std::vector<NamedTree> parameters;
-    std::string form;               ///< empty: the default for the model
-    std::string method;             ///< empty: the default for the form
+    std::string form;   ///< empty: the default for the model
+    std::string method; ///< empty: the default for the form
     SourceRange method_where;
     Tree step, tolerance, relative, absolute; ///< null where absent
     Sampling sampling;
@@ -130,12 +130,12 @@ struct Model {
     SourceRange lagrangian_where;
     std::vector<NamedTree> observables;
     std::vector<NamedTree> invariants;
-    std::vector<Symbol> notes;           ///< [about] of definitions, Casimirs, observables, invariants and t
-    std::vector<Scene> scenes;           ///< in the order of the file
+    std::vector<Symbol> notes; ///< [about] of definitions, Casimirs, observables, invariants and t
+    std::vector<Scene> scenes; ///< in the order of the file
 
-    Scope scope;            ///< symbols and definitions: what L may use
-    Scope observer;         ///< with momenta, energy, lagrangian, observables and invariants: what expressions from the
-                            ///< command line may use
+    Scope scope;    ///< symbols and definitions: what L may use
+    Scope observer; ///< with momenta, energy, lagrangian, observables and invariants: what expressions from the
+                    ///< command line may use
 };
 
 /// The scene called `name`; with an empty name `default`, else the first. Throws ModelError where there is none.

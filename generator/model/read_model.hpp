@@ -13,11 +13,12 @@ struct Setting {
     Excerpt value;
 };
 
-/// Reads and checks a model file. A missing or unreadable file, a folder, invalid UTF-8, a file above 16 MiB, TOML errors, unknown
-/// keys, unknown names, names declared twice and expressions in error throw ModelError.
+/// Reads and checks a model file. A missing or unreadable file, a folder, invalid UTF-8, a file above 16 MiB, TOML
+/// errors, unknown keys, unknown names, names declared twice and expressions in error throw ModelError.
 [[nodiscard]] Model read_model(const std::string& path, const std::vector<Setting>& settings = {});
 
 /// The same from a text in memory; `name` stands in messages for the path.
-[[nodiscard]] Model read_model_text(const std::string& name, std::string text, const std::vector<Setting>& settings = {});
+[[nodiscard]] Model read_model_text(const std::string& name, std::string text,
+                                    const std::vector<Setting>& settings = {});
 
 } // namespace lagen

@@ -31,9 +31,9 @@ TEST_CASE("a refuted model shows its residual and a witness, and exits 1")
     const Outcome outcome = call({"check", "refuted.toml"});
     CHECK(outcome.code == 1);
     CHECK(outcome.out == "refuted: invalid\n"
-                         "  anchor        1 refuted\n"
-                         "  structural 0  1 residuals\n"
-                         "  regularity    regular, rank 2, positive definite\n"
+                         "  anchor          1 refuted\n"
+                         "  trivially zero  1 residuals\n"
+                         "  regularity      regular, rank 2, positive definite\n"
                          "\n"
                          "refuted: anchor (u, v, y)\n"
                          "  residual 1\n"
@@ -64,7 +64,8 @@ TEST_CASE("a degenerate Lagrangian leaves the verdict as it is")
 {
     const Outcome outcome = call({"check", "degenerate.toml"});
     CHECK(outcome.code == 0);
-    CHECK(outcome.out == "degenerate: valid\n  regularity    degenerate, rank 0\n");
+    CHECK(outcome.out == "degenerate: valid\n  regularity      degenerate, rank 0\n                  `generate` and "
+                         "`run` refuse a degenerate Lagrangian\n");
 }
 
 TEST_CASE("over several models the exit code is 3 before 1 before 2 before 0, and each is reported")

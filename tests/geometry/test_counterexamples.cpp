@@ -69,8 +69,7 @@ TEST_CASE("an algebroid that holds on a surface alone is refuted where the model
 coordinates = ["a", "b"]
 [algebroid.anchor]
 a = { x = "-y", y = "x" }
-b = { x = "-y*(x^2 + y^2)", y = "x*(x^2 + y^2)"
-}
+b = { x = "-y*(x^2 + y^2)", y = "x*(x^2 + y^2)" }
 [algebroid.bracket]
 "a,b" = { a = "x^2 + y^2 - 1" }
 )toml";

@@ -66,8 +66,9 @@ TEST_CASE("Kepler's accelerations share one root and one division")
     CHECK(count.multiplications == 5);
     check_same_values(g, test::kepler(g), simple);
     Graph other;
+    const NodeId a = other.input("a");
     const NodeId x = other.input("x");
-    const NodeId u = other.add(other.power(x, 2), other.input("a"));
+    const NodeId u = other.add(other.power(x, 2), a);
     const std::vector<NodeId> quotient{other.divide(u, other.apply(Op::sqrt, u))};
     CHECK(texts(other, simplify(other, quotient)) == std::vector<std::string>{"sqrt(a + x^2)"});
 }

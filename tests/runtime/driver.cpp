@@ -112,7 +112,10 @@ TEST_CASE("The driver reports events, energy, invariants and constraints, and pi
                                                "o1,s0,o0", "--events", "bottom:falling:0:1,turn:rising:1:1"});
     CHECK(run.code == 0);
     CHECK(run.out.starts_with("0,3,0.5,1\n1.5,3,"));
-    CHECK(std::count(run.out.begin(), run.out.end(), '\n') == 3);
+    // Rows at 0, 1.5 and 3, and one more at the event.
+    CHECK(std::count(run.out.begin(), run.out.end(), '\n') == 4);
+    CHECK(run.out.find("\n3.19") != std::string::npos);
+    CHECK(run.report.find("\nrows=4\n") != std::string::npos);
     CHECK(run.report.starts_with("status=stopped_by_event\nt=3.19"));
     CHECK(run.report.find("\nevent=bottom@1.59") != std::string::npos);
     CHECK(run.report.find("\nevent=turn@3.19") != std::string::npos);
@@ -171,4 +174,44 @@ TEST_CASE("A file of times that is not there exits 5")
         drive_with<Bare, Rk4>({"--initial", "1", "--end", "1", "--step", "1", "--at-file", "/nowhere/times"});
     CHECK(run.code == 5);
     CHECK(run.err == "error: --at-file: \"/nowhere/times\" could not be opened\n");
+}
+
+TEST_CASE("The row of a stopping event is at its time exactly, once, and only where an event stops the run")
+{
+    const auto value_of = [](const std::string& report, const std::string& key) {
+        const std::size_t begin = report.find("\n" + key + "=") + key.size() + 2;
+        return report.substr(begin, report.find('\n', begin) - begin);
+    };
+    const std::vector<std::string> arguments{"--initial", "0.5,0",    "--parameters",  "3", "--end", "9", "--samples",
+                                             "4",         "--events", "bottom:any:1:1"};
+    const auto run = drive_with<Full, Dop853>(arguments);
+    const std::string time = value_of(run.report, "t");
+    CHECK(run.out.ends_with('\n' + time + ',' + value_of(run.report, "state") + '\n'));
+    CHECK(value_of(run.report, "event") == "bottom@" + time);
+    auto backward = arguments;
+    backward[5] = "-9";
+    const auto mirrored = drive_with<Full, Dop853>(backward);
+    CHECK(value_of(mirrored.report, "t") == '-' + time);
+    CHECK(mirrored.out.find("\n-" + time + ',') != std::string::npos);
+    auto passed = arguments;
+    passed.back() = "bottom:any:0:1";
+    CHECK(drive_with<Full, Dop853>(passed).report.find("\nrows=4\n") != std::string::npos);
+}
+
+TEST_CASE("Times of a file must run with the run; those outside the interval are left out, equal ones repeated")
+{
+    const auto folder = std::filesystem::temp_directory_path() / ("lagen_times_" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder);
+    const std::string file = (folder / "times").string();
+    const auto rows = [&](const std::string& times, const std::string& end) {
+        std::ofstream(file) << times;
+        return drive_with<Bare, Rk4>({"--initial", "1", "--end", end, "--step", "0.25", "--at-file", file});
+    };
+    CHECK(rows("-1, 0, 0.5 0.5\n2", "1").out == "0,1\n0.5,1.5\n0.5,1.5\n");
+    CHECK(rows("1 0 -0.5 -2", "-1").out == "0,1\n-0.5,0.5\n");
+    const auto wrong = rows("0 0.5 0.25", "1");
+    CHECK(wrong.code == 4);
+    CHECK(wrong.err == "error: --at-file: 0.25 stands after 0.5, times in the direction of the run are required\n");
+    CHECK(rows("0 nan", "1").err == "error: --at-file: \"" + file + "\" holds something that is not a finite number\n");
+    std::filesystem::remove_all(folder);
 }

@@ -108,3 +108,56 @@ TEST_CASE("A start on an event is not a crossing")
     CHECK(run.status() == Status::ok);
     CHECK(run.events.empty());
 }
+
+TEST_CASE("Events of one instant are all reported, in the order of the requests, also where one of them stops the run")
+{
+    const auto half = [](double, const State& s) { return s[0] - 0.5; };
+    const auto quarter = [](double, const State& s) { return s[0] - 0.25; };
+    const std::array<Request, 4> requests{{
+        {.when = half, .stop = true},
+        {.when = quarter},
+        {.when = half},
+        {.when = half, .stop = true, .count = 2},
+    }};
+    const auto check = [&](const auto& method) {
+        const auto run = integrate(Pendulum{}, start, {0.0, 9.0}, method, {.events = requests});
+        CHECK(run.status() == Status::stopped_by_event);
+        REQUIRE(run.events.size() == 3);
+        for (const std::size_t k : {std::size_t{0}, std::size_t{1}, std::size_t{2}}) {
+            CHECK(run.events[k].t == run.t);
+            CHECK(run.events[k].state == run.state);
+        }
+        CHECK(run.events[1].request == 2);
+        CHECK(run.events[2].request == 3);
+    };
+    check(Dop853{.tolerance = 1e-10});
+    check(Rk4{.step = 0.01});
+    check(Rk4{.step = 2});
+}
+
+TEST_CASE(
+    "Arriving at zero at the end of a step is one crossing, leaving it none, touching it from above none in between")
+{
+    // x' = 1 in steps of 1/4: every value is exact.
+    struct Line {
+        using Scalar = double;
+        using State = Eigen::Matrix<double, 1, 1>;
+        static constexpr int dimension = 1;
+        Status rhs(double, const State&, State& ds) const noexcept
+        {
+            ds[0] = 1;
+            return Status::ok;
+        }
+    };
+    using LineRequest = EventRequest<double, Line::State>;
+    const auto count = [](auto function) {
+        const std::array<LineRequest, 1> request{{{.when = function}}};
+        return integrate(Line{}, Line::State(0.0), {0.0, 2.0}, Rk4{.step = 0.25}, {.events = request}).events.size();
+    };
+    CHECK(count([](double t, const Line::State&) { return t - 0.5; }) == 1);
+    CHECK(count([](double t, const Line::State&) { return t; }) == 0);
+    CHECK(count([](double t, const Line::State&) { return (t - 0.6) * (t - 0.6); }) == 0);
+    CHECK(count([](double t, const Line::State&) { return (t - 0.6) * (t - 0.7); }) == 0); // both in one fixed step
+    CHECK(count([](double t, const Line::State&) { return (t - 0.6) * (t - 0.8); }) == 2);
+    CHECK(count([](double, const Line::State&) { return std::nan(""); }) == 0);
+}

@@ -310,3 +310,56 @@ TEST_CASE("Every method runs in float, double and long double, each to its own a
     all(Dop853{.tolerance = 1e-6}, 1e-4);
     check(0.0L, Dop853{.tolerance = 1e-18}, 1e-16);
 }
+
+TEST_CASE("Rows that run against the run, or are no numbers, are refused; equal rows are repeated")
+{
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const auto status = [](std::vector<double> at, double end) {
+        return integrate(Pendulum{}, start, {0.0, end}, Dop853{}, {.at = at}).status();
+    };
+    CHECK(status({0.5, 0.25}, 1) == Status::invalid_input);
+    CHECK(status({0.25, 0.5}, -1) == Status::invalid_input);
+    CHECK(status({0.25, nan}, 1) == Status::invalid_input);
+    CHECK(status({-0.25, -0.5}, -1) == Status::ok);
+    const std::array<double, 3> twice{0.5, 0.5, 1};
+    const auto run = integrate(Pendulum{}, start, {0.0, 1.0}, Rk4{.step = 0.3}, {.at = twice});
+    REQUIRE(run.states.size() == 3);
+    CHECK(run.states[0] == run.states[1]);
+}
+
+TEST_CASE("max_step is a cap also for the last step, and a first step beyond the interval is cut to it")
+{
+    std::vector<double> seen;
+    auto observer = [&](double t, const State&) { seen.push_back(t); };
+    const auto run = integrate(Pendulum{}, start, {0.0, 1.005},
+                               Dop853{.tolerance = 1e9, .first_step = 1, .max_step = 1}, {}, observer);
+    CHECK(run.steps == 2);
+    for (std::size_t k = 1; k < seen.size(); ++k) CHECK(seen[k] - seen[k - 1] <= 1);
+    const auto one = integrate(Pendulum{}, start, {0.0, 0.1}, Dop853{.tolerance = 1e9, .first_step = 50});
+    CHECK(one.steps == 1);
+    CHECK(one.t == 0.1);
+    CHECK(integrate(Pendulum{}, start, {0.0, 0.1}, Rk4{.step = 50}).steps == 1);
+}
+
+TEST_CASE("One of the two tolerances may be zero, and rows do not count as steps")
+{
+    const auto relative = integrate(Pendulum{}, start, {0.0, 5.0}, Dop853{.relative = 1e-10, .absolute = 0});
+    const auto absolute = integrate(Pendulum{}, start, {0.0, 5.0}, Dop853{.relative = 0, .absolute = 1e-10});
+    CHECK(relative.status() == Status::ok);
+    CHECK(absolute.status() == Status::ok);
+    CHECK((relative.state - absolute.state).norm() < 1e-8);
+    CHECK(relative.state != absolute.state);
+    std::vector<double> many;
+    for (int k = 0; k <= 1000; ++k) many.push_back(k * 5e-3);
+    const auto rows = integrate(Pendulum{}, start, {0.0, 5.0}, Rk4{.step = 1}, {.at = many, .max_steps = 5});
+    CHECK(rows.status() == Status::ok);
+    CHECK(rows.states.size() == 1001);
+}
+
+TEST_CASE("Steps that are lost in the rounding of time end with the cap on steps and the start as state")
+{
+    const auto run = integrate(Pendulum{}, start, {1.0, 2.0}, Rk4{.step = 1e-300}, {.max_steps = 1000});
+    CHECK(run.status() == Status::too_many_steps);
+    CHECK(run.t == 1.0);
+    CHECK((run.state - start).norm() < 1e-12);
+}

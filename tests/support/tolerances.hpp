@@ -10,7 +10,10 @@ namespace lagen::tolerance {
 inline constexpr double exact = 0.0;
 
 /// k roundings of relative size epsilon, one after another.
-constexpr double roundoff(double k) { return k * std::numeric_limits<double>::epsilon(); }
+constexpr double roundoff(double k)
+{
+    return k * std::numeric_limits<double>::epsilon();
+}
 
 /// Central finite differences with step eps^(1/3): truncation and cancellation balance near eps^(2/3).
 inline constexpr double difference = 1e-9;

@@ -24,9 +24,10 @@
 ///   row after row
 ///   --report FILE         where the report goes ("-": standard error)
 ///
-/// A row is t, then the columns. Rows appear while the run goes on, at exactly the times asked for; where an event stops
-/// the run, one more row stands at the end, at the time of the event (unless that was asked for anyway). The report, at the end of every run, has lines
-/// KEY=VALUE in this order, numbers by %.17g, those in brackets only where the model has the part:
+/// A row is t, then the columns. Rows appear while the run goes on, at exactly the times asked for; where an event
+/// stops the run, one more row stands at the end, at the time of the event (unless that was asked for anyway). The
+/// report, at the end of every run, has lines KEY=VALUE in this order, numbers by %.17g, those in brackets only where
+/// the model has the part:
 ///   status=ok             as to_text(Status)
 ///   t=10                  time of the last good state
 ///   failed_at=10          time at which the run met what ended it; the same as t where nothing failed
@@ -247,7 +248,8 @@ int drive(int argc, char** argv)
     Method method{};
     detail::Complaint complaint = detail::read_arguments(argc, argv, given);
     if (complaint.empty()) complaint = detail::make_plan(given, plan, method);
-    if (!complaint.empty()) return detail::complain(complaint, complaint.starts_with("--at-file") && complaint.ends_with("opened") ? 5 : 4);
+    if (!complaint.empty())
+        return detail::complain(complaint, complaint.starts_with("--at-file") && complaint.ends_with("opened") ? 5 : 4);
 
     std::signal(SIGINT, detail::lagen_drive_interrupt);
     std::signal(SIGTERM, detail::lagen_drive_interrupt);

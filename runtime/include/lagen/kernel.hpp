@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// THE contract between generated headers and the runtime. A generated class satisfies `RightHandSide`; integrators ask for
-/// nothing else. Kernels are noexcept, allocate nothing, and answer a typed status.
+/// THE contract between generated headers and the runtime. A generated class satisfies `RightHandSide`; integrators ask
+/// for nothing else. Kernels are noexcept, allocate nothing, and answer a typed status.
 #pragma once
 
 #include "lagen/status.hpp"
@@ -63,38 +63,53 @@ inline constexpr bool is_pack = RealOf<Scalar>::lanes != 1;
 /// A right-hand side: M::Scalar, M::State (an Eigen column), M::dimension, and
 ///   status_t<Scalar> rhs(Scalar t, const State& s, State& ds) const noexcept.
 template <class M>
-concept RightHandSide = requires(const M& model, typename M::Scalar t, const typename M::State& s, typename M::State& ds) {
-    { M::dimension } -> std::convertible_to<int>;
-    { model.rhs(t, s, ds) } noexcept -> std::same_as<status_t<typename M::Scalar>>;
+concept RightHandSide = requires(const M& model, typename M::Scalar t, const typename M::State& s,
+                                 typename M::State& ds)
+{
+    {
+        M::dimension
+        } -> std::convertible_to<int>;
+    {
+        model.rhs(t, s, ds)
+    }
+    noexcept->std::same_as<status_t<typename M::Scalar>>;
 };
 
 /// Kernels with optional parts; `count` of each is a static constexpr and its names an array of C strings.
 template <class M>
-concept HasEnergy = requires(const M& model, typename M::Scalar t, const typename M::State& s) {
-    { model.energy(t, s) } noexcept -> std::convertible_to<typename M::Scalar>;
+concept HasEnergy = requires(const M& model, typename M::Scalar t, const typename M::State& s)
+{
+    {
+        model.energy(t, s)
+    }
+    noexcept->std::convertible_to<typename M::Scalar>;
 };
 
 template <class M>
-concept HasEvents = requires(const M& model, typename M::Scalar t, const typename M::State& s) {
+concept HasEvents = requires(const M& model, typename M::Scalar t, const typename M::State& s)
+{
     M::events_names;
     model.events(t, s);
 };
 
 template <class M>
-concept HasConstraints = requires(const M& model, typename M::Scalar t, const typename M::State& s) {
+concept HasConstraints = requires(const M& model, typename M::Scalar t, const typename M::State& s)
+{
     model.constraints(t, s);
 };
 
 /// Strict inequalities of the domain as values that must be positive (a != b: its square).
 template <class M>
-concept HasDomain = requires(const M& model, typename M::Scalar t, const typename M::State& s) {
+concept HasDomain = requires(const M& model, typename M::Scalar t, const typename M::State& s)
+{
     model.domain(t, s);
 };
 
 /// Sparse Jacobian of the right-hand side: values with constexpr row and column arrays.
 template <class M>
 concept HasJacobian = requires(const M& model, typename M::Scalar t, const typename M::State& s,
-                               std::array<typename M::Scalar, M::jacobian_rows.size()>& values) {
+                               std::array<typename M::Scalar, M::jacobian_rows.size()>& values)
+{
     model.jacobian_values(t, s, values);
     M::jacobian_columns;
 };

@@ -11,14 +11,14 @@ enum class Status : std::uint8_t {
     ok = 0,
     singular_mass_matrix, ///< a factorisation met a (numerically) singular matrix
     newton_diverged,
-    left_domain,          ///< a strict inequality of the model's domain was violated
+    left_domain, ///< a strict inequality of the model's domain was violated
     step_too_small,
-    non_finite,           ///< a state or a derivative is not a number or infinite
+    non_finite, ///< a state or a derivative is not a number or infinite
     too_many_steps,
-    stopped_by_event,     ///< not a failure: an event with stop = true
+    stopped_by_event, ///< not a failure: an event with stop = true
     interrupted,
-    invalid_input,        ///< a step, tolerance or interval that makes no sense (not positive, not finite)
-    not_separable,        ///< a partitioned method was asked for, but xdot depends on x or ydot on y
+    invalid_input, ///< a step, tolerance or interval that makes no sense (not positive, not finite)
+    not_separable, ///< a partitioned method was asked for, but xdot depends on x or ydot on y
 };
 
 /// True where the computation may go on or ended as asked.

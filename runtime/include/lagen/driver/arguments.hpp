@@ -161,7 +161,8 @@ inline Complaint check_order(const std::vector<double>& times, bool backward)
     for (std::size_t k = 1; k < times.size(); ++k)
         if (backward ? times[k] > times[k - 1] : times[k] < times[k - 1]) {
             char text[160];
-            std::snprintf(text, sizeof text, "--at-file: %.17g stands after %.17g, times in the direction of the run are required",
+            std::snprintf(text, sizeof text,
+                          "--at-file: %.17g stands after %.17g, times in the direction of the run are required",
                           times[k], times[k - 1]);
             return text;
         }

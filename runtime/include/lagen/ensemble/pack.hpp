@@ -76,6 +76,8 @@ struct Pack {
     Pack() noexcept : lanes{} {}
     /// The same value in every lane.
     Pack(T value) noexcept : lanes(Vector{} + value) {}
+    /// A literal of generated code, S(0.5), rounded to a lane of float.
+    explicit Pack(double value) noexcept requires(!std::is_same_v<T, double>) : Pack(static_cast<T>(value)) {}
     /// An integer literal in every lane.
     Pack(int value) noexcept requires(!std::is_same_v<T, int>) : Pack(static_cast<T>(value)) {}
     explicit Pack(const std::array<T, static_cast<std::size_t>(N)>& values) noexcept : lanes{}

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-/// Coefficients of DOP853, the 8(5,3) pair with dense output of order 7 of Dormand and Prince as Hairer, Norsett and Wanner
-/// published it [Solving Ordinary Differential Equations I, II.10; code dop853.f]: decimals of 30 digits. Machine-written.
+/// Coefficients of DOP853, the 8(5,3) pair with dense output of order 7 of Dormand and Prince as Hairer, Norsett and
+/// Wanner published it [Solving Ordinary Differential Equations I, II.10; code dop853.f]: decimals of 30 digits.
+/// Machine-written.
 #pragma once
 
 #include "lagen/integrate/tableau.hpp"

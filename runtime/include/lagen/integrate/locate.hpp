@@ -26,9 +26,9 @@ Bracket<Real> locate_crossing(Real a, Real ga, Real b, Real gb, Real width, cons
         Real x = (a + b) / Real(2);
         if (trial % 3 != 2 && gb != ga) {
             // A trial within the width of an end would not shrink the bracket below it: step just inside.
-            const Real least = std::min(width, (b - a) / Real(2)) * Real(0.75);
+            const Real least = std::min<Real>(width, (b - a) / Real(2)) * Real(0.75);
             const Real secant = b - gb * (b - a) / (gb - ga);
-            if (secant > a && secant < b) x = std::clamp(secant, a + least, b - least);
+            if (secant > a && secant < b) x = std::clamp<Real>(secant, a + least, b - least);
         }
         if (!(x > a && x < b)) break;
         const Real g = value(x);

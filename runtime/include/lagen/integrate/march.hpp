@@ -24,7 +24,7 @@ class March {
     using Real = real_t<Scalar>;
     using State = typename M::State;
     using Stepper = typename Method::template Stepper<M>;
-    static constexpr Real epsilon = std::numeric_limits<Real>::epsilon();
+    static Real epsilon() noexcept { return std::numeric_limits<Real>::epsilon(); }
     /// Adaptive steps are long and their interpolants cheap: events are looked for in four pieces of each.
     static constexpr int pieces = Stepper::adaptive ? 4 : 1;
 
@@ -58,7 +58,7 @@ class March {
 
   private:
     static Real size(Real x) noexcept { return x < Real(0) ? -x : x; }
-    Real reach() const noexcept { return std::max(size(span_.start), size(span_.end)); }
+    Real reach() const noexcept { return std::max<Real>(size(span_.start), size(span_.end)); }
 
     // ---- start ----
 
@@ -155,7 +155,7 @@ class March {
             if (cap > Real(0) && reaches > cap) reaches = cap;
             last = reaches >= rest;
         } else {
-            last = rest <= length + Real(8) * epsilon * reach();
+            last = rest <= length + Real(8) * epsilon() * reach();
         }
         if (last) length = rest;
         return {forward_ ? length : -length, last};
@@ -212,8 +212,8 @@ class March {
     /// so.
     Status size_verdict(Status reason, Real t1) noexcept
     {
-        const Real scale = std::max(size(t_), epsilon * size(span_.end - span_.start));
-        if (Real(0.1) * h_ > epsilon * scale) return Status::ok;
+        const Real scale = std::max<Real>(size(t_), epsilon() * size(span_.end - span_.start));
+        if (Real(0.1) * h_ > epsilon() * scale) return Status::ok;
         run_.failed_at = t1;
         if constexpr (HasDomain<M> && Stepper::adaptive) {
             inner_ = s_ + failed_length_ * stepper_.derivative();
@@ -266,7 +266,7 @@ class March {
 
     Real theta_width(Real h) const noexcept
     {
-        return std::max(Real(2) * epsilon, epsilon * std::max(size(t_), size(t_ + h)) / size(h));
+        return std::max<Real>(Real(2) * epsilon(), epsilon() * std::max<Real>(size(t_), size(t_ + h)) / size(h));
     }
 
     std::pair<Real, const State*> inside(Real theta, Real h, Real t1) noexcept
@@ -286,7 +286,7 @@ class March {
         rows_until(end, [&](Real time) {
             // A row within rounding of the step's end is the step's end.
             Real x = (time - t_) / h;
-            if (x > theta || size(time - end) <= Real(4) * epsilon * reach()) x = theta;
+            if (x > theta || size(time - end) <= Real(4) * epsilon() * reach()) x = theta;
             return inside(x, h, t1).second;
         });
         const State* s = inside(theta, h, t1).second;
@@ -320,7 +320,7 @@ class March {
     template <class At>
     void rows_until(Real end, const At& at)
     {
-        const Real slack = Real(4) * epsilon * reach();
+        const Real slack = Real(4) * epsilon() * reach();
         while (row_ < options_.at.size()) {
             const Real time = options_.at[row_];
             if (is_after(time, end) && size(time - end) > slack) return;

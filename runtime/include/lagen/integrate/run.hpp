@@ -18,10 +18,10 @@ enum class Crossing { rising, falling, any };
 
 /// An event to look for: entry `index` of the model's `events`, or `when` where that is given.
 /// A crossing is a change of sign, or the arrival at exactly zero, between two looks; a value of exactly zero at the
-/// start of the run is none. Fixed-step methods look at the end of every step, adaptive ones (whose steps are long) four
-/// times a step: an even number of crossings between two looks, and a touch that does not change the sign, are not seen;
-/// a smaller step or a cap `max_step` finds them.
-/// Crossings of one instant are reported in the order of the requests, all of them, also where one stops the run.
+/// start of the run is none. Fixed-step methods look at the end of every step, adaptive ones (whose steps are long)
+/// four times a step: an even number of crossings between two looks, and a touch that does not change the sign, are not
+/// seen; a smaller step or a cap `max_step` finds them. Crossings of one instant are reported in the order of the
+/// requests, all of them, also where one stops the run.
 template <class Real, class State>
 struct EventRequest {
     std::size_t index = 0;

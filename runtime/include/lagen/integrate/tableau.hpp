@@ -72,8 +72,8 @@ template <auto& weights, std::size_t offset, std::size_t... j, class Stages>
     return sum;
 }
 
-/// out = s + h sum_j weights[offset + j] k[j], j < count, lane by lane: one pass and no temporaries. (Measured: the same
-/// sums as Eigen expressions execute a tenth fewer instructions in RK4 and half as many again in DOP853.)
+/// out = s + h sum_j weights[offset + j] k[j], j < count, lane by lane: one pass and no temporaries. (Measured: the
+/// same sums as Eigen expressions execute a tenth fewer instructions in RK4 and half as many again in DOP853.)
 template <auto& weights, std::size_t offset, std::size_t count, class State, class Stages>
 void add_weighted(const State& s, const real_t<typename State::Scalar>& h, const Stages& k, State& out) noexcept
 {
