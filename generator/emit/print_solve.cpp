@@ -47,7 +47,8 @@ std::string define(const SolveContext& context, const std::string& wish, const s
 }
 
 /// 1 / (a00 a11 - a01 a10). Singular where the determinant is a rounding error of its two products, which no scaling
-/// of rows or columns changes.
+/// of rows or columns changes. Products that overflow (entries of 1e155 in double) or vanish (1e-162) are reported as
+/// singular too, as inf <= inf and 0 <= 0; below 1e-292 a product loses digits without a report.
 PrintedFactor print_closed_form(const SolveContext& context, NodeId id, std::size_t number, bool check, bool solved)
 {
     PrintedFactor factor;

@@ -23,6 +23,12 @@ bool is_comparison(Op op)
     return op >= Op::less && op <= Op::not_equal;
 }
 
+/// Written by `select`, so that its type is the scalar's.
+bool is_choice(Op op)
+{
+    return op == Op::select || op == Op::sign || op == Op::minimum || op == Op::maximum || is_comparison(op);
+}
+
 /// b * b * .. * b, at most four factors; the fourth power is the square of the square.
 Spelling repeated(const std::string& base, int count)
 {
@@ -136,7 +142,16 @@ Spelling Speller::function(NodeId id)
     const std::span<const NodeId> operand = graph_.operands(id);
     const auto text = [&](std::size_t k) { return (*this)(operand[k]).text; };
     switch (graph_.op(id)) {
-    case Op::select: return {fmt::format("select({}, {}, {})", condition(operand[0]).text, text(1), text(2)), 5};
+    case Op::select: { // S(..): a scalar with expression templates has another type for every sum
+        const auto value = [&](std::size_t k) {
+            const std::string value_text = text(k);
+            const bool plain =
+                has_name(operand[k]) || is_choice(graph_.op(operand[k])) ||
+                (graph_.is_constant(operand[k]) && print_literal(graph_.value(operand[k])).precedence == 5);
+            return plain && value_text.front() != '(' ? value_text : "S(" + value_text + ")";
+        };
+        return {fmt::format("select({}, {}, {})", condition(operand[0]).text, value(1), value(2)), 5};
+    }
     case Op::minimum:
         return {fmt::format("select({0} < {1}, {0}, {1})", at_least(1, operand[0]), at_least(1, operand[1])), 5};
     case Op::maximum:

@@ -26,6 +26,18 @@ double period()
 
 const State start(1.0, 0.0);
 
+/// x' = 1: in steps of 1/4 every value is exact.
+struct Line {
+    using Scalar = double;
+    using State = Eigen::Matrix<double, 1, 1>;
+    static constexpr int dimension = 1;
+    Status rhs(double, const State&, State& ds) const noexcept
+    {
+        ds[0] = 1;
+        return Status::ok;
+    }
+};
+
 } // namespace
 
 TEST_CASE("Crossings of the pendulum are found to 1e-12 with every dense output")
@@ -114,10 +126,10 @@ TEST_CASE("Events of one instant are all reported, in the order of the requests,
     const auto half = [](double, const State& s) { return s[0] - 0.5; };
     const auto quarter = [](double, const State& s) { return s[0] - 0.25; };
     const std::array<Request, 4> requests{{
-        {.when = half, .stop = true},
+        {.stop = true, .when = half},
         {.when = quarter},
         {.when = half},
-        {.when = half, .stop = true, .count = 2},
+        {.stop = true, .count = 1, .when = half},
     }};
     const auto check = [&](const auto& method) {
         const auto run = integrate(Pendulum{}, start, {0.0, 9.0}, method, {.events = requests});
@@ -138,17 +150,6 @@ TEST_CASE("Events of one instant are all reported, in the order of the requests,
 TEST_CASE(
     "Arriving at zero at the end of a step is one crossing, leaving it none, touching it from above none in between")
 {
-    // x' = 1 in steps of 1/4: every value is exact.
-    struct Line {
-        using Scalar = double;
-        using State = Eigen::Matrix<double, 1, 1>;
-        static constexpr int dimension = 1;
-        Status rhs(double, const State&, State& ds) const noexcept
-        {
-            ds[0] = 1;
-            return Status::ok;
-        }
-    };
     using LineRequest = EventRequest<double, Line::State>;
     const auto count = [](auto function) {
         const std::array<LineRequest, 1> request{{{.when = function}}};

@@ -2,7 +2,8 @@
 /// `lagen::Dop853{.tolerance = 1e-10}`: order 8 with error estimates of order 5 and 3 and dense output of order 7
 /// [Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, II.5 and II.10; code dop853.f].
 /// Twelve calls a step; three more in a step where a value inside it is asked for.
-/// The coefficients are long doubles: with wider scalars the method runs, and its conditions hold to 1e-18, no further.
+/// The coefficients are long doubles. Wider scalars are accepted, but the error stops where the order conditions do:
+/// with 50 digits on Kepler's problem at 3e-20, whatever the tolerance.
 #pragma once
 
 #include "lagen/integrate/control.hpp"

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// What `select` is given has the scalar's own type: scalars with expression templates have one for every sum.
+#include "emit/spell.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace lagen;
+
+TEST_CASE("the branches of a selection are scalars, not expressions")
+{
+    Graph g;
+    const NodeId a = g.input("a");
+    const NodeId b = g.input("b");
+    const NodeId less = g.apply(Op::less, a, b);
+    const auto text = [&](NodeId x, NodeId y) {
+        const NodeId choice = g.select(less, x, y);
+        Speller spell(g); // knows the nodes that are there
+        spell.name(a, "a");
+        spell.name(b, "b");
+        return spell(choice).text;
+    };
+    CHECK(text(a, g.constant(2)) == "select(a < b, a, S(2))");
+    CHECK(text(g.add(a, b), g.constant(Rational(1, 3))) == "select(a < b, S(a + b), S(S(1) / S(3)))");
+    CHECK(text(g.pi(), g.select(less, b, a)) ==
+          "select(a < b, S((S(3.141592653589793) + S(1.2246467991473532e-16))), select(a < b, b, a))");
+}
