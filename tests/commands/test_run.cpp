@@ -146,6 +146,9 @@ TEST_CASE("`observe` says which columns there are; an event that stops a run is 
     CHECK(std::abs(column(value, 1).back() - 3.14159265358979) < 1e-12);
     for (const json::Value& row : value["rows"].entries)
         CHECK(std::abs(number(row[3]) + 1.1 * std::cos(number(row[1]))) <= tolerance::roundoff(8));
+    const json::Value asked = run({"pendulum.toml", "--scene", "first_turn", "--at", "0,0.1,2"});
+    CHECK(asked["status"].text == "stopped_by_event");
+    CHECK(column(asked, 0) == std::vector<double>{0, 0.1}); // rows at exactly these times, the event's is none of them
 }
 
 TEST_CASE("momenta in `initial` start the body whose momenta they are")
