@@ -40,4 +40,8 @@ function(lagen_test_room name)
   target_compile_definitions(test_${name} PRIVATE LAGEN_SOURCE_DIR="${PROJECT_SOURCE_DIR}" LAGEN_BINARY_DIR="${PROJECT_BINARY_DIR}")
   target_link_libraries(test_${name} PRIVATE ${ROOM_LIBRARIES} lagen_settings)
   add_test(NAME ${name} COMMAND test_${name})
+  if(LAGEN_SANITIZE)
+    set_tests_properties(${name} PROPERTIES ENVIRONMENT
+      "LSAN_OPTIONS=suppressions=${CMAKE_CURRENT_FUNCTION_LIST_DIR}/leaks.supp:print_suppressions=0")
+  endif()
 endfunction()

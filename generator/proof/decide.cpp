@@ -72,9 +72,10 @@ std::string joined(const std::string& a, const std::string& b)
     return a.empty() || b.empty() ? a + b : a + "; " + b;
 }
 
-/// "1e-74": the next power of ten above, as a text.
+/// "1e-74": the next power of ten above, as a text; a bound beyond the range of double reads "inf".
 std::string power_of_ten_above(double bound)
 {
+    if (!std::isfinite(bound)) return "inf";
     return "1e" + std::to_string(static_cast<int>(std::ceil(std::log10(bound))));
 }
 
