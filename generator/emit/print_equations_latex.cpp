@@ -40,8 +40,7 @@ const char* latex_function(Function function)
     case Function::maximum: return "\\max";
     case Function::sign: return "\\operatorname{sign}";
     case Function::select: return "\\operatorname{if}";
-    case Function::sqrt:
-    case Function::abs: break;
+    default: break;
     }
     return "";
 }
@@ -75,7 +74,7 @@ class LatexWriter {
         case TreeKind::power: return write_power(tree);
         case TreeKind::call: return write_call(tree);
         case TreeKind::compare: return write_comparison(tree);
-        case TreeKind::apply: break;
+        default: break;
         }
         return {"\\dots", Hold::atom};
     }

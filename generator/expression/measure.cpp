@@ -159,13 +159,8 @@ Measure measure_content(const TreeNode& node, std::span<const Measure> arguments
     case TreeKind::multiply: return measure_product(node, arguments, limits);
     case TreeKind::divide: return measure_quotient(node, arguments[0], arguments[1], limits);
     case TreeKind::power: return measure_power(node, arguments[0], arguments[1], limits);
-    case TreeKind::pi:
-    case TreeKind::name:
-    case TreeKind::call:
-    case TreeKind::apply:
-    case TreeKind::compare: return {};
+    default: return {};
     }
-    return {};
 }
 
 } // namespace

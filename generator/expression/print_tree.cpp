@@ -215,6 +215,11 @@ void Printer::open(const TreeNode& node)
         pending_.push_back({nullptr, Tightness::atom, ")"});
         list(node, ", ", Tightness::comparison);
         break;
+    case TreeKind::solve:
+    case TreeKind::array:
+    case TreeKind::index:
+    case TreeKind::sum_over:
+    case TreeKind::product_over: append("?"); break;
     }
 }
 

@@ -3,6 +3,7 @@
 /// and built-in functions are left.
 #pragma once
 
+#include "expression/array.hpp"
 #include "expression/tree.hpp"
 
 #include <map>
@@ -26,14 +27,24 @@ class Scope {
     /// Declares a symbol. A name declared twice (as symbol or definition) is a ModelError that names both places.
     void declare(const std::string& symbol, const SourceRange& where);
     void define(Definition definition);
+    /// Declares a family: `name` is the vector or matrix, its entries are the symbols entry_name(name, shape, k).
+    void declare_family(const std::string& name, const Shape& shape, const SourceRange& where);
+    /// Declares a size: an integer constant, usable in ranges and expressions alike.
+    void declare_size(const std::string& name, long value, const SourceRange& where);
 
+    /// A declared symbol or entry of a family.
     [[nodiscard]] bool has_symbol(const std::string& name) const;
 
     /// The closed form of `tree`. A definition is expanded once and shared (the same Tree wherever it is used; a
     /// function once for each distinct list of argument trees). Without `nonsmooth`, min max sign if are refused.
     /// Throws ModelError: unknown symbol (with the nearest known name as hint), wrong number of arguments, a cycle
     /// among definitions (the cycle is listed), an expansion of more than 10^6 distinct nodes or deeper than 2000.
+    /// Sums and products are written out, vectors and matrices taken apart, sizes replaced by numbers: the result is
+    /// scalar (an error where it is a vector or matrix).
     [[nodiscard]] Tree close(const Tree& tree, bool nonsmooth = false) const;
+
+    /// The same for an expression that may be a vector or a matrix.
+    [[nodiscard]] ArrayValue close_array(const Tree& tree, bool nonsmooth = false) const;
 
     /// A scope with these extra symbols (as for events and observables, which may also use momenta). A name that this
     /// scope has already keeps its meaning: what a model declares wins.

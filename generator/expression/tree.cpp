@@ -10,15 +10,37 @@ namespace lagen {
 namespace {
 
 constexpr std::array functions{
-    FunctionEntry{Function::sin, "sin", 1, true},      FunctionEntry{Function::cos, "cos", 1, true},
-    FunctionEntry{Function::tan, "tan", 1, true},      FunctionEntry{Function::asin, "asin", 1, true},
-    FunctionEntry{Function::acos, "acos", 1, true},    FunctionEntry{Function::atan, "atan", 1, true},
-    FunctionEntry{Function::atan2, "atan2", 2, true},  FunctionEntry{Function::sinh, "sinh", 1, true},
-    FunctionEntry{Function::cosh, "cosh", 1, true},    FunctionEntry{Function::tanh, "tanh", 1, true},
-    FunctionEntry{Function::exp, "exp", 1, true},      FunctionEntry{Function::log, "log", 1, true},
-    FunctionEntry{Function::sqrt, "sqrt", 1, true},    FunctionEntry{Function::abs, "abs", 1, true},
-    FunctionEntry{Function::minimum, "min", 2, false}, FunctionEntry{Function::maximum, "max", 2, false},
-    FunctionEntry{Function::sign, "sign", 1, false},   FunctionEntry{Function::select, "if", 3, false},
+    FunctionEntry{Function::sin, "sin", 1, true},
+    FunctionEntry{Function::cos, "cos", 1, true},
+    FunctionEntry{Function::tan, "tan", 1, true},
+    FunctionEntry{Function::asin, "asin", 1, true},
+    FunctionEntry{Function::acos, "acos", 1, true},
+    FunctionEntry{Function::atan, "atan", 1, true},
+    FunctionEntry{Function::atan2, "atan2", 2, true},
+    FunctionEntry{Function::sinh, "sinh", 1, true},
+    FunctionEntry{Function::cosh, "cosh", 1, true},
+    FunctionEntry{Function::tanh, "tanh", 1, true},
+    FunctionEntry{Function::exp, "exp", 1, true},
+    FunctionEntry{Function::log, "log", 1, true},
+    FunctionEntry{Function::sqrt, "sqrt", 1, true},
+    FunctionEntry{Function::abs, "abs", 1, true},
+    FunctionEntry{Function::minimum, "min", 2, false},
+    FunctionEntry{Function::maximum, "max", 2, false},
+    FunctionEntry{Function::sign, "sign", 1, false},
+    FunctionEntry{Function::select, "if", 3, false},
+    FunctionEntry{Function::stumpff, "stumpff", 2, true},
+    FunctionEntry{Function::dot, "dot", 2, true, true},
+    FunctionEntry{Function::cross, "cross", 2, true, true},
+    FunctionEntry{Function::norm, "norm", 1, true, true},
+    FunctionEntry{Function::trace, "trace", 1, true, true},
+    FunctionEntry{Function::transpose, "transpose", 1, true, true},
+    FunctionEntry{Function::det, "det", 1, true, true},
+    FunctionEntry{Function::inverse, "inverse", 1, true, true},
+    FunctionEntry{Function::diag, "diag", 1, true, true},
+    FunctionEntry{Function::identity, "identity", 1, true, true},
+    FunctionEntry{Function::hat, "hat", 1, true, true},
+    FunctionEntry{Function::vee, "vee", 1, true, true},
+    FunctionEntry{Function::cay, "cay", 1, true, true},
 };
 
 Tree node(TreeKind kind, std::vector<Tree> arguments)
@@ -147,6 +169,16 @@ const char* spelling(Comparison comparison)
     case Comparison::not_equal: return "!=";
     }
     return "?";
+}
+
+Tree solve_component(std::vector<Tree> matrix, const std::vector<Tree>& right, std::size_t k)
+{
+    auto result = std::make_shared<TreeNode>();
+    result->kind = TreeKind::solve;
+    result->number = Rational(static_cast<unsigned long>(k));
+    result->arguments = std::move(matrix);
+    result->arguments.insert(result->arguments.end(), right.begin(), right.end());
+    return result;
 }
 
 } // namespace lagen

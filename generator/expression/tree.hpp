@@ -37,13 +37,28 @@ enum class Function {
     maximum,
     sign,
     select,
+    stumpff, ///< stumpff(k, z) = sum_j (-z)^j / (2j+k)!, k a literal 0 .. 32; what exp(hat(v)) and its derivatives need
+    // Of vectors and matrices; gone after closing.
+    dot,
+    cross,
+    norm,
+    trace,
+    transpose,
+    det,
+    inverse,
+    diag,
+    identity,
+    hat,
+    vee,
+    cay,
 };
 
 struct FunctionEntry {
     Function function;
     const char* name;
     std::size_t arity;
-    bool smooth; ///< false: allowed in observables, forces and events only
+    bool smooth;        ///< false: allowed in observables, forces and events only
+    bool array = false; ///< takes or gives vectors or matrices; closing replaces it by scalars
 };
 
 /// Every built-in function, in the order of the enumeration.
@@ -65,6 +80,12 @@ enum class TreeKind {
     call,     ///< built-in `function` of the arguments
     apply,    ///< a function of the model, `name`(arguments); gone after expansion
     compare,  ///< arguments[0] `comparison` arguments[1]; in domains and in the condition of if(c, a, b)
+    solve,    ///< component `number` (from 0) of A^-1 b: arguments are the m*m entries of A by rows, then the m of b
+    // Gone after closing:
+    array,        ///< [a, b, c]; a matrix is an array of arrays, its rows
+    index,        ///< arguments[0] [ arguments[1] ] or [ arguments[1], arguments[2] ], counted from 1
+    sum_over,     ///< sum(`name`, arguments[0], arguments[1], arguments[2]): from, to, body; empty: 0
+    product_over, ///< product(..), likewise; empty: 1
 };
 
 struct TreeNode;
@@ -73,7 +94,7 @@ using Tree = std::shared_ptr<const TreeNode>;
 struct TreeNode {
     TreeKind kind = TreeKind::number;
     Rational number;                          ///< of `number`
-    std::string name;                         ///< of `name` and `apply`
+    std::string name;                         ///< of `name` and `apply`; the index of `sum_over`, `product_over`
     Function function = Function::sin;        ///< of `call`
     Comparison comparison = Comparison::less; ///< of `compare`
     std::vector<Tree> arguments;
@@ -94,6 +115,8 @@ struct TreeNode {
 [[nodiscard]] Tree compare(Comparison comparison, Tree a, Tree b);
 [[nodiscard]] Tree constant_pi(SourceRange where = {});
 [[nodiscard]] Tree application(std::string function, std::vector<Tree> arguments); ///< TreeKind::apply
+/// Component k (from 0) of A^-1 b; `matrix` has m*m entries by rows, `right` m.
+[[nodiscard]] Tree solve_component(std::vector<Tree> matrix, const std::vector<Tree>& right, std::size_t k);
 
 /// "<", "<=", ">", ">=", "==", "!=".
 [[nodiscard]] const char* spelling(Comparison comparison);

@@ -13,9 +13,12 @@ bool same_node(const TreeNode& a, const TreeNode& b)
 {
     if (a.kind != b.kind || a.arguments.size() != b.arguments.size()) return false;
     switch (a.kind) {
-    case TreeKind::number: return a.number == b.number;
+    case TreeKind::number:
+    case TreeKind::solve: return a.number == b.number;
     case TreeKind::name:
-    case TreeKind::apply: return a.name == b.name;
+    case TreeKind::apply:
+    case TreeKind::sum_over:
+    case TreeKind::product_over: return a.name == b.name;
     case TreeKind::call: return a.function == b.function;
     case TreeKind::compare: return a.comparison == b.comparison;
     default: return true;

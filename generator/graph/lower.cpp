@@ -103,9 +103,9 @@ NodeId combine(Graph& graph, const TreeNode& tree, std::span<const NodeId> argum
     case TreeKind::power: return lower_power(graph, tree, arguments[0], arguments[1]);
     case TreeKind::call: return lower_call(graph, tree, arguments);
     case TreeKind::compare: return graph.apply(op_of(tree.comparison), arguments[0], arguments[1]);
-    case TreeKind::apply: break;
+    default: break;
     }
-    throw InternalError("lowering wants a closed tree, found a use of the model's function " + tree.name);
+    throw InternalError("lowering wants a closed scalar tree, found " + (tree.name.empty() ? "a vector" : tree.name));
 }
 
 } // namespace

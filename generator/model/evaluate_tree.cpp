@@ -83,6 +83,7 @@ Dual call_function(Function function, const std::vector<Dual>& args)
     case Function::maximum: return args[1].value > x ? args[1] : a;
     case Function::sign: return {x > 0 ? 1.0L : x < 0 ? -1.0L : x, 0};
     case Function::select: return x != 0 ? args[1] : args[2];
+    default: break;
     }
     throw InternalError("a function without a value");
 }
@@ -137,7 +138,7 @@ class Evaluation {
         case TreeKind::power: return real_power(args[0], args[1]);
         case TreeKind::call: return call_function(node.function, args);
         case TreeKind::compare: return {holds(node.comparison, args[0].value, args[1].value) ? 1.0L : 0.0L, 0};
-        case TreeKind::apply: break;
+        default: break;
         }
         throw InternalError(fmt::format("the tree of '{}' is not closed", node.name));
     }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The record of a model file: names in the order of the file, exact numbers, closed trees, positions.
 /// It knows no geometry: the bracket of a `tangent` algebroid is simply absent here.
-/// Names of families, sizes, groupoids and control blocks have their place in the file format and join this record
-/// with the features that use them.
+/// Families are flattened: the entries x[1], x[2], .. of a family are symbols of the lists below, in order; `families`
+/// remembers which belong together. Groupoids and control blocks join this record with the features that use them.
 #pragma once
 
 #include "expression/scope.hpp"
@@ -23,6 +23,24 @@ struct Symbol {
     std::string text;
     std::string unit;
     std::string latex;
+};
+
+/// `n = 8` of [sizes], or its value from the command line.
+struct Size {
+    std::string name;
+    long value;
+    SourceRange where;
+};
+
+enum class FamilyRole { parameter, base, fibre, momentum };
+
+/// A vector or matrix of declared symbols: entries first, first + 1, .. (by rows) of the list of its role.
+struct Family {
+    std::string name;
+    FamilyRole role;
+    Shape shape;
+    std::size_t first;
+    SourceRange where;
 };
 
 /// A name with a closed tree: an observable, an invariant, a Casimir, an initial value.
@@ -64,15 +82,41 @@ struct BracketEntry {
     SourceRange where;
 };
 
-enum class AlgebroidKind { general, tangent, lie_algebra, action };
+/// e'_section = value * e_inner + ..: a row of the matrix A of a frame, e'_a = A_a^b e_b.
+struct SectionEntry {
+    std::size_t section; ///< a, of this block's fibre
+    std::size_t inner;   ///< b, of the inner block's fibre
+    Tree value;
+    SourceRange where;
+};
 
+/// A_i^c: the connection's component on the vertical section `section` along the base coordinate `coordinate`.
+struct ConnectionEntry {
+    std::size_t coordinate; ///< i
+    std::size_t section;    ///< c, of this block's fibre (a vertical one)
+    Tree value;
+    SourceRange where;
+};
+
+enum class AlgebroidKind { general, tangent, lie_algebra, action, subbundle, atiyah, frame, product, prolongation };
+
+/// One [algebroid] or [algebroid.of] table. The outermost block's fibre is the model's; inner blocks have their own.
+/// Sections are numbers of this block's `fibre`; base coordinates are numbers of Model::base.coordinates.
 struct AlgebroidBlock {
     AlgebroidKind kind = AlgebroidKind::general;
-    std::string algebra; ///< a named Lie algebra (lie_algebra, action), or empty
+    std::vector<Symbol> fibre;     ///< e_a of this block
+    std::vector<std::size_t> base; ///< the coordinates of its own base, in order
+    std::string algebra;           ///< a named Lie algebra (lie_algebra, action, atiyah), or empty
     SourceRange algebra_where;
-    std::vector<std::size_t> over;     ///< tangent: the base coordinates that move, in order
-    std::vector<AnchorEntry> anchor;   ///< general, action
-    std::vector<BracketEntry> bracket; ///< general, lie_algebra, action
+    std::vector<std::size_t> over;          ///< tangent: the base coordinates that move, in order
+    std::vector<AnchorEntry> anchor;        ///< general, action; subbundle: spanned_by
+    std::vector<BracketEntry> bracket;      ///< general, lie_algebra, action; atiyah: of its vertical sections
+    std::vector<ArrayValue> representation; ///< action: A_a, rho_a = -(A_a x)^i d/dx^i
+    SourceRange representation_where;
+    std::vector<ConnectionEntry> connection; ///< atiyah
+    std::vector<SectionEntry> sections;      ///< frame
+    bool dual = false;                       ///< prolongation: bundle = "E*"
+    std::vector<AlgebroidBlock> of;          ///< frame, prolongation: one; product: its factors
     SourceRange where;
 };
 
@@ -120,7 +164,10 @@ struct Model {
     SourceRange name_where;
     std::string title;
     std::shared_ptr<const SourceFile> file;
+    std::vector<std::shared_ptr<const SourceFile>> included; ///< files named by `of`, in order of first use, no twice
 
+    std::vector<Size> sizes;
+    std::vector<Family> families;
     std::vector<Parameter> parameters;
     Base base;
     Fibre fibre;

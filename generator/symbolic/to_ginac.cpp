@@ -49,10 +49,7 @@ GiNaC::ex apply_function(const TreeNode& node, const std::vector<GiNaC::ex>& a)
     case Function::log: return GiNaC::log(a[0]);
     case Function::sqrt: return GiNaC::sqrt(a[0]);
     case Function::abs: return GiNaC::abs(a[0]);
-    case Function::minimum:
-    case Function::maximum:
-    case Function::sign:
-    case Function::select: break;
+    default: break;
     }
     throw MathematicsError(std::string("the function ") + entry_of(node.function).name +
                            " is not smooth, so that nothing is derived from it symbolically");
@@ -122,8 +119,7 @@ class ToGinac {
             return a[0] / a[1];
         case TreeKind::power: return GiNaC::pow(a[0], a[1]);
         case TreeKind::call: return apply_function(node, a);
-        case TreeKind::apply:
-        case TreeKind::compare: break;
+        default: break;
         }
         throw MathematicsError("a comparison or a function of the model stands where a smooth expression is needed");
     }

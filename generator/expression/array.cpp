@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Texts of shapes and names of entries.
+#include "expression/array.hpp"
+
+#include <fmt/format.h>
+
+namespace lagen {
+
+std::string to_text(const Shape& shape)
+{
+    switch (shape.rank) {
+    case Rank::scalar: break;
+    case Rank::vector: return fmt::format("a vector of {}", shape.rows);
+    case Rank::matrix: return fmt::format("a {} x {} matrix", shape.rows, shape.columns);
+    }
+    return "a scalar";
+}
+
+std::string entry_name(const std::string& name, const Shape& shape, std::size_t k)
+{
+    switch (shape.rank) {
+    case Rank::scalar: break;
+    case Rank::vector: return fmt::format("{}[{}]", name, k + 1);
+    case Rank::matrix: return fmt::format("{}[{},{}]", name, k / shape.columns + 1, k % shape.columns + 1);
+    }
+    return name;
+}
+
+} // namespace lagen
