@@ -41,11 +41,12 @@ std::string first_with(const VerifiedAlgebroid& verified, ProofStatus status)
     return verified.note;
 }
 
-/// The model's content: its file, and what the command line changed in it.
+/// The model's content: its file, the files that it includes, and what the command line changed in it.
 std::string hash_of(const CheckedModel& checked)
 {
     ContentHash hash;
     hash.add(checked.model.file->text);
+    for (const auto& file : checked.model.included) hash.add(file->text);
     for (const Setting& setting : checked.settings) hash.add(setting.name).add(setting.value.text);
     return hash.hex16();
 }
@@ -103,8 +104,10 @@ CheckedModel load(const std::string& path, const std::vector<Setting>& settings,
         }
         checked.warnings.push_back(fmt::format("this model is REFUTED: {}", what));
     } else if (verified.verdict == Verdict::undecided) {
-        checked.warnings.push_back(
-            fmt::format("this model is not proved: {} is undecided", first_with(verified, ProofStatus::undecided)));
+        const std::string what = first_with(verified, ProofStatus::undecided);
+        checked.warnings.push_back(what == verified.note
+                                       ? fmt::format("this model is not proved: {}", what)
+                                       : fmt::format("this model is not proved: {} is undecided", what));
     }
     return checked;
 }

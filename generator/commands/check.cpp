@@ -2,6 +2,7 @@
 /// `lagen check`: decides every claim of the models named.
 #include "commands/command.hpp"
 #include "commands/options.hpp"
+#include "commands/places.hpp"
 #include "commands/report_check.hpp"
 #include "commands/write_file.hpp"
 #include "expression/parse.hpp"
@@ -12,13 +13,17 @@ namespace lagen {
 
 namespace {
 
-const CommandSyntax syntax{"check",
-                           "MODEL...",
-                           "Decides the structure equations, tangency, Casimirs and invariants: each proved, refuted "
-                           "at a point, or undecided.",
-                           {{"invariant", "EXPR", "decide also whether this function is conserved (may be repeated)"},
-                            {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
-                            {"format,f", "FORMAT", "text or json", "text"}}};
+const CommandSyntax check_syntax{
+    "check",
+    "MODEL...",
+    "Decides the structure equations, tangency, Casimirs and invariants: each proved, refuted "
+    "at a point, or undecided.",
+    {{"invariant", "EXPR", "decide also whether this function is conserved (may be repeated)"},
+     {"verify", nullptr, "evaluate every residual again, at other points and to 60 digits"},
+     {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
+     {"format,f", "FORMAT", "text or json", "text"}}};
+
+constexpr std::size_t reevaluation_points = 5;
 
 std::vector<NamedTree> extra_invariants(const Options& options, const Model& model)
 {
@@ -26,7 +31,9 @@ std::vector<NamedTree> extra_invariants(const Options& options, const Model& mod
     const Scope& scope = model.observer;
     for (const std::string& text : options.all("invariant")) {
         const Tree tree = parse_expression(whole_text("<--invariant>", text));
-        invariants.push_back({text, scope.close(tree), tree->where});
+        const ArrayValue value = scope.close_array(tree);
+        for (std::size_t k = 0; k < value.entries.size(); ++k)
+            invariants.push_back({value_name(text, value.shape, k), value.entries[k], tree->where});
     }
     return invariants;
 }
@@ -45,8 +52,9 @@ ExitCode code_of(Verdict verdict)
 ExitCode check_one(const std::string& path, const Options& options, std::string& text, JsonWriter* json)
 {
     try {
-        const Model model = read_model(path, options.settings());
-        const VerifiedAlgebroid verified = verify(model, extra_invariants(options, model));
+        const Model model = read_model(model_path(path), options.settings());
+        const std::size_t points = options.has("verify") ? reevaluation_points : 0;
+        const VerifiedAlgebroid verified = verify(model, extra_invariants(options, model), points);
         if (json != nullptr) {
             report_json(*json, model.name, verified);
         } else {
@@ -80,7 +88,7 @@ ExitCode worst(ExitCode a, ExitCode b)
 
 ExitCode run_check(Arguments arguments)
 {
-    const Options options(syntax, arguments);
+    const Options options(check_syntax, arguments);
     if (options.help()) return ExitCode::done;
     const bool as_json = options.choice("format", {"text", "json"}) == "json";
     const bool list = options.positional().size() > 1;

@@ -2,6 +2,7 @@
 /// `lagen derive`: the equations, for a person.
 #include "commands/command.hpp"
 #include "commands/options.hpp"
+#include "commands/places.hpp"
 #include "commands/write_file.hpp"
 #include "emit/print_equations.hpp"
 #include "pipeline.hpp"
@@ -12,24 +13,24 @@ namespace lagen {
 
 namespace {
 
-const CommandSyntax syntax{"derive",
-                           "MODEL",
-                           "Prints the equations of motion.",
-                           {{"form", "FORM", "lagrange", "lagrange"},
-                            {"output,o", "FILE", "write there instead of to standard output"},
-                            {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
-                            {"format,f", "FORMAT", "text, latex or json", "text"}}};
+const CommandSyntax derive_syntax{"derive",
+                                  "MODEL",
+                                  "Prints the equations of motion.",
+                                  {{"form", "FORM", "lagrange", "lagrange"},
+                                   {"output,o", "FILE", "write there instead of to standard output"},
+                                   {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
+                                   {"format,f", "FORMAT", "text, latex or json", "text"}}};
 
 } // namespace
 
 ExitCode run_derive(Arguments arguments)
 {
-    const Options options(syntax, arguments);
+    const Options options(derive_syntax, arguments);
     if (options.help()) return ExitCode::done;
     const std::string format = options.choice("format", {"text", "latex", "json"});
     (void)options.choice("form", {"lagrange"});
     // A refuted model has equations too, and reading them may show why; they come with the warning.
-    const CheckedModel checked = load(options.positional()[0], options.settings(), true);
+    const CheckedModel checked = load(model_path(options.positional()[0]), options.settings(), true);
     for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
     if (checked.verified.regularity.kind == Regularity::Kind::degenerate)
         write_standard_error(

@@ -2,6 +2,7 @@
 /// `lagen generate`: the C++ header of a model.
 #include "commands/command.hpp"
 #include "commands/options.hpp"
+#include "commands/places.hpp"
 #include "commands/write_file.hpp"
 #include "emit/json.hpp"
 #include "pipeline.hpp"
@@ -12,17 +13,18 @@ namespace lagen {
 
 namespace {
 
-const CommandSyntax syntax{"generate",
-                           "MODEL",
-                           "Writes the C++ header of a model: right-hand side, mass matrix, energy, momentum, "
-                           "constraints, observables, events.",
-                           {{"output,o", "FILE", "the header; standard output without it"},
-                            {"form", "FORM", "lagrange", "lagrange"},
-                            {"only", "KERNELS", "these kernels alone, e.g. rhs,energy"},
-                            {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
-                            {"unchecked", nullptr, "go on although the model is refuted; the header says so"},
-                            {"format,f", "FORMAT", "text (the header) or json (what it holds, and the header)", "text"},
-                            {"depfile", "FILE", "write a dependency file for make or ninja (needs --output)"}}};
+const CommandSyntax generate_syntax{
+    "generate",
+    "MODEL",
+    "Writes the C++ header of a model: right-hand side, mass matrix, energy, momentum, "
+    "constraints, observables, events.",
+    {{"output,o", "FILE", "the header; standard output without it"},
+     {"form", "FORM", "lagrange", "lagrange"},
+     {"only", "KERNELS", "these kernels alone, e.g. rhs,energy"},
+     {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
+     {"unchecked", nullptr, "go on although the model is refuted; the header says so"},
+     {"format,f", "FORMAT", "text (the header) or json (what it holds, and the header)", "text"},
+     {"depfile", "FILE", "write a dependency file for make or ninja (needs --output)"}}};
 
 /// A path as make and ninja read it in a dependency file.
 std::string escaped(const std::string& path)
@@ -58,12 +60,12 @@ std::string module_json(const Generated& generated)
 
 ExitCode run_generate(Arguments arguments)
 {
-    const Options options(syntax, arguments);
+    const Options options(generate_syntax, arguments);
     if (options.help()) return ExitCode::done;
     const bool as_json = options.choice("format", {"text", "json"}) == "json";
     (void)options.choice("form", {"lagrange"});
     if (options.has("depfile") && !options.has("output")) throw UsageError("lagen generate: --depfile needs --output");
-    const std::string model = options.positional()[0];
+    const std::string model = model_path(options.positional()[0]);
     const CheckedModel checked = load(model, options.settings(), options.has("unchecked"));
     for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
     GenerateRequest request;
@@ -71,8 +73,11 @@ ExitCode run_generate(Arguments arguments)
     const std::string output = options.has("output") ? options.get("output") : "-";
     const Generated generated = generate(checked, request);
     write_file(output, as_json ? module_json(generated) : generated.header);
-    if (options.has("depfile"))
-        write_file(options.get("depfile"), fmt::format("{}: {}\n", escaped(output), escaped(model)));
+    if (options.has("depfile")) {
+        std::string inputs = escaped(model);
+        for (const auto& file : checked.model.included) inputs += " " + escaped(file->name);
+        write_file(options.get("depfile"), fmt::format("{}: {}\n", escaped(output), inputs));
+    }
     return ExitCode::done;
 }
 

@@ -31,7 +31,8 @@ constexpr std::array entries{
     MethodEntry{"yoshida6", "Yoshida6", "6", false, true, "Yoshida 1990, solution A, kick-drift-kick"},
 };
 
-const CommandSyntax syntax{"methods", "", "Lists the integrators.", {{"format,f", "FORMAT", "text or json", "text"}}};
+const CommandSyntax methods_syntax{
+    "methods", "", "Lists the integrators.", {{"format,f", "FORMAT", "text or json", "text"}}};
 
 void method_json(JsonWriter& json, const MethodEntry& entry)
 {
@@ -71,7 +72,7 @@ std::span<const std::string> method_names()
 
 ExitCode run_methods(Arguments arguments)
 {
-    const Options options(syntax, arguments);
+    const Options options(methods_syntax, arguments);
     if (options.help()) return ExitCode::done;
     if (options.choice("format", {"text", "json"}) == "json") {
         JsonWriter json;

@@ -15,7 +15,7 @@ namespace lagen {
 
 namespace {
 
-const CommandSyntax syntax{
+const CommandSyntax models_syntax{
     "models", "", "Lists the example models and their scenes.", {{"format,f", "FORMAT", "text or json", "text"}}};
 
 std::vector<std::string> model_files(const std::string& folder)
@@ -39,7 +39,7 @@ void model_json(JsonWriter& json, const std::string& file, const Model& model)
 
 ExitCode run_models(Arguments arguments)
 {
-    const Options options(syntax, arguments);
+    const Options options(models_syntax, arguments);
     if (options.help()) return ExitCode::done;
     const bool as_json = options.choice("format", {"text", "json"}) == "json";
     const std::string folder = models_folder();

@@ -143,7 +143,7 @@ std::vector<std::string> split_list(const std::string& text)
     std::vector<std::string> entries(1);
     int depth = 0;
     for (const char c : text) {
-        depth += c == '(' ? 1 : c == ')' ? -1 : 0;
+        depth += c == '(' || c == '[' ? 1 : c == ')' || c == ']' ? -1 : 0;
         if (c == ',' && depth == 0) {
             entries.emplace_back();
         } else if (c != ' ' || !entries.back().empty()) {

@@ -57,7 +57,7 @@ class Options {
     std::vector<std::string> positional_;
 };
 
-/// "a,b , c" as {"a", "b", "c"}; commas inside parentheses do not separate.
+/// "a,b , c" as {"a", "b", "c"}; commas inside parentheses and brackets do not separate.
 [[nodiscard]] std::vector<std::string> split_list(const std::string& text);
 
 } // namespace lagen

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/places.hpp"
 
+#include "commands/write_file.hpp"
 #include "diagnostic.hpp"
 
 #include <fmt/core.h>
@@ -75,6 +76,19 @@ std::string models_folder()
     return first_with(
         {environment("LAGEN_MODELS"), prefix() / "share" / "lagen" / "models", fs::path(LAGEN_SOURCE_DIR) / "models"},
         "heavy_top.toml");
+}
+
+std::string model_path(const std::string& given)
+{
+    std::error_code ignored;
+    const bool bare = !given.empty() && given.find_first_of("/.") == std::string::npos;
+    if (!bare || fs::exists(given, ignored) || fs::exists(given + ".toml", ignored)) return given;
+    const std::string folder = models_folder();
+    if (folder.empty()) return given;
+    const fs::path example = fs::path(folder) / (given + ".toml");
+    if (!fs::is_regular_file(example, ignored)) return given;
+    write_standard_error(fmt::format("note: '{}' is the example model {}\n", given, example.string()));
+    return example.string();
 }
 
 std::string cache_folder()

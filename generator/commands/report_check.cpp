@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <array>
+#include <set>
 
 namespace lagen {
 
@@ -49,32 +50,87 @@ std::vector<std::string> kinds_of(const VerifiedAlgebroid& verified)
     return kinds;
 }
 
-std::string summary_line(const VerifiedAlgebroid& verified, const std::string& kind)
+/// How many checks of a kind (of every kind: "") have each status.
+std::array<std::size_t, 3> counts_of(const VerifiedAlgebroid& verified, const std::string& kind)
 {
     std::array<std::size_t, 3> counts{};
     for (const Check& check : verified.checks)
-        if (check.name == kind) ++counts[static_cast<std::size_t>(check.decision.status)];
-    std::string text = fmt::format("  {:<16}", kind);
-    const char* separator = "";
-    for (const ProofStatus status : {ProofStatus::proved, ProofStatus::refuted, ProofStatus::undecided}) {
-        const std::size_t count = counts[static_cast<std::size_t>(status)];
-        if (count == 0) continue;
-        text += fmt::format("{}{} {}", separator, count, to_text(status));
-        separator = ", ";
-    }
-    return text + "\n";
+        if (kind.empty() || check.name == kind) ++counts[static_cast<std::size_t>(check.decision.status)];
+    return counts;
 }
 
-std::string failure_text(const Check& check)
+std::string counts_text(const std::array<std::size_t, 3>& counts)
+{
+    std::string text;
+    for (const ProofStatus status : {ProofStatus::proved, ProofStatus::refuted, ProofStatus::undecided}) {
+        const std::size_t count = counts[static_cast<std::size_t>(status)];
+        if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, to_text(status));
+    }
+    return text;
+}
+
+/// "24 equations zero by structure, 12 proved"
+std::string summary_text(const VerifiedAlgebroid& verified)
+{
+    const std::string counts = counts_text(counts_of(verified, ""));
+    const std::string trivial = verified.trivial == 0 ? ""
+                                                      : fmt::format("{} {} zero by structure", verified.trivial,
+                                                                    verified.trivial == 1 ? "equation" : "equations");
+    if (trivial.empty() && counts.empty()) return "";
+    return fmt::format("  {}{}{}\n", trivial, trivial.empty() || counts.empty() ? "" : ", ", counts);
+}
+
+/// What should vanish, in sections by name; empty for kinds whose name says it.
+std::string equation_text(const Check& check)
+{
+    const std::vector<std::string>& k = check.indices;
+    if (check.name == "antisymmetry" && k.size() == 3)
+        return fmt::format("component {2} of [{0}, {1}] + [{1}, {0}]", k[0], k[1], k[2]);
+    if (check.name == "anchor" && k.size() == 3)
+        return fmt::format("component {2} of [rho({0}), rho({1})] - rho([{0}, {1}])", k[0], k[1], k[2]);
+    if (check.name == "jacobi" && k.size() == 4)
+        return fmt::format("component {3} of [{0}, [{1}, {2}]] + [{1}, [{2}, {0}]] + [{2}, [{0}, {1}]]", k[0], k[1],
+                           k[2], k[3]);
+    if (check.name == "tangency" && k.size() == 2)
+        return fmt::format("rho({}) of the constraint {}, on the constraints", k[0], k[1]);
+    if (check.name == "casimir" && k.size() == 2) return fmt::format("rho({}) of {}", k[0], k[1]);
+    if (check.name == "invariant" && k.size() == 1)
+        return fmt::format("the rate of {} along the equations of motion", k[0]);
+    return "";
+}
+
+std::string failure_text(const Check& check, bool with_hint)
 {
     const Decision& decision = check.decision;
     std::string text = fmt::format("\n{}: {} {}\n", to_text(decision.status), check.name, indices_text(check));
+    if (const std::string equation = equation_text(check); !equation.empty()) text += fmt::format("  {}\n", equation);
     if (!decision.residual.empty()) text += fmt::format("  residual {}\n", decision.residual);
     if (decision.witness)
         text += fmt::format("  at {}: {:.17g}\n", point_text(decision.witness->point), decision.witness->value);
-    if (!decision.evidence.empty()) text += fmt::format("  {}\n", decision.evidence);
-    if (!check.hint.empty()) text += fmt::format("  hint: {}\n", check.hint);
+    if (!decision.evidence.empty()) text += fmt::format("  known: {}\n", decision.evidence);
+    if (with_hint) text += fmt::format("  hint: {}\n", check.hint);
     return text;
+}
+
+/// Checks with a status, a hint only where it first occurs.
+std::string failures_text(const VerifiedAlgebroid& verified, ProofStatus status)
+{
+    constexpr std::size_t most = 20;
+    std::string text;
+    std::set<std::string> hints = {""};
+    std::size_t count = 0;
+    for (const Check& check : verified.checks)
+        if (check.decision.status == status && ++count <= most)
+            text += failure_text(check, hints.insert(check.hint).second);
+    if (count > most)
+        text += fmt::format("\n{} more are {}; --format json lists them all\n", count - most, to_text(status));
+    return text;
+}
+
+/// "3e-71"
+std::string largest_text(const Reevaluation& reevaluation)
+{
+    return reevaluation.bound == 0 ? "0" : fmt::format("{:.0e}", reevaluation.bound);
 }
 
 std::string regularity_text(const Regularity& regularity)
@@ -98,6 +154,14 @@ void point_json(JsonWriter& json, const Point& point)
     json.end_object();
 }
 
+void verified_json(JsonWriter& json, const std::optional<Reevaluation>& reevaluation)
+{
+    if (!reevaluation) return;
+    json.key("verified").begin_object().key("points").value(reevaluation->points);
+    json.key("digits").value(static_cast<std::size_t>(reevaluation_digits));
+    json.key("largest").value(largest_text(*reevaluation)).end_object();
+}
+
 void check_json(JsonWriter& json, const Check& check)
 {
     json.begin_object().key("name").value(check.name).key("indices").begin_array();
@@ -110,6 +174,7 @@ void check_json(JsonWriter& json, const Check& check)
     }
     if (!check.decision.evidence.empty()) json.key("evidence").value(check.decision.evidence);
     if (!check.hint.empty()) json.key("hint").value(check.hint);
+    verified_json(json, check.reevaluation);
     json.end_object();
 }
 
@@ -117,14 +182,15 @@ void check_json(JsonWriter& json, const Check& check)
 
 std::string report_text(const std::string& model, const VerifiedAlgebroid& verified)
 {
-    std::string text = fmt::format("{}: {}\n", model, to_text(verified.verdict));
-    for (const std::string& kind : kinds_of(verified)) text += summary_line(verified, kind);
-    if (verified.trivial > 0) text += fmt::format("  {:<16}{} residuals\n", "trivially zero", verified.trivial);
+    std::string text = fmt::format("{}: {}\n{}", model, to_text(verified.verdict), summary_text(verified));
+    for (const std::string& kind : kinds_of(verified))
+        text += fmt::format("  {:<16}{}\n", kind, counts_text(counts_of(verified, kind)));
     text += regularity_text(verified.regularity);
+    if (const auto& again = verified.reevaluation)
+        text += fmt::format("  {:<16}{} points, {} digits: every proved residual is at most {}\n", "re-evaluated",
+                            again->points, reevaluation_digits, largest_text(*again));
     if (!verified.note.empty()) text += fmt::format("  note: {}\n", verified.note);
-    for (const Check& check : verified.checks)
-        if (check.decision.status != ProofStatus::proved) text += failure_text(check);
-    return text;
+    return text + failures_text(verified, ProofStatus::refuted) + failures_text(verified, ProofStatus::undecided);
 }
 
 void report_json(JsonWriter& json, const std::string& model, const VerifiedAlgebroid& verified)
@@ -141,6 +207,7 @@ void report_json(JsonWriter& json, const std::string& model, const VerifiedAlgeb
     json.key("singular_at").begin_array();
     for (const Point& point : regularity.singular_at) point_json(json, point);
     json.end_array().end_object();
+    verified_json(json, verified.reevaluation);
     if (!verified.note.empty()) json.key("note").value(verified.note);
     json.end_object();
 }

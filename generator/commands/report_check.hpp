@@ -7,7 +7,8 @@
 
 namespace lagen {
 
-/// Text: verdict, a count a kind of check, every refutation with its residual, witness and value, regularity.
+/// Text: verdict, counts in all and a kind of check, regularity, re-evaluation; then what is not proved (the first 20
+/// of each status) with its residual, witness and value, or evidence, and each hint once.
 [[nodiscard]] std::string report_text(const std::string& model, const VerifiedAlgebroid& verified);
 
 /// {"model", "verdict", "trivial", "checks": [...], "regularity": {...}} into `json`.

@@ -3,6 +3,7 @@
 #include "commands/command.hpp"
 #include "commands/compile.hpp"
 #include "commands/options.hpp"
+#include "commands/places.hpp"
 #include "commands/plot.hpp"
 #include "commands/process.hpp"
 #include "commands/progress.hpp"
@@ -22,7 +23,7 @@ namespace lagen {
 
 namespace {
 
-const CommandSyntax syntax{
+const CommandSyntax run_syntax{
     "run",
     "MODEL",
     "Generates, compiles and integrates a scene. CSV on standard output unless --output or --format json.",
@@ -141,13 +142,13 @@ void tell(const Options& options, const RunOutcome& outcome, bool as_json)
 
 ExitCode run_run(Arguments arguments)
 {
-    const Options options(syntax, arguments);
+    const Options options(run_syntax, arguments);
     if (options.help()) return ExitCode::done;
     const bool as_json = options.choice("format", {"text", "json"}) == "json";
     (void)options.choice("form", {"lagrange"});
     if (options.has("plot")) require_plot_format(options.get("plot"));
 
-    const CheckedModel checked = load(options.positional()[0], options.settings(), options.has("unchecked"));
+    const CheckedModel checked = load(model_path(options.positional()[0]), options.settings(), options.has("unchecked"));
     for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
     const Model& model = checked.model;
     const Scene scene = scene_of(options, model);

@@ -42,8 +42,6 @@ Scene scene_of(const Options& options, const Model& model)
         scene.tolerance = option_tree(model, "tolerance", options.get("tolerance"));
     }
     replace_times(options, model, scene);
-    for (const Setting& setting : options.settings())
-        std::erase_if(scene.parameters, [&](const NamedTree& parameter) { return parameter.name == setting.name; });
     if (!scene.form.empty() && scene.form != "lagrange")
         throw ModelError(
             fmt::format("scene '{}' asks for the form '{}', this version of lagen runs the form 'lagrange'", scene.name,

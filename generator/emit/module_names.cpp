@@ -34,7 +34,9 @@ std::set<std::string> class_scope_names(const KernelModule& module, const std::s
                                 "status_t",
                                 "parameter_status",
                                 "singular_tolerance",
-                                "PivotedLu"};
+                                "PivotedLu",
+                                "stumpff",
+                                "stumpff_orders"};
     for (const Kernel& kernel : module.kernels) {
         names.insert(kernel.name);
         for (const char* suffix : {"_names", "_rows", "_columns", "_values"}) names.insert(kernel.name + suffix);

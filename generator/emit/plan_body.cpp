@@ -62,16 +62,29 @@ std::vector<NodeId> find_partners(const Graph& graph, const std::vector<NodeId>&
     return partner;
 }
 
+/// By node: a Stumpff function of which another order, of the same argument, is used too.
+std::vector<bool> find_families(const Graph& graph, const std::vector<NodeId>& nodes)
+{
+    std::vector<std::size_t> orders(graph.size(), 0);
+    for (const NodeId id : nodes)
+        if (graph.op(id) == Op::stumpff) ++orders[graph.operands(id)[0]];
+    std::vector<bool> family(graph.size(), false);
+    for (const NodeId id : nodes)
+        if (graph.op(id) == Op::stumpff) family[id] = orders[graph.operands(id)[0]] > 1;
+    return family;
+}
+
 /// Ascending walk: a node is named where it is used twice, repeated by its user, a pair of sine and cosine, or where
 /// the expression would grow too long.
 std::vector<bool> choose_named(const Graph& graph, const std::vector<NodeId>& nodes, std::span<const NodeId> outputs,
                                const std::vector<NodeId>& partner)
 {
     const std::vector<std::size_t> uses = count_uses(graph, nodes, outputs);
+    const std::vector<bool> family = find_families(graph, nodes);
     std::vector<bool> named(graph.size(), false);
     for (const NodeId id : nodes) {
         if (is_linear_algebra(graph.op(id)) || (uses[id] > 1 && !has_name_already(graph.op(id)))) named[id] = true;
-        if (partner[id] != static_cast<NodeId>(-1) || needs_chain(graph, id)) named[id] = true;
+        if (partner[id] != static_cast<NodeId>(-1) || family[id] || needs_chain(graph, id)) named[id] = true;
         if (repeats_operands(graph, id))
             for (const NodeId operand : graph.operands(id))
                 if (!has_name_already(graph.op(operand))) named[operand] = true;
@@ -86,7 +99,7 @@ std::vector<bool> choose_named(const Graph& graph, const std::vector<NodeId>& no
     }
     for (const NodeId id : outputs) // an output that nothing else uses is printed where it is stored
         if (uses[id] == 1 && !is_linear_algebra(graph.op(id)) && partner[id] == static_cast<NodeId>(-1) &&
-            !needs_chain(graph, id))
+            !family[id] && !needs_chain(graph, id))
             named[id] = false;
     return named;
 }

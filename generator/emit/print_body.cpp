@@ -91,10 +91,30 @@ class BodyPrinter {
     {
         if (graph_.op(id) == Op::factor) return print_factor_node(id);
         if (graph_.op(id) == Op::solve) return print_solve_node(id);
+        if (graph_.op(id) == Op::stumpff && print_family(id)) return;
         const std::string value = needs_chain(graph_, id) ? print_chain(id) : spell_.operation(id).text;
         const std::string name = next_term();
         define(name, value);
         spell_.name(id, name);
+    }
+
+    /// The Stumpff functions of one argument from one call, an entry an order; false where this one stands alone.
+    bool print_family(NodeId id)
+    {
+        if (spell_.has_name(id)) return true;
+        std::vector<NodeId> family;
+        for (const NodeId node : plan_.order)
+            if (graph_.op(node) == Op::stumpff && graph_.operands(node)[0] == graph_.operands(id)[0])
+                family.push_back(node);
+        if (family.size() < 2) return false;
+        const auto [lowest, highest] =
+            std::ranges::minmax_element(family, {}, [&](NodeId node) { return graph_.payload(node); });
+        const std::uint32_t first = graph_.payload(*lowest);
+        const std::string name = next_term();
+        body_.statements.push_back(fmt::format("const auto {} = stumpff_orders<{}, {}, S>({});", name, first,
+                                               graph_.payload(*highest), spell_(graph_.operands(id)[0]).text));
+        for (const NodeId node : family) spell_.name(node, fmt::format("{}[{}]", name, graph_.payload(node) - first));
+        return true;
     }
 
     /// b^n by squares, a statement each; answers the last product.

@@ -9,16 +9,16 @@
 namespace lagen {
 namespace {
 
-constexpr std::size_t line_width = 335;          ///< points; the text of an `article` in 10 pt is 345 wide
-constexpr std::size_t indent = 10;               ///< points, of \quad
-constexpr std::size_t longest_formula = 100'000; ///< nodes; a shared tree may be exponentially long when written out
+constexpr std::size_t line_width = 335;        ///< points; the text of an `article` in 10 pt is 345 wide
+constexpr std::size_t indent = 10;             ///< points, of \quad
+constexpr std::size_t longest_latex = 100'000; ///< nodes; a shared tree may be exponentially long when written out
 
 /// How tightly a text holds together, loosest first.
-enum class Hold { sum, sign, product, power, atom };
+enum class LatexHold { sum, sign, product, power, atom };
 
-struct Piece {
+struct LatexPiece {
     std::string text;
-    Hold hold;
+    LatexHold hold;
 };
 
 const char* latex_function(Function function)
@@ -49,95 +49,117 @@ class LatexWriter {
   public:
     explicit LatexWriter(const LatexNames& names) : names_(names) {}
 
-    std::string write(const Tree& tree, Hold at_least)
+    std::string write(const Tree& tree, LatexHold at_least)
     {
-        const Piece piece = write_piece(tree);
+        const LatexPiece piece = write_piece(tree);
         return piece.hold >= at_least ? piece.text : "\\left(" + piece.text + "\\right)";
     }
 
   private:
-    Piece write_piece(const Tree& tree)
+    LatexPiece write_piece(const Tree& tree)
     {
         written_ += 1;
-        if (written_ > longest_formula) return {"\\dots", Hold::atom};
+        if (written_ > longest_latex) return {"\\dots", LatexHold::atom};
         switch (tree->kind) {
         case TreeKind::number: return write_number(tree->number);
-        case TreeKind::pi: return {"\\pi", Hold::atom};
-        case TreeKind::name: return {names_.symbol(tree->name), Hold::power};
-        case TreeKind::negate: return {"-" + write(tree->arguments[0], Hold::product), Hold::sign};
+        case TreeKind::pi: return {"\\pi", LatexHold::atom};
+        case TreeKind::name: return {names_.symbol(tree->name), LatexHold::power};
+        case TreeKind::negate: return {"-" + write(tree->arguments[0], LatexHold::product), LatexHold::sign};
         case TreeKind::add: return write_sum(tree);
         case TreeKind::multiply: return write_product(tree);
         case TreeKind::divide:
-            return {"\\frac{" + write(tree->arguments[0], Hold::sum) + "}{" + write(tree->arguments[1], Hold::sum) +
-                        "}",
-                    Hold::product};
+            return {"\\frac{" + write(tree->arguments[0], LatexHold::sum) + "}{" +
+                        write(tree->arguments[1], LatexHold::sum) + "}",
+                    LatexHold::product};
         case TreeKind::power: return write_power(tree);
         case TreeKind::call: return write_call(tree);
+        case TreeKind::solve: return write_solve(tree);
         case TreeKind::compare: return write_comparison(tree);
         default: break;
         }
-        return {"\\dots", Hold::atom};
+        return {"\\dots", LatexHold::atom};
     }
 
-    static Piece write_number(const Rational& value)
+    static LatexPiece write_number(const Rational& value)
     {
-        if (value.get_den() == 1) return {value.get_str(), value < 0 ? Hold::sign : Hold::atom};
+        if (value.get_den() == 1) return {value.get_str(), value < 0 ? LatexHold::sign : LatexHold::atom};
         const std::string fraction =
             "\\frac{" + Rational(abs(value)).get_num().get_str() + "}{" + value.get_den().get_str() + "}";
-        return {(value < 0 ? "-" : "") + fraction, value < 0 ? Hold::sign : Hold::product};
+        return {(value < 0 ? "-" : "") + fraction, value < 0 ? LatexHold::sign : LatexHold::product};
     }
 
     /// sin^2(x) rather than (sin(x))^2.
-    Piece write_power(const Tree& tree)
+    LatexPiece write_power(const Tree& tree)
     {
-        const std::string exponent = "^{" + write(tree->arguments[1], Hold::sum) + "}";
-        if (!raised_by_name(tree)) return {write_base(tree->arguments[0]) + exponent, Hold::power};
+        const std::string exponent = "^{" + write(tree->arguments[1], LatexHold::sum) + "}";
+        if (!raised_by_name(tree)) return {write_base(tree->arguments[0]) + exponent, LatexHold::power};
         const Tree& call = tree->arguments[0];
-        return {latex_function(call->function) + exponent + "\\left(" + write(call->arguments[0], Hold::sum) +
+        return {latex_function(call->function) + exponent + "\\left(" + write(call->arguments[0], LatexHold::sum) +
                     "\\right)",
-                Hold::power};
+                LatexHold::power};
     }
 
     /// A symbol may be raised although it is no atom: its own subscript stays below.
     std::string write_base(const Tree& tree)
     {
-        return tree->kind == TreeKind::name ? names_.raisable(tree->name) : write(tree, Hold::atom);
+        return tree->kind == TreeKind::name ? names_.raisable(tree->name) : write(tree, LatexHold::atom);
     }
 
-    Piece write_sum(const Tree& tree)
+    LatexPiece write_sum(const Tree& tree)
     {
         std::string text;
         for (const Tree& argument : tree->arguments) {
             const SignedTree term = without_sign(argument);
             text += text.empty() ? (term.negative ? "-" : "") : (term.negative ? " - " : " + ");
-            text += write(term.tree, Hold::product);
+            text += write(term.tree, LatexHold::product);
         }
-        return {text, Hold::sum};
+        return {text, LatexHold::sum};
     }
 
-    Piece write_product(const Tree& tree)
+    LatexPiece write_product(const Tree& tree)
     {
         std::string text;
-        for (const Tree& factor : tree->arguments) text += (text.empty() ? "" : "\\, ") + write(factor, Hold::product);
-        return {text, Hold::product};
+        for (const Tree& factor : tree->arguments)
+            text += (text.empty() ? "" : "\\, ") + write(factor, LatexHold::product);
+        return {text, LatexHold::product};
     }
 
-    Piece write_call(const Tree& tree)
+    LatexPiece write_call(const Tree& tree)
     {
-        const std::string first = write(tree->arguments[0], Hold::sum);
-        if (tree->function == Function::sqrt) return {"\\sqrt{" + first + "}", Hold::atom};
-        if (tree->function == Function::abs) return {"\\left|" + first + "\\right|", Hold::atom};
+        const std::string first = write(tree->arguments[0], LatexHold::sum);
+        if (tree->function == Function::sqrt) return {"\\sqrt{" + first + "}", LatexHold::atom};
+        if (tree->function == Function::stumpff)
+            return {"c_{" + first + "}\\left(" + write(tree->arguments[1], LatexHold::sum) + "\\right)",
+                    LatexHold::power};
+        if (tree->function == Function::abs) return {"\\left|" + first + "\\right|", LatexHold::atom};
         std::string text = latex_function(tree->function) + ("\\left(" + first);
-        for (std::size_t k = 1; k < tree->arguments.size(); ++k) text += ", " + write(tree->arguments[k], Hold::sum);
-        return {text + "\\right)", Hold::power};
+        for (std::size_t k = 1; k < tree->arguments.size(); ++k)
+            text += ", " + write(tree->arguments[k], LatexHold::sum);
+        return {text + "\\right)", LatexHold::power};
     }
 
-    Piece write_comparison(const Tree& tree)
+    /// Component k of A^{-1} b, counted from 1.
+    LatexPiece write_solve(const Tree& tree)
+    {
+        const std::size_t n = solve_order(tree);
+        std::string matrix;
+        std::string right;
+        for (std::size_t i = 0; i < n; ++i) {
+            for (std::size_t j = 0; j < n; ++j)
+                matrix += (j != 0 ? " & " : i != 0 ? " \\\\ " : "") + write(tree->arguments[i * n + j], LatexHold::sum);
+            right += (i != 0 ? " \\\\ " : "") + write(tree->arguments[n * n + i], LatexHold::sum);
+        }
+        return {"\\left(\\begin{pmatrix} " + matrix + " \\end{pmatrix}^{-1} \\begin{pmatrix} " + right +
+                    " \\end{pmatrix}\\right)_{" + Rational(tree->number + 1).get_str() + "}",
+                LatexHold::power};
+    }
+
+    LatexPiece write_comparison(const Tree& tree)
     {
         static constexpr const char* signs[] = {" < ", " \\le ", " > ", " \\ge ", " = ", " \\ne "};
-        return {write(tree->arguments[0], Hold::sum) + signs[static_cast<std::size_t>(tree->comparison)] +
-                    write(tree->arguments[1], Hold::sum),
-                Hold::sum};
+        return {write(tree->arguments[0], LatexHold::sum) + signs[static_cast<std::size_t>(tree->comparison)] +
+                    write(tree->arguments[1], LatexHold::sum),
+                LatexHold::sum};
     }
 
     const LatexNames& names_;
@@ -223,7 +245,8 @@ std::string left_side(const Equation& equation, const LatexNames& names)
         const SignedTree mass = without_sign(entry.value);
         text += text.empty() ? (mass.negative ? "-" : "") : (mass.negative ? " - " : " + ");
         const bool one = mass.tree->kind == TreeKind::number && mass.tree->number == 1;
-        text += (one ? "" : LatexWriter(names).write(mass.tree, Hold::product) + "\\, ") + names.dotted(entry.label);
+        text +=
+            (one ? "" : LatexWriter(names).write(mass.tree, LatexHold::product) + "\\, ") + names.dotted(entry.label);
     }
     return text;
 }
@@ -239,7 +262,7 @@ void print_block(std::string& text, const EquationBlock& block, const LatexNames
         const Equation& equation = block.equations[e];
         std::vector<std::pair<bool, std::string>> terms;
         for (const SignedTree& term : right_side_terms(equation))
-            terms.emplace_back(term.negative, LatexWriter(names).write(term.tree, Hold::product));
+            terms.emplace_back(term.negative, LatexWriter(names).write(term.tree, LatexHold::product));
         if (terms.empty()) terms.emplace_back(false, "0");
         text += "  " + left_side(equation, names) + " &= ";
         const std::vector<std::string> lines = wrap_terms(terms, margin, margin + indent, line_width, typeset_width);
@@ -253,7 +276,7 @@ void print_block(std::string& text, const EquationBlock& block, const LatexNames
 
 std::string latex_of(const Tree& tree, const EquationSet& symbols)
 {
-    return LatexWriter(LatexNames(symbols.symbols)).write(tree, Hold::sum);
+    return LatexWriter(LatexNames(symbols.symbols)).write(tree, LatexHold::sum);
 }
 
 std::string print_latex(const EquationSet& equations)

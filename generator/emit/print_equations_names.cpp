@@ -65,7 +65,7 @@ struct Parts {
     std::string subscript;
 };
 
-std::string joined(const Parts& parts)
+std::string subscripted(const Parts& parts)
 {
     return parts.subscript.empty() ? parts.body : parts.body + "_{" + parts.subscript + "}";
 }
@@ -82,9 +82,23 @@ std::size_t letter_before_subscript(const std::string& latex)
     return end > 0 && end < latex.size() && latex[end] == '_' ? end : 0;
 }
 
+/// The indices of an entry of a family, "W[1,2]": two single digits stand together, others with a comma.
+std::string entry_indices(const std::string& name, std::size_t open)
+{
+    std::string indices = name.substr(open + 1, name.size() - open - 2);
+    const bool single = indices.size() == 3 && indices[1] == ',';
+    return single ? std::string{indices[0], indices[2]} : indices;
+}
+
 Parts split(const std::string& name)
 {
     Parts parts;
+    const std::size_t open = name.find('[');
+    if (open != std::string::npos && name.back() == ']') {
+        parts = split(name.substr(0, open));
+        parts.subscript += (parts.subscript.empty() ? "" : ",") + entry_indices(name, open);
+        return parts;
+    }
     std::vector<std::string> pieces(1);
     for (const char c : name)
         if (c == '_')
@@ -102,7 +116,7 @@ Parts split(const std::string& name)
             if (!body.empty() && !number.empty()) parts.subscript = number;
             continue;
         }
-        const std::string inner = body.empty() ? number : joined({body, number});
+        const std::string inner = body.empty() ? number : subscripted({body, number});
         if (!inner.empty()) parts.subscript += (parts.subscript.empty() ? "" : ",") + inner;
     }
     if (parts.body.empty()) return {"\\mathit{" + escape_latex(name) + "}", ""};
@@ -120,7 +134,7 @@ LatexNames::LatexNames(const std::vector<SymbolText>& symbols)
 std::string LatexNames::symbol(const std::string& name) const
 {
     const auto given = given_.find(name);
-    return given != given_.end() ? given->second : joined(split(name));
+    return given != given_.end() ? given->second : subscripted(split(name));
 }
 
 std::string LatexNames::dotted(const std::string& name) const
@@ -132,13 +146,13 @@ std::string LatexNames::dotted(const std::string& name) const
         return "\\dot{" + given->second.substr(0, letter) + "}" + given->second.substr(letter);
     }
     const Parts parts = split(name);
-    return joined({"\\dot{" + parts.body + "}", parts.subscript});
+    return subscripted({"\\dot{" + parts.body + "}", parts.subscript});
 }
 
 std::string LatexNames::raisable(const std::string& name) const
 {
     const auto given = given_.find(name);
-    return given != given_.end() ? "{" + given->second + "}" : joined(split(name));
+    return given != given_.end() ? "{" + given->second + "}" : subscripted(split(name));
 }
 
 std::string escape_latex(std::string_view text)

@@ -10,14 +10,14 @@ namespace lagen {
 namespace {
 
 constexpr std::size_t page_width = 120;
-constexpr std::size_t longest_formula = 100'000; ///< bytes; a shared tree may be exponentially long when written out
+constexpr std::size_t longest_text = 100'000; ///< bytes; a shared tree may be exponentially long when written out
 
 /// How tightly a text holds together, loosest first.
-enum class Hold { sum, sign, quotient, product, power, atom };
+enum class TextHold { sum, sign, quotient, product, power, atom };
 
-struct Piece {
+struct TextPiece {
     std::string text;
-    Hold hold;
+    TextHold hold;
 };
 
 std::string raised_digits(const std::string& digits)
@@ -28,83 +28,113 @@ std::string raised_digits(const std::string& digits)
     return text;
 }
 
+/// c₂; what is no digit stays.
+std::string lowered_digits(const std::string& digits)
+{
+    static constexpr const char* lowered[] = {"₀", "₁", "₂", "₃", "₄", "₅", "₆", "₇", "₈", "₉"};
+    std::string text;
+    for (const char c : digits) text += c >= '0' && c <= '9' ? lowered[c - '0'] : std::string(1, c);
+    return text;
+}
+
 class TextWriter {
   public:
-    std::string write(const Tree& tree, Hold at_least)
+    std::string write(const Tree& tree, TextHold at_least)
     {
-        const Piece piece = write_piece(tree);
+        const TextPiece piece = write_piece(tree);
         return piece.hold >= at_least ? piece.text : "(" + piece.text + ")";
     }
 
   private:
-    Piece write_piece(const Tree& tree)
+    TextPiece write_piece(const Tree& tree)
     {
         written_ += 1;
-        if (written_ > longest_formula) return {"...", Hold::atom};
+        if (written_ > longest_text) return {"...", TextHold::atom};
         switch (tree->kind) {
         case TreeKind::number: return write_number(tree->number);
-        case TreeKind::pi: return {"π", Hold::atom};
-        case TreeKind::name: return {tree->name, Hold::atom};
-        case TreeKind::negate: return {"-" + write(tree->arguments[0], Hold::quotient), Hold::sign};
+        case TreeKind::pi: return {"π", TextHold::atom};
+        case TreeKind::name: return {tree->name, TextHold::atom};
+        case TreeKind::negate: return {"-" + write(tree->arguments[0], TextHold::quotient), TextHold::sign};
         case TreeKind::add: return write_sum(tree);
         case TreeKind::multiply: return write_product(tree);
         case TreeKind::divide:
-            return {write(tree->arguments[0], Hold::product) + "/" + write(tree->arguments[1], Hold::power),
-                    Hold::quotient};
+            return {write(tree->arguments[0], TextHold::product) + "/" + write(tree->arguments[1], TextHold::power),
+                    TextHold::quotient};
         case TreeKind::power: return write_power(tree);
         case TreeKind::call: return write_call(tree);
+        case TreeKind::solve: return write_solve(tree);
         default: break;
         }
-        return {to_text(tree), Hold::sum};
+        return {to_text(tree), TextHold::sum};
     }
 
-    static Piece write_number(const Rational& value)
+    static TextPiece write_number(const Rational& value)
     {
-        const Hold hold = value < 0 ? Hold::sign : value.get_den() == 1 ? Hold::atom : Hold::quotient;
+        const TextHold hold = value < 0 ? TextHold::sign : value.get_den() == 1 ? TextHold::atom : TextHold::quotient;
         return {value.get_str(), hold};
     }
 
-    Piece write_sum(const Tree& tree)
+    TextPiece write_sum(const Tree& tree)
     {
         std::string text;
         for (const Tree& argument : tree->arguments) {
             const SignedTree term = without_sign(argument);
             text += text.empty() ? (term.negative ? "-" : "") : (term.negative ? " - " : " + ");
-            text += write(term.tree, Hold::quotient);
+            text += write(term.tree, TextHold::quotient);
         }
-        return {text, Hold::sum};
+        return {text, TextHold::sum};
     }
 
-    Piece write_product(const Tree& tree)
+    TextPiece write_product(const Tree& tree)
     {
         std::string text;
-        for (const Tree& factor : tree->arguments) text += (text.empty() ? "" : " ") + write(factor, Hold::product);
-        return {text, Hold::product};
+        for (const Tree& factor : tree->arguments) text += (text.empty() ? "" : " ") + write(factor, TextHold::product);
+        return {text, TextHold::product};
     }
 
-    Piece write_power(const Tree& tree)
+    TextPiece write_power(const Tree& tree)
     {
         const Tree& exponent = tree->arguments[1];
         if (raised_by_name(tree)) {
             const Tree& call = tree->arguments[0];
             return {entry_of(call->function).name + raised_digits(exponent->number.get_str()) + "(" +
-                        write(call->arguments[0], Hold::sum) + ")",
-                    Hold::power};
+                        write(call->arguments[0], TextHold::sum) + ")",
+                    TextHold::power};
         }
-        const std::string base = write(tree->arguments[0], Hold::atom);
+        const std::string base = write(tree->arguments[0], TextHold::atom);
         if (exponent->kind == TreeKind::number && exponent->number.get_den() == 1)
-            return {base + raised_digits(exponent->number.get_str()), Hold::power};
-        return {base + "^" + write(exponent, Hold::atom), Hold::power};
+            return {base + raised_digits(exponent->number.get_str()), TextHold::power};
+        return {base + "^" + write(exponent, TextHold::atom), TextHold::power};
     }
 
-    Piece write_call(const Tree& tree)
+    TextPiece write_call(const Tree& tree)
     {
-        if (tree->function == Function::sqrt) return {"√" + write(tree->arguments[0], Hold::atom), Hold::power};
-        if (tree->function == Function::abs) return {"|" + write(tree->arguments[0], Hold::sum) + "|", Hold::atom};
+        if (tree->function == Function::sqrt) return {"√" + write(tree->arguments[0], TextHold::atom), TextHold::power};
+        if (tree->function == Function::stumpff)
+            return {"c" + lowered_digits(to_text(tree->arguments[0])) + "(" + write(tree->arguments[1], TextHold::sum) +
+                        ")",
+                    TextHold::atom};
+        if (tree->function == Function::abs)
+            return {"|" + write(tree->arguments[0], TextHold::sum) + "|", TextHold::atom};
         std::string text = entry_of(tree->function).name;
         for (std::size_t k = 0; k < tree->arguments.size(); ++k)
-            text += (k == 0 ? "(" : ", ") + write(tree->arguments[k], Hold::sum);
-        return {text + ")", Hold::atom};
+            text += (k == 0 ? "(" : ", ") + write(tree->arguments[k], TextHold::sum);
+        return {text + ")", TextHold::atom};
+    }
+
+    /// ([a, b; c, d]⁻¹ [e; f])₁: component 1 of the solution.
+    TextPiece write_solve(const Tree& tree)
+    {
+        const std::size_t n = solve_order(tree);
+        std::string matrix;
+        std::string right;
+        for (std::size_t i = 0; i < n; ++i) {
+            for (std::size_t j = 0; j < n; ++j)
+                matrix += (j != 0 ? ", " : i != 0 ? "; " : "") + write(tree->arguments[i * n + j], TextHold::sum);
+            right += (i != 0 ? "; " : "") + write(tree->arguments[n * n + i], TextHold::sum);
+        }
+        const std::string component = Rational(tree->number + 1).get_str();
+        return {"([" + matrix + "]⁻¹ [" + right + "])" + lowered_digits(component), TextHold::atom};
     }
 
     std::size_t written_ = 0;
@@ -147,7 +177,7 @@ std::string left_side(const Equation& equation)
         const SignedTree mass = without_sign(entry.value);
         text += text.empty() ? (mass.negative ? "-" : "") : (mass.negative ? " - " : " + ");
         const bool one = mass.tree->kind == TreeKind::number && mass.tree->number == 1;
-        text += (one ? "" : TextWriter().write(mass.tree, Hold::product) + " ") + dotted(entry.label);
+        text += (one ? "" : TextWriter().write(mass.tree, TextHold::product) + " ") + dotted(entry.label);
     }
     return text;
 }
@@ -165,7 +195,7 @@ void print_block(std::string& text, const EquationBlock& block)
         text += "  " + std::string(columns < widest ? widest - columns : 0, ' ') + left + " = ";
         std::vector<std::pair<bool, std::string>> terms;
         for (const SignedTree& term : right_side_terms(equation))
-            terms.emplace_back(term.negative, TextWriter().write(term.tree, Hold::quotient));
+            terms.emplace_back(term.negative, TextWriter().write(term.tree, TextHold::quotient));
         if (terms.empty()) terms.emplace_back(false, "0");
         const std::size_t margin = widest + 5;
         const std::vector<std::string> lines =

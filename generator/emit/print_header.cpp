@@ -146,6 +146,16 @@ void print_parameter_access(TextBlock& out, const ModuleNames& names)
     out.line("}");
 }
 
+/// Does a kernel or a default value call Stumpff functions?
+bool needs_stumpff(const KernelModule& module)
+{
+    std::vector<NodeId> roots = module.parameter_defaults;
+    for (const Kernel& kernel : module.kernels)
+        for (const KernelEntry& entry : kernel.output.entries) roots.push_back(entry.node);
+    return std::ranges::any_of(reachable(*module.graph, roots),
+                               [&](NodeId id) { return module.graph->op(id) == Op::stumpff; });
+}
+
 } // namespace
 
 std::string print_header(const KernelModule& module)
@@ -169,6 +179,7 @@ std::string print_header(const KernelModule& module)
     out.blank();
     out.line("#include \"lagen/kernel.hpp\"");
     if (needs.linear) out.line("#include \"lagen/linear.hpp\"");
+    if (needs_stumpff(module)) out.line("#include \"lagen/stumpff.hpp\"");
     out.blank();
     for (const char* header : {"Eigen/Core", "array", "cmath", "cstddef"}) {
         out.line(fmt::format("#include <{}>", header));

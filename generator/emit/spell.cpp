@@ -160,6 +160,7 @@ Spelling Speller::function(NodeId id)
         const std::string x = at_least(1, operand[0]);
         return {fmt::format("select({0} > S(0), S(1), select({0} < S(0), S(-1), S(0)))", x), 5};
     }
+    case Op::stumpff: return {fmt::format("stumpff<{}, S>({})", graph_.payload(id), text(0)), 5};
     default: break;
     }
     const std::string name = call(operator_of(graph_.op(id)).spelling);

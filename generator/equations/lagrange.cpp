@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Lagrange's equations by GiNaC, every group of the formula brought to its own shortest form. [Martinez 2001]
 #include "equations/lagrange.hpp"
+#include "equations/label_casimirs.hpp"
 #include "symbolic/shortest_form.hpp"
 
 #include <algorithm>
@@ -35,6 +36,7 @@ class LagrangeDerivation {
         EquationSet set{model_.name, model_.title, "lagrange", {}, {}};
         append_symbols(set);
         set.blocks = {kinematics(), momenta(), momentum_form(), acceleration_form(), energy()};
+        if (!labels_.empty()) set.blocks.insert(set.blocks.begin() + 1, casimirs());
         return set;
     }
 
@@ -53,7 +55,6 @@ class LagrangeDerivation {
 
     void lower()
     {
-        lagrangian_ = to_ginac(model_.lagrangian, symbols_);
         anchor_.assign(y_.size(), std::vector<GiNaC::ex>(x_.size()));
         for (const AnchorValue& entry : algebroid_.rho) anchor_[entry.a][entry.i] += to_ginac(entry.value, symbols_);
         const std::size_t r = y_.size();
@@ -67,7 +68,24 @@ class LagrangeDerivation {
             for (std::size_t b = 0; b < r; ++b)
                 if (given[a * r + b] && !given[b * r + a])
                     for (std::size_t c = 0; c < r; ++c) bracket_[b * r + a][c] = -bracket_[a * r + b][c];
+        take_labels();
+        lagrangian_ = to_ginac(label_casimirs(model_.lagrangian, labels_), symbols_);
         for (const GiNaC::realsymbol& y : y_) p_.push_back(lagrangian_.diff(y));
+    }
+
+    /// The Casimirs that L uses by name. A label is a constant only where rho_a(f) = 0 is plain to see.
+    void take_labels()
+    {
+        std::vector<NamedTree> constant;
+        for (const NamedTree& casimir : model_.base.casimirs) {
+            const GiNaC::ex f = to_ginac(casimir.value, symbols_);
+            bool zero = !is_declared(casimir.name);
+            for (std::size_t a = 0; a < y_.size() && zero; ++a) zero = total(along_anchor(a, f)).expand().is_zero();
+            if (zero) constant.push_back(casimir);
+        }
+        const std::vector<std::string> used = names_in(label_casimirs(model_.lagrangian, constant));
+        for (const NamedTree& casimir : constant)
+            if (std::find(used.begin(), used.end(), casimir.name) != used.end()) labels_.push_back(casimir);
     }
 
     void append_symbols(EquationSet& set) const
@@ -168,6 +186,14 @@ class LagrangeDerivation {
         return block;
     }
 
+    [[nodiscard]] EquationBlock casimirs()
+    {
+        EquationBlock block{"labels of the leaves (constant along every motion)", "ρ_a(f) = 0", R"(\rho_a(f) = 0)", {}};
+        for (const NamedTree& casimir : labels_)
+            block.equations.push_back(equation(LeftSide::symbol, casimir.name, {to_ginac(casimir.value, symbols_)}));
+        return block;
+    }
+
     [[nodiscard]] EquationBlock momenta() const
     {
         EquationBlock block{"momenta", "p_a = ∂L/∂y^a", R"(p_a = \frac{\partial L}{\partial y^a})", {}};
@@ -227,6 +253,7 @@ class LagrangeDerivation {
     SymbolTable symbols_;
     Order order_;
     std::vector<GiNaC::realsymbol> x_, y_, momenta_;
+    std::vector<NamedTree> labels_; ///< Casimirs that stand in L by name
     GiNaC::ex lagrangian_;
     std::vector<std::vector<GiNaC::ex>> anchor_;  ///< anchor_[a][i] = rho^i_a
     std::vector<std::vector<GiNaC::ex>> bracket_; ///< bracket_[a r + b][c] = C^c_ab

@@ -2,6 +2,8 @@
 /// Texts of shapes and names of entries.
 #include "expression/array.hpp"
 
+#include "expression/parse.hpp"
+
 #include <fmt/format.h>
 
 namespace lagen {
@@ -24,6 +26,11 @@ std::string entry_name(const std::string& name, const Shape& shape, std::size_t 
     case Rank::matrix: return fmt::format("{}[{},{}]", name, k / shape.columns + 1, k % shape.columns + 1);
     }
     return name;
+}
+
+std::string value_name(const std::string& text, const Shape& shape, std::size_t k)
+{
+    return entry_name(shape.rank == Rank::scalar || is_identifier(text) ? text : "(" + text + ")", shape, k);
 }
 
 } // namespace lagen

@@ -1,135 +1,64 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Closing trees: names to symbols, definitions to their closed bodies, within bounds. The walk keeps its own stack:
-/// chains of definitions are as deep as a user makes them.
-#include "expression/expansion.hpp"
-
+/// Closing trees: names to symbols, definitions to their closed bodies, within bounds.
+#include "expression/closing.hpp"
 #include "expression/name_hints.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <unordered_map>
 
 namespace lagen {
 
 namespace {
 
-constexpr std::size_t deepest = 2000;
 /// An operation, the application below it and the definition behind that take an entry of the stack each.
-constexpr std::size_t tallest_stack = 3 * deepest;
-constexpr std::size_t most_operations = 1'000'000;
+constexpr std::size_t tallest_stack = 3 * deepest_closed;
 
-/// The bounds of the parser; several definitions may stand inside one another.
-const ParseLimits limits{.height = deepest};
-
-/// What the names of one body mean: for a function, its parameters are its arguments' closed trees.
-struct Body {
-    const Definition* definition = nullptr; ///< null: an expression outside of the definitions
-    std::vector<ClosedTree> arguments;
-    std::unordered_map<const TreeNode*, ClosedTree> done; ///< by address; looked up, never iterated
-};
-
-const ClosedTree* find_argument(const Body& body, const std::string& name)
+const Value* find_bound(const Body& body, const std::string& name)
 {
-    if (!body.definition) return nullptr;
-    const std::vector<std::string>& parameters = body.definition->parameters;
-    const auto found = std::find(parameters.begin(), parameters.end(), name);
-    return found == parameters.end() ? nullptr : &body.arguments[static_cast<std::size_t>(found - parameters.begin())];
+    const auto found = std::find_if(body.bound.rbegin(), body.bound.rend(),
+                                    [&](const BoundName& entry) { return *entry.name == name; });
+    return found == body.bound.rend() ? nullptr : &found->value;
 }
 
-ClosedTree leaf(const Tree& tree)
+Value leaf(const Tree& tree)
 {
-    return {tree, measure(*tree, {}, limits)};
-}
-
-/// The node itself where its arguments are closed already, else a copy with closed arguments.
-ClosedTree operation(const Tree& tree, std::vector<ClosedTree> arguments)
-{
-    std::vector<Measure> measures;
-    measures.reserve(arguments.size());
-    bool changed = false;
-    for (std::size_t k = 0; k < arguments.size(); ++k) {
-        changed = changed || arguments[k].tree != tree->arguments[k];
-        measures.push_back(std::move(arguments[k].measure));
-    }
-    if (!changed) return {tree, measure(*tree, measures, limits)};
-    auto copy = std::make_shared<TreeNode>(*tree);
-    for (std::size_t k = 0; k < arguments.size(); ++k) copy->arguments[k] = std::move(arguments[k].tree);
-    Measure size = measure(*copy, measures, limits);
-    return {std::move(copy), std::move(size)};
+    return scalar({tree, measure(*tree, {}, closing_limits())});
 }
 
 } // namespace
 
-/// One walk. `enter` gives the closed tree at once where it can, else it leaves a frame; `advance` takes the last frame
-/// one step further.
-class Expansion::Closing {
-  public:
-    Closing(Expansion& expansion, const Scope& scope) : expansion_(expansion), scope_(scope) {}
-
-    ClosedTree close(const Tree& tree) { return run(enter(tree, std::make_shared<Body>())); }
-
-    ClosedTree expand_all(const Definition& definition, std::vector<ClosedTree> arguments)
-    {
-        return run(expand(definition, std::move(arguments), definition.where));
+Value Expansion::Closing::run(Result result)
+{
+    while (!frames_.empty()) {
+        if (result) frames_.back().arguments.push_back(std::move(result));
+        result = advance();
     }
-
-  private:
-    using Result = std::optional<ClosedTree>; ///< nothing: a frame was left that will give it
-
-    /// An operation or application whose arguments are being closed, or (`expands`) a definition whose body is.
-    struct Frame {
-        Tree tree; ///< null for a definition
-        std::shared_ptr<Body> body;
-        std::vector<ClosedTree> arguments;
-        bool expands = false;
-        Key key;
-    };
-
-    ClosedTree run(Result result)
-    {
-        while (!frames_.empty()) {
-            if (result) frames_.back().arguments.push_back(std::move(*result));
-            result = advance();
-        }
-        return std::move(*result);
-    }
-
-    Result enter(const Tree& tree, const std::shared_ptr<Body>& body);
-    Result enter_name(const Tree& tree, const Body& body);
-    Result advance();
-    Result finish_operation();
-    Result expand(const Definition& definition, std::vector<ClosedTree> arguments, const SourceRange& use);
-    const Definition& function_of(const TreeNode& node, const Body& body) const;
-    void push(Frame frame, const SourceRange& where);
-    void refuse_cycle(const Definition& definition, const SourceRange& use) const;
-    [[noreturn]] void unknown(const TreeNode& node, const Body& body, bool as_function) const;
-
-    Expansion& expansion_;
-    const Scope& scope_;
-    std::vector<Frame> frames_;
-    std::vector<const Definition*> active_; ///< of the frames that expand
-};
+    return result;
+}
 
 Expansion::Closing::Result Expansion::Closing::enter(const Tree& tree, const std::shared_ptr<Body>& body)
 {
-    if (tree->kind == TreeKind::name || tree->kind == TreeKind::pi) return enter_name(tree, *body);
-    if (tree->arguments.empty() && tree->kind != TreeKind::apply) return leaf(tree);
+    if (tree->kind == TreeKind::name || tree->kind == TreeKind::pi) return enter_name(tree, body);
+    if (tree->arguments.empty() && tree->kind != TreeKind::apply && tree->kind != TreeKind::array) return leaf(tree);
     const auto known = body->done.find(tree.get());
     if (known != body->done.end()) return known->second;
     if (tree->kind == TreeKind::apply) (void)function_of(*tree, *body); // its mistakes come before its arguments'
-    push({tree, body, {}, false, {}}, tree->where);
-    return std::nullopt;
+    const bool repeats = tree->kind == TreeKind::sum_over || tree->kind == TreeKind::product_over;
+    push({.tree = tree, .body = body, .step = repeats ? Step::repetition : Step::operation}, tree->where);
+    return nullptr;
 }
 
-Expansion::Closing::Result Expansion::Closing::enter_name(const Tree& tree, const Body& body)
+Expansion::Closing::Result Expansion::Closing::enter_name(const Tree& tree, const std::shared_ptr<Body>& body)
 {
     const std::string& text = tree->kind == TreeKind::pi ? "pi" : tree->name;
-    if (const ClosedTree* argument = find_argument(body, text)) return *argument;
+    if (const Value* bound = find_bound(*body, text)) return *bound;
     if (scope_.has_symbol(text)) return leaf(tree->kind == TreeKind::pi ? name(text, tree->where) : tree);
+    if (const std::optional<long> size = scope_.find_size(text)) return leaf(number(*size, tree->where));
+    if (const Shape* shape = scope_.find_family(text)) return family(text, *shape, *body);
     const Definition* definition = scope_.find_definition(text);
     if (!definition && tree->kind == TreeKind::pi) return leaf(tree);
-    if (!definition) unknown(*tree, body, false);
+    if (!definition) unknown(*tree, *body, false);
     if (!definition->parameters.empty())
         throw ModelError(
             fmt::format("the function {} stands without arguments", quote(text)), tree->where,
@@ -137,34 +66,42 @@ Expansion::Closing::Result Expansion::Closing::enter_name(const Tree& tree, cons
     return expand(*definition, {}, tree->where);
 }
 
+/// One value a body, so that an entry that is used again is the same tree.
+Value Expansion::Closing::family(const std::string& name, const Shape& shape, const Body& body) const
+{
+    Value& value = (*body.families)[name];
+    if (!value) {
+        value = std::make_shared<Closed>();
+        value->shape = shape;
+        value->family = name;
+    }
+    return value;
+}
+
 /// Starts the expansion of a definition, or finds it done.
-Expansion::Closing::Result Expansion::Closing::expand(const Definition& definition, std::vector<ClosedTree> arguments,
+Expansion::Closing::Result Expansion::Closing::expand(const Definition& definition, std::vector<Value> arguments,
                                                       const SourceRange& use)
 {
     Key key{definition.name, {}};
-    for (const ClosedTree& argument : arguments) key.second.push_back(expansion_.identity_(argument.tree));
+    for (const Value& argument : arguments) key.second.push_back(expansion_.number_of(*argument));
     const auto known = expansion_.expanded_.find(key);
     if (known != expansion_.expanded_.end()) return known->second;
     refuse_cycle(definition, use);
     auto body = std::make_shared<Body>();
     body->definition = &definition;
-    body->arguments = std::move(arguments);
-    push({nullptr, std::move(body), {}, true, std::move(key)}, use);
+    for (std::size_t k = 0; k < arguments.size(); ++k)
+        body->bound.push_back({&definition.parameters[k], std::move(arguments[k])});
+    push({.body = std::move(body), .step = Step::definition, .key = std::move(key)}, use);
     active_.push_back(&definition);
-    return std::nullopt;
+    return nullptr;
 }
 
 Expansion::Closing::Result Expansion::Closing::advance()
 {
     Frame& top = frames_.back();
-    if (top.expands) {
-        if (top.arguments.empty()) return enter(top.body->definition->body, top.body);
-        ClosedTree result = std::move(top.arguments[0]);
-        expansion_.expanded_.emplace(std::move(top.key), result);
-        active_.pop_back();
-        frames_.pop_back();
-        return result;
-    }
+    if (top.step == Step::definition)
+        return top.arguments.empty() ? enter(top.body->definition->body, top.body) : finish_definition();
+    if (top.step == Step::repetition) return advance_repetition();
     const std::size_t wanted = top.tree->arguments.size();
     if (top.arguments.size() < wanted) return enter(top.tree->arguments[top.arguments.size()], top.body);
     if (top.tree->kind == TreeKind::apply && top.arguments.size() == wanted) // the expansion itself is one entry more
@@ -172,15 +109,23 @@ Expansion::Closing::Result Expansion::Closing::advance()
     return finish_operation();
 }
 
+Expansion::Closing::Result Expansion::Closing::finish_definition()
+{
+    Frame& top = frames_.back();
+    Value result = std::move(top.arguments[0]);
+    expansion_.expanded_.emplace(std::move(top.key), result);
+    active_.pop_back();
+    frames_.pop_back();
+    return result;
+}
+
 Expansion::Closing::Result Expansion::Closing::finish_operation()
 {
     Frame& top = frames_.back();
-    const bool inside = top.body->definition != nullptr;
-    if (inside && ++expansion_.operations_ > most_operations)
-        throw ModelError(fmt::format("the definitions expand to more than {} operations", most_operations),
-                         top.tree->where, "a function is expanded once for each distinct list of its arguments");
-    ClosedTree result = top.tree->kind == TreeKind::apply ? std::move(top.arguments.back())
-                                                          : operation(top.tree, std::move(top.arguments));
+    const Maker make = maker(*top.body, top.tree->where);
+    if (top.body->definition || !top.body->bound.empty()) make.count();
+    Value result = top.tree->kind == TreeKind::apply ? std::move(top.arguments.back())
+                                                     : combine(make, top.tree, std::move(top.arguments));
     // Only a shared node can be asked for again: one hold is the parent's, one this frame's.
     if (top.tree.use_count() > 2) top.body->done.emplace(top.tree.get(), result);
     frames_.pop_back();
@@ -190,8 +135,9 @@ Expansion::Closing::Result Expansion::Closing::finish_operation()
 void Expansion::Closing::push(Frame frame, const SourceRange& where)
 {
     if (frames_.size() >= tallest_stack)
-        throw ModelError(fmt::format("the definitions used here are nested more than {} operations deep", deepest),
-                         where, "shorten the chain of definitions");
+        throw ModelError(
+            fmt::format("the definitions used here are nested more than {} operations deep", deepest_closed), where,
+            "shorten the chain of definitions");
     frames_.push_back(std::move(frame));
 }
 
@@ -199,8 +145,8 @@ void Expansion::Closing::push(Frame frame, const SourceRange& where)
 const Definition& Expansion::Closing::function_of(const TreeNode& node, const Body& body) const
 {
     const Definition* definition = scope_.find_definition(node.name);
-    const bool is_value = find_argument(body, node.name) || scope_.has_symbol(node.name) ||
-                          (definition && definition->parameters.empty());
+    const bool is_value =
+        find_bound(body, node.name) || scope_.has_name(node.name) || (definition && definition->parameters.empty());
     if (is_value)
         throw ModelError(fmt::format("{} is not a function", quote(node.name)), node.where,
                          fmt::format("a product is written with '*': {}*(...)", node.name));
@@ -235,27 +181,55 @@ void Expansion::Closing::refuse_cycle(const Definition& definition, const Source
 
 void Expansion::Closing::unknown(const TreeNode& node, const Body& body, bool as_function) const
 {
+    if (!as_function && is_function_name(node.name))
+        throw ModelError(fmt::format("the function {} stands without arguments", quote(node.name)), node.where,
+                         fmt::format("arguments stand in parentheses: {}(..)", node.name));
     std::vector<std::string> known;
-    if (body.definition && !as_function) known = body.definition->parameters;
     if (!as_function)
-        for (const Scope::Symbol& symbol : scope_.symbols_) known.push_back(symbol.name);
+        for (const BoundName& entry : body.bound) known.push_back(*entry.name);
+    if (!as_function)
+        for (const std::string& name : scope_.value_names()) known.push_back(name);
     for (const Definition& definition : scope_.definitions_)
         if (definition.parameters.empty() != as_function) known.push_back(definition.name);
     throw ModelError(fmt::format("unknown {} {}", as_function ? "function" : "symbol", quote(node.name)), node.where,
                      as_function ? hint_for_function(node.name, known) : hint_for_symbol(node.name, known));
 }
 
-ClosedTree Expansion::close(const Scope& scope, const Tree& tree)
+std::size_t Expansion::number_of(Closed& value)
+{
+    if (value.number) return *value.number;
+    std::vector<std::size_t> content;
+    if (value.inverse_of) {
+        content = {0, number_of(*value.inverse_of)};
+    } else if (!value.family.empty()) {
+        content = {1, identity_(name(value.family))};
+    } else {
+        content = {2, static_cast<std::size_t>(value.shape.rank), value.shape.columns, value.open, value.neutral};
+        for (const ClosedTree& entry : value.entries) content.push_back(identity_(entry.tree));
+    }
+    value.number = numbers_.emplace(std::move(content), numbers_.size()).first->second;
+    return *value.number;
+}
+
+Value Expansion::close(const Scope& scope, const Tree& tree)
 {
     return Closing(*this, scope).close(tree);
 }
 
 void Expansion::check(const Scope& scope, const Definition& definition)
 {
-    std::vector<ClosedTree> arguments;
-    for (const std::string& parameter : definition.parameters)
+    std::vector<Value> arguments;
+    for (const std::string& parameter : definition.parameters) {
         arguments.push_back(leaf(name(parameter, definition.where)));
+        arguments.back()->open = true;
+    }
     (void)Closing(*this, scope).expand_all(definition, std::move(arguments));
+}
+
+std::vector<ClosedTree> Expansion::entries(const Value& value, const SourceRange& where)
+{
+    Budget budget{0, "the expression is longer than {} operations when its sums and arrays are written out", ""};
+    return Maker(budget, signed_identity_, where).entries(*value);
 }
 
 } // namespace lagen

@@ -52,12 +52,8 @@ constexpr std::array look_alikes{
     LookAlike{"≠", "'not equal' is written '!='"},
     LookAlike{"=", "equality is written '=='"},
     LookAlike{"!", "'not equal' is written '!='"},
-    LookAlike{"[",
-              "an expression is one number here: write its entries out with names of their own, for instance x1, x2"},
-    LookAlike{"]",
-              "an expression is one number here: write its entries out with names of their own, for instance x1, x2"},
-    LookAlike{"{", "terms are grouped with '(' and ')'"},
-    LookAlike{"}", "terms are grouped with '(' and ')'"},
+    LookAlike{"{", "terms are grouped with '(' and ')', and vectors are written [a, b]"},
+    LookAlike{"}", "terms are grouped with '(' and ')', and vectors are written [a, b]"},
     LookAlike{"|", "an absolute value is written 'abs(x)'"},
     LookAlike{"'", "a derivative has no sign of its own: give it a name"},
 };
@@ -66,7 +62,7 @@ const char* hint_for(std::string_view character)
 {
     for (const LookAlike& entry : look_alikes)
         if (entry.text == character) return entry.hint;
-    return "an expression is made of numbers, names (letters, digits and '_'), + - * / ^ and parentheses";
+    return "an expression is made of numbers, names (letters, digits and '_'), + - * / ^, parentheses and brackets";
 }
 
 } // namespace
@@ -173,6 +169,8 @@ Token Lexer::lex_operator()
         Operator{"^", TokenKind::caret},
         Operator{"(", TokenKind::left_parenthesis},
         Operator{")", TokenKind::right_parenthesis},
+        Operator{"[", TokenKind::left_bracket},
+        Operator{"]", TokenKind::right_bracket},
         Operator{",", TokenKind::comma},
     };
     const std::string_view rest = std::string_view(excerpt_.text).substr(position_);

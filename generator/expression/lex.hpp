@@ -16,6 +16,8 @@ enum class TokenKind {
     caret,
     left_parenthesis,
     right_parenthesis,
+    left_bracket,
+    right_bracket,
     comma,
     less,
     less_equal,

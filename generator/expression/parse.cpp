@@ -46,10 +46,11 @@ Operand Parser::parse_prefix()
         node.number = number.value;
         return leaf(std::move(node), number);
     }
-    case TokenKind::name: return parse_name();
+    case TokenKind::name: return parse_index(parse_name());
     case TokenKind::minus:
     case TokenKind::plus: return parse_sign();
-    case TokenKind::left_parenthesis: return parse_parenthesis();
+    case TokenKind::left_parenthesis: return parse_index(parse_parenthesis());
+    case TokenKind::left_bracket: return parse_index(parse_array());
     case TokenKind::end:
         lexer_.fail(fmt::format("the expression ends after {} where a number, a name or '(' is required",
                                 quote(lexer_.text(previous_))),
@@ -105,7 +106,7 @@ Operand Parser::parse_name()
     const FunctionEntry* function = find_function(text);
     TreeNode node;
     if (token_.kind != TokenKind::left_parenthesis) {
-        if (function)
+        if (function && !function->array) // norm, det, ... are free for a model's own quantities
             lexer_.fail(fmt::format("the function '{}' stands without arguments", text), name.begin, name.end,
                         fmt::format("arguments stand in parentheses: {}(x{})", text,
                                     function->arity == 1   ? ""
@@ -118,6 +119,7 @@ Operand Parser::parse_name()
     const Token open = take();
     const Level level(*this, open);
     std::vector<Operand> arguments = parse_arguments(name, open);
+    if (text == "sum" || text == "product") return parse_repetition(name, std::move(arguments));
     if (function) {
         check_call(*function, arguments, name.begin, previous_.end);
         node.kind = TreeKind::call;
@@ -135,7 +137,7 @@ std::vector<Operand> Parser::parse_arguments(const Token& function, const Token&
     std::vector<Operand> arguments;
     if (token_.kind == TokenKind::right_parenthesis) {
         take();
-        if (!find_function(lexer_.text(function)))
+        if (!is_function_name(lexer_.text(function)))
             lexer_.fail(fmt::format("{} is called without arguments", quote(lexer_.text(function))), function.begin,
                         previous_.end, "a function has one argument at least");
         return arguments;
@@ -152,7 +154,8 @@ std::vector<Operand> Parser::parse_arguments(const Token& function, const Token&
 void Parser::check_call(const FunctionEntry& function, const std::vector<Operand>& arguments, std::size_t begin,
                         std::size_t end) const
 {
-    if (arguments.size() != function.arity)
+    const bool any_number = function.function == Function::diag && !arguments.empty(); // diag(a, b, c)
+    if (arguments.size() != function.arity && !any_number)
         lexer_.fail(fmt::format("{} takes {} argument{}, and {} {} given", function.name, function.arity,
                                 function.arity == 1 ? "" : "s", arguments.size(), arguments.size() == 1 ? "is" : "are"),
                     begin, end, function.function == Function::select ? "if(c, a, b) is a where c holds, else b" : "");
@@ -169,7 +172,7 @@ void Parser::check_call(const FunctionEntry& function, const std::vector<Operand
 void Parser::refuse_missing_operator() const
 {
     const bool starts_value = token_.kind == TokenKind::number || token_.kind == TokenKind::name ||
-                              token_.kind == TokenKind::left_parenthesis;
+                              token_.kind == TokenKind::left_parenthesis || token_.kind == TokenKind::left_bracket;
     if (starts_value)
         fail_here(fmt::format("missing operator between {} and {}", quote(lexer_.text(previous_)), here()),
                   "a product is written with '*', for instance 2*x");

@@ -42,6 +42,8 @@ class Parser {
         Operand result = parse(Binding::comparison);
         if (token_.kind == TokenKind::right_parenthesis)
             fail_here("')' closes no parenthesis", "every ')' needs a '(' before it");
+        if (token_.kind == TokenKind::right_bracket)
+            fail_here("']' closes no bracket", "every ']' needs a '[' before it");
         if (token_.kind != TokenKind::end) fail_here(fmt::format("unexpected {}", here()), "");
         return result;
     }
@@ -60,6 +62,10 @@ class Parser {
     Operand parse_parenthesis();
     Operand parse_name();
     std::vector<Operand> parse_arguments(const Token& function, const Token& open);
+    Operand parse_repetition(const Token& word, std::vector<Operand> arguments);
+    Operand parse_array();
+    Operand parse_index(Operand base);
+    std::vector<Operand> parse_entries(const Token& open, const char* what);
     Operand parse_sum(Operand left);
     Operand parse_product(Operand left);
     Operand parse_power(Operand base);
@@ -85,6 +91,10 @@ class Parser {
     }
     void refuse_missing_operator() const;
     void close_parenthesis(const Token& open);
+    [[nodiscard]] std::string text_of(const Operand& operand) const
+    {
+        return excerpt_.text.substr(operand.begin, operand.end - operand.begin);
+    }
 
     /// Counts one level of nesting for as long as it lives.
     class Level {

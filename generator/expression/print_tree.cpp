@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Tree to text with the fewest parentheses. The walk keeps its own stack, and stops at a length: a shared tree of 40
 /// doublings has 2^40 characters.
+#include "expression/parse.hpp"
 #include "expression/tree.hpp"
 
 #include <fmt/format.h>
@@ -41,20 +42,27 @@ std::optional<Decimal> finite_decimal(const Rational& value)
     return Decimal{scaled.get_str(), decimals};
 }
 
-/// The text without its sign.
-std::string decimal_text(Decimal decimal)
+/// The digits with a point before the last `decimals` of them.
+std::string with_point(std::string digits, std::size_t decimals)
 {
-    std::string& digits = decimal.digits;
-    if (std::max(digits.size(), decimal.decimals + 2) > widest_number) {
-        if (decimal.decimals > 0) return fmt::format("{}e-{}", digits, decimal.decimals);
-        const std::size_t kept = digits.find_last_not_of('0') + 1;
-        const std::size_t zeros = digits.size() - kept;
-        return zeros > 3 ? fmt::format("{}e{}", digits.substr(0, kept), zeros) : digits;
-    }
-    if (decimal.decimals == 0) return digits;
-    if (digits.size() <= decimal.decimals) digits.insert(0, decimal.decimals + 1 - digits.size(), '0');
-    const std::size_t point = digits.size() - decimal.decimals;
+    if (decimals == 0) return digits;
+    if (digits.size() <= decimals) digits.insert(0, decimals + 1 - digits.size(), '0');
+    const std::size_t point = digits.size() - decimals;
     return fmt::format("{}.{}", digits.substr(0, point), digits.substr(point));
+}
+
+/// The text without its sign. No exponent goes beyond what the parser accepts: 140e400, not 14e401.
+std::string decimal_text(const Decimal& decimal)
+{
+    static constexpr auto largest = static_cast<std::size_t>(ParseLimits{}.decimal_exponent);
+    const std::string& digits = decimal.digits;
+    if (std::max(digits.size(), decimal.decimals + 2) <= widest_number) return with_point(digits, decimal.decimals);
+    if (decimal.decimals > 0) {
+        const std::size_t shift = std::min(decimal.decimals, largest);
+        return fmt::format("{}e-{}", with_point(digits, decimal.decimals - shift), shift);
+    }
+    const std::size_t zeros = std::min(digits.size() - digits.find_last_not_of('0') - 1, largest);
+    return zeros > 3 ? fmt::format("{}e{}", digits.substr(0, digits.size() - zeros), zeros) : digits;
 }
 
 struct NumberText {
@@ -123,7 +131,7 @@ const char* spaced(Comparison comparison)
 struct Pending {
     const TreeNode* node;
     Tightness least;
-    const char* text;
+    std::string text;
 };
 
 class Printer {
@@ -149,15 +157,20 @@ class Printer {
   private:
     void print_node(const TreeNode& outer, Tightness least);
     void open(const TreeNode& node);
+    void open_index(const TreeNode& node);
+    void open_solve(const TreeNode& node);
 
-    /// Leaves `node`'s arguments to be printed, separated.
-    void list(const TreeNode& node, const char* separator, Tightness least)
+    /// Leaves `node`'s arguments from `first` on to be printed, separated.
+    void list(const TreeNode& node, const char* separator, Tightness least, std::size_t first = 0)
     {
-        for (std::size_t k = node.arguments.size(); k-- > 0;) {
+        for (std::size_t k = node.arguments.size(); k-- > first;) {
             pending_.push_back({node.arguments[k].get(), least, ""});
-            if (k > 0) pending_.push_back({nullptr, least, separator});
+            if (k > first) pending_.push_back({nullptr, least, separator});
         }
     }
+
+    /// Leaves `text` to be printed.
+    void later(std::string text) { pending_.push_back({nullptr, Tightness::atom, std::move(text)}); }
 
     void pair(const TreeNode& node, const char* separator, Tightness left, Tightness right)
     {
@@ -215,12 +228,57 @@ void Printer::open(const TreeNode& node)
         pending_.push_back({nullptr, Tightness::atom, ")"});
         list(node, ", ", Tightness::comparison);
         break;
-    case TreeKind::solve:
-    case TreeKind::array:
-    case TreeKind::index:
     case TreeKind::sum_over:
-    case TreeKind::product_over: append("?"); break;
+    case TreeKind::product_over:
+        append(node.kind == TreeKind::sum_over ? "sum(" : "product(");
+        append(node.name);
+        append(", ");
+        later(")");
+        list(node, ", ", Tightness::comparison);
+        break;
+    case TreeKind::array:
+        append("[");
+        later("]");
+        list(node, ", ", Tightness::comparison);
+        break;
+    case TreeKind::index: open_index(node); break;
+    case TreeKind::solve: open_solve(node); break;
     }
+}
+
+/// base[i] or base[i,j]; what could not carry an index as it stands is enclosed.
+void Printer::open_index(const TreeNode& node)
+{
+    const TreeNode& base = unwrapped(*node.arguments[0]);
+    const bool entry = base.kind == TreeKind::name && base.name.ends_with(']');
+    const bool enclosed =
+        tightness_of(base) == Tightness::atom &&
+        (entry || base.kind == TreeKind::index || base.kind == TreeKind::number || base.kind == TreeKind::solve ||
+         base.kind == TreeKind::add || base.kind == TreeKind::multiply);
+    later("]");
+    list(node, ",", Tightness::comparison, 1);
+    later(enclosed ? ")[" : "[");
+    if (enclosed) append("(");
+    pending_.push_back({&base, Tightness::atom, ""});
+}
+
+/// (inverse([[a, b], [c, d]])*[e, f])[k], k from 1.
+void Printer::open_solve(const TreeNode& node)
+{
+    std::size_t m = 0;
+    while (m * (m + 1) < node.arguments.size()) ++m;
+    const mpz_class k = node.number.get_num() + 1;
+    later(fmt::format("])[{}]", k.get_str()));
+    list(node, ", ", Tightness::comparison, m * m);
+    later("]])*[");
+    for (std::size_t row = m; row-- > 0;) {
+        for (std::size_t column = m; column-- > 0;) {
+            pending_.push_back({node.arguments[row * m + column].get(), Tightness::comparison, ""});
+            if (column > 0) later(", ");
+        }
+        if (row > 0) later("], [");
+    }
+    append("(inverse([[");
 }
 
 } // namespace

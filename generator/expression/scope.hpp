@@ -34,6 +34,9 @@ class Scope {
 
     /// A declared symbol or entry of a family.
     [[nodiscard]] bool has_symbol(const std::string& name) const;
+    /// The shape of a declared family, nullptr where there is none.
+    [[nodiscard]] const Shape* find_family(const std::string& name) const;
+    [[nodiscard]] std::optional<long> find_size(const std::string& name) const;
 
     /// The closed form of `tree`. A definition is expanded once and shared (the same Tree wherever it is used; a
     /// function once for each distinct list of argument trees). Without `nonsmooth`, min max sign if are refused.
@@ -45,6 +48,10 @@ class Scope {
 
     /// The same for an expression that may be a vector or a matrix.
     [[nodiscard]] ArrayValue close_array(const Tree& tree, bool nonsmooth = false) const;
+
+    /// The value of an expression that is an integer constant over sizes, and nothing for any other.
+    /// Throws ModelError as `close` does.
+    [[nodiscard]] std::optional<long> integer(const Tree& tree) const;
 
     /// A scope with these extra symbols (as for events and observables, which may also use momenta). A name that this
     /// scope has already keeps its meaning: what a model declares wins.
@@ -60,12 +67,31 @@ class Scope {
         std::string name;
         SourceRange where;
     };
+    struct FamilyOfSymbols {
+        std::string name;
+        Shape shape;
+        SourceRange where;
+    };
+    struct DeclaredSize {
+        std::string name;
+        long value;
+        SourceRange where;
+    };
+    /// A symbol, an entry, a family or a size.
+    [[nodiscard]] bool has_name(const std::string& name) const;
+    /// Symbols, families and sizes in order of declaration.
+    [[nodiscard]] std::vector<std::string> value_names() const;
+    [[nodiscard]] const SourceRange* find_declaration(const std::string& name) const;
     void require_new(const std::string& name, const SourceRange& where) const;
     [[nodiscard]] const Definition* find_definition(const std::string& name) const;
 
     std::vector<Symbol> symbols_;
+    std::vector<FamilyOfSymbols> families_;
+    std::vector<DeclaredSize> sizes_;
     std::vector<Definition> definitions_;
     std::map<std::string, std::size_t> symbol_index_;
+    std::map<std::string, std::size_t> family_index_;
+    std::map<std::string, std::size_t> size_index_;
     std::map<std::string, std::size_t> definition_index_;
     /// What has been expanded so far. It depends on the names above alone, so that copies may share it; a scope drops
     /// its hold on it when a name joins.

@@ -76,7 +76,18 @@ const FunctionEntry* find_function(std::string_view name)
 {
     for (const FunctionEntry& entry : functions)
         if (name == entry.name) return &entry;
-    return nullptr;
+    return name == "tr" ? &entry_of(Function::trace) : nullptr;
+}
+
+bool is_function_name(std::string_view name)
+{
+    return find_function(name) || name == "sum" || name == "product";
+}
+
+bool is_reserved_name(std::string_view name)
+{
+    const FunctionEntry* function = find_function(name);
+    return function && !function->array;
 }
 
 const FunctionEntry& entry_of(Function function)

@@ -63,8 +63,13 @@ struct FunctionEntry {
 
 /// Every built-in function, in the order of the enumeration.
 [[nodiscard]] std::span<const FunctionEntry> function_table();
-[[nodiscard]] const FunctionEntry* find_function(std::string_view name); ///< nullptr where there is none
+[[nodiscard]] const FunctionEntry* find_function(std::string_view name); ///< nullptr where there is none; "tr" is trace
 [[nodiscard]] const FunctionEntry& entry_of(Function function);
+/// A name that stands for something of the language where parentheses follow: a built-in function, sum, product.
+[[nodiscard]] bool is_function_name(std::string_view name);
+/// A name that a model cannot declare. The array functions, sum and product can be: without parentheses the declared
+/// name is meant.
+[[nodiscard]] bool is_reserved_name(std::string_view name);
 
 enum class Comparison { less, less_equal, greater, greater_equal, equal, not_equal };
 

@@ -30,10 +30,12 @@ std::size_t TreeIdentity::number_of(const TreeNode& node)
 {
     std::string content = std::to_string(static_cast<int>(node.kind));
     content += ':';
-    if (node.kind == TreeKind::number) content += node.number.get_str();
+    if (node.kind == TreeKind::number || node.kind == TreeKind::solve) content += node.number.get_str();
     if (node.kind == TreeKind::call) content += std::to_string(static_cast<int>(node.function));
     if (node.kind == TreeKind::compare) content += std::to_string(static_cast<int>(node.comparison));
-    content += node.kind == TreeKind::name || node.kind == TreeKind::apply ? node.name : std::string();
+    if (node.kind == TreeKind::name || node.kind == TreeKind::apply || node.kind == TreeKind::sum_over ||
+        node.kind == TreeKind::product_over)
+        content += node.name;
     for (const Tree& argument : node.arguments) {
         content += ',';
         content += std::to_string(by_address_.at(argument.get()));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The algebroid block of a model as sparse anchor and structure functions.
-#include "geometry/algebroid.hpp"
+#include "geometry/build_workspace.hpp"
 #include "geometry/named_algebra.hpp"
 
 namespace lagen {
@@ -13,20 +13,7 @@ std::string list_of(const std::vector<std::string>& names)
     return text;
 }
 
-void take_bracket(Algebroid& algebroid, const AlgebroidBlock& block)
-{
-    for (const BracketEntry& entry : block.bracket)
-        algebroid.C.push_back({entry.c, entry.a, entry.b, entry.value, entry.where});
-}
-
-void take_anchor(Algebroid& algebroid, const AlgebroidBlock& block)
-{
-    for (const AnchorEntry& entry : block.anchor)
-        algebroid.rho.push_back({entry.coordinate, entry.section, entry.value, entry.where});
-}
-
-/// C from the table of named algebras. Throws ModelError for an unknown name and for a fibre of another rank.
-void take_named_algebra(Algebroid& algebroid, const AlgebroidBlock& block)
+std::vector<StructureValue> named_constants(const AlgebroidBlock& block, std::size_t first, std::size_t rank)
 {
     const std::optional<NamedAlgebra> algebra = named_algebra(block.algebra);
     if (!algebra) {
@@ -37,46 +24,99 @@ void take_named_algebra(Algebroid& algebroid, const AlgebroidBlock& block)
                          (near.empty() ? std::string() : "did you mean \"" + near + "\"? ") + "known are " +
                              list_of(named_algebra_names()) + " and sums A + B");
     }
-    if (algebra->basis.size() != algebroid.r())
+    if (algebra->basis.size() != rank) {
+        const bool atiyah = block.kind == AlgebroidKind::atiyah;
         throw ModelError("the Lie algebra " + algebra->name + " has rank " + std::to_string(algebra->basis.size()) +
-                             ", but the fibre has " + std::to_string(algebroid.r()) + " coordinates",
+                             ", but the fibre has " + std::to_string(rank) + (atiyah ? " vertical" : "") +
+                             " coordinates",
                          block.algebra_where, "give [fibre] one coordinate for each basis element");
+    }
+    std::vector<StructureValue> constants;
     for (const StructureConstant& entry : algebra->constants)
-        algebroid.C.push_back(
-            {entry.c, entry.a, entry.b, number(entry.value, block.algebra_where), block.algebra_where});
+        constants.push_back({entry.c + first, entry.a + first, entry.b + first,
+                             number(entry.value, block.algebra_where), block.algebra_where});
+    return constants;
 }
 
 /// rho(e_a) = d/dx^{over[a]}
-void take_tangent(Algebroid& algebroid, const AlgebroidBlock& block)
+BlockParts build_tangent(const AlgebroidBlock& block)
 {
-    if (block.over.size() != algebroid.r())
+    if (block.over.size() != block.fibre.size())
         throw ModelError("the tangent algebroid has " + std::to_string(block.over.size()) +
-                             " moving base coordinates, but the fibre has " + std::to_string(algebroid.r()),
+                             " moving base coordinates, but the fibre has " + std::to_string(block.fibre.size()),
                          block.where, "give [fibre] one coordinate for each base coordinate that moves");
+    BlockParts parts;
     for (std::size_t a = 0; a < block.over.size(); ++a)
-        algebroid.rho.push_back({block.over[a], a, number(1, block.where), block.where});
+        parts.rho.push_back({block.over[a], a, number(1, block.where), block.where});
+    return parts;
+}
+
+/// Sections of the factors one after another; sections of different factors commute.
+BlockParts build_product(BuildWorkspace& work, const AlgebroidBlock& block)
+{
+    BlockParts parts;
+    std::size_t first = 0;
+    for (const AlgebroidBlock& factor : block.of) {
+        const BlockParts inner = build_block(work, factor);
+        for (AnchorValue entry : inner.rho) {
+            entry.a += first;
+            parts.rho.push_back(std::move(entry));
+        }
+        for (const StructureValue& entry : inner.C)
+            parts.C.push_back({entry.c + first, entry.a + first, entry.b + first, entry.value, entry.where});
+        first += factor.fibre.size();
+    }
+    return parts;
 }
 
 } // namespace
 
+std::vector<StructureValue> structure_constants(const AlgebroidBlock& block, std::size_t first, std::size_t rank)
+{
+    if (!block.algebra.empty()) return named_constants(block, first, rank);
+    std::vector<StructureValue> constants;
+    for (const BracketEntry& entry : block.bracket)
+        constants.push_back({entry.c, entry.a, entry.b, entry.value, entry.where});
+    return constants;
+}
+
+BlockParts build_given(const AlgebroidBlock& block)
+{
+    BlockParts parts;
+    for (const AnchorEntry& entry : block.anchor)
+        parts.rho.push_back({entry.coordinate, entry.section, entry.value, entry.where});
+    parts.C = structure_constants(block, 0, block.fibre.size());
+    return parts;
+}
+
+BlockParts build_block(BuildWorkspace& work, const AlgebroidBlock& block)
+{
+    switch (block.kind) {
+    case AlgebroidKind::tangent: return build_tangent(block);
+    case AlgebroidKind::action: return build_action(work, block);
+    case AlgebroidKind::subbundle: return build_subbundle(work, block);
+    case AlgebroidKind::atiyah: return build_atiyah(work, block);
+    case AlgebroidKind::frame: return build_frame(work, block, build_block(work, block.of.at(0)));
+    case AlgebroidKind::prolongation: return build_prolongation(block, build_block(work, block.of.at(0)));
+    case AlgebroidKind::product: return build_product(work, block);
+    default: return build_given(block);
+    }
+}
+
 Algebroid build_algebroid(const Model& model)
 {
-    const AlgebroidBlock& block = model.algebroid;
+    AlgebroidBlock block = model.algebroid;
+    block.fibre = model.fibre.coordinates;
+    BuildWorkspace work(model);
+    BlockParts parts = build_block(work, block);
     Algebroid algebroid;
     algebroid.base = model.base.coordinates;
     algebroid.fibre = model.fibre.coordinates;
     for (const Parameter& parameter : model.parameters) algebroid.parameters.push_back(parameter.symbol.name);
+    algebroid.rho = std::move(parts.rho);
+    algebroid.C = std::move(parts.C);
     algebroid.constraints = model.base.constraints;
     algebroid.domain = model.base.domain;
-    if (block.kind == AlgebroidKind::tangent) {
-        take_tangent(algebroid, block);
-        return algebroid;
-    }
-    take_anchor(algebroid, block);
-    if (block.algebra.empty())
-        take_bracket(algebroid, block);
-    else
-        take_named_algebra(algebroid, block);
     return algebroid;
 }
 

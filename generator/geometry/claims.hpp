@@ -4,6 +4,8 @@
 #pragma once
 
 #include "geometry/fibre_hessian.hpp"
+#include "geometry/judge.hpp"
+#include "geometry/repair_search.hpp"
 #include "geometry/structure_equations.hpp"
 #include "geometry/verify.hpp"
 
@@ -13,38 +15,39 @@ namespace lagen {
 
 class Claims {
   public:
-    /// Throws ModelError where the base constraints are not triangular, and where a divisor of the model is zero
-    /// everywhere.
-    Claims(const Model& model, const Algebroid& algebroid);
+    /// `points`: of a re-evaluation; 0: none. Throws ModelError where the base constraints are not triangular, and
+    /// where a divisor of the model is zero everywhere.
+    Claims(const Model& model, const Algebroid& algebroid, std::size_t points);
 
-    /// antisymmetry, anchor, jacobi
+    /// antisymmetry, anchor, jacobi, tangency of the constraints, Casimirs
     void decide_structure(VerifiedAlgebroid& verified);
-    /// tangency of the constraints, Casimirs
-    void decide_surfaces(VerifiedAlgebroid& verified);
     void decide_regularity(VerifiedAlgebroid& verified);
     void decide_invariants(VerifiedAlgebroid& verified, const std::vector<NamedTree>& extra);
 
   private:
     void lower_model();
-    void make_decider();
+    void make_setting();
+    void require_written_operations();
+    void require_triangular_constraints();
     void refuse_zero_divisors();
-    [[nodiscard]] Decision decide(NodeId residual, const ZeroDecider& decider) const;
-    [[nodiscard]] std::string sign_hint(const std::vector<Residual>& residuals, std::size_t a, std::size_t b);
-    void decide_anchor_derivative(VerifiedAlgebroid& verified, const std::string& name, const std::string& text,
-                                  NodeId f);
+    [[nodiscard]] Check check_of(const Residual& residual) const;
+    [[nodiscard]] Editable editable() const;
+    [[nodiscard]] std::set<std::string> accessory() const;
     [[nodiscard]] std::vector<std::pair<NodeId, NodeId>> parameter_values();
 
     const Model& model_;
     const Algebroid& algebroid_;
+    std::size_t points_;
     Graph graph_;
     Binding binding_; ///< names of Casimirs
     std::unique_ptr<Lowering> lower_;
     LoweredAlgebroid lowered_;
+    BaseFunctions functions_; ///< as nodes
     std::optional<NodeId> time_;
     std::optional<FibreHessian> hessian_;
     std::unique_ptr<BaseGradient> partial_;
     ProofSetting setting_;
-    std::unique_ptr<ZeroDecider> decider_;
+    std::unique_ptr<Judge> judge_;
     std::string note_;
 };
 

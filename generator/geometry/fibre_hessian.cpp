@@ -36,6 +36,7 @@ FibreHessian fibre_hessian(Graph& graph, NodeId lagrangian, const std::vector<No
 {
     FibreHessian result;
     result.lagrangian = lagrangian;
+    result.y = y;
     result.momenta = gradient(graph, lagrangian, y);
     for (const std::vector<NodeId>& row : jacobian(graph, result.momenta, y))
         result.hessian.insert(result.hessian.end(), row.begin(), row.end());

@@ -17,6 +17,7 @@ struct FibreHessian {
     std::vector<NodeId> momenta;                  ///< p_a, shape (r)
     std::vector<NodeId> hessian;                  ///< W_ab, shape (r, r), by rows
     std::vector<std::vector<std::size_t>> blocks; ///< classes of coupled coordinates, each ascending
+    std::vector<NodeId> y;                        ///< fibre coordinates, shape (r)
 
     [[nodiscard]] NodeId W(std::size_t a, std::size_t b) const { return hessian[a * momenta.size() + b]; }
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Rank, regularity and definiteness of W, block by block.
 #include "geometry/regularity.hpp"
+#include "geometry/definite_squares.hpp"
 #include "geometry/rational_matrix.hpp"
 #include "geometry/singular_points.hpp"
 #include "graph/differentiate.hpp"
@@ -140,7 +141,8 @@ bool is_total(const Graph& graph, NodeId node)
     case Op::sinh:
     case Op::cosh:
     case Op::tanh:
-    case Op::exp: return true;
+    case Op::exp:
+    case Op::stumpff: return true;
     case Op::power: return static_cast<std::int32_t>(graph.payload(node)) >= 0;
     case Op::divide: return graph.is_constant(graph.operands(node)[1]);
     default: return false;
@@ -202,6 +204,23 @@ bool add_ranks(Graph& graph, const FibreHessian& hessian, const ZeroDecider& dec
     return true;
 }
 
+/// Definite by squares where the parameters have the values of the file.
+bool is_definite_for(Graph& graph, const FibreHessian& hessian, const ProofSetting& setting,
+                     const Replacements& defaults)
+{
+    if (defaults.empty()) return false;
+    try {
+        const ProofSetting there = replaced(graph, setting, defaults);
+        FibreHessian at_defaults = hessian;
+        const NodeId lagrangian[] = {hessian.lagrangian};
+        at_defaults.lagrangian = substitute(graph, lagrangian, defaults)[0];
+        const ZeroDecider decider(graph, there);
+        return proves_definite_by_squares(graph, at_defaults, decider) && decider.sample_point().has_value();
+    } catch (const Error&) {
+        return false; // the values of the file make something undefined
+    }
+}
+
 } // namespace
 
 Regularity decide_regularity(Graph& graph, const FibreHessian& hessian, const ProofSetting& setting,
@@ -209,6 +228,22 @@ Regularity decide_regularity(Graph& graph, const FibreHessian& hessian, const Pr
 {
     Regularity result;
     result.kind = Regularity::Kind::undecided;
+    // A sum of squares needs neither ranks nor determinants.
+    if (proves_definite_by_squares(graph, hessian, decider) && decider.sample_point()) {
+        result.kind = Regularity::Kind::regular;
+        result.rank = hessian.momenta.size();
+        result.positive_definite = true;
+        return result;
+    }
+    // Small blocks are tried for all parameters first.
+    const bool large = std::any_of(hessian.blocks.begin(), hessian.blocks.end(),
+                                   [](const Block& block) { return block.size() > 4; });
+    if (large && is_definite_for(graph, hessian, setting, defaults)) {
+        result.kind = Regularity::Kind::regular;
+        result.rank = hessian.momenta.size();
+        result.positive_definite = result.for_given_parameters = true;
+        return result;
+    }
     const ZeroDecider quick(graph, setting, witness_budget);
     if (!add_ranks(graph, hessian, quick, result) && !add_ranks(graph, hessian, decider, result)) return result;
     if (result.rank < hessian.momenta.size()) {

@@ -18,7 +18,8 @@ struct Check {
     std::vector<std::string>
         indices; ///< names, e.g. {"w1", "w2", "g3"} for anchor (a, b, i); {"w1","w2","w3","w1"} for jacobi (a, b, c, v)
     Decision decision;
-    std::string hint; ///< may be empty
+    std::string hint;                         ///< may be empty
+    std::optional<Reevaluation> reevaluation; ///< where it was asked for and there is a residual
 };
 
 enum class Verdict { valid, invalid, undecided };
@@ -41,9 +42,22 @@ struct VerifiedAlgebroid {
     Verdict verdict = Verdict::undecided;
     Regularity regularity;
     std::string note; ///< e.g. "no regular point was found: ..."
+    std::optional<Reevaluation>
+        reevaluation; ///< of all residuals that were proved: the least points, the largest bound
 };
 
-/// Runs every check that the model calls for, on extra invariants (closed trees from the command line) too.
-[[nodiscard]] VerifiedAlgebroid verify(const Model& model, const std::vector<NamedTree>& extra_invariants = {});
+/// Digits to which `verify` re-evaluates.
+constexpr int reevaluation_digits = 60;
+
+/// Runs every check that the model calls for, on extra invariants (closed trees from the command line) too. With
+/// `points` each residual is evaluated again at as many regular points, others than those of the decision.
+[[nodiscard]] VerifiedAlgebroid verify(const Model& model, const std::vector<NamedTree>& extra_invariants = {},
+                                       std::size_t points = 0);
+
+/// Of a subbundle: a check "involutive" (a, b) for each pair of sections, from its anchor equations.
+void append_involutive(VerifiedAlgebroid& verified, const Model& model);
+
+/// Throws InternalError where a residual was proved to be zero and its re-evaluation excludes that.
+void require_confirmed(const Check& check);
 
 } // namespace lagen

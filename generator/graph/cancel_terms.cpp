@@ -7,7 +7,7 @@ namespace lagen {
 namespace {
 
 /// Neither longer sums nor longer factors are looked at: the pass is cubic.
-constexpr std::size_t largest_sum = 40;
+constexpr std::size_t largest_scanned_sum = 40;
 
 /// `sum` with its k-th term multiplied out by the closed sum `atom`.
 Polynomial opened(Algebra& algebra, const Polynomial& sum, std::size_t k, AtomId atom)
@@ -25,7 +25,7 @@ bool cancel_once(Algebra& algebra, Polynomial& sum)
     for (std::size_t k = 0; k < sum.size(); ++k)
         for (const Factor& factor : sum[k].monomial) {
             const Atom& atom = algebra[factor.atom];
-            if (atom.op != Op::add || factor.exponent != 1 || atom.operands[0].size() > largest_sum) continue;
+            if (atom.op != Op::add || factor.exponent != 1 || atom.operands[0].size() > largest_scanned_sum) continue;
             const std::size_t unmet = sum.size() - 1 + atom.operands[0].size();
             Polynomial next = opened(algebra, sum, k, factor.atom);
             if (next.size() > sum.size() || next.size() + 2 > unmet) continue;
@@ -41,8 +41,8 @@ void cancel_terms(Form& form)
 {
     for (const Place& place : live_places(form)) {
         Polynomial sum = at(form, place);
-        if (sum.size() < 2 || sum.size() > largest_sum) continue;
-        for (std::size_t round = 0; round < largest_sum && cancel_once(form.algebra, sum); ++round) {
+        if (sum.size() < 2 || sum.size() > largest_scanned_sum) continue;
+        for (std::size_t round = 0; round < largest_scanned_sum && cancel_once(form.algebra, sum); ++round) {
         }
         at(form, place) = std::move(sum);
     }

@@ -8,7 +8,7 @@ namespace lagen {
 namespace {
 
 /// Terms of one multiplied-out sum.
-constexpr std::size_t largest_sum = 400;
+constexpr std::size_t largest_expanded_sum = 400;
 /// A sum with several users is flattened into them only while it is short; a long one keeps its own name.
 constexpr std::size_t largest_shared_sum = 24;
 
@@ -61,7 +61,7 @@ class Collector {
             // A rational factor is no multiplication to save: it goes in, the content comes out again later.
             return (a.size() == 1 && a[0].monomial.empty()) || (b.size() == 1 && b[0].monomial.empty());
         if (expansion_ == Expansion::monomials && a.size() > 1 && b.size() > 1) return false;
-        return a.size() * b.size() <= largest_sum;
+        return a.size() * b.size() <= largest_expanded_sum;
     }
 
     [[nodiscard]] Polynomial multiply(const Polynomial& a, const Polynomial& b)
@@ -79,7 +79,7 @@ class Collector {
         if (base.size() > 1 && n > 1 && n <= 4 && expansion_ == Expansion::all) {
             Polynomial result = base;
             for (int k = 1; k < n; ++k) {
-                if (result.size() * base.size() > largest_sum) return {power(base, n)};
+                if (result.size() * base.size() > largest_expanded_sum) return {power(base, n)};
                 result = algebra_.distribute(result, base);
             }
             return result;
@@ -92,7 +92,7 @@ class Collector {
         std::vector<Polynomial> operands;
         for (const NodeId operand : graph_.operands(id)) operands.push_back(values_[operand]);
         const Op op = graph_.op(id);
-        const bool indexed = op == Op::component || op == Op::factor;
+        const bool indexed = op == Op::component || op == Op::factor || op == Op::stumpff;
         return single(op, indexed ? graph_.payload(id) : 0, std::move(operands));
     }
 

@@ -10,11 +10,16 @@ namespace lagen {
 OperationCount count_operations(const Graph& graph, std::span<const NodeId> roots)
 {
     OperationCount count;
-    std::set<NodeId> angles; // sin and cos of one angle are one call
+    std::set<NodeId> angles;    // sin and cos of one angle are one call
+    std::set<NodeId> arguments; // and so are the Stumpff functions of one argument
     for (const NodeId id : reachable(graph, roots)) {
         const Op op = graph.op(id);
         if ((op == Op::sin || op == Op::cos) && !angles.insert(graph.operands(id)[0]).second) {
             count.weight += operation_weight(graph, id) / 2; // glibc: sin 78, cos 72, sincos 122 instructions
+            continue;
+        }
+        if (op == Op::stumpff && !arguments.insert(graph.operands(id)[0]).second) {
+            count.weight += 4; // one step of the recurrence
             continue;
         }
         count.weight += operation_weight(graph, id);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The interpreter over the rationals: exact, or no answer.
+#include "expression/evaluate_stumpff.hpp"
 #include "graph/evaluate.hpp"
 
 #include <cmath>
@@ -59,6 +60,7 @@ Exact apply(Op op, const std::vector<Rational>& x, std::uint32_t payload)
     case Op::equal: return truth(x[0] == x[1]);
     case Op::not_equal: return truth(x[0] != x[1]);
     case Op::select: return x[0] != 0 ? x[1] : x[2];
+    case Op::stumpff: return x[0] == 0 ? Exact(stumpff_at_zero(payload)) : std::nullopt;
     default: return std::nullopt;
     }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Elementary functions, comparisons and selection, with the exact values at constants that are certain.
+#include "expression/evaluate_stumpff.hpp"
 #include "graph/graph.hpp"
 #include "graph/operators.hpp"
 
@@ -60,7 +61,7 @@ std::optional<Rational> exact_value(Op op, const Rational& a, const Rational& b)
 NodeId Graph::apply(Op op, NodeId a)
 {
     if (op == Op::negate) return negate(a);
-    if (operator_of(op).arity != 1 || operator_of(op).notation != Notation::call)
+    if (operator_of(op).arity != 1 || operator_of(op).notation != Notation::call || op == Op::stumpff)
         throw InternalError(std::string("apply(op, a) wants a function of one operand, not ") + operator_of(op).name);
     if (is_constant(a))
         if (const auto known = exact_value(op, value(a))) return constant(*known);
@@ -98,6 +99,16 @@ NodeId Graph::apply(Op op, NodeId a, NodeId b)
     if (operator_of(op).commutative && a > b) std::swap(a, b);
     const NodeId pair[] = {a, b};
     return intern(op, pair, 0);
+}
+
+NodeId Graph::stumpff(unsigned k, NodeId z)
+{
+    if (k > largest_stumpff_order)
+        throw MathematicsError("stumpff(" + std::to_string(k) + ", z) is beyond the order " +
+                               std::to_string(largest_stumpff_order) + ", the highest there is");
+    if (is_zero(z)) return constant(stumpff_at_zero(k));
+    const NodeId only[] = {z};
+    return intern(Op::stumpff, only, k);
 }
 
 NodeId Graph::select(NodeId condition, NodeId a, NodeId b)

@@ -2,6 +2,8 @@
 /// Lowering: closed trees to nodes, with an explicit stack.
 #include "graph/lower.hpp"
 
+#include "expression/evaluate_stumpff.hpp"
+
 #include <array>
 #include <utility>
 
@@ -76,8 +78,38 @@ NodeId lower_power(Graph& graph, const TreeNode& tree, NodeId base, NodeId expon
     return graph.apply(Op::real_power, base, exponent);
 }
 
+/// stumpff(k, z), k a literal.
+NodeId lower_stumpff(Graph& graph, const TreeNode& tree, std::span<const NodeId> arguments)
+{
+    const Rational* order = graph.is_constant(arguments[0]) ? &graph.value(arguments[0]) : nullptr;
+    if (order == nullptr || order->get_den() != 1 || *order < 0 || *order > largest_stumpff_order)
+        throw ModelError("the first argument of stumpff is" +
+                             (order != nullptr ? " " + order->get_str() : quoted(tree.arguments[0])) +
+                             ", an integer from 0 to " + std::to_string(largest_stumpff_order) + " is required",
+                         tree.where, "stumpff(k, z) is the sum over j of (-z)^j / (2j+k)!");
+    return graph.stumpff(static_cast<unsigned>(order->get_num().get_ui()), arguments[1]);
+}
+
+/// One component of A^-1 b; equal systems are one node, whichever component asks first.
+NodeId lower_solve(Graph& graph, const TreeNode& tree, std::span<const NodeId> arguments)
+{
+    std::size_t n = 0;
+    while (n * n + n < arguments.size()) ++n;
+    if (n * n + n != arguments.size() || sgn(tree.number) < 0 || tree.number >= n)
+        throw InternalError("a solve with " + std::to_string(arguments.size()) + " arguments");
+    try {
+        const auto z = graph.solve(arguments.first(n * n), arguments.last(n), MatrixStructure::general);
+        return z[tree.number.get_num().get_ui()];
+    } catch (const MathematicsError&) {
+        throw ModelError("the matrix of a linear system has an entry 0 that is alone in its row and column, a matrix "
+                         "with an inverse is required",
+                         tree.where);
+    }
+}
+
 NodeId lower_call(Graph& graph, const TreeNode& tree, std::span<const NodeId> arguments)
 {
+    if (tree.function == Function::stumpff) return lower_stumpff(graph, tree, arguments);
     const Op op = op_of(tree.function);
     switch (arguments.size()) {
     case 1: return graph.apply(op, arguments[0]);
@@ -102,6 +134,7 @@ NodeId combine(Graph& graph, const TreeNode& tree, std::span<const NodeId> argum
     case TreeKind::divide: return lower_divide(graph, tree, arguments[0], arguments[1]);
     case TreeKind::power: return lower_power(graph, tree, arguments[0], arguments[1]);
     case TreeKind::call: return lower_call(graph, tree, arguments);
+    case TreeKind::solve: return lower_solve(graph, tree, arguments);
     case TreeKind::compare: return graph.apply(op_of(tree.comparison), arguments[0], arguments[1]);
     default: break;
     }

@@ -3,6 +3,8 @@
 /// can.
 #include "graph/operators.hpp"
 
+#include "expression/evaluate_stumpff.hpp"
+
 #include <array>
 #include <bit>
 #include <cmath>
@@ -129,6 +131,16 @@ NodeId of_abs(Graph& g, NodeId node, std::size_t, NodeId t)
     return g.multiply(g.divide(operand(g, node, 0), node), t);
 }
 
+/// c_k' = (k c_{k+2} - c_{k+1}) / 2.
+NodeId of_stumpff(Graph& g, NodeId node, std::size_t, NodeId t)
+{
+    const unsigned k = g.payload(node);
+    const NodeId z = operand(g, node, 0);
+    NodeId slope = g.negate(g.stumpff(k + 1, z));
+    if (k != 0) slope = g.add(g.multiply(g.constant(static_cast<long>(k)), g.stumpff(k + 2, z)), slope);
+    return g.multiply(g.divide(slope, g.constant(2)), t);
+}
+
 /// The branch that is taken; where both are equal, the first.
 NodeId of_minimum(Graph& g, NodeId node, std::size_t k, NodeId t)
 {
@@ -197,12 +209,15 @@ Operator comparison(Op op, const char* sign, Function value)
     return row(op, sign, sign, Notation::infix, 2, 0, 1, value, of_step);
 }
 
+/// A polynomial of some ten terms where |z| is small, else a sine and a cosine.
+constexpr double stumpff_weight = 25;
+
 /// The value lambdas of the table; `x` are the operands, the return type is their scalar.
 #define LAGEN_VALUE(expression) [](const auto* x, std::int32_t) { return expression; }
 #define LAGEN_CAST(integer)                                                                                            \
     [](const auto* x, std::int32_t) { return static_cast<std::remove_cvref_t<decltype(*x)>>(integer); }
 
-std::array<Operator, 37> make_table()
+std::array<Operator, 38> make_table()
 {
     using N = Notation;
     return {
@@ -235,6 +250,9 @@ std::array<Operator, 37> make_table()
         row(Op::minimum, "min", "min", N::call, 2, 5, 1, LAGEN_VALUE(x[0] <= x[1] ? x[0] : x[1]), of_minimum),
         row(Op::maximum, "max", "max", N::call, 2, 5, 1, LAGEN_VALUE(x[0] >= x[1] ? x[0] : x[1]), of_maximum),
         function(Op::sign, "sign", 2, LAGEN_CAST((x[0] > 0) - (x[0] < 0)), of_step),
+        row(
+            Op::stumpff, "stumpff", "stumpff", N::call, 1, 5, stumpff_weight,
+            [](const auto* x, std::int32_t k) { return evaluate_stumpff(static_cast<unsigned>(k), x[0]); }, of_stumpff),
         comparison(Op::less, "<", LAGEN_CAST(x[0] < x[1])),
         comparison(Op::less_equal, "<=", LAGEN_CAST(x[0] <= x[1])),
         comparison(Op::greater, ">", LAGEN_CAST(x[0] > x[1])),
@@ -255,7 +273,7 @@ std::array<Operator, 37> make_table()
 
 std::span<const Operator> operator_table()
 {
-    static const std::array<Operator, 37> table = make_table();
+    static const std::array<Operator, 38> table = make_table();
     return table;
 }
 

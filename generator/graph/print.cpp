@@ -58,6 +58,7 @@ void expand(const Graph& graph, NodeId id, std::vector<Piece>& pieces)
     case Notation::block:
         pieces.push_back({entry.name, 0, 0});
         pieces.push_back({"(", 0, 0});
+        if (entry.op == Op::stumpff) pieces.push_back({std::to_string(graph.payload(id)).append(", "), 0, 0});
         for (std::size_t k = 0; k < operands.size(); ++k) {
             if (k != 0) pieces.push_back({", ", 0, 0});
             pieces.push_back({{}, operands[k], 0});

@@ -35,6 +35,7 @@ class Builder {
         case Op::select:
             nodes_[id] = graph_.select(sum(atom.operands[0]), sum(atom.operands[1]), sum(atom.operands[2]));
             break;
+        case Op::stumpff: nodes_[id] = graph_.stumpff(atom.payload, sum(atom.operands[0])); break;
         default:
             nodes_[id] = atom.operands.size() == 1
                              ? graph_.apply(atom.op, sum(atom.operands[0]))

@@ -71,7 +71,7 @@ class Sweep {
         }
         double x[3]{};
         for (std::size_t k = 0; k < operands.size(); ++k) x[k] = values_[operands[k]];
-        values_[id] = round_(operator_of(graph_.op(id)).value_double(x, 0));
+        values_[id] = round_(operator_of(graph_.op(id)).value_double(x, static_cast<std::int32_t>(graph_.payload(id))));
     }
 
     [[nodiscard]] std::vector<double> values() && { return std::move(values_); }

@@ -67,7 +67,7 @@ bool best_pair(const Uses& uses, Pair& best, std::vector<Monomial>& holders)
     return true;
 }
 
-int exponent_of(const Monomial& monomial, AtomId atom)
+int held_exponent(const Monomial& monomial, AtomId atom)
 {
     return std::ranges::lower_bound(monomial, atom, {}, &Factor::atom)->exponent;
 }
@@ -77,7 +77,7 @@ Monomial common_part(const Pair& pair, const std::vector<Monomial>& holders)
 {
     const auto smallest = [&](AtomId atom, bool below) {
         int magnitude = INT32_MAX;
-        for (const Monomial& holder : holders) magnitude = std::min(magnitude, std::abs(exponent_of(holder, atom)));
+        for (const Monomial& holder : holders) magnitude = std::min(magnitude, std::abs(held_exponent(holder, atom)));
         return Factor{atom, below ? -magnitude : magnitude};
     };
     return {smallest(pair.first, pair.first_below), smallest(pair.second, pair.second_below)};
@@ -156,7 +156,7 @@ void share_reciprocals(Form& form)
         if (holders.size() < 2) continue;
         const AtomId name = name_product(form, uses, {{atom, -1}});
         for (const Monomial& holder : holders) {
-            const int exponent = exponent_of(holder, atom);
+            const int exponent = held_exponent(holder, atom);
             rewrite(form, uses, holder, replaced(holder, {{atom, exponent}}, {name, -exponent}), name);
         }
     }

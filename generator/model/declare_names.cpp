@@ -3,6 +3,7 @@
 #include "model/model_reader.hpp"
 
 #include "expression/parse.hpp"
+#include "model/families.hpp"
 #include "model/read_values.hpp"
 #include "model/table_reader.hpp"
 
@@ -13,46 +14,23 @@ namespace lagen {
 
 namespace {
 
-std::vector<Symbol> declare_list(ModelReader& reader, const TomlEntry& entry, const std::string& what, Role role)
+/// The names and families of a list, entry by entry.
+std::vector<Symbol> read_names(const ModelReader& reader, const TomlEntry& entry, const std::string& what)
 {
     std::vector<Symbol> out;
-    for (const Excerpt& name : read_list(entry.value, what)) {
-        const SourceRange where = name.range(0, name.text.size());
-        reader.names.declare(name.text, role, where);
-        out.push_back(Symbol{name.text, where, {}, {}, {}});
+    for (const Excerpt& key : read_list(entry.value, what)) {
+        const DeclaredKey declared = read_declaration(reader, key);
+        out.insert(out.end(), declared.symbols.begin(), declared.symbols.end());
     }
     return out;
 }
 
-void default_fibre(ModelReader& reader)
+void declare_default_momenta(ModelReader& reader)
 {
-    Model& model = reader.model;
-    for (const std::size_t i : model.algebroid.over) {
-        const Symbol& coordinate = model.base.coordinates[i];
-        reader.names.declare("v_" + coordinate.name, Role::fibre, coordinate.where);
-        model.fibre.coordinates.push_back(Symbol{"v_" + coordinate.name, coordinate.where, {}, {}, {}});
-    }
-}
-
-void default_momenta(ModelReader& reader)
-{
-    for (const Symbol& coordinate : reader.model.fibre.coordinates) {
-        reader.names.declare("p_" + coordinate.name, Role::momentum, coordinate.where);
-        reader.model.fibre.momenta.push_back(Symbol{"p_" + coordinate.name, coordinate.where, {}, {}, {}});
-    }
-}
-
-void require_rank(const Model& model, const SourceRange& where)
-{
-    if (model.algebroid.kind != AlgebroidKind::tangent) return;
-    const std::size_t found = model.fibre.coordinates.size();
-    const std::size_t wanted = model.algebroid.over.size();
-    if (found == wanted) return;
-    throw ModelError(
-        fmt::format(
-            "the number of fibre coordinates is {}, where a tangent bundle needs one a moving base coordinate: {}",
-            found, wanted),
-        where, "fibre coordinates stand in the order of the base coordinates");
+    std::vector<Symbol> momenta;
+    for (const Symbol& coordinate : reader.model.fibre.coordinates)
+        momenta.push_back(Symbol{"p_" + coordinate.name, coordinate.where, {}, {}, {}});
+    declare_symbols(reader, momenta, Role::momentum);
 }
 
 /// "V(q, r)" as a name and its parameters; "T" as a name alone.
@@ -103,8 +81,9 @@ void declare_parameters(ModelReader& reader, const TomlEntry* block)
     if (block == nullptr) return;
     const TableReader table(block->value, "[parameters]");
     for (const TomlEntry& entry : block->value.entries) {
-        reader.names.declare(entry.name(), Role::parameter, entry.where());
-        reader.model.parameters.push_back(Parameter{Symbol{entry.name(), entry.where(), {}, {}, {}}, nullptr});
+        const DeclaredKey declared = read_declaration(reader, entry.key);
+        declare_symbols(reader, declared.symbols, Role::parameter);
+        reader.parameter_names.push_back(declared.name);
     }
 }
 
@@ -113,7 +92,7 @@ void declare_base(ModelReader& reader, const TomlEntry* block)
     if (block == nullptr) return;
     TableReader table(block->value, "[base]");
     if (const TomlEntry* entry = table.take("coordinates")) {
-        reader.model.base.coordinates = declare_list(reader, *entry, "'coordinates' of [base]", Role::base);
+        declare_symbols(reader, read_names(reader, *entry, "'coordinates' of [base]"), Role::base);
     }
     if (const TomlEntry* entry = table.take("casimirs")) {
         const TableReader casimirs(entry->value, "'casimirs' of [base]");
@@ -140,17 +119,17 @@ void declare_fibre(ModelReader& reader, const TomlEntry* block)
         table.finish();
     }
     if (coordinates != nullptr) {
-        fibre.coordinates = declare_list(reader, *coordinates, "'coordinates' of [fibre]", Role::fibre);
-        require_rank(reader.model, coordinates->value.where);
-    } else if (reader.model.algebroid.kind == AlgebroidKind::tangent) {
-        default_fibre(reader);
+        declare_symbols(reader, read_names(reader, *coordinates, "'coordinates' of [fibre]"), Role::fibre);
+        require_rank(reader, coordinates->value.where);
+    } else if (const auto standard = default_fibre(reader)) {
+        declare_symbols(reader, *standard, Role::fibre);
     } else {
         throw ModelError("the fibre coordinates are missing, one a section of the frame",
                          block != nullptr ? block->where() : reader.model.algebroid.where,
                          "[fibre] coordinates = [\"y1\", \"y2\"]");
     }
-    if (momenta == nullptr) return default_momenta(reader);
-    fibre.momenta = declare_list(reader, *momenta, "'momenta' of [fibre]", Role::momentum);
+    if (momenta == nullptr) return declare_default_momenta(reader);
+    declare_symbols(reader, read_names(reader, *momenta, "'momenta' of [fibre]"), Role::momentum);
     if (fibre.momenta.size() != fibre.coordinates.size()) {
         throw ModelError(fmt::format("[fibre] declares {} momenta for {} coordinates; one a coordinate is required",
                                      fibre.momenta.size(), fibre.coordinates.size()),

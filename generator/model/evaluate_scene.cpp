@@ -2,6 +2,7 @@
 /// Trees of a scene to numbers, and the conditions on a start.
 #include "model/evaluate_scene.hpp"
 
+#include "model/dependency_order.hpp"
 #include "model/evaluate_tree.hpp"
 #include "model/project_start.hpp"
 
@@ -24,38 +25,20 @@ long double finite(const Tree& tree, const Values& values, const std::string& wh
                      tree->where.file ? tree->where : where);
 }
 
-/// Parameters depend on each other without cycles (checked when the model was read): each is evaluated after those it
-/// uses.
 Values parameter_values(const Model& model, const Scene& scene)
 {
+    std::map<std::string, const NamedTree*> own;
+    for (const NamedTree& entry : scene.parameters) own.emplace(entry.name, &entry);
     std::vector<NamedTree> trees;
     for (const Parameter& parameter : model.parameters) {
-        NamedTree entry{parameter.symbol.name, parameter.value, parameter.symbol.where};
-        for (const NamedTree& own : scene.parameters) {
-            if (own.name == entry.name) entry = own;
-        }
-        trees.push_back(std::move(entry));
+        const auto place = own.find(parameter.symbol.name);
+        trees.push_back(place != own.end() ? *place->second
+                                           : NamedTree{parameter.symbol.name, parameter.value, parameter.symbol.where});
     }
-    std::map<std::string, std::size_t> index;
-    for (std::size_t k = 0; k < trees.size(); ++k) index.emplace(trees[k].name, k);
     Values values;
-    std::vector<std::size_t> stack;
-    for (std::size_t first = 0; first < trees.size(); ++first) {
-        stack.push_back(first);
-        while (!stack.empty()) {
-            const NamedTree& top = trees[stack.back()];
-            const std::size_t depth = stack.size();
-            if (!values.contains(top.name)) {
-                for (const std::string& used : names_in(top.value)) {
-                    if (index.contains(used) && !values.contains(used)) stack.push_back(index.at(used));
-                }
-            }
-            if (stack.size() > depth) continue;
-            stack.pop_back();
-            if (values.contains(top.name)) continue;
-            const std::string what = fmt::format("the value of parameter '{}'", top.name);
-            values[top.name] = Dual{finite(top.value, values, what, top.where), 0};
-        }
+    for (const std::size_t k : dependency_order(trees, "parameters")) {
+        const std::string what = fmt::format("the value of parameter '{}'", trees[k].name);
+        values[trees[k].name] = Dual{finite(trees[k].value, values, what, trees[k].where), 0};
     }
     return values;
 }

@@ -3,6 +3,8 @@
 /// safe.
 #include "model/evaluate_tree.hpp"
 
+#include "expression/evaluate_stumpff.hpp"
+
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
@@ -56,6 +58,35 @@ Dual real_power(Dual a, Dual b)
     return {value, slope};
 }
 
+/// c_k' = (k c_{k+2} - c_{k+1}) / 2.
+Dual stumpff_function(long double order, Dual z)
+{
+    const auto k = static_cast<unsigned>(order);
+    const long double slope = (order * evaluate_stumpff(k + 2, z.value) - evaluate_stumpff(k + 1, z.value)) / 2;
+    return chain(evaluate_stumpff(k, z.value), slope, z);
+}
+
+/// Component `row` of A^-1 b by elimination with row exchanges; `a` holds the n*n entries of A by rows, then b. Not a
+/// number where A is singular.
+Dual solve_system(std::vector<Dual> a, std::size_t row)
+{
+    std::size_t n = 1;
+    while (n * n + n < a.size()) ++n;
+    const auto at = [&a, n](std::size_t i, std::size_t j) -> Dual& { return a[j < n ? i * n + j : n * n + i]; };
+    for (std::size_t k = 0; k < n; ++k) {
+        std::size_t pivot = k;
+        for (std::size_t i = k + 1; i < n; ++i)
+            if (std::fabs(at(i, k).value) > std::fabs(at(pivot, k).value)) pivot = i;
+        for (std::size_t j = k; j <= n; ++j) std::swap(at(k, j), at(pivot, j));
+        for (std::size_t i = 0; i < n; ++i) {
+            if (i == k) continue;
+            const Dual factor = at(i, k) / at(k, k);
+            for (std::size_t j = k; j <= n; ++j) at(i, j) = at(i, j) + Dual{-1, 0} * factor * at(k, j);
+        }
+    }
+    return at(row, n) / at(row, row);
+}
+
 Dual call_function(Function function, const std::vector<Dual>& args)
 {
     const Dual a = args[0];
@@ -81,6 +112,7 @@ Dual call_function(Function function, const std::vector<Dual>& args)
     case Function::abs: return x < 0 ? Dual{-x, -a.derivative} : a;
     case Function::minimum: return args[1].value < x ? args[1] : a;
     case Function::maximum: return args[1].value > x ? args[1] : a;
+    case Function::stumpff: return stumpff_function(x, args[1]);
     case Function::sign: return {x > 0 ? 1.0L : x < 0 ? -1.0L : x, 0};
     case Function::select: return x != 0 ? args[1] : args[2];
     default: break;
@@ -137,6 +169,7 @@ class Evaluation {
         case TreeKind::divide: return args[0] / args[1];
         case TreeKind::power: return real_power(args[0], args[1]);
         case TreeKind::call: return call_function(node.function, args);
+        case TreeKind::solve: return solve_system(args, node.number.get_num().get_ui());
         case TreeKind::compare: return {holds(node.comparison, args[0].value, args[1].value) ? 1.0L : 0.0L, 0};
         default: break;
         }

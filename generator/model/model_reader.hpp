@@ -12,10 +12,34 @@
 
 namespace lagen {
 
+/// The files that are being read: each includes the next by `of`. Shared by all readers of one read_model.
+struct IncludeTrail {
+    std::vector<std::string> open; ///< their paths, normalised
+    std::size_t read = 0;          ///< how many have been read in all
+};
+
+/// A file that `of` names, read as a model of its own. Its algebroid block is a leaf of the including model's.
+struct IncludedModel {
+    const TomlValue* of = nullptr; ///< the string that names it
+    Model model;
+    std::vector<std::size_t> base;          ///< its base coordinates among the model's
+    std::map<std::string, Tree> renamed;    ///< names of the file that are others in the model
+    std::map<std::string, Tree> velocities; ///< its fibre coordinates by the model's
+    bool fibre_is_hidden = false;           ///< they are none of the model's names
+};
+
+struct AlgebroidDraft;
+
 /// A model in the making.
 struct ModelReader {
     Model model;
     Names names;
+    const std::vector<Setting>* settings = nullptr;
+    IncludeTrail* trail = nullptr;
+    const TomlEntry* algebroid = nullptr; ///< the [algebroid] block
+    std::shared_ptr<const AlgebroidDraft> draft;
+    std::vector<IncludedModel> included;               ///< in the order of the file; the same file may stand here twice
+    std::vector<std::string> parameter_names;          ///< what each entry of [parameters] declares: "m" for "m[1..7]"
     std::vector<std::pair<Excerpt, Tree>> casimirs;    ///< as parsed
     std::vector<std::pair<Excerpt, Tree>> observables; ///< as parsed
     std::vector<std::pair<Excerpt, Tree>> invariants;  ///< as parsed
@@ -25,25 +49,41 @@ struct ModelReader {
     /// The closed form of `tree`, in which only names of the given roles may occur (others: ModelError). `what` is the
     /// subject of the message: "the value of parameter 'm'".
     [[nodiscard]] Tree close(const Tree& tree, std::initializer_list<Role> roles, const std::string& what) const;
+    /// The same for an expression that may be a vector or a matrix.
+    [[nodiscard]] ArrayValue close_array(const Tree& tree, std::initializer_list<Role> roles,
+                                         const std::string& what) const;
     /// The same in the observer's scope, where min max sign if are legal and every role is.
     [[nodiscard]] Tree close_observed(const Tree& tree) const { return observer.close(tree, true); }
+    [[nodiscard]] ArrayValue close_observed_array(const Tree& tree) const { return observer.close_array(tree, true); }
 };
+
+/// The model of a text that was reached by `trail`.
+[[nodiscard]] Model read_model_text(const std::string& name, std::string text, const std::vector<Setting>& settings,
+                                    IncludeTrail& trail);
 
 // Declarations (no expression is closed yet).
 void read_header(ModelReader& reader, const TomlEntry* name, const TomlEntry* title, const std::string& file_name);
+void read_sizes(ModelReader& reader, const TomlEntry* block, const std::vector<Setting>& settings);
 void declare_parameters(ModelReader& reader, const TomlEntry* block);
 void declare_base(ModelReader& reader, const TomlEntry* block);
+/// The kinds of [algebroid] and its inner tables, their fibres and bases; what included files declare joins the model.
 void read_algebroid_kind(ModelReader& reader, const TomlEntry* block);
+/// Names of the fibre coordinates where [fibre] leaves them out; nothing where the kind has no default.
+[[nodiscard]] std::optional<std::vector<Symbol>> default_fibre(const ModelReader& reader);
+/// Throws ModelError where the fibre has not as many coordinates as the kind of the algebroid requires.
+void require_rank(const ModelReader& reader, const SourceRange& where);
 void declare_fibre(ModelReader& reader, const TomlEntry* block);
 void declare_definitions(ModelReader& reader, const TomlEntry* block);
 void declare_quantities(ModelReader& reader, const TomlEntry* observables, const TomlEntry* invariants,
                         const TomlEntry* lagrangian);
 void build_scopes(ModelReader& reader);
+/// The entries of [algebroid]; called by build_scopes once the model's scope has symbols and definitions. The inner
+/// fibre coordinates of frames and the ambient velocities of subbundles join the scope as definitions.
+void read_algebroid(ModelReader& reader);
 
 // Expressions.
 void read_parameters(ModelReader& reader, const TomlEntry* block, const std::vector<Setting>& settings);
 void read_base(ModelReader& reader, const TomlEntry* block);
-void read_algebroid(ModelReader& reader, const TomlEntry* block);
 void read_quantities(ModelReader& reader);
 void read_about(ModelReader& reader, const TomlEntry* block);
 void read_scenes(ModelReader& reader, const TomlEntry* block, const std::vector<Setting>& settings);
@@ -53,7 +93,7 @@ void read_scene_events(const ModelReader& reader, Scene& scene, const TomlEntry&
 [[nodiscard]] std::size_t index_of(const std::vector<Symbol>& symbols, const std::string& name);
 [[nodiscard]] std::vector<std::string> names_of(const std::vector<Symbol>& symbols);
 
-/// Throws ModelError where parameters depend on each other in a cycle, which is listed.
-void require_acyclic(const std::vector<NamedTree>& parameters);
+/// A named value as one entry of `list`, or one an entry where it is a vector or matrix: name[1], name[2], ..
+void append_entries(std::vector<NamedTree>& list, const Excerpt& key, const ArrayValue& value);
 
 } // namespace lagen

@@ -14,6 +14,7 @@ const char* role_text(Role role)
 {
     switch (role) {
     case Role::time: return "the time";
+    case Role::size: return "a size";
     case Role::parameter: return "a parameter";
     case Role::base: return "a base coordinate";
     case Role::fibre: return "a fibre coordinate";
@@ -21,6 +22,7 @@ const char* role_text(Role role)
     case Role::definition: return "a definition";
     case Role::casimir: return "a Casimir";
     case Role::observable: return "an observable";
+    case Role::velocity: return "an inner velocity";
     case Role::built_in: return "a built-in quantity";
     }
     return "a name";
@@ -51,7 +53,7 @@ void Names::declare(const std::string& name, Role role, const SourceRange& where
         throw ModelError(fmt::format("'t' is the time and cannot be {}", role_text(role)), where,
                          "choose another name");
     }
-    if (find_function(name) != nullptr) {
+    if (is_reserved_name(name)) {
         throw ModelError(fmt::format("'{}' is a built-in function and cannot be {}", name, role_text(role)), where,
                          "choose another name");
     }
@@ -59,14 +61,29 @@ void Names::declare(const std::string& name, Role role, const SourceRange& where
     if (!fresh) {
         const Entry& first = place->second;
         const bool momentum = role == Role::momentum;
+        const auto text = [&](const SourceRange& each) {
+            return first.where.file == where.file ? place_text(each) : lagen::place(each);
+        };
         throw ModelError(fmt::format("'{}' is declared twice: as {} at {} and as {} at {}", name, role_text(first.role),
-                                     place_text(first.where), role_text(role), place_text(where)),
+                                     text(first.where), role_text(role), text(where)),
                          where, momentum ? "name the momenta: [fibre] momenta = [..]" : "rename one of them");
     }
     order_.push_back(name);
     if (order_.size() > most_names) {
         throw ModelError(fmt::format("the model declares more than {} names", most_names), where);
     }
+}
+
+void Names::declare_family(const std::string& name, const Shape& shape, Role role, const SourceRange& where)
+{
+    constexpr std::size_t most_entries = 16384;
+    declare(name, role, where);
+    family_entries_ += shape.size();
+    if (family_entries_ > most_entries) {
+        throw ModelError(fmt::format("the families of the model have more than {} entries in all", most_entries),
+                         where);
+    }
+    for (std::size_t k = 0; k < shape.size(); ++k) entries_.emplace(entry_name(name, shape, k), Entry{role, where});
 }
 
 const Names::Entry* Names::find(const std::string& name) const
@@ -87,13 +104,6 @@ std::vector<std::string> Names::of(Role role) const
 void require_identifier(const std::string& name, const SourceRange& where, const char* what)
 {
     if (is_identifier(name)) return;
-    if (name.find('[') != std::string::npos) {
-        throw ModelError(
-            fmt::format("'{}' is a family; families of names belong to the model format, but this version of "
-                        "lagen does not read them",
-                        name),
-            where);
-    }
     throw ModelError(
         fmt::format("'{}' cannot be {}: letters, digits and '_' are allowed, and no digit first", name, what), where);
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "diagnostic.hpp"
+#include "expression/array.hpp"
 
 #include <map>
 #include <string>
@@ -10,7 +11,7 @@
 
 namespace lagen {
 
-enum class Role { time, parameter, base, fibre, momentum, definition, casimir, observable, built_in };
+enum class Role { time, size, parameter, base, fibre, momentum, definition, velocity, casimir, observable, built_in };
 
 /// "a base coordinate", ...: how messages call a role.
 [[nodiscard]] const char* role_text(Role role);
@@ -29,6 +30,11 @@ class Names {
     /// function, no identifier, more than 4096 names.
     void declare(const std::string& name, Role role, const SourceRange& where);
 
+    /// Declares a family and its entries ("x[1]", ..), which `find` knows from then on; `of` and `order` name the
+    /// family alone. Throws ModelError also for more than 16384 entries in all families.
+    void declare_family(const std::string& name, const Shape& shape, Role role, const SourceRange& where);
+
+    /// A declared name, or an entry of a family.
     [[nodiscard]] const Entry* find(const std::string& name) const;
     [[nodiscard]] const std::vector<std::string>& order() const { return order_; }
 
@@ -38,6 +44,7 @@ class Names {
   private:
     std::map<std::string, Entry> entries_;
     std::vector<std::string> order_;
+    std::size_t family_entries_ = 0;
 };
 
 /// Throws ModelError unless `name` is an identifier (ASCII or Unicode letters, digits, _).

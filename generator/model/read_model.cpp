@@ -13,8 +13,8 @@ namespace lagen {
 namespace {
 
 constexpr std::initializer_list<const char*> later_blocks = {
-    "sizes",    "hamiltonian",     "forces", "dissipation", "control", "groupoid",
-    "discrete", "hamilton_jacobi", "forms",  "morphism",    "compose",
+    "hamiltonian", "forces", "dissipation", "control", "groupoid", "discrete", "hamilton_jacobi",
+    "forms",       "morphism", "compose",
 };
 
 } // namespace
@@ -26,17 +26,27 @@ Model read_model(const std::string& path, const std::vector<Setting>& settings)
 
 Model read_model_text(const std::string& name, std::string text, const std::vector<Setting>& settings)
 {
+    IncludeTrail trail;
+    return read_model_text(name, std::move(text), settings, trail);
+}
+
+Model read_model_text(const std::string& name, std::string text, const std::vector<Setting>& settings,
+                      IncludeTrail& trail)
+{
     ModelReader reader;
+    reader.settings = &settings;
+    reader.trail = &trail;
     reader.model.file = std::make_shared<const SourceFile>(SourceFile{name, std::move(text)});
     const TomlValue document = parse_toml(reader.model.file);
     TableReader top(document, "the model");
     top.refuse_later(later_blocks);
     const TomlEntry* model_name = top.take("name");
     const TomlEntry* title = top.take("title");
+    const TomlEntry* sizes = top.take("sizes");
     const TomlEntry* parameters = top.take("parameters");
     const TomlEntry* base = top.take("base");
     const TomlEntry* fibre = top.take("fibre");
-    const TomlEntry* algebroid = top.take("algebroid");
+    reader.algebroid = top.take("algebroid");
     const TomlEntry* definitions = top.take("definitions");
     const TomlEntry* lagrangian = top.take("lagrangian");
     const TomlEntry* observables = top.take("observables");
@@ -46,9 +56,10 @@ Model read_model_text(const std::string& name, std::string text, const std::vect
     top.finish();
 
     read_header(reader, model_name, title, name);
+    read_sizes(reader, sizes, settings);
     declare_parameters(reader, parameters);
     declare_base(reader, base);
-    read_algebroid_kind(reader, algebroid);
+    read_algebroid_kind(reader, reader.algebroid);
     declare_fibre(reader, fibre);
     declare_definitions(reader, definitions);
     declare_quantities(reader, observables, invariants, lagrangian);
@@ -56,7 +67,6 @@ Model read_model_text(const std::string& name, std::string text, const std::vect
 
     read_parameters(reader, parameters, settings);
     read_base(reader, base);
-    read_algebroid(reader, algebroid);
     read_quantities(reader);
     read_about(reader, about);
     read_scenes(reader, scenes, settings);

@@ -3,37 +3,47 @@
 #include "model/model_reader.hpp"
 
 #include "expression/parse.hpp"
+#include "model/dependency_order.hpp"
+#include "model/families.hpp"
 #include "model/read_values.hpp"
 #include "model/table_reader.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
-#include <set>
 
 namespace lagen {
 
 namespace {
 
-void apply(ModelReader& reader, const Setting& setting)
+/// Gives the parameters that `key` names their values.
+void assign(ModelReader& reader, const ResolvedKey& key, const Tree& value, const std::string& what,
+            const SourceRange& where)
 {
-    for (Parameter& parameter : reader.model.parameters) {
-        if (parameter.symbol.name != setting.name) continue;
-        parameter.value = reader.close(parse_expression(setting.value), {Role::parameter},
-                                       fmt::format("the value set for parameter '{}'", setting.name));
+    const ArrayValue closed = reader.close_array(value, {Role::parameter}, what);
+    const std::vector<Tree> entries = fit_values(closed, key.shape, what, where);
+    for (std::size_t k = 0; k < entries.size(); ++k) reader.model.parameters[key.indices[k]].value = entries[k];
+}
+
+void apply(ModelReader& reader, const std::vector<Symbol>& symbols, const Setting& setting)
+{
+    const SourceRange where = setting.value.range(0, setting.value.text.size());
+    if (const std::optional<ResolvedKey> key = resolve_key(symbols, key_of(reader, setting))) {
+        assign(reader, *key, parse_expression(setting.value),
+               fmt::format("the value set for parameter '{}'", key->name), where);
         return;
     }
     const Names::Entry* entry = reader.names.find(setting.name);
+    if (entry != nullptr && entry->role == Role::size) return; // read_sizes has seen it
     const std::string what = entry != nullptr
                                  ? fmt::format("'{}' is {}, not a parameter", setting.name, role_text(entry->role))
                                  : fmt::format("the model has no parameter '{}' to set", setting.name);
-    throw ModelError(what, setting.value.range(0, setting.value.text.size()),
-                     hint_for(setting.name, reader.names.of(Role::parameter), "parameters"));
+    throw ModelError(what, where, hint_for(setting.name, reader.names.of(Role::parameter), "parameters"));
 }
 
 /// Strings of the list `key` of [base].
-std::vector<Excerpt> base_list(const TomlEntry& block, const char* key)
+std::vector<Excerpt> base_list(const TomlEntry* block, const char* key)
 {
-    TableReader table(block.value, "[base]");
+    if (block == nullptr) return {};
+    TableReader table(block->value, "[base]");
     const TomlEntry* entry = table.take(key);
     return entry != nullptr ? read_list(entry->value, fmt::format("'{}' of [base]", key)) : std::vector<Excerpt>{};
 }
@@ -57,74 +67,35 @@ Tree read_inequality(const ModelReader& reader, const Excerpt& text)
 
 void read_parameters(ModelReader& reader, const TomlEntry* block, const std::vector<Setting>& settings)
 {
-    if (block != nullptr) {
-        for (std::size_t k = 0; k < block->value.entries.size(); ++k) {
-            const TomlEntry& entry = block->value.entries[k];
-            const Tree value = read_expression(entry.value, fmt::format("the parameter '{}'", entry.name()));
-            reader.model.parameters[k].value =
-                reader.close(value, {Role::parameter}, fmt::format("the value of parameter '{}'", entry.name()));
-        }
+    const std::vector<Symbol> symbols = parameter_symbols(reader.model);
+    for (std::size_t k = 0; block != nullptr && k < block->value.entries.size(); ++k) {
+        const TomlEntry& entry = block->value.entries[k];
+        const std::string& name = reader.parameter_names[k];
+        const Tree value = read_array_expression(entry.value, fmt::format("the parameter '{}'", name));
+        assign(reader, *resolve_key(symbols, name), value, fmt::format("the value of parameter '{}'", name),
+               entry.value.where);
     }
-    for (const Setting& setting : settings) apply(reader, setting);
+    for (const Setting& setting : settings) apply(reader, symbols, setting);
     std::vector<NamedTree> values;
     for (const Parameter& parameter : reader.model.parameters) {
         values.push_back(NamedTree{parameter.symbol.name, parameter.value, parameter.symbol.where});
     }
-    require_acyclic(values);
-}
-
-void require_acyclic(const std::vector<NamedTree>& parameters)
-{
-    std::map<std::string, std::size_t> index;
-    for (std::size_t k = 0; k < parameters.size(); ++k) index.emplace(parameters[k].name, k);
-    struct Visit {
-        std::size_t parameter;
-        std::vector<std::string> uses;
-        std::size_t next;
-    };
-    std::set<std::size_t> done;
-    std::vector<Visit> path;
-    const auto enter = [&](std::size_t k) { path.push_back(Visit{k, names_in(parameters[k].value), 0}); };
-    for (std::size_t first = 0; first < parameters.size(); ++first) {
-        if (!done.contains(first)) enter(first);
-        while (!path.empty()) {
-            Visit& top = path.back();
-            if (top.next == top.uses.size()) {
-                done.insert(top.parameter);
-                path.pop_back();
-                continue;
-            }
-            const auto place = index.find(top.uses[top.next++]);
-            if (place == index.end() || done.contains(place->second)) continue;
-            const std::size_t used = place->second;
-            const auto start =
-                std::find_if(path.begin(), path.end(), [&](const Visit& v) { return v.parameter == used; });
-            if (start == path.end()) {
-                enter(used);
-                continue;
-            }
-            std::string cycle;
-            for (auto each = start; each != path.end(); ++each) cycle += parameters[each->parameter].name + " -> ";
-            throw ModelError(
-                fmt::format("the parameters depend on each other in a cycle: {}{}", cycle, parameters[used].name),
-                parameters[used].where, "give one of them a value of its own");
-        }
-    }
+    (void)dependency_order(values, "parameters");
 }
 
 void read_base(ModelReader& reader, const TomlEntry* block)
 {
-    if (block == nullptr) return;
     Base& base = reader.model.base;
     const auto point = {Role::parameter, Role::base};
-    for (const Excerpt& text : base_list(*block, "constraints")) {
-        base.constraints.push_back(reader.close(parse_expression(text), point, "a constraint"));
+    for (const Excerpt& text : base_list(block, "constraints")) {
+        for (Tree& entry : reader.close_array(parse_expression(text), point, "a constraint").entries)
+            base.constraints.push_back(std::move(entry));
     }
     for (const auto& [key, value] : reader.casimirs) {
-        const std::string what = fmt::format("the Casimir '{}'", key.text);
-        base.casimirs.push_back(NamedTree{key.text, reader.close(value, point, what), key.range(0, key.text.size())});
+        const ArrayValue closed = reader.close_array(value, point, fmt::format("the Casimir '{}'", key.text));
+        append_entries(base.casimirs, key, closed);
     }
-    for (const Excerpt& text : base_list(*block, "domain")) base.domain.push_back(read_inequality(reader, text));
+    for (const Excerpt& text : base_list(block, "domain")) base.domain.push_back(read_inequality(reader, text));
 }
 
 } // namespace lagen

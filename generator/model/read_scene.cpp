@@ -3,6 +3,7 @@
 #include "model/scene_reader.hpp"
 
 #include "expression/parse.hpp"
+#include "model/families.hpp"
 #include "model/read_values.hpp"
 #include "model/table_reader.hpp"
 
@@ -36,7 +37,9 @@ void read_observe(const ModelReader& reader, Scene& scene, const TomlEntry& entr
             continue;
         }
         const Excerpt inner = trimmed(text, 0, text.text.size());
-        add({inner.text, reader.close_observed(parse_expression(text)), where});
+        const ArrayValue value = reader.close_observed_array(parse_expression(text));
+        for (std::size_t k = 0; k < value.entries.size(); ++k)
+            add({value_name(inner.text, value.shape, k), value.entries[k], where});
     }
     if (out.size() > most_columns) {
         throw ModelError(fmt::format("'observe' of scene '{}' asks for {} columns, more than {}", scene.name,
@@ -157,7 +160,8 @@ Scene read_scene(const ModelReader& reader, Scene scene, const TomlEntry& block,
     if (const TomlEntry* entry = table.take("events")) read_scene_events(reader, scene, *entry);
     table.finish();
     for (const Setting& setting : settings) {
-        std::erase_if(scene.parameters, [&](const NamedTree& each) { return each.name == setting.name; });
+        const std::string key = key_of(reader, setting);
+        std::erase_if(scene.parameters, [&](const NamedTree& each) { return names_entry(key, each.name); });
     }
     require_acyclic_scene(reader, scene);
     require_complete(reader, scene);

@@ -2,27 +2,67 @@
 /// What a scene starts from: initial values and parameters.
 #include "model/scene_reader.hpp"
 
+#include "expression/parse_family.hpp"
+#include "model/dependency_order.hpp"
+#include "model/families.hpp"
+#include "model/read_values.hpp"
 #include "model/table_reader.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <set>
+#include <unordered_map>
 
 namespace lagen {
 
 namespace {
 
-/// Replaces the entry of the same name or appends.
-void put(std::vector<NamedTree>& list, NamedTree entry)
+/// Replaces the entries of the same names, appends the others.
+void put_all(std::vector<NamedTree>& list, std::vector<NamedTree> entries)
 {
-    const auto same = [&](const NamedTree& other) { return other.name == entry.name; };
-    const auto place = std::find_if(list.begin(), list.end(), same);
-    if (place == list.end()) {
-        list.push_back(std::move(entry));
-    } else {
-        *place = std::move(entry);
+    std::unordered_map<std::string, std::size_t> index; // looked up, never iterated
+    for (std::size_t k = 0; k < list.size(); ++k) index.emplace(list[k].name, k);
+    for (NamedTree& entry : entries) {
+        const auto [place, fresh] = index.try_emplace(entry.name, list.size());
+        if (fresh) {
+            list.push_back(std::move(entry));
+        } else {
+            list[place->second] = std::move(entry);
+        }
     }
 }
+
+/// Values that a table of a scene gives; a family's name gives all its entries.
+class GivenValues {
+  public:
+    explicit GivenValues(std::string what) : what_(std::move(what)) {}
+
+    /// `key` names entries of `symbols`.
+    void add(const ModelReader& reader, const TomlEntry& entry, const ResolvedKey& key,
+             const std::vector<Symbol>& symbols)
+    {
+        const std::string what = fmt::format("{} '{}'", what_, key.name);
+        const Tree parsed = read_array_expression(entry.value, what);
+        const ArrayValue closed = reader.close_array(parsed, {Role::parameter}, what);
+        const std::vector<Tree> values = fit_values(closed, key.shape, what, entry.value.where);
+        for (std::size_t k = 0; k < values.size(); ++k) {
+            const std::string& name = symbols[key.indices[k]].name;
+            const auto [given, fresh] = keys_.try_emplace(name, entry.name());
+            if (!fresh) {
+                throw ModelError(fmt::format("{} '{}' is given twice: by '{}' and by '{}'", what_, name, given->second,
+                                             entry.name()),
+                                 entry.where(), "keep one of them");
+            }
+            list.push_back(NamedTree{name, values[k], entry.where()});
+        }
+    }
+
+    std::vector<NamedTree> list;
+
+  private:
+    std::string what_;
+    std::unordered_map<std::string, std::string> keys_; ///< by which key each name is given; looked up, never iterated
+};
 
 bool has_role(const ModelReader& reader, const std::string& name, Role role)
 {
@@ -30,83 +70,122 @@ bool has_role(const ModelReader& reader, const std::string& name, Role role)
     return entry != nullptr && entry->role == role;
 }
 
+/// Symbols without a value; a family that has none at all by its name.
+struct Missing {
+    std::size_t count = 0; ///< of symbols
+    std::vector<std::string> names;
+
+    void add(const Missing& more)
+    {
+        count += more.count;
+        names.insert(names.end(), more.names.begin(), more.names.end());
+    }
+
+    [[nodiscard]] std::string text() const
+    {
+        constexpr std::size_t most = 20;
+        if (names.size() <= most) return comma_list(names);
+        const std::vector<std::string> first(names.begin(), names.begin() + most);
+        return fmt::format("{} and {} more", comma_list(first), names.size() - most);
+    }
+};
+
+Missing missing_of(const std::vector<Symbol>& symbols, const std::set<std::string>& given)
+{
+    Missing out;
+    for (const SymbolGroup& group : group_symbols(symbols)) {
+        Missing of_group;
+        for (std::size_t k = 0; k < group.shape.size(); ++k) {
+            const std::string& name = symbols[group.first + k].name;
+            if (!given.contains(name)) of_group.names.push_back(name);
+        }
+        of_group.count = of_group.names.size();
+        if (of_group.count == group.shape.size()) of_group.names = {group.name};
+        out.add(of_group);
+    }
+    return out;
+}
+
+[[noreturn]] void refuse_initial(const ModelReader& reader, const Scene& scene, const TomlEntry& entry)
+{
+    std::vector<std::string> known = reader.names.of(Role::base);
+    for (const Role role : {Role::fibre, Role::momentum}) {
+        const std::vector<std::string> more = reader.names.of(role);
+        known.insert(known.end(), more.begin(), more.end());
+    }
+    throw ModelError(fmt::format("scene '{}' gives an initial value to '{}', which is no coordinate of the model",
+                                 scene.name, entry.name()),
+                     entry.where(), hint_for(entry.name(), known, "coordinates"));
+}
+
 } // namespace
 
 void read_initial(const ModelReader& reader, Scene& scene, const TomlEntry& block)
 {
     const TableReader table(block.value, fmt::format("'initial' of scene '{}'", scene.name));
-    std::vector<NamedTree> own;
+    const Model& model = reader.model;
+    GivenValues given("the initial value of");
     for (const TomlEntry& entry : block.value.entries) {
-        const Names::Entry* declared = reader.names.find(entry.name());
-        const bool state = declared != nullptr && (declared->role == Role::base || declared->role == Role::fibre ||
-                                                   declared->role == Role::momentum);
-        if (!state) {
-            std::vector<std::string> known = reader.names.of(Role::base);
-            for (const Role role : {Role::fibre, Role::momentum}) {
-                const std::vector<std::string> more = reader.names.of(role);
-                known.insert(known.end(), more.begin(), more.end());
-            }
-            throw ModelError(
-                fmt::format("scene '{}' gives an initial value to '{}', which is no coordinate of the model",
-                            scene.name, entry.name()),
-                entry.where(), hint_for(entry.name(), known, "coordinates"));
+        bool found = false;
+        for (const auto* symbols : {&model.base.coordinates, &model.fibre.coordinates, &model.fibre.momenta}) {
+            const std::optional<ResolvedKey> key = resolve_key(*symbols, entry_key(entry.key, model.scope));
+            if (!key) continue;
+            given.add(reader, entry, *key, *symbols);
+            found = true;
+            break;
         }
-        const std::string what = fmt::format("the initial value of '{}'", entry.name());
-        own.push_back(NamedTree{entry.name(), over_parameters(reader, entry.value, what), entry.where()});
+        if (!found) refuse_initial(reader, scene, entry);
     }
+    std::vector<NamedTree> own = std::move(given.list);
     const auto gives = [&](Role role) {
         return std::any_of(own.begin(), own.end(),
                            [&](const NamedTree& each) { return has_role(reader, each.name, role); });
     };
-    for (const auto& [given, other] : {std::pair{Role::momentum, Role::fibre}, {Role::fibre, Role::momentum}}) {
-        if (!gives(given) || gives(other)) continue;
+    for (const auto& [one, other] : {std::pair{Role::momentum, Role::fibre}, {Role::fibre, Role::momentum}}) {
+        if (!gives(one) || gives(other)) continue;
         std::erase_if(scene.initial,
                       [&, role = other](const NamedTree& each) { return has_role(reader, each.name, role); });
     }
-    for (NamedTree& entry : own) put(scene.initial, std::move(entry));
+    put_all(scene.initial, std::move(own));
 }
 
 void read_scene_parameters(const ModelReader& reader, Scene& scene, const TomlEntry& block)
 {
     const TableReader table(block.value, fmt::format("'parameters' of scene '{}'", scene.name));
+    const std::vector<Symbol> symbols = parameter_symbols(reader.model);
+    GivenValues given("the value of parameter");
     for (const TomlEntry& entry : block.value.entries) {
-        if (!has_role(reader, entry.name(), Role::parameter)) {
+        const std::optional<ResolvedKey> key = resolve_key(symbols, entry_key(entry.key, reader.model.scope));
+        if (!key) {
             throw ModelError(
                 fmt::format("scene '{}' sets '{}', which is no parameter of the model", scene.name, entry.name()),
                 entry.where(), hint_for(entry.name(), reader.names.of(Role::parameter), "parameters"));
         }
-        const std::string what = fmt::format("the value of parameter '{}'", entry.name());
-        put(scene.parameters, NamedTree{entry.name(), over_parameters(reader, entry.value, what), entry.where()});
+        given.add(reader, entry, *key, symbols);
     }
+    put_all(scene.parameters, std::move(given.list));
 }
 
 void require_complete(const ModelReader& reader, const Scene& scene)
 {
     std::set<std::string> given;
     for (const NamedTree& each : scene.initial) given.insert(each.name);
-    const auto missing_of = [&](const std::vector<Symbol>& symbols) {
-        std::vector<std::string> out;
-        for (const Symbol& symbol : symbols) {
-            if (!given.contains(symbol.name)) out.push_back(symbol.name);
-        }
-        return out;
-    };
     const Fibre& fibre = reader.model.fibre;
-    const std::vector<std::string> no_fibre = missing_of(fibre.coordinates);
-    const std::vector<std::string> no_momentum = missing_of(fibre.momenta);
-    const bool some_fibre = no_fibre.size() < fibre.coordinates.size();
-    const bool some_momenta = no_momentum.size() < fibre.momenta.size();
+    const Missing no_fibre = missing_of(fibre.coordinates, given);
+    const Missing no_momentum = missing_of(fibre.momenta, given);
+    const bool some_fibre = no_fibre.count < fibre.coordinates.size();
+    const bool some_momenta = no_momentum.count < fibre.momenta.size();
     if (some_fibre && some_momenta) {
         throw ModelError(fmt::format("scene '{}' mixes fibre coordinates and momenta in 'initial'", scene.name),
                          scene.where, "give every fibre coordinate or every momentum");
     }
-    std::vector<std::string> missing = missing_of(reader.model.base.coordinates);
-    const std::vector<std::string>& rest = some_momenta ? no_momentum : no_fibre;
-    if (!scene.rest || some_momenta) missing.insert(missing.end(), rest.begin(), rest.end());
-    if (missing.empty()) return;
-    const bool fibre_left_out = !rest.empty() && !some_momenta;
+    Missing missing = missing_of(reader.model.base.coordinates, given);
+    const Missing& rest = some_momenta ? no_momentum : no_fibre;
+    if (!scene.rest || some_momenta) missing.add(rest);
+    if (missing.count == 0) return;
+    const bool fibre_left_out = rest.count > 0 && !some_momenta;
     throw ModelError(fmt::format("scene '{}' leaves out the initial value{} of {}", scene.name,
-                                 missing.size() > 1 ? "s" : "", comma_list(missing)),
+                                 missing.count > 1 ? "s" : "", missing.text()),
                      scene.where, fibre_left_out ? "rest = true sets the fibre coordinates left out to zero" : "");
 }
 
@@ -117,8 +196,8 @@ void require_acyclic_scene(const ModelReader& reader, const Scene& scene)
     for (const Parameter& parameter : reader.model.parameters) {
         values.push_back(NamedTree{parameter.symbol.name, parameter.value, parameter.symbol.where});
     }
-    for (const NamedTree& own : scene.parameters) put(values, own);
-    require_acyclic(values);
+    put_all(values, scene.parameters);
+    (void)dependency_order(values, "parameters");
 }
 
 } // namespace lagen

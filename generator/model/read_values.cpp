@@ -55,6 +55,27 @@ Tree read_expression(const TomlValue& value, const std::string& what)
     }
 }
 
+Tree read_array_expression(const TomlValue& value, const std::string& what)
+{
+    if (value.kind != TomlKind::array) return read_expression(value, what);
+    auto out = std::make_shared<TreeNode>();
+    out->kind = TreeKind::array;
+    out->where = value.where;
+    for (const TomlValue& row : value.items) {
+        if (row.kind != TomlKind::array) {
+            out->arguments.push_back(read_expression(row, "an entry of " + what));
+            continue;
+        }
+        auto entries = std::make_shared<TreeNode>();
+        entries->kind = TreeKind::array;
+        entries->where = row.where;
+        for (const TomlValue& entry : row.items)
+            entries->arguments.push_back(read_expression(entry, "an entry of " + what));
+        out->arguments.push_back(std::move(entries));
+    }
+    return out;
+}
+
 std::string read_text(const TomlValue& value, const std::string& what)
 {
     if (value.kind != TomlKind::string) refuse_type(value, what, "a string");

@@ -14,6 +14,9 @@ namespace lagen {
 /// `what` opens the message where the value is anything else, e.g. "the parameter 'm'".
 [[nodiscard]] Tree read_expression(const TomlValue& value, const std::string& what);
 
+/// The same, and an array of them is a vector, an array of arrays a matrix (TreeKind::array).
+[[nodiscard]] Tree read_array_expression(const TomlValue& value, const std::string& what);
+
 /// A string without control characters.
 [[nodiscard]] std::string read_text(const TomlValue& value, const std::string& what);
 

@@ -3,11 +3,14 @@
 #include "proof/elementary.hpp"
 #include "proof/print_fraction.hpp"
 
+#include <numeric>
+
 namespace lagen::proof {
 
 namespace {
 
 constexpr unsigned largest_multiple = 256; ///< of an angle; cos(256 u) has 129 terms
+constexpr unsigned finest_part = 60;       ///< of pi whose sine and cosine are algebraic numbers
 constexpr std::size_t most_parts = 64;     ///< terms of one argument: each brings generators of its own
 constexpr std::size_t longest_text = 160;  ///< of one generator
 
@@ -28,8 +31,10 @@ mpq_class common_divisor(const mpq_class& a, const mpq_class& b)
 Fraction Elementary::pi()
 {
     return ring_.of(ring_.keyed("pi", [this] {
-        const Range range{End{false, 3, true}, End{false, mpq_class(22, 7), true}, true};
-        Generator generator{"pi", range, 0, {}, -1, false};
+        const Range range{End{false, mpq_class(333, 106), true}, End{false, mpq_class(355, 113), true}, true};
+        Ball value;
+        arb_const_pi(value.get(), 256);
+        Generator generator{"pi", range, 0, {}, -1, false, value};
         return ring_.add_generator(generator);
     }));
 }
@@ -54,13 +59,22 @@ void Elementary::make_generators(Unit& unit, const Fraction& atom, bool angle)
     Fraction argument = ring_.times(ring_.constant(unit.size), atom);
     const std::string text = to_text(ring_, argument, longest_text);
     if (!angle) {
-        unit.first = ring_.add_generator({"exp(" + text + ")", Range::positive(), 0, {}, -1, false});
+        Generator generator{"exp(" + text + ")", Range::positive(), 0, {}, -1, false};
+        const Signs signs = ring_.signs(argument);
+        if (!signs.negative) generator.range.low = End{false, 1, !signs.zero};
+        if (!signs.positive) generator.range.high = End{false, 1, !signs.zero};
+        generator.value = ring_.value_of(argument);
+        if (generator.value) arb_exp(generator.value->get(), generator.value->get(), 256);
+        unit.first = ring_.add_generator(std::move(generator));
+        if (argument.is_polynomial()) ring_.set_exponent(unit.first, argument.num, argument.scale);
         exponents_.emplace(unit.first, std::move(argument));
         return;
     }
-    const Range range = Range::between(-1, 1);
-    unit.first = ring_.add_generator({"sin(" + text + ")", range, 0, {}, -1, true});
-    unit.second = ring_.add_generator({"cos(" + text + ")", range, 0, {}, static_cast<int>(unit.first), false});
+    std::optional<Ball> sine = ring_.value_of(argument), cosine = sine;
+    if (sine) arb_sin_cos(sine->get(), cosine->get(), Ball(*sine).get(), 256);
+    unit.first = ring_.add_generator({"sin(" + text + ")", angle_range(argument, true), 0, {}, -1, true, sine});
+    unit.second = ring_.add_generator(
+        {"cos(" + text + ")", angle_range(argument, false), 0, {}, static_cast<int>(unit.first), false, cosine});
     Polynomial relation = constant_polynomial(1);
     relation = add_scaled(relation, generator_polynomial(unit.second, 2), -1, ring_.work());
     ring_.set_relation(unit.first, 2, std::move(relation));
@@ -88,11 +102,15 @@ Elementary::SineCosine Elementary::sum(const SineCosine& a, const SineCosine& b)
 
 Elementary::SineCosine Elementary::multiple_angle(const Unit& unit, const mpz_class& multiple)
 {
+    return multiple_angle({ring_.of(unit.first), ring_.of(unit.second)}, multiple, ring_.generator(unit.first).text);
+}
+
+Elementary::SineCosine Elementary::multiple_angle(SineCosine square, const mpz_class& multiple, const std::string& text)
+{
     if (abs(multiple) > largest_multiple)
-        throw BudgetExhausted("the angle " + multiple.get_str() + " times " + ring_.generator(unit.first).text +
-                              " exceeds the multiple " + std::to_string(largest_multiple));
+        throw BudgetExhausted("the angle " + multiple.get_str() + " times " + text + " exceeds the multiple " +
+                              std::to_string(largest_multiple));
     const auto count = static_cast<unsigned>(mpz_class(abs(multiple)).get_ui());
-    SineCosine square{ring_.of(unit.first), ring_.of(unit.second)};
     SineCosine result{{}, ring_.constant(1)};
     for (unsigned rest = count; rest > 0; rest >>= 1) {
         if (rest & 1U) result = sum(result, square);
@@ -119,6 +137,9 @@ Elementary::SineCosine Elementary::pi_angle(const mpq_class& turns)
         const SineCosine twelfth = sum(fourth, minus_sixth);
         const SineCosine table[6] = {value, twelfth, sixth, fourth, third, sum(fourth, sixth)};
         value = table[twelfths.get_num().get_ui()];
+    } else if (rest != 0 && rest.get_den() <= finest_part &&
+               std::lcm(pi_parts_, static_cast<unsigned>(rest.get_den().get_ui())) <= finest_part) {
+        value = part_of_pi(rest);
     } else if (rest != 0) {
         const Part part{rest, pi()};
         const mpz_class multiple = multiple_of_unit(angle_units_, part, true);
@@ -137,7 +158,9 @@ Elementary::SineCosine Elementary::sine_cosine(const Fraction& angle)
     std::vector<Part> generic;
     for (Part& part : all) {
         if (key_of(part.atom) == pi_key) {
-            result = pi_angle(part.coefficient);
+            result = sum(result, pi_angle(part.coefficient));
+        } else if (const auto known = inverse_values(part)) {
+            result = sum(result, *known);
         } else {
             generic.push_back(std::move(part));
         }

@@ -2,13 +2,16 @@
 /// The decision: normal form first (it is the proof and the residual's text), then certified points.
 #include "proof/decide.hpp"
 
+#include "proof/modular.hpp"
 #include "proof/print_fraction.hpp"
+#include "proof/prove_by_cases.hpp"
 #include "proof/sample.hpp"
 #include "proof/triangular.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 namespace lagen {
 
@@ -24,6 +27,12 @@ const char* to_text(ProofStatus status)
     return "undecided";
 }
 
+namespace {
+
+constexpr std::size_t many_divisors = 6;
+
+} // namespace
+
 class ZeroDecider::State {
   public:
     State(const Graph& graph, ProofSetting setting, ProofBudget budget)
@@ -36,15 +45,16 @@ class ZeroDecider::State {
     [[nodiscard]] Decision decide(NodeId residual);
     [[nodiscard]] Signs signs(NodeId value);
     [[nodiscard]] std::optional<std::vector<std::pair<std::string, std::string>>> sample_point();
-    [[nodiscard]] double largest_bound(NodeId residual, std::size_t points);
+    [[nodiscard]] Reevaluation reevaluate(NodeId residual, std::size_t points);
 
   private:
     /// What algebra says about a residual.
     struct Algebra {
         bool zero = false;
         bool division_by_zero = false;
-        std::string text; ///< of the normal form
-        std::string note; ///< why there is no verdict from here
+        bool exhausted = false; ///< the budget
+        std::string text;       ///< of the normal form
+        std::string note;       ///< why there is no verdict from here
     };
 
     [[nodiscard]] NormalForm normal_form(NodeId node, Angles angles = Angles::split) const
@@ -53,8 +63,10 @@ class ZeroDecider::State {
     }
     [[nodiscard]] Algebra reduce(NodeId residual) const;
     [[nodiscard]] bool is_multiple(NodeId residual) const;
-    void search_witness(const Evaluation& evaluation, bool prove, Decision& decision);
-    [[nodiscard]] Ball refine(const Evaluation& evaluation, const SamplePoint& point, bool raise) const;
+    [[nodiscard]] bool has_many_divisors(NodeId residual) const;
+    void search_witness(const Evaluation& evaluation, Sampler& sampler, bool prove, Decision& decision) const;
+    [[nodiscard]] Ball refine(const Evaluation& evaluation, const Sampler& sampler, const SamplePoint& point,
+                              bool raise) const;
     [[nodiscard]] std::size_t affordable_tries(const Evaluation& evaluation) const;
 
     const Graph& graph_;
@@ -66,6 +78,14 @@ class ZeroDecider::State {
 };
 
 namespace {
+
+constexpr std::size_t modular_points = 5;
+
+/// Whether the search for a witness found the residual defined nowhere.
+bool no_point(const Decision& decision)
+{
+    return decision.evidence.compare(0, 2, "no") == 0;
+}
 
 std::string joined(const std::string& a, const std::string& b)
 {
@@ -96,6 +116,7 @@ bool ZeroDecider::State::is_multiple(NodeId residual) const
     for (const SolvedConstraint& solved : constraints_) (solved.monic ? sound : others).push_back(solved);
     NormalForm forms(graph_, setting_, sound, residual, operands_, {budget_.terms, budget_.products});
     const Polynomial numerator = forms.of(residual).num;
+    if (!forms.condition().empty()) return false;
     Polynomial quotient;
     for (const SolvedConstraint& solved : others) {
         const Polynomial constraint = forms.of(setting_.constraints[solved.constraint]).num;
@@ -105,9 +126,37 @@ bool ZeroDecider::State::is_multiple(NodeId residual) const
     return numerator.empty();
 }
 
+/// Many different divisors: a common denominator would be their product.
+bool ZeroDecider::State::has_many_divisors(NodeId residual) const
+{
+    std::set<NodeId> divisors;
+    for (const NodeId node : reachable(graph_, std::vector<NodeId>{residual})) {
+        const auto operands = graph_.operands(node);
+        const bool negative = graph_.op(node) == Op::power && static_cast<std::int32_t>(graph_.payload(node)) < 0;
+        if (graph_.op(node) == Op::divide && !graph_.is_constant(operands[1])) divisors.insert(operands[1]);
+        if (negative || graph_.op(node) == Op::real_power) divisors.insert(operands[0]);
+    }
+    return divisors.size() >= many_divisors;
+}
+
 ZeroDecider::State::Algebra ZeroDecider::State::reduce(NodeId residual) const
 {
     Algebra result;
+    if (has_many_divisors(residual)) {
+        try {
+            NormalForm forms(graph_, setting_, constraints_, residual, operands_,
+                             {budget_.terms, budget_.products / 10, true});
+            result.zero = forms.of(residual).is_zero() && forms.condition().empty();
+        } catch (const BudgetExhausted&) {
+            result.zero = false; // the common denominator decides
+        } catch (const VanishingDivisor&) {
+            result.zero = false; // and says so
+        }
+        if (result.zero) {
+            result.text = "0";
+            return result;
+        }
+    }
     try {
         NormalForm forms = normal_form(residual);
         const Fraction form = forms.of(residual);
@@ -118,6 +167,7 @@ ZeroDecider::State::Algebra ZeroDecider::State::reduce(NodeId residual) const
         return result;
     } catch (const BudgetExhausted& error) {
         result.note = error.what();
+        result.exhausted = true;
     } catch (const VanishingDivisor& error) {
         result.note = error.what();
         result.division_by_zero = true;
@@ -134,32 +184,34 @@ std::size_t ZeroDecider::State::affordable_tries(const Evaluation& evaluation) c
 
 /// The residual at a point: at the first precision, and where its sign stays open (and `raise`) at up to eight times
 /// that.
-Ball ZeroDecider::State::refine(const Evaluation& evaluation, const SamplePoint& point, bool raise) const
+Ball ZeroDecider::State::refine(const Evaluation& evaluation, const Sampler& sampler, const SamplePoint& point,
+                                bool raise) const
 {
     Ball value;
     for (slong precision = budget_.precision; precision <= 8 * budget_.precision; precision *= 2) {
-        value = evaluation.enclose(sampler_.enclosures(point, evaluation.inputs(), precision), precision)[0];
+        value = evaluation.enclose(sampler.enclosures(point, evaluation.inputs(), precision), precision)[0];
         if (value.excludes_zero() || !raise) break;
     }
     return value;
 }
 
-void ZeroDecider::State::search_witness(const Evaluation& evaluation, bool prove, Decision& decision)
+void ZeroDecider::State::search_witness(const Evaluation& evaluation, Sampler& sampler, bool prove,
+                                        Decision& decision) const
 {
     std::size_t finite = 0;
     double bound = 0;
     const std::size_t tries = affordable_tries(evaluation);
     for (std::size_t k = 0; k < tries; ++k) {
-        const SamplePoint* point = sampler_.regular(k);
+        const SamplePoint* point = sampler.regular(k);
         if (point == nullptr) break;
-        const auto exact = evaluation.exactly(sampler_.exact_values(*point, evaluation.inputs()));
+        const auto exact = evaluation.exactly(sampler.exact_values(*point, evaluation.inputs()));
         const bool zero = exact && sgn((*exact)[0]) == 0;
         const Ball value = exact ? Ball((*exact)[0], budget_.precision)
-                                 : refine(evaluation, *point, !prove && finite < budget_.points);
+                                 : refine(evaluation, sampler, *point, !prove && finite < budget_.points);
         if (!value.is_finite()) continue;
         if (!zero && value.excludes_zero()) {
             decision.status = ProofStatus::refuted;
-            decision.witness = Witness{sampler_.text(*point, evaluation.inputs()), nonzero_double(value)};
+            decision.witness = Witness{sampler.text(*point, evaluation.inputs()), nonzero_double(value)};
             return;
         }
         // The evidence speaks of the first points alone: later ones are looked at with one precision only.
@@ -189,10 +241,24 @@ Decision ZeroDecider::State::decide(NodeId residual)
         return decision;
     }
     const Evaluation evaluation(graph_, {residual});
-    search_witness(evaluation, algebra.zero, decision);
+    search_witness(evaluation, sampler_, algebra.zero, decision);
+    if (decision.status == ProofStatus::undecided && no_point(decision) && sampler_.regular(0) != nullptr) {
+        // The residual is defined on a part of the domain that the points of the model miss.
+        ProofSetting narrower = setting_;
+        narrower.defined.push_back(residual);
+        Sampler sampler(graph_, narrower, constraints_, budget_);
+        search_witness(evaluation, sampler, algebra.zero, decision);
+    }
     if (algebra.zero && decision.status == ProofStatus::refuted)
         throw InternalError("the residual " + to_text(graph_, residual, 200) +
                             " has the normal form 0 and a point where it is not zero");
+    if (decision.status == ProofStatus::undecided && !no_point(decision) &&
+        proves_by_cases(graph_, setting_, constraints_, operands_, residual, {budget_.terms, budget_.products}))
+        return {ProofStatus::proved, "0", std::nullopt, {}};
+    if (decision.status == ProofStatus::undecided && algebra.exhausted && constraints_.empty() &&
+        modular_zeros(graph_, residual, modular_points) == modular_points)
+        decision.evidence = joined(decision.evidence,
+                                   "zero modulo 2^61-1 at " + std::to_string(modular_points) + " points, not proved");
     if (decision.status == ProofStatus::undecided) decision.evidence = joined(decision.evidence, algebra.note);
     return decision;
 }
@@ -221,20 +287,27 @@ std::optional<std::vector<std::pair<std::string, std::string>>> ZeroDecider::Sta
     return sampler_.text(*point, {});
 }
 
-double ZeroDecider::State::largest_bound(NodeId residual, std::size_t points)
+Reevaluation ZeroDecider::State::reevaluate(NodeId residual, std::size_t points)
 {
+    constexpr double sixty_digits = 1e-60;
     const Evaluation evaluation(graph_, {residual});
-    double bound = 0;
-    std::size_t done = 0;
-    for (std::size_t k = 0; done < points; ++k) {
+    Reevaluation result;
+    for (std::size_t k = 0; result.points < points; ++k) {
         const SamplePoint* point = sampler_.regular(k);
         if (point == nullptr) break;
-        const Ball value = refine(evaluation, *point, false);
+        Ball value;
+        for (slong precision = budget_.precision; precision <= 8 * budget_.precision; precision *= 2) {
+            value = evaluation.enclose(sampler_.enclosures(*point, evaluation.inputs(), precision), precision)[0];
+            if (value.excludes_zero() || value.bound() < sixty_digits) break;
+        }
         if (!value.is_finite()) continue;
-        bound = std::max(bound, value.bound());
-        ++done;
+        ++result.points;
+        result.bound = std::max(result.bound, value.bound());
+        if (!value.excludes_zero() || result.zero_excluded) continue;
+        result.zero_excluded = true;
+        result.where = sampler_.text(*point, evaluation.inputs());
     }
-    return done == 0 ? std::numeric_limits<double>::infinity() : bound;
+    return result;
 }
 
 ZeroDecider::ZeroDecider(const Graph& graph, ProofSetting setting, ProofBudget budget)
@@ -264,9 +337,15 @@ std::optional<std::vector<std::pair<std::string, std::string>>> ZeroDecider::sam
     return state_->sample_point();
 }
 
+Reevaluation ZeroDecider::reevaluate(NodeId residual, std::size_t points) const
+{
+    return state_->reevaluate(residual, points);
+}
+
 double ZeroDecider::largest_bound(NodeId residual, std::size_t points) const
 {
-    return state_->largest_bound(residual, points);
+    const Reevaluation result = reevaluate(residual, points);
+    return result.points == 0 ? std::numeric_limits<double>::infinity() : result.bound;
 }
 
 } // namespace lagen

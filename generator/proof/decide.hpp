@@ -2,6 +2,22 @@
 /// The zero decision: is an expression zero wherever everything in the model is defined? Three-valued and sound:
 /// `proved` rests on exact algebra (a normal form modulo the base constraints), `refuted` on a point of the domain and
 /// of the constraint set where a certified enclosure of the value excludes zero, everything else is `undecided`.
+///
+/// Classes that are decided (proved where true):
+/// - rational functions; denominators may be any expressions that are not identically zero;
+/// - sin, cos, tan of sums of rational multiples of power products (multiples up to 256 times the common unit), sinh,
+///   cosh, tanh, exp, Stumpff functions; sin and cos of rational multiples of pi with denominators up to 60;
+/// - exp and log: products, quotients, powers, log of what is certainly positive or a square, sums of logarithms with
+///   integer coefficients;
+/// - roots of any degree whose radicands factor, denest over one root, or cancel by norms and signs; |p|, min, max,
+/// sign,
+///   if and comparisons, by at most four distinctions of cases;
+/// - asin, acos, atan, atan2 under sin, cos, tan with integer multiples and (not atan2) halves; sums of them whose
+///   absolute value is certainly below 2 pi;
+/// - all of these modulo triangular constraints, with signs that follow from the inequalities of the domain (bounds,
+///   sums, products, differences, squares, discriminants), and linear systems of up to 4 equations.
+/// Not decided: branches that need more than signs (monotony of other functions, angles beyond one turn), constraints
+/// that are not triangular, what exceeds the budget.
 #pragma once
 
 #include "graph/graph.hpp"
@@ -50,6 +66,15 @@ struct ProofBudget {
     std::size_t points = 3;            ///< regular witness points wanted
     std::size_t tries = 200;           ///< sampled points before giving up on finding them
     long precision = 256;              ///< bits of the first enclosure (doubled up to 8 times the value)
+    std::size_t seed = 0;              ///< another seed samples other points
+};
+
+/// What a residual is at sample points, by enclosures alone and whatever algebra says.
+struct Reevaluation {
+    std::size_t points = 0;                                 ///< regular points where it has a finite enclosure
+    double bound = 0;                                       ///< the largest certified bound of |value|
+    bool zero_excluded = false;                             ///< at one of the points the value is certainly not zero
+    std::vector<std::pair<std::string, std::string>> where; ///< that point
 };
 
 /// A base constraint that is not triangular; `index` says which one of ProofSetting::constraints.
@@ -82,8 +107,11 @@ class ZeroDecider {
     /// A regular sample point (all of `variables` and `parameters`), or nothing where none was found.
     [[nodiscard]] std::optional<std::vector<std::pair<std::string, std::string>>> sample_point() const;
 
-    /// Re-evaluates at `points` random exact points to 60 digits: the largest certified bound of |value|; for `check
-    /// --verify` and tests.
+    /// The residual at `points` regular points, with balls to 60 digits: precision grows until |value| < 1e-60 or zero
+    /// is excluded. For `check --verify`, with a decider of another seed than that which decided.
+    [[nodiscard]] Reevaluation reevaluate(NodeId residual, std::size_t points) const;
+
+    /// The largest certified bound of |value| at `points` regular points; infinite where there is none.
     [[nodiscard]] double largest_bound(NodeId residual, std::size_t points) const;
 
   private:

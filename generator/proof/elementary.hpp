@@ -8,14 +8,29 @@
 
 #include "proof/ring.hpp"
 
+#include <set>
+
 namespace lagen::proof {
 
 /// How cos(a + b) is seen: by the addition theorem, or as a generator of the whole angle (better for signs).
 enum class Angles { split, whole };
 
+/// Signs assumed of polynomials, by their uncut texts: one case of a distinction.
+using Assumptions = std::map<std::string, Signs>;
+
+/// A sign that a normal form would have needed.
+struct OpenSign {
+    std::string text;                    ///< of the polynomial
+    bool zero_apart = false;             ///< 0 is a case of its own; else it belongs to both signs
+    std::optional<GeneratorId> absolute; ///< the generator that stands for the absolute value
+};
+
 class Elementary {
   public:
-    explicit Elementary(Ring& ring, Angles angles = Angles::split) : ring_(ring), angles_(angles) {}
+    explicit Elementary(Ring& ring, Angles angles = Angles::split, Assumptions assumptions = {})
+        : ring_(ring), angles_(angles), assumptions_(std::move(assumptions))
+    {
+    }
 
     [[nodiscard]] Fraction pi();
     struct SineCosine {
@@ -28,6 +43,22 @@ class Elementary {
     [[nodiscard]] Fraction root(const Fraction& argument, unsigned degree);
     [[nodiscard]] Fraction absolute(const Fraction& argument);
     [[nodiscard]] Fraction real_power(const Fraction& base, const Fraction& exponent);
+    /// c_order(argument).
+    [[nodiscard]] Fraction stumpff(unsigned order, const Fraction& argument);
+    /// An argument of stumpff by which it divided, although it may vanish on a whole component of the points; empty:
+    /// none.
+    [[nodiscard]] const std::string& condition() const { return condition_; }
+    [[nodiscard]] Fraction arcsine(const Fraction& a);
+    [[nodiscard]] Fraction arccosine(const Fraction& a);
+    [[nodiscard]] Fraction arctangent(const Fraction& a);
+    [[nodiscard]] Fraction arctangent2(const Fraction& y, const Fraction& x);
+    /// Whether the angle a is 0, by cos a = 1 and |a| < 2 pi.
+    [[nodiscard]] bool is_vanishing_angle(const Fraction& a);
+    /// Whether a sum of logarithms with the same cofactors, and of other terms, is 0 because its exponential is 1.
+    [[nodiscard]] bool is_vanishing_logarithm(const Fraction& a);
+    /// What is known of the sign of a, assumptions included; a sign that stays open is listed in `open_signs`.
+    [[nodiscard]] Signs sign_of(const Fraction& a);
+    [[nodiscard]] const std::vector<OpenSign>& open_signs() const { return open_signs_; }
     [[nodiscard]] Fraction opaque(const std::string& name, const std::vector<Fraction>& arguments);
 
     /// True once a unit became finer, so that results made before no longer meet those made now; resets.
@@ -43,6 +74,14 @@ class Elementary {
         mpq_class size;
         GeneratorId first = 0;  ///< sin(size * atom), or exp(size * atom)
         GeneratorId second = 0; ///< cos(size * atom)
+    };
+    struct StumpffPair {
+        Fraction even, odd; ///< c_0 and c_1
+    };
+    struct Family {
+        mpq_class size;    ///< argument = size^2 * kernel
+        Fraction argument; ///< of `first`
+        StumpffPair first;
     };
     struct Factor {
         Polynomial base;
@@ -60,12 +99,29 @@ class Elementary {
     void make_generators(Unit& unit, const Fraction& atom, bool angle);
     [[nodiscard]] SineCosine multiple_angle(const Unit& unit, const mpz_class& multiple);
     [[nodiscard]] SineCosine pi_angle(const mpq_class& turns);
+    /// sin and cos of turns * pi, 0 < turns < 1/2.
+    [[nodiscard]] SineCosine part_of_pi(const mpq_class& turns);
     [[nodiscard]] SineCosine sum(const SineCosine& a, const SineCosine& b);
+    [[nodiscard]] StumpffPair stumpff_pair(const Fraction& z);
+    [[nodiscard]] StumpffPair repeated(const Family& family, const mpz_class& count);
+    void make_family(Family& family, const Fraction& kernel);
+    [[nodiscard]] std::optional<Fraction> argument_root(const Fraction& z, int sign);
+    [[nodiscard]] bool is_dense_where_nonzero(const Fraction& z);
+    void divide_by_argument(const Fraction& z);
     [[nodiscard]] Fraction number_root(const mpq_class& number, unsigned degree);
     [[nodiscard]] Fraction root_generator(const Polynomial& radicand, unsigned degree);
     [[nodiscard]] Fraction remaining_root(const Polynomial& radicand, unsigned degree);
     [[nodiscard]] std::optional<Fraction> denested(const Polynomial& radicand);
+    [[nodiscard]] Fraction open_absolute(const Polynomial& p);
     [[nodiscard]] Fraction absolute_generator(const Polynomial& p);
+    /// The assumed sign of p, made a fact of the ring at the first use; nothing where p has no assumption.
+    [[nodiscard]] std::optional<Signs> assumed(const Polynomial& p, const std::string& text);
+    void eliminate(const Polynomial& p);
+    [[nodiscard]] Fraction inverse_angle(const std::string& name, const std::vector<Fraction>& arguments,
+                                         const SineCosine& values, const Range& range);
+    [[nodiscard]] std::optional<SineCosine> inverse_values(const Part& part);
+    [[nodiscard]] SineCosine multiple_angle(SineCosine square, const mpz_class& multiple, const std::string& text);
+    [[nodiscard]] Range angle_range(const Fraction& argument, bool sine);
     [[nodiscard]] Fraction number_logarithm(const mpq_class& number);
     [[nodiscard]] Fraction factor_logarithm(const Polynomial& p);
     [[nodiscard]] Fraction log_generator(const Polynomial& p);
@@ -74,11 +130,28 @@ class Elementary {
     Ring& ring_;
     Angles angles_;
     bool refined_ = false;
+    unsigned pi_parts_ = 1; ///< common denominator of the multiples of pi
     std::map<std::string, Unit> angle_units_;
     std::map<std::string, Unit> exponential_units_;
+    std::map<std::string, Family> families_; ///< of Stumpff functions
+    std::string condition_;
     std::map<GeneratorId, Fraction> exponents_; ///< of exp generators
-    std::map<GeneratorId, Polynomial> logs_;    ///< arguments of log generators
+    struct Root {
+        Polynomial radicand;
+        unsigned degree = 2;
+    };
+    std::map<std::string, unsigned> root_degrees_; ///< by radicand: the common degree of its roots
+    std::map<GeneratorId, Root> roots_;            ///< root generators
+    std::map<GeneratorId, SineCosine> inverses_;   ///< sine and cosine of asin, atan, atan2 generators
+    std::set<GeneratorId> halved_;                 ///< those in [-pi/2, pi/2]
+    Assumptions assumptions_;
+    std::set<std::string> applied_; ///< assumptions that are facts of the ring by now
+    std::vector<OpenSign> open_signs_;
+    std::map<GeneratorId, Polynomial> logs_; ///< arguments of log generators
 };
+
+/// Longest text of a polynomial whose sign may be assumed; a text that was cut is none.
+inline constexpr std::size_t longest_open = 600;
 
 /// The primes of |number| up to a bound, with multiplicities, and what is left (1, or a number without small primes).
 [[nodiscard]] std::vector<std::pair<mpz_class, unsigned>> small_factors(const mpz_class& number);

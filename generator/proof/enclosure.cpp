@@ -149,6 +149,7 @@ Ball Evaluation::enclose_node(NodeId node, const std::vector<Ball>& values, slon
         fmpz_clear(e);
         return result;
     }
+    if (op == Op::stumpff) return enclose_stumpff(graph_.payload(node), a, precision);
     if (graph_.operands(node).size() == 1) return unary(op, a, precision);
     const Ball& b = operand(node, 1, values);
     switch (op) {
@@ -159,7 +160,13 @@ Ball Evaluation::enclose_node(NodeId node, const std::vector<Ball>& values, slon
     case Op::real_power:
         real_power(z, a.get(), b.get(), graph_.is_constant(graph_.operands(node)[1]), precision);
         break;
-    case Op::atan2: arb_atan2(z, a.get(), b.get(), precision); break;
+    case Op::atan2: // undefined at the origin
+        if (arb_contains_zero(a.get()) != 0 && arb_contains_zero(b.get()) != 0) {
+            arb_indeterminate(z);
+        } else {
+            arb_atan2(z, a.get(), b.get(), precision);
+        }
+        break;
     case Op::minimum: arb_min(z, a.get(), b.get(), precision); break;
     case Op::maximum: arb_max(z, a.get(), b.get(), precision); break;
     case Op::select:

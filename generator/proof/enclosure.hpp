@@ -73,4 +73,7 @@ class Evaluation {
     std::map<NodeId, std::size_t> slots_;
 };
 
+/// c_k(z) = sum_j (-z)^j / (2j+k)!, accurate for balls around 0 and of either sign.
+[[nodiscard]] Ball enclose_stumpff(unsigned k, const Ball& z, slong precision);
+
 } // namespace lagen::proof

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Exact rational evaluation, as far as every operation is rational at the point.
+#include "expression/evaluate_stumpff.hpp"
 #include "proof/enclosure.hpp"
 
 namespace lagen::proof {
@@ -81,6 +82,7 @@ bool Evaluation::exact_node(NodeId node, const std::vector<Rational>& values, Ra
     case Op::sqrt: return exact_root(a, result);
     case Op::abs: result = abs(a); return true;
     case Op::sign: result = sgn(a); return true;
+    case Op::stumpff: result = stumpff_at_zero(graph_.payload(node)); return sgn(a) == 0;
     default: break;
     }
     if (graph_.operands(node).size() == 1 || op == Op::real_power || op == Op::atan2) return false;

@@ -167,6 +167,22 @@ Fraction Ring::times(const Fraction& a, const Fraction& b)
     return normalised(std::move(product));
 }
 
+Polynomial Ring::inverses_of(const Factors& factors)
+{
+    Polynomial product = constant_polynomial(1);
+    for (const auto& [index, exponent] : factors) {
+        const GeneratorId id = keyed("inverse:" + std::to_string(index), [this, index = index] {
+            Range range;
+            const Signs known = signs(Polynomial(factors_[index]));
+            if (!known.negative) range = Range::positive();
+            range.nonzero = true;
+            return add_generator({"(1/divisor " + std::to_string(index) + ")", range, 0, {}, -1, false});
+        });
+        product = times(product, generator_polynomial(id, exponent));
+    }
+    return product;
+}
+
 Fraction Ring::inverse(const Fraction& a)
 {
     if (a.is_zero()) throw VanishingDivisor("division by an expression that is identically zero");
@@ -174,6 +190,10 @@ Fraction Ring::inverse(const Fraction& a)
     const mpz_class unit = split(a.num, result.factors);
     result.num = proof::scale(expand(a.factors), sgn(unit) < 0 ? mpz_class(-a.scale) : a.scale);
     result.scale = abs(unit);
+    if (work_.divisors_apart) {
+        result.num = times(result.num, inverses_of(result.factors));
+        result.factors.clear();
+    }
     return normalised(std::move(result));
 }
 

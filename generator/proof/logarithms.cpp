@@ -8,8 +8,15 @@ namespace lagen::proof {
 Fraction Elementary::log_generator(const Polynomial& p)
 {
     const GeneratorId id = ring_.keyed("log:" + key_of(p), [&] {
-        const Range range = is_constant(p) && p[0].coefficient > 1 ? Range::positive() : Range{};
-        return ring_.add_generator({"log(" + to_text(ring_, p, 160) + ")", range, 0, {}, -1, false});
+        // log p > 0 where p > 1
+        const Signs signs = ring_.signs(add_scaled(p, constant_polynomial(1), -1, ring_.work()));
+        Generator generator{"log(" + to_text(ring_, p, 160) + ")", {}, 0, {}, -1, false};
+        if (!signs.negative) generator.range.low = End{false, 0, !signs.zero};
+        if (!signs.positive) generator.range.high = End{false, 0, !signs.zero};
+        generator.range.nonzero = !signs.zero;
+        generator.value = ring_.value_of(p);
+        if (generator.value) arb_log(generator.value->get(), generator.value->get(), 256);
+        return ring_.add_generator(std::move(generator));
     });
     logs_.emplace(id, p);
     return ring_.of(id);
@@ -70,8 +77,49 @@ Fraction Elementary::logarithm(const Fraction& argument)
         if (exponent - odd != 0) add_in(factor_logarithm(absolute(ring_.of(base)).num), exponent - odd);
         if (odd != 0) rest = ring_.times(rest, base);
     }
-    if (!is_one(rest)) add_in(log_generator(rest), 1);
+    if (is_one(rest)) return result;
+    Polynomial square;
+    if (rest.size() > 2 && square_root(rest, square, ring_.work())) {
+        const Fraction magnitude = absolute(ring_.of(square));
+        if (magnitude.is_polynomial() && magnitude.scale == 1) {
+            add_in(factor_logarithm(magnitude.num), 2);
+            return result;
+        }
+    }
+    add_in(log_generator(rest), 1);
     return result;
+}
+
+bool Elementary::is_vanishing_logarithm(const Fraction& a)
+{
+    constexpr int highest_power = 64;
+    struct Group {
+        std::vector<std::pair<GeneratorId, int>> logs; ///< and their integer coefficients
+        Fraction rest;
+    };
+    std::map<std::string, Group> groups;
+    for (const Term& term : a.num) {
+        const Monomial& monomial = term.monomial;
+        std::size_t place = monomial.size();
+        for (std::size_t k = 0; k < monomial.size(); ++k)
+            if (logs_.count(monomial.generator(k)) > 0) place = k;
+        if (place == monomial.size()) {
+            Group& group = groups[key_of(Monomial())];
+            group.rest = ring_.add(group.rest, ring_.of(Polynomial{term}));
+            continue;
+        }
+        if (abs(term.coefficient) > highest_power || monomial.exponent(place) != 1) return false;
+        const GeneratorId log = monomial.generator(place);
+        groups[key_of(monomial.without(log))].logs.emplace_back(log, static_cast<int>(term.coefficient.get_si()));
+    }
+    for (const auto& [key, group] : groups) {
+        if (group.logs.empty()) return false;
+        Fraction product = exponential(group.rest);
+        for (const auto& [log, times] : group.logs)
+            product = ring_.times(product, ring_.power(ring_.of(logs_.at(log)), times));
+        if (!ring_.add(product, ring_.constant(1), -1).is_zero()) return false;
+    }
+    return !groups.empty();
 }
 
 } // namespace lagen::proof

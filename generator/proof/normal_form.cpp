@@ -8,9 +8,10 @@ namespace lagen::proof {
 
 NormalForm::NormalForm(const Graph& graph, const ProofSetting& setting,
                        const std::vector<SolvedConstraint>& constraints, NodeId root,
-                       const std::vector<NonnegativeOperand>& operands, Work budget, Angles angles)
+                       const std::vector<NonnegativeOperand>& operands, Work budget, Angles angles,
+                       Assumptions assumptions)
     : graph_(graph), setting_(setting), constraints_(constraints), operands_(nonnegative_operands(graph, {root})),
-      ring_(budget), elementary_(ring_, angles)
+      ring_(budget), elementary_(ring_, angles, std::move(assumptions))
 {
     const auto declare = [this](NodeId input) {
         if (inputs_.count(input) > 0) return;
@@ -37,6 +38,12 @@ void NormalForm::prepare()
     done_.clear();
     if (!constraints_.empty()) add_domain();
     add_definedness();
+    for (const SolvedConstraint& solved : constraints_) {
+        const Generator& coordinate = ring_.generator(inputs_.at(solved.variable));
+        if (coordinate.power > 0 && coordinate.power % 2 == 0)
+            ring_.add_fact(Polynomial(coordinate.relation), {false, true, true});
+    }
+    ring_.propagate_facts();
 }
 
 void NormalForm::add_domain()
@@ -126,7 +133,8 @@ Fraction NormalForm::of(NodeId node)
     // A finer unit for an angle changes earlier results: start again. Each restart divides a unit by an integer.
     for (int restart = 0; restart < 32; ++restart) {
         Fraction result = once(node);
-        if (!elementary_.take_refined()) return result;
+        if (!elementary_.take_refined())
+            return !relations_.empty() && vanishes_by_rows(result.num) ? Fraction{} : result;
         done_.clear();
     }
     throw BudgetExhausted("32 refinements of angle units exhausted");
@@ -201,24 +209,13 @@ Fraction NormalForm::function(NodeId node)
     case Op::log: return elementary_.logarithm(a);
     case Op::sqrt: return elementary_.root(a, 2);
     case Op::abs: return elementary_.absolute(a);
+    case Op::stumpff: return elementary_.stumpff(graph_.payload(node), a);
     case Op::real_power: return elementary_.real_power(a, operand(node, 1));
-    default: break;
-    }
-    std::vector<Fraction> arguments;
-    for (const NodeId id : graph_.operands(node)) arguments.push_back(done_.at(id));
-    static constexpr const char* names[] = {"less", "less_equal", "greater", "greater_equal", "equal", "not_equal"};
-    const Op op = graph_.op(node);
-    switch (op) {
-    case Op::asin: return elementary_.opaque("asin", arguments);
-    case Op::acos: return elementary_.opaque("acos", arguments);
-    case Op::atan: return elementary_.opaque("atan", arguments);
-    case Op::atan2: return elementary_.opaque("atan2", arguments);
-    case Op::minimum: return elementary_.opaque("min", arguments);
-    case Op::maximum: return elementary_.opaque("max", arguments);
-    case Op::sign: return elementary_.opaque("sign", arguments);
-    case Op::select: return elementary_.opaque("if", arguments);
-    default: return elementary_.opaque(names[static_cast<int>(op) - static_cast<int>(Op::less)], arguments);
+    case Op::asin: return elementary_.arcsine(a);
+    case Op::acos: return elementary_.arccosine(a);
+    case Op::atan: return elementary_.arctangent(a);
+    case Op::atan2: return elementary_.arctangent2(a, operand(node, 1));
+    default: return nonsmooth(node);
     }
 }
-
 } // namespace lagen::proof

@@ -34,17 +34,21 @@ class NormalForm {
     /// `root`: the node of interest; `operands`: of roots and logarithms elsewhere in the model, whose definedness may
     /// be used besides that of `root`.
     NormalForm(const Graph& graph, const ProofSetting& setting, const std::vector<SolvedConstraint>& constraints,
-               NodeId root, const std::vector<NonnegativeOperand>& operands, Work budget,
-               Angles angles = Angles::split);
+               NodeId root, const std::vector<NonnegativeOperand>& operands, Work budget, Angles angles = Angles::split,
+               Assumptions assumptions = {});
 
     /// Throws BudgetExhausted or VanishingDivisor. Zero proves that the node vanishes wherever everything is defined,
     /// except where `condition()` vanishes.
     [[nodiscard]] Fraction of(NodeId node);
     /// A divisor that reduction used and that was not shown to be nonzero on the domain; empty: none.
-    [[nodiscard]] const std::string& condition() const { return condition_; }
+    [[nodiscard]] const std::string& condition() const
+    {
+        return condition_.empty() ? elementary_.condition() : condition_;
+    }
     /// The same value in the names of the model: without the multiples of coordinates that constraints were solved for.
     [[nodiscard]] Fraction readable(const Fraction& a);
     [[nodiscard]] Ring& ring() { return ring_; }
+    [[nodiscard]] Elementary& elementary() { return elementary_; }
     [[nodiscard]] GeneratorId generator_of(NodeId input) const { return inputs_.at(input); }
 
   private:
@@ -57,6 +61,13 @@ class NormalForm {
     [[nodiscard]] Fraction arithmetic(NodeId node);
     [[nodiscard]] Fraction function(NodeId node);
     [[nodiscard]] Fraction component(NodeId node);
+    [[nodiscard]] Fraction nonsmooth(NodeId node);
+    [[nodiscard]] std::optional<bool> holds(NodeId condition);
+    /// All components of a `solve`.
+    [[nodiscard]] const std::vector<Fraction>& solution(NodeId solve);
+    [[nodiscard]] std::vector<Fraction> free_unknowns(const std::string& key,
+                                                      const std::vector<std::vector<Fraction>>& rows);
+    [[nodiscard]] bool vanishes_by_rows(Polynomial p);
     [[nodiscard]] Fraction determinant(const std::vector<Fraction>& matrix, std::size_t n);
     [[nodiscard]] const Fraction& operand(NodeId node, std::size_t k) const
     {
@@ -72,6 +83,8 @@ class NormalForm {
     std::map<NodeId, GeneratorId> inputs_;
     std::map<NodeId, Fraction> substitutes_; ///< of inputs that constraints solve
     std::map<NodeId, Fraction> done_;
+    std::map<std::string, std::vector<Fraction>> solutions_; ///< of linear systems, by their entries
+    std::vector<Polynomial> relations_;                      ///< rows of A z - b whose unknowns are free generators
     std::string condition_;
 
     /// `multiple` = leading * coordinate, monic in its constraint.

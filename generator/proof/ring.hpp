@@ -5,6 +5,7 @@
 /// only exact trial division.
 #pragma once
 
+#include "proof/enclosure.hpp"
 #include "proof/polynomial.hpp"
 #include "proof/range.hpp"
 
@@ -38,6 +39,7 @@ struct Generator {
     Polynomial relation;
     int partner = -1; ///< of a cosine: its sine (and of a sine: its cosine)
     bool is_sine = false;
+    std::optional<Ball> value = std::nullopt; ///< of a constant such as sqrt(2) or pi
 };
 
 /// What is known of a polynomial on the domain.
@@ -86,8 +88,21 @@ class Ring {
 
     // Signs on the domain.
     void add_fact(const Polynomial& p, const Signs& known);
-    [[nodiscard]] Signs signs(const Polynomial& p) { return signs(p, 0); }
+    [[nodiscard]] Signs signs(const Polynomial& p);
     [[nodiscard]] Signs signs(const Fraction& a);
+    /// The generator is exp(exponent / below).
+    void set_exponent(GeneratorId id, const Polynomial& exponent, const mpz_class& below)
+    {
+        exponents_[id] = {exponent, below};
+    }
+    /// Sharpens the ranges of generators by the facts; call once all facts are known.
+    void propagate_facts();
+    /// True where two facts exclude each other: no point satisfies all of them.
+    [[nodiscard]] bool is_contradictory() const;
+    [[nodiscard]] Range range_of(const Polynomial& p) const;
+    /// An enclosure where every generator is a constant.
+    [[nodiscard]] std::optional<Ball> value_of(const Polynomial& p) const;
+    [[nodiscard]] std::optional<Ball> value_of(const Fraction& a) const;
     /// p with even powers of these cosines written by sines; an equal element of the ring.
     [[nodiscard]] std::vector<Polynomial> rewritings(const Polynomial& p);
 
@@ -98,12 +113,34 @@ class Ring {
     [[nodiscard]] std::size_t factor_index(const Polynomial& p); ///< p primitive, leading coefficient positive
 
   private:
+    /// 1/(factors) as a product of generators, one a factor.
+    [[nodiscard]] Polynomial inverses_of(const std::vector<std::pair<std::size_t, unsigned>>& factors);
     [[nodiscard]] Polynomial expand(const std::vector<std::pair<std::size_t, unsigned>>& factors);
     [[nodiscard]] const Polynomial& relation_power(GeneratorId id, unsigned exponent);
     [[nodiscard]] Signs signs(const Polynomial& p, int depth);
-    [[nodiscard]] Signs range_signs(const Polynomial& p) const;
+    [[nodiscard]] Signs simple_signs(const Polynomial& p, int depth);
+    [[nodiscard]] Range term_range(const Term& term) const;
+    [[nodiscard]] Signs value_signs(const Polynomial& p) const;
+    void bound_by(const SignFact& fact);
+    void bound_by_sums();
+    [[nodiscard]] Signs grouped_signs(const Polynomial& p, int depth);
+    [[nodiscard]] Signs group_signs(GeneratorId id, const std::map<unsigned, Polynomial>& parts, int depth);
+    [[nodiscard]] Signs quadratic_signs(const std::map<unsigned, Polynomial>& parts, int depth);
+    [[nodiscard]] Signs root_signs(GeneratorId id, const std::map<unsigned, Polynomial>& parts, int depth);
+    [[nodiscard]] Signs exponential_signs(const Polynomial& p, int depth);
+    /// variable = image, a polynomial in generators that are not negative.
+    struct Shift {
+        GeneratorId variable;
+        Polynomial image; ///< over `scale`
+        mpz_class scale;
+    };
+    [[nodiscard]] Polynomial shifted(const Polynomial& p, const Shift& shift);
+    [[nodiscard]] Signs shifted_signs(const Polynomial& p, int depth);
+    void make_shifts();
+    void add_shift(const SignFact& fact, bool upward);
+    [[nodiscard]] bool leads_to(const Polynomial& from, GeneratorId to) const;
     [[nodiscard]] Signs end_signs(const Polynomial& p, int depth);
-    [[nodiscard]] Signs sum_signs(const Polynomial& p, const mpz_class& coefficient, const SignFact& fact);
+    [[nodiscard]] Signs sum_signs(const Polynomial& p, const mpz_class& coefficient, const SignFact& fact, int depth);
     [[nodiscard]] Signs fact_signs(const Polynomial& p, int depth);
 
     Work work_;
@@ -114,6 +151,10 @@ class Ring {
     std::map<std::string, std::size_t> factor_keys_;
     std::map<std::pair<GeneratorId, unsigned>, Polynomial> relation_powers_;
     std::vector<SignFact> facts_;
+    std::vector<Shift> shifts_;
+    std::map<GeneratorId, std::pair<Polynomial, mpz_class>> exponents_; ///< of exponentials, over a number > 0
+    std::size_t shifted_facts_ = 0;                                     ///< facts that `shifts_` were made of
+    std::size_t sign_steps_ = 0;                                        ///< left of one question about signs
 };
 
 [[nodiscard]] std::string key_of(const Fraction& a);

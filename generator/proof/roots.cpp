@@ -3,11 +3,14 @@
 #include "proof/elementary.hpp"
 #include "proof/print_fraction.hpp"
 
+#include <numeric>
+
 namespace lagen::proof {
 
 namespace {
 
 constexpr std::size_t longest_text = 160;
+constexpr unsigned highest_degree = 64; ///< of the common root of several
 
 int floor_divide(int a, int b)
 {
@@ -56,17 +59,28 @@ const Fraction* Elementary::exponent_of(const Polynomial& p) const
     return at == exponents_.end() || p[0].monomial.exponent(0) != 1 ? nullptr : &at->second;
 }
 
-Fraction Elementary::root_generator(const Polynomial& radicand, unsigned degree)
+/// All roots of one radicand are powers of one generator, whose degree is the least common multiple of theirs.
+Fraction Elementary::root_generator(const Polynomial& radicand, unsigned wanted)
 {
+    unsigned& common = root_degrees_.try_emplace(key_of(radicand), wanted).first->second;
+    if (common % wanted != 0 && std::lcm(common, wanted) <= highest_degree) {
+        common = std::lcm(common, wanted);
+        refined_ = true;
+    }
+    const unsigned degree = common % wanted == 0 ? common : wanted;
     const std::string key = "root" + std::to_string(degree) + ':' + key_of(radicand);
     const GeneratorId id = ring_.keyed(key, [&] {
         const std::string inner = to_text(ring_, radicand, longest_text);
         const std::string text =
             degree == 2 ? "sqrt(" + inner + ")" : "(" + inner + ")^(1/" + std::to_string(degree) + ")";
         const Range range = ring_.signs(radicand).zero ? Range::nonnegative() : Range::positive();
-        return ring_.add_generator({text, range, degree, radicand, -1, false});
+        std::optional<Ball> value = ring_.value_of(radicand);
+        if (value && !value->is_positive()) value.reset();
+        if (value) arb_root_ui(value->get(), value->get(), degree, 256);
+        return ring_.add_generator({text, range, degree, radicand, -1, false, value});
     });
-    return ring_.of(id);
+    roots_.insert_or_assign(id, Root{radicand, degree});
+    return ring_.of(id, degree / wanted);
 }
 
 Fraction Elementary::number_root(const mpq_class& number, unsigned degree)
@@ -139,11 +153,22 @@ Fraction Elementary::root(const Fraction& argument, unsigned degree)
     Fraction result = number_root(parts.number, degree);
     Polynomial rest = constant_polynomial(sgn(parts.number) < 0 ? -1 : 1);
     const int q = static_cast<int>(degree);
+    std::vector<std::pair<Polynomial, unsigned>> remaining;
     for (const auto& [base, exponent] : parts.factors) {
         if (const Fraction* inner = exponent_of(base)) {
             mpq_class power(exponent, q);
             power.canonicalize();
             result = ring_.times(result, exponential(ring_.times(ring_.constant(power), *inner)));
+            continue;
+        }
+        if (const auto tower = base.size() == 1 && base[0].monomial.size() == 1
+                                   ? roots_.find(base[0].monomial.generator(0))
+                                   : roots_.end();
+            tower != roots_.end() && base[0].monomial.exponent(0) == 1 &&
+            tower->second.degree * degree <= highest_degree) {
+            // (r^(1/p))^(e/q) = r^(e/(p q)), r >= 0
+            const Root inner = tower->second;
+            result = ring_.times(result, ring_.power(root_generator(inner.radicand, inner.degree * degree), exponent));
             continue;
         }
         int whole = floor_divide(exponent, q);
@@ -156,7 +181,17 @@ Fraction Elementary::root(const Fraction& argument, unsigned degree)
         // f^(q k) has the root |f|^k where q k is even.
         if (q % 2 != 0 && whole % 2 != 0) --whole;
         if (whole != 0) result = ring_.times(result, ring_.power(absolute(ring_.of(base)), whole));
-        rest = ring_.times(rest, ring_.power(base, static_cast<unsigned>(exponent - whole * q)));
+        const int left = exponent - whole * q;
+        if (left > 0) remaining.emplace_back(base, static_cast<unsigned>(left));
+    }
+    unsigned shared = degree;
+    for (const auto& [base, left] : remaining) shared = std::gcd(shared, left);
+    if (sgn(parts.number) < 0 && shared % 2 == 0) shared = 1;
+    for (const auto& [base, left] : remaining) rest = ring_.times(rest, ring_.power(base, left / shared));
+    if (shared > 1 && !remaining.empty()) {
+        // (b^g)^(1/q) = |b|^(g/q), and b >= 0 where g is odd.
+        const Fraction inner = shared % 2 == 0 ? absolute(ring_.of(rest)) : ring_.of(rest);
+        return ring_.times(result, shared == degree ? inner : root(inner, degree / shared));
     }
     if (is_one(rest)) return result;
     return ring_.times(result, remaining_root(rest, degree));
@@ -167,9 +202,24 @@ Fraction Elementary::absolute_generator(const Polynomial& p)
     const GeneratorId id = ring_.keyed("abs:" + key_of(p), [&] {
         const std::string text = "abs(" + to_text(ring_, p, longest_text) + ")";
         const Range range = ring_.signs(p).zero ? Range::nonnegative() : Range::positive();
-        return ring_.add_generator({text, range, 2, ring_.power(p, 2), -1, false});
+        std::optional<Ball> value = ring_.value_of(p);
+        if (value) arb_abs(value->get(), value->get());
+        return ring_.add_generator({text, range, 2, ring_.power(p, 2), -1, false, value});
     });
     return ring_.of(id);
+}
+
+Fraction Elementary::open_absolute(const Polynomial& p)
+{
+    const std::string text = to_text(ring_, p, longest_open);
+    if (const auto known = assumed(p, text)) {
+        if (!known->negative) return ring_.of(p);
+        if (!known->positive) return ring_.of(negate(p));
+    }
+    const Fraction magnitude = absolute_generator(p);
+    if (text.find("...") == std::string::npos)
+        open_signs_.push_back({text, false, magnitude.num[0].monomial.generator(0)});
+    return magnitude;
 }
 
 Fraction Elementary::absolute(const Fraction& argument)
@@ -181,7 +231,7 @@ Fraction Elementary::absolute(const Fraction& argument)
         const Signs signs = ring_.signs(base);
         Fraction magnitude = ring_.of(base);
         if (!signs.certainly_nonnegative() && exponent % 2 != 0)
-            magnitude = !signs.positive ? ring_.negate(magnitude) : absolute_generator(base);
+            magnitude = !signs.positive ? ring_.negate(magnitude) : open_absolute(base);
         result = ring_.times(result, ring_.power(magnitude, exponent));
     }
     return result;

@@ -2,6 +2,7 @@
 /// The sequence of points and the test of regularity.
 #include "proof/sample.hpp"
 
+#include <algorithm>
 #include <array>
 
 namespace lagen::proof {
@@ -69,9 +70,20 @@ Rational into_bounds(Rational value, const std::optional<Rational>& low, const s
 
 Sampler::Sampler(const Graph& graph, const ProofSetting& setting, const std::vector<SolvedConstraint>& constraints,
                  const ProofBudget& budget)
-    : graph_(graph), setting_(setting), constraints_(constraints), budget_(budget), conditions_(graph, [&setting] {
+    : graph_(graph), setting_(setting), constraints_(constraints), budget_(budget),
+      conditions_(graph,
+                  [&setting] {
+                      std::vector<NodeId> all = setting.domain;
+                      all.insert(all.end(), setting.defined.begin(), setting.defined.end());
+                      return all;
+                  }()),
+      parts_(graph, [&] {
           std::vector<NodeId> all = setting.domain;
+          for (const NonnegativeOperand& operand : nonnegative_operands(graph, setting.defined))
+              all.push_back(operand.node);
+          signed_parts_ = all.size();
           all.insert(all.end(), setting.defined.begin(), setting.defined.end());
+          for (const NodeId part : all) part_inputs_.push_back(Evaluation(graph, {part}).inputs());
           return all;
       }())
 {
@@ -90,6 +102,11 @@ Sampler::Sampler(const Graph& graph, const ProofSetting& setting, const std::vec
         places_.emplace(input, places_.size());
         for (const SolvedConstraint& solved : constraints) free = free && solved.variable != input;
         if (free) free_.push_back(input);
+    }
+    for (const NodeId input : free_) {
+        const bool condition =
+            std::find(parts_.inputs().begin(), parts_.inputs().end(), input) != parts_.inputs().end();
+        if (condition || constrained_.count(input) > 0) movable_.push_back(input);
     }
     read_bounds();
 }
@@ -139,17 +156,22 @@ Rational Sampler::draw(std::size_t number, NodeId input, bool constrained) const
 std::optional<SamplePoint> Sampler::attempt(std::size_t number, bool exact_only) const
 {
     SamplePoint point;
-    point.number = number;
+    point.number = number + 1'000'003 * budget_.seed;
     for (const NodeId input : free_)
-        point.exact[input] = draw(number, input, exact_only && constrained_.count(input) > 0);
-    for (std::size_t k = 0; k < constraints_.size(); ++k) {
-        const bool upper = number == 0 || mix(number * 31 + k) % 2 == 0;
-        point.upper.push_back(upper);
-        const std::optional<Rational> value = solve_exactly(k, point.exact, upper);
-        if (value) point.exact[constraints_[k].variable] = *value;
-        if (!value && exact_only) return std::nullopt;
-    }
+        point.exact[input] = draw(point.number, input, exact_only && constrained_.count(input) > 0);
+    for (std::size_t k = 0; k < constraints_.size(); ++k)
+        point.upper.push_back(point.number == 0 || mix(point.number * 31 + k) % 2 == 0);
+    solve_constraints(point);
+    if (exact_only && point.exact.size() < free_.size() + constraints_.size()) return std::nullopt;
     return point;
+}
+
+/// Adds the coordinates that constraints determine, where they are rational.
+void Sampler::solve_constraints(SamplePoint& point) const
+{
+    for (std::size_t k = 0; k < constraints_.size(); ++k)
+        if (const auto value = solve_exactly(k, point.exact, point.upper[k]))
+            point.exact[constraints_[k].variable] = *value;
 }
 
 bool Sampler::is_regular(const SamplePoint& point) const
@@ -173,6 +195,13 @@ const SamplePoint* Sampler::regular(std::size_t k)
     while (found_.size() <= k && next_ < rounds * budget_.tries) {
         const std::size_t number = next_++;
         const std::optional<SamplePoint> point = attempt(number, rounds == 2 && number < budget_.tries);
+        if (point && is_regular(*point)) found_.push_back(*point);
+    }
+    // What chance misses is searched for: few points, and only where there are few.
+    constexpr std::size_t searches = 8;
+    while (found_.size() <= k && found_.size() < std::max<std::size_t>(budget_.points, 1) && searched_ < searches &&
+           !movable_.empty()) {
+        const std::optional<SamplePoint> point = repaired(searched_++);
         if (point && is_regular(*point)) found_.push_back(*point);
     }
     return k < found_.size() ? &found_[k] : nullptr;

@@ -6,6 +6,9 @@
 #include "proof/enclosure.hpp"
 #include "proof/normal_form.hpp"
 
+#include <functional>
+#include <set>
+
 namespace lagen::proof {
 
 /// A point: exact values of most inputs; the coordinates that a constraint makes irrational are recomputed at each
@@ -42,13 +45,23 @@ class Sampler {
     [[nodiscard]] std::optional<Rational> solve_exactly(std::size_t k, const ExactInputs& inputs, bool upper) const;
     [[nodiscard]] Ball enclose_root(std::size_t k, BallInputs& inputs, bool upper, slong precision) const;
     [[nodiscard]] bool is_regular(const SamplePoint& point) const;
+    void solve_constraints(SamplePoint& point) const;
+    /// Which conditions hold: constraints solvable, domain, operands of roots and logarithms positive, all defined.
+    [[nodiscard]] std::vector<bool> conditions_met(const SamplePoint& point) const;
+    [[nodiscard]] bool concerns_only(std::size_t part, const std::set<NodeId>& inputs) const;
+    /// The point of this number, moved until every condition holds; nothing where that fails.
+    [[nodiscard]] std::optional<SamplePoint> repaired(std::size_t number) const;
     void read_bounds();
 
     const Graph& graph_;
     const ProofSetting& setting_;
     const std::vector<SolvedConstraint>& constraints_;
     ProofBudget budget_;
-    Evaluation conditions_;             ///< the domain, then what must be defined
+    Evaluation conditions_;                        ///< the domain, then what must be defined
+    std::size_t signed_parts_ = 0;                 ///< the first of `parts_` that must be defined only
+    std::vector<std::vector<NodeId>> part_inputs_; ///< of each of `parts_`
+    Evaluation parts_;                  ///< the domain, operands of roots and logarithms, then what must be defined
+    std::vector<NodeId> movable_;       ///< free inputs of conditions and constraints
     std::vector<Evaluation> equations_; ///< the constraints in the order of solving
     std::map<NodeId, Bounds> bounds_;
     std::map<NodeId, std::size_t> places_; ///< of inputs in the sequence
@@ -56,6 +69,7 @@ class Sampler {
     std::vector<NodeId> free_;             ///< inputs of the setting that no constraint solves
     std::vector<SamplePoint> found_;
     std::size_t next_ = 0;
+    std::size_t searched_ = 0; ///< searches begun
 };
 
 } // namespace lagen::proof

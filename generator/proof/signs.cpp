@@ -10,6 +10,7 @@ namespace lagen::proof {
 namespace {
 
 constexpr int deepest = 3;              ///< products of facts that are looked through
+constexpr std::size_t most_steps = 400; ///< polynomials looked at for one question
 constexpr std::size_t most_terms = 300; ///< of a polynomial whose sign is asked for; rational ranges are slow
 
 /// p / (content and sign), so that proportional polynomials are equal.
@@ -39,25 +40,19 @@ void Ring::add_fact(const Polynomial& p, const Signs& known)
     restrict_range(id, range);
 }
 
-Signs Ring::range_signs(const Polynomial& p) const
+/// From ranges and constants alone; further down in a question about signs, from facts and groups as well.
+Signs Ring::simple_signs(const Polynomial& p, int depth)
 {
-    Range sum = Range::point(0);
-    for (const Term& term : p) {
-        Range range = Range::point(mpq_class(term.coefficient));
-        for (std::size_t k = 0; k < term.monomial.size(); ++k)
-            range = range * proof::power(generators_[term.monomial.generator(k)].range, term.monomial.exponent(k));
-        sum = p.size() == 1 ? range : sum + range;
-    }
-    return signs_of(sum);
+    return depth < deepest ? signs(p, depth + 1) : signs_of(range_of(p));
 }
 
 /// Of p = l fact + rest, where the number l cancels the term that the two have in common.
-Signs Ring::sum_signs(const Polynomial& p, const mpz_class& coefficient, const SignFact& fact)
+Signs Ring::sum_signs(const Polynomial& p, const mpz_class& coefficient, const SignFact& fact, int depth)
 {
     const mpz_class& lead = fact.polynomial[0].coefficient;
     const int sign = sgn(coefficient) * sgn(lead);
     const Polynomial rest = add_scaled(scale(p, abs(lead)), fact.polynomial, -abs(coefficient) * sign, work_);
-    return (sign > 0 ? fact.signs : -fact.signs) + (rest.empty() ? signs_of(mpz_class(0)) : range_signs(rest));
+    return (sign > 0 ? fact.signs : -fact.signs) + simple_signs(rest, depth);
 }
 
 Signs Ring::fact_signs(const Polynomial& p, int depth)
@@ -70,37 +65,40 @@ Signs Ring::fact_signs(const Polynomial& p, int depth)
         if (depth < deepest && divide_exactly(p, fact.polynomial, quotient, work_))
             known = both(known, fact.signs * signs(quotient, depth + 1));
         for (const Term& term : p)
-            if (term.monomial == lead.monomial) known = both(known, sum_signs(p, term.coefficient, fact));
+            if (term.monomial == lead.monomial) known = both(known, sum_signs(p, term.coefficient, fact, depth));
     }
     return known;
 }
 
-/// A polynomial that is affine in a bounded generator lies between its values at the two ends.
+/// A polynomial that is affine in a power of a bounded generator lies between its values at the two ends of the power.
 Signs Ring::end_signs(const Polynomial& p, int depth)
 {
-    std::map<GeneratorId, unsigned> degrees;
+    std::map<GeneratorId, std::pair<unsigned, bool>> degrees; // and whether no other exponent stands beside it
     for (const Term& term : p)
         for (std::size_t k = 0; k < term.monomial.size(); ++k) {
-            unsigned& degree = degrees[term.monomial.generator(k)];
-            degree = std::max(degree, term.monomial.exponent(k));
+            const unsigned exponent = term.monomial.exponent(k);
+            const auto [at, fresh] = degrees.try_emplace(term.monomial.generator(k), exponent, true);
+            if (!fresh && at->second.first != exponent) at->second.second = false;
         }
     for (const auto& [id, degree] : degrees) {
-        const Range range = generators_[id].range;
-        if (degree != 1 || range.low.infinite || range.high.infinite) continue;
+        const Range range =
+            degree.second && degree.first <= 4 ? proof::power(generators_[id].range, degree.first) : Range{};
+        if (range.low.infinite || range.high.infinite) continue;
         Signs ends[2];
         for (int k = 0; k < 2; ++k) {
             const mpq_class& end = (k == 0 ? range.low : range.high).value;
             std::vector<Term> terms;
             for (const Term& term : p) {
-                const bool has = term.monomial.exponent_of(id) == 1;
-                terms.push_back({term.monomial.without(id), term.coefficient * (has ? end.get_num() : end.get_den())});
+                const bool has = term.monomial.exponent_of(id) > 0;
+                const mpz_class factor = has ? end.get_num() : end.get_den();
+                if (factor != 0) terms.push_back({term.monomial.without(id), term.coefficient * factor});
             }
             ends[k] = signs(collect(std::move(terms), work_), depth + 1);
         }
-        return {ends[0].negative || ends[1].negative,
-                ends[0].zero || ends[1].zero || (ends[0].negative && ends[1].positive) ||
-                    (ends[0].positive && ends[1].negative),
-                ends[0].positive || ends[1].positive};
+        // Between the ends p is a mean of both with positive weights.
+        const Signs mean = ends[0] + ends[1];
+        return {mean.negative || ends[0].negative || ends[1].negative, mean.zero || ends[0].zero || ends[1].zero,
+                mean.positive || ends[0].positive || ends[1].positive};
     }
     return {};
 }
@@ -139,13 +137,20 @@ std::vector<Polynomial> Ring::rewritings(const Polynomial& p)
     return forms;
 }
 
+Signs Ring::signs(const Polynomial& p)
+{
+    sign_steps_ = most_steps;
+    return signs(p, 0);
+}
+
 Signs Ring::signs(const Polynomial& p, int depth)
 {
     if (p.empty()) return {false, true, false};
     if (is_constant(p)) return signs_of(p[0].coefficient);
-    if (p.size() > most_terms) return {};
+    if (p.size() > most_terms || sign_steps_ == 0) return {};
+    --sign_steps_;
     work_.spend(10 * p.size());
-    Signs known = range_signs(p);
+    Signs known = both(signs_of(range_of(p)), value_signs(p));
     const auto settled = [&known] { return static_cast<int>(known.negative) + known.zero + known.positive <= 1; };
     if (settled()) return known;
     const Monomial common = monomial_content(p);
@@ -156,13 +161,17 @@ Signs Ring::signs(const Polynomial& p, int depth)
         return both(known, product);
     }
     known = both(known, fact_signs(p, depth));
-    if (settled()) return known;
+    if (settled() || depth >= deepest) return known;
     Polynomial root;
-    if (depth < deepest && p.size() > 1 && square_root(primitive(p), root, work_))
+    if (p.size() > 2 && square_root(primitive(p), root, work_))
         known = both(known, proof::power(signs(root, depth + 1), 2));
-    if (depth < deepest && !settled()) known = both(known, end_signs(p, depth));
+    if (!settled()) known = both(known, end_signs(p, depth));
+    if (!settled()) known = both(known, exponential_signs(p, depth));
+    if (!settled()) known = both(known, grouped_signs(p, depth));
     if (settled() || depth > 0) return known;
-    for (const Polynomial& form : rewritings(p)) known = both(known, signs(form, depth + 1));
+    for (const Polynomial& form : rewritings(p))
+        if (!settled()) known = both(known, signs(form, depth + 1));
+    if (!settled()) known = both(known, shifted_signs(p, depth));
     return known;
 }
 

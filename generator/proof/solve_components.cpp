@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Components of z = A^-1 b in the ring: Cramer's rule where A is small, a free generator otherwise.
+/// Components of z = A^-1 b in the ring: Cramer's rule where A is small.
 #include "proof/normal_form.hpp"
 
 namespace lagen::proof {
 
 namespace {
 
-constexpr std::size_t largest_determinant = 4; ///< rows; beyond, the numerators swell
+constexpr std::size_t largest_determinant = 4; ///< rows; beyond, see linear_systems.cpp
 
 } // namespace
 
@@ -31,13 +31,10 @@ Fraction NormalForm::component(NodeId node)
     const NodeId solve = graph_.operands(node)[0];
     const auto operands = graph_.operands(solve);
     const std::size_t n = operands.size() - 1, row = graph_.payload(node);
+    if (n > largest_determinant) return solution(solve)[row];
     std::vector<Fraction> matrix, right;
     for (const NodeId entry : graph_.operands(operands[0])) matrix.push_back(done_.at(entry));
     for (std::size_t k = 0; k < n; ++k) right.push_back(done_.at(operands[k + 1]));
-    if (n > largest_determinant) {
-        matrix.insert(matrix.end(), right.begin(), right.end());
-        return elementary_.opaque("component" + std::to_string(row), matrix);
-    }
     const Fraction whole = determinant(matrix, n);
     for (std::size_t i = 0; i < n; ++i) matrix[i * n + row] = right[i];
     return ring_.divide(determinant(matrix, n), whole);

@@ -27,7 +27,7 @@ constexpr FunctionDoor function_doors[] = {
     {"atan2", Function::atan2, Parity::none}, {"sinh", Function::sinh, Parity::odd},
     {"cosh", Function::cosh, Parity::even},   {"tanh", Function::tanh, Parity::odd},
     {"exp", Function::exp, Parity::none},     {"log", Function::log, Parity::none},
-    {"abs", Function::abs, Parity::even}};
+    {"abs", Function::abs, Parity::even},     {"stumpff", Function::stumpff, Parity::none}};
 
 Rational to_rational(const GiNaC::numeric& value)
 {

@@ -31,13 +31,16 @@ TEST_CASE("a refuted model shows its residual and a witness, and exits 1")
     const Outcome outcome = call({"check", "refuted.toml"});
     CHECK(outcome.code == 1);
     CHECK(outcome.out == "refuted: invalid\n"
+                         "  1 equation zero by structure, 1 refuted\n"
                          "  anchor          1 refuted\n"
-                         "  trivially zero  1 residuals\n"
                          "  regularity      regular, rank 2, positive definite\n"
                          "\n"
                          "refuted: anchor (u, v, y)\n"
+                         "  component y of [rho(u), rho(v)] - rho([u, v])\n"
                          "  residual 1\n"
-                         "  at x = 1, y = 2: 1\n");
+                         "  at x = 1, y = 2: 1\n"
+                         "  hint: [u, v] needs component v = 1/x, given is none; with it all equations of the "
+                         "algebroid hold\n");
     const json::Value value = json::parse(call({"check", "refuted.toml", "--format", "json"}).out);
     CHECK(value["verdict"].text == "invalid");
     CHECK(value["trivial"].text == "1");
@@ -48,6 +51,43 @@ TEST_CASE("a refuted model shows its residual and a witness, and exits 1")
     CHECK(check["residual"].text == "1");
     CHECK(check["witness"].keys == std::vector<std::string>{"x", "y"});
     CHECK(check["value"].number() == 1);
+    CHECK(check["hint"].text ==
+          "[u, v] needs component v = 1/x, given is none; with it all equations of the algebroid hold");
+    CHECK_FALSE(check.has("verified"));
+}
+
+TEST_CASE("--verify evaluates every residual again and says so in text and JSON")
+{
+    const json::Value value = json::parse(call({"check", "heavy_top.toml", "--verify", "--format", "json"}).out);
+    CHECK(value["verdict"].text == "valid");
+    REQUIRE(value.has("verified"));
+    CHECK(value["verified"].keys == std::vector<std::string>{"points", "digits", "largest"});
+    CHECK(value["verified"]["points"].text == "5");
+    CHECK(value["verified"]["digits"].text == "60");
+    CHECK(std::stod(value["verified"]["largest"].text) < 1e-60);
+    REQUIRE(value["checks"].size() > 0);
+    for (std::size_t k = 0; k < value["checks"].size(); ++k) {
+        CHECK(value["checks"][k]["verified"]["points"].text == "5");
+        CHECK(std::stod(value["checks"][k]["verified"]["largest"].text) < 1e-60);
+    }
+    const Outcome text = call({"check", "heavy_top.toml", "--verify"});
+    CHECK(text.code == 0);
+    CHECK(text.out.find("\n  re-evaluated    5 points, 60 digits: every proved residual is at most ") !=
+          std::string::npos);
+    CHECK(call({"check", "heavy_top.toml"}).out.find("re-evaluated") == std::string::npos);
+    CHECK(call({"check", "refuted.toml", "--verify"}).code == 1);
+}
+
+TEST_CASE("a divisor that is zero everywhere is the model's mistake, exit code 3")
+{
+    const Outcome outcome = call({"check", "zero_divisor.toml"});
+    CHECK(outcome.code == 3);
+    CHECK(outcome.out.empty());
+    CHECK(outcome.err ==
+          "zero_divisor.toml:8:18: error: division by sin(q)^2 + cos(q)^2 - 1, which is zero everywhere\n"
+          "  height = \"q + 1/(sin(q)^2 + cos(q)^2 - 1)\"\n"
+          "                   ^~~~~~~~~~~~~~~~~~~~~~~\n"
+          "hint: a divisor must be nonzero somewhere on the domain\n");
 }
 
 TEST_CASE("an undecided model exits 2")

@@ -48,6 +48,8 @@ KernelModule operators_module()
         values.push_back(g.apply(op, op == Op::log ? c : bounded ? g.divide(a, g.constant(2)) : a));
     }
     values.push_back(g.apply(Op::atan2, a, b));
+    values.push_back(g.stumpff(3, g.subtract(g.multiply(g.constant(9), a), b)));
+    for (const unsigned k : {4U, 1U, 2U}) values.push_back(g.stumpff(k, g.multiply(a, b)));
     values.push_back(g.apply(Op::real_power, c, a));
     values.push_back(g.apply(Op::real_power, c, g.constant(Rational(-5, 2))));
     for (const int exponent : {-7, -3, -1, 4, 5, 13, 64}) values.push_back(g.power(c, exponent));

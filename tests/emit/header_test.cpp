@@ -49,6 +49,23 @@ TEST_CASE("text of the user cannot break out of a comment or a string", "[emit]"
     CHECK(text.find("f_names = {\"a\\\"b\\\\n\"};") != std::string::npos);
 }
 
+TEST_CASE("Stumpff functions of one argument are one call, and their header is included where they are", "[emit]")
+{
+    KernelModule module = empty_module("turning");
+    Graph& g = *module.graph;
+    module.base = {declare(g, "x"), declare(g, "stumpff")};
+    const NodeId z = g.multiply(module.base[0].input, module.base[1].input);
+    module.kernels = {vector_kernel("f", {g.stumpff(1, z), g.stumpff(3, z)}), scalar_kernel("h", g.stumpff(2, z))};
+    const std::string text = print_header(module);
+    CHECK(text.find("#include \"lagen/stumpff.hpp\"\n") != std::string::npos);
+    CHECK(text.find("const S w0 = x * stumpff_;\n        const auto w1 = stumpff_orders<1, 3, S>(w0);\n") !=
+          std::string::npos);
+    CHECK(text.find("result[0] = w1[0];\n") != std::string::npos);
+    CHECK(text.find("result[1] = w1[2];\n") != std::string::npos);
+    CHECK(text.find("return stumpff<2, S>(x * stumpff_);\n") != std::string::npos);
+    CHECK(print_header(product_module()).find("stumpff") == std::string::npos);
+}
+
 TEST_CASE("the same module gives the same bytes", "[emit]")
 {
     CHECK(print_header(pendulum_module()) == print_header(pendulum_module()));

@@ -30,7 +30,7 @@ std::string output_of(const std::string& program)
     return run_shell("'" + where + "/main'").output;
 }
 
-const char* const program = R"(#include "closed.hpp"
+const char* const singular_program = R"(#include "closed.hpp"
 #include "ldlt.hpp"
 #include "pivoted.hpp"
 
@@ -117,5 +117,5 @@ TEST_CASE("singular matrices answer a status at every scale and regular ones are
     for (int k = 0; k < 4; ++k) expected += "closed" + good + "closed" + bad;
     expected += "indefinite" + good;
     expected += "lane ok 0.149\nlane ok 0.333\nlane singular_mass_matrix 0.000\nlane ok 0.500\n";
-    CHECK(output_of(program) == expected);
+    CHECK(output_of(singular_program) == expected);
 }

@@ -127,6 +127,22 @@ TEST_CASE("one tree prints as LaTeX with fractions, roots and comparisons")
           "\\left(x + 1\\right)\\, v_{\\theta_{2}}\\, \\theta_{1}");
 }
 
+TEST_CASE("Stumpff functions and linear systems print in mathematical notation")
+{
+    const Tree stumpff = call(Function::stumpff, {number(12), add({name("x"), number(1)})});
+    const Tree solved = solve_component({name("a"), name("b"), number(0), name("d")}, {name("x"), number(1)}, 1);
+    EquationSet set{"m", "", "lagrange", {}, {}};
+    CHECK(latex_of(stumpff, set) == "c_{12}\\left(x + 1\\right)");
+    CHECK(latex_of(power(stumpff, number(2)), set) == "\\left(c_{12}\\left(x + 1\\right)\\right)^{2}");
+    CHECK(latex_of(solved, set) == "\\left(\\begin{pmatrix} a & b \\\\ 0 & d \\end{pmatrix}^{-1} "
+                                   "\\begin{pmatrix} x \\\\ 1 \\end{pmatrix}\\right)_{2}");
+    set.blocks.push_back(
+        {"B", "", "", {{LeftSide::symbol, "r", {}, {{"", stumpff}}}, {LeftSide::symbol, "s", {}, {{"", solved}}}}});
+    const std::string text = print_text(set);
+    CHECK(text.find("r = c₁₂(x + 1)\n") != std::string::npos);
+    CHECK(text.find("s = ([a, b; 0, d]⁻¹ [x; 1])₂\n") != std::string::npos);
+}
+
 TEST_CASE("a title with special characters is escaped in LaTeX")
 {
     EquationSet set{"m", "50% of {x_1} & \\more^2~#$", "lagrange", {}, {}};

@@ -16,6 +16,11 @@ std::string head_of(const TreeNode& node)
     case TreeKind::call: return entry_of(node.function).name;
     case TreeKind::apply: return "apply " + node.name;
     case TreeKind::compare: return spelling(node.comparison);
+    case TreeKind::solve: return "solve " + node.number.get_str();
+    case TreeKind::array: return "array";
+    case TreeKind::index: return "index";
+    case TreeKind::sum_over: return "sum " + node.name;
+    case TreeKind::product_over: return "product " + node.name;
     default: return "?";
     }
 }

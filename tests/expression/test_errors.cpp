@@ -111,11 +111,10 @@ TEST_CASE("comparisons stand in domains and conditions only")
 
 TEST_CASE("a character outside of the language is named, with what is written instead")
 {
-    CHECK(error_of("x[1]") == "e:1:2: error: unexpected character '['\n"
-                              "  x[1]\n"
+    CHECK(error_of("x{1}") == "e:1:2: error: unexpected character '{'\n"
+                              "  x{1}\n"
                               "   ^\n"
-                              "hint: an expression is one number here: write its entries out with names of their own, "
-                              "for instance x1, x2");
+                              "hint: terms are grouped with '(' and ')', and vectors are written [a, b]");
     CHECK(error_of("x²") == "e:1:2: error: unexpected character '²' (U+00B2)\n"
                             "  x²\n"
                             "   ^\n"

@@ -103,6 +103,11 @@ Word value_of(const Tree& tree)
     case TreeKind::call: return hash_of(tree, 100 + static_cast<Word>(tree->function));
     case TreeKind::apply: return hash_of(tree, 200 + tree->name.size());
     case TreeKind::compare: return hash_of(tree, 300 + static_cast<Word>(tree->comparison));
+    case TreeKind::solve:
+    case TreeKind::array:
+    case TreeKind::index:
+    case TreeKind::sum_over:
+    case TreeKind::product_over: return hash_of(tree, 400 + static_cast<Word>(tree->kind));
     }
     return 0;
 }

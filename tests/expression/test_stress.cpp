@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <array>
 #include <random>
 
@@ -62,6 +63,35 @@ TEST_CASE("random token strings are parsed or refused, never anything else")
     }
     CHECK(outcome.parsed > 5'000);
     CHECK(outcome.rejected > 100'000);
+}
+
+TEST_CASE("random strings of arrays and sums are parsed or refused, never anything else")
+{
+    constexpr std::array tokens{
+        "u",          "A",        "x",         "2",       "3",       "i",          "n",
+        "[1]",        "[i]",      "[1,2]",     "[",       "]",       ",",          "(",
+        ")",          "+",        "-",         "*",       "/",       "^2",         "^-1",
+        "det(",       "hat(",     "exp(",      "cay(",    "vee(",    "norm(",      "dot(u,",
+        "cross(",     "diag(",    "1]",        "[[1,2],", "[x,2,3]", "sum(i,1,n,", "product(i,1,2,",
+        "transpose(", "inverse(", "identity(", "g(",      "tr(",     "norm",       "stumpff(1,"};
+    Scope scope;
+    scope.declare("x", {});
+    scope.declare_size("n", 3, {});
+    scope.declare_family("u", {Rank::vector, 3, 1}, {});
+    scope.declare_family("A", {Rank::matrix, 3, 3}, {});
+    scope.define({"g", {"q"}, parse("q[1]*u + q"), {}});
+    std::mt19937 random(31);
+    Outcome outcome;
+    for (int k = 0; k < 100'000; ++k) {
+        std::string text;
+        for (auto length = 1 + random() % 8; length > 0; --length) text += tokens[random() % tokens.size()];
+        auto open = std::count(text.begin(), text.end(), '(') - std::count(text.begin(), text.end(), ')');
+        if (random() % 2) // half of them with their parentheses closed
+            for (; open > 0; --open) text += ")";
+        try_text(text, scope, outcome);
+    }
+    CHECK(outcome.parsed > 3'000);
+    CHECK(outcome.rejected > 30'000);
 }
 
 TEST_CASE("random bytes are parsed or refused, never anything else")

@@ -21,10 +21,10 @@ Rational power_of(const Rational& base, const Rational& exponent)
 }
 
 /// The value of a tree at x = 3/5, y = -7/4, z = 2.
-Rational value_of(const Tree& tree)
+Rational exact_value(const Tree& tree)
 {
     std::vector<Rational> arguments;
-    for (const Tree& argument : tree->arguments) arguments.push_back(value_of(argument));
+    for (const Tree& argument : tree->arguments) arguments.push_back(exact_value(argument));
     Rational result;
     switch (tree->kind) {
     case TreeKind::number: return tree->number;
@@ -57,8 +57,8 @@ TEST_CASE("three hundred random expressions have the values that exact arithmeti
         const Rational expected(line.substr(equals + 3));
         const Tree tree = parse(text);
         INFO(text);
-        CHECK(value_of(tree) == expected);
-        CHECK(value_of(parse(to_text(tree))) == expected);
+        CHECK(exact_value(tree) == expected);
+        CHECK(exact_value(parse(to_text(tree))) == expected);
         ++count;
     }
     CHECK(count == 300);

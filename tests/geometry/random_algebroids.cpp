@@ -206,7 +206,7 @@ RandomAlgebroid in_frame(const RandomAlgebroid& old, const FrameChange& change)
 }
 
 /// x^2 + y^2 + z^2 - level
-Polynomial sphere(int level)
+Polynomial sphere_equation(int level)
 {
     Polynomial h(-level);
     for (const Variable v : {x, y, z}) h = h + Polynomial::of(v) * Polynomial::of(v);
@@ -226,9 +226,10 @@ RandomAlgebroid on_sphere(Dice& dice)
     result.on_sphere = true;
     for (int count = 0; count < 2; ++count) {
         const std::size_t a = dice.below(3);
-        add_to_bracket(result, dice.below(3), a, (a + 1 + dice.below(2)) % 3, sphere(1) * random_monomial(dice, 3));
+        add_to_bracket(result, dice.below(3), a, (a + 1 + dice.below(2)) % 3,
+                       sphere_equation(1) * random_monomial(dice, 3));
         Quotient& entry = result.anchor(dice.below(3), dice.below(3));
-        entry = entry + Quotient(sphere(1) * random_monomial(dice, 3));
+        entry = entry + Quotient(sphere_equation(1) * random_monomial(dice, 3));
     }
     return result;
 }
@@ -268,7 +269,7 @@ bool holds_at(const RandomAlgebroid& algebroid, const Point& point)
 {
     const std::size_t n = algebroid.n, r = algebroid.r;
     for (std::size_t a = 0; a < r; ++a) {
-        if (algebroid.on_sphere && along_anchor(algebroid, a, sphere(1), point) != 0) return false;
+        if (algebroid.on_sphere && along_anchor(algebroid, a, sphere_equation(1), point) != 0) return false;
         for (std::size_t b = a + 1; b < r; ++b)
             for (std::size_t i = 0; i < n; ++i) {
                 mpq_class residual = along_anchor(algebroid, a, algebroid.anchor(i, b), point) -
@@ -356,7 +357,8 @@ RandomAlgebroid mutated(const RandomAlgebroid& algebroid, Dice& dice)
     switch (dice.below(entry.is_zero() ? 2 : 5)) {
     case 0: change = Quotient(Polynomial(mpq_class(1, ten15))); break;
     case 1:
-        change = Quotient((algebroid.n == 3 ? sphere(2) : Polynomial::of(k)) * random_monomial(dice, algebroid.n));
+        change =
+            Quotient((algebroid.n == 3 ? sphere_equation(2) : Polynomial::of(k)) * random_monomial(dice, algebroid.n));
         break;
     case 2: change = Quotient(-2) * entry; break;
     case 3: change = Quotient(Polynomial(mpq_class(1, ten13))) * entry; break;

@@ -69,14 +69,17 @@ TEST_CASE("a wrong sign in a bracket is refuted with a witness, and the hint nam
     CHECK(point[0].first == "x");
     CHECK(point[1].first == "y");
     CHECK(check.decision.witness->value == -2 * std::stod(point[1].second));
-    CHECK(check.hint == "the anchor equations of [a, b] hold with the opposite sign of its component a");
+    CHECK(check.hint == "all equations of the algebroid hold with the opposite sign of component a of [a, b], or with "
+                        "the opposite sign of component y of the anchor of b");
 }
 
-TEST_CASE("a refutation that no sign repairs has no hint")
+TEST_CASE("a refutation that no single entry repairs has no hint")
 {
-    const VerifiedAlgebroid verified = verified_text(half_plane + "\"a,b\" = { a = -2 }\n");
+    const VerifiedAlgebroid verified =
+        verified_text("[fibre]\ncoordinates = [\"a\", \"b\", \"c\"]\n[algebroid]\nkind = \"lie_algebra\"\n"
+                      "[algebroid.bracket]\n\"a,b\" = { a = 1 }\n\"b,c\" = { b = 1 }\n\"c,a\" = { c = 1 }\n");
     REQUIRE(verified.verdict == Verdict::invalid);
-    CHECK(verified.checks[0].hint.empty());
+    for (const Check& check : verified.checks) CHECK(check.hint.empty());
 }
 
 TEST_CASE("on the sphere every tangency and Casimir equation is listed and proved")

@@ -59,13 +59,17 @@ TEST_CASE("the derivative of every operation agrees with central differences, fo
         ++tested;
         switch (entry.arity) {
         case 1:
-            check_derivatives(g, entry.op == Op::power ? g.power(g.add(inner, y), -3) : g.apply(entry.op, inner), at);
+            check_derivatives(g,
+                              entry.op == Op::power     ? g.power(g.add(inner, y), -3)
+                              : entry.op == Op::stumpff ? g.stumpff(3, inner)
+                                                        : g.apply(entry.op, inner),
+                              at);
             break;
         case 2: check_derivatives(g, g.apply(entry.op, g.add(inner, x), y), at); break;
         default: check_derivatives(g, g.select(g.apply(Op::less, x, y), g.power(inner, 2), x), at);
         }
     }
-    CHECK(tested == 31);
+    CHECK(tested == 32);
 }
 
 TEST_CASE("a solve differentiates on its own factorisation, symmetric and general")

@@ -56,12 +56,39 @@ TEST_CASE("a divisor that vanishes identically is an error of the model")
 TEST_CASE("a node becomes a tree that lowers to the same node")
 {
     Graph g;
-    for (const char* text :
-         {"sin(x)*y - 1/3", "x^-2/(1 + abs(y))", "atan2(y, x)^(1/3)", "if(x < y, x, -y)", "sqrt(x)^3"}) {
+    for (const char* text : {"sin(x)*y - 1/3", "x^-2/(1 + abs(y))", "atan2(y, x)^(1/3)", "if(x < y, x, -y)",
+                             "sqrt(x)^3", "stumpff(2, x*y) - y"}) {
         const NodeId id = lower(g, text);
         CHECK(Lowering(g)(to_tree(g, id)) == id);
     }
     const auto z =
         g.solve(std::vector<NodeId>(4, g.input("a")), std::vector<NodeId>(2, g.input("b")), MatrixStructure::general);
-    CHECK_THROWS_AS(to_tree(g, z[0]), InternalError);
+    CHECK(Lowering(g)(to_tree(g, z[1])) == z[1]);
+}
+
+TEST_CASE("a component of a linear system lowers to one solve, split where the unknowns do not touch")
+{
+    Graph g;
+    const auto x = [](const char* text) { return name(text); };
+    const std::vector<Tree> matrix{x("a"), x("b"), x("c"), x("d")};
+    const std::vector<Tree> right{x("u"), x("v")};
+    const NodeId first = Lowering(g)(solve_component(matrix, right, 0));
+    const NodeId second = Lowering(g)(solve_component(matrix, right, 1));
+    REQUIRE(g.op(first) == Op::component);
+    CHECK(g.operands(first)[0] == g.operands(second)[0]);
+    CHECK(g.payload(second) == 1);
+    const std::vector<Tree> diagonal{x("a"), number(0), number(0), x("d")};
+    CHECK(to_text(g, Lowering(g)(solve_component(diagonal, right, 1))) == "v/d");
+    const std::vector<Tree> singular{x("a"), number(0), number(0), number(0)};
+    CHECK(g.op(Lowering(g)(solve_component(singular, right, 1))) == Op::component); // answers at run time
+    CHECK_THROWS_AS(Lowering(g)(solve_component({number(0)}, {x("u")}, 0)), ModelError);
+}
+
+TEST_CASE("the order of a Stumpff function is a small integer")
+{
+    CHECK(message("stumpff(x, y)") ==
+          "the first argument of stumpff is `x`, an integer from 0 to 64 is required | stumpff(k, z) is the sum over j "
+          "of (-z)^j / (2j+k)!");
+    CHECK(message("stumpff(65, y)").substr(0, 38) == "the first argument of stumpff is 65, a");
+    CHECK(message("stumpff(1/2, y)").substr(0, 38) == "the first argument of stumpff is 1/2, ");
 }

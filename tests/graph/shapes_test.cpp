@@ -15,7 +15,7 @@ using namespace lagen;
 
 namespace {
 
-std::vector<std::string> texts(const Graph& g, const std::vector<NodeId>& ids)
+std::vector<std::string> shape_texts(const Graph& g, const std::vector<NodeId>& ids)
 {
     std::vector<std::string> result;
     for (const NodeId id : ids) result.push_back(to_text(g, id, 2000));
@@ -44,8 +44,8 @@ TEST_CASE("a factor that a row of a system shares with its right side is divided
     const auto z = x.solve(MatrixStructure::positive_definite);
     std::vector<NodeId> divisors;
     const auto simple = simplify(x.g, z, divisors);
-    CHECK(texts(x.g, simple) == std::vector<std::string>{"component(solve(factor(m, p, l*p, m), f, f), 0)",
-                                                         "component(solve(factor(m, p, l*p, m), f, f), 1)"});
+    CHECK(shape_texts(x.g, simple) == std::vector<std::string>{"component(solve(factor(m, p, l*p, m), f, f), 0)",
+                                                               "component(solve(factor(m, p, l*p, m), f, f), 1)"});
     CHECK(divisors == std::vector<NodeId>{x.l});
     const std::map<std::string, double> at{{"l", 0.7}, {"m", 2.5}, {"p", 0.4}, {"f", -1.3}};
     const auto expected = evaluate<double>(x.g, z, at);
@@ -80,7 +80,7 @@ TEST_CASE("closed sums are opened where their terms cancel")
     const NodeId M = g.add(m, g.input("n"));
     const NodeId product = g.multiply(g.multiply(M, v), g.subtract(u, v));
     const std::vector<NodeId> force{g.subtract(product, g.multiply(g.multiply(M, u), v))};
-    CHECK(texts(g, simplify(g, force)) == std::vector<std::string>{"-(m + n)*v^2"});
+    CHECK(shape_texts(g, simplify(g, force)) == std::vector<std::string>{"-(m + n)*v^2"});
 }
 
 TEST_CASE("cyclic equations have cyclic products and no subtracted sums")
@@ -101,7 +101,7 @@ TEST_CASE("cyclic equations have cyclic products and no subtracted sums")
         rows.push_back(g.subtract(euler, g.multiply(k, torque)));
     }
     // The text reads products from the right: (b - c)*y is multiplied by z, (c - a)*z by x, (a - b)*x by y.
-    CHECK(texts(g, simplify(g, rows)) == std::vector<std::string>{"k*(h*q - f*r) + z*y*(b - c)",
-                                                                  "k*(e*r - h*p) + x*z*(c - a)",
-                                                                  "k*(f*p - e*q) + y*x*(a - b)"});
+    CHECK(shape_texts(g, simplify(g, rows)) == std::vector<std::string>{"k*(h*q - f*r) + z*y*(b - c)",
+                                                                        "k*(e*r - h*p) + x*z*(c - a)",
+                                                                        "k*(f*p - e*q) + y*x*(a - b)"});
 }

@@ -45,7 +45,7 @@ const std::vector<Library>& libraries()
         {"ginac/.*|cln/.*", {"symbolic", "equations"}},
         {"toml.*", {"model"}},
         {"arb.*\\.h|arf\\.h|acb.*\\.h|mag\\.h|flint/.*|fmpq.*\\.h|fmpz.*\\.h", {"proof"}},
-        {"mpfr\\.h", {"graph", "proof", "emit"}}, // rounds literals, functions and enclosures
+        {"mpfr\\.h", {"expression", "graph", "proof", "emit"}}, // rounds literals, functions and enclosures
         {"boost/program_options.*", {"commands"}},
         {"Eigen/.*", {"runtime"}},
     };

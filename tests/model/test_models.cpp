@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr long double epsilon = std::numeric_limits<long double>::epsilon();
+constexpr long double machine_epsilon = std::numeric_limits<long double>::epsilon();
 
 lagen::Model house_model(const std::string& name)
 {
@@ -64,9 +64,9 @@ TEST_CASE("Kepler's scenes start at perihelion and at aphelion of the same ellip
 {
     const lagen::Model model = house_model("kepler");
     const lagen::SceneValues near = lagen::evaluate_scene(model, lagen::find_scene(model, "default"));
-    CHECK(std::fabs(near.base[0].second - 0.4L) <= epsilon);
-    CHECK(std::fabs(near.fibre[1].second - 2) <= 4 * epsilon);
+    CHECK(std::fabs(near.base[0].second - 0.4L) <= machine_epsilon);
+    CHECK(std::fabs(near.fibre[1].second - 2) <= 4 * machine_epsilon);
     const lagen::SceneValues far = lagen::evaluate_scene(model, lagen::find_scene(model, "infall"));
-    CHECK(std::fabs(far.base[0].second + 1.6L) <= 2 * epsilon);
-    CHECK(std::fabs(far.fibre[1].second + 0.5L) <= 2 * epsilon);
+    CHECK(std::fabs(far.base[0].second + 1.6L) <= 2 * machine_epsilon);
+    CHECK(std::fabs(far.fibre[1].second + 0.5L) <= 2 * machine_epsilon);
 }

@@ -60,6 +60,33 @@ TEST_CASE("odd and even functions lose the sign of their argument")
     CHECK(returned("acos(-x)") == "acos(-x)");
 }
 
+TEST_CASE("Stumpff functions go through, with their value at 0 and their derivative")
+{
+    CHECK(returned("x*stumpff(2, y^2 + x)") == "x*stumpff(2, x + y^2)");
+    CHECK(returned("stumpff(4, x - x)") == "1/24");
+    SymbolTable symbols;
+    const GiNaC::ex slope = to_ginac(parsed("stumpff(2, x*y)"), symbols).diff(symbols.symbol("x"));
+    CHECK(to_text(shortest_form(slope, symbols, order)) == "y*stumpff(4, x*y) - y*stumpff(3, x*y)/2");
+}
+
+TEST_CASE("a linear system of up to four unknowns is solved explicitly, a larger one refused")
+{
+    const std::vector<Tree> matrix{name("m"), name("x"), name("y"), name("k")};
+    const std::vector<Tree> right{name("z"), number(1)};
+    SymbolTable symbols;
+    const GiNaC::ex second = to_ginac(solve_component(matrix, right, 1), symbols);
+    CHECK(to_text(shortest_form(second, symbols, order)) == "(m - y*z)/(m*k - x*y)");
+    const std::vector<Tree> singular(4, name("x"));
+    CHECK_THROWS_AS(to_ginac(solve_component(singular, right, 0), symbols), MathematicsError);
+    try {
+        (void)to_ginac(solve_component(std::vector<Tree>(25, name("x")), std::vector<Tree>(5, name("y")), 0), symbols);
+        FAIL("five unknowns were written out");
+    } catch (const MathematicsError& error) {
+        CHECK(std::string(error.what()).find("the solution of 5 coupled linear equations is not written out") !=
+              std::string::npos);
+    }
+}
+
 TEST_CASE("roots keep what stands below them")
 {
     CHECK(returned("k/sqrt(x^2 + y^2)") == "k/sqrt(x^2 + y^2)");

@@ -31,7 +31,8 @@ class March {
     March(const M& model, const State& s, Interval<Real> span, const Method& method, const Options<M>& options,
           Observer& observer)
         : model_(model), span_(span), method_(method), options_(options), observer_(observer), stepper_(method),
-          watch_(model, options.events), s_(s), s1_(s), inner_(s), t_(span.start)
+          watch_(model, options.events), s_(s), s1_(s), inner_(s), t_(span.start),
+          reach_(std::max<Real>(size(span.start), size(span.end)))
     {
     }
 
@@ -58,7 +59,6 @@ class March {
 
   private:
     static Real size(Real x) noexcept { return x < Real(0) ? -x : x; }
-    Real reach() const noexcept { return std::max<Real>(size(span_.start), size(span_.end)); }
 
     // ---- start ----
 
@@ -155,7 +155,7 @@ class March {
             if (cap > Real(0) && reaches > cap) reaches = cap;
             last = reaches >= rest;
         } else {
-            last = rest <= length + Real(8) * epsilon() * reach();
+            last = rest <= length + Real(8) * epsilon() * reach_;
         }
         if (last) length = rest;
         return {forward_ ? length : -length, last};
@@ -164,6 +164,11 @@ class March {
     Status step()
     {
         const auto [h, last] = next_length();
+        if constexpr (Stepper::adaptive)
+            if (!last && is_lost_in_time(h_)) {
+                run_.failed_at = t_;
+                return Status::step_too_small;
+            }
         // Compensated sum of the times [Kahan 1965].
         const Real increment = h - lost_;
         const Real t1 = last ? span_.end : t_ + increment;
@@ -192,6 +197,7 @@ class March {
         if (status == Status::ok && error - error != Real(0)) status = Status::non_finite;
         if (status == Status::ok && error > Real(1)) {
             ++run_.rejected;
+            imprecise_ = true;
             h_ = controller_.after_rejected(size(h), error);
             return size_verdict(Status::step_too_small, t1);
         }
@@ -203,23 +209,31 @@ class March {
             return size_verdict(status, t1);
         }
         retry_ = false;
+        imprecise_ = false;
         failed_length_ = Real(0);
         h_ = controller_.after_accepted(size(h), error);
         return Status::ok;
+    }
+
+    /// Is a step of this length within the rounding of time?
+    bool is_lost_in_time(Real length) const noexcept
+    {
+        const Real scale = std::max<Real>(size(t_), epsilon() * size(span_.end - span_.start));
+        return !(Real(0.1) * length > epsilon() * scale);
     }
 
     /// `reason` where the next step would be lost in the rounding of time; a run into the domain's boundary is called
     /// so.
     Status size_verdict(Status reason, Real t1) noexcept
     {
-        const Real scale = std::max<Real>(size(t_), epsilon() * size(span_.end - span_.start));
-        if (Real(0.1) * h_ > epsilon() * scale) return Status::ok;
+        if (!is_lost_in_time(h_)) return Status::ok;
         run_.failed_at = t1;
         if constexpr (HasDomain<M> && Stepper::adaptive) {
             inner_ = s_ + failed_length_ * stepper_.derivative();
             if (reason != Status::step_too_small && domain_status(t1, inner_) != Status::ok) return Status::left_domain;
         }
-        return reason;
+        // Shorter steps were finite and failed by their error: the tolerance cannot be met, whatever the last one met.
+        return reason == Status::non_finite && imprecise_ ? Status::step_too_small : reason;
     }
 
     // ---- what an accepted step brings ----
@@ -286,7 +300,7 @@ class March {
         rows_until(end, [&](Real time) {
             // A row within rounding of the step's end is the step's end.
             Real x = (time - t_) / h;
-            if (x > theta || size(time - end) <= Real(4) * epsilon() * reach()) x = theta;
+            if (x > theta || size(time - end) <= Real(4) * epsilon() * reach_) x = theta;
             return inside(x, h, t1).second;
         });
         const State* s = inside(theta, h, t1).second;
@@ -320,7 +334,7 @@ class March {
     template <class At>
     void rows_until(Real end, const At& at)
     {
-        const Real slack = Real(4) * epsilon() * reach();
+        const Real slack = Real(4) * epsilon() * reach_;
         while (row_ < options_.at.size()) {
             const Real time = options_.at[row_];
             if (is_after(time, end) && size(time - end) > slack) return;
@@ -347,6 +361,7 @@ class March {
     Run<M> run_;
     State s_, s1_, inner_;
     Real t_;
+    Real reach_; ///< the largest |t| of the interval
     Real t_before_ = Real(0);
     Real lost_ = Real(0);
     Real h_ = Real(0);             ///< positive: the length that the method or the controller asks for
@@ -354,6 +369,7 @@ class March {
     std::size_t row_ = 0;
     bool forward_ = true;
     bool retry_ = false;
+    bool imprecise_ = false; ///< since the last accepted step, one was rejected by its error
 };
 
 } // namespace lagen::detail

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// One walk of a closing. The walk keeps its own stack: chains of definitions are as deep as a user makes them.
+#pragma once
+
+#include "expression/combine.hpp"
+#include "expression/expansion.hpp"
+
+#include <set>
+#include <unordered_map>
+
+namespace lagen {
+
+/// A parameter of a function or the index of a sum, and what it stands for.
+struct BoundName {
+    const std::string* name;
+    Value value;
+};
+
+/// What the names of one body mean.
+struct Body {
+    const Definition* definition = nullptr; ///< null: an expression outside of the definitions
+    std::vector<BoundName> bound;           ///< the innermost last
+    std::shared_ptr<std::map<std::string, Value>> families = std::make_shared<std::map<std::string, Value>>();
+    std::unordered_map<const TreeNode*, Value> done; ///< by address; looked up, never iterated
+};
+
+/// `enter` gives the value at once where it can, else it leaves a frame; `advance` takes the last frame one step
+/// further.
+class Expansion::Closing {
+  public:
+    Closing(Expansion& expansion, const Scope& scope) : expansion_(expansion), scope_(scope) {}
+
+    Value close(const Tree& tree) { return run(enter(tree, std::make_shared<Body>())); }
+
+    Value expand_all(const Definition& definition, std::vector<Value> arguments)
+    {
+        return run(expand(definition, std::move(arguments), definition.where));
+    }
+
+  private:
+    using Result = Value; ///< null: a frame was left that will give it
+
+    enum class Step { operation, definition, repetition };
+
+    /// An operation or application whose arguments are being closed, a definition whose body is, or a sum whose bounds
+    /// and terms are.
+    struct Frame {
+        Tree tree = {}; ///< null for a definition
+        std::shared_ptr<Body> body = {};
+        Step step = Step::operation;
+        std::vector<Value> arguments = {};
+        Key key = {};                     ///< of a definition
+        Repetition* repetition = nullptr; ///< of a sum whose bounds are closed
+        long from = 0, to = 0, next = 0;  ///< of a sum; `next` is the index of the term that is being closed
+        long before = 0;                  ///< the terms up to here are in a partial sum already
+    };
+
+    Value run(Result result);
+    Result enter(const Tree& tree, const std::shared_ptr<Body>& body);
+    Result enter_name(const Tree& tree, const std::shared_ptr<Body>& body);
+    Result advance();
+    Result finish_definition();
+    Result finish_operation();
+    Result expand(const Definition& definition, std::vector<Value> arguments, const SourceRange& use);
+
+    Result advance_repetition();
+    void start_repetition(Frame& top);
+    Result next_term(Frame& top);
+    Result finish_repetition();
+    Result open_repetition(Frame& top);
+    const std::set<std::string>& names_of(const TreeNode& repetition);
+    Value join_terms(const Frame& top, const Maker& make) const;
+
+    Value family(const std::string& name, const Shape& shape, const Body& body) const;
+    const Definition& function_of(const TreeNode& node, const Body& body) const;
+    void push(Frame frame, const SourceRange& where);
+    void refuse_cycle(const Definition& definition, const SourceRange& use) const;
+    [[noreturn]] void unknown(const TreeNode& node, const Body& body, bool as_function) const;
+
+    /// Makes nodes for a frame of this body.
+    Maker maker(const Body& body, const SourceRange& where)
+    {
+        return {body.definition ? expansion_.budget_ : budget_, expansion_.signed_identity_, where};
+    }
+
+    Expansion& expansion_;
+    const Scope& scope_;
+    Budget budget_{0, "the expression is longer than {} operations when its sums and arrays are written out",
+                   "a family or a sum of this size is beyond what is written out"};
+    std::unordered_map<const TreeNode*, std::set<std::string>> names_; ///< looked up, never iterated
+    std::vector<Frame> frames_;
+    std::vector<const Definition*> active_; ///< of the frames that expand
+};
+
+} // namespace lagen

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// hat, vee, exp and cay, smooth at zero (MATH 12).
+#include "expression/combine.hpp"
+
+#include <fmt/format.h>
+
+namespace lagen {
+
+namespace {
+
+/// The v of a 3 x 3 matrix hat(v), or the s of [[0, -s], [s, 0]], where the matrix is skew as written.
+std::optional<std::vector<ClosedTree>> axis_of(const Maker& maker, const Value& a)
+{
+    const std::size_t n = a->shape.rows;
+    if (a->shape.rank != Rank::matrix || n != a->shape.columns || (n != 2 && n != 3)) return std::nullopt;
+    const std::vector<ClosedTree>& entries = maker.entries(*a);
+    SignedIdentity& signed_number = maker.identity();
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j <= i; ++j) {
+            const SignedNumber below = signed_number(entries[i * n + j].tree);
+            const SignedNumber above = signed_number(entries[j * n + i].tree);
+            const bool opposite = below.sign == -above.sign && (below.sign == 0 || below.number == above.number);
+            if (!opposite) return std::nullopt;
+        }
+    if (n == 2) return std::vector<ClosedTree>{entries[2]};
+    return std::vector<ClosedTree>{entries[7], entries[2], entries[3]};
+}
+
+/// What is missing of a matrix, for a message.
+const char* unless_skew(const Value& a)
+{
+    const bool small = a->shape == matrix_shape(2, 2) || a->shape == matrix_shape(3, 3);
+    return small ? " that is not seen to be skew" : "";
+}
+
+Value hat_of(const Maker& maker, const std::vector<ClosedTree>& v)
+{
+    const ClosedTree zero = maker.number(0);
+    if (v.size() == 1) return array_value(maker, matrix_shape(2, 2), {zero, maker.negate(v[0]), v[0], zero});
+    return array_value(
+        maker, matrix_shape(3, 3),
+        {zero, maker.negate(v[2]), v[1], v[2], zero, maker.negate(v[0]), maker.negate(v[1]), v[0], zero});
+}
+
+/// 1 + a v^ + b v^ v^ with v^ v^ = v v^T - |v|^2 1, so that the diagonal is 1 - b (v_j^2 + v_k^2).
+Value rotation(const Maker& maker, const std::vector<ClosedTree>& v, const ClosedTree& a, const ClosedTree& b)
+{
+    const Value v_hat = hat_of(maker, v);
+    std::vector<ClosedTree> squares;
+    for (const ClosedTree& entry : v) squares.push_back(maker.square(entry));
+    std::vector<ClosedTree> entries;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) {
+            if (i == j) {
+                const ClosedTree others = maker.add({squares[(i + 1) % 3], squares[(i + 2) % 3]});
+                entries.push_back(maker.subtract(maker.number(1), maker.multiply({b, others})));
+                continue;
+            }
+            const std::size_t low = std::min(i, j); // v_i v_j is written one way
+            const std::size_t high = std::max(i, j);
+            entries.push_back(
+                maker.add({maker.multiply({a, v_hat->entries[i * 3 + j]}), maker.multiply({b, v[low], v[high]})}));
+        }
+    return array_value(maker, matrix_shape(3, 3), std::move(entries));
+}
+
+ClosedTree norm_squared(const Maker& maker, const std::vector<ClosedTree>& v)
+{
+    std::vector<ClosedTree> terms;
+    for (const ClosedTree& entry : v) terms.push_back(maker.square(entry));
+    return maker.add(std::move(terms));
+}
+
+} // namespace
+
+Value hat(const Maker& maker, const Tree& tree, const Value& v)
+{
+    if (v->shape.rank != Rank::scalar && v->shape != vector_shape(3))
+        refuse(tree->arguments[0], fmt::format("an argument of hat is {}", to_text(v->shape)),
+               "hat takes a vector of 3, or a scalar for a 2 x 2 matrix");
+    return hat_of(maker, maker.entries(*v));
+}
+
+Value vee(const Maker& maker, const Tree& tree, const Value& a)
+{
+    std::optional<std::vector<ClosedTree>> axis = axis_of(maker, a);
+    if (!axis)
+        refuse(tree->arguments[0], fmt::format("an argument of vee is {}{}", to_text(a->shape), unless_skew(a)),
+               "vee takes a 3 x 3 or 2 x 2 matrix whose entries are each other's negatives, such as hat(v)");
+    if (axis->size() == 1) return scalar((*axis)[0]);
+    return array_value(maker, vector_shape(3), std::move(*axis));
+}
+
+Value exponential(const Maker& maker, const Tree& tree, const Value& a)
+{
+    const std::optional<std::vector<ClosedTree>> axis = axis_of(maker, a);
+    if (!axis)
+        refuse(tree->arguments[0], fmt::format("an argument of exp is {}{}", to_text(a->shape), unless_skew(a)),
+               "exp takes a scalar, or a skew matrix, 3 x 3 or 2 x 2, such as hat(v); cay(A) takes any square matrix");
+    const std::vector<ClosedTree>& v = *axis;
+    if (v.size() == 1) {
+        const ClosedTree c = maker.call(Function::cos, {v[0]});
+        const ClosedTree s = maker.call(Function::sin, {v[0]});
+        return array_value(maker, matrix_shape(2, 2), {c, maker.negate(s), s, c});
+    }
+    const ClosedTree z = norm_squared(maker, v);
+    return rotation(maker, v, maker.call(Function::stumpff, {maker.number(1), z}),
+                    maker.call(Function::stumpff, {maker.number(2), z}));
+}
+
+Value cayley(const Maker& maker, const Tree& tree, const Value& a)
+{
+    if (a->shape.rank != Rank::matrix || a->shape.rows != a->shape.columns)
+        refuse(tree->arguments[0], fmt::format("an argument of cay is {}", to_text(a->shape)),
+               "cay takes a square matrix");
+    const ClosedTree one = maker.number(1);
+    const ClosedTree half = maker.number(Rational(1, 2));
+    if (const std::optional<std::vector<ClosedTree>> v = axis_of(maker, a)) {
+        const ClosedTree quarter = maker.divide(norm_squared(maker, *v), maker.number(4));
+        const ClosedTree below = maker.add({one, quarter});
+        if (v->size() == 3) return rotation(maker, *v, maker.divide(one, below), maker.divide(half, below));
+        const ClosedTree c = maker.divide(maker.subtract(one, quarter), below);
+        const ClosedTree s = maker.divide((*v)[0], below);
+        return array_value(maker, matrix_shape(2, 2), {c, maker.negate(s), s, c});
+    }
+    const std::size_t n = a->shape.rows;
+    std::vector<ClosedTree> minus, plus;
+    const std::vector<ClosedTree>& entries = maker.entries(*a);
+    for (std::size_t k = 0; k < n * n; ++k) {
+        const ClosedTree part = maker.multiply({half, entries[k]});
+        const ClosedTree unit = maker.number(k % (n + 1) == 0 ? 1 : 0);
+        minus.push_back(maker.subtract(unit, part));
+        plus.push_back(maker.add({unit, part}));
+    }
+    const Value left = inverse_matrix(maker, tree, array_value(maker, a->shape, std::move(minus)));
+    const std::vector<Value> factors{left, array_value(maker, a->shape, std::move(plus))};
+    return multiply_values(maker, factors);
+}
+
+} // namespace lagen

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Frames e'_a = A_a^b e_b of an algebroid, and its prolongations.
+#include "geometry/build_workspace.hpp"
+
+namespace lagen {
+namespace {
+
+/// True where some pair is given in both orders, so that antisymmetry is a claim that the frame must keep.
+bool gives_both_orders(const LoweredAlgebroid& inner)
+{
+    const std::size_t r = inner.r();
+    for (std::size_t a = 0; a < r; ++a)
+        for (std::size_t b = a; b < r; ++b)
+            if (inner.given[a * r + b] && inner.given[b * r + a]) return true;
+    return false;
+}
+
+class FrameBuilder {
+  public:
+    FrameBuilder(BuildWorkspace& work, const AlgebroidBlock& block, const BlockParts& inner)
+        : work_(work), graph_(work.graph()), block_(block), inner_(work.lowered(block.of[0], inner)),
+          r_(block.fibre.size()), rows_(r_)
+    {
+        std::vector<std::vector<NodeId>> entries(r_, std::vector<NodeId>(r_, graph_.constant(0)));
+        for (const SectionEntry& entry : block.sections)
+            entries[entry.section][entry.inner] =
+                graph_.add(entries[entry.section][entry.inner], work.lower(entry.value));
+        for (std::size_t a = 0; a < r_; ++a)
+            for (std::size_t b = 0; b < r_; ++b)
+                if (!graph_.is_zero(entries[a][b])) rows_[a].push_back({b, entries[a][b]});
+        for (std::size_t b = 0; b < r_; ++b)
+            for (std::size_t a = 0; a < r_; ++a) transposed_.push_back(entries[a][b]);
+    }
+
+    BlockParts build()
+    {
+        require_independent();
+        BlockParts parts;
+        append_anchors(parts);
+        append_brackets(parts);
+        return parts;
+    }
+
+  private:
+    /// det A is not zero everywhere, a block at a time; a large block tells by its solve where it is singular.
+    void require_independent()
+    {
+        bool dependent = false;
+        for (const CoupledBlock& each : coupled_blocks(graph_, transposed_, r_)) {
+            dependent = dependent || each.rows.size() != each.columns.size();
+            if (dependent || each.rows.size() > written_determinant_limit) continue;
+            const NodeId determinant = determinant_of(graph_, transposed_, r_, each.rows, each.columns);
+            dependent = graph_.is_zero(determinant) || work_.readable(determinant) == nullptr;
+        }
+        if (!dependent) return;
+        throw ModelError("the sections of the frame are linearly dependent everywhere: the determinant of "
+                         "'sections' is zero",
+                         block_.sections.empty() ? block_.where : block_.sections[0].where,
+                         "a frame has as many independent sections as the algebroid that it frames");
+    }
+
+    /// rho'^i_a = A_a^b rho^i_b
+    void append_anchors(BlockParts& parts)
+    {
+        for (std::size_t a = 0; a < r_; ++a) {
+            std::map<std::size_t, std::vector<NodeId>> terms;
+            for (const ColumnEntry& entry : rows_[a])
+                for (const ColumnEntry& anchor : inner_.anchor[entry.index])
+                    terms[anchor.index].push_back(graph_.multiply(entry.value, anchor.value));
+            anchors_.emplace_back();
+            for (const auto& [i, sum] : terms) {
+                const NodeId value = graph_.sum(sum);
+                if (!graph_.is_zero(value)) anchors_.back().push_back({i, value});
+                work_.append_anchor(parts, i, a, value, block_.where);
+            }
+        }
+    }
+
+    /// V^d = A_a^p A_b^q C^d_pq + rho'_a(A_b^d) - rho'_b(A_a^d), the bracket in the inner frame
+    std::vector<NodeId> inner_bracket(std::size_t a, std::size_t b)
+    {
+        std::vector<std::vector<NodeId>> terms(r_);
+        for (const ColumnEntry& p : rows_[a])
+            for (const ColumnEntry& q : rows_[b])
+                for (const ColumnEntry& entry : inner_.C(p.index, q.index)) {
+                    const NodeId factors[] = {p.value, q.value, entry.value};
+                    terms[entry.index].push_back(graph_.product(factors));
+                }
+        for (const ColumnEntry& q : rows_[b]) terms[q.index].push_back(work_.along(anchors_[a], q.value));
+        for (const ColumnEntry& p : rows_[a])
+            terms[p.index].push_back(graph_.negate(work_.along(anchors_[b], p.value)));
+        std::vector<NodeId> V;
+        for (const std::vector<NodeId>& sum : terms) V.push_back(graph_.sum(sum));
+        return V;
+    }
+
+    /// C'^c_ab from A_c^d C'^c_ab = V^d
+    void append_brackets(BlockParts& parts)
+    {
+        const bool both = gives_both_orders(inner_);
+        std::vector<std::pair<std::size_t, std::size_t>> pairs;
+        std::vector<std::vector<NodeId>> right;
+        for (std::size_t a = 0; a < r_; ++a)
+            for (std::size_t b = both ? 0 : a + 1; b < r_; ++b) {
+                pairs.emplace_back(a, b);
+                right.push_back(inner_bracket(a, b));
+            }
+        const std::vector<std::vector<NodeId>> C = solve_exactly(graph_, transposed_, r_, right);
+        for (std::size_t k = 0; k < pairs.size(); ++k) {
+            const auto& [a, b] = pairs[k];
+            const std::size_t before = parts.C.size();
+            for (std::size_t c = 0; c < r_; ++c) work_.append_structure(parts, c, a, b, C[k][c], block_.where);
+            // A zero order that is left out would be read as the negative of the other.
+            if (both && parts.C.size() == before) parts.C.push_back({0, a, b, number(0, block_.where), block_.where});
+        }
+    }
+
+    BuildWorkspace& work_;
+    Graph& graph_;
+    const AlgebroidBlock& block_;
+    LoweredAlgebroid inner_;
+    std::size_t r_;
+    std::vector<Column> rows_;       ///< rows_[a]: A_a^b
+    std::vector<NodeId> transposed_; ///< transposed_[d * r + c] = A_c^d
+    std::vector<Column> anchors_;    ///< anchors_[a]: rho'^i_a
+};
+
+} // namespace
+
+BlockParts build_frame(BuildWorkspace& work, const AlgebroidBlock& block, const BlockParts& inner)
+{
+    return FrameBuilder(work, block, inner).build();
+}
+
+/// rho(X_a) = rho^i_a d/dx^i, rho(V_a) = d/dy^a (or d/dmu_a); [X_a, X_b] = C^c_ab X_c, the other brackets are zero.
+BlockParts build_prolongation(const AlgebroidBlock& block, const BlockParts& inner)
+{
+    const std::size_t r = block.of.at(0).fibre.size();
+    BlockParts parts = inner;
+    for (std::size_t a = 0; a < r; ++a)
+        parts.rho.push_back({block.base.at(block.base.size() - r + a), r + a, number(1, block.where), block.where});
+    return parts;
+}
+
+} // namespace lagen

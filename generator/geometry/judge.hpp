@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Decides residuals, each distinct node once, and re-evaluates them where `check --verify` asks for it.
+#pragma once
+
+#include "proof/decide.hpp"
+
+#include <map>
+#include <memory>
+#include <set>
+
+namespace lagen {
+
+/// Points of another seed than the decision's.
+constexpr std::size_t reevaluation_seed = 1;
+
+class Judge {
+  public:
+    /// `accessory`: inputs that a witness names only where the residual depends on them (fibre coordinates, time).
+    /// `points`: regular points of a re-evaluation; 0: none. Throws TriangularityError.
+    Judge(const Graph& graph, ProofSetting setting, std::set<std::string> accessory, std::size_t points);
+
+    [[nodiscard]] const Decision& decide(NodeId residual);
+    /// Absent without `points`. Once for each node.
+    [[nodiscard]] std::optional<Reevaluation> reevaluate(NodeId residual);
+    [[nodiscard]] const ZeroDecider& decider() const { return *decider_; }
+    [[nodiscard]] const ProofSetting& setting() const { return setting_; }
+
+  private:
+    [[nodiscard]] Decision decide_anew(NodeId residual) const;
+
+    const Graph& graph_;
+    ProofSetting setting_;
+    std::set<std::string> accessory_;
+    std::size_t points_;
+    std::unique_ptr<ZeroDecider> decider_;
+    std::unique_ptr<ZeroDecider> second_; ///< of the other seed; made when it is needed
+    std::map<NodeId, Decision> decisions_;
+    std::map<NodeId, Reevaluation> reevaluations_;
+};
+
+} // namespace lagen

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// The point of a witness, to evaluate other expressions at.
+#pragma once
+
+#include "proof/decide.hpp"
+#include "proof/enclosure.hpp"
+
+namespace lagen {
+
+class WitnessPoint {
+  public:
+    /// Decimals (irrational coordinates) are taken with an error of 1e-15, relative.
+    WitnessPoint(Graph& graph, const std::vector<std::pair<std::string, std::string>>& point);
+
+    /// False where the value is certainly not zero at the point.
+    [[nodiscard]] bool may_vanish(NodeId node);
+    /// Nothing where the value is not rational, or the point is not.
+    [[nodiscard]] std::optional<Rational> exactly(NodeId node);
+    /// Operations carried out so far.
+    [[nodiscard]] std::size_t effort() const { return effort_; }
+
+  private:
+    const Graph& graph_;
+    proof::BallInputs balls_;
+    proof::ExactInputs exact_;
+    std::size_t effort_ = 0;
+};
+
+} // namespace lagen

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// An [algebroid] table before its base is known: kind, inner tables, included files. The stages of reading it stand
+/// here in the order in which read_algebroid_kind calls them.
+#pragma once
+
+#include "model/model_reader.hpp"
+#include "model/table_reader.hpp"
+
+#include <array>
+
+namespace lagen {
+
+/// A kind and the keys that it takes, besides `kind`.
+struct KindEntry {
+    const char* name;
+    AlgebroidKind kind;
+    std::array<const char*, 4> keys;
+
+    [[nodiscard]] bool takes(std::string_view key) const;
+};
+
+/// The entry called `key`, or nullptr.
+[[nodiscard]] const TomlEntry* find_entry(const TomlValue& table, std::string_view key);
+
+/// One table like [algebroid], or a file that stands for one.
+struct AlgebroidDraft {
+    const TomlValue* table = nullptr; ///< null where a file stands for it
+    std::string title;                ///< "[algebroid]", "[algebroid.of]", ..; the file's name
+    SourceRange where;
+    const KindEntry* kind = nullptr; ///< null where a file stands for it
+    std::size_t included = 0;        ///< number in ModelReader::included, where a file stands for it
+    bool outermost = false;          ///< its fibre is the model's, which is declared later
+    std::vector<Symbol> fibre;       ///< empty where left out
+    std::vector<Symbol> momenta;     ///< empty where left out
+    bool dual = false;
+    std::vector<AlgebroidDraft> of;
+};
+
+/// The coordinates of a draft's total space.
+struct DraftSpace {
+    std::vector<Symbol> base, fibre, momenta;
+};
+
+/// Reads kinds and files of a table and of the tables and files inside it. Throws ModelError.
+[[nodiscard]] AlgebroidDraft draft_algebroid(ModelReader& reader, const TomlEntry& block);
+/// Reads the model that `of` names. Throws ModelError: no such file, a cycle, too many files.
+[[nodiscard]] std::size_t include_model(ModelReader& reader, const TomlValue& of);
+
+/// The innermost draft of frames and prolongations: a file, a product, or a table whose base is the model's own.
+[[nodiscard]] const AlgebroidDraft& leaf_of(const AlgebroidDraft& draft);
+/// The space of a draft whose leaf has this base; fibres left out get the names of their kind.
+[[nodiscard]] DraftSpace space_of(const ModelReader& reader, const AlgebroidDraft& draft,
+                                  const std::vector<Symbol>& leaf_base);
+/// Declares the base coordinates that [base] leaves to files and prolongations, and checks those that it gives. The
+/// number of coordinates of the leaf, which come first; those of prolongations follow, the innermost first.
+std::size_t declare_inner_base(ModelReader& reader, const AlgebroidDraft& draft);
+/// Coordinates that `over` of a tangent table names, as places in `base`.
+[[nodiscard]] std::vector<std::size_t> read_over(const TomlValue& table, const std::string& title,
+                                                 const std::vector<Symbol>& base);
+
+/// The record of the draft and of everything inside it; the leaf's base are the first coordinates of the model.
+[[nodiscard]] AlgebroidBlock make_block(const ModelReader& reader, const AlgebroidDraft& draft, std::size_t leaf_size);
+
+/// How many sections the kind of a block requires.
+struct RequiredRank {
+    std::size_t least;
+    bool at_least; ///< more will do
+    const char* reason;
+
+    [[nodiscard]] bool fits(std::size_t rank) const;
+    [[nodiscard]] std::string text() const; ///< "at least 2"
+};
+[[nodiscard]] std::optional<RequiredRank> required_rank(const AlgebroidBlock& block);
+
+/// Parameters, sizes, families, constraints, Casimirs and domains of the included models join the model.
+void merge_included(ModelReader& reader);
+/// The names of their fibre coordinates in this model; `hidden`: they have none there.
+void note_fibre_names(ModelReader& reader, const AlgebroidDraft& draft, const AlgebroidBlock& block, bool hidden);
+/// Their definitions, and where the model has no Lagrangian theirs; once the fibre names are noted.
+void inherit_definitions(ModelReader& reader);
+void inherit_lagrangian(ModelReader& reader);
+
+/// The entries of a table, and of the tables inside it, closed; `block` is their record.
+void read_entries(const ModelReader& reader, AlgebroidBlock& block, const AlgebroidDraft& draft);
+/// The matrices of `representation`.
+void read_representation(const ModelReader& reader, AlgebroidBlock& block, const TomlEntry& entry);
+/// "v_x" for each coordinate.
+[[nodiscard]] std::vector<Symbol> velocities_of(const std::vector<Symbol>& coordinates);
+/// Defines the inner velocities of the model's algebroid, whose entries are read.
+void define_inner_velocities(ModelReader& reader);
+/// The names that define_inner_velocities gives: families by their names.
+[[nodiscard]] std::vector<std::string> velocity_names(const Model& model);
+
+/// `tree` with the names of `replacements` replaced; shared parts stay shared.
+[[nodiscard]] Tree replace_names(const Tree& tree, const std::map<std::string, Tree>& replacements);
+/// [a, b, ..] or [[a, b], ..] of this shape; a scalar is its one entry.
+[[nodiscard]] Tree array_tree(const Shape& shape, const std::vector<Tree>& entries);
+
+} // namespace lagen

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Symbols join the model's lists: their names, and the families that they make.
+#include "model/families.hpp"
+
+#include "expression/parse_family.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace lagen {
+
+namespace {
+
+FamilyRole family_role(Role role)
+{
+    switch (role) {
+    case Role::parameter: return FamilyRole::parameter;
+    case Role::base: return FamilyRole::base;
+    case Role::fibre: return FamilyRole::fibre;
+    case Role::momentum: return FamilyRole::momentum;
+    default: throw InternalError("a family of a role that has none");
+    }
+}
+
+/// The number of symbols that play this role so far.
+std::size_t count_of(const Model& model, Role role)
+{
+    switch (role) {
+    case Role::parameter: return model.parameters.size();
+    case Role::base: return model.base.coordinates.size();
+    case Role::fibre: return model.fibre.coordinates.size();
+    default: return model.fibre.momenta.size();
+    }
+}
+
+void append_symbol(Model& model, const Symbol& symbol, Role role)
+{
+    switch (role) {
+    case Role::parameter: model.parameters.push_back(Parameter{symbol, nullptr}); break;
+    case Role::base: model.base.coordinates.push_back(symbol); break;
+    case Role::fibre: model.fibre.coordinates.push_back(symbol); break;
+    default: model.fibre.momenta.push_back(symbol); break;
+    }
+}
+
+} // namespace
+
+DeclaredKey read_declaration(const ModelReader& reader, const Excerpt& key)
+{
+    const SourceRange where = key.range(0, key.text.size());
+    if (!has_bracket(key.text)) return {key.text, {}, {Symbol{key.text, where, {}, {}, {}}}};
+    const FamilyDeclaration family = parse_family(key);
+    DeclaredKey out{family.name, close_shape(family, reader.model.scope), {}};
+    for (std::size_t k = 0; k < out.shape.size(); ++k)
+        out.symbols.push_back(Symbol{entry_name(out.name, out.shape, k), where, {}, {}, {}});
+    return out;
+}
+
+std::string key_of(const ModelReader& reader, const Setting& setting)
+{
+    return entry_key(whole_text("<--set>", setting.name), reader.model.scope);
+}
+
+std::vector<Symbol> parameter_symbols(const Model& model)
+{
+    std::vector<Symbol> out;
+    for (const Parameter& parameter : model.parameters) out.push_back(parameter.symbol);
+    return out;
+}
+
+void declare_symbols(ModelReader& reader, const std::vector<Symbol>& symbols, Role role)
+{
+    const std::size_t first = count_of(reader.model, role);
+    for (const SymbolGroup& group : group_symbols(symbols)) {
+        const SourceRange& where = symbols[group.first].where;
+        if (group.shape.rank == Rank::scalar) {
+            reader.names.declare(group.name, role, where);
+            continue;
+        }
+        reader.names.declare_family(group.name, group.shape, role, where);
+        reader.model.families.push_back(Family{group.name, family_role(role), group.shape, first + group.first, where});
+    }
+    for (const Symbol& symbol : symbols) append_symbol(reader.model, symbol, role);
+}
+
+void add_to_scope(Scope& scope, const Model& model, const std::vector<Symbol>& symbols, FamilyRole role)
+{
+    const auto family_at = [&](std::size_t k) {
+        return std::find_if(model.families.begin(), model.families.end(),
+                            [&](const Family& each) { return each.role == role && each.first == k; });
+    };
+    for (std::size_t k = 0; k < symbols.size();) {
+        const auto family = family_at(k);
+        if (family == model.families.end()) {
+            scope.declare(symbols[k].name, symbols[k].where);
+            ++k;
+        } else {
+            scope.declare_family(family->name, family->shape, family->where);
+            k += family->shape.size();
+        }
+    }
+}
+
+} // namespace lagen

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Names of families and of their entries, by their texts: "x[3]" and "W[1,2]" are what closed trees contain.
+#include "model/families.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace lagen {
+
+namespace {
+
+/// "x[3]" or "W[1,2]", blanks inside the brackets allowed.
+struct EntryName {
+    std::string family;
+    std::size_t row = 0;
+    std::size_t column = 0; ///< 0: of a vector
+
+    [[nodiscard]] std::string text() const
+    {
+        return column == 0 ? fmt::format("{}[{}]", family, row) : fmt::format("{}[{},{}]", family, row, column);
+    }
+};
+
+/// The number in bytes [begin, end) of `text`, blanks around it aside; 0 where there is none.
+std::size_t read_index(const std::string& text, std::size_t begin, std::size_t end)
+{
+    constexpr std::size_t most_digits = 6;
+    while (begin < end && text[begin] == ' ') ++begin;
+    while (end > begin && text[end - 1] == ' ') --end;
+    if (begin == end || end - begin > most_digits || text[begin] == '0') return 0;
+    std::size_t value = 0;
+    for (; begin < end; ++begin) {
+        if (text[begin] < '0' || text[begin] > '9') return 0;
+        value = 10 * value + static_cast<std::size_t>(text[begin] - '0');
+    }
+    return value;
+}
+
+std::optional<EntryName> split_entry(const std::string& name)
+{
+    const std::size_t open = name.find('[');
+    if (open == std::string::npos || open == 0 || name.back() != ']') return std::nullopt;
+    const std::size_t close = name.size() - 1;
+    const std::size_t comma = name.find(',', open);
+    EntryName entry{name.substr(0, open), 0, 0};
+    while (!entry.family.empty() && entry.family.back() == ' ') entry.family.pop_back();
+    entry.row = read_index(name, open + 1, std::min(comma, close));
+    if (comma != std::string::npos) entry.column = read_index(name, comma + 1, close);
+    const bool complete = entry.row > 0 && (comma == std::string::npos || entry.column > 0);
+    return complete ? std::optional(std::move(entry)) : std::nullopt;
+}
+
+std::vector<std::size_t> numbers_from(std::size_t first, std::size_t count)
+{
+    std::vector<std::size_t> out(count);
+    for (std::size_t k = 0; k < count; ++k) out[k] = first + k;
+    return out;
+}
+
+/// The entries of one family that stand together from number `first` on; the shape is that of the last of them.
+struct Run {
+    std::string name;
+    Shape shape;
+    std::size_t count;
+};
+
+std::optional<Run> run_at(const std::vector<Symbol>& symbols, std::size_t first)
+{
+    std::optional<EntryName> last = split_entry(symbols[first].name);
+    if (!last) return std::nullopt;
+    Run run{last->family, {}, 1};
+    for (; first + run.count < symbols.size(); ++run.count) {
+        std::optional<EntryName> next = split_entry(symbols[first + run.count].name);
+        if (!next || next->family != run.name) break;
+        last = std::move(next);
+    }
+    run.shape = last->column == 0 ? Shape{Rank::vector, last->row, 1} : Shape{Rank::matrix, last->row, last->column};
+    return run;
+}
+
+bool is_whole(const std::vector<Symbol>& symbols, std::size_t first, const Run& run)
+{
+    if (run.count != run.shape.size()) return false;
+    for (std::size_t k = 0; k < run.count; ++k) {
+        if (symbols[first + k].name != entry_name(run.name, run.shape, k)) return false;
+    }
+    return true;
+}
+
+} // namespace
+
+std::optional<ResolvedKey> resolve_key(const std::vector<Symbol>& symbols, const std::string& key)
+{
+    const std::optional<EntryName> entry = split_entry(key);
+    const std::string wanted = entry ? entry->text() : key;
+    for (std::size_t k = 0; k < symbols.size(); ++k) {
+        if (symbols[k].name == wanted) return ResolvedKey{wanted, {}, {k}};
+        if (entry || !symbols[k].name.starts_with(wanted + "[")) continue;
+        const std::optional<Run> run = run_at(symbols, k);
+        if (run && run->name == wanted && is_whole(symbols, k, *run))
+            return ResolvedKey{wanted, run->shape, numbers_from(k, run->count)};
+    }
+    return std::nullopt;
+}
+
+std::string family_name(const std::string& name)
+{
+    const std::optional<EntryName> entry = split_entry(name);
+    return entry ? entry->family : name;
+}
+
+bool names_entry(const std::string& key, const std::string& name)
+{
+    const std::optional<EntryName> entry = split_entry(key);
+    return entry ? entry->text() == name : key == name || key == family_name(name);
+}
+
+std::vector<std::string> declared_names(const std::vector<Symbol>& symbols)
+{
+    std::vector<std::string> out;
+    for (const Symbol& symbol : symbols) {
+        std::string name = family_name(symbol.name);
+        if (out.empty() || out.back() != name) out.push_back(std::move(name));
+    }
+    return out;
+}
+
+std::vector<SymbolGroup> group_symbols(const std::vector<Symbol>& symbols)
+{
+    std::vector<SymbolGroup> out;
+    for (std::size_t k = 0; k < symbols.size(); k += out.back().shape.size()) {
+        const std::optional<Run> run = run_at(symbols, k);
+        if (run && !is_whole(symbols, k, *run)) {
+            throw ModelError(fmt::format("'{}' would be an entry of the family '{}' without all the others",
+                                         symbols[k].name, run->name),
+                             symbols[k].where, "name the coordinates: [fibre] coordinates = [..]");
+        }
+        out.push_back(run ? SymbolGroup{run->name, run->shape, k} : SymbolGroup{symbols[k].name, {}, k});
+    }
+    return out;
+}
+
+std::vector<Tree> fit_values(const ArrayValue& value, const Shape& wanted, const std::string& what,
+                             const SourceRange& where)
+{
+    if (value.shape == wanted) return value.entries;
+    if (value.shape.rank == Rank::scalar) return std::vector<Tree>(wanted.size(), value.entries[0]);
+    throw ModelError(fmt::format("{} is {}, where {} is required", what, to_text(value.shape), to_text(wanted)), where,
+                     wanted.rank == Rank::scalar ? "" : "one number stands for all entries");
+}
+
+} // namespace lagen

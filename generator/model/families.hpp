@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Families in the model reader: keys that name several symbols at once, and values that fill them.
+#pragma once
+
+#include "model/model_reader.hpp"
+
+#include <optional>
+
+namespace lagen {
+
+/// What a key names: a symbol or a single entry ("y", "x[3]": a scalar), or a family with all its entries ("x").
+struct ResolvedKey {
+    std::string name; ///< as declared; "x[ 3 ]" is "x[3]"
+    Shape shape;
+    std::vector<std::size_t> indices; ///< shape.size() numbers in the list of symbols, by rows
+};
+
+/// What `key` names among `symbols` (families stand in them entry by entry); nothing where it names none of them.
+[[nodiscard]] std::optional<ResolvedKey> resolve_key(const std::vector<Symbol>& symbols, const std::string& key);
+
+/// The family of an entry: "x" of "x[3]", "W" of "W[1,2]"; any other name itself.
+[[nodiscard]] std::string family_name(const std::string& name);
+
+/// True where `key` is `name` itself, or the family that `name` is an entry of.
+[[nodiscard]] bool names_entry(const std::string& key, const std::string& name);
+
+/// The names of `symbols` as they were declared: the entries of a family together as the family's name.
+[[nodiscard]] std::vector<std::string> declared_names(const std::vector<Symbol>& symbols);
+
+/// One key of a declaration: "y", "x[1..n]" or "W[1..3,1..3]", by the sizes of the model.
+struct DeclaredKey {
+    std::string name;
+    Shape shape;
+    std::vector<Symbol> symbols; ///< its entries in order, or itself
+};
+[[nodiscard]] DeclaredKey read_declaration(const ModelReader& reader, const Excerpt& key);
+
+/// What a setting names, with its indices as closing spells them: "x[n]" is "x[8]" where n is 8.
+[[nodiscard]] std::string key_of(const ModelReader& reader, const Setting& setting);
+
+/// A symbol, or the family that consecutive symbols x[1], x[2], .. make.
+struct SymbolGroup {
+    std::string name;
+    Shape shape;
+    std::size_t first; ///< its number in the list
+};
+
+/// `symbols` in groups, in order. Throws ModelError where a family is not whole: x[2] without x[1].
+[[nodiscard]] std::vector<SymbolGroup> group_symbols(const std::vector<Symbol>& symbols);
+
+/// Declares `symbols`, which join the model's list of this role behind those that it has already, and the families that
+/// they make.
+void declare_symbols(ModelReader& reader, const std::vector<Symbol>& symbols, Role role);
+
+[[nodiscard]] std::vector<Symbol> parameter_symbols(const Model& model);
+
+/// Declares the symbols of one role and their families in `scope`.
+void add_to_scope(Scope& scope, const Model& model, const std::vector<Symbol>& symbols, FamilyRole role);
+
+/// `value` as one closed tree an entry of a symbol or family of the shape `wanted`: entry by entry, or one scalar for
+/// all. `what` opens the message where the shapes differ, e.g. "the value of parameter 'm'".
+[[nodiscard]] std::vector<Tree> fit_values(const ArrayValue& value, const Shape& wanted, const std::string& what,
+                                           const SourceRange& where);
+
+} // namespace lagen

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// The [about] block: texts, units and LaTeX of names, of a family at once or of single entries.
+#include "model/families.hpp"
+#include "model/read_values.hpp"
+#include "model/table_reader.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace lagen {
+
+namespace {
+
+Symbol read_entry(const TomlEntry& entry)
+{
+    TableReader table(entry.value, fmt::format("'{}' of [about]", entry.name()));
+    Symbol about{entry.name(), entry.where(), {}, {}, {}};
+    const auto take = [&](const char* key, std::string& text) {
+        const TomlEntry* field = table.take(key);
+        if (field != nullptr) text = read_text(field->value, fmt::format("the {} of '{}'", key, entry.name()));
+    };
+    take("text", about.text);
+    take("unit", about.unit);
+    take("latex", about.latex);
+    table.finish();
+    return about;
+}
+
+/// The LaTeX of an entry: the family's, with the indices below. Braces keep a subscript of the family's own.
+std::string entry_latex(const std::string& family, const std::string& name)
+{
+    if (family.empty()) return {};
+    const std::size_t open = name.find('[') + 1;
+    std::string indices = name.substr(open, name.size() - 1 - open);
+    if (indices.size() == 3) std::erase(indices, ','); // two digits need no comma
+    const bool plain = family.find_first_of("_^ ") == std::string::npos;
+    return fmt::format("{}_{{{}}}", plain ? family : "{" + family + "}", indices);
+}
+
+/// What `about` says, for one of the symbols that its key names.
+Symbol for_symbol(const Symbol& about, const std::string& name, const SourceRange& where)
+{
+    Symbol out = about;
+    out.where = where;
+    if (about.name != name && about.name == family_name(name)) out.latex = entry_latex(about.latex, name);
+    out.name = name;
+    return out;
+}
+
+/// Observables, invariants, definitions, Casimirs and t have no symbols: their texts are notes, one a column.
+void note(Model& model, const Symbol& about)
+{
+    const auto before = model.notes.size();
+    for (const auto* list : {&model.observables, &model.invariants, &model.base.casimirs}) {
+        for (const NamedTree& each : *list)
+            if (each.name != about.name && names_entry(about.name, each.name))
+                model.notes.push_back(for_symbol(about, each.name, about.where));
+    }
+    if (model.notes.size() == before) model.notes.push_back(about);
+}
+
+void describe(Model& model, const Symbol& about)
+{
+    bool found = false;
+    const auto apply = [&](Symbol& symbol) {
+        if (!names_entry(about.name, symbol.name)) return;
+        symbol = for_symbol(about, symbol.name, symbol.where);
+        found = true;
+    };
+    for (Parameter& parameter : model.parameters) apply(parameter.symbol);
+    for (auto* list : {&model.base.coordinates, &model.fibre.coordinates, &model.fibre.momenta})
+        std::for_each(list->begin(), list->end(), apply);
+    if (!found) note(model, about);
+}
+
+/// True for a single entry of a family, or of an observable that is a vector.
+bool is_entry(const Model& model, const std::string& name)
+{
+    const auto is_named = [&](const auto& each) { return names_entry(name, each.name); };
+    const auto is_parameter = [&](const Parameter& each) { return is_named(each.symbol); };
+    bool found = std::any_of(model.parameters.begin(), model.parameters.end(), is_parameter);
+    for (const auto* list : {&model.base.coordinates, &model.fibre.coordinates, &model.fibre.momenta})
+        found = found || std::any_of(list->begin(), list->end(), is_named);
+    for (const auto* list : {&model.observables, &model.invariants, &model.base.casimirs})
+        found = found || std::any_of(list->begin(), list->end(), is_named);
+    return found;
+}
+
+} // namespace
+
+void read_about(ModelReader& reader, const TomlEntry* block)
+{
+    if (block == nullptr) return;
+    const TableReader blocks(block->value, "[about]");
+    Model& model = reader.model;
+    std::vector<std::string> known = reader.names.order();
+    known.emplace_back("t");
+    for (const auto& [key, value] : reader.invariants) known.push_back(key.text);
+    std::vector<Symbol> entries;
+    for (const TomlEntry& entry : block->value.entries) {
+        Symbol about = read_entry(entry);
+        const bool family = std::find(known.begin(), known.end(), about.name) != known.end();
+        if (!family && !is_entry(model, about.name)) {
+            throw ModelError(fmt::format("[about] describes '{}', which the model does not declare", entry.name()),
+                             entry.where(), hint_for(entry.name(), known, "names"));
+        }
+        // What is said of an entry wins over what is said of its family, wherever it stands.
+        if (family) {
+            describe(model, about);
+        } else {
+            entries.push_back(std::move(about));
+        }
+    }
+    for (const Symbol& about : entries) describe(model, about);
+}
+
+} // namespace lagen

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// The entries of [algebroid]: anchor, bracket, spanned_by, sections, connection. Keys of rows and entries are
+/// coordinates or families of them; of two families the value is a matrix, (entries of the inner key) x (entries of the
+/// outer one).
+#include "model/algebroid_draft.hpp"
+
+#include "model/families.hpp"
+#include "model/read_values.hpp"
+
+#include <fmt/format.h>
+#include <set>
+
+namespace lagen {
+
+namespace {
+
+using Roles = std::initializer_list<Role>;
+
+/// How messages call a table of rows of entries, and what its keys name.
+struct RowTexts {
+    std::string title;    ///< "[algebroid.anchor]"
+    const char* row;      ///< "the anchor of"
+    const char* entry;    ///< "the anchor entry"
+    const char* row_noun; ///< "fibre coordinate": "which is no .."
+    const char* entry_noun;
+};
+
+ResolvedKey key_of(const std::vector<Symbol>& symbols, const Excerpt& key, const std::string& owner, const char* noun)
+{
+    if (auto found = resolve_key(symbols, key.text)) return *std::move(found);
+    throw ModelError(fmt::format("{} names '{}', which is no {}", owner, key.text, noun), key.range(0, key.text.size()),
+                     hint_for(key.text, declared_names(symbols), fmt::format("{}s", noun).c_str()));
+}
+
+/// The shape of the value of an entry.
+Shape shape_of(const ResolvedKey& outer, const ResolvedKey& inner)
+{
+    if (outer.shape.rank == Rank::scalar) return inner.shape;
+    if (inner.shape.rank == Rank::scalar) return {Rank::vector, outer.indices.size(), 1};
+    return {Rank::matrix, inner.indices.size(), outer.indices.size()};
+}
+
+/// Calls take(row, entry, value, where) for every entry of the table that is not a plain 0.
+template <class Take>
+void read_rows(const ModelReader& reader, const TomlEntry& block, const RowTexts& texts,
+               const std::vector<Symbol>& rows, const std::vector<Symbol>& entries, Take take)
+{
+    const TableReader table(block.value, texts.title);
+    std::set<std::pair<std::size_t, std::size_t>> seen;
+    for (const TomlEntry& line : block.value.entries) {
+        const ResolvedKey outer = key_of(rows, line.key, texts.title, texts.row_noun);
+        const std::string title = fmt::format("{} '{}'", texts.row, outer.name);
+        const TableReader row(line.value, title);
+        for (const TomlEntry& entry : line.value.entries) {
+            const ResolvedKey inner = key_of(entries, entry.key, title, texts.entry_noun);
+            const std::string what = fmt::format("{} '{}' of '{}'", texts.entry, inner.name, outer.name);
+            const ArrayValue closed =
+                reader.close_array(read_array_expression(entry.value, what), {Role::parameter, Role::base}, what);
+            const std::vector<Tree> values = fit_values(closed, shape_of(outer, inner), what, entry.value.where);
+            const bool by_columns = outer.shape.rank != Rank::scalar;
+            for (std::size_t k = 0; k < values.size(); ++k) {
+                const std::size_t a = outer.indices[by_columns ? k % outer.indices.size() : 0];
+                const std::size_t b = inner.indices[by_columns ? k / outer.indices.size() : k];
+                if (!seen.emplace(a, b).second) {
+                    throw ModelError(
+                        fmt::format("{} '{}' of '{}' is given twice", texts.entry, entries[b].name, rows[a].name),
+                        entry.where());
+                }
+                const bool zero = values[k]->kind == TreeKind::number && values[k]->number == 0;
+                if (!zero) take(a, b, values[k], entry.value.where);
+            }
+        }
+    }
+}
+
+std::vector<Symbol> coordinates_of(const ModelReader& reader, const AlgebroidBlock& block)
+{
+    std::vector<Symbol> out;
+    for (const std::size_t i : block.base) out.push_back(reader.model.base.coordinates[i]);
+    return out;
+}
+
+void read_anchor(const ModelReader& reader, AlgebroidBlock& block, const TomlEntry& table, const RowTexts& texts)
+{
+    read_rows(reader, table, texts, block.fibre, coordinates_of(reader, block),
+              [&](std::size_t a, std::size_t i, const Tree& value, const SourceRange& where) {
+                  block.anchor.push_back(AnchorEntry{a, block.base[i], value, where});
+              });
+}
+
+void read_sections(const ModelReader& reader, AlgebroidBlock& block, const TomlEntry& table, const RowTexts& texts)
+{
+    read_rows(reader, table, texts, block.fibre, block.of[0].fibre,
+              [&](std::size_t a, std::size_t b, const Tree& value, const SourceRange& where) {
+                  block.sections.push_back(SectionEntry{a, b, value, where});
+              });
+}
+
+void read_connection(const ModelReader& reader, AlgebroidBlock& block, const TomlEntry& table, const RowTexts& texts)
+{
+    const std::vector<Symbol> vertical(block.fibre.begin() + static_cast<std::ptrdiff_t>(block.base.size()),
+                                       block.fibre.end());
+    read_rows(reader, table, texts, coordinates_of(reader, block), vertical,
+              [&](std::size_t i, std::size_t c, const Tree& value, const SourceRange& where) {
+                  block.connection.push_back(ConnectionEntry{block.base[i], c + block.base.size(), value, where});
+              });
+}
+
+std::size_t section_index(const AlgebroidBlock& block, const Excerpt& key, const std::string& owner)
+{
+    const ResolvedKey found = key_of(block.fibre, key, owner, "fibre coordinate");
+    const SourceRange where = key.range(0, key.text.size());
+    if (found.shape.rank != Rank::scalar) {
+        throw ModelError(
+            fmt::format("{} names the family '{}', where one fibre coordinate is required", owner, found.name), where,
+            fmt::format("for example \"{}\"", block.fibre[found.indices[0]].name));
+    }
+    const bool vertical = block.kind != AlgebroidKind::atiyah || found.indices[0] >= block.base.size();
+    if (!vertical) {
+        throw ModelError(
+            fmt::format("{} names the horizontal section '{}', but is that of the vertical ones", owner, found.name),
+            where, "the brackets of horizontal sections follow from 'connection'");
+    }
+    return found.indices[0];
+}
+
+/// The two sides of a key "a,b". Commas inside W[1,2] do not separate.
+std::vector<Excerpt> sides_of(const Excerpt& key)
+{
+    std::vector<Excerpt> out;
+    std::size_t begin = 0;
+    int depth = 0;
+    for (std::size_t k = 0; k <= key.text.size(); ++k) {
+        const char c = k < key.text.size() ? key.text[k] : ',';
+        if (c == '[') ++depth;
+        if (c == ']') --depth;
+        if (c != ',' || (depth > 0 && k < key.text.size())) continue;
+        out.push_back(trimmed(key, begin, k));
+        begin = k + 1;
+    }
+    return out;
+}
+
+void read_bracket(const ModelReader& reader, AlgebroidBlock& block, const TomlEntry& entry, const std::string& title)
+{
+    const TableReader table(entry.value, title);
+    std::set<std::pair<std::size_t, std::size_t>> seen;
+    for (const TomlEntry& pair : entry.value.entries) {
+        const std::vector<Excerpt> names = sides_of(pair.key);
+        if (names.size() != 2) {
+            throw ModelError(fmt::format("the bracket key '{}' is not a pair of fibre coordinates", pair.name()),
+                             pair.where(), "write \"a,b\" = { c = \"..\" } for [e_a, e_b] = .. e_c");
+        }
+        const std::size_t a = section_index(block, names[0], title);
+        const std::size_t b = section_index(block, names[1], title);
+        if (!seen.emplace(a, b).second) {
+            throw ModelError(fmt::format("the bracket of '{}' and '{}' is given twice", names[0].text, names[1].text),
+                             pair.where());
+        }
+        const std::string owner = fmt::format("the bracket of '{}' and '{}'", names[0].text, names[1].text);
+        const TableReader row(pair.value, owner);
+        for (const TomlEntry& component : pair.value.entries) {
+            const std::size_t c = section_index(block, component.key, owner);
+            const std::string what = fmt::format("the entry '{}' of {}", component.name(), owner);
+            const Tree parsed = read_expression(component.value, what);
+            const Tree value = block.kind == AlgebroidKind::general
+                                   ? reader.close(parsed, {Role::parameter, Role::base}, what)
+                                   : reader.close(parsed, {Role::parameter}, what);
+            block.bracket.push_back(BracketEntry{a, b, c, value, component.value.where});
+        }
+    }
+}
+
+} // namespace
+
+void read_entries(const ModelReader& reader, AlgebroidBlock& block, const AlgebroidDraft& draft)
+{
+    if (draft.kind == nullptr) return; // the file's own reader has read them
+    const auto entry = [&](const char* key) { return find_entry(*draft.table, key); };
+    const auto title = [&](const char* key) {
+        return fmt::format("{}.{}]", draft.title.substr(0, draft.title.size() - 1), key);
+    };
+    if (const TomlEntry* anchor = entry("anchor"))
+        read_anchor(reader, block, *anchor,
+                    {title("anchor"), "the anchor of", "the anchor entry", "fibre coordinate", "base coordinate"});
+    if (const TomlEntry* spanned_by = entry("spanned_by"))
+        read_anchor(reader, block, *spanned_by,
+                    {title("spanned_by"), "the section", "the component", "fibre coordinate", "base coordinate"});
+    if (const TomlEntry* bracket = entry("bracket")) read_bracket(reader, block, *bracket, title("bracket"));
+    if (const TomlEntry* representation = entry("representation")) read_representation(reader, block, *representation);
+    if (const TomlEntry* connection = entry("connection"))
+        read_connection(reader, block, *connection,
+                        {title("connection"), "the connection along", "the connection's component", "base coordinate",
+                         "vertical fibre coordinate"});
+    if (const TomlEntry* sections = entry("sections"))
+        read_sections(reader, block, *sections,
+                      {title("sections"), "the section", "the component", "fibre coordinate",
+                       "fibre coordinate of the inner algebroid"});
+    for (std::size_t k = 0; k < draft.of.size(); ++k) read_entries(reader, block.of[k], draft.of[k]);
+}
+
+} // namespace lagen

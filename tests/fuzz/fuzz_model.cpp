@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Bytes as a model file: read; where it reads, its scenes are evaluated, it is verified and its equations are derived.
+/// A model with many sections or large expressions is read only: deciding it may take its time.
+#include "equations/lagrange.hpp"
+#include "fuzz/harness.hpp"
+#include "geometry/verify.hpp"
+#include "model/evaluate_scene.hpp"
+#include "model/read_model.hpp"
+
+using namespace lagen;
+using fuzz::accepted;
+
+namespace {
+
+constexpr std::size_t largest_rank = 4;
+constexpr std::size_t largest_base = 6;
+constexpr std::size_t longest_text = 3000; ///< of all expressions of the model together
+
+/// Models name other files; those of the machine are none of a fuzzer's business.
+bool names_other_files(const std::string& text)
+{
+    return text.find(".toml") != std::string::npos || text.find('/' + std::string("dev")) != std::string::npos;
+}
+
+std::size_t written(const AlgebroidBlock& block)
+{
+    std::size_t length = block.fibre.size() * block.fibre.size();
+    for (const AnchorEntry& entry : block.anchor) length += to_text(entry.value).size();
+    for (const BracketEntry& entry : block.bracket) length += to_text(entry.value).size();
+    for (const SectionEntry& entry : block.sections) length += to_text(entry.value).size();
+    for (const ConnectionEntry& entry : block.connection) length += to_text(entry.value).size();
+    for (const AlgebroidBlock& inner : block.of) length += written(inner);
+    return length;
+}
+
+bool is_small(const Model& model)
+{
+    std::size_t length = written(model.algebroid);
+    if (model.lagrangian) length += to_text(model.lagrangian).size();
+    for (const Tree& constraint : model.base.constraints) length += to_text(constraint).size();
+    for (const NamedTree& claim : model.invariants) length += to_text(claim.value).size();
+    return model.fibre.coordinates.size() <= largest_rank && model.base.coordinates.size() <= largest_base &&
+           length <= longest_text;
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+    const std::string text(reinterpret_cast<const char*>(data), size);
+    if (names_other_files(text)) return 0;
+    accepted([&] {
+        const Model model = read_model_text("fuzz.toml", text);
+        for (const Scene& scene : model.scenes) accepted([&] { static_cast<void>(evaluate_scene(model, scene)); });
+        if (!is_small(model)) return;
+        const VerifiedAlgebroid verified = verify(model, {}, 2);
+        for (const Check& check : verified.checks) require_confirmed(check);
+        if (!model.lagrangian) return;
+        accepted([&] { static_cast<void>(derive_lagrange(model, verified.algebroid)); });
+    });
+    return 0;
+}

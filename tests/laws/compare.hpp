@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Whether rho and C that lagen builds for a kind are those of the formulas.
+#pragma once
+
+#include "geometry/algebroid.hpp"
+#include "oracle.hpp"
+
+namespace lagen::laws {
+
+/// The first entry of rho or C that differs at a random point, or empty. Sections are matched by position.
+[[nodiscard]] std::string difference_from(const Algebroid& built, const LocalAlgebroid& expected, Dice& dice);
+
+} // namespace lagen::laws

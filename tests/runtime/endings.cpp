@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// What a run that cannot go on says: a step below the rounding of time, a state that is no number.
+#include "lagen/lagen.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+using namespace lagen;
+
+namespace {
+
+/// x'' = -1/x^2: from 1 at rest it arrives at 0 at t = pi/(2 sqrt 2).
+struct Infall {
+    using Scalar = double;
+    using State = Eigen::Matrix<double, 2, 1>;
+    static constexpr int dimension = 2;
+    Status rhs(double, const State& s, State& ds) const noexcept
+    {
+        ds[0] = s[1];
+        ds[1] = -1 / (s[0] * s[0]);
+        return Status::ok;
+    }
+};
+
+/// x' = rate x.
+struct Growth {
+    using Scalar = double;
+    using State = Eigen::Matrix<double, 1, 1>;
+    static constexpr int dimension = 1;
+    double rate = 1;
+    Status rhs(double, const State& s, State& ds) const noexcept
+    {
+        ds[0] = rate * s[0];
+        return Status::ok;
+    }
+};
+
+} // namespace
+
+TEST_CASE("An infall that no step resolves ends as step_too_small, an overflow as non_finite, whatever the method")
+{
+    const auto check = [](const auto& method) {
+        const auto fall = integrate(Infall{}, Infall::State(1.0, 0.0), {0.0, 2.0}, method);
+        CHECK(fall.status() == Status::step_too_small);
+        CHECK_THAT(fall.t, Catch::WithinAbs(1.1107207345395915, 1e-4));
+        CHECK(fall.state.allFinite());
+        const auto growth = integrate(Growth{}, Growth::State(1.0), {0.0, 1000.0}, method);
+        CHECK(growth.status() == Status::non_finite);
+        CHECK_THAT(growth.t, Catch::WithinAbs(709.78, 5.0));
+        CHECK(growth.state.allFinite());
+    };
+    for (const double tolerance : {1e-5, 1e-8, 1e-11}) {
+        check(Dopri5{.tolerance = tolerance});
+        check(Tsit5{.tolerance = tolerance});
+        check(Dop853{.tolerance = tolerance});
+    }
+}
+
+TEST_CASE("A fixed step that diverges ends as non_finite at the first state that is no number")
+{
+    const auto check = [](const auto& method, std::size_t steps) {
+        const auto run = integrate(Growth{.rate = -100}, Growth::State(1.0), {0.0, 1000.0}, method);
+        CHECK(run.status() == Status::non_finite);
+        CHECK(run.steps == steps);
+        CHECK(run.state.allFinite());
+        CHECK(std::abs(run.state[0]) > 1e300);
+        CHECK(run.failed_at == Approx(run.t + 1).epsilon(1e-12));
+    };
+    // |1 + z + .. | at z = -100: 99 for Euler, 4001 for the midpoint rule + 900, and so on: log 1.8e308 / log of it.
+    check(Euler{.step = 1}, static_cast<std::size_t>(308.2547 / std::log10(99.0)));
+    check(Midpoint{.step = 1}, static_cast<std::size_t>(308.2547 / std::log10(4901.0)));
+}
