@@ -15,8 +15,8 @@ namespace lagen {
 /// The folder of the example models (LAGEN_MODELS, else the installed one, else the source tree), or "".
 [[nodiscard]] std::string models_folder();
 
-/// The file that a MODEL of the command line means: a bare name ("kepler", no folder, no extension) that is no file here
-/// and has no NAME.toml here either is looked up among the example models, which standard error is told.
+/// The file that a MODEL of the command line means: a bare name ("kepler", no folder, no extension) that is no file
+/// here and has no NAME.toml here either is looked up among the example models, which standard error is told.
 [[nodiscard]] std::string model_path(const std::string& given);
 
 /// A folder for compiled scenes: LAGEN_CACHE, else XDG_CACHE_HOME/lagen, else ~/.cache/lagen; made if missing. Where

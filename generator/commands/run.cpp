@@ -148,7 +148,8 @@ ExitCode run_run(Arguments arguments)
     (void)options.choice("form", {"lagrange"});
     if (options.has("plot")) require_plot_format(options.get("plot"));
 
-    const CheckedModel checked = load(model_path(options.positional()[0]), options.settings(), options.has("unchecked"));
+    const CheckedModel checked =
+        load(model_path(options.positional()[0]), options.settings(), options.has("unchecked"));
     for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
     const Model& model = checked.model;
     const Scene scene = scene_of(options, model);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Which nodes of a function body get a name, and in which order they are computed: each next to its first use, sine
-/// and cosine of one angle side by side, so that a compiler merges them into one call. Stumpff functions of one argument
-/// are all named: they come from one call.
+/// and cosine of one angle side by side, so that a compiler merges them into one call. Stumpff functions of one
+/// argument are all named: they come from one call.
 #pragma once
 
 #include "graph/graph.hpp"

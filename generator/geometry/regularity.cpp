@@ -236,8 +236,8 @@ Regularity decide_regularity(Graph& graph, const FibreHessian& hessian, const Pr
         return result;
     }
     // Small blocks are tried for all parameters first.
-    const bool large = std::any_of(hessian.blocks.begin(), hessian.blocks.end(),
-                                   [](const Block& block) { return block.size() > 4; });
+    const bool large =
+        std::any_of(hessian.blocks.begin(), hessian.blocks.end(), [](const Block& block) { return block.size() > 4; });
     if (large && is_definite_for(graph, hessian, setting, defaults)) {
         result.kind = Regularity::Kind::regular;
         result.rank = hessian.momenta.size();

@@ -84,8 +84,7 @@ void merge_base(ModelReader& reader, const IncludedModel& included)
     for (const NamedTree& casimir : from.casimirs) {
         const std::string name = fresh_name(reader.names, casimir.name);
         reader.names.declare(name, Role::casimir, casimir.where);
-        reader.casimirs.emplace_back(excerpt_of(name, casimir.where),
-                                     replace_names(casimir.value, included.renamed));
+        reader.casimirs.emplace_back(excerpt_of(name, casimir.where), replace_names(casimir.value, included.renamed));
     }
     for (std::size_t i = 0; i < from.coordinates.size(); ++i) { // [about] of the file, where the model has none
         Symbol& symbol = to.coordinates[included.base[i]];

@@ -13,8 +13,8 @@ namespace lagen {
 namespace {
 
 constexpr std::initializer_list<const char*> later_blocks = {
-    "hamiltonian", "forces", "dissipation", "control", "groupoid", "discrete", "hamilton_jacobi",
-    "forms",       "morphism", "compose",
+    "hamiltonian", "forces",          "dissipation", "control",  "groupoid",
+    "discrete",    "hamilton_jacobi", "forms",       "morphism", "compose",
 };
 
 } // namespace

@@ -145,7 +145,7 @@ ZeroDecider::State::Algebra ZeroDecider::State::reduce(NodeId residual) const
     if (has_many_divisors(residual)) {
         try {
             NormalForm forms(graph_, setting_, constraints_, residual, operands_,
-                             {budget_.terms, budget_.products / 10, true});
+                             {budget_.terms, budget_.products, true});
             result.zero = forms.of(residual).is_zero() && forms.condition().empty();
         } catch (const BudgetExhausted&) {
             result.zero = false; // the common denominator decides

@@ -76,6 +76,12 @@ class Search {
             rungs.push_back({value, try_value(input, value)});
             if (settled() || exhausted()) return;
         }
+        // As many conditions as before, but others: from there the next sweep goes on.
+        const Rung* other = nullptr;
+        for (const Rung& rung : rungs)
+            if (count(rung.met) == count(met_) && rung.met != met_ &&
+                (other == nullptr || abs(rung.value) < abs(other->value)))
+                other = &rung;
         std::size_t gaps = 0;
         for (std::size_t k = 0; k + 1 < rungs.size() && gaps < most_gaps; ++k) {
             if (count_either(rungs[k].met, rungs[k + 1].met) <= count(met_)) continue;
@@ -83,6 +89,9 @@ class Search {
             bisect(input, rungs[k].value, rungs[k].met, rungs[k + 1].value);
             if (settled() || exhausted()) return;
         }
+        if (other == nullptr || count(other->met) < count(met_)) return;
+        values_[input] = other->value;
+        met_ = other->met;
     }
 
   private:

@@ -10,7 +10,7 @@ namespace lagen::proof {
 namespace {
 
 constexpr int deepest = 3;              ///< products of facts that are looked through
-constexpr std::size_t most_steps = 400; ///< polynomials looked at for one question
+constexpr std::size_t most_steps = 80;  ///< polynomials looked at for one question
 constexpr std::size_t most_terms = 300; ///< of a polynomial whose sign is asked for; rational ranges are slow
 
 /// p / (content and sign), so that proportional polynomials are equal.
