@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Closing trees over declared names and definitions.
+#include "closing.hpp"
 #include "parsing.hpp"
 
 #include <catch2/catch.hpp>
@@ -10,12 +11,6 @@ using namespace lagen;
 using namespace lagen::test;
 
 namespace {
-
-Definition definition(const std::string& name, const std::string& body, std::vector<std::string> parameters = {})
-{
-    const Excerpt text = whole_text(name, body);
-    return {name, std::move(parameters), parse_expression(text), text.range(0, body.size())};
-}
 
 Scope scope_of(const std::vector<std::string>& symbols, std::vector<Definition> definitions = {})
 {

@@ -60,9 +60,9 @@ w3 = { g1 = "g2", g2 = "-g1" }
 "w3,w1" = { w2 = 1 }
 )";
 
-const std::string sphere = "\n[base]\ncoordinates = [\"g1\", \"g2\", \"g3\"]\n"
-                           "constraints = [\"g1^2 + g2^2 + g3^2 - 1\"]\n" +
-                           top.substr(top.find("[fibre]"));
+const std::string top_on_sphere = "\n[base]\ncoordinates = [\"g1\", \"g2\", \"g3\"]\n"
+                                  "constraints = [\"g1^2 + g2^2 + g3^2 - 1\"]\n" +
+                                  top.substr(top.find("[fibre]"));
 
 /// so(4) in the basis of pairs i < j, as a user would write it.
 const std::string so4 = R"(
@@ -91,7 +91,7 @@ TEST_CASE("the models that the hints start from are valid")
 {
     CHECK(verified_text(half_plane + "\"a,b\" = { a = -1 }\n").verdict == Verdict::valid);
     CHECK(verified_text(top).verdict == Verdict::valid);
-    CHECK(verified_text(sphere).verdict == Verdict::valid);
+    CHECK(verified_text(top_on_sphere).verdict == Verdict::valid);
     CHECK(verified_text(so4).verdict == Verdict::valid);
 }
 
@@ -107,7 +107,7 @@ TEST_CASE("a flipped sign of an anchor entry is named")
 {
     const Hints hint{"all equations of the algebroid hold with the opposite sign of component g3 of the anchor of w1"};
     CHECK(hints_of(with(top, "\"-g2\"", "\"g2\"")) == hint);
-    CHECK(hints_of(with(sphere, "\"-g2\"", "\"g2\"")) == hint);
+    CHECK(hints_of(with(top_on_sphere, "\"-g2\"", "\"g2\"")) == hint);
 }
 
 TEST_CASE("where two signs would mend a model both are named")
@@ -152,8 +152,9 @@ TEST_CASE("an anchor entry that is wrong or missing is solved for")
     const auto hint = [](const std::string& entry) {
         return Hints{"all equations of the algebroid hold with component " + entry};
     };
-    CHECK(hints_of(with(sphere, "g2 = \"g3\"", "g2 = \"g1\"")) == hint("g2 = g3 of the anchor of w1 (given is g1)"));
-    CHECK(hints_of(with(sphere, ", g3 = \"-g2\"", "")) == hint("g3 = -g2 of the anchor of w1 (given is none)"));
+    CHECK(hints_of(with(top_on_sphere, "g2 = \"g3\"", "g2 = \"g1\"")) ==
+          hint("g2 = g3 of the anchor of w1 (given is g1)"));
+    CHECK(hints_of(with(top_on_sphere, ", g3 = \"-g2\"", "")) == hint("g3 = -g2 of the anchor of w1 (given is none)"));
     CHECK(hints_of(with(top, ", g3 = \"-g2\"", "")) == hint("g3 = -g2 of the anchor of w1 (given is none)"));
     CHECK(hints_of(with(top, "\"-g2\"", "\"-1.0000000000001*g2\"")) ==
           hint("g3 = -g2 of the anchor of w1 (given is -1.0000000000001*g2)"));

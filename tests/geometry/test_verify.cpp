@@ -10,7 +10,7 @@ using namespace lagen;
 
 namespace {
 
-const std::string sphere = R"(
+const std::string checked_sphere = R"(
 [base]
 coordinates = ["g1", "g2", "g3"]
 constraints = ["g1^2 + g2^2 + g3^2 - 1"]
@@ -64,7 +64,7 @@ const std::string plane = "[base]\ncoordinates = [\"x\", \"y\"]\n"
 
 TEST_CASE("every residual of a proof is zero to 60 digits at five other points")
 {
-    const VerifiedAlgebroid verified = verify(model_of(sphere), {}, 5);
+    const VerifiedAlgebroid verified = verify(model_of(checked_sphere), {}, 5);
     REQUIRE(verified.verdict == Verdict::valid);
     REQUIRE(verified.reevaluation);
     CHECK(verified.reevaluation->points == 5);
@@ -78,13 +78,13 @@ TEST_CASE("every residual of a proof is zero to 60 digits at five other points")
         CHECK(check.reevaluation->bound < 1e-60);
         CHECK_FALSE(check.reevaluation->zero_excluded);
     }
-    CHECK_FALSE(verify(model_of(sphere)).reevaluation);
-    CHECK_FALSE(verify(model_of(sphere)).checks[0].reevaluation);
+    CHECK_FALSE(verify(model_of(checked_sphere)).reevaluation);
+    CHECK_FALSE(verify(model_of(checked_sphere)).checks[0].reevaluation);
 }
 
 TEST_CASE("a re-evaluated residual that is not zero is seen not to be, and the summary is about proofs alone")
 {
-    std::string text = sphere;
+    std::string text = checked_sphere;
     text.replace(text.find("w2 = 1 }"), 8, "w2 = 3 }");
     const VerifiedAlgebroid verified = verify(model_of(text), {}, 5);
     CHECK(verified.verdict == Verdict::invalid);
@@ -175,7 +175,7 @@ TEST_CASE("a divisor that vanishes on the constraints, or for momenta as they ar
 
 TEST_CASE("the label of a Casimir may be divided by, and a divisor that vanishes at points alone is no mistake")
 {
-    std::string text = sphere;
+    std::string text = checked_sphere;
     text.replace(text.find("2*w3^2)/2"), 9, "2*w3^2)/a");
     CHECK(verified_text(text).verdict == Verdict::valid);
     CHECK(refusal(plane + "[lagrangian]\nL = \"v^2/x + w^2/sin(y)\"\n").empty());
