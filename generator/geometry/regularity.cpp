@@ -271,7 +271,9 @@ Regularity decide_regularity(Graph& graph, const FibreHessian& hessian, const Pr
         at_defaults.hessian = substitute(graph, hessian.hessian, defaults);
         minors = leading_minors(graph, at_defaults);
         const ZeroDecider valued(graph, there);
-        const Shown given = show(graph, at_defaults, there, valued, minors);
+        const Shown given = is_definite_for(graph, hessian, setting, defaults)
+                                ? Shown{}
+                                : show(graph, at_defaults, there, valued, minors);
         result.for_given_parameters = given.positive_definite || (given.regular && !shown.regular);
         result.positive_definite = given.positive_definite;
         if (given.regular || shown.regular)

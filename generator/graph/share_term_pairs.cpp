@@ -31,36 +31,68 @@ struct PolynomialLess {
     bool operator()(const Polynomial& a, const Polynomial& b) const { return less(a, b); }
 };
 
-/// Distinct sums of two or more terms and where they stand.
-using Uses = std::map<Polynomial, std::vector<Place>, PolynomialLess>;
+/// Distinct sums of two or more terms and where they stand, with the pairs that each of them holds.
+class Sums {
+  public:
+    explicit Sums(const Form& form)
+    {
+        for (const Place& place : live_places(form))
+            if (const Polynomial& sum = at(form, place); sum.size() > 1 && sum.size() <= longest_sum) add(sum, place);
+    }
 
-Uses sums_of(const Form& form)
-{
-    Uses uses;
-    for (const Place& place : live_places(form))
-        if (const Polynomial& sum = at(form, place); sum.size() > 1 && sum.size() <= longest_sum)
-            uses[sum].push_back(place);
-    return uses;
-}
+    void add(const Polynomial& sum, const Place& place)
+    {
+        const auto [at, fresh] = uses_.try_emplace(sum);
+        at->second.push_back(place);
+        if (fresh) for_pairs(at->first, [&](const Pair& pair) { holders_[pair].push_back(&at->first); });
+    }
 
-bool best_pair(const Uses& uses, Pair& best, std::vector<Polynomial>& holders)
-{
-    std::map<Pair, std::vector<const Polynomial*>> counts;
-    for (const auto& [sum, places] : uses)
+    [[nodiscard]] const std::vector<Place>* places(const Polynomial& sum) const
+    {
+        const auto found = uses_.find(sum);
+        return found == uses_.end() ? nullptr : &found->second;
+    }
+
+    std::vector<Place> take(const Polynomial& sum)
+    {
+        const auto found = uses_.find(sum);
+        for_pairs(found->first, [&](const Pair& pair) {
+            const auto holders = holders_.find(pair);
+            if (std::erase(holders->second, &found->first) > 0 && holders->second.empty()) holders_.erase(holders);
+        });
+        std::vector<Place> places = std::move(found->second);
+        uses_.erase(found);
+        return places;
+    }
+
+    /// The pair that most sums hold, two at least, and these sums in order; of several such pairs the first.
+    [[nodiscard]] bool best_pair(Pair& best, std::vector<Polynomial>& holders) const
+    {
+        const std::vector<const Polynomial*>* most = nullptr;
+        for (const auto& [pair, found] : holders_)
+            if (found.size() > 1 && (most == nullptr || found.size() > most->size())) {
+                most = &found;
+                best = pair;
+            }
+        if (most == nullptr) return false;
+        holders.clear();
+        for (const Polynomial* sum : *most) holders.push_back(*sum);
+        std::sort(holders.begin(), holders.end(), PolynomialLess{});
+        return true;
+    }
+
+  private:
+    template <class Action>
+    static void for_pairs(const Polynomial& sum, Action action)
+    {
         for (std::size_t i = 0; i < sum.size(); ++i)
             for (std::size_t j = i + 1; j < sum.size(); ++j)
-                counts[{sum[i].monomial, sum[j].monomial, sum[j].coefficient / sum[i].coefficient}].push_back(&sum);
-    const std::vector<const Polynomial*>* most = nullptr;
-    for (const auto& [pair, found] : counts)
-        if (found.size() > 1 && (most == nullptr || found.size() > most->size())) {
-            most = &found;
-            best = pair;
-        }
-    if (most == nullptr) return false;
-    holders.clear();
-    for (const Polynomial* sum : *most) holders.push_back(*sum);
-    return true;
-}
+                action(Pair{sum[i].monomial, sum[j].monomial, sum[j].coefficient / sum[i].coefficient});
+    }
+
+    std::map<Polynomial, std::vector<Place>, PolynomialLess> uses_;
+    std::map<Pair, std::vector<const Polynomial*>> holders_; ///< keys of uses_
+};
 
 /// The sum without the pair.
 Polynomial without(const Polynomial& sum, const Pair& pair, Rational& first)
@@ -73,19 +105,18 @@ Polynomial without(const Polynomial& sum, const Pair& pair, Rational& first)
     return rest;
 }
 
-void rewrite(Form& form, Uses& uses, const Polynomial& old, const Pair& pair, const Term& name)
+void rewrite(Form& form, Sums& sums, const Polynomial& old, const Pair& pair, const Term& name)
 {
     Rational first;
     const Polynomial rest = without(old, pair, first);
     const Polynomial next = form.algebra.add(rest, {{name.coefficient * first, name.monomial}});
-    auto node = uses.extract(old);
-    for (const Place& place : node.mapped()) {
+    for (const Place& place : sums.take(old)) {
         const bool own = !place.root && name.monomial.size() == 1 && place.atom == name.monomial[0].atom;
         if (!own) at(form, place) = next;
         if (own)
-            uses[old].push_back(place);
+            sums.add(old, place);
         else if (next.size() > 1)
-            uses[next].push_back(place);
+            sums.add(next, place);
     }
 }
 
@@ -93,20 +124,21 @@ void rewrite(Form& form, Uses& uses, const Polynomial& old, const Pair& pair, co
 
 void share_term_pairs(Form& form)
 {
-    Uses uses = sums_of(form);
+    Sums sums(form);
     Pair pair;
     std::vector<Polynomial> holders;
-    for (int round = 0; round < largest_rounds && best_pair(uses, pair, holders); ++round) {
+    for (int round = 0; round < largest_rounds && sums.best_pair(pair, holders); ++round) {
         const std::size_t known = form.algebra.size();
         const Term name = form.algebra.as_term({{1, pair.first}, {pair.ratio, pair.second}});
         for (std::size_t id = known; id < form.algebra.size(); ++id)
-            uses[form.algebra[static_cast<AtomId>(id)].operands[0]].push_back({false, static_cast<AtomId>(id), 0});
+            sums.add(form.algebra[static_cast<AtomId>(id)].operands[0], {false, static_cast<AtomId>(id), 0});
         bool changed = false;
         for (const Polynomial& holder : holders) {
-            const bool own = uses.contains(holder) && uses[holder].size() == 1 && !uses[holder][0].root &&
-                             name.monomial.size() == 1 && uses[holder][0].atom == name.monomial[0].atom;
-            if (own || !uses.contains(holder)) continue;
-            rewrite(form, uses, holder, pair, name);
+            const std::vector<Place>* places = sums.places(holder);
+            const bool own = places != nullptr && places->size() == 1 && !(*places)[0].root &&
+                             name.monomial.size() == 1 && (*places)[0].atom == name.monomial[0].atom;
+            if (own || places == nullptr) continue;
+            rewrite(form, sums, holder, pair, name);
             changed = true;
         }
         if (!changed) break;

@@ -167,10 +167,16 @@ Fraction Ring::times(const Fraction& a, const Fraction& b)
     return normalised(std::move(product));
 }
 
-Polynomial Ring::inverses_of(const Factors& factors)
+Polynomial Ring::take_inverses(Factors& factors)
 {
     Polynomial product = constant_polynomial(1);
+    Factors plain;
     for (const auto& [index, exponent] : factors) {
+        const Polynomial& factor = factors_[index];
+        if (factor.size() == 1 && generator(factor[0].monomial.generator(0)).power == 0) {
+            plain.emplace_back(index, exponent);
+            continue;
+        }
         const GeneratorId id = keyed("inverse:" + std::to_string(index), [this, index = index] {
             Range range;
             const Signs known = signs(Polynomial(factors_[index]));
@@ -180,6 +186,7 @@ Polynomial Ring::inverses_of(const Factors& factors)
         });
         product = times(product, generator_polynomial(id, exponent));
     }
+    factors = std::move(plain);
     return product;
 }
 
@@ -190,10 +197,7 @@ Fraction Ring::inverse(const Fraction& a)
     const mpz_class unit = split(a.num, result.factors);
     result.num = proof::scale(expand(a.factors), sgn(unit) < 0 ? mpz_class(-a.scale) : a.scale);
     result.scale = abs(unit);
-    if (work_.divisors_apart) {
-        result.num = times(result.num, inverses_of(result.factors));
-        result.factors.clear();
-    }
+    if (work_.divisors_apart) result.num = times(result.num, take_inverses(result.factors));
     return normalised(std::move(result));
 }
 

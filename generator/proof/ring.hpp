@@ -113,8 +113,9 @@ class Ring {
     [[nodiscard]] std::size_t factor_index(const Polynomial& p); ///< p primitive, leading coefficient positive
 
   private:
-    /// 1/(factors) as a product of generators, one a factor.
-    [[nodiscard]] Polynomial inverses_of(const std::vector<std::pair<std::size_t, unsigned>>& factors);
+    /// The divisors among these that are more than a generator without a relation, as a product of generators that
+    /// stand for their inverses; the others stay in `factors` (as common denominators they add no terms).
+    [[nodiscard]] Polynomial take_inverses(std::vector<std::pair<std::size_t, unsigned>>& factors);
     [[nodiscard]] Polynomial expand(const std::vector<std::pair<std::size_t, unsigned>>& factors);
     [[nodiscard]] const Polynomial& relation_power(GeneratorId id, unsigned exponent);
     [[nodiscard]] Signs signs(const Polynomial& p, int depth);

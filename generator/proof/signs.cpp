@@ -9,9 +9,10 @@ namespace lagen::proof {
 
 namespace {
 
-constexpr int deepest = 3;              ///< products of facts that are looked through
-constexpr std::size_t most_steps = 80;  ///< polynomials looked at for one question
-constexpr std::size_t most_terms = 300; ///< of a polynomial whose sign is asked for; rational ranges are slow
+constexpr int deepest = 3;               ///< products of facts that are looked through
+constexpr std::size_t most_steps = 80;   ///< polynomials looked at for one question
+constexpr std::size_t strict_steps = 12; ///< further ones, where a fact says p >= 0 and only p = 0 is left open
+constexpr std::size_t most_terms = 300;  ///< of a polynomial whose sign is asked for; rational ranges are slow
 
 /// p / (content and sign), so that proportional polynomials are equal.
 Polynomial primitive(const Polynomial& p)
@@ -160,7 +161,12 @@ Signs Ring::signs(const Polynomial& p, int depth)
             product = product * proof::power(signs_of(generators_[common.generator(k)].range), common.exponent(k));
         return both(known, product);
     }
-    known = both(known, fact_signs(p, depth));
+    for (const SignFact& fact : facts_)
+        if (depth == 0 && fact.polynomial.size() == p.size() && equal(fact.polynomial, primitive(p))) {
+            known = both(known, fact.signs);
+            sign_steps_ = std::min(sign_steps_, strict_steps);
+        }
+    if (!settled()) known = both(known, fact_signs(p, depth));
     if (settled() || depth >= deepest) return known;
     Polynomial root;
     if (p.size() > 2 && square_root(primitive(p), root, work_))
