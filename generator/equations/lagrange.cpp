@@ -265,14 +265,15 @@ class LagrangeDerivation {
 EquationSet derive_lagrange(const Model& model, const Algebroid& algebroid)
 {
     if (!model.lagrangian)
-        throw MathematicsError("the model " + model.name +
-                               " has no Lagrangian, so that there are no Lagrange equations; give [lagrangian] L");
+        throw MathematicsError("error: model '" + model.name +
+                               "' has no Lagrangian; Lagrange's equations need [lagrangian] L");
     try {
         return LagrangeDerivation(model, algebroid).derive();
     } catch (const Error&) {
         throw;
     } catch (const std::exception& error) {
-        throw MathematicsError("Lagrange's equations of " + model.name + " could not be derived: " + error.what());
+        throw MathematicsError("error: Lagrange's equations of model '" + model.name +
+                               "' could not be derived: " + error.what());
     }
 }
 

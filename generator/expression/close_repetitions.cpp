@@ -62,8 +62,10 @@ void Expansion::Closing::start_repetition(Frame& top)
     top.from = bound_of(node, 0, *top.arguments[0]);
     top.to = bound_of(node, 1, *top.arguments[1]);
     if (top.to >= top.from && (top.to - longest_range >= top.from || top.from + longest_range <= top.to))
-        refuse(top.tree, fmt::format("a {} runs from {} to {}", word_for(node), top.from, top.to),
-               fmt::format("a range has at most {} indices", longest_range));
+        refuse(top.tree,
+               fmt::format("a {} runs from {} to {}, where at most {} indices are allowed", word_for(node), top.from,
+                           top.to, longest_range),
+               "a sum of this length is beyond what is written out");
     RepetitionKey key{&node, {}};
     const std::set<std::string>& names = names_of(node);
     for (const BoundName& bound : top.body->bound)

@@ -51,7 +51,7 @@ Value join_entries(const Maker& maker, const Tree& tree, std::span<const Value> 
                    "the entries of a vector are scalars, the rows of a matrix are vectors");
         if (shape.rows != first.rows)
             refuse(tree->arguments[k],
-                   fmt::format("row {} has {} entries, and row 1 has {}", k + 1, shape.rows, first.rows),
+                   fmt::format("row {} has length {}, and row 1 has length {}", k + 1, shape.rows, first.rows),
                    "the rows of a matrix have the same length");
         const Shape so_far = first.rank == Rank::scalar ? vector_shape(k + 1) : matrix_shape(k + 1, first.rows);
         require_size(maker, so_far);

@@ -149,7 +149,9 @@ const Definition& Expansion::Closing::function_of(const TreeNode& node, const Bo
         find_bound(body, node.name) || scope_.has_name(node.name) || (definition && definition->parameters.empty());
     if (is_value)
         throw ModelError(fmt::format("{} is not a function", quote(node.name)), node.where,
-                         fmt::format("a product is written with '*': {}*(...)", node.name));
+                         definition
+                             ? fmt::format("a function is defined with its arguments: \"{}(q)\" = \"..\"", node.name)
+                             : fmt::format("a product is written with '*': {}*(..)", node.name));
     if (!definition) unknown(node, body, true);
     const std::size_t wanted = definition->parameters.size();
     const std::size_t given = node.arguments.size();

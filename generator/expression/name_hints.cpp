@@ -62,7 +62,8 @@ std::string hint_for_symbol(const std::string& name, const std::vector<std::stri
     if (!nearest.empty()) return fmt::format("did you mean '{}'?", nearest);
     for (const Foreign& entry : foreign_symbols)
         if (entry.name == name) return entry.hint;
-    return known.empty() ? "no names are declared for this expression" : listing("known names are ", known);
+    return known.empty() ? "no names are known here; sizes are declared in [sizes]"
+                         : listing("known names are ", known);
 }
 
 std::string hint_for_function(const std::string& name, std::vector<std::string> known)

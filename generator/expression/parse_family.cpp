@@ -56,7 +56,8 @@ Bracketed cut(const Excerpt& text, const char* hint)
         if (!rest.text.empty())
             throw ModelError(fmt::format("{} follows the brackets", quote(rest.text)), whole(rest), hint);
         if (result.parts.size() > 2)
-            throw ModelError(fmt::format("{} has {} ranges or indices", quote(text.text), result.parts.size()),
+            throw ModelError(fmt::format("{} has {} ranges or indices, where one or two are required", quote(text.text),
+                                         result.parts.size()),
                              whole(text), "a family is a vector or a matrix");
         return result;
     }
@@ -109,8 +110,9 @@ Shape close_shape(const FamilyDeclaration& family, const Scope& scope)
     }
     const bool large = shape.rows > most_entries || shape.columns > most_entries || shape.size() > most_entries;
     if (large)
-        throw ModelError(fmt::format("the family {} is {}", quote(family.name), to_text(shape)), family.where,
-                         fmt::format("a vector or matrix has at most {} entries", most_entries));
+        throw ModelError(fmt::format("the family {} is {}, where at most {} entries are allowed", quote(family.name),
+                                     to_text(shape), most_entries),
+                         family.where);
     return shape;
 }
 

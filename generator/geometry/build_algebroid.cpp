@@ -27,8 +27,8 @@ std::vector<StructureValue> named_constants(const AlgebroidBlock& block, std::si
     if (algebra->basis.size() != rank) {
         const bool atiyah = block.kind == AlgebroidKind::atiyah;
         throw ModelError("the Lie algebra " + algebra->name + " has rank " + std::to_string(algebra->basis.size()) +
-                             ", but the fibre has " + std::to_string(rank) + (atiyah ? " vertical" : "") +
-                             " coordinates",
+                             ", where the number of" + (atiyah ? " vertical" : "") + " fibre coordinates is " +
+                             std::to_string(rank),
                          block.algebra_where, "give [fibre] one coordinate for each basis element");
     }
     std::vector<StructureValue> constants;

@@ -58,8 +58,8 @@ class SubbundleBuilder {
 
     [[noreturn]] void refuse_dependent() const
     {
-        throw ModelError("the sections of the subbundle are linearly dependent everywhere: " + std::to_string(r_) +
-                             " sections span a distribution of a smaller rank",
+        throw ModelError("the sections of the subbundle are linearly dependent everywhere: their number is " +
+                             std::to_string(r_) + ", and the rank of the distribution is smaller",
                          where(), "give as many sections as the distribution has dimensions");
     }
 

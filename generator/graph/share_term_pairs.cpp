@@ -42,9 +42,10 @@ class Sums {
 
     void add(const Polynomial& sum, const Place& place)
     {
-        const auto [at, fresh] = uses_.try_emplace(sum);
-        at->second.push_back(place);
-        if (fresh) for_pairs(at->first, [&](const Pair& pair) { holders_[pair].push_back(&at->first); });
+        const auto [entry, fresh] = uses_.try_emplace(sum);
+        entry->second.push_back(place);
+        const Polynomial* key = &entry->first;
+        if (fresh) for_pairs(*key, [&](const Pair& pair) { holders_[pair].push_back(key); });
     }
 
     [[nodiscard]] const std::vector<Place>* places(const Polynomial& sum) const

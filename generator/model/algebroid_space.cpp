@@ -167,7 +167,7 @@ DraftSpace space_of(const ModelReader& reader, const AlgebroidDraft& draft, cons
     if (space.fibre.empty()) space.fibre = standard_fibre(draft, space.base, inner_fibre);
     if (space.momenta.empty()) space.momenta = with_prefix("p_", space.fibre);
     if (space.momenta.size() != space.fibre.size()) {
-        throw ModelError(fmt::format("{} declares {} momenta for {} coordinates; one a coordinate is required",
+        throw ModelError(fmt::format("the number of momenta of {} is {}, where one a fibre coordinate is required: {}",
                                      draft.title, space.momenta.size(), space.fibre.size()),
                          draft.where);
     }
@@ -204,8 +204,8 @@ std::size_t declare_inner_base(ModelReader& reader, const AlgebroidDraft& draft)
     bool fits = given.size() == places;
     for (std::size_t i = product ? head.size() : 0; fits && i < places; ++i) fits = same_names(given[i], all[i]);
     if (!fits) {
-        throw ModelError(fmt::format("[base] declares {} coordinates, where {} gives {}: {}", given.size(), draft.title,
-                                     all.size(), names_text(all)),
+        throw ModelError(fmt::format("the number of base coordinates is {}, where {} gives {}: {}", given.size(),
+                                     draft.title, all.size(), names_text(all)),
                          given.front().where, "leave [base] coordinates out, or give exactly these");
     }
     if (given.empty() && product) require_distinct(reader, leaf, head);

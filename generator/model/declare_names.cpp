@@ -131,7 +131,7 @@ void declare_fibre(ModelReader& reader, const TomlEntry* block)
     if (momenta == nullptr) return declare_default_momenta(reader);
     declare_symbols(reader, read_names(reader, *momenta, "'momenta' of [fibre]"), Role::momentum);
     if (fibre.momenta.size() != fibre.coordinates.size()) {
-        throw ModelError(fmt::format("[fibre] declares {} momenta for {} coordinates; one a coordinate is required",
+        throw ModelError(fmt::format("the number of momenta is {}, where one a fibre coordinate is required: {}",
                                      fibre.momenta.size(), fibre.coordinates.size()),
                          momenta->value.where);
     }

@@ -53,8 +53,8 @@ void require_inner_rank(const AlgebroidBlock& block, const std::string& title)
 {
     const std::optional<RequiredRank> rank = required_rank(block);
     if (!rank || rank->fits(block.fibre.size())) return;
-    throw ModelError(fmt::format("{} has {} fibre coordinates, where {} needs {}", title, block.fibre.size(),
-                                 rank->reason, rank->text()),
+    throw ModelError(fmt::format("the number of fibre coordinates of {} is {}, where {} needs {}", title,
+                                 block.fibre.size(), rank->reason, rank->text()),
                      block.where);
 }
 

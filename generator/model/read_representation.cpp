@@ -18,9 +18,10 @@ void read_representation(const ModelReader& reader, AlgebroidBlock& block, const
             entry.value.where, "representation = [A_1, ..], one matrix a section");
     }
     if (entry.value.items.size() != block.fibre.size()) {
-        throw ModelError(fmt::format("'representation' gives {} matrices for {} sections; one a section is required",
-                                     entry.value.items.size(), block.fibre.size()),
-                         entry.value.where);
+        throw ModelError(
+            fmt::format("the number of matrices in 'representation' is {}, where one a section is required: {}",
+                        entry.value.items.size(), block.fibre.size()),
+            entry.value.where);
     }
     const std::size_t n = block.base.size();
     const Shape wanted{Rank::matrix, n, n};

@@ -130,7 +130,7 @@ class ToGinac {
         }
         if (size > symbolic_size_limit)
             throw MathematicsError(
-                "the expression has more than " + std::to_string(symbolic_size_limit) +
+                "error: the expression has more than " + std::to_string(symbolic_size_limit) +
                 " terms and factors when it is written out, too many for a formula that a person could read");
         done_.emplace(&node, Done{value_of(node, arguments), size});
     }

@@ -189,7 +189,7 @@ TEST_CASE("a model without a Lagrangian has no Lagrange equations")
         "bare.toml",
         "name = \"bare\"\n[fibre]\ncoordinates = [\"a\"]\n[algebroid]\nkind = \"lie_algebra\"\nalgebra = \"R^1\"\n");
     CHECK_THROWS_WITH(derive_lagrange(model, build_algebroid(model)),
-                      "the model bare has no Lagrangian, so that there are no Lagrange equations; give [lagrangian] L");
+                      "error: model 'bare' has no Lagrangian; Lagrange's equations need [lagrangian] L");
 }
 
 // Hidden: what the fresh processes of the next test print.

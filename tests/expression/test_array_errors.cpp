@@ -128,7 +128,7 @@ TEST_CASE("shapes that do not fit are named, both of them")
     CHECK(closing_error(scope, "A^(16*n + 1)") == "the exponent of a matrix is not an integer from -64 to 64");
     CHECK(closing_error(scope, "[u, a]") == "a scalar stands beside a vector of 3");
     CHECK(closing_error(scope, "[A, A]") == "an entry is a 3 x 3 matrix");
-    CHECK(closed_text(scope, "[[1, 2, 3], [4, 5]]") == "e:1:13: error: row 2 has 2 entries, and row 1 has 3\n"
+    CHECK(closed_text(scope, "[[1, 2, 3], [4, 5]]") == "e:1:13: error: row 2 has length 2, and row 1 has length 3\n"
                                                        "  [[1, 2, 3], [4, 5]]\n"
                                                        "              ^~~~~~\n"
                                                        "hint: the rows of a matrix have the same length");

@@ -101,7 +101,8 @@ TEST_CASE("an unknown symbol gets the nearest name")
                                    "  ^~~~\n"
                                    "hint: known names are g1, g2, g3, mgl, T");
     CHECK_THAT(closed(scope, "π"), Catch::EndsWith("hint: the constant is written pi"));
-    CHECK_THAT(closed(scope_of({}), "x"), Catch::EndsWith("hint: no names are declared for this expression"));
+    CHECK_THAT(closed(scope_of({}), "x"),
+               Catch::EndsWith("hint: no names are known here; sizes are declared in [sizes]"));
 }
 
 TEST_CASE("an unknown function gets the nearest function or this language's spelling")
@@ -121,8 +122,10 @@ TEST_CASE("symbols are not functions and functions are not symbols")
     CHECK(closed(scope, "x(2)") == "e:1:1: error: 'x' is not a function\n"
                                    "  x(2)\n"
                                    "  ^~~~\n"
-                                   "hint: a product is written with '*': x*(...)");
-    CHECK_THAT(closed(scope, "T(2)"), Catch::Contains("'T' is not a function"));
+                                   "hint: a product is written with '*': x*(..)");
+    CHECK_THAT(closed(scope, "T(2)"),
+               Catch::Contains("'T' is not a function") &&
+                   Catch::EndsWith("hint: a function is defined with its arguments: \"T(q)\" = \"..\""));
     CHECK(closed(scope, "2*V") == "e:1:3: error: the function 'V' stands without arguments\n"
                                   "  2*V\n"
                                   "    ^\n"

@@ -94,9 +94,10 @@ TEST_CASE("the body of a sum is closed once for each value of the indices in it"
 TEST_CASE("what is written out is bounded, and the bound is named")
 {
     const Scope scope = array_scope();
-    CHECK(closing_error(scope, "sum(i, 1, 100001, a)") == "a sum runs from 1 to 100001");
+    CHECK(closing_error(scope, "sum(i, 1, 100001, a)") ==
+          "a sum runs from 1 to 100001, where at most 100000 indices are allowed");
     CHECK(closing_error(scope, "sum(i, -9e18, 9e18, a)") ==
-          "a sum runs from -9000000000000000000 to 9000000000000000000");
+          "a sum runs from -9000000000000000000 to 9000000000000000000, where at most 100000 indices are allowed");
     CHECK(closing_error(scope, "sum(i, 1, 9999, sum(j, 1, 9999, a*i*j))") ==
           "the expression is longer than 1000000 operations when its sums and arrays are written out");
     CHECK(closing_error(scope, "identity(65)") == "a 65 x 65 matrix is too large");

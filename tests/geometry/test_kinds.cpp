@@ -224,8 +224,8 @@ TEST_CASE("sections that are dependent everywhere are refused where they are giv
         "[base]\ncoordinates = [\"x\", \"y\"]\n[fibre]\ncoordinates = [\"a\", \"b\"]\n[algebroid]\n";
     CHECK_THROWS_WITH(
         verified_text(start + "kind = \"subbundle\"\nspanned_by = { a = { x = \"y\" }, b = { x = 1 } }\n"),
-        "test.toml:8:26: error: the sections of the subbundle are linearly dependent everywhere: 2 sections span a "
-        "distribution of a smaller rank\n  spanned_by = { a = { x = \"y\" }, b = { x = 1 } }\n"
+        "test.toml:8:26: error: the sections of the subbundle are linearly dependent everywhere: their number is "
+        "2, and the rank of the distribution is smaller\n  spanned_by = { a = { x = \"y\" }, b = { x = 1 } }\n"
         "                           ^~~\nhint: give as many sections as the distribution has dimensions");
     CHECK_THROWS_WITH(
         verified_text(start + "kind = \"frame\"\nof = { kind = \"tangent\" }\n"

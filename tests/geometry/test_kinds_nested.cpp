@@ -76,10 +76,10 @@ TEST_CASE("the base of a prolongation may be declared without what it gains, or 
     const Lines expected = {"X_a: x x", "V_a: a 1", "V_b: b 1", "X_a,X_b: X_b 1"};
     CHECK(lines_of(build_algebroid(nested("[base]\ncoordinates = ['x']\n" + of))) == expected);
     CHECK(lines_of(build_algebroid(nested("[base]\ncoordinates = ['x', 'a', 'b']\n" + of))) == expected);
-    CHECK(
-        diagnostic_of("[base]\ncoordinates = ['z']\n[algebroid]\nkind = 'prolongation'\nof = 'plane.toml'\n") ==
-        "[base] declares 1 coordinates, where [algebroid] gives 4: x, y, u, v | leave [base] coordinates out, or give "
-        "exactly these");
+    CHECK(diagnostic_of("[base]\ncoordinates = ['z']\n[algebroid]\nkind = 'prolongation'\nof = 'plane.toml'\n") ==
+          "the number of base coordinates is 1, where [algebroid] gives 4: x, y, u, v | leave [base] coordinates out, "
+          "or give "
+          "exactly these");
 }
 
 TEST_CASE("a frame of a file takes over its Lagrangian, written in the new fibre coordinates")

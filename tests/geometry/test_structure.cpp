@@ -145,7 +145,7 @@ TEST_CASE("a named algebra of another rank is refused where it is named")
     CHECK_THROWS_WITH(
         verified_text(
             "[fibre]\ncoordinates = [\"a\", \"b\"]\n[algebroid]\nkind = \"lie_algebra\"\nalgebra = \"so(3)\"\n"),
-        "test.toml:6:11: error: the Lie algebra so(3) has rank 3, but the fibre has 2 coordinates\n"
+        "test.toml:6:11: error: the Lie algebra so(3) has rank 3, where the number of fibre coordinates is 2\n"
         "  algebra = \"so(3)\"\n            ^~~~~~~\nhint: give [fibre] one coordinate for each basis element");
 }
 

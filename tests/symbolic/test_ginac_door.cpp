@@ -108,8 +108,8 @@ TEST_CASE("a shared tree of 2^40 nodes is refused instead of being written out")
         tree = multiply({call(Function::sin, {tree}), call(Function::cos, {tree})});
     SymbolTable symbols;
     CHECK_THROWS_WITH(to_ginac(tree, symbols),
-                      "the expression has more than 50000 terms and factors when it is written out, too many for a "
-                      "formula that a person could read");
+                      "error: the expression has more than 50000 terms and factors when it is written out, too many "
+                      "for a formula that a person could read");
 }
 
 TEST_CASE("functions that are not smooth are refused by name")
