@@ -96,6 +96,14 @@ std::string show_line(const SourceRange& where)
     return source + "\n" + marks;
 }
 
+/// A name of the file may hold anything: what the terminal would obey is shown as '?'.
+std::string printable(std::string_view text)
+{
+    std::string result;
+    for (const Shown& c : characters(text, 0, text.size())) result += c.bytes;
+    return result;
+}
+
 const char* spelling(Severity severity)
 {
     switch (severity) {
@@ -235,10 +243,10 @@ std::string source_text(const SourceRange& range)
 std::string render(const Diagnostic& diagnostic)
 {
     std::string text;
-    if (diagnostic.where.file) text = place(diagnostic.where) + ": ";
-    text += fmt::format("{}: {}", spelling(diagnostic.severity), diagnostic.message);
+    if (diagnostic.where.file) text = printable(place(diagnostic.where)) + ": ";
+    text += fmt::format("{}: {}", spelling(diagnostic.severity), printable(diagnostic.message));
     if (diagnostic.where.file) text += fmt::format("\n{}", show_line(diagnostic.where));
-    if (!diagnostic.hint.empty()) text += fmt::format("\nhint: {}", diagnostic.hint);
+    if (!diagnostic.hint.empty()) text += fmt::format("\nhint: {}", printable(diagnostic.hint));
     return text;
 }
 

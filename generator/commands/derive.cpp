@@ -4,6 +4,7 @@
 #include "commands/options.hpp"
 #include "commands/places.hpp"
 #include "commands/write_file.hpp"
+#include "emit/json.hpp"
 #include "emit/print_equations.hpp"
 #include "pipeline.hpp"
 
@@ -21,6 +22,23 @@ const CommandSyntax derive_syntax{"derive",
                                    {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
                                    {"format,f", "FORMAT", "text, latex or json", "text"}}};
 
+/// The equations of a refuted model say so themselves: they may go on without the error stream.
+std::string marked(const std::string& text, const std::string& format, const std::vector<std::string>& warnings)
+{
+    if (warnings.empty()) return text;
+    if (format == "json") {
+        JsonWriter json;
+        json.begin_object().key("warnings").begin_array();
+        for (const std::string& warning : warnings) json.value(warning);
+        json.end_array().end_object();
+        return json.text().substr(0, json.text().size() - 1) + ", " + text.substr(1);
+    }
+    std::string mark;
+    for (const std::string& warning : warnings)
+        mark += fmt::format("{}WARNING: {}\n", format == "latex" ? "% " : "", warning);
+    return mark + text;
+}
+
 } // namespace
 
 ExitCode run_derive(Arguments arguments)
@@ -36,9 +54,10 @@ ExitCode run_derive(Arguments arguments)
         write_standard_error(
             "warning: the Lagrangian is degenerate: the accelerations are not determined by the equations\n");
     const EquationSet equations = derive_lagrange(checked.model, checked.verified.algebroid);
-    const std::string text = format == "text"    ? print_text(equations)
-                             : format == "latex" ? print_latex(equations)
-                                                 : print_json(equations);
+    const std::string text = marked(format == "text"    ? print_text(equations)
+                                    : format == "latex" ? print_latex(equations)
+                                                        : print_json(equations),
+                                    format, checked.warnings);
     write_file(options.has("output") ? options.get("output") : "-", text.ends_with('\n') ? text : text + "\n");
     return ExitCode::done;
 }

@@ -26,6 +26,7 @@ constexpr int left_margin = 84;
 
 // Characters.
 constexpr std::size_t longest_title = 110;
+constexpr std::size_t legend_lines = 10; ///< that fit beside a panel
 constexpr std::size_t longest_name = 28;
 
 std::string extension_of(const std::string& path)
@@ -109,12 +110,18 @@ std::string legend_of(const Table& table, const Panel& panel, std::size_t k)
     return shared_unit(panel).empty() && k < panel.units.size() ? with_unit(name, panel.units[k]) : name;
 }
 
+/// How many columns of a panel its legend names; one line of it says how many more there are.
+std::size_t named_columns(const Panel& panel)
+{
+    return panel.columns.size() <= legend_lines ? panel.columns.size() : legend_lines - 1;
+}
+
 /// Pixels to the right of the panels for the longest legend.
 int legend_width(const Table& table, const std::vector<Panel>& panels)
 {
     std::size_t longest = 0;
     for (const Panel& panel : panels)
-        for (std::size_t k = 0; k < panel.columns.size(); ++k)
+        for (std::size_t k = 0; k < named_columns(panel); ++k)
             longest = std::max(longest, characters_of(legend_of(table, panel, k)));
     return 60 + 8 * static_cast<int>(std::min<std::size_t>(longest, longest_name + 12));
 }
@@ -148,11 +155,16 @@ std::string panel_text(const Table& table, const Panel& panel, bool last, const 
                  : "set format x ''\n";
     text += "plot ";
     const char* separator = "";
+    const std::size_t named = named_columns(panel);
     for (std::size_t k = 0; k < panel.columns.size(); ++k) {
-        text += fmt::format("{}$rows using 1:{} with {} linetype {} title {}", separator, panel.columns[k] + 1,
-                            table.count == 1 ? "points" : "lines", k + 1, quoted(legend_of(table, panel, k)));
+        text += fmt::format("{}$rows using 1:{} with {} linetype {} {}", separator, panel.columns[k] + 1,
+                            table.count == 1 ? "points" : "lines", k + 1,
+                            k < named ? "title " + quoted(legend_of(table, panel, k)) : "notitle");
         separator = ", \\\n     ";
     }
+    if (named < panel.columns.size())
+        text += fmt::format("{}NaN with lines linecolor rgb '#ffffff' title {}", separator,
+                            quoted(fmt::format("and {} more", panel.columns.size() - named)));
     return text + "\n";
 }
 

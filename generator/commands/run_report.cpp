@@ -65,10 +65,13 @@ std::string report_text(const RunOutcome& outcome)
     const auto brief = [](const std::string& number, int digits) {
         return number.empty() ? number : fmt::format("{:.{}g}", std::strtod(number.c_str(), nullptr), digits);
     };
-    std::string text =
-        fmt::format("{}, scene {}: {} at t = {}; {}, {} steps ({} rejected), {} right-hand sides, {} rows\n",
-                    outcome.model, outcome.scene, outcome.status, brief(outcome.where, 9), outcome.method,
-                    outcome.steps, outcome.rejected, outcome.rhs_calls, outcome.table.count);
+    const auto counted = [](const std::string& number, const char* noun) {
+        return fmt::format("{} {}{}", number, noun, number == "1" ? "" : "s");
+    };
+    std::string text = fmt::format(
+        "{}, scene {}: {} at t = {}; {}, {} ({} rejected), {}, {}\n", outcome.model, outcome.scene, outcome.status,
+        brief(outcome.where, 9), outcome.method, counted(outcome.steps, "step"), outcome.rejected,
+        counted(outcome.rhs_calls, "right-hand side"), counted(std::to_string(outcome.table.count), "row"));
     for (const EventFound& event : outcome.events)
         text += fmt::format("  event {} at t = {}\n", event.name, brief(event.time, 15));
     for (const Drift& drift : outcome.invariants)

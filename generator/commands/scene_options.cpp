@@ -44,8 +44,8 @@ Scene scene_of(const Options& options, const Model& model)
     replace_times(options, model, scene);
     if (!scene.form.empty() && scene.form != "lagrange")
         throw ModelError(
-            fmt::format("scene '{}' asks for the form '{}', this version of lagen runs the form 'lagrange'", scene.name,
-                        scene.form),
+            fmt::format("scene '{}' asks for the form '{}', where 'lagrange' alone is run by this version of lagen",
+                        scene.name, scene.form),
             scene.where);
     return scene;
 }

@@ -91,12 +91,13 @@ const TreeNode& unwrapped(const TreeNode& node)
     return *inner;
 }
 
-/// Products and quotients, and numbers written as one.
+/// Products and quotients, and numbers written as one, with signs or without: --1/2 is read as (--1)/2.
 bool reads_as_product(const TreeNode& outer)
 {
-    const TreeNode& node = unwrapped(outer);
-    if (node.kind == TreeKind::number) return number_text(node.number).tightness == Tightness::product;
-    return node.kind == TreeKind::divide || (node.kind == TreeKind::multiply && !node.arguments.empty());
+    const TreeNode* node = &unwrapped(outer);
+    while (node->kind == TreeKind::negate) node = &unwrapped(*node->arguments[0]);
+    if (node->kind == TreeKind::number) return number_text(node->number).tightness == Tightness::product;
+    return node->kind == TreeKind::divide || (node->kind == TreeKind::multiply && !node->arguments.empty());
 }
 
 Tightness tightness_of(const TreeNode& node)

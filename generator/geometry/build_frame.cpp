@@ -35,10 +35,39 @@ class FrameBuilder {
     BlockParts build()
     {
         require_independent();
+        const FrameFormulas frame = formulas();
         BlockParts parts;
-        append_anchors(parts);
-        append_brackets(parts);
+        for (std::size_t a = 0; a < r_; ++a)
+            for (const ColumnEntry& entry : frame.anchor[a])
+                work_.append_anchor(parts, entry.index, a, entry.value, block_.where);
+        for (std::size_t k = 0; k < frame.pairs.size(); ++k) {
+            const auto& [a, b] = frame.pairs[k];
+            const std::size_t before = parts.C.size();
+            for (std::size_t c = 0; c < r_; ++c)
+                work_.append_structure(parts, c, a, b, frame.bracket[k][c], block_.where);
+            // A zero order that is left out would be read as the negative of the other.
+            if (frame.both_orders && parts.C.size() == before)
+                parts.C.push_back({0, a, b, number(0, block_.where), block_.where});
+        }
         return parts;
+    }
+
+    /// C'^c_ab from A_c^d C'^c_ab = V^d
+    FrameFormulas formulas()
+    {
+        FrameFormulas frame;
+        frame.transposed = transposed_;
+        frame.both_orders = gives_both_orders(inner_);
+        for (std::size_t a = 0; a < r_; ++a) anchors_.push_back(anchor_of(a));
+        frame.anchor = anchors_;
+        std::vector<std::vector<NodeId>> right;
+        for (std::size_t a = 0; a < r_; ++a)
+            for (std::size_t b = frame.both_orders ? 0 : a + 1; b < r_; ++b) {
+                frame.pairs.emplace_back(a, b);
+                right.push_back(inner_bracket(a, b));
+            }
+        frame.bracket = solve_exactly(graph_, transposed_, r_, right);
+        return frame;
     }
 
   private:
@@ -60,20 +89,16 @@ class FrameBuilder {
     }
 
     /// rho'^i_a = A_a^b rho^i_b
-    void append_anchors(BlockParts& parts)
+    Column anchor_of(std::size_t a)
     {
-        for (std::size_t a = 0; a < r_; ++a) {
-            std::map<std::size_t, std::vector<NodeId>> terms;
-            for (const ColumnEntry& entry : rows_[a])
-                for (const ColumnEntry& anchor : inner_.anchor[entry.index])
-                    terms[anchor.index].push_back(graph_.multiply(entry.value, anchor.value));
-            anchors_.emplace_back();
-            for (const auto& [i, sum] : terms) {
-                const NodeId value = graph_.sum(sum);
-                if (!graph_.is_zero(value)) anchors_.back().push_back({i, value});
-                work_.append_anchor(parts, i, a, value, block_.where);
-            }
-        }
+        std::map<std::size_t, std::vector<NodeId>> terms;
+        for (const ColumnEntry& entry : rows_[a])
+            for (const ColumnEntry& anchor : inner_.anchor[entry.index])
+                terms[anchor.index].push_back(graph_.multiply(entry.value, anchor.value));
+        Column column;
+        for (const auto& [i, sum] : terms)
+            if (const NodeId value = graph_.sum(sum); !graph_.is_zero(value)) column.push_back({i, value});
+        return column;
     }
 
     /// V^d = A_a^p A_b^q C^d_pq + rho'_a(A_b^d) - rho'_b(A_a^d), the bracket in the inner frame
@@ -94,27 +119,6 @@ class FrameBuilder {
         return V;
     }
 
-    /// C'^c_ab from A_c^d C'^c_ab = V^d
-    void append_brackets(BlockParts& parts)
-    {
-        const bool both = gives_both_orders(inner_);
-        std::vector<std::pair<std::size_t, std::size_t>> pairs;
-        std::vector<std::vector<NodeId>> right;
-        for (std::size_t a = 0; a < r_; ++a)
-            for (std::size_t b = both ? 0 : a + 1; b < r_; ++b) {
-                pairs.emplace_back(a, b);
-                right.push_back(inner_bracket(a, b));
-            }
-        const std::vector<std::vector<NodeId>> C = solve_exactly(graph_, transposed_, r_, right);
-        for (std::size_t k = 0; k < pairs.size(); ++k) {
-            const auto& [a, b] = pairs[k];
-            const std::size_t before = parts.C.size();
-            for (std::size_t c = 0; c < r_; ++c) work_.append_structure(parts, c, a, b, C[k][c], block_.where);
-            // A zero order that is left out would be read as the negative of the other.
-            if (both && parts.C.size() == before) parts.C.push_back({0, a, b, number(0, block_.where), block_.where});
-        }
-    }
-
     BuildWorkspace& work_;
     Graph& graph_;
     const AlgebroidBlock& block_;
@@ -126,6 +130,11 @@ class FrameBuilder {
 };
 
 } // namespace
+
+FrameFormulas frame_formulas(BuildWorkspace& work, const AlgebroidBlock& block, const BlockParts& inner)
+{
+    return FrameBuilder(work, block, inner).formulas();
+}
 
 BlockParts build_frame(BuildWorkspace& work, const AlgebroidBlock& block, const BlockParts& inner)
 {

@@ -86,7 +86,7 @@ Tree BuildWorkspace::normal_tree(NodeId node, bool& zero)
         if (!forms.condition().empty()) return nullptr;
         zero = form.is_zero();
         const std::string text = proof::to_text(forms.ring(), forms.readable(form), 2 * normal_length);
-        if (text.size() > normal_length) return nullptr;
+        if (text.size() > normal_length || !proof::is_whole(text)) return nullptr;
         return with_entries_as_names(parse_expression(whole_text("<normal form>", text)));
     } catch (const proof::BudgetExhausted&) {
         return nullptr;

@@ -44,6 +44,8 @@ class BuildWorkspace {
                           const SourceRange& where);
     void append_anchor(BlockParts& parts, std::size_t i, std::size_t a, NodeId value, const SourceRange& where);
 
+    /// Variables, parameters, domain and (triangular) constraints of the base.
+    [[nodiscard]] const ProofSetting& setting() const { return setting_; }
     /// Decides whether a function on the base is zero; `refuted` means that it is not zero at some point. The base
     /// constraints that are not triangular are ignored here (the checks refuse them).
     [[nodiscard]] Decision decide(NodeId function) const;
@@ -73,6 +75,16 @@ class BuildWorkspace {
 [[nodiscard]] BlockParts build_atiyah(BuildWorkspace& work, const AlgebroidBlock& block);
 [[nodiscard]] BlockParts build_frame(BuildWorkspace& work, const AlgebroidBlock& block, const BlockParts& inner);
 [[nodiscard]] BlockParts build_prolongation(const AlgebroidBlock& block, const BlockParts& inner);
+
+/// A frame e'_a = A_a^b e_b on the graph, before its entries are made readable.
+struct FrameFormulas {
+    std::vector<Column> anchor;                             ///< anchor[a]: rho'^i_a = A_a^b rho^i_b
+    std::vector<std::pair<std::size_t, std::size_t>> pairs; ///< (a, b), a < b; all of them where `both_orders`
+    std::vector<std::vector<NodeId>> bracket;               ///< bracket[k][c]: C'^c_ab of pairs[k]
+    std::vector<NodeId> transposed;                         ///< transposed[d * r + c] = A_c^d
+    bool both_orders = false;                               ///< the inner block lists a pair in both orders
+};
+[[nodiscard]] FrameFormulas frame_formulas(BuildWorkspace& work, const AlgebroidBlock& block, const BlockParts& inner);
 
 /// Structure constants of `algebra` or `bracket`, sections counted from `first`. Throws ModelError where the algebra is
 /// unknown or has not `rank` basis elements.

@@ -5,9 +5,10 @@
 #include "geometry/model_trees.hpp"
 #include "geometry/regularity.hpp"
 #include "geometry/zero_divisors.hpp"
-#include "proof/folded_parts.hpp"
+#include "proof/partial_parts.hpp"
 
 #include <algorithm>
+#include <set>
 
 namespace lagen {
 
@@ -55,36 +56,16 @@ void Claims::make_setting()
             for (const ColumnEntry& entry : column)
                 if (!graph_.is_constant(entry.value)) setting_.defined.push_back(entry.value);
     if (hessian_) setting_.defined.push_back(hessian_->lagrangian);
-    // 0*log(-1 - x^2) folds to 0, but is defined nowhere.
-    const auto add_folded = [this](const Tree& tree) {
-        if (tree == nullptr) return;
-        const std::vector<NodeId> parts = folded_parts(graph_, *lower_, tree);
-        setting_.defined.insert(setting_.defined.end(), parts.begin(), parts.end());
-    };
-    for (const AnchorValue& entry : algebroid_.rho) add_folded(entry.value);
-    for (const StructureValue& entry : algebroid_.C) add_folded(entry.value);
-    for (const NamedTree& casimir : model_.base.casimirs) add_folded(casimir.value);
-    add_folded(model_.lagrangian);
     setting_.defined.insert(setting_.defined.end(), functions_.casimirs.begin(), functions_.casimirs.end());
-    require_written_operations();
+    // 0*log(-1 - x^2) folds to 0, but is defined nowhere; sqrt(x)^2 folds to x, and is defined for x >= 0 only.
+    const std::vector<NodeId> whole = reachable(graph_, setting_.defined);
+    std::set<NodeId> parts;
+    for (const Tree& tree : structure_trees(model_, algebroid_))
+        for (const NodeId node : partial_parts(graph_, *lower_, tree)) parts.insert(node);
+    for (const NodeId node : whole) parts.erase(node);
+    setting_.defined.insert(setting_.defined.end(), parts.begin(), parts.end());
     std::sort(setting_.defined.begin(), setting_.defined.end());
     setting_.defined.erase(std::unique(setting_.defined.begin(), setting_.defined.end()), setting_.defined.end());
-}
-
-/// Lowering folds sqrt(x)^2 to x and x/x to 1: the model is defined only where the root and the quotient are.
-void Claims::require_written_operations()
-{
-    std::vector<Tree> trees;
-    for (const AnchorValue& entry : algebroid_.rho) trees.push_back(entry.value);
-    for (const StructureValue& entry : algebroid_.C) trees.push_back(entry.value);
-    for (const NamedTree& casimir : model_.base.casimirs) trees.push_back(casimir.value);
-    if (model_.lagrangian) trees.push_back(model_.lagrangian);
-    for (const Tree& tree : partial_operations(trees)) {
-        const bool division = tree->kind == TreeKind::divide;
-        const NodeId node = (*lower_)(division ? tree->arguments[1] : tree);
-        if (graph_.is_constant(node)) continue;
-        setting_.defined.push_back(division ? graph_.power(node, -1) : node);
-    }
 }
 
 void Claims::require_triangular_constraints()

@@ -27,9 +27,9 @@ class Claims {
   private:
     void lower_model();
     void make_setting();
-    void require_written_operations();
     void require_triangular_constraints();
     void refuse_zero_divisors();
+    void decide_by_construction(const ResidualList& list);
     [[nodiscard]] Check check_of(const Residual& residual) const;
     [[nodiscard]] Editable editable() const;
     [[nodiscard]] std::set<std::string> accessory() const;

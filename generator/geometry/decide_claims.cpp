@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The claims of a model, one kind after another, with names for people.
 #include "geometry/claims.hpp"
+#include "geometry/construction.hpp"
 #include "geometry/equations_of_motion.hpp"
+#include "proof/partial_parts.hpp"
 
 namespace lagen {
 
@@ -36,11 +38,40 @@ Editable Claims::editable() const
     return editable;
 }
 
+/// Of a frame that is too large for quick normal forms: its equations follow from those of what it frames.
+void Claims::decide_by_construction(const ResidualList& list)
+{
+    constexpr ProofBudget quick_budget{.terms = 2000, .products = 100'000};
+    if (!contains_frame(model_.algebroid)) return;
+    const ZeroDecider quick(graph_, setting_, quick_budget);
+    bool tried = false, constructed = false, refuted = false;
+    std::map<NodeId, Decision> open;
+    for (const Residual& residual : list.residuals) {
+        if (residual.name == "tangency" || residual.name == "casimir") continue;
+        Decision decision;
+        if (!constructed) decision = quick.decide(residual.value);
+        refuted = refuted || decision.status == ProofStatus::refuted;
+        if (decision.status == ProofStatus::undecided && !tried) {
+            tried = true;
+            constructed = !refuted && holds_by_construction(model_, algebroid_);
+        }
+        if (constructed) decision = judge_->decider().confirm(residual.value, construction_argument);
+        if (decision.status != ProofStatus::undecided)
+            judge_->remember(residual.value, std::move(decision));
+        else
+            open.emplace(residual.value, std::move(decision));
+    }
+    // The verdict is known then; long normal forms of what else holds or not are not worth minutes.
+    for (auto& [value, decision] : open)
+        if (refuted) judge_->remember(value, std::move(decision));
+}
+
 void Claims::decide_structure(VerifiedAlgebroid& verified)
 {
     const ResidualList list = all_equations(graph_, *partial_, lowered_, functions_);
     verified.note = note_;
     verified.trivial += list.trivial;
+    decide_by_construction(list);
     RepairSearch search(graph_, *partial_, *judge_, algebroid_, lowered_, functions_, editable());
     const std::vector<std::string> hints = search.hints(list);
     for (std::size_t k = 0; k < list.residuals.size(); ++k) {
@@ -70,6 +101,8 @@ void Claims::decide_invariants(VerifiedAlgebroid& verified, const std::vector<Na
             // d log(x)/dt = xdot/x is defined where log(x) is not: the claim is about points where f is.
             ProofSetting setting = setting_;
             setting.defined.push_back(motion.in_states(f));
+            for (const NodeId part : partial_parts(graph_, lower, claim.value))
+                setting.defined.push_back(motion.in_states(part));
             Judge judge(graph_, setting, accessory(), points_);
             check.decision = judge.decide(*rate.value);
             check.reevaluation = judge.reevaluate(*rate.value);

@@ -20,6 +20,8 @@ class Judge {
     Judge(const Graph& graph, ProofSetting setting, std::set<std::string> accessory, std::size_t points);
 
     [[nodiscard]] const Decision& decide(NodeId residual);
+    /// A decision from elsewhere, for when the residual is asked about.
+    void remember(NodeId residual, Decision decision) { decisions_.insert_or_assign(residual, std::move(decision)); }
     /// Absent without `points`. Once for each node.
     [[nodiscard]] std::optional<Reevaluation> reevaluate(NodeId residual);
     [[nodiscard]] const ZeroDecider& decider() const { return *decider_; }

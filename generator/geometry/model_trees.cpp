@@ -2,7 +2,6 @@
 #include "geometry/model_trees.hpp"
 
 #include <algorithm>
-#include <set>
 
 namespace lagen {
 namespace {
@@ -23,40 +22,29 @@ void append_definition(std::vector<Tree>& trees, const Scope& scope, const Defin
     }
 }
 
-bool is_partial(const TreeNode& tree)
+void append_block(std::vector<Tree>& trees, const AlgebroidBlock& block)
 {
-    if (tree.kind == TreeKind::divide) return true;
-    if (tree.kind == TreeKind::power) {
-        const Tree& exponent = tree.arguments[1];
-        return exponent->kind != TreeKind::number || exponent->number.get_den() != 1 || sgn(exponent->number) < 0;
-    }
-    if (tree.kind != TreeKind::call) return false;
-    switch (tree.function) {
-    case Function::sqrt:
-    case Function::log:
-    case Function::tan:
-    case Function::asin:
-    case Function::acos:
-    case Function::atan2: return true;
-    default: return false;
-    }
+    for (const AnchorEntry& entry : block.anchor) trees.push_back(entry.value);
+    for (const BracketEntry& entry : block.bracket) trees.push_back(entry.value);
+    for (const ConnectionEntry& entry : block.connection) trees.push_back(entry.value);
+    for (const SectionEntry& entry : block.sections) trees.push_back(entry.value);
+    for (const ArrayValue& matrix : block.representation)
+        trees.insert(trees.end(), matrix.entries.begin(), matrix.entries.end());
+    for (const AlgebroidBlock& inner : block.of) append_block(trees, inner);
 }
 
 } // namespace
 
-std::vector<Tree> partial_operations(const std::vector<Tree>& trees)
+std::vector<Tree> structure_trees(const Model& model, const Algebroid& algebroid)
 {
-    std::vector<Tree> found;
-    std::set<const TreeNode*> seen;
-    std::vector<Tree> stack(trees.rbegin(), trees.rend());
-    while (!stack.empty()) {
-        const Tree tree = stack.back();
-        stack.pop_back();
-        if (tree == nullptr || !seen.insert(tree.get()).second) continue;
-        if (is_partial(*tree)) found.push_back(tree);
-        stack.insert(stack.end(), tree->arguments.begin(), tree->arguments.end());
-    }
-    return found;
+    std::vector<Tree> trees = algebroid.constraints;
+    trees.insert(trees.end(), algebroid.domain.begin(), algebroid.domain.end());
+    for (const NamedTree& casimir : model.base.casimirs) trees.push_back(casimir.value);
+    append_block(trees, model.algebroid);
+    for (const AnchorValue& entry : algebroid.rho) trees.push_back(entry.value);
+    for (const StructureValue& entry : algebroid.C) trees.push_back(entry.value);
+    if (model.lagrangian) trees.push_back(model.lagrangian);
+    return trees;
 }
 
 std::vector<Tree> all_trees(const Model& model, const Algebroid& algebroid)

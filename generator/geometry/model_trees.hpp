@@ -10,8 +10,8 @@ namespace lagen {
 /// observables, events. A definition that cannot be closed by itself (a function of vectors) is seen where it is used.
 [[nodiscard]] std::vector<Tree> all_trees(const Model& model, const Algebroid& algebroid);
 
-/// Every operation of the trees that is not defined everywhere, as it is written: divisions, powers other than natural
-/// ones, sqrt, log, tan, asin, acos, atan2. What is folded later (sqrt(x)^2, x/x) keeps its conditions here.
-[[nodiscard]] std::vector<Tree> partial_operations(const std::vector<Tree>& trees);
+/// What the structure and the Lagrangian are made of, as written and as built: constraints, domain, Casimirs, the
+/// blocks of the algebroid down to the innermost, rho, C and L. A point counts where all of them are defined.
+[[nodiscard]] std::vector<Tree> structure_trees(const Model& model, const Algebroid& algebroid);
 
 } // namespace lagen

@@ -70,6 +70,10 @@ void require_algebra(const TomlEntry* algebra, const TomlEntry* bracket, const A
 
 void require_action(const TomlEntry* anchor, const TomlEntry* representation, const AlgebroidDraft& draft)
 {
+    if (!draft.kind->takes("representation")) return;
+    if (anchor == nullptr && representation == nullptr)
+        throw ModelError("an algebroid of kind 'action' needs 'anchor' or 'representation'", draft.where,
+                         "representation = [\"A_1\", ..], one matrix a section; or [algebroid.anchor]");
     if (anchor == nullptr || representation == nullptr) return;
     throw ModelError(fmt::format("{} gives both 'anchor' and 'representation'", draft.title), representation->where(),
                      "keep one of them");
@@ -126,7 +130,9 @@ void draft_inner(ModelReader& reader, AlgebroidDraft& draft, const TomlEntry* of
     } else if (product && of->value.kind == TomlKind::array && !of->value.items.empty()) {
         for (const TomlValue& item : of->value.items) draft.of.push_back(draft_file(reader, item));
     } else {
-        throw ModelError(fmt::format("'of' of {} is {}, where {} is required", draft.title, kind_text(of->value.kind),
+        const bool empty = product && of->value.kind == TomlKind::array;
+        throw ModelError(fmt::format("'of' of {} is {}, where {} is required", draft.title,
+                                     empty ? "an empty array" : kind_text(of->value.kind),
                                      product ? "a list of files" : "the name of a file or a table"),
                          of->value.where);
     }

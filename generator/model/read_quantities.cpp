@@ -102,6 +102,10 @@ void declare_quantities(ModelReader& reader, const TomlEntry* observables, const
     for (const auto& [key, value] : reader.observables) declare_observable(reader, key, value);
     reader.invariants = read_named(invariants, "[invariants]", "invariant");
     if (lagrangian == nullptr) return;
+    for (const auto& [key, value] : reader.invariants)
+        if (key.text == "energy" || key.text == "lagrangian")
+            throw ModelError(fmt::format("the invariant '{0}' bears the name of the {0} of the model", key.text),
+                             place_of(key), "choose another name; every run tracks the energy without being asked");
     TableReader table(lagrangian->value, "[lagrangian]");
     const TomlEntry* entry = table.take("L");
     table.finish();

@@ -60,7 +60,7 @@ Signs Elementary::sign_of(const Fraction& a)
     if (static_cast<int>(known.negative) + known.zero + known.positive <= 1) return known;
     const std::string text = to_text(ring_, product, longest_open);
     if (const auto assumption = assumed(product, text)) return *assumption;
-    if (text.find("...") == std::string::npos) open_signs_.push_back({text, true, std::nullopt});
+    if (is_whole(text)) open_signs_.push_back({text, true, std::nullopt});
     return known;
 }
 

@@ -43,6 +43,7 @@ class ZeroDecider::State {
     }
 
     [[nodiscard]] Decision decide(NodeId residual);
+    [[nodiscard]] Decision confirm(NodeId residual, const std::string& argument);
     [[nodiscard]] Signs signs(NodeId value);
     [[nodiscard]] std::optional<std::vector<std::pair<std::string, std::string>>> sample_point();
     [[nodiscard]] Reevaluation reevaluate(NodeId residual, std::size_t points);
@@ -63,6 +64,7 @@ class ZeroDecider::State {
     }
     [[nodiscard]] Algebra reduce(NodeId residual) const;
     [[nodiscard]] bool is_multiple(NodeId residual) const;
+    [[nodiscard]] bool vanishes_with_roots_apart(NodeId residual) const;
     [[nodiscard]] bool has_many_divisors(NodeId residual) const;
     void search_witness(const Evaluation& evaluation, Sampler& sampler, bool prove, Decision& decision) const;
     [[nodiscard]] Ball refine(const Evaluation& evaluation, const Sampler& sampler, const SamplePoint& point,
@@ -124,6 +126,25 @@ bool ZeroDecider::State::is_multiple(NodeId residual) const
         if (divide_exactly(numerator, primitive, quotient, forms.ring().work())) return true;
     }
     return numerator.empty();
+}
+
+/// Roots of products as products of the other roots: sqrt(u v) = sqrt(u) sqrt(v), where several roots are. Not at
+/// first, since other roots are denested while they are whole.
+bool ZeroDecider::State::vanishes_with_roots_apart(NodeId residual) const
+{
+    std::size_t roots = 0;
+    for (const NodeId node : reachable(graph_, std::vector<NodeId>{residual}))
+        roots += graph_.op(node) == Op::sqrt || graph_.op(node) == Op::real_power ? 1 : 0;
+    if (roots < 2) return false;
+    try {
+        NormalForm forms(graph_, setting_, constraints_, residual, operands_,
+                         {budget_.terms, budget_.products, false, true});
+        return forms.of(residual).is_zero() && forms.condition().empty();
+    } catch (const BudgetExhausted&) {
+        return false;
+    } catch (const VanishingDivisor&) {
+        return false;
+    }
 }
 
 /// Many different divisors: a common denominator would be their product.
@@ -252,6 +273,9 @@ Decision ZeroDecider::State::decide(NodeId residual)
     if (algebra.zero && decision.status == ProofStatus::refuted)
         throw InternalError("the residual " + to_text(graph_, residual, 200) +
                             " has the normal form 0 and a point where it is not zero");
+    if (decision.status == ProofStatus::undecided && !no_point(decision) && !algebra.exhausted &&
+        vanishes_with_roots_apart(residual))
+        return {ProofStatus::proved, "0", std::nullopt, {}};
     if (decision.status == ProofStatus::undecided && !no_point(decision) &&
         proves_by_cases(graph_, setting_, constraints_, operands_, residual, {budget_.terms, budget_.products}))
         return {ProofStatus::proved, "0", std::nullopt, {}};
@@ -260,6 +284,20 @@ Decision ZeroDecider::State::decide(NodeId residual)
         decision.evidence = joined(decision.evidence,
                                    "zero modulo 2^61-1 at " + std::to_string(modular_points) + " points, not proved");
     if (decision.status == ProofStatus::undecided) decision.evidence = joined(decision.evidence, algebra.note);
+    return decision;
+}
+
+Decision ZeroDecider::State::confirm(NodeId residual, const std::string& argument)
+{
+    Decision decision;
+    const Evaluation evaluation(graph_, {residual});
+    search_witness(evaluation, sampler_, true, decision);
+    if (decision.status == ProofStatus::refuted)
+        throw InternalError("the residual " + to_text(graph_, residual, 200) + " should be zero (" + argument +
+                            ") and has a point where it is not");
+    if (decision.status != ProofStatus::proved) return decision;
+    decision.residual = "0";
+    decision.evidence = argument;
     return decision;
 }
 
@@ -320,6 +358,11 @@ ZeroDecider::~ZeroDecider() = default;
 Decision ZeroDecider::decide(NodeId residual) const
 {
     return state_->decide(residual);
+}
+
+Decision ZeroDecider::confirm(NodeId residual, const std::string& argument) const
+{
+    return state_->confirm(residual, argument);
 }
 
 bool ZeroDecider::proves_positive(NodeId value) const

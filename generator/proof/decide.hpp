@@ -44,8 +44,8 @@ struct Decision {
     ProofStatus status = ProofStatus::undecided;
     std::string residual; ///< normal form as text, "0" where proved; deterministic
     std::optional<Witness> witness;
-    std::string
-        evidence; ///< for `undecided`: what is known, e.g. "|r| < 1e-74 at 3 points; term budget of 20000 exhausted"
+    std::string evidence; ///< for `undecided`: what is known, e.g. "|r| < 1e-74 at 3 points; term budget of 20000
+                          ///< exhausted"; for `proved`: the argument, where it is another than a normal form
 };
 
 /// What holds of the variables.
@@ -65,6 +65,7 @@ struct ProofBudget {
     std::size_t products = 20'000'000; ///< term products over one decision
     std::size_t points = 3;            ///< regular witness points wanted
     std::size_t tries = 200;           ///< sampled points before giving up on finding them
+    std::size_t searches = 8;          ///< for points that the tries miss, up to 4000 evaluations each
     long precision = 256;              ///< bits of the first enclosure (doubled up to 8 times the value)
     std::size_t seed = 0;              ///< another seed samples other points
 };
@@ -98,6 +99,10 @@ class ZeroDecider {
     ZeroDecider& operator=(const ZeroDecider&) = delete;
 
     [[nodiscard]] Decision decide(NodeId residual) const;
+
+    /// A residual that is known to vanish, by `argument`: `proved`, with the argument as evidence, once its enclosure
+    /// at a regular point contains zero; `undecided` where no point tells. Throws InternalError where zero is excluded.
+    [[nodiscard]] Decision confirm(NodeId residual, const std::string& argument) const;
 
     /// Certainly positive / certainly nowhere zero on the whole domain, by exact algebra (used for definiteness and
     /// for regularity "everywhere"); false means "not shown".

@@ -182,7 +182,7 @@ Polynomial Ring::take_inverses(Factors& factors)
             const Signs known = signs(Polynomial(factors_[index]));
             if (!known.negative) range = Range::positive();
             range.nonzero = true;
-            return add_generator({"(1/divisor " + std::to_string(index) + ")", range, 0, {}, -1, false});
+            return add_generator({"(1/divisor " + std::to_string(index) + "...)", range, 0, {}, -1, false});
         });
         product = times(product, generator_polynomial(id, exponent));
     }

@@ -163,7 +163,7 @@ void Ring::add_shift(const SignFact& fact, bool upward)
         rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(k));
         if (leads_to(rest, variable)) continue;
         const Range range = fact.signs.zero ? Range::nonnegative() : Range::positive();
-        const GeneratorId excess = add_generator({"excess", range, 0, {}, -1, false});
+        const GeneratorId excess = add_generator({"(excess...)", range, 0, {}, -1, false});
         Polynomial image = add_scaled(generator_polynomial(excess), rest, -1, work_);
         if (!upward) image = proof::negate(std::move(image));
         shifts_.push_back({variable, std::move(image), abs(term.coefficient)});

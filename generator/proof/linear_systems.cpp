@@ -155,7 +155,7 @@ std::vector<Fraction> NormalForm::free_unknowns(const std::string& key, const st
     std::vector<Fraction> z;
     for (std::size_t j = 0; j < n; ++j)
         z.push_back(ring_.of(ring_.keyed(key + '#' + std::to_string(j), [&] {
-            return ring_.add_generator({"z" + std::to_string(j + 1), {}, 0, {}, -1, false});
+            return ring_.add_generator({"(unknown " + std::to_string(j + 1) + "...)", {}, 0, {}, -1, false});
         })));
     for (const std::vector<Fraction>& row : rows) {
         Fraction sum = ring_.negate(row[n]);

@@ -4,6 +4,9 @@
 
 #include "proof/print_fraction.hpp"
 
+#include <algorithm>
+#include <set>
+
 namespace lagen::proof {
 
 NormalForm::NormalForm(const Graph& graph, const ProofSetting& setting,
@@ -26,17 +29,87 @@ NormalForm::NormalForm(const Graph& graph, const ProofSetting& setting,
     all.insert(all.end(), setting.domain.begin(), setting.domain.end());
     for (const NodeId node : reachable(graph, all))
         if (graph.op(node) == Op::input) declare(node);
-    prepare();
+    prepare(all);
 }
 
-void NormalForm::prepare()
+namespace {
+
+enum class Units { none, angle, exponent };
+
+Units units_of(Op op)
+{
+    if (op == Op::sin || op == Op::cos || op == Op::tan) return Units::angle;
+    if (op == Op::sinh || op == Op::cosh || op == Op::tanh || op == Op::exp) return Units::exponent;
+    return Units::none;
+}
+
+/// The inputs of a rational argument; empty where it is not rational.
+std::set<NodeId> inputs_of_rational(const Graph& graph, NodeId argument)
+{
+    std::set<NodeId> inputs;
+    for (const NodeId node : reachable(graph, std::vector<NodeId>{argument})) {
+        if (graph.op(node) > Op::power) return {};
+        if (graph.op(node) == Op::input) inputs.insert(node);
+    }
+    return inputs;
+}
+
+} // namespace
+
+/// Before a constraint is solved in terms of some angles and exponents, the units that the same coordinates have in
+/// `roots`: with z = -sin(2 x) a finer angle x found later would leave sin(2 x) in z as a generator of its own.
+void NormalForm::register_units(const std::vector<NodeId>& roots)
+{
+    std::set<NodeId> concerned;
+    for (const NodeId node : reachable(graph_, setting_.constraints))
+        if (units_of(graph_.op(node)) != Units::none)
+            concerned.merge(inputs_of_rational(graph_, graph_.operands(node)[0]));
+    for (const NodeId node : concerned.empty() ? std::vector<NodeId>{} : reachable(graph_, roots)) {
+        const Units kind = units_of(graph_.op(node));
+        if (kind == Units::none) continue;
+        const std::set<NodeId> inputs = inputs_of_rational(graph_, graph_.operands(node)[0]);
+        const auto meets = [&concerned](NodeId input) { return concerned.contains(input); };
+        if (std::none_of(inputs.begin(), inputs.end(), meets)) continue;
+        const Fraction argument = of(graph_.operands(node)[0]);
+        do {
+            if (kind == Units::angle)
+                (void)elementary_.sine_cosine(argument);
+            else
+                (void)elementary_.exponential(argument);
+        } while (elementary_.take_refined());
+    }
+    done_.clear();
+}
+
+/// Rational radicands, short ones first: the root of a product is taken apart by factors that are known when it is met.
+void NormalForm::register_radicands(const std::vector<NodeId>& roots)
+{
+    std::set<NodeId> operands;
+    for (const NodeId node : reachable(graph_, roots)) {
+        const Op op = graph_.op(node);
+        if (op != Op::sqrt && op != Op::real_power) continue;
+        const NodeId operand = graph_.operands(node)[0];
+        if (!inputs_of_rational(graph_, operand).empty()) operands.insert(operand);
+    }
+    std::vector<Polynomial> radicands;
+    for (const NodeId operand : operands) radicands.push_back(of(operand).num);
+    std::ranges::stable_sort(radicands, {}, [](const Polynomial& p) { return p.size(); });
+    for (const Polynomial& radicand : radicands) {
+        std::vector<std::pair<std::size_t, unsigned>> factors;
+        if (!radicand.empty()) (void)ring_.split(radicand, factors);
+    }
+}
+
+void NormalForm::prepare(const std::vector<NodeId>& roots)
 {
     // Signs first, since a constraint may divide by what the domain makes nonzero; signs again, in the ring that the
     // constraints leave.
     add_domain();
+    if (!constraints_.empty()) register_units(roots);
     for (const SolvedConstraint& solved : constraints_) solve_constraint(solved);
     done_.clear();
     if (!constraints_.empty()) add_domain();
+    if (ring_.work().radicands_first) register_radicands(roots);
     add_definedness();
     for (const SolvedConstraint& solved : constraints_) {
         const Generator& coordinate = ring_.generator(inputs_.at(solved.variable));
@@ -75,10 +148,24 @@ void NormalForm::add_definedness()
     }
 }
 
+/// Whether every divisor in the node's fraction is one that the node divides by, so that none of them vanishes where it
+/// is defined. Not so with functions whose formulas divide where they are defined (Stumpff), and with branches.
+bool NormalForm::divides_as_written(NodeId root) const
+{
+    for (const NodeId node : reachable(graph_, std::vector<NodeId>{root})) {
+        const Op op = graph_.op(node);
+        const bool function = op == Op::sin || op == Op::cos || op == Op::tan || op == Op::sinh || op == Op::cosh ||
+                              op == Op::tanh || op == Op::exp;
+        if (op > Op::power && !function) return false;
+    }
+    return true;
+}
+
 void NormalForm::solve_constraint(const SolvedConstraint& solved)
 {
     done_.clear();
-    const Polynomial h = of(setting_.constraints[solved.constraint]).num;
+    const Fraction form = of(setting_.constraints[solved.constraint]);
+    const Polynomial& h = form.num;
     const GeneratorId id = inputs_.at(solved.variable);
     Polynomial leading, lower;
     for (const Term& term : h) {
@@ -90,7 +177,11 @@ void NormalForm::solve_constraint(const SolvedConstraint& solved)
     }
     Work& work = ring_.work();
     leading = collect(std::move(leading), work);
-    if (!ring_.signs(leading).certainly_nonzero()) condition_ = to_text(ring_, leading);
+    Polynomial open = leading, quotient;
+    if (divides_as_written(setting_.constraints[solved.constraint]))
+        for (const auto& [index, power] : form.factors)
+            while (divide_exactly(open, ring_.factor(index), quotient, work) && !is_constant(open)) open = quotient;
+    if (!ring_.signs(open).certainly_nonzero()) condition_ = to_text(ring_, leading);
     if (solved.degree == 1) {
         substitutes_[solved.variable] = ring_.divide(ring_.negate(ring_.of(lower)), ring_.of(leading));
     } else if (is_constant(leading) && abs(leading[0].coefficient) == 1) {

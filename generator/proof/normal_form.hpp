@@ -52,10 +52,13 @@ class NormalForm {
     [[nodiscard]] GeneratorId generator_of(NodeId input) const { return inputs_.at(input); }
 
   private:
-    void prepare();
+    void register_units(const std::vector<NodeId>& roots);
+    void register_radicands(const std::vector<NodeId>& roots);
+    void prepare(const std::vector<NodeId>& roots);
     void add_domain();
     void add_definedness();
     void solve_constraint(const SolvedConstraint& solved);
+    [[nodiscard]] bool divides_as_written(NodeId root) const;
     [[nodiscard]] Fraction once(NodeId node);
     [[nodiscard]] Fraction apply(NodeId node);
     [[nodiscard]] Fraction arithmetic(NodeId node);

@@ -60,9 +60,10 @@ using Polynomial = std::vector<Term>; ///< sorted by `before`; empty: 0
 
 /// What one decision may spend.
 struct Work {
-    std::size_t terms = 0;       ///< greatest number of terms of one polynomial
-    std::size_t products = 0;    ///< term products left
-    bool divisors_apart = false; ///< each inverse is a generator of its own: no common denominators, fewer proofs
+    std::size_t terms = 0;        ///< greatest number of terms of one polynomial
+    std::size_t products = 0;     ///< term products left
+    bool divisors_apart = false;  ///< each inverse is a generator of its own: no common denominators, fewer proofs
+    bool radicands_first = false; ///< roots of products are taken apart by other radicands, whichever comes first
     void spend(std::size_t count);
 };
 

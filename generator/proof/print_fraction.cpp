@@ -81,4 +81,9 @@ std::string to_text(const Ring& ring, const Fraction& a, std::size_t limit)
     return (a.num.size() > 1 ? '(' + above + ')' : above) + '/' + below;
 }
 
+bool is_whole(const std::string& text)
+{
+    return text.find("...") == std::string::npos;
+}
+
 } // namespace lagen::proof

@@ -11,5 +11,8 @@ namespace lagen::proof {
 /// with "... (123 terms)".
 [[nodiscard]] std::string to_text(const Ring& ring, const Fraction& a, std::size_t limit = 400);
 [[nodiscard]] std::string to_text(const Ring& ring, const Polynomial& p, std::size_t limit = 400);
+/// False where `text` was cut, or names an element that has no name in the language, such as an unknown of a linear
+/// system: other elements may have the same text, and it must not be read back.
+[[nodiscard]] bool is_whole(const std::string& text);
 
 } // namespace lagen::proof

@@ -33,7 +33,7 @@ struct Fraction {
 };
 
 struct Generator {
-    std::string text;   ///< in the expression language
+    std::string text;   ///< in the expression language; with "..." where it has no name there (is_whole)
     Range range;        ///< of its values on the domain
     unsigned power = 0; ///< generator^power = relation; 0: free
     Polynomial relation;

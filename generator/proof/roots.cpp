@@ -109,8 +109,9 @@ std::optional<Fraction> Elementary::denested(const Polynomial& radicand)
     if (radicand.size() != 2 || !radicand[1].monomial.is_one() || radicand[1].coefficient <= 0) return std::nullopt;
     for (std::size_t k = 0; k < radicand[0].monomial.size(); ++k) {
         const Generator& generator = ring_.generator(radicand[0].monomial.generator(k));
-        if (generator.power != 2 || !is_constant(generator.relation) || generator.range.low.infinite)
-            return std::nullopt;
+        // A coordinate with s^2 = n may be the negative root.
+        const bool root = !generator.range.low.infinite && sgn(generator.range.low.value) >= 0;
+        if (generator.power != 2 || !is_constant(generator.relation) || !root) return std::nullopt;
     }
     const mpz_class &a = radicand[1].coefficient, &b = radicand[0].coefficient;
     const Polynomial square = ring_.power({{radicand[0].monomial, 1}}, 2);
@@ -217,8 +218,7 @@ Fraction Elementary::open_absolute(const Polynomial& p)
         if (!known->positive) return ring_.of(negate(p));
     }
     const Fraction magnitude = absolute_generator(p);
-    if (text.find("...") == std::string::npos)
-        open_signs_.push_back({text, false, magnitude.num[0].monomial.generator(0)});
+    if (is_whole(text)) open_signs_.push_back({text, false, magnitude.num[0].monomial.generator(0)});
     return magnitude;
 }
 

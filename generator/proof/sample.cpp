@@ -149,6 +149,10 @@ Rational Sampler::draw(std::size_t number, NodeId input, bool constrained) const
     } else {
         value = ratio(static_cast<long>(random % 10001) - 5000, 1000);
     }
+    // Coordinates of several units beside parameters of many: cos(x) < 0 on x^2 + y^2 = a needs a > 2.
+    const bool large = !constrained && number >= 12 && number % 8 == 7;
+    if (large && std::find(setting_.parameters.begin(), setting_.parameters.end(), input) != setting_.parameters.end())
+        value *= 16;
     const auto bounds = bounds_.find(input);
     return bounds == bounds_.end() ? value : into_bounds(value, bounds->second.low, bounds->second.high);
 }
@@ -198,9 +202,8 @@ const SamplePoint* Sampler::regular(std::size_t k)
         if (point && is_regular(*point)) found_.push_back(*point);
     }
     // What chance misses is searched for: few points, and only where there are few.
-    constexpr std::size_t searches = 8;
-    while (found_.size() <= k && found_.size() < std::max<std::size_t>(budget_.points, 1) && searched_ < searches &&
-           !movable_.empty()) {
+    while (found_.size() <= k && found_.size() < std::max<std::size_t>(budget_.points, 1) &&
+           searched_ < budget_.searches && !movable_.empty()) {
         const std::optional<SamplePoint> point = repaired(searched_++);
         if (point && is_regular(*point)) found_.push_back(*point);
     }

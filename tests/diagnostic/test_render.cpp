@@ -34,6 +34,13 @@ TEST_CASE("without a file only the sentence and the hint are shown")
     CHECK(render({Severity::note, "see here", {}, "a hint"}) == "note: see here\nhint: a hint");
 }
 
+TEST_CASE("no name can write on the terminal: control characters of a sentence or a hint are shown as '?'")
+{
+    const SourceRange where = whole_text("m\x1b.toml", "x").range(0, 1);
+    CHECK(render({Severity::error, "unknown key 'a\x1b[2J\n'", where, "known: b\a, c\u202e"}) ==
+          "m?.toml:1:1: error: unknown key 'a?[2J?'\n  x\n  ^\nhint: known: b?, c?");
+}
+
 TEST_CASE("columns count characters, not bytes")
 {
     CHECK(render_in("θθ + x", 7, 8) == "m.toml:1:6: error: wrong\n  θθ + x\n       ^");

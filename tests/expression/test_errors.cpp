@@ -214,4 +214,5 @@ TEST_CASE("the length of a text is bounded")
 {
     CHECK(sentence_of(repeated(" ", 1'000'001)) ==
           "the expression has 1000001 bytes, and at most 1000000 are accepted");
+    CHECK_THAT(error_of(repeated(" ", 1'000'001)), Catch::EndsWith("hint: split it with [definitions]"));
 }

@@ -185,6 +185,8 @@ TEST_CASE("a text has the fewest parentheses")
     CHECK(reprinted("a*(b/c)") == "a*b/c");
     CHECK(reprinted("a + (-b)*c") == "a - b*c");
     CHECK(reprinted("-(a*b)") == "-a*b");
+    CHECK(reprinted("a*--0.025") == "a*--1/40");
+    CHECK(reprinted(reprinted("a*--0.025")) == "a*--1/40");
     CHECK(reprinted("x/(-(a*b))") == "x/(-a*b)");
 }
 

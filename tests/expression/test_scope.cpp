@@ -177,7 +177,12 @@ TEST_CASE("a name is declared once")
     CHECK_THAT(error_text([&] {
                    scope.define({"f", {"a", "a"}, parse("a"), {}});
                }),
-               Catch::Contains("the parameter 'a' stands twice"));
+               Catch::Contains("the parameter 'a' stands twice") &&
+                   Catch::EndsWith("hint: the parameters of a function have different names"));
+    CHECK_THAT(error_text([&] {
+                   scope.define({"f", {"sin"}, parse("1"), {}});
+               }),
+               Catch::Contains("'sin' is a built-in function and cannot be a parameter"));
 }
 
 TEST_CASE("a wider scope knows more symbols, and the model's own names keep their meaning")
@@ -230,7 +235,9 @@ TEST_CASE("chains of definitions are bounded in depth, in whichever order they a
     const Scope fine = chain(1900, "c{} + 1");
     CHECK(names_in(fine.close(parse("c1900"))) == std::vector<std::string>{"x"});
     const Scope backward = chain(100'000, "c{} + 1");
-    CHECK_THAT(closed(backward, "c100000"), Catch::Contains("nested more than 2000 operations deep"));
+    CHECK(closed(backward, "c100000") ==
+          "c97001:1:1: error: the definitions used here are nested more than 2000 operations deep\n"
+          "  c97000 + 1\n  ^~~~~~\nhint: shorten the chain of definitions");
     CHECK_THAT(error_text([&] { backward.check_definitions(); }),
                Catch::Contains("more than 2000 operations stand inside one another"));
     CHECK_THAT(closed(chain(100'000, "c{}"), "c100000"), Catch::Contains("nested more than 2000 operations deep"));

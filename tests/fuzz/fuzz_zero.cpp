@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::size_t largest_graph = 200;
 constexpr ProofBudget small_budget{
-    .terms = 400, .products = 40'000, .points = 3, .tries = 40, .precision = 256, .seed = 0};
+    .terms = 100, .products = 3'000, .points = 2, .tries = 10, .searches = 0, .precision = 128, .seed = 0};
 
 enum class Place { everywhere, positive, sphere };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Identities that hold wherever both sides are defined, each a line, applied at a place by choice.
+/// Identities that hold wherever both sides are defined, each a line, applied at a place by choice. The second side of
+/// each is defined nowhere else than the first: one applied after another then still gives what equals the first.
 #include "fuzz/grow_tree.hpp"
 
 namespace lagen::fuzz {
@@ -70,7 +71,8 @@ Tree rewrite_logarithm(const Tree& a)
         const auto [u, v] = split(a);
         return add({one(Function::log, u), one(Function::log, v)});
     }
-    return half(one(Function::log, square(a)));
+    // Not log(a^2)/2, which is defined for a < 0 too: exp(log a) could become |a|.
+    return divide(one(Function::log, power(a, number(3))), number(3));
 }
 
 Tree rewrite_stumpff(const Tree& order, const Tree& z)

@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <fstream>
 #include <map>
 #include <sstream>
 
@@ -48,7 +49,35 @@ Rational jacobi_defect(const NamedAlgebra& algebra)
     return largest;
 }
 
+/// "[e1,e2]=e3 [e1,e3]=-2e2", the form of docs/algebroids.md.
+std::string printed_brackets(const NamedAlgebra& algebra)
+{
+    std::ostringstream text;
+    for (const StructureConstant& entry : algebra.constants) {
+        const Rational size = abs(entry.value);
+        text << (text.tellp() > 0 ? " " : "") << "[e" << entry.a + 1 << ",e" << entry.b + 1
+             << "]=" << (entry.value < 0 ? "-" : "") << (size == 1 ? "" : size.get_str()) << "e" << entry.c + 1;
+    }
+    return text.str();
+}
+
 } // namespace
+
+TEST_CASE("docs/algebroids.md lists the brackets that the named algebras have")
+{
+    std::ifstream file(std::string(LAGEN_SOURCE_DIR) + "/docs/algebroids.md");
+    std::ostringstream whole;
+    whole << file.rdbuf();
+    const std::string text = whole.str();
+    for (const char* name : {"so(3)", "su(2)", "se(2)", "se(3)", "so(2,1)", "sl(2)", "heis(3)", "aff(1)"}) {
+        INFO(name);
+        const std::size_t row = text.find("\n| `" + std::string(name) + "` |");
+        REQUIRE(row != std::string::npos);
+        const std::string line = text.substr(row + 1, text.find('\n', row + 1) - row - 1);
+        const std::string brackets = "| " + printed_brackets(*named_algebra(name)) + " |";
+        CHECK(line.substr(line.size() - std::min(line.size(), brackets.size())) == brackets);
+    }
+}
 
 TEST_CASE("the commutators of the matrices are the brackets of the table")
 {

@@ -184,7 +184,7 @@ TEST_CASE("energy is constant along the right-hand side of every model", "[kerne
 {
     for (const std::string& file : model_files()) {
         INFO(file);
-        const KernelModule module = kernels_of(read_model(file));
+        const KernelModule& module = kernels_of_file(file);
         Graph& graph = *module.graph;
         std::vector<std::pair<NodeId, NodeId>> seeds;
         const std::vector<NodeId> rhs = nodes_of(find_kernel(module, "rhs"));
@@ -207,7 +207,7 @@ TEST_CASE("the Jacobian of every model agrees with central differences of order 
 {
     for (const std::string& file : model_files()) {
         INFO(file);
-        const KernelModule module = kernels_of(read_model(file));
+        const KernelModule& module = kernels_of_file(file);
         const Kernel& jacobian = find_kernel(module, "jacobian");
         const Values point = random_point(module, 11);
         std::vector<std::string> lanes;

@@ -67,4 +67,12 @@ inline std::set<std::string> model_files()
     return files;
 }
 
+/// The kernels of a file of models/, derived once for all tests.
+inline const KernelModule& kernels_of_file(const std::string& file)
+{
+    static std::map<std::string, KernelModule> modules;
+    const auto found = modules.find(file);
+    return found != modules.end() ? found->second : modules.emplace(file, kernels_of(read_model(file))).first->second;
+}
+
 } // namespace lagen::testing

@@ -114,6 +114,20 @@ TEST_CASE("more than 4096 names are refused")
     CHECK_THAT(error_of("m.toml", text + tangent_model("0")), Contains("the model declares more than 4096 names"));
 }
 
+TEST_CASE("a model has at most 200 scenes, a scene 1000 events and 100000 times")
+{
+    const std::string scene = "initial = { q = 0, v_q = 0 }\nduration = 1\n";
+    std::string scenes = tangent_model("v_q^2/2"), events = scenes + "[scene.a]\n" + scene + "[scene.a.events]\n";
+    std::string times = scenes + "[scene.a]\n" + scene + "at = [0";
+    for (int k = 0; k < 201; ++k) scenes += "[scene.a" + std::to_string(k) + "]\n" + scene;
+    for (int k = 0; k < 1001; ++k) events += "e" + std::to_string(k) + " = { when = 'q' }\n";
+    for (int k = 0; k < 100'000; ++k) times += ", 0";
+    CHECK_THAT(error_of("m.toml", scenes), Contains(": error: the model has 201 scenes, more than 200\n"));
+    CHECK_THAT(error_of("m.toml", events), Contains(": error: scene 'a' has 1001 events, more than 1000\n"));
+    CHECK_THAT(error_of("m.toml", times + "]\n"),
+               Contains(": error: 'at' of scene 'a' lists 100001 times, more than 100000\n"));
+}
+
 TEST_CASE("a setting must name a parameter and have a value over parameters")
 {
     const std::string text = "[parameters]\nmass = 1\n" + tangent_model("mass*v_q^2/2");

@@ -43,19 +43,25 @@ inline Shell run_shell(const std::string& command)
     return shell;
 }
 
-/// `name` is a file of tests/golden.
-inline void check_golden(const std::string& name, const std::string& text)
+/// `path` is relative to the source tree.
+inline void check_text(const std::string& path, const std::string& text)
 {
-    const std::string path = std::string(LAGEN_SOURCE_DIR) + "/tests/golden/" + name;
-    if (std::getenv("LAGEN_UPDATE_GOLDEN") != nullptr) write_text(path, text);
-    if (read_text(path) == text) {
+    const std::string file = std::string(LAGEN_SOURCE_DIR) + "/" + path;
+    if (std::getenv("LAGEN_UPDATE_GOLDEN") != nullptr) write_text(file, text);
+    if (read_text(file) == text) {
         SUCCEED();
         return;
     }
-    const std::string actual = std::string(LAGEN_BINARY_DIR) + "/" + name + ".actual";
+    const std::string actual = std::string(LAGEN_BINARY_DIR) + "/" + path.substr(path.rfind('/') + 1) + ".actual";
     write_text(actual, text);
-    FAIL(run_shell("diff -u '" + path + "' '" + actual + "'").output
+    FAIL(run_shell("diff -u '" + file + "' '" + actual + "'").output
          << "set LAGEN_UPDATE_GOLDEN=1 to accept the new text");
+}
+
+/// `name` is a file of tests/golden.
+inline void check_golden(const std::string& name, const std::string& text)
+{
+    check_text("tests/golden/" + name, text);
 }
 
 } // namespace lagen::testing
