@@ -154,7 +154,14 @@ std::map<std::string, Tree> replacements_in(const Definition& definition, const 
 void define_inherited(ModelReader& reader, const IncludedModel& included, const Definition& definition)
 {
     Definition own = definition;
-    own.body = replace_names(definition.body, replacements_in(definition, included));
+    std::map<std::string, Tree> replacements = replacements_in(definition, included);
+    for (std::string& parameter : own.parameters) {
+        if (!introduces(replacements, parameter)) continue;
+        const std::string fresh = fresh_name(parameter, definition.body, replacements);
+        replacements[parameter] = name(fresh);
+        parameter = fresh;
+    }
+    own.body = replace_names(definition.body, replacements);
     std::vector<Definition>& all = reader.model.definitions;
     const auto other = std::ranges::find_if(all, [&](const Definition& each) { return each.name == own.name; });
     if (other != all.end() && other->where.file != reader.model.file) {

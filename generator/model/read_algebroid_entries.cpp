@@ -159,6 +159,8 @@ void read_bracket(const ModelReader& reader, AlgebroidBlock& block, const TomlEn
         }
         const std::string owner = fmt::format("the bracket of '{}' and '{}'", names[0].text, names[1].text);
         const TableReader row(pair.value, owner);
+        // An empty table says zero, which the other order of the pair must agree with.
+        if (pair.value.entries.empty()) block.bracket.push_back(BracketEntry{a, b, a, number(0), pair.value.where});
         for (const TomlEntry& component : pair.value.entries) {
             const std::size_t c = section_index(block, component.key, owner);
             const std::string what = fmt::format("the entry '{}' of {}", component.name(), owner);

@@ -1,25 +1,32 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Names in trees replaced by trees.
+/// Names in trees replaced by trees. An index of a sum that is called like a name in one of the replacements is
+/// renamed, so that it does not capture it.
 #include "model/algebroid_draft.hpp"
+
+#include <algorithm>
 
 namespace lagen {
 
-namespace {
-
 using Replacements = std::map<std::string, Tree>;
+
+namespace {
 
 bool binds(const TreeNode& node, const Replacements& replacements)
 {
     const bool sum = node.kind == TreeKind::sum_over || node.kind == TreeKind::product_over;
-    return sum && replacements.contains(node.name);
+    return sum && (replacements.contains(node.name) || introduces(replacements, node.name));
 }
 
-/// A sum whose index hides one of the names.
+/// A sum whose index hides one of the names, or would capture one that comes in.
 Tree replace_in_sum(const Tree& sum, const Replacements& replacements)
 {
     Replacements inner = replacements;
     inner.erase(sum->name);
     auto node = std::make_shared<TreeNode>(*sum);
+    if (introduces(replacements, sum->name)) {
+        node->name = fresh_name(sum->name, sum->arguments[2], replacements);
+        inner[sum->name] = name(node->name);
+    }
     for (std::size_t k = 0; k < 2; ++k) node->arguments[k] = replace_names(sum->arguments[k], replacements);
     node->arguments[2] = replace_names(sum->arguments[2], inner);
     return node;
@@ -39,6 +46,24 @@ Tree rebuilt(const Tree& tree, const std::map<const TreeNode*, Tree>& done)
 }
 
 } // namespace
+
+bool introduces(const Replacements& replacements, const std::string& name)
+{
+    return std::any_of(replacements.begin(), replacements.end(), [&](const auto& entry) {
+        const std::vector<std::string> names = names_in(entry.second);
+        return std::find(names.begin(), names.end(), name) != names.end();
+    });
+}
+
+std::string fresh_name(const std::string& name, const Tree& body, const Replacements& replacements)
+{
+    const std::vector<std::string> used = names_in(body);
+    std::string fresh = name + '_';
+    while (std::find(used.begin(), used.end(), fresh) != used.end() || replacements.contains(fresh) ||
+           introduces(replacements, fresh))
+        fresh += '_';
+    return fresh;
+}
 
 Tree replace_names(const Tree& tree, const Replacements& replacements)
 {

@@ -3,6 +3,7 @@
 #include "model/toml_document.hpp"
 
 #include "model/decode_string.hpp"
+#include "model/require_short_keys.hpp"
 #include "model/source_positions.hpp"
 
 #ifdef __GNUC__
@@ -117,6 +118,7 @@ void require_utf8(const std::shared_ptr<const SourceFile>& file)
 TomlValue parse_toml(const std::shared_ptr<const SourceFile>& file)
 {
     require_utf8(file);
+    require_short_keys(file);
     try {
         const toml::table table = toml::parse(std::string_view(file->text), std::string_view(file->name));
         return Rebuilder(file).value(table);

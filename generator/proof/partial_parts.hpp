@@ -7,8 +7,8 @@
 namespace lagen {
 
 /// Nodes of the partial operations in a tree as it is written (log, sqrt, asin, acos, tan, atan2, quotients, powers,
-/// solutions of linear systems), branches of if left out; they belong into ProofSetting::defined. A quotient that folded
-/// to something else, x/x to 1, is represented by 1 over its divisor.
+/// solutions of linear systems), branches of if left out; they belong into ProofSetting::defined. A quotient that
+/// folded to something else, x/x to 1, is represented by 1 over its divisor.
 [[nodiscard]] std::vector<NodeId> partial_parts(Graph& graph, Lowering& lower, const Tree& tree);
 
 } // namespace lagen

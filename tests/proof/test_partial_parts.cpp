@@ -27,7 +27,6 @@ TEST_CASE("partial operations are found where they fold away too, and those of b
     CHECK(parts("0*log(-1 - x^2) + x") == std::vector<std::string>{"log(-1 - x^2)"});
     CHECK(parts("sqrt(x) - sqrt(x)") == std::vector<std::string>{"sqrt(x)"});
     CHECK(parts("x/x + 1") == std::vector<std::string>{"1/x"});
-    CHECK(parts("x*y/y") == std::vector<std::string>{"1/y"});
     CHECK(parts("sqrt(x)^2") == std::vector<std::string>{"sqrt(x)"});
     CHECK(parts("log(x) + 1/y") == std::vector<std::string>{"log(x)", "1/y"});
     CHECK(parts("0*if(x > 0, log(x), 1)").empty());
@@ -39,7 +38,8 @@ TEST_CASE("an identity is undecided where a folded part is defined nowhere")
     ProofSetting setting;
     setting.variables = {problem.node("x")};
     Lowering lower(problem.graph);
-    setting.defined = partial_parts(problem.graph, lower, parse_expression(whole_text("<test>", "0*log(-1 - x^2) + x")));
+    setting.defined =
+        partial_parts(problem.graph, lower, parse_expression(whole_text("<test>", "0*log(-1 - x^2) + x")));
     const ZeroDecider decider(problem.graph, setting);
     const Decision decision = decider.decide(problem.node("sin(x)^2 + cos(x)^2 - 1"));
     CHECK(to_text(decision.status) == std::string("undecided"));

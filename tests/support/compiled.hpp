@@ -131,10 +131,11 @@ inline void compare_compiled(const std::string& folder, const std::string& compi
     write_text(where + "/main.cpp", program_text(cases));
     // Optimised once, by the compiler whose warnings need it.
     const std::string optimise = compiler == "g++" ? "-O1" : "-O0";
-    const Shell build = run_shell(
-        compiler + " -std=c++20 " + optimise + " -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror -I" +
-        where + " -I" LAGEN_SOURCE_DIR "/runtime/include $(pkg-config --cflags eigen3 | sed s/-I/-isystem/) '" + where +
-        "/main.cpp' -o '" + where + "/main'");
+    const Shell build =
+        run_shell(compiler + " -std=c++20 " + optimise +
+                  " -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror -I" + where +
+                  " -I" LAGEN_SOURCE_DIR "/runtime/include $(pkg-config --cflags eigen3 | sed s/-I/-isystem/) '" +
+                  where + "/main.cpp' -o '" + where + "/main'");
     INFO(build.output);
     REQUIRE(build.status == 0);
     const Shell run = run_shell("'" + where + "/main'");
