@@ -177,8 +177,7 @@ kind = "general"
 [algebroid.anchor]
 a = { u = "1" }
 [algebroid.bracket]
-"a,b" = { a = "(abs(U[1]) - U[1])*(abs(V[1]) + V[1])"
-}
+"a,b" = { a = "(abs(U[1]) - U[1])*(abs(V[1]) + V[1])" }
 )toml";
     CHECK(verified_text(text).verdict != Verdict::valid); // at x = 2000, y = 1: U[1] < 0 < V[1]
 }
