@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Frames e'_a = A_a^b e_b of an algebroid, and its prolongations.
 #include "geometry/build_workspace.hpp"
+#include "geometry/rational_matrix.hpp"
+#include "graph/evaluate.hpp"
 
 namespace lagen {
 namespace {
@@ -71,21 +73,48 @@ class FrameBuilder {
     }
 
   private:
-    /// det A is not zero everywhere, a block at a time; a large block tells by its solve where it is singular.
+    /// det A is not zero everywhere, a block at a time.
     void require_independent()
     {
         bool dependent = false;
+        const char* what = "everywhere: the determinant of 'sections' is zero";
         for (const CoupledBlock& each : coupled_blocks(graph_, transposed_, r_)) {
             dependent = dependent || each.rows.size() != each.columns.size();
-            if (dependent || each.rows.size() > written_determinant_limit) continue;
+            if (dependent) continue;
+            if (each.rows.size() > written_determinant_limit) {
+                dependent = is_singular_at_points(each);
+                what = "at every point tried: the determinant of 'sections' is zero there";
+                continue;
+            }
             const NodeId determinant = determinant_of(graph_, transposed_, r_, each.rows, each.columns);
             dependent = graph_.is_zero(determinant) || work_.readable(determinant) == nullptr;
         }
         if (!dependent) return;
-        throw ModelError("the sections of the frame are linearly dependent everywhere: the determinant of "
-                         "'sections' is zero",
+        throw ModelError(std::string("the sections of the frame are linearly dependent ") + what,
                          block_.sections.empty() ? block_.where : block_.sections[0].where,
                          "a frame has as many independent sections as the algebroid that it frames");
+    }
+
+    /// Of a block too large for a determinant: exact ranks at three points. False where entries are not rational, or
+    /// constraints leave fewer points than these.
+    [[nodiscard]] bool is_singular_at_points(const CoupledBlock& block) const
+    {
+        if (!work_.setting().constraints.empty()) return false;
+        std::vector<NodeId> entries;
+        for (const std::size_t row : block.rows)
+            for (const std::size_t column : block.columns) entries.push_back(transposed_[row * r_ + column]);
+        for (long k = 0; k < 3; ++k) {
+            std::map<std::string, Rational> point;
+            long seed = 7919 + 104729 * k;
+            for (const NodeId input : graph_.inputs()) {
+                seed = (seed * 48271) % 2147483647; // Lehmer's generator
+                point.emplace(graph_.input_name(input), Rational(seed % 10007 + 2, 101));
+            }
+            for (auto& [name, value] : point) value.canonicalize();
+            const std::vector<Rational> matrix = evaluate_exactly(graph_, entries, point);
+            if (matrix.empty() || rank_of(matrix, block.rows.size()) == block.rows.size()) return false;
+        }
+        return true;
     }
 
     /// rho'^i_a = A_a^b rho^i_b

@@ -198,3 +198,30 @@ kind = "general"
     REQUIRE_FALSE(verified.checks.empty());
     CHECK(verified.checks[0].name == "antisymmetry");
 }
+
+TEST_CASE("six coupled sections that are linearly dependent are no frame")
+{
+    const std::string text = R"toml(
+[fibre]
+coordinates = ["u[1..6]"]
+[algebroid]
+kind = "frame"
+[algebroid.of]
+kind = "lie_algebra"
+fibre = ["w[1..6]"]
+algebra = "R^6"
+[algebroid.sections]
+"u[1]" = { "w[1]" = "1", "w[2]" = "1" }
+"u[2]" = { "w[2]" = "1", "w[3]" = "1" }
+"u[3]" = { "w[3]" = "1", "w[4]" = "1" }
+"u[4]" = { "w[4]" = "1", "w[5]" = "1" }
+"u[5]" = { "w[5]" = "1", "w[6]" = "1" }
+"u[6]" = { "w[6]" = "1", "w[1]" = "1" }
+)toml";
+    CHECK_THROWS_WITH(verified_text(text),
+                      Catch::StartsWith("test.toml:12:21: error: the sections of the frame are linearly dependent at "
+                                        "every point tried: the determinant of 'sections' is zero there"));
+    std::string independent = text;
+    independent.replace(independent.rfind("\"w[1]\" = \"1\""), 12, "\"w[1]\" = \"2\"");
+    CHECK(verified_text(independent).verdict == Verdict::valid);
+}
