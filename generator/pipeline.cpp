@@ -32,6 +32,18 @@ std::vector<std::string> lines_of(const std::string& text)
     return lines;
 }
 
+/// For the head of the header; equations that are too long for a person do not keep a machine from its kernels.
+std::vector<std::string> readable_equations(const CheckedModel& checked)
+{
+    try {
+        return lines_of(print_text(derive_lagrange(checked.model, checked.verified.algebroid)));
+    } catch (const MathematicsError& error) {
+        std::string reason = lines_of(error.what()).front();
+        if (reason.starts_with("error: ")) reason.erase(0, 7);
+        return {fmt::format("The equations are not written out here: {}.", reason)};
+    }
+}
+
 /// The first check with this status, as "anchor (w1, w2, g3), residual 2*g3".
 std::string first_with(const VerifiedAlgebroid& verified, ProofStatus status)
 {
@@ -124,8 +136,10 @@ Generated generate(const CheckedModel& checked, const GenerateRequest& request)
     module.hash = hash_of(checked);
     module.regenerate = regenerate_command(checked, request, module.name);
     module.warnings = checked.warnings;
-    module.equations = lines_of(print_text(derive_lagrange(model, checked.verified.algebroid)));
-    if (request.scene != nullptr) forget_values(module);
+    if (request.scene == nullptr)
+        module.equations = readable_equations(checked);
+    else
+        forget_values(module);
     generated.header = print_header(module);
     return generated;
 }

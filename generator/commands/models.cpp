@@ -35,6 +35,13 @@ void model_json(JsonWriter& json, const std::string& file, const Model& model)
     json.end_array().end_object();
 }
 
+std::string model_line(const Model& model, std::size_t width)
+{
+    std::string scenes;
+    for (const Scene& scene : model.scenes) scenes += (scenes.empty() ? "" : ", ") + scene.name;
+    return fmt::format("  {:<{}}  {} [{}]\n", model.name, width, model.title, scenes);
+}
+
 } // namespace
 
 ExitCode run_models(Arguments arguments)
@@ -47,15 +54,16 @@ ExitCode run_models(Arguments arguments)
         throw MachineError("error: the example models were not found\nhint: set LAGEN_MODELS to their folder");
     JsonWriter json;
     json.begin_array();
-    std::string text = fmt::format("in {}:\n", folder);
+    std::vector<Model> models;
+    std::size_t longest = 0;
     for (const std::string& file : model_files(folder)) {
-        const Model model = read_model(file);
-        model_json(json, file, model);
-        std::string scenes;
-        for (const Scene& scene : model.scenes) scenes += (scenes.empty() ? "" : ", ") + scene.name;
-        text += fmt::format("  {:<22}{} [{}]\n", model.name, model.title, scenes);
+        models.push_back(read_model(file));
+        longest = std::max(longest, models.back().name.size());
+        model_json(json, file, models.back());
     }
     json.end_array();
+    std::string text = fmt::format("in {}:\n", folder);
+    for (const Model& model : models) text += model_line(model, longest);
     write_standard_output(as_json ? json.text() + "\n" : text);
     return ExitCode::done;
 }

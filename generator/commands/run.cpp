@@ -128,6 +128,12 @@ std::vector<Panel> panels_of(const std::vector<Column>& columns, const Model& mo
     return panels;
 }
 
+bool depends_on_time(const Model& model)
+{
+    const std::vector<std::string> names = model.lagrangian ? names_in(model.lagrangian) : std::vector<std::string>{};
+    return std::ranges::find(names, "t") != names.end();
+}
+
 void tell(const Options& options, const RunOutcome& outcome, bool as_json)
 {
     if (as_json) {
@@ -172,6 +178,7 @@ ExitCode run_run(Arguments arguments)
     outcome.scene = scene.name;
     outcome.form = generated.module.form;
     outcome.method = method.name;
+    outcome.time_dependent = depends_on_time(model);
     outcome.table.columns = {"t"};
     for (const Column& column : input.columns) outcome.table.columns.push_back(column.name);
     integrate_scene(compiled.program, input, outcome);

@@ -46,7 +46,7 @@ std::string report_json(const RunOutcome& outcome)
                                   string_text(drift.name), number_text(drift.initial), number_text(drift.max_drift));
     }
     invariants += "}";
-    const std::string events = list_text(outcome.events, [](const EventFound& event) {
+    const std::string events = list_text(outcome.events, [](const EventReport& event) {
         return fmt::format("{{\"name\": {}, \"t\": {}}}", string_text(event.name), number_text(event.time));
     });
     return fmt::format(
@@ -72,11 +72,12 @@ std::string report_text(const RunOutcome& outcome)
         "{}, scene {}: {} at t = {}; {}, {} ({} rejected), {}, {}\n", outcome.model, outcome.scene, outcome.status,
         brief(outcome.where, 9), outcome.method, counted(outcome.steps, "step"), outcome.rejected,
         counted(outcome.rhs_calls, "right-hand side"), counted(std::to_string(outcome.table.count), "row"));
-    for (const EventFound& event : outcome.events)
+    for (const EventReport& event : outcome.events)
         text += fmt::format("  event {} at t = {}\n", event.name, brief(event.time, 15));
     for (const Drift& drift : outcome.invariants)
-        text += fmt::format("  {}: {} at the start, largest drift {}\n", drift.name, brief(drift.initial, 9),
-                            brief(drift.max_drift, 3));
+        text += fmt::format("  {}: {} at the start, largest drift {}{}\n", drift.name, brief(drift.initial, 9),
+                            brief(drift.max_drift, 3),
+                            outcome.time_dependent && drift.name == "energy" ? " (not conserved: L depends on t)" : "");
     return text;
 }
 

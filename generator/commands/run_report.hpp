@@ -10,7 +10,7 @@
 namespace lagen {
 
 /// An event that was found, with its time as printed by the scene's program.
-struct EventFound {
+struct EventReport {
     std::string name;
     std::string time;
 };
@@ -27,8 +27,9 @@ struct RunOutcome {
     std::string status;                              ///< "ok", "stopped_by_event", "left_domain", ... (runtime's names)
     std::string where;                               ///< time that was reached
     std::string steps, rejected, rhs_calls, seconds; ///< numbers as printed
-    std::vector<EventFound> events;
+    std::vector<EventReport> events;
     std::vector<Drift> invariants;
+    bool time_dependent = false; ///< L contains t: the energy is not conserved
     Table table;
 };
 

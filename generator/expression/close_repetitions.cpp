@@ -103,7 +103,7 @@ Expansion::Closing::Result Expansion::Closing::next_term(Frame& top)
         terms.emplace(top.next, terms.begin()->second);
     }
     if (top.next > top.to) return finish_repetition();
-    auto body = std::make_shared<Body>();
+    auto body = std::make_shared<OpenBody>();
     body->definition = top.body->definition;
     body->bound = top.body->bound;
     body->families = top.body->families;
@@ -175,7 +175,7 @@ Expansion::Closing::Result Expansion::Closing::open_repetition(Frame& top)
         frames_.pop_back();
         return result;
     }
-    auto body = std::make_shared<Body>(Body{top.body->definition, top.body->bound, top.body->families, {}});
+    auto body = std::make_shared<OpenBody>(OpenBody{top.body->definition, top.body->bound, top.body->families, {}});
     const Tree index = name(top.tree->name, top.tree->where);
     Value value = scalar({index, measure(*index, {}, closing_limits())});
     value->open = true;

@@ -17,7 +17,7 @@ struct BoundName {
 };
 
 /// What the names of one body mean.
-struct Body {
+struct OpenBody {
     const Definition* definition = nullptr; ///< null: an expression outside of the definitions
     std::vector<BoundName> bound;           ///< the innermost last
     std::shared_ptr<std::map<std::string, Value>> families = std::make_shared<std::map<std::string, Value>>();
@@ -30,7 +30,7 @@ class Expansion::Closing {
   public:
     Closing(Expansion& expansion, const Scope& scope) : expansion_(expansion), scope_(scope) {}
 
-    Value close(const Tree& tree) { return run(enter(tree, std::make_shared<Body>())); }
+    Value close(const Tree& tree) { return run(enter(tree, std::make_shared<OpenBody>())); }
 
     Value expand_all(const Definition& definition, std::vector<Value> arguments)
     {
@@ -46,7 +46,7 @@ class Expansion::Closing {
     /// and terms are.
     struct Frame {
         Tree tree = {}; ///< null for a definition
-        std::shared_ptr<Body> body = {};
+        std::shared_ptr<OpenBody> body = {};
         Step step = Step::operation;
         std::vector<Value> arguments = {};
         Key key = {};                     ///< of a definition
@@ -56,8 +56,8 @@ class Expansion::Closing {
     };
 
     Value run(Result result);
-    Result enter(const Tree& tree, const std::shared_ptr<Body>& body);
-    Result enter_name(const Tree& tree, const std::shared_ptr<Body>& body);
+    Result enter(const Tree& tree, const std::shared_ptr<OpenBody>& body);
+    Result enter_name(const Tree& tree, const std::shared_ptr<OpenBody>& body);
     Result advance();
     Result finish_definition();
     Result finish_operation();
@@ -71,14 +71,15 @@ class Expansion::Closing {
     const std::set<std::string>& names_of(const TreeNode& repetition);
     Value join_terms(const Frame& top, const Maker& make) const;
 
-    Value family(const std::string& name, const Shape& shape, const Body& body) const;
-    const Definition& function_of(const TreeNode& node, const Body& body) const;
+    Value family(const std::string& name, const Shape& shape, const OpenBody& body) const;
+    const Definition& function_of(const TreeNode& node, const OpenBody& body) const;
     void push(Frame frame, const SourceRange& where);
     void refuse_cycle(const Definition& definition, const SourceRange& use) const;
-    [[noreturn]] void unknown(const TreeNode& node, const Body& body, bool as_function) const;
+    void refuse_explained(const TreeNode& node) const;
+    [[noreturn]] void unknown(const TreeNode& node, const OpenBody& body, bool as_function) const;
 
     /// Makes nodes for a frame of this body.
-    Maker maker(const Body& body, const SourceRange& where)
+    Maker maker(const OpenBody& body, const SourceRange& where)
     {
         return {body.definition ? expansion_.budget_ : budget_, expansion_.signed_identity_, where};
     }

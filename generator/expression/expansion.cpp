@@ -14,7 +14,7 @@ namespace {
 /// An operation, the application below it and the definition behind that take an entry of the stack each.
 constexpr std::size_t tallest_stack = 3 * deepest_closed;
 
-const Value* find_bound(const Body& body, const std::string& name)
+const Value* find_bound(const OpenBody& body, const std::string& name)
 {
     const auto found = std::find_if(body.bound.rbegin(), body.bound.rend(),
                                     [&](const BoundName& entry) { return *entry.name == name; });
@@ -37,7 +37,7 @@ Value Expansion::Closing::run(Result result)
     return result;
 }
 
-Expansion::Closing::Result Expansion::Closing::enter(const Tree& tree, const std::shared_ptr<Body>& body)
+Expansion::Closing::Result Expansion::Closing::enter(const Tree& tree, const std::shared_ptr<OpenBody>& body)
 {
     if (tree->kind == TreeKind::name || tree->kind == TreeKind::pi) return enter_name(tree, body);
     if (tree->arguments.empty() && tree->kind != TreeKind::apply && tree->kind != TreeKind::array) return leaf(tree);
@@ -49,7 +49,7 @@ Expansion::Closing::Result Expansion::Closing::enter(const Tree& tree, const std
     return nullptr;
 }
 
-Expansion::Closing::Result Expansion::Closing::enter_name(const Tree& tree, const std::shared_ptr<Body>& body)
+Expansion::Closing::Result Expansion::Closing::enter_name(const Tree& tree, const std::shared_ptr<OpenBody>& body)
 {
     const std::string& text = tree->kind == TreeKind::pi ? "pi" : tree->name;
     if (const Value* bound = find_bound(*body, text)) return *bound;
@@ -67,7 +67,7 @@ Expansion::Closing::Result Expansion::Closing::enter_name(const Tree& tree, cons
 }
 
 /// One value a body, so that an entry that is used again is the same tree.
-Value Expansion::Closing::family(const std::string& name, const Shape& shape, const Body& body) const
+Value Expansion::Closing::family(const std::string& name, const Shape& shape, const OpenBody& body) const
 {
     Value& value = (*body.families)[name];
     if (!value) {
@@ -87,7 +87,7 @@ Expansion::Closing::Result Expansion::Closing::expand(const Definition& definiti
     const auto known = expansion_.expanded_.find(key);
     if (known != expansion_.expanded_.end()) return known->second;
     refuse_cycle(definition, use);
-    auto body = std::make_shared<Body>();
+    auto body = std::make_shared<OpenBody>();
     body->definition = &definition;
     for (std::size_t k = 0; k < arguments.size(); ++k)
         body->bound.push_back({&definition.parameters[k], std::move(arguments[k])});
@@ -142,7 +142,7 @@ void Expansion::Closing::push(Frame frame, const SourceRange& where)
 }
 
 /// The definition that an application stands for, with the right number of arguments.
-const Definition& Expansion::Closing::function_of(const TreeNode& node, const Body& body) const
+const Definition& Expansion::Closing::function_of(const TreeNode& node, const OpenBody& body) const
 {
     const Definition* definition = scope_.find_definition(node.name);
     const bool is_value =
@@ -181,11 +181,23 @@ void Expansion::Closing::refuse_cycle(const Definition& definition, const Source
                      fmt::format("the cycle is {}{}", cycle, definition.name));
 }
 
-void Expansion::Closing::unknown(const TreeNode& node, const Body& body, bool as_function) const
+/// What is declared elsewhere, or nearly, has a hint of its own.
+void Expansion::Closing::refuse_explained(const TreeNode& node) const
+{
+    const auto explained = scope_.explanations_.find(node.name);
+    const std::string entry = scope_.entry_meant(node.name);
+    std::string hint;
+    if (explained != scope_.explanations_.end()) hint = explained->second;
+    if (hint.empty() && !entry.empty()) hint = fmt::format("did you mean '{}'?", entry);
+    if (!hint.empty()) throw ModelError(fmt::format("unknown symbol {}", quote(node.name)), node.where, hint);
+}
+
+void Expansion::Closing::unknown(const TreeNode& node, const OpenBody& body, bool as_function) const
 {
     if (!as_function && is_function_name(node.name))
         throw ModelError(fmt::format("the function {} stands without arguments", quote(node.name)), node.where,
                          fmt::format("arguments stand in parentheses: {}(..)", node.name));
+    if (!as_function) refuse_explained(node);
     std::vector<std::string> known;
     if (!as_function)
         for (const BoundName& entry : body.bound) known.push_back(*entry.name);
@@ -193,8 +205,9 @@ void Expansion::Closing::unknown(const TreeNode& node, const Body& body, bool as
         for (const std::string& name : scope_.value_names()) known.push_back(name);
     for (const Definition& definition : scope_.definitions_)
         if (definition.parameters.empty() != as_function) known.push_back(definition.name);
-    throw ModelError(fmt::format("unknown {} {}", as_function ? "function" : "symbol", quote(node.name)), node.where,
-                     as_function ? hint_for_function(node.name, known) : hint_for_symbol(node.name, known));
+    if (!as_function) throw UnknownSymbol(node.name, node.where, hint_for_symbol(node.name, known));
+    throw ModelError(fmt::format("unknown function {}", quote(node.name)), node.where,
+                     hint_for_function(node.name, known));
 }
 
 std::size_t Expansion::number_of(Closed& value)

@@ -42,6 +42,8 @@ constexpr std::array foreign_functions{
     Foreign{"sec", "this is written 1/cos(x)"},
     Foreign{"csc", "this is written 1/sin(x)"},
     Foreign{"cot", "this is written cos(x)/sin(x)"},
+    Foreign{"skew", "the skew matrix of a vector is written hat(x)"},
+    Foreign{"inv", "an inverse is written inverse(A)"},
     Foreign{"coth", "this is written cosh(x)/sinh(x)"},
 };
 
@@ -62,7 +64,7 @@ std::string hint_for_symbol(const std::string& name, const std::vector<std::stri
     if (!nearest.empty()) return fmt::format("did you mean '{}'?", nearest);
     for (const Foreign& entry : foreign_symbols)
         if (entry.name == name) return entry.hint;
-    return known.empty() ? "no names are known here; sizes are declared in [sizes]"
+    return known.empty() ? fmt::format("sizes are declared first: [sizes] {} = 3", name)
                          : listing("known names are ", known);
 }
 

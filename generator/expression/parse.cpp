@@ -95,7 +95,8 @@ void Parser::close_parenthesis(const Token& open)
     if (token_.kind == TokenKind::end)
         lexer_.fail("'(' is never closed", open.begin, open.end, "every '(' needs a ')' after it");
     if (token_.kind != TokenKind::right_parenthesis)
-        fail_here(fmt::format("{} stands where ')' is required", here()), "");
+        fail_here(fmt::format("{} stands where ')' is required", here()),
+                  token_.kind == TokenKind::comma ? "a scalar product is written dot(a, b), a vector [a, b]" : "");
     take();
 }
 
@@ -173,9 +174,13 @@ void Parser::refuse_missing_operator() const
 {
     const bool starts_value = token_.kind == TokenKind::number || token_.kind == TokenKind::name ||
                               token_.kind == TokenKind::left_parenthesis || token_.kind == TokenKind::left_bracket;
-    if (starts_value)
-        fail_here(fmt::format("missing operator between {} and {}", quote(lexer_.text(previous_)), here()),
-                  "a product is written with '*', for instance 2*x");
+    if (!starts_value) return;
+    const std::string_view word = lexer_.text(token_);
+    const bool logical = word == "and" || word == "or" || word == "not";
+    fail_here(fmt::format("missing operator between {} and {}", quote(lexer_.text(previous_)), here()),
+              logical ? fmt::format("there is no {}: conditions stand alone, as in domain = [\"a < b\", \"b < c\"]",
+                                    quote(word))
+                      : "a product is written with '*', for instance 2*x");
 }
 
 Tree parse_expression(const Excerpt& text, const ParseLimits& limits)
@@ -192,7 +197,7 @@ Tree parse_comparison(const Excerpt& text, const ParseLimits& limits)
     Operand result = parser.parse_all();
     if (result.tree->kind != TreeKind::compare)
         throw ModelError("this is not a comparison", text.range(result.begin, result.end),
-                         "two values are compared with one of < <= > >= == !=");
+                         "a domain is made of strict inequalities: a < b, a > b or a != b");
     return std::move(result.tree);
 }
 

@@ -121,8 +121,12 @@ std::string entry_key(const Excerpt& text, const Scope& scope)
     if (!has_bracket(text.text)) return text.text;
     const Bracketed entry = cut(text, "an entry is named x[3] or W[1,2]");
     std::vector<std::size_t> indices;
-    for (const Excerpt& index : entry.parts)
+    for (const Excerpt& index : entry.parts) {
+        if (index.text.find("..") != std::string::npos)
+            throw ModelError(fmt::format("{} is a range, where one index is required", quote(index.text)), whole(index),
+                             fmt::format("one entry is {0}[1], all of them are {0} = [..]", entry.name));
         indices.push_back(positive_integer(parse_expression(index), scope, "the index"));
+    }
     return fmt::format("{}[{}]", entry.name, fmt::join(indices, ","));
 }
 

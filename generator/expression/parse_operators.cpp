@@ -106,7 +106,7 @@ Operand Parser::parse_comparison(Operand left)
     require_value(right);
     if (binding_of(token_.kind) == Binding::comparison)
         fail_here(fmt::format("{} follows a comparison", here()),
-                  "a chain a < b < c is written as two comparisons, a < b and b < c");
+                  "a chain a < b < c is two comparisons that stand alone, as in domain = [\"a < b\", \"b < c\"]");
     const std::size_t begin = left.begin;
     const std::size_t end = right.end;
     TreeNode node;

@@ -40,6 +40,11 @@ std::optional<EntryIndices> indices_of(std::string_view name)
 
 } // namespace
 
+UnknownSymbol::UnknownSymbol(std::string name, const SourceRange& where, const std::string& hint)
+    : ModelError(fmt::format("unknown symbol {}", quote(name)), where, hint), name_(std::move(name))
+{
+}
+
 const SourceRange* Scope::find_declaration(const std::string& name) const
 {
     if (const Definition* definition = find_definition(name)) return &definition->where;
@@ -86,6 +91,11 @@ void Scope::declare_size(const std::string& name, long value, const SourceRange&
     size_index_.emplace(name, sizes_.size());
     sizes_.push_back({name, value, where});
     expansion_.reset();
+}
+
+void Scope::explain(const std::string& name, const std::string& hint)
+{
+    explanations_[name] = hint;
 }
 
 void Scope::define(Definition definition)
@@ -146,6 +156,21 @@ std::vector<std::string> Scope::value_names() const
     return names;
 }
 
+std::string Scope::entry_meant(const std::string& name) const
+{
+    const std::size_t letters = name.find_last_not_of("0123456789") + 1;
+    if (letters == 0 || letters == name.size()) return {};
+    const std::string digits = name.substr(letters);
+    const std::string family = name.substr(0, name[letters - 1] == '_' ? letters - 1 : letters);
+    for (const std::string& stem : {name.substr(0, letters), family}) {
+        std::string entry = fmt::format("{}[{}]", stem, digits);
+        if (has_symbol(entry)) return entry;
+        if (digits.size() == 2) entry = fmt::format("{}[{},{}]", stem, digits[0], digits[1]);
+        if (has_symbol(entry)) return entry;
+    }
+    return {};
+}
+
 const Definition* Scope::find_definition(const std::string& name) const
 {
     const auto found = definition_index_.find(name);
@@ -161,7 +186,7 @@ ArrayValue Scope::close_array(const Tree& tree, bool nonsmooth) const
         const TreeNode* refused = entry.measure.nonsmooth;
         if (refused && !nonsmooth)
             throw ModelError(fmt::format("the function '{}' is not smooth", entry_of(refused->function).name),
-                             refused->where, "min, max, sign and if stand in forces, observables and events only");
+                             refused->where, "min, max, sign and if stand in observables and events only");
         result.entries.push_back(entry.tree);
     }
     return result;

@@ -21,6 +21,16 @@ struct Definition {
     SourceRange where;                   ///< of its key
 };
 
+/// What closing throws for a symbol that is not declared, so that a caller that accepts fewer names can hint at those.
+class UnknownSymbol : public ModelError {
+  public:
+    UnknownSymbol(std::string name, const SourceRange& where, const std::string& hint);
+    [[nodiscard]] const std::string& name() const noexcept { return name_; }
+
+  private:
+    std::string name_;
+};
+
 /// The symbols and definitions that an expression may use. Definitions may stand in any order.
 class Scope {
   public:
@@ -31,6 +41,8 @@ class Scope {
     void declare_family(const std::string& name, const Shape& shape, const SourceRange& where);
     /// Declares a size: an integer constant, usable in ranges and expressions alike.
     void declare_size(const std::string& name, long value, const SourceRange& where);
+    /// The hint where `name`, which is not declared here, is used all the same: what it is elsewhere.
+    void explain(const std::string& name, const std::string& hint);
 
     /// A declared symbol or entry of a family.
     [[nodiscard]] bool has_symbol(const std::string& name) const;
@@ -81,6 +93,8 @@ class Scope {
     [[nodiscard]] bool has_name(const std::string& name) const;
     /// Symbols, families and sizes in order of declaration.
     [[nodiscard]] std::vector<std::string> value_names() const;
+    /// "w[1]" for w1 and w_1 where there is such an entry; empty where there is none.
+    [[nodiscard]] std::string entry_meant(const std::string& name) const;
     [[nodiscard]] const SourceRange* find_declaration(const std::string& name) const;
     void require_new(const std::string& name, const SourceRange& where) const;
     [[nodiscard]] const Definition* find_definition(const std::string& name) const;
@@ -93,6 +107,7 @@ class Scope {
     std::map<std::string, std::size_t> family_index_;
     std::map<std::string, std::size_t> size_index_;
     std::map<std::string, std::size_t> definition_index_;
+    std::map<std::string, std::string> explanations_;
     /// What has been expanded so far. It depends on the names above alone, so that copies may share it; a scope drops
     /// its hold on it when a name joins.
     mutable std::shared_ptr<Expansion> expansion_;

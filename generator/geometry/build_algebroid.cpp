@@ -22,7 +22,7 @@ std::vector<StructureValue> named_constants(const AlgebroidBlock& block, std::si
                              std::to_string(named_algebra_rank_limit),
                          block.algebra_where,
                          (near.empty() ? std::string() : "did you mean \"" + near + "\"? ") + "known are " +
-                             list_of(named_algebra_names()) + " and sums A + B");
+                             list_of(named_algebra_names()) + ", the last three with any number, and sums A + B");
     }
     if (algebra->basis.size() != rank) {
         const bool atiyah = block.kind == AlgebroidKind::atiyah;

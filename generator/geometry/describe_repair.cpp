@@ -9,13 +9,13 @@ namespace {
 constexpr std::size_t longest_value = 200; ///< characters; a longer one helps nobody
 
 /// Does the file have the pair (b, a) alone? Then the hint speaks of that order.
-bool is_reversed(const LoweredAlgebroid& lowered, const Place& place)
+bool is_reversed(const LoweredAlgebroid& lowered, const EntryPlace& place)
 {
     const std::size_t r = lowered.r();
     return !place.anchor && lowered.given[place.b * r + place.a] && !lowered.given[place.a * r + place.b];
 }
 
-std::string owner(const Algebroid& names, const LoweredAlgebroid& lowered, const Place& place)
+std::string owner(const Algebroid& names, const LoweredAlgebroid& lowered, const EntryPlace& place)
 {
     if (place.anchor) return "the anchor of " + names.fibre[place.a].name;
     const bool reversed = is_reversed(lowered, place);
@@ -23,20 +23,21 @@ std::string owner(const Algebroid& names, const LoweredAlgebroid& lowered, const
            names.fibre[reversed ? place.a : place.b].name + "]";
 }
 
-std::string component(const Algebroid& names, const Place& place)
+std::string component(const Algebroid& names, const EntryPlace& place)
 {
     return "component " + (place.anchor ? names.base : names.fibre)[place.index].name;
 }
 
 /// The normal form, in the order of the file.
-std::string value_text(Graph& graph, Judge& judge, const LoweredAlgebroid& lowered, const Place& place, NodeId value)
+std::string value_text(Graph& graph, Judge& judge, const LoweredAlgebroid& lowered, const EntryPlace& place,
+                       NodeId value)
 {
     const NodeId shown = is_reversed(lowered, place) ? graph.negate(value) : value;
     return graph.is_zero(shown) ? "0" : judge.decide(shown).residual;
 }
 
 /// As the file has it.
-std::string given_text(const Algebroid& names, const LoweredAlgebroid& lowered, const Place& place)
+std::string given_text(const Algebroid& names, const LoweredAlgebroid& lowered, const EntryPlace& place)
 {
     const bool reversed = is_reversed(lowered, place);
     const std::size_t a = reversed ? place.b : place.a, b = reversed ? place.a : place.b;

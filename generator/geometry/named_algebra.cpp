@@ -205,7 +205,7 @@ std::optional<NamedAlgebra> named_algebra(std::string_view name)
 const std::vector<std::string>& named_algebra_names()
 {
     static const std::vector<std::string> names = {"so(3)",   "su(2)",  "se(2)", "se(3)", "so(2,1)", "sl(2)",
-                                                   "heis(3)", "aff(1)", "so(n)", "gl(n)", "R^n"};
+                                                   "heis(3)", "aff(1)", "so(4)", "gl(2)", "R^2"};
     return names;
 }
 

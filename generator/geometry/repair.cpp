@@ -14,7 +14,7 @@ bool both_given(const LoweredAlgebroid& algebroid, std::size_t a, std::size_t b)
     return algebroid.given[a * algebroid.r() + b] && algebroid.given[b * algebroid.r() + a];
 }
 
-void append_places(std::vector<Place>& places, const LoweredAlgebroid& algebroid, std::size_t a, std::size_t b)
+void append_places(std::vector<EntryPlace>& places, const LoweredAlgebroid& algebroid, std::size_t a, std::size_t b)
 {
     for (const ColumnEntry& entry : algebroid.C(a, b)) places.push_back({false, a, b, entry.index});
 }
@@ -35,7 +35,7 @@ std::vector<std::pair<NodeId, NodeId>> quotients(Graph& graph, const Column& res
 
 } // namespace
 
-NodeId value_at(Graph& graph, const LoweredAlgebroid& algebroid, const Place& place)
+NodeId value_at(Graph& graph, const LoweredAlgebroid& algebroid, const EntryPlace& place)
 {
     const Column& column = place.anchor ? algebroid.anchor[place.a] : algebroid.C(place.a, place.b);
     return LoweredAlgebroid::entry(graph, column, place.index);
@@ -70,9 +70,9 @@ void Trial::set(Column& column, std::size_t index, NodeId value)
     column.insert(after, {index, value});
 }
 
-std::vector<Place> editable_places(const LoweredAlgebroid& algebroid, const Editable& editable, bool missing)
+std::vector<EntryPlace> editable_places(const LoweredAlgebroid& algebroid, const Editable& editable, bool missing)
 {
-    std::vector<Place> places;
+    std::vector<EntryPlace> places;
     const std::size_t r = algebroid.r();
     if (editable.bracket)
         for (std::size_t a = 0; a < r; ++a)
@@ -87,7 +87,7 @@ std::vector<Place> editable_places(const LoweredAlgebroid& algebroid, const Edit
     for (std::size_t a = 0; a < r; ++a)
         for (std::size_t b = a + 1; b < r; ++b)
             for (std::size_t c = 0; c < r; ++c) {
-                const Place place{false, a, b, c};
+                const EntryPlace place{false, a, b, c};
                 if (std::find(places.begin(), places.end(), place) == places.end()) places.push_back(place);
             }
     return places;
@@ -96,7 +96,7 @@ std::vector<Place> editable_places(const LoweredAlgebroid& algebroid, const Edit
 std::vector<Repair> sign_repairs(Graph& graph, const LoweredAlgebroid& algebroid, const Editable& editable)
 {
     std::vector<Repair> repairs;
-    for (const Place& place : editable_places(algebroid, editable, false))
+    for (const EntryPlace& place : editable_places(algebroid, editable, false))
         repairs.push_back({RepairKind::sign, {{place, graph.negate(value_at(graph, algebroid, place))}}});
     if (!editable.bracket) return repairs;
     for (std::size_t a = 0; a < algebroid.r(); ++a)
@@ -117,7 +117,7 @@ std::vector<Repair> needed_brackets(Graph& graph, const LoweredAlgebroid& algebr
     for (std::size_t c = 0; c < algebroid.r(); ++c) {
         const auto pairs = quotients(graph, anchor_residual, algebroid.anchor[c]);
         if (pairs.empty()) continue;
-        const Place place{false, a, b, c};
+        const EntryPlace place{false, a, b, c};
         const NodeId more = graph.divide(pairs[0].first, pairs[0].second);
         repairs.push_back({RepairKind::needed, {{place, graph.add(value_at(graph, algebroid, place), more)}}});
     }
@@ -131,7 +131,7 @@ std::vector<Repair> needed_anchors(Graph& graph, const LoweredAlgebroid& algebro
     for (const ColumnEntry& bracket : algebroid.C(a, b))
         for (const ColumnEntry& residual : anchor_residual) {
             if (graph.is_zero(residual.value)) continue;
-            const Place place{true, bracket.index, 0, residual.index};
+            const EntryPlace place{true, bracket.index, 0, residual.index};
             const NodeId more = graph.divide(residual.value, bracket.value);
             repairs.push_back({RepairKind::value, {{place, graph.add(value_at(graph, algebroid, place), more)}}});
         }
@@ -143,7 +143,7 @@ std::vector<Repair> annihilating_anchors(Graph& graph, BaseGradient& partial, co
 {
     std::vector<Repair> repairs;
     for (const ColumnEntry& slope : Column(partial.of(f))) {
-        const Place place{true, a, 0, slope.index};
+        const EntryPlace place{true, a, 0, slope.index};
         const NodeId less = graph.divide(derivative, slope.value);
         repairs.push_back({RepairKind::value, {{place, graph.subtract(value_at(graph, algebroid, place), less)}}});
     }

@@ -8,17 +8,17 @@
 namespace lagen {
 
 /// An entry of C ([e_a, e_b] along e_index) or, with `anchor`, of rho (rho(e_a) along d/dx^index).
-struct Place {
+struct EntryPlace {
     bool anchor = false;
     std::size_t a = 0, b = 0;
     std::size_t index = 0;
 
-    friend bool operator==(const Place&, const Place&) = default;
+    friend bool operator==(const EntryPlace&, const EntryPlace&) = default;
 };
 
 /// The entry at a place gets this value; the constant 0 takes it out.
 struct EntryChange {
-    Place place;
+    EntryPlace place;
     NodeId value;
 };
 
@@ -42,7 +42,7 @@ struct Editable {
 };
 
 /// The value at a place, or the constant 0.
-[[nodiscard]] NodeId value_at(Graph& graph, const LoweredAlgebroid& algebroid, const Place& place);
+[[nodiscard]] NodeId value_at(Graph& graph, const LoweredAlgebroid& algebroid, const EntryPlace& place);
 
 /// Carries out changes on an algebroid, and undoes them when it goes. A bracket that the model gives in one order, or
 /// not at all, changes in both.
@@ -78,7 +78,7 @@ class Trial {
                                                        NodeId derivative);
 
 /// The places of all entries that a file may change: those that there are, then, with `missing`, the brackets' others.
-[[nodiscard]] std::vector<Place> editable_places(const LoweredAlgebroid& algebroid, const Editable& editable,
-                                                 bool missing);
+[[nodiscard]] std::vector<EntryPlace> editable_places(const LoweredAlgebroid& algebroid, const Editable& editable,
+                                                      bool missing);
 
 } // namespace lagen

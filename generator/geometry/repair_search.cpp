@@ -137,7 +137,7 @@ std::vector<Repair> RepairSearch::global_repairs(const std::vector<Refuted>& ref
     if (!second_stage.empty()) return second_stage;
     // Multiples of an entry, or a missing number: solved for where the first equation was refuted.
     std::vector<Repair> solved;
-    for (const Place& place : editable_places(lowered_, editable_, true)) {
+    for (const EntryPlace& place : editable_places(lowered_, editable_, true)) {
         WitnessPoint point(graph_, refuted.front().witness.point);
         const auto value = [&](const Repair& repair) {
             const Trial trial(graph_, lowered_, repair);

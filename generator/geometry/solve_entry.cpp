@@ -24,7 +24,7 @@ std::vector<Rational> roots(const Rational& f2, const Rational& f1, const Ration
 
 } // namespace
 
-std::vector<Repair> solve_entry(Graph& graph, const LoweredAlgebroid& algebroid, const Place& place,
+std::vector<Repair> solve_entry(Graph& graph, const LoweredAlgebroid& algebroid, const EntryPlace& place,
                                 const std::function<std::optional<Rational>(const Repair&)>& value)
 {
     const NodeId entry = value_at(graph, algebroid, place);

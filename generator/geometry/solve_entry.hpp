@@ -11,7 +11,7 @@ namespace lagen {
 /// The equation is at most quadratic in a factor k of the entry (in the entry itself where there is none): k solves
 /// it where `value` of a trial is known exactly. Rational k alone, other than 1 and -1; a root means something at the
 /// point alone, until it is decided.
-[[nodiscard]] std::vector<Repair> solve_entry(Graph& graph, const LoweredAlgebroid& algebroid, const Place& place,
+[[nodiscard]] std::vector<Repair> solve_entry(Graph& graph, const LoweredAlgebroid& algebroid, const EntryPlace& place,
                                               const std::function<std::optional<Rational>(const Repair&)>& value);
 
 } // namespace lagen

@@ -14,7 +14,7 @@ constexpr std::size_t largest_shared_sum = 24;
 
 class Collector {
   public:
-    Collector(const Graph& graph, Algebra& algebra, Expansion expansion, std::size_t size)
+    Collector(const Graph& graph, Algebra& algebra, ExpansionMode expansion, std::size_t size)
         : graph_(graph), algebra_(algebra), expansion_(expansion), values_(size), uses_(size, 0)
     {
     }
@@ -57,10 +57,10 @@ class Collector {
     [[nodiscard]] bool may_distribute(const Polynomial& a, const Polynomial& b) const
     {
         if (a.size() == 1 && b.size() == 1) return true;
-        if (expansion_ == Expansion::none)
+        if (expansion_ == ExpansionMode::none)
             // A rational factor is no multiplication to save: it goes in, the content comes out again later.
             return (a.size() == 1 && a[0].monomial.empty()) || (b.size() == 1 && b[0].monomial.empty());
-        if (expansion_ == Expansion::monomials && a.size() > 1 && b.size() > 1) return false;
+        if (expansion_ == ExpansionMode::monomials && a.size() > 1 && b.size() > 1) return false;
         return a.size() * b.size() <= largest_expanded_sum;
     }
 
@@ -76,7 +76,7 @@ class Collector {
         const Polynomial& base = values_[graph_.operands(id)[0]];
         const auto n = static_cast<std::int32_t>(graph_.payload(id));
         if (base.empty() && n > 0) return {};
-        if (base.size() > 1 && n > 1 && n <= 4 && expansion_ == Expansion::all) {
+        if (base.size() > 1 && n > 1 && n <= 4 && expansion_ == ExpansionMode::all) {
             Polynomial result = base;
             for (int k = 1; k < n; ++k) {
                 if (result.size() * base.size() > largest_expanded_sum) return {power(base, n)};
@@ -98,14 +98,14 @@ class Collector {
 
     const Graph& graph_;
     Algebra& algebra_;
-    Expansion expansion_;
+    ExpansionMode expansion_;
     std::vector<Polynomial> values_;
     std::vector<std::uint32_t> uses_;
 };
 
 } // namespace
 
-Form collect(const Graph& graph, std::span<const NodeId> outputs, Expansion expansion)
+Form collect(const Graph& graph, std::span<const NodeId> outputs, ExpansionMode expansion)
 {
     Form form;
     const auto nodes = reachable(graph, outputs);

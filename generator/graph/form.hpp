@@ -7,7 +7,7 @@
 namespace lagen {
 
 /// What is multiplied out while a form is read off the graph.
-enum class Expansion {
+enum class ExpansionMode {
     none,      ///< sums stay closed
     monomials, ///< x (a + b), but not (a + b)(c + d)
     all,       ///< everything, under a budget of terms for each sum
@@ -19,7 +19,7 @@ struct Form {
 };
 
 /// The outputs with like terms collected. Throws FormRefused where the budget does not suffice.
-[[nodiscard]] Form collect(const Graph& graph, std::span<const NodeId> outputs, Expansion expansion);
+[[nodiscard]] Form collect(const Graph& graph, std::span<const NodeId> outputs, ExpansionMode expansion);
 
 /// Multiplies closed sums out where terms cancel by it.
 void cancel_terms(Form& form);

@@ -34,7 +34,7 @@ void improve(Form& form, Order order)
     absorb_signs(form);
 }
 
-std::optional<Form> collected(const Graph& graph, std::span<const NodeId> outputs, Expansion expansion)
+std::optional<Form> collected(const Graph& graph, std::span<const NodeId> outputs, ExpansionMode expansion)
 {
     std::optional<Form> form;
     try {
@@ -56,10 +56,10 @@ struct Portfolio {
     }
 
     /// Forms of `outputs`, which have the values of the written ones, in every expansion of the list.
-    void add_forms(const std::vector<NodeId>& outputs, std::initializer_list<Expansion> expansions)
+    void add_forms(const std::vector<NodeId>& outputs, std::initializer_list<ExpansionMode> expansions)
     {
         const std::size_t known = candidates.size();
-        for (const Expansion expansion : expansions) add_forms(outputs, expansion);
+        for (const ExpansionMode expansion : expansions) add_forms(outputs, expansion);
         give_back_digits(outputs, known);
     }
 
@@ -75,7 +75,7 @@ struct Portfolio {
     std::vector<NodeId> undivided; ///< factorisations of the candidates with rows as they were, ascending
 
   private:
-    void add_forms(const std::vector<NodeId>& outputs, Expansion expansion)
+    void add_forms(const std::vector<NodeId>& outputs, ExpansionMode expansion)
     {
         const auto form = collected(graph, outputs, expansion);
         if (!form) return;
@@ -163,8 +163,8 @@ std::vector<NodeId> simplify(Graph& graph, std::span<const NodeId> outputs, std:
     if (reachable(graph, outputs).size() > largest_graph) return best;
     double weight = count_operations(graph, best).weight;
     Portfolio portfolio(graph, best);
-    portfolio.add_forms(best, {Expansion::none, Expansion::monomials, Expansion::all});
-    if (const auto added = add_angles(graph, outputs); added != best) portfolio.add_forms(added, {Expansion::none});
+    portfolio.add_forms(best, {ExpansionMode::none, ExpansionMode::monomials, ExpansionMode::all});
+    if (const auto added = add_angles(graph, outputs); added != best) portfolio.add_forms(added, {ExpansionMode::none});
     for (const auto& candidate : portfolio.candidates) {
         const double tried = count_operations(graph, candidate).weight;
         if (tried < weight) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Closing an expression that may use only some of the model's names.
+#include "expression/name_hints.hpp"
 #include "model/model_reader.hpp"
 
 #include <algorithm>
@@ -52,20 +53,41 @@ void require_roles(const std::vector<Tree>& closed, const Names& names, std::ini
                      bad->where.file ? bad->where : where, "allowed here: " + allowed);
 }
 
+/// An expression over parameters, or over the base too, hints at those alone.
+[[noreturn]] void refuse_unknown(const UnknownSymbol& error, const Names& names, std::initializer_list<Role> roles)
+{
+    std::vector<std::string> known;
+    for (const Role role : roles) {
+        if (role == Role::fibre) throw error;
+        const std::vector<std::string> of_role = names.of(role);
+        known.insert(known.end(), of_role.begin(), of_role.end());
+    }
+    if (known.empty()) throw error;
+    throw ModelError(error.diagnostic().message, error.diagnostic().where, hint_for_symbol(error.name(), known));
+}
+
 } // namespace
 
 Tree ModelReader::close(const Tree& tree, std::initializer_list<Role> roles, const std::string& what) const
 {
-    Tree closed = model.scope.close(tree);
-    require_roles({closed}, names, roles, tree->where, what);
-    return closed;
+    try {
+        Tree closed = model.scope.close(tree);
+        require_roles({closed}, names, roles, tree->where, what);
+        return closed;
+    } catch (const UnknownSymbol& error) {
+        refuse_unknown(error, names, roles);
+    }
 }
 
 ArrayValue ModelReader::close_array(const Tree& tree, std::initializer_list<Role> roles, const std::string& what) const
 {
-    ArrayValue closed = model.scope.close_array(tree);
-    require_roles(closed.entries, names, roles, tree->where, what);
-    return closed;
+    try {
+        ArrayValue closed = model.scope.close_array(tree);
+        require_roles(closed.entries, names, roles, tree->where, what);
+        return closed;
+    } catch (const UnknownSymbol& error) {
+        refuse_unknown(error, names, roles);
+    }
 }
 
 void append_entries(std::vector<NamedTree>& list, const Excerpt& key, const ArrayValue& value)

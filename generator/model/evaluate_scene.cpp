@@ -99,6 +99,13 @@ void require_constraints(const Model& model, const Scene& scene, Values& values)
     }
 }
 
+bool has_coordinate(const Model& model, const Tree& tree)
+{
+    const std::vector<std::string> names = names_in(tree);
+    const auto stands = [&](const Symbol& each) { return std::ranges::find(names, each.name) != names.end(); };
+    return std::ranges::any_of(model.base.coordinates, stands);
+}
+
 void require_domain(const Model& model, const Scene& scene, const Values& values)
 {
     for (const Tree& condition : model.base.domain) {
@@ -109,7 +116,7 @@ void require_domain(const Model& model, const Scene& scene, const Values& values
                 "the right side {:.6g}",
                 scene.name, written(condition), static_cast<double>(evaluate(condition->arguments[0], values).value),
                 static_cast<double>(evaluate(condition->arguments[1], values).value)),
-            scene.where, "correct the initial values");
+            scene.where, has_coordinate(model, condition) ? "correct the initial values" : "correct the parameters");
     }
 }
 

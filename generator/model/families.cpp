@@ -141,12 +141,12 @@ std::vector<SymbolGroup> group_symbols(const std::vector<Symbol>& symbols)
 }
 
 std::vector<Tree> fit_values(const ArrayValue& value, const Shape& wanted, const std::string& what,
-                             const SourceRange& where)
+                             const SourceRange& where, const std::string& scalar_hint)
 {
     if (value.shape == wanted) return value.entries;
     if (value.shape.rank == Rank::scalar) return std::vector<Tree>(wanted.size(), value.entries[0]);
     throw ModelError(fmt::format("{} is {}, where {} is required", what, to_text(value.shape), to_text(wanted)), where,
-                     wanted.rank == Rank::scalar ? "" : "one number stands for all entries");
+                     wanted.rank == Rank::scalar ? scalar_hint : "one number stands for all entries");
 }
 
 } // namespace lagen

@@ -58,8 +58,9 @@ void declare_symbols(ModelReader& reader, const std::vector<Symbol>& symbols, Ro
 void add_to_scope(Scope& scope, const Model& model, const std::vector<Symbol>& symbols, FamilyRole role);
 
 /// `value` as one closed tree an entry of a symbol or family of the shape `wanted`: entry by entry, or one scalar for
-/// all. `what` opens the message where the shapes differ, e.g. "the value of parameter 'm'".
+/// all. `what` opens the message where the shapes differ, e.g. "the value of parameter 'm'"; `scalar_hint` ends it
+/// where a scalar is wanted.
 [[nodiscard]] std::vector<Tree> fit_values(const ArrayValue& value, const Shape& wanted, const std::string& what,
-                                           const SourceRange& where);
+                                           const SourceRange& where, const std::string& scalar_hint = {});
 
 } // namespace lagen

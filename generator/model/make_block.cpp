@@ -4,6 +4,8 @@
 
 #include "model/read_values.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <fmt/format.h>
 #include <numeric>
 
@@ -65,6 +67,25 @@ Places first_places(std::size_t count)
     return out;
 }
 
+/// "so(n)" and "R^n" with the sizes of the model put in.
+std::string with_sizes(const std::string& algebra, const std::vector<Size>& sizes)
+{
+    const auto in_name = [&](std::size_t k) {
+        return k < algebra.size() && (std::isalnum(static_cast<unsigned char>(algebra[k])) != 0 || algebra[k] == '_');
+    };
+    std::string out;
+    for (std::size_t k = 0; k < algebra.size();) {
+        std::size_t end = k;
+        while (in_name(end)) ++end;
+        const std::string word = algebra.substr(k, std::max<std::size_t>(end - k, 1));
+        const auto size = std::find_if(sizes.begin(), sizes.end(), [&](const Size& each) { return each.name == word; });
+        const bool stands_for_number = k > 0 && (algebra[k - 1] == '(' || algebra[k - 1] == '^');
+        out += size != sizes.end() && stands_for_number ? std::to_string(size->value) : word;
+        k += word.size();
+    }
+    return out;
+}
+
 } // namespace
 
 AlgebroidBlock make_block(const ModelReader& reader, const AlgebroidDraft& draft, std::size_t leaf_size)
@@ -82,7 +103,8 @@ AlgebroidBlock make_block(const ModelReader& reader, const AlgebroidDraft& draft
     for (const AlgebroidDraft& inner : draft.of) block.of.push_back(make_block(reader, inner, leaf_size));
     if (block.kind == AlgebroidKind::tangent) block.over = read_over(*draft.table, draft.title, space.base);
     if (const TomlEntry* algebra = find_entry(*draft.table, "algebra")) {
-        block.algebra = read_text(algebra->value, fmt::format("'algebra' of {}", draft.title));
+        block.algebra =
+            with_sizes(read_text(algebra->value, fmt::format("'algebra' of {}", draft.title)), reader.model.sizes);
         block.algebra_where = algebra->value.where;
     }
     if (!draft.outermost) require_inner_rank(block, draft.title);

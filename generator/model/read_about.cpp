@@ -13,7 +13,8 @@ namespace {
 
 Symbol read_entry(const TomlEntry& entry)
 {
-    TableReader table(entry.value, fmt::format("'{}' of [about]", entry.name()));
+    TableReader table(entry.value, fmt::format("'{}' of [about]", entry.name()),
+                      fmt::format("write {} = {{ text = \"..\", unit = \"..\", latex = \"..\" }}", entry.name()));
     Symbol about{entry.name(), entry.where(), {}, {}, {}};
     const auto take = [&](const char* key, std::string& text) {
         const TomlEntry* field = table.take(key);

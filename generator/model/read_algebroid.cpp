@@ -77,9 +77,11 @@ void require_rank(const ModelReader& reader, const SourceRange& where)
                                      found, rank->text()),
                          where, "fibre coordinates stand in the order of the base coordinates");
     }
+    const bool frame = reader.model.algebroid.kind == AlgebroidKind::frame;
+    const char* hint = frame ? "a frame has as many sections as the algebroid that it frames" : "";
     throw ModelError(
         fmt::format("the number of fibre coordinates is {}, where {} needs {}", found, rank->reason, rank->text()),
-        where);
+        where, hint);
 }
 
 void read_algebroid(ModelReader& reader)

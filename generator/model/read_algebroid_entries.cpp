@@ -7,6 +7,7 @@
 #include "model/families.hpp"
 #include "model/read_values.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <set>
 
@@ -88,18 +89,51 @@ void read_anchor(const ModelReader& reader, AlgebroidBlock& block, const TomlEnt
               });
 }
 
+/// A section that is zero depends on the others: it is named here, before any determinant.
+template <class Entry>
+void require_every_section(const AlgebroidBlock& block, const std::vector<Entry>& entries, const TomlEntry& table)
+{
+    for (std::size_t a = 0; a < block.fibre.size(); ++a) {
+        if (std::ranges::any_of(entries, [&](const Entry& each) { return each.section == a; })) continue;
+        throw ModelError(fmt::format("the section '{}' is zero, or not given", block.fibre[a].name), table.where(),
+                         fmt::format("every section stands in '{}', and they are independent", table.name()));
+    }
+}
+
 void read_sections(const ModelReader& reader, AlgebroidBlock& block, const TomlEntry& table, const RowTexts& texts)
 {
     read_rows(reader, table, texts, block.fibre, block.of[0].fibre,
               [&](std::size_t a, std::size_t b, const Tree& value, const SourceRange& where) {
                   block.sections.push_back(SectionEntry{a, b, value, where});
               });
+    require_every_section(block, block.sections, table);
+}
+
+/// A fibre that is too short makes vertical coordinates horizontal ones: the message says how it is read.
+void require_vertical(const AlgebroidBlock& block, const TomlEntry& table)
+{
+    const auto split =
+        block.fibre.begin() + static_cast<std::ptrdiff_t>(std::min(block.base.size(), block.fibre.size()));
+    const std::vector<Symbol> horizontal(block.fibre.begin(), split);
+    for (const TomlEntry& line : table.value.entries) {
+        for (const TomlEntry& entry : line.value.entries) {
+            if (!resolve_key(horizontal, entry.key.text)) continue;
+            throw ModelError(
+                fmt::format("the connection along '{}' names '{}', which is no vertical fibre coordinate", line.name(),
+                            entry.name()),
+                entry.where(),
+                fmt::format(
+                    "the fibre has first one horizontal coordinate a base coordinate, {}, then the vertical ones, {}",
+                    comma_list(declared_names(horizontal)), comma_list(declared_names({split, block.fibre.end()}))));
+        }
+    }
 }
 
 void read_connection(const ModelReader& reader, AlgebroidBlock& block, const TomlEntry& table, const RowTexts& texts)
 {
     const std::vector<Symbol> vertical(block.fibre.begin() + static_cast<std::ptrdiff_t>(block.base.size()),
                                        block.fibre.end());
+    require_vertical(block, table);
     read_rows(reader, table, texts, coordinates_of(reader, block), vertical,
               [&](std::size_t i, std::size_t c, const Tree& value, const SourceRange& where) {
                   block.connection.push_back(ConnectionEntry{block.base[i], c + block.base.size(), value, where});
@@ -157,6 +191,9 @@ void read_bracket(const ModelReader& reader, AlgebroidBlock& block, const TomlEn
             throw ModelError(fmt::format("the bracket of '{}' and '{}' is given twice", names[0].text, names[1].text),
                              pair.where());
         }
+        if (a == b && !pair.value.entries.empty())
+            throw ModelError(fmt::format("the bracket of '{}' with itself is given", names[0].text), pair.where(),
+                             "[e, e] = 0 for every section; leave it out");
         const std::string owner = fmt::format("the bracket of '{}' and '{}'", names[0].text, names[1].text);
         const TableReader row(pair.value, owner);
         // An empty table says zero, which the other order of the pair must agree with.
@@ -185,9 +222,11 @@ void read_entries(const ModelReader& reader, AlgebroidBlock& block, const Algebr
     if (const TomlEntry* anchor = entry("anchor"))
         read_anchor(reader, block, *anchor,
                     {title("anchor"), "the anchor of", "the anchor entry", "fibre coordinate", "base coordinate"});
-    if (const TomlEntry* spanned_by = entry("spanned_by"))
+    if (const TomlEntry* spanned_by = entry("spanned_by")) {
         read_anchor(reader, block, *spanned_by,
                     {title("spanned_by"), "the section", "the component", "fibre coordinate", "base coordinate"});
+        require_every_section(block, block.anchor, *spanned_by);
+    }
     if (const TomlEntry* bracket = entry("bracket")) read_bracket(reader, block, *bracket, title("bracket"));
     if (const TomlEntry* representation = entry("representation")) read_representation(reader, block, *representation);
     if (const TomlEntry* connection = entry("connection"))

@@ -42,6 +42,7 @@ Event read_event(const ModelReader& reader, const TomlEntry& entry)
     if (when == nullptr) {
         throw ModelError(title + " has no key 'when'", event.where, "when = \"an expression that crosses zero\"");
     }
+    if (when->value.kind == TomlKind::string) refuse_equation(when->value.text, "the condition");
     event.when = reader.close_observed(read_expression(when->value, "'when' of " + title));
     return event;
 }

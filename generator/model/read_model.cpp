@@ -86,7 +86,8 @@ const Scene& find_scene(const Model& model, const std::string& name)
         throw ModelError("the model has no scene", where, "add [scene.default] with initial values and a duration");
     }
     if (name.empty()) return model.scenes.front();
-    throw ModelError(fmt::format("the model has no scene '{}'", name), where, hint_for(name, known, "scenes"));
+    throw ModelError(fmt::format("the model '{}' has no scene '{}'", model.file->name, name), {},
+                     hint_for(name, known, "scenes"));
 }
 
 std::vector<std::string> symbol_names(const Model& model)

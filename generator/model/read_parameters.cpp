@@ -14,12 +14,23 @@ namespace lagen {
 
 namespace {
 
+/// How a parameter that is given an array is declared.
+std::string family_hint(const std::string& name, const Shape& shape)
+{
+    if (shape.rank == Rank::vector)
+        return fmt::format("a vector is declared with its range: \"{}[1..{}]\" = ..", name, shape.rows);
+    return fmt::format("a matrix is declared with its ranges: \"{}[1..{},1..{}]\" = ..", name, shape.rows,
+                       shape.columns);
+}
+
 /// Gives the parameters that `key` names their values.
 void assign(ModelReader& reader, const ResolvedKey& key, const Tree& value, const std::string& what,
             const SourceRange& where)
 {
     const ArrayValue closed = reader.close_array(value, {Role::parameter}, what);
-    const std::vector<Tree> entries = fit_values(closed, key.shape, what, where);
+    const bool declares = key.shape.rank == Rank::scalar && key.name.find('[') == std::string::npos;
+    const std::vector<Tree> entries =
+        fit_values(closed, key.shape, what, where, declares ? family_hint(key.name, closed.shape) : "");
     for (std::size_t k = 0; k < entries.size(); ++k) reader.model.parameters[key.indices[k]].value = entries[k];
 }
 
@@ -32,11 +43,15 @@ void apply(ModelReader& reader, const std::vector<Symbol>& symbols, const Settin
         return;
     }
     const Names::Entry* entry = reader.names.find(setting.name);
+    std::vector<std::string> known = reader.names.of(Role::parameter);
+    const std::vector<std::string> sizes = reader.names.of(Role::size);
+    known.insert(known.end(), sizes.begin(), sizes.end());
     if (entry != nullptr && entry->role == Role::size) return; // read_sizes has seen it
     const std::string what = entry != nullptr
                                  ? fmt::format("'{}' is {}, not a parameter", setting.name, role_text(entry->role))
                                  : fmt::format("the model has no parameter '{}' to set", setting.name);
-    throw ModelError(what, where, hint_for(setting.name, reader.names.of(Role::parameter), "parameters"));
+    throw ModelError(what, whole_text("<--set>", setting.name + "=" + setting.value.text).range(0, setting.name.size()),
+                     hint_for(setting.name, known, sizes.empty() ? "parameters" : "parameters and sizes"));
 }
 
 /// Strings of the list `key` of [base].
@@ -46,6 +61,17 @@ std::vector<Excerpt> base_list(const TomlEntry* block, const char* key)
     TableReader table(block->value, "[base]");
     const TomlEntry* entry = table.take(key);
     return entry != nullptr ? read_list(entry->value, fmt::format("'{}' of [base]", key)) : std::vector<Excerpt>{};
+}
+
+/// A constraint without base coordinates holds everywhere or nowhere.
+void require_coordinate(const ModelReader& reader, const Tree& closed, const Excerpt& text)
+{
+    for (const std::string& name : names_in(closed)) {
+        const Names::Entry* entry = reader.names.find(name);
+        if (entry != nullptr && entry->role == Role::base) return;
+    }
+    throw ModelError(fmt::format("the constraint '{}' contains no base coordinate", text.text),
+                     text.range(0, text.text.size()), "a constraint is an expression of base coordinates that is zero");
 }
 
 bool is_strict(Comparison comparison)
@@ -88,8 +114,11 @@ void read_base(ModelReader& reader, const TomlEntry* block)
     Base& base = reader.model.base;
     const auto point = {Role::parameter, Role::base};
     for (const Excerpt& text : base_list(block, "constraints")) {
-        for (Tree& entry : reader.close_array(parse_expression(text), point, "a constraint").entries)
+        refuse_equation(text, "the constraint");
+        for (Tree& entry : reader.close_array(parse_expression(text), point, "a constraint").entries) {
+            require_coordinate(reader, entry, text);
             base.constraints.push_back(std::move(entry));
+        }
     }
     for (const auto& [key, value] : reader.casimirs) {
         const ArrayValue closed = reader.close_array(value, point, fmt::format("the Casimir '{}'", key.text));

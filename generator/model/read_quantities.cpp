@@ -93,6 +93,27 @@ void require_sound_definitions(const ModelReader& reader)
     }
 }
 
+/// What observables, invariants and events may use, and the model's other expressions may not.
+void explain_observed(Scope& scope, const Model& model)
+{
+    for (const std::string& momentum : declared_names(model.fibre.momenta))
+        scope.explain(momentum, "momenta stand in observables, invariants and events only");
+    scope.explain("energy", "the energy stands in observables, invariants and events only");
+}
+
+/// The fibre of a prolongation is X_a and V_a, or X_a and P_a: the other letter is a slip.
+void explain_prolongation(Scope& scope, const AlgebroidBlock& block)
+{
+    if (block.kind != AlgebroidKind::prolongation) return;
+    const char* wrong = block.dual ? "V_" : "P_";
+    const char* right = block.dual ? "P_" : "V_";
+    for (const std::string& inner : declared_names(block.of[0].fibre))
+        if (scope.has_symbol(right + inner))
+            scope.explain(wrong + inner,
+                          fmt::format("bundle = \"{}\" has {}{}, bundle = \"{}\" has {}{}", block.dual ? "E*" : "E",
+                                      right, inner, block.dual ? "E" : "E*", wrong, inner));
+}
+
 } // namespace
 
 void declare_quantities(ModelReader& reader, const TomlEntry* observables, const TomlEntry* invariants,
@@ -126,7 +147,9 @@ void build_scopes(ModelReader& reader)
     add_to_scope(scope, model, model.fibre.coordinates, FamilyRole::fibre);
     for (const Definition& definition : model.definitions) scope.define(definition);
     for (const auto& [key, value] : reader.casimirs) scope.define(Definition{key.text, {}, value, place_of(key)});
+    explain_observed(scope, model);
     read_algebroid(reader);
+    explain_prolongation(scope, model.algebroid);
 
     std::set<std::string> used(reader.names.order().begin(), reader.names.order().end());
     std::vector<std::string> extra;

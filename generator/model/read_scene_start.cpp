@@ -183,7 +183,7 @@ void require_complete(const ModelReader& reader, const Scene& scene)
     const Missing& rest = some_momenta ? no_momentum : no_fibre;
     if (!scene.rest || some_momenta) missing.add(rest);
     if (missing.count == 0) return;
-    const bool fibre_left_out = rest.count > 0 && !some_momenta;
+    const bool fibre_left_out = rest.count > 0 && !some_momenta && !scene.rest;
     throw ModelError(fmt::format("scene '{}' leaves out the initial value{} of {}", scene.name,
                                  missing.count > 1 ? "s" : "", missing.text()),
                      scene.where, fibre_left_out ? "rest = true sets the fibre coordinates left out to zero" : "");

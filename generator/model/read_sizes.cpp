@@ -16,11 +16,12 @@ namespace {
 constexpr long largest_size = 4096;
 constexpr std::size_t most_bits = 256; // of what stands between
 
-[[noreturn]] void refuse(const NamedTree& size, const std::string& found, const SourceRange& where)
+[[noreturn]] void refuse(const NamedTree& size, const std::string& found, const SourceRange& where,
+                         const char* hint = "sizes are made of integers and other sizes by + - * / ^")
 {
     throw ModelError(
         fmt::format("the size '{}' {}, where an integer from 0 to {} is required", size.name, found, largest_size),
-        where.file ? where : size.where, "sizes are made of integers and other sizes by + - * / ^");
+        where.file ? where : size.where, hint);
 }
 
 /// Values of expressions over sizes. Parsed trees are at most 1024 levels deep, so plain recursion is safe.
@@ -113,7 +114,7 @@ void read_sizes(ModelReader& reader, const TomlEntry* block, const std::vector<S
         const NamedTree& size = sizes[k];
         const Rational value = SizeArithmetic(values, sizes, k)(*size.value);
         if (value.get_den() != 1 || value < 0 || value > largest_size)
-            refuse(size, fmt::format("is {}", value.get_str()), size.value->where);
+            refuse(size, fmt::format("is {}", value.get_str()), size.value->where, "");
         values.emplace(size.name, value);
     }
     for (const NamedTree& size : sizes) {

@@ -5,15 +5,18 @@
 #include "expression/parse.hpp"
 #include "model/source_positions.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace lagen {
 
 namespace {
 
-[[noreturn]] void refuse_type(const TomlValue& value, const std::string& what, const char* wanted)
+[[noreturn]] void refuse_type(const TomlValue& value, const std::string& what, const char* wanted,
+                              const char* hint = "")
 {
-    throw ModelError(fmt::format("{} is {}, where {} is required", what, kind_text(value.kind), wanted), value.where);
+    throw ModelError(fmt::format("{} is {}, where {} is required", what, kind_text(value.kind), wanted), value.where,
+                     hint);
 }
 
 /// A decimal literal of TOML: sign, digits with '_' between them, point, exponent.
@@ -76,6 +79,21 @@ Tree read_array_expression(const TomlValue& value, const std::string& what)
     return out;
 }
 
+void refuse_equation(const Excerpt& text, const std::string& what)
+{
+    const std::size_t sign = text.text.find('=');
+    if (sign == std::string::npos || text.text.find_first_of("<>!") != std::string::npos) return;
+    const std::size_t behind = text.text.find_first_not_of('=', sign);
+    const Excerpt left = trimmed(text, 0, sign);
+    const Excerpt right = trimmed(text, std::min(behind, text.text.size()), text.text.size());
+    const bool single = right.text.find_first_of("+- ") == std::string::npos;
+    std::string difference = left.text;
+    if (right.text != "0") difference += single ? " - " + right.text : fmt::format(" - ({})", right.text);
+    throw ModelError(
+        fmt::format("{} '{}' is an equation, where an expression that is zero is required", what, text.text),
+        text.range(0, text.text.size()), fmt::format("write \"{}\"", difference));
+}
+
 std::string read_text(const TomlValue& value, const std::string& what)
 {
     if (value.kind != TomlKind::string) refuse_type(value, what, "a string");
@@ -109,7 +127,8 @@ long read_count(const TomlValue& value, const std::string& what, long least, lon
 
 std::vector<Excerpt> read_list(const TomlValue& value, const std::string& what)
 {
-    if (value.kind != TomlKind::array) refuse_type(value, what, "an array of strings");
+    if (value.kind != TomlKind::array)
+        refuse_type(value, what, "an array of strings", "one entry is written [\"..\"], several [\"..\", \"..\"]");
     std::vector<Excerpt> out;
     for (const TomlValue& item : value.items) {
         if (item.kind != TomlKind::string) refuse_type(item, "an entry of " + what, "a string");

@@ -17,6 +17,10 @@ namespace lagen {
 /// The same, and an array of them is a vector, an array of arrays a matrix (TreeKind::array).
 [[nodiscard]] Tree read_array_expression(const TomlValue& value, const std::string& what);
 
+/// Throws ModelError where an equation "a = b" or "a == b" stands in place of the expression a - b. `what` opens the
+/// message, e.g. "the constraint".
+void refuse_equation(const Excerpt& text, const std::string& what);
+
 /// A string without control characters.
 [[nodiscard]] std::string read_text(const TomlValue& value, const std::string& what);
 

@@ -6,10 +6,12 @@
 
 namespace lagen {
 
-TableReader::TableReader(const TomlValue& value, std::string title) : value_(value), title_(std::move(title))
+TableReader::TableReader(const TomlValue& value, std::string title, const std::string& hint)
+    : value_(value), title_(std::move(title))
 {
     if (value.kind == TomlKind::table) return;
-    throw ModelError(fmt::format("{} is {}, where a table is required", title_, kind_text(value.kind)), value.where);
+    throw ModelError(fmt::format("{} is {}, where a table is required", title_, kind_text(value.kind)), value.where,
+                     hint);
 }
 
 const TomlEntry* TableReader::take(const std::string& key)

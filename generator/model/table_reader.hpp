@@ -13,8 +13,9 @@ namespace lagen {
 
 class TableReader {
   public:
-    /// `title` is how messages call the table, e.g. "[base]". Throws ModelError where `value` is no table.
-    TableReader(const TomlValue& value, std::string title);
+    /// `title` is how messages call the table, e.g. "[base]". Throws ModelError, with this hint, where `value` is no
+    /// table.
+    TableReader(const TomlValue& value, std::string title, const std::string& hint = {});
 
     /// The entry called `key`, or nullptr; the key is known from now on.
     [[nodiscard]] const TomlEntry* take(const std::string& key);

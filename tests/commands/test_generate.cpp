@@ -149,6 +149,16 @@ TEST_CASE("a refuted model is refused with its reason; --unchecked goes on and t
     CHECK(line_of(forced.out, 4) == "///   lagen generate refuted.toml --unchecked -o refuted.hpp");
 }
 
+TEST_CASE("equations that nobody could read are left out of the header, which has its kernels all the same")
+{
+    const Outcome outcome = call({"generate", "large_inverse.toml"});
+    CHECK(outcome.code == 0);
+    CHECK(
+        outcome.out.find("///   The equations are not written out here: the solution of 6 coupled linear equations is "
+                         "not written out: a formula that a person could read exists up to 4.\n") != std::string::npos);
+    CHECK(outcome.out.find("rhs(") != std::string::npos);
+}
+
 TEST_CASE("an undecided model is generated with a warning, and exits 0")
 {
     const Outcome outcome = call({"generate", "undecided.toml"});

@@ -194,6 +194,22 @@ TEST_CASE("--method, --step and --tolerance win over the scene")
     CHECK_THAT(unused.err, Catch::StartsWith("warning: --step is not used: dop853 chooses its steps itself\n"));
 }
 
+TEST_CASE("the energy of a Lagrangian that depends on t is reported as not conserved")
+{
+    const std::string folder = fresh_folder();
+    write_text(folder + "/driven.toml",
+               "[base]\ncoordinates = ['x']\n[fibre]\ncoordinates = ['v']\n[algebroid]\nkind = "
+               "'tangent'\n[lagrangian]\nL = 'v^2/2 + t*x'\n[scene.default]\n"
+               "initial = { x = 0, v = 0 }\nduration = 1\n");
+    const Outcome driven = call({"run", "driven.toml", "--at", "1"}, {.folder = folder});
+    CHECK(driven.code == 0);
+    // x = t^3/6, so the energy v^2/2 - t x is -t^4/24.
+    CHECK_THAT(driven.err,
+               Catch::EndsWith("\n  energy: 0 at the start, largest drift 0.0417 (not conserved: L depends on "
+                               "t)\n"));
+    CHECK_THAT(call({"run", "oscillator.toml", "--at", "1"}).err, !Catch::Contains("not conserved"));
+}
+
 TEST_CASE("--plot draws SVG and PNG")
 {
     const std::string folder = fresh_folder();

@@ -102,11 +102,12 @@ TEST_CASE("comparisons stand in domains and conditions only")
     CHECK(error_of_comparison("x + 1") == "e:1:1: error: this is not a comparison\n"
                                           "  x + 1\n"
                                           "  ^~~~~\n"
-                                          "hint: two values are compared with one of < <= > >= == !=");
-    CHECK(error_of_comparison("0 < x < 1") == "e:1:7: error: '<' follows a comparison\n"
-                                              "  0 < x < 1\n"
-                                              "        ^\n"
-                                              "hint: a chain a < b < c is written as two comparisons, a < b and b < c");
+                                          "hint: a domain is made of strict inequalities: a < b, a > b or a != b");
+    CHECK(error_of_comparison("0 < x < 1") ==
+          "e:1:7: error: '<' follows a comparison\n"
+          "  0 < x < 1\n"
+          "        ^\n"
+          "hint: a chain a < b < c is two comparisons that stand alone, as in domain = [\"a < b\", \"b < c\"]");
 }
 
 TEST_CASE("a character outside of the language is named, with what is written instead")

@@ -101,8 +101,32 @@ TEST_CASE("an unknown symbol gets the nearest name")
                                    "  ^~~~\n"
                                    "hint: known names are g1, g2, g3, mgl, T");
     CHECK_THAT(closed(scope, "π"), Catch::EndsWith("hint: the constant is written pi"));
-    CHECK_THAT(closed(scope_of({}), "x"),
-               Catch::EndsWith("hint: no names are known here; sizes are declared in [sizes]"));
+    CHECK_THAT(closed(scope_of({}), "x"), Catch::EndsWith("hint: sizes are declared first: [sizes] x = 3"));
+}
+
+TEST_CASE("an unknown name that reads like an entry of a family gets that entry, before the nearest name")
+{
+    Scope scope = scope_of({"I1", "x2"});
+    scope.declare_family("w", {lagen::Rank::vector, 12, 1}, {});
+    scope.declare_family("W", {lagen::Rank::matrix, 2, 3}, {});
+    scope.declare_family("x_", {lagen::Rank::vector, 2, 1}, {});
+    CHECK_THAT(closed(scope, "w1"), Catch::EndsWith("hint: did you mean 'w[1]'?"));
+    CHECK_THAT(closed(scope, "w_12"), Catch::EndsWith("hint: did you mean 'w[12]'?"));
+    CHECK_THAT(closed(scope, "W23"), Catch::EndsWith("hint: did you mean 'W[2,3]'?"));
+    CHECK_THAT(closed(scope, "x_2"), Catch::EndsWith("hint: did you mean 'x_[2]'?"));
+    CHECK_THAT(closed(scope, "w13 + 1"), !Catch::Contains("["));
+    CHECK_THAT(closed(scope, "W32"), !Catch::Contains("W[3,2]"));
+    CHECK(closed(scope, "x2") == "x2");
+}
+
+TEST_CASE("a name that is explained has that hint where it is not declared")
+{
+    Scope scope = scope_of({"x", "p_y"});
+    scope.explain("p_x", "momenta stand elsewhere");
+    scope.explain("p_y", "momenta stand elsewhere");
+    CHECK_THAT(closed(scope, "2*p_x"),
+               Catch::EndsWith("unknown symbol 'p_x'\n  2*p_x\n    ^~~\nhint: momenta stand elsewhere"));
+    CHECK(closed(scope, "p_y") == "p_y");
 }
 
 TEST_CASE("an unknown function gets the nearest function or this language's spelling")
@@ -154,7 +178,7 @@ TEST_CASE("functions that are not smooth are refused where smoothness matters, a
     CHECK(closed(scope, "x + a") == "a:1:3: error: the function 'max' is not smooth\n"
                                     "  2*max(x, 0)\n"
                                     "    ^~~~~~~~~\n"
-                                    "hint: min, max, sign and if stand in forces, observables and events only");
+                                    "hint: min, max, sign and if stand in observables and events only");
     CHECK(closed(scope, "x + a", true) == "(add x (multiply 2 (max x 0)))");
     CHECK_THAT(closed(scope, "if(x > 0, 1, 2)"), Catch::Contains("the function 'if' is not smooth"));
     CHECK(closed(scope, "if(x > 0, 1, a)", true) == "(if (> x 0) 1 (multiply 2 (max x 0)))");

@@ -234,3 +234,35 @@ TEST_CASE("sections that are dependent everywhere are refused where they are giv
                           "determinant of 'sections' is zero\n") &&
             Catch::EndsWith("hint: a frame has as many independent sections as the algebroid that it frames"));
 }
+
+TEST_CASE("the matrix of a family of sections maps the new coordinates to the old ones, w = M u")
+{
+    const auto model = [](const std::string& sections) {
+        return "[base]\ncoordinates = [\"x\", \"y\"]\n[fibre]\ncoordinates = [\"u[1..2]\"]\n[algebroid]\nkind = "
+               "\"frame\"\n"
+               "[algebroid.of]\nkind = \"tangent\"\nfibre = [\"w[1..2]\"]\n[algebroid.sections]\n" +
+               sections;
+    };
+    const VerifiedAlgebroid whole = verified_text(model("u = { w = \"[[1, x], [0, 1]]\" }\n"));
+    const VerifiedAlgebroid entries =
+        verified_text(model("\"u[1]\" = { \"w[1]\" = \"1\" }\n\"u[2]\" = { \"w[1]\" = \"x\", \"w[2]\" = \"1\" }\n"));
+    REQUIRE(whole.algebroid.rho.size() == entries.algebroid.rho.size());
+    for (std::size_t k = 0; k < whole.algebroid.rho.size(); ++k) {
+        CHECK(whole.algebroid.rho[k].a == entries.algebroid.rho[k].a);
+        CHECK(whole.algebroid.rho[k].i == entries.algebroid.rho[k].i);
+        CHECK(to_text(whole.algebroid.rho[k].value) == to_text(entries.algebroid.rho[k].value));
+    }
+    REQUIRE(whole.algebroid.C.size() == 1);
+    CHECK(to_text(whole.algebroid.C[0].value) == "1"); // [d/dx, x d/dx + d/dy] = d/dx
+}
+
+TEST_CASE("a size stands for the number of a named Lie algebra")
+{
+    const auto model = [](const char* size, const char* algebra) {
+        return std::string("[sizes]\nn = ") + size + "\n[fibre]\ncoordinates = [\"w[1..n*(n - 1)/2]\"]\n" +
+               "[algebroid]\nkind = \"lie_algebra\"\nalgebra = \"" + algebra + "\"\n";
+    };
+    CHECK(verified_text(model("5", "so(n)")).algebroid.C.size() ==
+          verified_text(model("5", "so(5)")).algebroid.C.size());
+    CHECK(verified_text(model("4", "so(n)")).verdict == Verdict::valid);
+}

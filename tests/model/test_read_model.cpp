@@ -42,7 +42,7 @@ w1 = { g2 = "g3", g3 = "-g2" }
 "w3 ,  w1" = { w2 = "1" }
 "w1,w2" = { w3 = "1" }
 "w2,w1" = { w3 = "-1" }
-"w1,w1" = { w3 = "2" }
+"w1,w3" = { w3 = "2" }
 [definitions]
 T = "(zeta*w1^2 + alpha*w2^2 + w3^2)/2"
 "V(q)" = "mgl*q"
@@ -97,7 +97,7 @@ TEST_CASE("both orders of a bracket pair and a pair of equals are all recorded")
     REQUIRE(bracket.size() == 4);
     CHECK((bracket[0].a == 2 && bracket[0].b == 0 && bracket[0].c == 1));
     CHECK((bracket[2].a == 1 && bracket[2].b == 0 && to_text(bracket[2].value) == "-1"));
-    CHECK((bracket[3].a == 0 && bracket[3].b == 0 && bracket[3].c == 2));
+    CHECK((bracket[3].a == 0 && bracket[3].b == 2 && bracket[3].c == 2));
 }
 
 TEST_CASE("decimals, bare or quoted, are exact")
