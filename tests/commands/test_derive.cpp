@@ -19,10 +19,9 @@ TEST_CASE("the equations of every model are the same text in fresh processes, in
             CHECK(first.err.empty());
             CHECK(first.out.size() > 200);
             CHECK(first.out.ends_with('\n'));
-            for (int k = 0; k < 3; ++k)
-                CHECK(call({"derive", name + ".toml", "--format", format},
-                           {.environment = {{"PADDING", std::string(static_cast<std::size_t>(997 * k), 'x')}}})
-                          .out == first.out);
+            CHECK(call({"derive", name + ".toml", "--format", format},
+                       {.environment = {{"PADDING", std::string(997, 'x')}}})
+                      .out == first.out);
             if (format == "json") CHECK(lagen::json::parse(first.out).size() > 2);
         }
     }
