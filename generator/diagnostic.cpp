@@ -176,6 +176,17 @@ SourceRange Excerpt::range(std::size_t begin, std::size_t end) const
     return {file, mapped(begin), std::max(mapped(begin), mapped(end))};
 }
 
+Excerpt trimmed(const Excerpt& text, std::size_t begin, std::size_t end)
+{
+    const auto blank = [&](std::size_t k) { return text.text[k] == ' ' || text.text[k] == '\t'; };
+    while (begin < end && blank(begin)) ++begin;
+    while (end > begin && blank(end - 1)) --end;
+    Excerpt out{text.file, text.text.substr(begin, end - begin), {}};
+    const auto first = text.origin.begin() + static_cast<std::ptrdiff_t>(begin);
+    out.origin.assign(first, first + static_cast<std::ptrdiff_t>(end - begin + 1));
+    return out;
+}
+
 Excerpt whole_text(std::string name, std::string text)
 {
     Excerpt excerpt;

@@ -43,6 +43,9 @@ struct Excerpt {
 /// The whole of `text` as an excerpt of a pseudo-file called `name`.
 [[nodiscard]] Excerpt whole_text(std::string name, std::string text);
 
+/// Bytes [begin, end) of an excerpt without the blanks around them.
+[[nodiscard]] Excerpt trimmed(const Excerpt& text, std::size_t begin, std::size_t end);
+
 /// One decoded character. `length` counts its bytes; 0 means that the bytes are not UTF-8 (or that the text ends).
 struct CodePoint {
     char32_t value = 0;

@@ -141,7 +141,7 @@ class LatexWriter {
     /// Component k of A^{-1} b, counted from 1.
     LatexPiece write_solve(const Tree& tree)
     {
-        const std::size_t n = solve_order(tree);
+        const std::size_t n = solve_order(tree->arguments.size());
         std::string matrix;
         std::string right;
         for (std::size_t i = 0; i < n; ++i) {

@@ -13,13 +13,6 @@ SignedTree without_sign(const Tree& tree)
     return {false, tree};
 }
 
-std::size_t solve_order(const Tree& tree)
-{
-    std::size_t n = 0;
-    while (n * n + n < tree->arguments.size()) ++n;
-    return n;
-}
-
 bool raised_by_name(const Tree& tree)
 {
     if (tree->kind != TreeKind::power || tree->arguments[0]->kind != TreeKind::call) return false;

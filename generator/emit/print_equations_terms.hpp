@@ -23,9 +23,6 @@ struct SignedTree {
 /// exponent of 2 or more (sin^-1 would read as the inverse).
 [[nodiscard]] bool raised_by_name(const Tree& tree);
 
-/// The number of unknowns of a `solve`.
-[[nodiscard]] std::size_t solve_order(const Tree& tree);
-
 /// Lines of " + term" and " - term" pieces, broken before a sign where a line would exceed `width` columns. `first` and
 /// `later` are the widths that stand before the first and the following lines; `measure` is the width of a piece.
 [[nodiscard]] std::vector<std::string> wrap_terms(const std::vector<std::pair<bool, std::string>>& terms,

@@ -125,7 +125,7 @@ class TextWriter {
     /// ([a, b; c, d]⁻¹ [e; f])₁: component 1 of the solution.
     TextPiece write_solve(const Tree& tree)
     {
-        const std::size_t n = solve_order(tree);
+        const std::size_t n = solve_order(tree->arguments.size());
         std::string matrix;
         std::string right;
         for (std::size_t i = 0; i < n; ++i) {

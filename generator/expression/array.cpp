@@ -18,6 +18,11 @@ std::string to_text(const Shape& shape)
     return "a scalar";
 }
 
+bool is_too_large(const Shape& shape)
+{
+    return shape.rows > most_array_entries || shape.columns > most_array_entries || shape.size() > most_array_entries;
+}
+
 std::string entry_name(const std::string& name, const Shape& shape, std::size_t k)
 {
     switch (shape.rank) {

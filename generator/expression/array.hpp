@@ -27,6 +27,10 @@ struct ArrayValue {
     std::vector<Tree> entries; ///< shape.size() of them
 };
 
+/// Vectors, matrices and families have no more entries than this, and no more rows or columns.
+inline constexpr std::size_t most_array_entries = 4096;
+[[nodiscard]] bool is_too_large(const Shape& shape);
+
 /// "x[3]", "W[1,2]": the entry number k (from 0, by rows) of the family `name`. A scalar's is the name itself.
 [[nodiscard]] std::string entry_name(const std::string& name, const Shape& shape, std::size_t k);
 

@@ -11,7 +11,6 @@ namespace lagen {
 namespace {
 
 constexpr std::size_t most_operations = 1'000'000;
-constexpr std::size_t most_entries = 4096;
 
 /// What an operation of so many arguments counts: a sum of n terms is n - 1 additions.
 std::size_t cost(std::size_t arguments)
@@ -209,9 +208,9 @@ void Maker::fail(const std::string& message, const std::string& hint) const
 
 void require_size(const Maker& maker, const Shape& shape)
 {
-    if (shape.rows > most_entries || shape.columns > most_entries || shape.size() > most_entries)
+    if (is_too_large(shape))
         maker.fail(fmt::format("{} is too large", to_text(shape)),
-                   fmt::format("a vector or matrix has at most {} entries", most_entries));
+                   fmt::format("a vector or matrix has at most {} entries", most_array_entries));
 }
 
 Value array_value(const Maker& maker, const Shape& shape, std::vector<ClosedTree> entries)

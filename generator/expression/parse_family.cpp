@@ -8,19 +8,6 @@ namespace lagen {
 
 namespace {
 
-constexpr std::size_t most_entries = 4096;
-
-/// Bytes [begin, end) of `text` without the blanks around them.
-Excerpt part(const Excerpt& text, std::size_t begin, std::size_t end)
-{
-    const auto blank = [&](std::size_t k) { return text.text[k] == ' ' || text.text[k] == '\t'; };
-    while (begin < end && blank(begin)) ++begin;
-    while (end > begin && blank(end - 1)) --end;
-    const auto first = text.origin.begin() + static_cast<std::ptrdiff_t>(begin);
-    return {text.file, text.text.substr(begin, end - begin),
-            std::vector<std::size_t>(first, first + static_cast<std::ptrdiff_t>(end - begin + 1))};
-}
-
 SourceRange whole(const Excerpt& text)
 {
     return text.range(0, text.text.size());
@@ -36,7 +23,7 @@ struct Bracketed {
 Bracketed cut(const Excerpt& text, const char* hint)
 {
     const std::size_t open = text.text.find('[');
-    const Excerpt name = part(text, 0, std::min(open, text.text.size()));
+    const Excerpt name = trimmed(text, 0, std::min(open, text.text.size()));
     if (!is_identifier(name.text))
         throw ModelError(fmt::format("{} is not a name", quote(name.text)), whole(name.text.empty() ? text : name),
                          "letters, digits and '_' are allowed, and no digit first");
@@ -48,11 +35,11 @@ Bracketed cut(const Excerpt& text, const char* hint)
         if (c == '[' || c == '(') ++depth;
         const bool closes = (c == ']' || c == ')') && --depth == 0;
         if (closes || (c == ',' && depth == 1)) {
-            result.parts.push_back(part(text, begin, k));
+            result.parts.push_back(trimmed(text, begin, k));
             begin = k + 1;
         }
         if (!closes) continue;
-        const Excerpt rest = part(text, k + 1, text.text.size());
+        const Excerpt rest = trimmed(text, k + 1, text.text.size());
         if (!rest.text.empty())
             throw ModelError(fmt::format("{} follows the brackets", quote(rest.text)), whole(rest), hint);
         if (result.parts.size() > 2)
@@ -92,10 +79,10 @@ FamilyDeclaration parse_family(const Excerpt& text)
         if (dots == std::string::npos)
             throw ModelError(fmt::format("{} is not a range", quote(range.text)),
                              range.text.empty() ? whole(text) : whole(range), hint);
-        const Excerpt first = part(range, 0, dots);
+        const Excerpt first = trimmed(range, 0, dots);
         if (first.text != "1")
             throw ModelError(fmt::format("the range {} does not start at 1", quote(range.text)), whole(range), hint);
-        result.upper.push_back(parse_expression(part(range, dots + 2, range.text.size())));
+        result.upper.push_back(parse_expression(trimmed(range, dots + 2, range.text.size())));
     }
     return result;
 }
@@ -108,10 +95,9 @@ Shape close_shape(const FamilyDeclaration& family, const Scope& scope)
         shape.rank = Rank::matrix;
         shape.columns = positive_integer(family.upper[1], scope, "the end of the range");
     }
-    const bool large = shape.rows > most_entries || shape.columns > most_entries || shape.size() > most_entries;
-    if (large)
+    if (is_too_large(shape))
         throw ModelError(fmt::format("the family {} is {}, where at most {} entries are allowed", quote(family.name),
-                                     to_text(shape), most_entries),
+                                     to_text(shape), most_array_entries),
                          family.where);
     return shape;
 }

@@ -266,8 +266,7 @@ void Printer::open_index(const TreeNode& node)
 /// (inverse([[a, b], [c, d]])*[e, f])[k], k from 1.
 void Printer::open_solve(const TreeNode& node)
 {
-    std::size_t m = 0;
-    while (m * (m + 1) < node.arguments.size()) ++m;
+    const std::size_t m = solve_order(node.arguments.size());
     const mpz_class k = node.number.get_num() + 1;
     later(fmt::format("])[{}]", k.get_str()));
     list(node, ", ", Tightness::comparison, m * m);

@@ -192,4 +192,11 @@ Tree solve_component(std::vector<Tree> matrix, const std::vector<Tree>& right, s
     return result;
 }
 
+std::size_t solve_order(std::size_t arguments)
+{
+    std::size_t m = 0;
+    while (m * m + m < arguments) ++m;
+    return m;
+}
+
 } // namespace lagen

@@ -122,6 +122,8 @@ struct TreeNode {
 [[nodiscard]] Tree application(std::string function, std::vector<Tree> arguments); ///< TreeKind::apply
 /// Component k (from 0) of A^-1 b; `matrix` has m*m entries by rows, `right` m.
 [[nodiscard]] Tree solve_component(std::vector<Tree> matrix, const std::vector<Tree>& right, std::size_t k);
+/// The unknowns m of a TreeKind::solve with m*m + m arguments.
+[[nodiscard]] std::size_t solve_order(std::size_t arguments);
 
 /// "<", "<=", ">", ">=", "==", "!=".
 [[nodiscard]] const char* spelling(Comparison comparison);

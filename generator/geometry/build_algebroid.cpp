@@ -2,16 +2,10 @@
 /// The algebroid block of a model as sparse anchor and structure functions.
 #include "geometry/build_workspace.hpp"
 #include "geometry/named_algebra.hpp"
+#include "model/table_reader.hpp"
 
 namespace lagen {
 namespace {
-
-std::string list_of(const std::vector<std::string>& names)
-{
-    std::string text;
-    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-    return text;
-}
 
 std::vector<StructureValue> named_constants(const AlgebroidBlock& block, std::size_t first, std::size_t rank)
 {
@@ -22,7 +16,7 @@ std::vector<StructureValue> named_constants(const AlgebroidBlock& block, std::si
                              std::to_string(named_algebra_rank_limit),
                          block.algebra_where,
                          (near.empty() ? std::string() : "did you mean \"" + near + "\"? ") + "known are " +
-                             list_of(named_algebra_names()) + ", the last three with any number, and sums A + B");
+                             comma_list(named_algebra_names()) + ", the last three with any number, and sums A + B");
     }
     if (algebra->basis.size() != rank) {
         const bool atiyah = block.kind == AlgebroidKind::atiyah;

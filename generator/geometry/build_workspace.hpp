@@ -3,6 +3,7 @@
 /// the way back to trees that a person can read.
 #pragma once
 
+#include "geometry/determinant.hpp"
 #include "geometry/lowered_algebroid.hpp"
 #include "proof/decide.hpp"
 #include "proof/normal_form.hpp"
@@ -102,10 +103,7 @@ struct CoupledBlock {
 [[nodiscard]] std::vector<std::vector<NodeId>> solve_exactly(Graph& graph, const std::vector<NodeId>& matrix,
                                                              std::size_t m,
                                                              const std::vector<std::vector<NodeId>>& right);
-/// The determinant of the given rows and columns of a matrix with `width` columns, by minors that are shared.
-[[nodiscard]] NodeId determinant_of(Graph& graph, const std::vector<NodeId>& matrix, std::size_t width,
-                                    const std::vector<std::size_t>& rows, const std::vector<std::size_t>& columns);
-/// The largest determinant that is written out.
+/// The largest block that is solved by determinants.
 inline constexpr std::size_t written_determinant_limit = 5;
 
 } // namespace lagen

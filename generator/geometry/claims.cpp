@@ -51,10 +51,8 @@ void Claims::make_setting()
     for (const std::string& name : algebroid_.parameters) setting_.parameters.push_back(graph_.input(name));
     setting_.constraints = functions_.constraints;
     for (const Tree& tree : algebroid_.domain) setting_.domain.push_back((*lower_)(tree));
-    for (const std::vector<Column>* columns : {&lowered_.anchor, &lowered_.bracket})
-        for (const Column& column : *columns)
-            for (const ColumnEntry& entry : column)
-                if (!graph_.is_constant(entry.value)) setting_.defined.push_back(entry.value);
+    for (const NodeId entry : lowered_.entries())
+        if (!graph_.is_constant(entry)) setting_.defined.push_back(entry);
     if (hessian_) setting_.defined.push_back(hessian_->lagrangian);
     setting_.defined.insert(setting_.defined.end(), functions_.casimirs.begin(), functions_.casimirs.end());
     // 0*log(-1 - x^2) folds to 0, but is defined nowhere; sqrt(x)^2 folds to x, and is defined for x >= 0 only.

@@ -73,18 +73,9 @@ class Construction {
         return std::all_of(nodes.begin(), nodes.end(), [&](NodeId node) { return is_meromorphic(graph_.op(node)); });
     }
 
-    [[nodiscard]] static std::vector<NodeId> entries_of(const LoweredAlgebroid& algebroid)
-    {
-        std::vector<NodeId> entries;
-        for (const std::vector<Column>* columns : {&algebroid.anchor, &algebroid.bracket})
-            for (const Column& column : *columns)
-                for (const ColumnEntry& entry : column) entries.push_back(entry.value);
-        return entries;
-    }
-
     [[nodiscard]] bool are_meromorphic(const LoweredAlgebroid& algebroid) const
     {
-        return are_meromorphic(entries_of(algebroid));
+        return are_meromorphic(algebroid.entries());
     }
 
     /// Neither the directions nor the functions of the block know coordinates outside its own base.
@@ -95,7 +86,7 @@ class Construction {
         std::set<NodeId> outside;
         for (std::size_t i = 0; i < lowered.x.size(); ++i)
             if (!base.contains(i)) outside.insert(lowered.x[i]);
-        const std::vector<NodeId> nodes = reachable(graph_, entries_of(lowered));
+        const std::vector<NodeId> nodes = reachable(graph_, lowered.entries());
         return std::none_of(nodes.begin(), nodes.end(), [&](NodeId node) { return outside.contains(node); }) &&
                std::all_of(parts.rho.begin(), parts.rho.end(), [&](const auto& e) { return base.contains(e.i); });
     }

@@ -4,7 +4,6 @@
 #include "graph/differentiate.hpp"
 
 #include <algorithm>
-#include <bit>
 
 namespace lagen {
 namespace {
@@ -57,26 +56,10 @@ NodeId minor_determinant(Graph& graph, const FibreHessian& hessian, const std::v
                          const std::vector<std::size_t>& columns, std::optional<std::size_t> replaced,
                          const std::vector<NodeId>& right)
 {
-    const std::size_t m = columns.size();
-    if (m > determinant_limit || rows.size() != m)
-        throw InternalError("a minor of size " + std::to_string(m) + " was asked for");
-    // minors[S]: the determinant of the first |S| rows and the columns in S, by expansion along its last row
-    std::vector<NodeId> minors(std::size_t{1} << m, graph.constant(0));
-    minors[0] = graph.constant(1);
-    for (std::size_t set = 1; set < minors.size(); ++set) {
-        const std::size_t row = static_cast<std::size_t>(std::popcount(set)) - 1;
-        std::vector<NodeId> terms;
-        std::size_t position = 0;
-        for (std::size_t column = 0; column < m; ++column) {
-            if (!(set >> column & 1U)) continue;
-            const NodeId entry = replaced == column ? right[row] : hessian.W(rows[row], columns[column]);
-            const NodeId term = graph.multiply(entry, minors[set & ~(std::size_t{1} << column)]);
-            if (!graph.is_zero(term)) terms.push_back((row + position) % 2 == 0 ? term : graph.negate(term));
-            ++position;
-        }
-        minors[set] = graph.sum(terms);
-    }
-    return minors.back();
+    if (!replaced) return determinant_of(graph, hessian.hessian, hessian.y.size(), rows, columns);
+    std::vector<NodeId> matrix = hessian.hessian;
+    for (std::size_t k = 0; k < rows.size(); ++k) matrix[rows[k] * hessian.y.size() + columns.at(*replaced)] = right[k];
+    return determinant_of(graph, matrix, hessian.y.size(), rows, columns);
 }
 
 } // namespace lagen

@@ -3,14 +3,12 @@
 /// blocks of coupled fibre coordinates.
 #pragma once
 
+#include "geometry/determinant.hpp"
 #include "geometry/lowered_algebroid.hpp"
 
 #include <optional>
 
 namespace lagen {
-
-/// Larger coupled blocks are not expanded into determinants: 2^m minors each.
-inline constexpr std::size_t determinant_limit = 8;
 
 struct FibreHessian {
     NodeId lagrangian;
@@ -24,9 +22,7 @@ struct FibreHessian {
 
 [[nodiscard]] FibreHessian fibre_hessian(Graph& graph, NodeId lagrangian, const std::vector<NodeId>& y);
 
-/// det of the submatrix W(rows, columns), by minors of growing size that share their sub-determinants. rows and columns
-/// have equal sizes of at most `determinant_limit`; column `replaced` (a position in `columns`), where given, is
-/// `right` instead.
+/// det of the submatrix W(rows, columns); column `replaced` (a position in `columns`), where given, is `right` instead.
 [[nodiscard]] NodeId minor_determinant(Graph& graph, const FibreHessian& hessian, const std::vector<std::size_t>& rows,
                                        const std::vector<std::size_t>& columns,
                                        std::optional<std::size_t> replaced = {}, const std::vector<NodeId>& right = {});

@@ -16,6 +16,15 @@ void sort_column(Column& column)
 
 } // namespace
 
+std::vector<NodeId> LoweredAlgebroid::entries() const
+{
+    std::vector<NodeId> values;
+    for (const std::vector<Column>* columns : {&anchor, &bracket})
+        for (const Column& column : *columns)
+            for (const ColumnEntry& entry : column) values.push_back(entry.value);
+    return values;
+}
+
 NodeId LoweredAlgebroid::entry(Graph& graph, const Column& column, std::size_t index)
 {
     for (const ColumnEntry& entry : column)

@@ -23,6 +23,8 @@ struct LoweredAlgebroid {
 
     [[nodiscard]] std::size_t r() const { return anchor.size(); }
     [[nodiscard]] const Column& C(std::size_t a, std::size_t b) const { return bracket[a * r() + b]; }
+    /// All entries of anchor and bracket.
+    [[nodiscard]] std::vector<NodeId> entries() const;
     /// The value at `index`, or the constant 0.
     [[nodiscard]] static NodeId entry(Graph& graph, const Column& column, std::size_t index);
 };

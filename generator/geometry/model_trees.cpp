@@ -22,6 +22,18 @@ void append_definition(std::vector<Tree>& trees, const Scope& scope, const Defin
     }
 }
 
+/// Domain, constraints, Casimirs, rho, C and L.
+void append_built(std::vector<Tree>& trees, const Model& model, const Algebroid& algebroid)
+{
+    trees.insert(trees.end(), algebroid.domain.begin(), algebroid.domain.end());
+    trees.insert(trees.end(), algebroid.constraints.begin(), algebroid.constraints.end());
+    for (const NamedTree& casimir : model.base.casimirs) trees.push_back(casimir.value);
+    for (const AnchorValue& entry : algebroid.rho) trees.push_back(entry.value);
+    for (const StructureValue& entry : algebroid.C) trees.push_back(entry.value);
+    if (model.lagrangian) trees.push_back(model.lagrangian);
+}
+
+/// What the file gives, the tables inside it included.
 void append_block(std::vector<Tree>& trees, const AlgebroidBlock& block)
 {
     for (const AnchorEntry& entry : block.anchor) trees.push_back(entry.value);
@@ -37,13 +49,9 @@ void append_block(std::vector<Tree>& trees, const AlgebroidBlock& block)
 
 std::vector<Tree> structure_trees(const Model& model, const Algebroid& algebroid)
 {
-    std::vector<Tree> trees = algebroid.constraints;
-    trees.insert(trees.end(), algebroid.domain.begin(), algebroid.domain.end());
-    for (const NamedTree& casimir : model.base.casimirs) trees.push_back(casimir.value);
+    std::vector<Tree> trees;
+    append_built(trees, model, algebroid);
     append_block(trees, model.algebroid);
-    for (const AnchorValue& entry : algebroid.rho) trees.push_back(entry.value);
-    for (const StructureValue& entry : algebroid.C) trees.push_back(entry.value);
-    if (model.lagrangian) trees.push_back(model.lagrangian);
     return trees;
 }
 
@@ -51,12 +59,7 @@ std::vector<Tree> all_trees(const Model& model, const Algebroid& algebroid)
 {
     std::vector<Tree> trees;
     for (const Definition& definition : model.definitions) append_definition(trees, model.observer, definition);
-    trees.insert(trees.end(), algebroid.domain.begin(), algebroid.domain.end());
-    trees.insert(trees.end(), algebroid.constraints.begin(), algebroid.constraints.end());
-    for (const NamedTree& casimir : model.base.casimirs) trees.push_back(casimir.value);
-    for (const AnchorValue& entry : algebroid.rho) trees.push_back(entry.value);
-    for (const StructureValue& entry : algebroid.C) trees.push_back(entry.value);
-    if (model.lagrangian) trees.push_back(model.lagrangian);
+    append_built(trees, model, algebroid);
     for (const std::vector<NamedTree>* list : {&model.invariants, &model.observables})
         for (const NamedTree& entry : *list) trees.push_back(entry.value);
     for (const Scene& scene : model.scenes)

@@ -10,8 +10,8 @@ namespace lagen {
 /// observables, events. A definition that cannot be closed by itself (a function of vectors) is seen where it is used.
 [[nodiscard]] std::vector<Tree> all_trees(const Model& model, const Algebroid& algebroid);
 
-/// What the structure and the Lagrangian are made of, as written and as built: constraints, domain, Casimirs, the
-/// blocks of the algebroid down to the innermost, rho, C and L. A point counts where all of them are defined.
+/// What the structure and the Lagrangian are made of, as written and as built: domain, constraints, Casimirs, rho,
+/// C and L, and the blocks of the algebroid down to the innermost. A point counts where all of them are defined.
 [[nodiscard]] std::vector<Tree> structure_trees(const Model& model, const Algebroid& algebroid);
 
 } // namespace lagen

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Bases of the named Lie algebras, in the order of README, "Named algebras", and their commutators.
+/// Bases of the named Lie algebras, in the order of docs/algebroids.md, and their commutators.
 #include "geometry/named_algebra.hpp"
 
 #include <algorithm>

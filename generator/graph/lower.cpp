@@ -93,8 +93,7 @@ NodeId lower_stumpff(Graph& graph, const TreeNode& tree, std::span<const NodeId>
 /// One component of A^-1 b; equal systems are one node, whichever component asks first.
 NodeId lower_solve(Graph& graph, const TreeNode& tree, std::span<const NodeId> arguments)
 {
-    std::size_t n = 0;
-    while (n * n + n < arguments.size()) ++n;
+    const std::size_t n = solve_order(arguments.size());
     if (n * n + n != arguments.size() || sgn(tree.number) < 0 || tree.number >= n)
         throw InternalError("a solve with " + std::to_string(arguments.size()) + " arguments");
     try {

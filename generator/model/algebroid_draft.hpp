@@ -84,6 +84,8 @@ void inherit_lagrangian(ModelReader& reader);
 void read_entries(const ModelReader& reader, AlgebroidBlock& block, const AlgebroidDraft& draft);
 /// The matrices of `representation`.
 void read_representation(const ModelReader& reader, AlgebroidBlock& block, const TomlEntry& entry);
+/// The base coordinates of a block.
+[[nodiscard]] std::vector<Symbol> coordinates_of(const Model& model, const AlgebroidBlock& block);
 /// "v_x" for each coordinate.
 [[nodiscard]] std::vector<Symbol> velocities_of(const std::vector<Symbol>& coordinates);
 /// Defines the inner velocities of the model's algebroid, whose entries are read.
@@ -94,8 +96,8 @@ void define_inner_velocities(ModelReader& reader);
 /// Whether one of the replacements mentions `name`.
 [[nodiscard]] bool introduces(const std::map<std::string, Tree>& replacements, const std::string& name);
 /// `name` with underscores behind it, so that neither `body` nor a replacement has it.
-[[nodiscard]] std::string fresh_name(const std::string& name, const Tree& body,
-                                     const std::map<std::string, Tree>& replacements);
+[[nodiscard]] std::string uncaptured_name(const std::string& name, const Tree& body,
+                                          const std::map<std::string, Tree>& replacements);
 /// `tree` with the names of `replacements` replaced; shared parts stay shared. Nothing that comes in is captured by an
 /// index of a sum.
 [[nodiscard]] Tree replace_names(const Tree& tree, const std::map<std::string, Tree>& replacements);

@@ -45,7 +45,7 @@ std::vector<Symbol> standard_fibre(const AlgebroidDraft& draft, const std::vecto
     case AlgebroidKind::tangent: {
         std::vector<Symbol> moving;
         for (const std::size_t i : read_over(*draft.table, draft.title, base)) moving.push_back(base[i]);
-        return with_prefix("v_", moving);
+        return velocities_of(moving);
     }
     case AlgebroidKind::prolongation: {
         std::vector<Symbol> fibre = with_prefix("X_", inner_fibre);
@@ -111,6 +111,18 @@ void require_distinct(const ModelReader& reader, const AlgebroidDraft& leaf, con
 }
 
 } // namespace
+
+std::vector<Symbol> velocities_of(const std::vector<Symbol>& coordinates)
+{
+    return with_prefix("v_", coordinates);
+}
+
+std::vector<Symbol> coordinates_of(const Model& model, const AlgebroidBlock& block)
+{
+    std::vector<Symbol> out;
+    for (const std::size_t i : block.base) out.push_back(model.base.coordinates[i]);
+    return out;
+}
 
 const AlgebroidDraft& leaf_of(const AlgebroidDraft& draft)
 {

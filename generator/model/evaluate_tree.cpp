@@ -70,8 +70,7 @@ Dual stumpff_function(long double order, Dual z)
 /// number where A is singular.
 Dual solve_system(std::vector<Dual> a, std::size_t row)
 {
-    std::size_t n = 1;
-    while (n * n + n < a.size()) ++n;
+    const std::size_t n = solve_order(a.size());
     const auto at = [&a, n](std::size_t i, std::size_t j) -> Dual& { return a[j < n ? i * n + j : n * n + i]; };
     for (std::size_t k = 0; k < n; ++k) {
         std::size_t pivot = k;

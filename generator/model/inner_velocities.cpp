@@ -53,13 +53,6 @@ void define_velocities(ModelReader& reader, const std::vector<Symbol>& symbols, 
     }
 }
 
-std::vector<Symbol> coordinates_of(const Model& model, const AlgebroidBlock& block)
-{
-    std::vector<Symbol> out;
-    for (const std::size_t i : block.base) out.push_back(model.base.coordinates[i]);
-    return out;
-}
-
 /// w_b = y^a A_a^b
 std::vector<Tree> inner_fibre_values(const AlgebroidBlock& block, const std::vector<Tree>& y)
 {
@@ -140,13 +133,6 @@ void append_velocity_names(std::vector<std::string>& names, const Model& model, 
 }
 
 } // namespace
-
-std::vector<Symbol> velocities_of(const std::vector<Symbol>& coordinates)
-{
-    std::vector<Symbol> out;
-    for (const Symbol& symbol : coordinates) out.push_back(Symbol{"v_" + symbol.name, symbol.where, {}, {}, {}});
-    return out;
-}
 
 Tree array_tree(const Shape& shape, const std::vector<Tree>& entries)
 {

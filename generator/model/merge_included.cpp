@@ -157,7 +157,7 @@ void define_inherited(ModelReader& reader, const IncludedModel& included, const 
     std::map<std::string, Tree> replacements = replacements_in(definition, included);
     for (std::string& parameter : own.parameters) {
         if (!introduces(replacements, parameter)) continue;
-        const std::string fresh = fresh_name(parameter, definition.body, replacements);
+        const std::string fresh = uncaptured_name(parameter, definition.body, replacements);
         replacements[parameter] = name(fresh);
         parameter = fresh;
     }

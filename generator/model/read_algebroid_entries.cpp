@@ -74,16 +74,9 @@ void read_rows(const ModelReader& reader, const TomlEntry& block, const RowTexts
     }
 }
 
-std::vector<Symbol> coordinates_of(const ModelReader& reader, const AlgebroidBlock& block)
-{
-    std::vector<Symbol> out;
-    for (const std::size_t i : block.base) out.push_back(reader.model.base.coordinates[i]);
-    return out;
-}
-
 void read_anchor(const ModelReader& reader, AlgebroidBlock& block, const TomlEntry& table, const RowTexts& texts)
 {
-    read_rows(reader, table, texts, block.fibre, coordinates_of(reader, block),
+    read_rows(reader, table, texts, block.fibre, coordinates_of(reader.model, block),
               [&](std::size_t a, std::size_t i, const Tree& value, const SourceRange& where) {
                   block.anchor.push_back(AnchorEntry{a, block.base[i], value, where});
               });
@@ -134,7 +127,7 @@ void read_connection(const ModelReader& reader, AlgebroidBlock& block, const Tom
     const std::vector<Symbol> vertical(block.fibre.begin() + static_cast<std::ptrdiff_t>(block.base.size()),
                                        block.fibre.end());
     require_vertical(block, table);
-    read_rows(reader, table, texts, coordinates_of(reader, block), vertical,
+    read_rows(reader, table, texts, coordinates_of(reader.model, block), vertical,
               [&](std::size_t i, std::size_t c, const Tree& value, const SourceRange& where) {
                   block.connection.push_back(ConnectionEntry{block.base[i], c + block.base.size(), value, where});
               });

@@ -137,17 +137,6 @@ std::vector<Excerpt> read_list(const TomlValue& value, const std::string& what)
     return out;
 }
 
-Excerpt trimmed(const Excerpt& text, std::size_t begin, std::size_t end)
-{
-    const auto blank = [&](std::size_t k) { return text.text[k] == ' ' || text.text[k] == '\t'; };
-    while (begin < end && blank(begin)) ++begin;
-    while (end > begin && blank(end - 1)) --end;
-    Excerpt out{text.file, text.text.substr(begin, end - begin), {}};
-    const auto first = text.origin.begin() + static_cast<std::ptrdiff_t>(begin);
-    out.origin.assign(first, first + static_cast<std::ptrdiff_t>(end - begin + 1));
-    return out;
-}
-
 std::vector<Excerpt> split_at_commas(const Excerpt& text)
 {
     std::vector<Excerpt> out;

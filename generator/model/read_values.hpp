@@ -32,9 +32,6 @@ void refuse_equation(const Excerpt& text, const std::string& what);
 /// An array of strings.
 [[nodiscard]] std::vector<Excerpt> read_list(const TomlValue& value, const std::string& what);
 
-/// Bytes [begin, end) of an excerpt without the blanks around them.
-[[nodiscard]] Excerpt trimmed(const Excerpt& text, std::size_t begin, std::size_t end);
-
 /// The parts between commas, blanks trimmed; at least one (possibly empty) part.
 [[nodiscard]] std::vector<Excerpt> split_at_commas(const Excerpt& text);
 

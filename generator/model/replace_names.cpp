@@ -24,7 +24,7 @@ Tree replace_in_sum(const Tree& sum, const Replacements& replacements)
     inner.erase(sum->name);
     auto node = std::make_shared<TreeNode>(*sum);
     if (introduces(replacements, sum->name)) {
-        node->name = fresh_name(sum->name, sum->arguments[2], replacements);
+        node->name = uncaptured_name(sum->name, sum->arguments[2], replacements);
         inner[sum->name] = name(node->name);
     }
     for (std::size_t k = 0; k < 2; ++k) node->arguments[k] = replace_names(sum->arguments[k], replacements);
@@ -55,7 +55,7 @@ bool introduces(const Replacements& replacements, const std::string& name)
     });
 }
 
-std::string fresh_name(const std::string& name, const Tree& body, const Replacements& replacements)
+std::string uncaptured_name(const std::string& name, const Tree& body, const Replacements& replacements)
 {
     const std::vector<std::string> used = names_in(body);
     std::string fresh = name + '_';

@@ -12,9 +12,9 @@ namespace {
 constexpr unsigned largest_multiple = 256; ///< of an angle; cos(256 u) has 129 terms
 constexpr unsigned finest_part = 60;       ///< of pi whose sine and cosine are algebraic numbers
 constexpr std::size_t most_parts = 64;     ///< terms of one argument: each brings generators of its own
-constexpr std::size_t longest_text = 160;  ///< of one generator
 
-/// The greatest rational that divides both.
+} // namespace
+
 mpq_class common_divisor(const mpq_class& a, const mpq_class& b)
 {
     mpz_class above, below;
@@ -25,8 +25,6 @@ mpq_class common_divisor(const mpq_class& a, const mpq_class& b)
     divisor.canonicalize();
     return divisor;
 }
-
-} // namespace
 
 Fraction Elementary::pi()
 {
@@ -57,7 +55,7 @@ std::vector<Elementary::Part> Elementary::parts(const Fraction& argument) const
 void Elementary::make_generators(Unit& unit, const Fraction& atom, bool angle)
 {
     Fraction argument = ring_.times(ring_.constant(unit.size), atom);
-    const std::string text = to_text(ring_, argument, longest_text);
+    const std::string text = to_text(ring_, argument, longest_generator);
     if (!angle) {
         Generator generator{"exp(" + text + ")", Range::positive(), 0, {}, -1, false};
         const Signs signs = ring_.signs(argument);
@@ -212,10 +210,10 @@ Fraction Elementary::opaque(const std::string& name, const std::vector<Fraction>
     std::string key = name, text = name + '(';
     for (std::size_t k = 0; k < arguments.size(); ++k) {
         key += ':' + key_of(arguments[k]);
-        text += (k == 0 ? "" : ", ") + to_text(ring_, arguments[k], longest_text);
+        text += (k == 0 ? "" : ", ") + to_text(ring_, arguments[k], longest_generator);
         if (key.size() > 1'000'000) throw BudgetExhausted("an argument is longer than 1000000 characters");
     }
-    if (text.size() > 2 * longest_text) text = name + "(...";
+    if (text.size() > 2 * longest_generator) text = name + "(...";
     return ring_.of(ring_.keyed(key, [&] { return ring_.add_generator({text + ')', {}, 0, {}, -1, false}); }));
 }
 

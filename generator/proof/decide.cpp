@@ -64,6 +64,7 @@ class ZeroDecider::State {
     }
     [[nodiscard]] Algebra reduce(NodeId residual) const;
     [[nodiscard]] bool is_multiple(NodeId residual) const;
+    [[nodiscard]] bool vanishes(NodeId residual, const Work& work) const;
     [[nodiscard]] bool vanishes_with_roots_apart(NodeId residual) const;
     [[nodiscard]] bool has_many_divisors(NodeId residual) const;
     void search_witness(const Evaluation& evaluation, Sampler& sampler, bool prove, Decision& decision) const;
@@ -128,6 +129,19 @@ bool ZeroDecider::State::is_multiple(NodeId residual) const
     return numerator.empty();
 }
 
+/// Whether the normal form is 0, with no condition, within this work.
+bool ZeroDecider::State::vanishes(NodeId residual, const Work& work) const
+{
+    try {
+        NormalForm forms(graph_, setting_, constraints_, residual, operands_, work);
+        return forms.of(residual).is_zero() && forms.condition().empty();
+    } catch (const BudgetExhausted&) {
+        return false;
+    } catch (const VanishingDivisor&) {
+        return false;
+    }
+}
+
 /// Roots of products as products of the other roots: sqrt(u v) = sqrt(u) sqrt(v), where several roots are. Not at
 /// first, since other roots are denested while they are whole.
 bool ZeroDecider::State::vanishes_with_roots_apart(NodeId residual) const
@@ -136,15 +150,7 @@ bool ZeroDecider::State::vanishes_with_roots_apart(NodeId residual) const
     for (const NodeId node : reachable(graph_, std::vector<NodeId>{residual}))
         roots += graph_.op(node) == Op::sqrt || graph_.op(node) == Op::real_power ? 1 : 0;
     if (roots < 2) return false;
-    try {
-        NormalForm forms(graph_, setting_, constraints_, residual, operands_,
-                         {budget_.terms, budget_.products, false, true});
-        return forms.of(residual).is_zero() && forms.condition().empty();
-    } catch (const BudgetExhausted&) {
-        return false;
-    } catch (const VanishingDivisor&) {
-        return false;
-    }
+    return vanishes(residual, {budget_.terms, budget_.products, false, true});
 }
 
 /// Many different divisors: a common denominator would be their product.
@@ -163,20 +169,11 @@ bool ZeroDecider::State::has_many_divisors(NodeId residual) const
 ZeroDecider::State::Algebra ZeroDecider::State::reduce(NodeId residual) const
 {
     Algebra result;
-    if (has_many_divisors(residual)) {
-        try {
-            NormalForm forms(graph_, setting_, constraints_, residual, operands_,
-                             {budget_.terms, budget_.products, true});
-            result.zero = forms.of(residual).is_zero() && forms.condition().empty();
-        } catch (const BudgetExhausted&) {
-            result.zero = false; // the common denominator decides
-        } catch (const VanishingDivisor&) {
-            result.zero = false; // and says so
-        }
-        if (result.zero) {
-            result.text = "0";
-            return result;
-        }
+    // Where this fails the common denominator decides, and says why not.
+    if (has_many_divisors(residual) && vanishes(residual, {budget_.terms, budget_.products, true})) {
+        result.zero = true;
+        result.text = "0";
+        return result;
     }
     try {
         NormalForm forms = normal_form(residual);

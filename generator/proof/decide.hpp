@@ -15,7 +15,7 @@
 /// - asin, acos, atan, atan2 under sin, cos, tan with integer multiples and (not atan2) halves; sums of them whose
 ///   absolute value is certainly below 2 pi;
 /// - all of these modulo triangular constraints, with signs that follow from the inequalities of the domain (bounds,
-///   sums, products, differences, squares, discriminants), and linear systems of up to 4 equations.
+///   sums, products, differences, squares, discriminants), and linear systems of up to 8 coupled equations.
 /// Not decided: branches that need more than signs (monotony of other functions, angles beyond one turn), constraints
 /// that are not triangular, what exceeds the budget.
 #pragma once
@@ -49,7 +49,6 @@ struct Decision {
 };
 
 /// What holds of the variables.
-
 struct ProofSetting {
     std::vector<NodeId>
         variables; ///< input nodes: base coordinates first, then others (fibre), in order of declaration

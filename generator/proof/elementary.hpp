@@ -150,6 +150,12 @@ class Elementary {
     std::map<GeneratorId, Polynomial> logs_; ///< arguments of log generators
 };
 
+/// Longest text of what stands in the name of a generator.
+inline constexpr std::size_t longest_generator = 160;
+
+/// The greatest rational that divides both.
+[[nodiscard]] mpq_class common_divisor(const mpq_class& a, const mpq_class& b);
+
 /// Longest text of a polynomial whose sign may be assumed; a text that was cut is none.
 inline constexpr std::size_t longest_open = 600;
 

@@ -11,8 +11,6 @@ namespace lagen::proof {
 
 namespace {
 
-constexpr std::size_t longest_text = 160;
-
 /// Rational bounds outside of pi/2 and pi.
 const mpq_class half_turn_quarter(355, 226);
 const mpq_class half_turn(355, 113);
@@ -38,7 +36,7 @@ Fraction Elementary::inverse_angle(const std::string& name, const std::vector<Fr
     std::string key = name, text = name + '(';
     for (std::size_t k = 0; k < arguments.size(); ++k) {
         key += ':' + key_of(arguments[k]);
-        text += (k == 0 ? "" : ", ") + to_text(ring_, arguments[k], longest_text);
+        text += (k == 0 ? "" : ", ") + to_text(ring_, arguments[k], longest_generator);
     }
     const GeneratorId id = ring_.keyed(key, [&] {
         Generator generator{text + ')', range, 0, {}, -1, false};

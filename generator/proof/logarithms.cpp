@@ -10,7 +10,7 @@ Fraction Elementary::log_generator(const Polynomial& p)
     const GeneratorId id = ring_.keyed("log:" + key_of(p), [&] {
         // log p > 0 where p > 1
         const Signs signs = ring_.signs(add_scaled(p, constant_polynomial(1), -1, ring_.work()));
-        Generator generator{"log(" + to_text(ring_, p, 160) + ")", {}, 0, {}, -1, false};
+        Generator generator{"log(" + to_text(ring_, p, longest_generator) + ")", {}, 0, {}, -1, false};
         if (!signs.negative) generator.range.low = End{false, 0, !signs.zero};
         if (!signs.positive) generator.range.high = End{false, 0, !signs.zero};
         generator.range.nonzero = !signs.zero;

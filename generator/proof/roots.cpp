@@ -9,7 +9,6 @@ namespace lagen::proof {
 
 namespace {
 
-constexpr std::size_t longest_text = 160;
 constexpr unsigned highest_degree = 64; ///< of the common root of several
 
 int floor_divide(int a, int b)
@@ -70,7 +69,7 @@ Fraction Elementary::root_generator(const Polynomial& radicand, unsigned wanted)
     const unsigned degree = common % wanted == 0 ? common : wanted;
     const std::string key = "root" + std::to_string(degree) + ':' + key_of(radicand);
     const GeneratorId id = ring_.keyed(key, [&] {
-        const std::string inner = to_text(ring_, radicand, longest_text);
+        const std::string inner = to_text(ring_, radicand, longest_generator);
         const std::string text =
             degree == 2 ? "sqrt(" + inner + ")" : "(" + inner + ")^(1/" + std::to_string(degree) + ")";
         const Range range = ring_.signs(radicand).zero ? Range::nonnegative() : Range::positive();
@@ -201,7 +200,7 @@ Fraction Elementary::root(const Fraction& argument, unsigned degree)
 Fraction Elementary::absolute_generator(const Polynomial& p)
 {
     const GeneratorId id = ring_.keyed("abs:" + key_of(p), [&] {
-        const std::string text = "abs(" + to_text(ring_, p, longest_text) + ")";
+        const std::string text = "abs(" + to_text(ring_, p, longest_generator) + ")";
         const Range range = ring_.signs(p).zero ? Range::nonnegative() : Range::positive();
         std::optional<Ball> value = ring_.value_of(p);
         if (value) arb_abs(value->get(), value->get());

@@ -14,7 +14,7 @@ constexpr std::size_t most_steps = 80;   ///< polynomials looked at for one ques
 constexpr std::size_t strict_steps = 12; ///< further ones, where a fact says p >= 0 and only p = 0 is left open
 constexpr std::size_t most_terms = 300;  ///< of a polynomial whose sign is asked for; rational ranges are slow
 
-/// p / (content and sign), so that proportional polynomials are equal.
+/// p over its positive content, so that positive multiples are equal.
 Polynomial primitive(const Polynomial& p)
 {
     return divide_content(p, content(p));

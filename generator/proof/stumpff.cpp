@@ -16,9 +16,8 @@ namespace lagen::proof {
 
 namespace {
 
-constexpr unsigned most_repeats = 256;    ///< of one argument's root in another's
-constexpr std::size_t longest_name = 160; ///< of one generator
-constexpr int most_conjugations = 32;     ///< in a search for the norm of an argument
+constexpr unsigned most_repeats = 256; ///< of one argument's root in another's
+constexpr int most_conjugations = 32;  ///< in a search for the norm of an argument
 
 /// a = square * rest with a square-free integer `rest`, up to primes above 2000; the root of `square`.
 struct SquarePart {
@@ -37,16 +36,6 @@ SquarePart square_part(const mpq_class& a)
     }
     part.root /= a.get_den();
     return part;
-}
-
-mpq_class common_unit(const mpq_class& a, const mpq_class& b)
-{
-    mpz_class above;
-    mpz_gcd(above.get_mpz_t(), mpz_class(a.get_num() * b.get_den()).get_mpz_t(),
-            mpz_class(b.get_num() * a.get_den()).get_mpz_t());
-    mpq_class unit(above, a.get_den() * b.get_den());
-    unit.canonicalize();
-    return unit;
 }
 
 } // namespace
@@ -110,10 +99,15 @@ void Elementary::make_family(Family& family, const Fraction& kernel)
         const Polynomial factor = ring_.factor(index);
         below = ring_.times(below, ring_.power(factor, power));
     }
-    const std::string text = to_text(ring_, family.argument, longest_name);
+    const std::string text = to_text(ring_, family.argument, longest_generator);
     const std::string name = "stumpff(1, " + text + ")";
-    const GeneratorId odd = ring_.add_generator(
-        {is_one(below) ? name : "(" + name + "/(" + to_text(ring_, below, longest_name) + "))", {}, 0, {}, -1, false});
+    const GeneratorId odd =
+        ring_.add_generator({is_one(below) ? name : "(" + name + "/(" + to_text(ring_, below, longest_generator) + "))",
+                             {},
+                             0,
+                             {},
+                             -1,
+                             false});
     const bool circular = ring_.signs(kernel).certainly_nonnegative();
     const GeneratorId even =
         ring_.add_generator({"stumpff(0, " + text + ")", circular ? Range::between(-1, 1) : Range{}, 0, {}, -1, false});
@@ -166,7 +160,7 @@ Elementary::StumpffPair Elementary::stumpff_pair(const Fraction& z)
     mpq_class quotient = fresh ? mpq_class(1) : mpq_class(size / family.size);
     if (fresh || quotient.get_den() != 1) {
         refined_ = refined_ || !fresh;
-        family.size = fresh ? size : common_unit(family.size, size);
+        family.size = fresh ? size : common_divisor(family.size, size);
         make_family(family, kernel);
         quotient = size / family.size;
     }

@@ -78,8 +78,7 @@ GiNaC::ex laplace_determinant(const std::vector<GiNaC::ex>& matrix, std::size_t 
 GiNaC::ex solve_explicitly(const std::vector<GiNaC::ex>& a, std::size_t k)
 {
     constexpr std::size_t largest_order = 4;
-    std::size_t n = 1;
-    while (n * n + n < a.size()) ++n;
+    const std::size_t n = solve_order(a.size());
     if (n > largest_order)
         throw MathematicsError("the solution of " + std::to_string(n) +
                                " coupled linear equations is not written out: a formula that a person could read "

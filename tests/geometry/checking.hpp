@@ -5,6 +5,8 @@
 #include "geometry/verify.hpp"
 #include "model/read_model.hpp"
 
+#include <set>
+
 namespace lagen {
 
 inline VerifiedAlgebroid verified_text(const std::string& text, const std::vector<NamedTree>& extra = {})
@@ -25,6 +27,16 @@ inline std::vector<std::string> lines_of(const VerifiedAlgebroid& verified)
     std::vector<std::string> lines;
     for (const Check& check : verified.checks) lines.push_back(line_of(check));
     return lines;
+}
+
+/// The distinct hints of a model in order.
+inline std::vector<std::string> hints_of(const VerifiedAlgebroid& verified)
+{
+    std::vector<std::string> hints;
+    std::set<std::string> seen = {""};
+    for (const Check& check : verified.checks)
+        if (seen.insert(check.hint).second) hints.push_back(check.hint);
+    return hints;
 }
 
 } // namespace lagen

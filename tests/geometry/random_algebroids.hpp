@@ -5,6 +5,7 @@
 #pragma once
 
 #include "geometry/rational_functions.hpp"
+#include "support/dice.hpp"
 
 #include <optional>
 #include <string>
@@ -12,25 +13,7 @@
 
 namespace lagen::oracle {
 
-/// A seeded linear congruential generator: the same numbers with every standard library.
-class Dice {
-  public:
-    explicit Dice(std::uint64_t seed) : state_(seed * 2862933555777941757ULL + 3037000493ULL) {}
-    std::size_t below(std::size_t n)
-    {
-        state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
-        return static_cast<std::size_t>((state_ >> 33) % n);
-    }
-    /// -n .. n without 0
-    int signed_digit(int n)
-    {
-        const int value = static_cast<int>(below(static_cast<std::size_t>(n))) + 1;
-        return below(2) == 0 ? value : -value;
-    }
-
-  private:
-    std::uint64_t state_;
-};
+using testing::Dice;
 
 struct RandomAlgebroid {
     std::size_t n = 0, r = 0;

@@ -4,22 +4,10 @@
 
 #include <catch2/catch.hpp>
 
-#include <set>
-
 using namespace lagen;
 using Hints = std::vector<std::string>;
 
 namespace {
-
-/// The distinct hints of a model in order.
-Hints hints_of(const VerifiedAlgebroid& verified)
-{
-    Hints hints;
-    std::set<std::string> seen = {""};
-    for (const Check& check : verified.checks)
-        if (seen.insert(check.hint).second) hints.push_back(check.hint);
-    return hints;
-}
 
 Hints hints_of(const std::string& text)
 {

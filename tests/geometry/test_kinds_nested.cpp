@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Algebroids made of others: frames, products and prolongations, of inner tables and of files.
 #include "geometry/checking.hpp"
+#include "graph/differentiate.hpp"
+#include "graph/lower.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -151,5 +153,30 @@ TEST_CASE("so(n) and its prolongations of both kinds are valid up to n = 10")
             CHECK(verified.algebroid.r() == 2 * r);
             CHECK(verified.algebroid.C.size() == n * (n - 1) * (n - 2) / 2);
         }
+    }
+}
+
+TEST_CASE("names of the model are not captured by parameters and indices of an included file's definitions")
+{
+    // captured.toml: f(q) = q*x and g(k) = sum(i, 1, 2, i*x*k) with its base coordinate x.
+    for (const std::string name : {"q", "k", "i", "unlike"}) {
+        INFO(name);
+        const Model model = nested("[base]\ncoordinates = ['" + name + R"toml(', 'y', 'z']
+[fibre]
+coordinates = ['u', 'v', 'w']
+[algebroid]
+kind = 'product'
+of = ['captured.toml', 'plane.toml']
+[lagrangian]
+L = 'u^2/2 + f(3) + g(5)'
+)toml");
+        REQUIRE(model.lagrangian);
+        Graph graph;
+        Lowering lower(graph);
+        const NodeId x = graph.input(name);
+        const NodeId L = lower(model.lagrangian);
+        // 3 x + 5 x + 10 x
+        const std::vector<NodeId> dL = gradient(graph, L, std::vector{x});
+        CHECK(graph.value(dL[0]) == 18);
     }
 }

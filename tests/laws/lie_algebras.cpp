@@ -154,7 +154,11 @@ LocalAlgebroid random_lie_algebra(Dice& dice)
     return result;
 }
 
-LocalAlgebroid linear_action(const MatrixAlgebra& algebra)
+namespace {
+
+/// rho_a = sum_ij coefficient(A_a, i, j) x_j d/dx_i
+template <class Coefficient>
+LocalAlgebroid matrix_action(const MatrixAlgebra& algebra, Coefficient coefficient)
 {
     LocalAlgebroid result(numbered("x", algebra.m), algebra.algebroid.fibre);
     result.C = algebra.algebroid.C;
@@ -162,20 +166,20 @@ LocalAlgebroid linear_action(const MatrixAlgebra& algebra)
         for (std::size_t i = 0; i < algebra.m; ++i)
             for (std::size_t j = 0; j < algebra.m; ++j)
                 result.anchor(i, a) =
-                    result.anchor(i, a) - Formula(algebra.basis[a][i * algebra.m + j]) * result.coordinate(j);
+                    result.anchor(i, a) + Formula(coefficient(algebra.basis[a], i, j)) * result.coordinate(j);
     return result;
+}
+
+} // namespace
+
+LocalAlgebroid linear_action(const MatrixAlgebra& algebra)
+{
+    return matrix_action(algebra, [&](const auto& A, std::size_t i, std::size_t j) { return -A[i * algebra.m + j]; });
 }
 
 LocalAlgebroid right_action(const MatrixAlgebra& algebra)
 {
-    LocalAlgebroid result(numbered("x", algebra.m), algebra.algebroid.fibre);
-    result.C = algebra.algebroid.C;
-    for (std::size_t a = 0; a < result.r(); ++a)
-        for (std::size_t i = 0; i < algebra.m; ++i)
-            for (std::size_t j = 0; j < algebra.m; ++j)
-                result.anchor(i, a) =
-                    result.anchor(i, a) + Formula(algebra.basis[a][j * algebra.m + i]) * result.coordinate(j);
-    return result;
+    return matrix_action(algebra, [&](const auto& A, std::size_t i, std::size_t j) { return A[j * algebra.m + i]; });
 }
 
 LocalAlgebroid projective_action(const MatrixAlgebra& algebra)

@@ -3,13 +3,15 @@
 /// function here keeps a valid algebroid valid.
 #pragma once
 
-#include "dice.hpp"
 #include "formula.hpp"
+#include "support/dice.hpp"
 
 #include <string>
 #include <vector>
 
 namespace lagen::laws {
+
+using testing::Dice;
 
 /// coordinate = value, or -value where `either_sign`, solves a constraint.
 struct SolvedCoordinate {

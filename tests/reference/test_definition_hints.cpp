@@ -1,30 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// What is said of the reference definitions that are wrong.
-#include "geometry/verify.hpp"
-#include "model/read_model.hpp"
+#include "geometry/checking.hpp"
 #include "support/reference_case.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <map>
-#include <set>
 
 using namespace lagen;
 using Hints = std::vector<std::string>;
-
-namespace {
-
-/// The distinct hints of a model in order.
-Hints hints_of(const VerifiedAlgebroid& verified)
-{
-    Hints hints;
-    std::set<std::string> seen = {""};
-    for (const Check& check : verified.checks)
-        if (seen.insert(check.hint).second) hints.push_back(check.hint);
-    return hints;
-}
-
-} // namespace
 
 TEST_CASE("the reference definitions that are wrong have these hints")
 {

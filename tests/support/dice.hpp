@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace lagen::laws {
+namespace lagen::testing {
 
 /// A linear congruential generator modulo 2^64 whose upper bits are used.
 class Dice {
@@ -48,4 +48,4 @@ class Dice {
     std::uint64_t state_;
 };
 
-} // namespace lagen::laws
+} // namespace lagen::testing
