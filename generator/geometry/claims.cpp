@@ -12,14 +12,14 @@
 
 namespace lagen {
 
-Claims::Claims(const Model& model, const Algebroid& algebroid, std::size_t points)
+Claims::Claims(const Model& model, const Algebroid& algebroid, std::size_t points, const ProofBudget& budget)
     : model_(model), algebroid_(algebroid), points_(points)
 {
     lower_model();
     make_setting();
     require_triangular_constraints();
-    refuse_zero_divisors();
-    judge_ = std::make_unique<Judge>(graph_, setting_, accessory(), points_);
+    refuse_zero_divisors(budget);
+    judge_ = std::make_unique<Judge>(graph_, setting_, accessory(), points_, budget);
     if (!judge_->decider().sample_point())
         note_ = "no point was found where everything in the model is defined and every condition of [base] holds";
 }
@@ -84,13 +84,13 @@ void Claims::require_triangular_constraints()
     }
 }
 
-void Claims::refuse_zero_divisors()
+void Claims::refuse_zero_divisors(const ProofBudget& budget)
 {
     EquationsOfMotion motion(graph_, lowered_, hessian_ ? &*hessian_ : nullptr, time_);
     Binding names = motion.names(model_);
     names.insert(binding_.begin(), binding_.end());
     Lowering lower(graph_, names);
-    ZeroDivisors divisors(graph_, setting_);
+    ZeroDivisors divisors(graph_, setting_, budget);
     for (const Tree& tree : all_trees(model_, algebroid_))
         divisors.refuse(tree, [&](const Tree& divisor) { return motion.in_states(lower(divisor)); });
 }

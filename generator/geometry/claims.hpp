@@ -15,9 +15,9 @@ namespace lagen {
 
 class Claims {
   public:
-    /// `points`: of a re-evaluation; 0: none. Throws ModelError where the base constraints are not triangular, and
+    /// `points`: of a re-evaluation; 0: none. `budget`: of each decision. Throws ModelError where the base constraints are not triangular, and
     /// where a divisor of the model is zero everywhere.
-    Claims(const Model& model, const Algebroid& algebroid, std::size_t points);
+    Claims(const Model& model, const Algebroid& algebroid, std::size_t points, const ProofBudget& budget);
 
     /// antisymmetry, anchor, jacobi, tangency of the constraints, Casimirs
     void decide_structure(VerifiedAlgebroid& verified);
@@ -28,7 +28,7 @@ class Claims {
     void lower_model();
     void make_setting();
     void require_triangular_constraints();
-    void refuse_zero_divisors();
+    void refuse_zero_divisors(const ProofBudget& budget);
     void decide_by_construction(const ResidualList& list);
     [[nodiscard]] Check check_of(const Residual& residual) const;
     [[nodiscard]] Editable editable() const;

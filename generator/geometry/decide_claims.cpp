@@ -43,7 +43,7 @@ void Claims::decide_by_construction(const ResidualList& list)
 {
     constexpr ProofBudget quick_budget{.terms = 2000, .products = 100'000};
     if (!contains_frame(model_.algebroid)) return;
-    const ZeroDecider quick(graph_, setting_, quick_budget);
+    const ZeroDecider quick(graph_, setting_, smaller(judge_->decider().budget(), quick_budget));
     bool tried = false, constructed = false, refuted = false;
     std::map<NodeId, Decision> open;
     for (const Residual& residual : list.residuals) {
@@ -103,7 +103,7 @@ void Claims::decide_invariants(VerifiedAlgebroid& verified, const std::vector<Na
             setting.defined.push_back(motion.in_states(f));
             for (const NodeId part : partial_parts(graph_, lower, claim.value))
                 setting.defined.push_back(motion.in_states(part));
-            Judge judge(graph_, setting, accessory(), points_);
+            Judge judge(graph_, setting, accessory(), points_, judge_->decider().budget());
             check.decision = judge.decide(*rate.value);
             check.reevaluation = judge.reevaluate(*rate.value);
         }

@@ -4,9 +4,10 @@
 
 namespace lagen {
 
-Judge::Judge(const Graph& graph, ProofSetting setting, std::set<std::string> accessory, std::size_t points)
+Judge::Judge(const Graph& graph, ProofSetting setting, std::set<std::string> accessory, std::size_t points,
+             const ProofBudget& budget)
     : graph_(graph), setting_(std::move(setting)), accessory_(std::move(accessory)), points_(points),
-      decider_(std::make_unique<ZeroDecider>(graph, setting_))
+      decider_(std::make_unique<ZeroDecider>(graph, setting_, budget))
 {
 }
 
@@ -35,7 +36,7 @@ std::optional<Reevaluation> Judge::reevaluate(NodeId residual)
     const auto known = reevaluations_.find(residual);
     if (known != reevaluations_.end()) return known->second;
     if (second_ == nullptr) {
-        ProofBudget budget;
+        ProofBudget budget = decider_->budget();
         budget.seed = reevaluation_seed;
         second_ = std::make_unique<ZeroDecider>(graph_, setting_, budget);
     }

@@ -17,7 +17,8 @@ class Judge {
   public:
     /// `accessory`: inputs that a witness names only where the residual depends on them (fibre coordinates, time).
     /// `points`: regular points of a re-evaluation; 0: none. Throws TriangularityError.
-    Judge(const Graph& graph, ProofSetting setting, std::set<std::string> accessory, std::size_t points);
+    Judge(const Graph& graph, ProofSetting setting, std::set<std::string> accessory, std::size_t points,
+          const ProofBudget& budget);
 
     [[nodiscard]] const Decision& decide(NodeId residual);
     /// A decision from elsewhere, for when the residual is asked about.

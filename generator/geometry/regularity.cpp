@@ -205,7 +205,7 @@ bool add_ranks(Graph& graph, const FibreHessian& hessian, const ZeroDecider& dec
 }
 
 /// Definite by squares where the parameters have the values of the file.
-bool is_definite_for(Graph& graph, const FibreHessian& hessian, const ProofSetting& setting,
+bool is_definite_for(Graph& graph, const FibreHessian& hessian, const ProofSetting& setting, const ProofBudget& budget,
                      const Replacements& defaults)
 {
     if (defaults.empty()) return false;
@@ -214,7 +214,7 @@ bool is_definite_for(Graph& graph, const FibreHessian& hessian, const ProofSetti
         FibreHessian at_defaults = hessian;
         const NodeId lagrangian[] = {hessian.lagrangian};
         at_defaults.lagrangian = substitute(graph, lagrangian, defaults)[0];
-        const ZeroDecider decider(graph, there);
+        const ZeroDecider decider(graph, there, budget);
         return proves_definite_by_squares(graph, at_defaults, decider) && decider.sample_point().has_value();
     } catch (const Error&) {
         return false; // the values of the file make something undefined
@@ -238,13 +238,13 @@ Regularity decide_regularity(Graph& graph, const FibreHessian& hessian, const Pr
     // Small blocks are tried for all parameters first.
     const bool large =
         std::any_of(hessian.blocks.begin(), hessian.blocks.end(), [](const Block& block) { return block.size() > 4; });
-    if (large && is_definite_for(graph, hessian, setting, defaults)) {
+    if (large && is_definite_for(graph, hessian, setting, decider.budget(), defaults)) {
         result.kind = Regularity::Kind::regular;
         result.rank = hessian.momenta.size();
         result.positive_definite = result.for_given_parameters = true;
         return result;
     }
-    const ZeroDecider quick(graph, setting, witness_budget);
+    const ZeroDecider quick(graph, setting, smaller(decider.budget(), witness_budget));
     if (!add_ranks(graph, hessian, quick, result) && !add_ranks(graph, hessian, decider, result)) return result;
     if (result.rank < hessian.momenta.size()) {
         result.kind = Regularity::Kind::degenerate;
@@ -262,7 +262,7 @@ Regularity decide_regularity(Graph& graph, const FibreHessian& hessian, const Pr
         if (shown.regular)
             result.kind = Regularity::Kind::regular;
         else
-            result.singular_at = singular_points(graph, setting, determinants_of(minors));
+            result.singular_at = singular_points(graph, setting, decider.budget(), determinants_of(minors));
         return result;
     }
     try {
@@ -270,8 +270,8 @@ Regularity decide_regularity(Graph& graph, const FibreHessian& hessian, const Pr
         FibreHessian at_defaults = hessian;
         at_defaults.hessian = substitute(graph, hessian.hessian, defaults);
         minors = leading_minors(graph, at_defaults);
-        const ZeroDecider valued(graph, there);
-        const Shown given = is_definite_for(graph, hessian, setting, defaults)
+        const ZeroDecider valued(graph, there, decider.budget());
+        const Shown given = is_definite_for(graph, hessian, setting, decider.budget(), defaults)
                                 ? Shown{}
                                 : show(graph, at_defaults, there, valued, minors);
         result.for_given_parameters = given.positive_definite || (given.regular && !shown.regular);
@@ -279,7 +279,7 @@ Regularity decide_regularity(Graph& graph, const FibreHessian& hessian, const Pr
         if (given.regular || shown.regular)
             result.kind = Regularity::Kind::regular;
         else
-            result.singular_at = singular_points(graph, there, determinants_of(minors));
+            result.singular_at = singular_points(graph, there, decider.budget(), determinants_of(minors));
     } catch (const Error&) {
         // The values of the file make something undefined: the claim for all parameters stands alone.
         if (shown.regular) result.kind = Regularity::Kind::regular;

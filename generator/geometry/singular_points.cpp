@@ -15,10 +15,10 @@ constexpr ProofBudget slice_budget{.products = 200'000};
 using Replacements = std::vector<std::pair<NodeId, NodeId>>;
 
 /// A point of the slice `zero` where a determinant vanishes; it does on the whole slice.
-std::optional<NamedPoint> singular_point(Graph& graph, const ProofSetting& setting, const Replacements& zero,
+std::optional<NamedPoint> singular_point(Graph& graph, const ProofSetting& setting, const ProofBudget& budget, const Replacements& zero,
                                          const std::vector<NodeId>& determinants)
 {
-    const ZeroDecider decider(graph, replaced(graph, setting, zero), slice_budget);
+    const ZeroDecider decider(graph, replaced(graph, setting, zero), smaller(budget, slice_budget));
     std::optional<NamedPoint> point = decider.sample_point();
     if (!point) return {};
     for (const NodeId determinant : substitute(graph, determinants, zero))
@@ -40,7 +40,7 @@ ProofSetting replaced(Graph& graph, const ProofSetting& setting, const Replaceme
     return result;
 }
 
-std::vector<NamedPoint> singular_points(Graph& graph, const ProofSetting& setting,
+std::vector<NamedPoint> singular_points(Graph& graph, const ProofSetting& setting, const ProofBudget& budget,
                                         const std::vector<NodeId>& determinants)
 {
     std::vector<NamedPoint> points;
@@ -48,7 +48,7 @@ std::vector<NamedPoint> singular_points(Graph& graph, const ProofSetting& settin
         const NodeId variable = setting.variables[k];
         try {
             std::optional<NamedPoint> point =
-                singular_point(graph, setting, {{variable, graph.constant(0)}}, determinants);
+                singular_point(graph, setting, budget, {{variable, graph.constant(0)}}, determinants);
             if (!point) continue;
             point->insert(point->begin() + static_cast<std::ptrdiff_t>(k), {graph.input_name(variable), "0"});
             points.push_back(std::move(*point));

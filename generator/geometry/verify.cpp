@@ -56,11 +56,12 @@ void require_confirmed(const Check& check)
     throw InternalError("the residual of " + what + " was proved to be zero, and is certainly not zero" + where);
 }
 
-VerifiedAlgebroid verify(const Model& model, const std::vector<NamedTree>& extra_invariants, std::size_t points)
+VerifiedAlgebroid verify(const Model& model, const std::vector<NamedTree>& extra_invariants, std::size_t points,
+                         const ProofBudget& budget)
 {
     VerifiedAlgebroid verified;
     verified.algebroid = build_algebroid(model);
-    Claims claims(model, verified.algebroid, points);
+    Claims claims(model, verified.algebroid, points, budget);
     claims.decide_structure(verified);
     append_involutive(verified, model);
     claims.decide_regularity(verified);

@@ -50,9 +50,10 @@ struct VerifiedAlgebroid {
 constexpr int reevaluation_digits = 60;
 
 /// Runs every check that the model calls for, on extra invariants (closed trees from the command line) too. With
-/// `points` each residual is evaluated again at as many regular points, others than those of the decision.
+/// `points` each residual is evaluated again at as many regular points, others than those of the decision. A smaller
+/// `budget` leaves more undecided, sooner.
 [[nodiscard]] VerifiedAlgebroid verify(const Model& model, const std::vector<NamedTree>& extra_invariants = {},
-                                       std::size_t points = 0);
+                                       std::size_t points = 0, const ProofBudget& budget = {});
 
 /// Of a subbundle: a check "involutive" (a, b) for each pair of sections, from its anchor equations.
 void append_involutive(VerifiedAlgebroid& verified, const Model& model);

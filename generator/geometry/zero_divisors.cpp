@@ -27,8 +27,8 @@ ProofSetting without_definedness(ProofSetting setting)
 
 } // namespace
 
-ZeroDivisors::ZeroDivisors(Graph& graph, ProofSetting setting)
-    : graph_(graph), setting_(without_definedness(std::move(setting))), decider_(graph, setting_)
+ZeroDivisors::ZeroDivisors(Graph& graph, ProofSetting setting, const ProofBudget& budget)
+    : graph_(graph), setting_(without_definedness(std::move(setting))), decider_(graph, setting_, budget)
 {
     const auto point = decider_.sample_point();
     if (point) point_.emplace(graph, *point);

@@ -15,7 +15,7 @@ class ZeroDivisors {
   public:
     /// `setting`: variables, parameters, constraints and domain; what must be `defined` is left out, since nothing is
     /// where a divisor vanishes.
-    ZeroDivisors(Graph& graph, ProofSetting setting);
+    ZeroDivisors(Graph& graph, ProofSetting setting, const ProofBudget& budget);
 
     using Lower = std::function<NodeId(const Tree&)>;
     /// Throws ModelError at the first divisor (b of a / b, a of a^-n) that is proved to be zero.

@@ -2,7 +2,7 @@
 /// The record of a model file: names in the order of the file, exact numbers, closed trees, positions.
 /// It knows no geometry: the bracket of a `tangent` algebroid is simply absent here.
 /// Families are flattened: the entries x[1], x[2], .. of a family are symbols of the lists below, in order; `families`
-/// remembers which belong together. Groupoids and control blocks join this record with the features that use them.
+/// remembers which belong together. Groupoids join this record with the features that use them.
 #pragma once
 
 #include "expression/scope.hpp"
@@ -32,7 +32,7 @@ struct Size {
     SourceRange where;
 };
 
-enum class FamilyRole { parameter, base, fibre, momentum };
+enum class FamilyRole { parameter, base, fibre, momentum, control };
 
 /// A vector or matrix of declared symbols: entries first, first + 1, .. (by rows) of the list of its role.
 struct Family {
@@ -159,6 +159,39 @@ struct Scene {
     std::vector<Event> events;
 };
 
+/// Q_section or sigma^section: an entry of [forces] or of [control] sigma.
+struct ComponentEntry {
+    std::size_t section;
+    Tree value;
+    SourceRange where; ///< of the key
+};
+
+/// lower <= u^control <= upper; a null bound is none.
+struct ControlBound {
+    std::size_t control;
+    Tree lower, upper; ///< closed over parameters
+    SourceRange where;
+};
+
+/// [control.boundary]: values at both ends.
+struct ControlBoundary {
+    std::vector<NamedTree> from, to; ///< base coordinates; one left out of `to` is free
+    Tree duration;                   ///< null where it is free or absent
+    bool free_duration = false;
+    Tree terminal_cost; ///< closed over base coordinates and parameters; null where absent
+    SourceRange where;
+};
+
+/// An optimal control problem: the section sigma = sigma^a(x, u, t) e_a and the running cost.
+struct Control {
+    std::vector<Symbol> controls; ///< u^A
+    std::vector<ComponentEntry> sigma;
+    Tree cost; ///< closed over t, x, u, parameters
+    std::vector<ControlBound> bounds;
+    std::optional<ControlBoundary> boundary;
+    SourceRange where;
+};
+
 struct Model {
     std::string name; ///< a C++ identifier
     SourceRange name_where;
@@ -175,6 +208,11 @@ struct Model {
     std::vector<Definition> definitions; ///< as written, for documentation
     Tree lagrangian;                     ///< closed over t, x, y, parameters; null where absent
     SourceRange lagrangian_where;
+    Tree hamiltonian; ///< closed over t, x, momenta, parameters; null where absent
+    SourceRange hamiltonian_where;
+    std::vector<ComponentEntry> forces; ///< Q_a(t, x, y): on the right of Lagrange's and of Hamilton's equations
+    Tree dissipation;                   ///< Rayleigh's R(t, x, y): Q_a gains -dR/dy^a; null where absent
+    std::optional<Control> control;
     std::vector<NamedTree> observables;
     std::vector<NamedTree> invariants;
     std::vector<Symbol> notes; ///< [about] of definitions, Casimirs, observables, invariants and t

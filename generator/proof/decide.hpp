@@ -69,6 +69,9 @@ struct ProofBudget {
     std::size_t seed = 0;              ///< another seed samples other points
 };
 
+/// The smaller of each limit; the seed of the first.
+[[nodiscard]] ProofBudget smaller(ProofBudget budget, const ProofBudget& other);
+
 /// What a residual is at sample points, by enclosures alone and whatever algebra says.
 struct Reevaluation {
     std::size_t points = 0;                                 ///< regular points where it has a finite enclosure
@@ -97,6 +100,7 @@ class ZeroDecider {
     ZeroDecider(const ZeroDecider&) = delete;
     ZeroDecider& operator=(const ZeroDecider&) = delete;
 
+    [[nodiscard]] const ProofBudget& budget() const;
     [[nodiscard]] Decision decide(NodeId residual) const;
 
     /// A residual that is known to vanish, by `argument`: `proved`, with the argument as evidence, once its enclosure

@@ -3,18 +3,21 @@
 /// A model with many sections or large expressions is read only: deciding it may take its time.
 #include "equations/lagrange.hpp"
 #include "fuzz/harness.hpp"
+#include "fuzz/small_budget.hpp"
 #include "geometry/verify.hpp"
 #include "model/evaluate_scene.hpp"
 #include "model/read_model.hpp"
 
 using namespace lagen;
 using fuzz::accepted;
+using fuzz::small_budget;
 
 namespace {
 
 constexpr std::size_t largest_rank = 4;
 constexpr std::size_t largest_base = 6;
-constexpr std::size_t longest_text = 3000; ///< of all expressions of the model together
+constexpr std::size_t longest_text = 1000;     ///< of all expressions of the model together
+constexpr std::size_t longest_lagrangian = 60; ///< that is differentiated and simplified
 
 /// Models name other files; those of the machine are none of a fuzzer's business.
 bool names_other_files(const std::string& text)
@@ -53,9 +56,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const Model model = read_model_text("fuzz.toml", text);
         for (const Scene& scene : model.scenes) accepted([&] { static_cast<void>(evaluate_scene(model, scene)); });
         if (!is_small(model)) return;
-        const VerifiedAlgebroid verified = verify(model, {}, 2);
+        const VerifiedAlgebroid verified = verify(model, {}, 2, small_budget);
         for (const Check& check : verified.checks) require_confirmed(check);
-        if (!model.lagrangian) return;
+        if (!model.lagrangian || to_text(model.lagrangian).size() > longest_lagrangian) return;
         accepted([&] { static_cast<void>(derive_lagrange(model, verified.algebroid)); });
     });
     return 0;

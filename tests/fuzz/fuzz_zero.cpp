@@ -6,6 +6,7 @@
 /// what is proved to vanish on an open set is never refuted.
 #include "fuzz/grow_tree.hpp"
 #include "fuzz/harness.hpp"
+#include "fuzz/small_budget.hpp"
 #include "graph/differentiate.hpp"
 #include "graph/lower.hpp"
 #include "proof/decide.hpp"
@@ -17,13 +18,12 @@ using namespace lagen;
 using fuzz::accepted;
 using fuzz::Choices;
 using fuzz::require;
+using fuzz::small_budget;
 using proof::Ball;
 
 namespace {
 
 constexpr std::size_t largest_graph = 200;
-constexpr ProofBudget small_budget{
-    .terms = 100, .products = 3'000, .points = 2, .tries = 10, .searches = 0, .precision = 128, .seed = 0};
 
 enum class Place { everywhere, positive, sphere };
 

@@ -55,17 +55,23 @@ ReferenceCase read_case(const json::Value& file)
     return reference;
 }
 
-ReferenceDefinition read_definition(const json::Value& entry)
+ReferenceCase read_algebroid(const json::Value& entry, const std::string& name)
 {
-    ReferenceDefinition definition;
-    ReferenceCase& algebroid = definition.algebroid;
-    algebroid.name = entry["id"].text;
+    ReferenceCase algebroid;
+    algebroid.name = name;
     algebroid.base = entry["base"].texts();
     for (unsigned long a = 1; a <= std::stoul(entry["rank"].text); ++a)
         algebroid.fibre.push_back("e" + std::to_string(a));
     algebroid.rho = read_rows(entry["rho"]);
     algebroid.brackets = read_brackets(entry["C"]);
-    for (const std::string& name : entry["parameters"].texts()) algebroid.parameters.emplace_back(name, "1");
+    return algebroid;
+}
+
+ReferenceDefinition read_definition(const json::Value& entry)
+{
+    ReferenceDefinition definition;
+    definition.algebroid = read_algebroid(entry, entry["id"].text);
+    for (const std::string& name : entry["parameters"].texts()) definition.algebroid.parameters.emplace_back(name, "1");
     definition.valid = entry["truth"].text == "valid";
     definition.failing = entry["failing"].texts();
     return definition;
@@ -155,6 +161,16 @@ std::vector<ReferenceDefinition> read_reference_definitions()
     const json::Value file = json::read_file((data_folder / "definitions" / "definitions.json").string());
     for (const json::Value& entry : file.entries) definitions.push_back(read_definition(entry));
     return definitions;
+}
+
+std::vector<ReferenceCase> read_morphism_algebroids()
+{
+    std::vector<ReferenceCase> algebroids;
+    const json::Value file = json::read_file((data_folder / "definitions" / "morphisms.json").string());
+    for (const json::Value& entry : file.entries)
+        for (const char* side : {"source", "target"})
+            algebroids.push_back(read_algebroid(entry[side], entry["id"].text + "_" + side));
+    return algebroids;
 }
 
 } // namespace lagen

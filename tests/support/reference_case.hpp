@@ -58,4 +58,7 @@ struct ReferenceDefinition {
 
 [[nodiscard]] std::vector<ReferenceDefinition> read_reference_definitions();
 
+/// Source and target of every entry of tests/data/definitions/morphisms.json: all are Lie algebroids.
+[[nodiscard]] std::vector<ReferenceCase> read_morphism_algebroids();
+
 } // namespace lagen

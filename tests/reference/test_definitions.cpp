@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// What is said of the reference definitions that are wrong.
+/// The algebroids of the reference definitions: verdicts, and what is said of those that are wrong.
 #include "geometry/checking.hpp"
 #include "support/reference_case.hpp"
 
@@ -38,4 +38,14 @@ TEST_CASE("the reference definitions that are wrong have these hints")
         CHECK(hints_of(verified) == expected.at(definition.algebroid.name));
     }
     CHECK(wrong == expected.size());
+}
+
+TEST_CASE("the algebroids between which the reference morphisms are given are valid")
+{
+    const std::vector<ReferenceCase> algebroids = read_morphism_algebroids();
+    CHECK(algebroids.size() == 8);
+    for (const ReferenceCase& algebroid : algebroids) {
+        INFO(algebroid.name);
+        CHECK(verify(read_model_text("test.toml", model_text(algebroid))).verdict == Verdict::valid);
+    }
 }
