@@ -4,6 +4,9 @@
 #include "content_hash.hpp"
 #include "emit/print_equations.hpp"
 #include "emit/print_header.hpp"
+#include "graph/lower.hpp"
+#include "graph/simplify.hpp"
+#include "model/scene_form.hpp"
 
 #include <fmt/core.h>
 
@@ -32,11 +35,26 @@ std::vector<std::string> lines_of(const std::string& text)
     return lines;
 }
 
-/// For the head of the header; equations that are too long for a person do not keep a machine from its kernels.
-std::vector<std::string> readable_equations(const CheckedModel& checked)
+/// Terms of L or H, multiplied out: equations made of more take longer than all kernels, and nobody reads them.
+constexpr std::size_t most_readable_terms = 1'500;
+
+bool is_readable(const Model& model)
 {
+    Graph graph;
+    Lowering lower(graph);
+    return std::ranges::all_of(std::vector{model.lagrangian, model.hamiltonian}, [&](const Tree& tree) {
+        return !tree || expanded_terms(graph, lower(tree), most_readable_terms) < most_readable_terms;
+    });
+}
+
+/// For the head of the header; equations that are too long for a person do not keep a machine from its kernels.
+std::vector<std::string> readable_equations(const CheckedModel& checked, const std::string& form)
+{
+    if (!is_readable(checked.model))
+        return {fmt::format("The equations are too long to be written out here: lagen derive {} prints them.",
+                            std::filesystem::path(checked.model.file->name).filename().string())};
     try {
-        return lines_of(print_text(derive_lagrange(checked.model, checked.verified.algebroid)));
+        return lines_of(print_text(derive(form, checked.model, checked.verified)));
     } catch (const MathematicsError& error) {
         std::string reason = lines_of(error.what()).front();
         if (reason.starts_with("error: ")) reason.erase(0, 7);
@@ -49,7 +67,9 @@ std::string first_with(const VerifiedAlgebroid& verified, ProofStatus status)
 {
     for (const Check& check : verified.checks)
         if (check.decision.status == status)
-            return fmt::format("{}, residual {}", names_of(check), check.decision.residual);
+            return check.decision.residual.empty()
+                       ? names_of(check)
+                       : fmt::format("{}, residual {}", names_of(check), check.decision.residual);
     return verified.note;
 }
 
@@ -76,7 +96,8 @@ std::string shell_word(std::string text)
 }
 
 /// With every option that changes the header; the model by its name alone, so that the bytes are the same everywhere.
-std::string regenerate_command(const CheckedModel& checked, const GenerateRequest& request, const std::string& name)
+std::string regenerate_command(const CheckedModel& checked, const GenerateRequest& request,
+                               const std::string& kernels_form, const std::string& name)
 {
     const std::string file = std::filesystem::path(checked.model.file->name).filename().string();
     std::string command = "lagen generate " + shell_word(file);
@@ -84,6 +105,7 @@ std::string regenerate_command(const CheckedModel& checked, const GenerateReques
         command += " --set " + shell_word(setting.name + "=" + setting.value.text);
     std::string only;
     for (const std::string& kernel : request.only) only += (only.empty() ? "" : ",") + kernel;
+    if (kernels_form != default_form(checked.model)) command += " --form " + kernels_form;
     if (!only.empty()) command += " --only " + shell_word(only);
     if (checked.unchecked && checked.verified.verdict == Verdict::invalid) command += " --unchecked";
     return fmt::format("{} -o {}.hpp", command, name);
@@ -128,16 +150,19 @@ Generated generate(const CheckedModel& checked, const GenerateRequest& request)
 {
     const Model& model = checked.model;
     KernelRequest kernels;
+    kernels.form = request.form.empty() ? default_form(model) : request.form;
     kernels.only = request.only;
     kernels.scene = request.scene;
     Generated generated;
-    generated.module = lagrange_kernels(model, checked.verified, kernels);
+    if (request.report) kernels.report = &generated.report;
+    generated.module = form_kernels(model, checked.verified, kernels);
     KernelModule& module = generated.module;
     module.hash = hash_of(checked);
-    module.regenerate = regenerate_command(checked, request, module.name);
+    module.regenerate = regenerate_command(checked, request, kernels.form,
+                                           kernels.form == default_form(model) ? model.name : module.name);
     module.warnings = checked.warnings;
     if (request.scene == nullptr)
-        module.equations = readable_equations(checked);
+        module.equations = readable_equations(checked, kernels.form);
     else
         forget_values(module);
     generated.header = print_header(module);

@@ -2,14 +2,14 @@
 /// The whole story in one place; pipeline.cpp is the only file besides the commands that knows every stage.
 ///
 ///   model file --read_model--> Model --verify--> VerifiedAlgebroid
-///                                     --derive_lagrange--> EquationSet --print_text/latex/json--> what a person reads
-///                                     --lagrange_kernels--> KernelModule --print_header--> header --> runtime
+///                                     --derive--> EquationSet --print_text/latex/json--> what a person reads
+///                                     --form_kernels-----> KernelModule --print_header--> header --> runtime
 #pragma once
 
-#include "equations/lagrange.hpp"
+#include "equations/derive.hpp"
 #include "geometry/verify.hpp"
 #include "graph/kernel.hpp"
-#include "kernels/lagrange_kernels.hpp"
+#include "kernels/form_kernels.hpp"
 #include "model/read_model.hpp"
 
 namespace lagen {
@@ -27,8 +27,9 @@ struct CheckedModel {
 [[nodiscard]] CheckedModel load(const std::string& path, const std::vector<Setting>& settings, bool unchecked);
 
 struct GenerateRequest {
-    std::string form;              ///< empty: "lagrange"
+    std::string form;              ///< empty: default_form(model)
     std::vector<std::string> only; ///< kernels; empty: all
+    bool report = false;           ///< what simplification tried, as text
     const Scene* scene = nullptr;  ///< for `run`: this scene's events and observed expressions, defaults and hash 0
 };
 
@@ -36,6 +37,7 @@ struct GenerateRequest {
 struct Generated {
     KernelModule module;
     std::string header;
+    std::string report; ///< where it was asked for
 };
 [[nodiscard]] Generated generate(const CheckedModel& checked, const GenerateRequest& request);
 

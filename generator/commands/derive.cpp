@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// `lagen derive`: the equations, for a person.
+#include "equations/derive.hpp"
 #include "commands/command.hpp"
 #include "commands/options.hpp"
 #include "commands/places.hpp"
 #include "commands/write_file.hpp"
 #include "emit/json.hpp"
 #include "emit/print_equations.hpp"
+#include "model/scene_form.hpp"
 #include "pipeline.hpp"
 
 #include <fmt/core.h>
@@ -17,7 +19,9 @@ namespace {
 const CommandSyntax derive_syntax{"derive",
                                   "MODEL",
                                   "Prints the equations of motion.",
-                                  {{"form", "FORM", "lagrange", "lagrange"},
+                                  {{"form", "FORM",
+                                    "lagrange, hamilton or pontryagin; pontryagin is the default where the model has "
+                                    "controls, else lagrange where it has L"},
                                    {"output,o", "FILE", "write there instead of to standard output"},
                                    {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
                                    {"format,f", "FORMAT", "text, latex or json", "text"}}};
@@ -46,14 +50,15 @@ ExitCode run_derive(Arguments arguments)
     const Options options(derive_syntax, arguments);
     if (options.help()) return ExitCode::done;
     const std::string format = options.choice("format", {"text", "latex", "json"});
-    (void)options.choice("form", {"lagrange"});
+    if (options.has("form")) (void)options.choice("form", derived_forms());
     // A refuted model has equations too, and reading them may show why; they come with the warning.
     const CheckedModel checked = load(model_path(options.positional()[0]), options.settings(), true);
     for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
-    if (checked.verified.regularity.kind == Regularity::Kind::degenerate)
+    const std::string form = options.has("form") ? options.get("form") : default_form(checked.model);
+    if (form == "lagrange" && checked.verified.regularity.kind == Regularity::Kind::degenerate)
         write_standard_error(
             "warning: the Lagrangian is degenerate: the accelerations are not determined by the equations\n");
-    const EquationSet equations = derive_lagrange(checked.model, checked.verified.algebroid);
+    const EquationSet equations = derive(form, checked.model, checked.verified);
     const std::string text = marked(format == "text"    ? print_text(equations)
                                     : format == "latex" ? print_latex(equations)
                                                         : print_json(equations),

@@ -19,8 +19,11 @@ const CommandSyntax generate_syntax{
     "Writes the C++ header of a model: right-hand side, mass matrix, energy, momentum, "
     "constraints, observables, events.",
     {{"output,o", "FILE", "the header; standard output without it"},
-     {"form", "FORM", "lagrange", "lagrange"},
+     {"form", "FORM",
+      "lagrange, hamilton or pontryagin; without it pontryagin for a control problem, lagrange where "
+      "there is L, else hamilton"},
      {"only", "KERNELS", "these kernels alone, e.g. rhs,energy"},
+     {"report", nullptr, "operations before and after each pass and the costliest terms, on standard error"},
      {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
      {"unchecked", nullptr, "go on although the model is refuted; the header says so"},
      {"format,f", "FORMAT", "text (the header) or json (what it holds, and the header)", "text"},
@@ -63,15 +66,18 @@ ExitCode run_generate(Arguments arguments)
     const Options options(generate_syntax, arguments);
     if (options.help()) return ExitCode::done;
     const bool as_json = options.choice("format", {"text", "json"}) == "json";
-    (void)options.choice("form", {"lagrange"});
+    if (options.has("form")) (void)options.choice("form", form_names());
     if (options.has("depfile") && !options.has("output")) throw UsageError("lagen generate: --depfile needs --output");
     const std::string model = model_path(options.positional()[0]);
     const CheckedModel checked = load(model, options.settings(), options.has("unchecked"));
     for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
     GenerateRequest request;
+    request.report = options.has("report");
+    request.form = options.get("form");
     request.only = split_list(options.get("only"));
     const std::string output = options.has("output") ? options.get("output") : "-";
     const Generated generated = generate(checked, request);
+    if (request.report) write_standard_error(generated.report);
     write_file(output, as_json ? module_json(generated) : generated.header);
     if (options.has("depfile")) {
         std::string inputs = escaped(model);

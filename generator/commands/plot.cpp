@@ -21,7 +21,7 @@ constexpr int width = 900;
 constexpr int panel_height = 270; ///< with the gap below it
 constexpr int panel_gap = 26;
 constexpr int top_margin = 44;
-constexpr int bottom_margin = 52;
+constexpr int bottom_margin = 58;
 constexpr int left_margin = 84;
 
 // Characters.

@@ -35,7 +35,7 @@ std::string indices_text(const Check& check)
 {
     std::string text;
     for (const std::string& index : check.indices) text += (text.empty() ? "" : ", ") + index;
-    return text.empty() ? "" : fmt::format("({})", text);
+    return text.empty() ? "" : fmt::format(" ({})", text);
 }
 
 /// The names of checks in order of first appearance.
@@ -94,6 +94,7 @@ std::string equation_text(const Check& check)
     if (check.name == "tangency" && k.size() == 2)
         return fmt::format("rho({}) of the constraint {}, on the constraints", k[0], k[1]);
     if (check.name == "casimir" && k.size() == 2) return fmt::format("rho({}) of {}", k[0], k[1]);
+    if (check.name == "legendre") return "H at mu = dL/dy less y dL/dy - L";
     if (check.name == "invariant" && k.size() == 1)
         return fmt::format("the rate of {} along the equations of motion", k[0]);
     return "";
@@ -102,7 +103,7 @@ std::string equation_text(const Check& check)
 std::string failure_text(const Check& check, bool with_hint)
 {
     const Decision& decision = check.decision;
-    std::string text = fmt::format("\n{}: {} {}\n", to_text(decision.status), check.name, indices_text(check));
+    std::string text = fmt::format("\n{}: {}{}\n", to_text(decision.status), check.name, indices_text(check));
     if (const std::string equation = equation_text(check); !equation.empty()) text += fmt::format("  {}\n", equation);
     if (!decision.residual.empty()) text += fmt::format("  residual {}\n", decision.residual);
     if (decision.witness)
@@ -139,8 +140,11 @@ std::string regularity_text(const Regularity& regularity)
     std::string text = fmt::format("  {:<16}{}, rank {}{}{}\n", "regularity", kind_text(regularity.kind),
                                    regularity.rank, regularity.positive_definite ? ", positive definite" : "",
                                    regularity.for_given_parameters ? " (for the parameter values of the file)" : "");
-    if (regularity.kind == Regularity::Kind::degenerate)
+    if (regularity.of_hamiltonian) text += fmt::format("  {:<16}of d2H/dmu2: the model has no Lagrangian\n", "");
+    if (regularity.kind == Regularity::Kind::degenerate && !regularity.of_hamiltonian)
         text += fmt::format("  {:<16}`generate` and `run` refuse a degenerate Lagrangian\n", "");
+    for (const Point& vector : regularity.kernel)
+        text += fmt::format("  {:<16}kernel vector {}\n", "", point_text(vector));
     if (!regularity.evidence.empty()) text += fmt::format("  {:<16}{}\n", "", regularity.evidence);
     for (const Point& point : regularity.singular_at)
         text += fmt::format("  {:<16}singular at {}\n", "", point_text(point));
@@ -204,6 +208,12 @@ void report_json(JsonWriter& json, const std::string& model, const VerifiedAlgeb
     json.key("rank").value(regularity.rank).key("positive_definite").value(regularity.positive_definite);
     json.key("for_given_parameters").value(regularity.for_given_parameters);
     if (!regularity.evidence.empty()) json.key("evidence").value(regularity.evidence);
+    if (regularity.of_hamiltonian) json.key("of").value("d2H/dmu2");
+    if (regularity.kind == Regularity::Kind::degenerate) {
+        json.key("kernel").begin_array();
+        for (const Point& vector : regularity.kernel) point_json(json, vector);
+        json.end_array();
+    }
     json.key("singular_at").begin_array();
     for (const Point& point : regularity.singular_at) point_json(json, point);
     json.end_array().end_object();

@@ -12,6 +12,7 @@
 #include "commands/start_state.hpp"
 #include "commands/temporary_folder.hpp"
 #include "commands/write_file.hpp"
+#include "model/scene_form.hpp"
 #include "pipeline.hpp"
 
 #include <fmt/core.h>
@@ -28,7 +29,7 @@ const CommandSyntax run_syntax{
     "MODEL",
     "Generates, compiles and integrates a scene. CSV on standard output unless --output or --format json.",
     {{"scene", "NAME", "the scene; without it `default`, else the first"},
-     {"form", "FORM", "lagrange", "lagrange"},
+     {"form", "FORM", "lagrange, hamilton or pontryagin; without it the scene's, else the model's"},
      {"method", "METHOD", "see `lagen methods`; without it the scene's, else dop853"},
      {"step", "H", "step of a fixed-step method"},
      {"tolerance", "TOL", "relative and absolute tolerance of an adaptive method; without it the scene's, else 1e-10"},
@@ -54,13 +55,14 @@ std::vector<long double> numbers(const std::vector<NamedNumber>& named, const Sc
     return values;
 }
 
-ProgramInput input_of(const KernelModule& module, const Scene& scene, const SceneValues& values, bool stretch)
+ProgramInput input_of(const CheckedModel& checked, const KernelModule& module, const Scene& scene,
+                      const SceneValues& values, bool stretch)
 {
     ProgramInput input;
     input.parameters = numbers(values.parameters, scene);
     for (const std::vector<NamedNumber>* group : {&values.base, &values.fibre, &values.momenta})
         (void)numbers(*group, scene);
-    input.initial = start_state(module, values);
+    input.initial = start_state(checked, module, values);
     input.step = values.step;
     input.relative = values.relative.value_or(standard_tolerance);
     input.absolute = values.absolute.value_or(standard_tolerance);
@@ -107,20 +109,30 @@ void integrate_scene(const std::string& program, ProgramInput input, RunOutcome&
 }
 
 /// The unit that [about] gives to a name, or "".
+const Symbol* control_called(const Model& model, const std::string& name)
+{
+    if (!model.control) return nullptr;
+    const auto& controls = model.control->controls;
+    const auto found = std::ranges::find(controls, name, &Symbol::name);
+    return found == controls.end() ? nullptr : &*found;
+}
+
 std::string unit_of(const Model& model, const std::string& name)
 {
     for (const auto* symbols : {&model.base.coordinates, &model.fibre.coordinates, &model.fibre.momenta, &model.notes})
         for (const Symbol& symbol : *symbols)
             if (symbol.name == name) return symbol.unit;
+    if (const Symbol* control = control_called(model, name)) return control->unit;
     return "";
 }
 
-std::vector<Panel> panels_of(const std::vector<Column>& columns, const Model& model)
+std::vector<Panel> panels_of(const std::vector<Column>& columns, const Model& model, const char* lanes)
 {
     const std::size_t base_lanes = model.base.coordinates.size();
-    std::vector<Panel> panels{{"base coordinates", {}}, {"fibre coordinates", {}}, {"observables", {}}};
+    std::vector<Panel> panels{{"base coordinates", {}}, {lanes, {}}, {"controls", {}}, {"observables", {}}};
     for (std::size_t k = 0; k < columns.size(); ++k) {
-        Panel& panel = panels[!columns[k].state ? 2 : columns[k].index < base_lanes ? 0 : 1];
+        const bool control = control_called(model, columns[k].name) != nullptr;
+        Panel& panel = panels[columns[k].state ? (columns[k].index < base_lanes ? 0 : 1) : control ? 2 : 3];
         panel.columns.push_back(k + 1);
         panel.units.push_back(unit_of(model, columns[k].name));
     }
@@ -128,10 +140,9 @@ std::vector<Panel> panels_of(const std::vector<Column>& columns, const Model& mo
     return panels;
 }
 
-bool depends_on_time(const Model& model)
+bool has_kernel(const KernelModule& module, const std::string& name)
 {
-    const std::vector<std::string> names = model.lagrangian ? names_in(model.lagrangian) : std::vector<std::string>{};
-    return std::ranges::find(names, "t") != names.end();
+    return std::ranges::any_of(module.kernels, [&](const Kernel& kernel) { return kernel.name == name; });
 }
 
 void tell(const Options& options, const RunOutcome& outcome, bool as_json)
@@ -151,7 +162,7 @@ ExitCode run_run(Arguments arguments)
     const Options options(run_syntax, arguments);
     if (options.help()) return ExitCode::done;
     const bool as_json = options.choice("format", {"text", "json"}) == "json";
-    (void)options.choice("form", {"lagrange"});
+    if (options.has("form")) (void)options.choice("form", form_names());
     if (options.has("plot")) require_plot_format(options.get("plot"));
 
     const CheckedModel checked =
@@ -159,6 +170,7 @@ ExitCode run_run(Arguments arguments)
     for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
     const Model& model = checked.model;
     const Scene scene = scene_of(options, model);
+    const std::string form = form_of(model, scene);
     const MethodEntry& method = method_of(options, scene);
     if (method.separable_only && model.base.coordinates.empty())
         throw UsageError(
@@ -168,9 +180,11 @@ ExitCode run_run(Arguments arguments)
         write_standard_error(fmt::format("warning: --step is not used: {} chooses its steps itself\n", method.name));
     const SceneValues values = evaluate_scene(model, scene);
     GenerateRequest request;
+    request.form = form;
     request.scene = &scene;
     const Generated generated = generate(checked, request);
-    const ProgramInput input = input_of(generated.module, scene, values, options.has("at") && !options.has("t-end"));
+    const ProgramInput input =
+        input_of(checked, generated.module, scene, values, options.has("at") && !options.has("t-end"));
     const Compiled compiled = compile_program(generated.header, program_text(generated.module.name, method));
 
     RunOutcome outcome;
@@ -178,14 +192,14 @@ ExitCode run_run(Arguments arguments)
     outcome.scene = scene.name;
     outcome.form = generated.module.form;
     outcome.method = method.name;
-    outcome.time_dependent = depends_on_time(model);
+    outcome.energy_changes = has_kernel(generated.module, "power");
     outcome.table.columns = {"t"};
     for (const Column& column : input.columns) outcome.table.columns.push_back(column.name);
     integrate_scene(compiled.program, input, outcome);
     if (options.has("output")) write_file(options.get("output"), to_csv(outcome.table));
     if (options.has("plot"))
-        plot_table(outcome.table, panels_of(input.columns, model), model.title.empty() ? model.name : model.title,
-                   options.get("plot"), unit_of(model, "t"));
+        plot_table(outcome.table, panels_of(input.columns, model, form == "lagrange" ? "fibre coordinates" : "momenta"),
+                   model.title.empty() ? model.name : model.title, options.get("plot"), unit_of(model, "t"));
     tell(options, outcome, as_json);
     return outcome.status == "ok" || outcome.status == "stopped_by_event" ? ExitCode::done : ExitCode::refuted;
 }

@@ -77,7 +77,9 @@ std::string report_text(const RunOutcome& outcome)
     for (const Drift& drift : outcome.invariants)
         text += fmt::format("  {}: {} at the start, largest drift {}{}\n", drift.name, brief(drift.initial, 9),
                             brief(drift.max_drift, 3),
-                            outcome.time_dependent && drift.name == "energy" ? " (not conserved: L depends on t)" : "");
+                            outcome.energy_changes && (drift.name == "energy" || drift.name == "hamiltonian")
+                                ? " (not conserved: forces or explicit time)"
+                                : "");
     return text;
 }
 

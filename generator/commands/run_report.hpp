@@ -29,7 +29,7 @@ struct RunOutcome {
     std::string steps, rejected, rhs_calls, seconds; ///< numbers as printed
     std::vector<EventReport> events;
     std::vector<Drift> invariants;
-    bool time_dependent = false; ///< L contains t: the energy is not conserved
+    bool energy_changes = false; ///< forces or explicit time: the energy is not conserved
     Table table;
 };
 

@@ -3,6 +3,7 @@
 #include "commands/scene_options.hpp"
 
 #include "expression/parse.hpp"
+#include "model/scene_form.hpp"
 
 #include <fmt/core.h>
 
@@ -42,12 +43,7 @@ Scene scene_of(const Options& options, const Model& model)
         scene.tolerance = option_tree(model, "tolerance", options.get("tolerance"));
     }
     replace_times(options, model, scene);
-    if (!scene.form.empty() && scene.form != "lagrange")
-        throw ModelError(
-            fmt::format("scene '{}' asks for the form '{}', where 'lagrange' alone is run by this version of lagen",
-                        scene.name, scene.form),
-            scene.where);
-    return scene;
+    return in_form(model, scene, options.has("form") ? options.get("form") : form_of(model, scene));
 }
 
 const MethodEntry& method_of(const Options& options, const Scene& scene)

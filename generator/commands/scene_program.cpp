@@ -72,8 +72,25 @@ void read_line(const std::string& key, const std::string& value, RunOutcome& out
         const std::size_t at = value.rfind('@');
         outcome.events.push_back({value.substr(0, at), at == std::string::npos ? "" : value.substr(at + 1)});
     }
-    if (key == "energy") outcome.invariants.push_back(drift_of("energy", value));
+    if (key == "energy" || key == "hamiltonian") outcome.invariants.push_back(drift_of(key, value));
     if (key.starts_with(invariant)) outcome.invariants.push_back(drift_of(key.substr(invariant.size()), value));
+}
+
+const Kernel* kernel_of(const KernelModule& module, const std::string& name)
+{
+    const auto found = std::ranges::find(module.kernels, name, &Kernel::name);
+    return found == module.kernels.end() ? nullptr : &*found;
+}
+
+/// The column of an entry of the module's observables.
+Column observable(const KernelModule& module, const std::string& name)
+{
+    const Kernel* observables = kernel_of(module, "observables");
+    if (observables == nullptr) throw InternalError(fmt::format("no observables for '{}'", name));
+    const std::vector<std::string>& names = observables->entry_names;
+    const auto entry = std::ranges::find(names, name);
+    if (entry == names.end()) throw InternalError(fmt::format("'{}' is missing among the observables", name));
+    return {name, false, static_cast<std::size_t>(entry - names.begin())};
 }
 
 } // namespace
@@ -94,23 +111,16 @@ std::vector<Column> columns_of(const KernelModule& module, const Scene& scene)
     std::vector<Column> columns;
     if (!scene.observe) {
         for (std::size_t k = 0; k < states.size(); ++k) columns.push_back({states[k], true, k});
+        if (const Kernel* controls = kernel_of(module, "controls"))
+            for (const std::string& name : controls->entry_names) columns.push_back(observable(module, name));
         return columns;
     }
-    const auto observables = std::find_if(module.kernels.begin(), module.kernels.end(),
-                                          [](const Kernel& kernel) { return kernel.name == "observables"; });
     for (const NamedTree& wanted : *scene.observe) {
         const auto state = std::find(states.begin(), states.end(), wanted.name);
-        if (state != states.end()) {
+        if (state == states.end())
+            columns.push_back(observable(module, wanted.name));
+        else
             columns.push_back({wanted.name, true, static_cast<std::size_t>(state - states.begin())});
-            continue;
-        }
-        if (observables == module.kernels.end())
-            throw InternalError(fmt::format("no observables for '{}'", wanted.name));
-        const std::vector<std::string>& names = observables->entry_names;
-        const auto entry = std::find(names.begin(), names.end(), wanted.name);
-        if (entry == names.end())
-            throw InternalError(fmt::format("'{}' is missing among the observables", wanted.name));
-        columns.push_back({wanted.name, false, static_cast<std::size_t>(entry - names.begin())});
     }
     return columns;
 }

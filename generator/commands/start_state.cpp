@@ -63,41 +63,86 @@ bool solve_linear(std::vector<long double>& a, std::vector<long double>& b)
     return true;
 }
 
-[[noreturn]] void fail(const char* why)
+/// An equation value(z) = target for the lanes `unknowns` of a module, by Newton's method from 0.
+struct Inversion {
+    const KernelModule& module;
+    const Kernel& value;  ///< r entries
+    const Kernel& matrix; ///< its derivative: the last r rows and columns
+    const char* given;    ///< for the message
+    const char* wanted;
+};
+
+[[noreturn]] void fail(const Inversion& inversion, const char* why)
 {
-    throw MathematicsError(
-        fmt::format("error: the momenta of the start have no fibre coordinates that Newton's method finds: {}\n"
-                    "hint: give the fibre coordinates in `initial` instead",
-                    why));
+    throw MathematicsError(fmt::format("error: the {} of the start have no {} that Newton's method finds: {}\n"
+                                       "hint: give the {} in `initial` instead",
+                                       inversion.given, inversion.wanted, why, inversion.wanted));
 }
 
-std::vector<long double> invert_legendre(const KernelModule& module, const SceneValues& values, Values inputs)
+/// The last r rows and columns.
+std::vector<long double> corner(const std::vector<long double>& array, std::size_t size, std::size_t r)
 {
-    const Kernel& momentum = kernel_of(module, "momentum");
-    const Kernel& mass = kernel_of(module, "mass_matrix");
-    std::vector<long double> y(module.fibre.size(), 0);
+    std::vector<long double> result;
+    for (std::size_t row = size - r; row < size; ++row)
+        for (std::size_t column = size - r; column < size; ++column) result.push_back(array[row * size + column]);
+    return result;
+}
+
+std::vector<long double> invert(const Inversion& inversion, const std::vector<NamedNumber>& target, Values inputs)
+{
+    const std::vector<Quantity>& unknowns = inversion.module.fibre;
+    std::vector<long double> z(unknowns.size(), 0);
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
-        for (std::size_t a = 0; a < y.size(); ++a) inputs[module.fibre[a].name] = y[a];
-        std::vector<long double> residual = dense(module, momentum, inputs);
-        for (std::size_t a = 0; a < y.size(); ++a) residual[a] = values.momenta[a].second - residual[a];
-        std::vector<long double> matrix = dense(module, mass, inputs);
-        if (!solve_linear(matrix, residual)) fail("the mass matrix is singular");
+        for (std::size_t a = 0; a < z.size(); ++a) inputs[unknowns[a].name] = z[a];
+        std::vector<long double> residual = dense(inversion.module, inversion.value, inputs);
+        for (std::size_t a = 0; a < z.size(); ++a) residual[a] = target[a].second - residual[a];
+        std::vector<long double> matrix =
+            corner(dense(inversion.module, inversion.matrix, inputs), inversion.matrix.output.rows, z.size());
+        if (!solve_linear(matrix, residual)) fail(inversion, "the matrix of the equations is singular");
         long double change = 0;
         long double size = 0;
-        for (std::size_t a = 0; a < y.size(); ++a) {
-            y[a] += residual[a];
+        for (std::size_t a = 0; a < z.size(); ++a) {
+            z[a] += residual[a];
             change = std::max(change, std::abs(residual[a]));
-            size = std::max(size, std::abs(y[a]));
+            size = std::max(size, std::abs(z[a]));
         }
-        if (!std::isfinite(change)) fail("the iterates are not finite");
-        if (change <= small * (1 + size)) return y;
+        if (!std::isfinite(change)) fail(inversion, "the iterates are not finite");
+        if (change <= small * (1 + size)) return z;
     }
-    fail("no convergence in 100 iterations");
+    fail(inversion, "no convergence in 100 iterations");
+}
+
+/// y with dL/dy = the given momenta.
+std::vector<long double> velocities_of(const KernelModule& module, const SceneValues& values, const Values& inputs)
+{
+    return invert(
+        {module, kernel_of(module, "momentum"), kernel_of(module, "mass_matrix"), "momenta", "fibre coordinates"},
+        values.momenta, inputs);
+}
+
+/// mu = dL/dy at the given fibre coordinates, or mu with dH/dmu = them.
+std::vector<long double> momenta_of(const CheckedModel& checked, const SceneValues& values, Values inputs)
+{
+    const auto module_of = [&](const char* form, std::vector<std::string> only) {
+        KernelRequest request;
+        request.form = form;
+        request.only = std::move(only);
+        return form_kernels(checked.model, checked.verified, request);
+    };
+    if (checked.model.lagrangian) {
+        const KernelModule module = module_of("lagrange", {"momentum"});
+        for (const auto& [name, value] : values.fibre) inputs[name] = value;
+        return values.fibre.empty() ? std::vector<long double>{} : dense(module, kernel_of(module, "momentum"), inputs);
+    }
+    const KernelModule module = module_of("hamilton", {"velocity", "hamiltonian_hessian"});
+    return invert({module, kernel_of(module, "velocity"), kernel_of(module, "hamiltonian_hessian"), "fibre coordinates",
+                   "momenta"},
+                  values.fibre, inputs);
 }
 
 } // namespace
 
-std::vector<long double> start_state(const KernelModule& module, const SceneValues& values)
+std::vector<long double> start_state(const CheckedModel& checked, const KernelModule& module, const SceneValues& values)
 {
     Values inputs;
     std::vector<long double> state;
@@ -107,13 +152,17 @@ std::vector<long double> start_state(const KernelModule& module, const SceneValu
         state.push_back(value);
     }
     inputs["t"] = values.start;
-    if (values.momenta.empty()) {
-        for (const auto& [name, value] : values.fibre) state.push_back(value);
+    const auto append = [&](const std::vector<long double>& lanes) {
+        state.insert(state.end(), lanes.begin(), lanes.end());
         return state;
-    }
-    const std::vector<long double> y = invert_legendre(module, values, inputs);
-    state.insert(state.end(), y.begin(), y.end());
-    return state;
+    };
+    std::vector<long double> given;
+    for (const auto& [name, value] : values.momenta.empty() ? values.fibre : values.momenta) given.push_back(value);
+    const bool has_momenta = !values.momenta.empty();
+    if (module.form == "lagrange") return append(has_momenta ? velocities_of(module, values, inputs) : given);
+    if (has_momenta || given.empty()) return append(given);
+    if (module.form == "pontryagin") throw InternalError("a scene in Pontryagin's form without momenta");
+    return append(momenta_of(checked, values, inputs));
 }
 
 } // namespace lagen

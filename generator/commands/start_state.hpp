@@ -2,14 +2,15 @@
 /// Where a run starts, in the lanes of the generated state.
 #pragma once
 
-#include "graph/kernel.hpp"
 #include "model/evaluate_scene.hpp"
+#include "pipeline.hpp"
 
 namespace lagen {
 
-/// Base lanes, then fibre lanes. Where the scene gives momenta instead of fibre coordinates, y solves p_a(x, y) = mu_a
-/// by Newton's method on the module's kernels `momentum` and `mass_matrix`, from y = 0, in long double; throws
-/// MathematicsError where it does not converge.
-[[nodiscard]] std::vector<long double> start_state(const KernelModule& module, const SceneValues& values);
+/// Base lanes, then the other lanes of the module's form. Lagrange's form with momenta given: y solves p_a(x, y) =
+/// mu_a. Hamilton's with fibre coordinates given: mu = dL/dy, or mu solves dH/dmu_a = y^a. By Newton's method from 0,
+/// in long double; throws MathematicsError where it does not converge.
+[[nodiscard]] std::vector<long double> start_state(const CheckedModel& checked, const KernelModule& module,
+                                                   const SceneValues& values);
 
 } // namespace lagen

@@ -35,11 +35,21 @@ std::set<std::string> class_scope_names(const KernelModule& module, const std::s
                                 "parameter_status",
                                 "singular_tolerance",
                                 "PivotedLu",
+                                "sincos",
+                                "arithmetic",
+                                "square_roots",
+                                "reciprocals",
                                 "stumpff",
                                 "stumpff_orders"};
     for (const Kernel& kernel : module.kernels) {
         names.insert(kernel.name);
         for (const char* suffix : {"_names", "_rows", "_columns", "_values"}) names.insert(kernel.name + suffix);
+    }
+    if (!module.direction.empty()) names.insert({"v", "dv"});
+    if (!module.implicit.empty()) names.insert({"z", "newton", "unknowns", "residual", "derivative"});
+    for (const ImplicitBlock& block : module.implicit) {
+        names.insert("solve_" + block.name);
+        names.insert("solved_" + block.name);
     }
     return names;
 }
@@ -53,6 +63,25 @@ void name_locals(const std::vector<Quantity>& quantities, const std::vector<std:
         locals.taken.insert(name);
         locals.inputs[quantities[k].input] = name;
     }
+}
+
+/// Locals for the unknowns of implicit blocks and for the entries of a direction.
+void name_unknowns(const KernelModule& module, ModuleNames& names)
+{
+    std::vector<Quantity> unknowns;
+    for (const ImplicitBlock& block : module.implicit)
+        for (const NodeId id : block.unknowns) unknowns.push_back({module.graph->input_name(id), "", "", id});
+    std::vector<std::string> texts;
+    for (const Quantity& unknown : unknowns) {
+        texts.push_back(unknown.name);
+        names.moving.push_back(unknown.input);
+    }
+    name_locals(unknowns, cpp_names(texts), names.locals);
+    std::vector<std::string> tangents;
+    for (const std::vector<std::string>* group : {&names.base, &names.fibre})
+        for (const std::string& member : *group) tangents.push_back("d_" + member);
+    if (!module.direction.empty()) name_locals(module.direction, tangents, names.locals);
+    for (const Quantity& quantity : module.direction) names.moving.push_back(quantity.input);
 }
 
 } // namespace
@@ -82,6 +111,7 @@ ModuleNames name_module(const KernelModule& module)
     name_locals(module.parameters, names.parameters, names.locals);
     name_locals(module.base, names.base, names.locals);
     name_locals(module.fibre, names.fibre, names.locals);
+    name_unknowns(module, names);
     return names;
 }
 

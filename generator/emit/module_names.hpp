@@ -13,7 +13,7 @@ struct ModuleNames {
     std::vector<std::string> base;       ///< members of Base
     std::vector<std::string> fibre;      ///< members of the second group
     LocalNames locals;
-    std::vector<NodeId> moving; ///< time and state lanes
+    std::vector<NodeId> moving; ///< time and state lanes, and what is solved for over them
 };
 
 [[nodiscard]] ModuleNames name_module(const KernelModule& module);

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "emit/plan_body.hpp"
 
+#include <algorithm>
 #include <cstdlib>
+#include <optional>
+#include <tuple>
 
 namespace lagen {
 
@@ -43,23 +46,67 @@ bool repeats_operands(const Graph& graph, NodeId id)
     return is_linear_algebra(op) || op == Op::power || op == Op::minimum || op == Op::maximum || op == Op::sign;
 }
 
-/// For every angle the node of its sine and of its cosine, where both are used.
-std::vector<NodeId> find_partners(const Graph& graph, const std::vector<NodeId>& nodes)
+/// What a node is to a batch: its kind and its argument.
+std::optional<std::pair<Batch::Kind, NodeId>> batched_operation(const Graph& graph, NodeId id)
 {
-    constexpr NodeId none = static_cast<NodeId>(-1);
-    std::vector<NodeId> sine(graph.size(), none);
-    std::vector<NodeId> cosine(graph.size(), none);
-    std::vector<NodeId> partner(graph.size(), none);
-    for (const NodeId id : nodes) {
-        if (graph.op(id) == Op::sin) sine[graph.operands(id)[0]] = id;
-        if (graph.op(id) == Op::cos) cosine[graph.operands(id)[0]] = id;
+    const std::span<const NodeId> operands = graph.operands(id);
+    switch (graph.op(id)) {
+    case Op::sin:
+    case Op::cos: return std::pair{Batch::Kind::angles, operands[0]};
+    case Op::sqrt: return std::pair{Batch::Kind::roots, operands[0]};
+    case Op::divide:
+        if (graph.is_one(operands[0])) return std::pair{Batch::Kind::reciprocals, operands[1]};
+        return std::nullopt;
+    default: return std::nullopt;
     }
+}
+
+/// One angle is worth a call where both its values are used, several where they have three; with fewer than four square
+/// roots or reciprocals the processor is not busy long enough.
+bool is_worth_a_call(const Batch& batch)
+{
+    if (batch.kind != Batch::Kind::angles) return batch.arguments.size() >= 4;
+    const auto used = [](NodeId id) { return id != no_node; };
+    const auto values = std::ranges::count_if(batch.values, used) + std::ranges::count_if(batch.cosines, used);
+    return values >= 3 || (values == 2 && batch.arguments.size() == 1);
+}
+
+void add_batch(Batch batch, BodyPlan& plan)
+{
+    if (!is_worth_a_call(batch)) return;
+    for (const std::vector<NodeId>* side : {&batch.values, &batch.cosines})
+        for (const NodeId id : *side)
+            if (id != no_node) plan.batch_of[id] = plan.batches.size();
+    plan.batches.push_back(std::move(batch));
+}
+
+/// Of every kind a batch for all arguments that depend on no result of a batch, one for those that depend on these, ...
+void find_batches(const Graph& graph, const std::vector<NodeId>& nodes, BodyPlan& plan)
+{
+    std::vector<std::size_t> level(graph.size(), 0);
+    std::map<std::tuple<std::size_t, Batch::Kind, NodeId>, std::pair<NodeId, NodeId>> found; // by level, argument
     for (const NodeId id : nodes) {
-        if (sine[id] == none || cosine[id] == none) continue;
-        partner[sine[id]] = cosine[id];
-        partner[cosine[id]] = sine[id];
+        for (const NodeId operand : graph.operands(id)) level[id] = std::max(level[id], level[operand]);
+        const auto operation = batched_operation(graph, id);
+        if (!operation) continue;
+        const auto [kind, argument] = *operation;
+        const std::tuple key{level[argument], kind, argument};
+        auto& [value, cosine] = found.try_emplace(key, no_node, no_node).first->second;
+        (graph.op(id) == Op::cos ? cosine : value) = id;
+        level[id] = level[argument] + 1;
     }
-    return partner;
+    for (auto entry = found.begin(); entry != found.end();) {
+        const auto [first_level, kind, first] = entry->first;
+        Batch batch{kind, {}, {}, {}};
+        for (; entry != found.end(); ++entry) {
+            const auto& [entry_level, entry_kind, argument] = entry->first;
+            if (entry_level != first_level || entry_kind != kind) break;
+            batch.arguments.push_back(argument);
+            batch.values.push_back(entry->second.first);
+            if (kind == Batch::Kind::angles) batch.cosines.push_back(entry->second.second);
+        }
+        add_batch(std::move(batch), plan);
+    }
 }
 
 /// By node: a Stumpff function of which another order, of the same argument, is used too.
@@ -74,17 +121,17 @@ std::vector<bool> find_families(const Graph& graph, const std::vector<NodeId>& n
     return family;
 }
 
-/// Ascending walk: a node is named where it is used twice, repeated by its user, a pair of sine and cosine, or where
+/// Ascending walk: a node is named where it is used twice, repeated by its user, part of a batch, or where
 /// the expression would grow too long.
 std::vector<bool> choose_named(const Graph& graph, const std::vector<NodeId>& nodes, std::span<const NodeId> outputs,
-                               const std::vector<NodeId>& partner)
+                               const BodyPlan& plan)
 {
     const std::vector<std::size_t> uses = count_uses(graph, nodes, outputs);
     const std::vector<bool> family = find_families(graph, nodes);
     std::vector<bool> named(graph.size(), false);
     for (const NodeId id : nodes) {
         if (is_linear_algebra(graph.op(id)) || (uses[id] > 1 && !has_name_already(graph.op(id)))) named[id] = true;
-        if (partner[id] != static_cast<NodeId>(-1) || family[id] || needs_chain(graph, id)) named[id] = true;
+        if (plan.batch_of.contains(id) || family[id] || needs_chain(graph, id)) named[id] = true;
         if (repeats_operands(graph, id))
             for (const NodeId operand : graph.operands(id))
                 if (!has_name_already(graph.op(operand))) named[operand] = true;
@@ -98,8 +145,8 @@ std::vector<bool> choose_named(const Graph& graph, const std::vector<NodeId>& no
         if (total >= largest_expression) named[id] = true;
     }
     for (const NodeId id : outputs) // an output that nothing else uses is printed where it is stored
-        if (uses[id] == 1 && !is_linear_algebra(graph.op(id)) && partner[id] == static_cast<NodeId>(-1) &&
-            !family[id] && !needs_chain(graph, id))
+        if (uses[id] == 1 && !is_linear_algebra(graph.op(id)) && !plan.batch_of.contains(id) && !family[id] &&
+            !needs_chain(graph, id))
             named[id] = false;
     return named;
 }
@@ -107,8 +154,8 @@ std::vector<bool> choose_named(const Graph& graph, const std::vector<NodeId>& no
 /// Post-order from each output in turn, without recursion.
 class Walk {
   public:
-    Walk(const Graph& graph, const std::vector<NodeId>& partner, BodyPlan& plan)
-        : graph_(graph), partner_(partner), plan_(plan), done_(graph.size(), false)
+    Walk(const Graph& graph, BodyPlan& plan)
+        : graph_(graph), plan_(plan), done_(graph.size(), false), placed_(plan.batches.size(), false)
     {
     }
     void from(NodeId root)
@@ -116,9 +163,9 @@ class Walk {
         enter(root);
         while (!stack_.empty()) {
             auto& [id, next] = stack_.back();
-            const std::span<const NodeId> operands = graph_.operands(id);
-            if (next < operands.size()) {
-                enter(operands[next++]);
+            const std::span<const NodeId> needed = needed_by(id);
+            if (next < needed.size()) {
+                enter(needed[next++]);
                 continue;
             }
             finish(id);
@@ -132,23 +179,26 @@ class Walk {
         if (!done_[id]) stack_.emplace_back(id, 0);
         done_[id] = true;
     }
+    /// The operands; for a part of a batch all arguments of it.
+    [[nodiscard]] std::span<const NodeId> needed_by(NodeId id) const
+    {
+        const auto batch = plan_.batch_of.find(id);
+        return batch == plan_.batch_of.end() ? graph_.operands(id) : plan_.batches[batch->second].arguments;
+    }
     void finish(NodeId id)
     {
         if (!plan_.named[id]) return;
-        const NodeId other = partner_[id];
-        if (other == static_cast<NodeId>(-1)) {
-            plan_.order.push_back(id);
-            return;
+        if (const auto batch = plan_.batch_of.find(id); batch != plan_.batch_of.end()) {
+            if (placed_[batch->second]) return;
+            placed_[batch->second] = true;
         }
-        done_[other] = true; // its operand is this node's, which is done
-        plan_.order.push_back(graph_.op(id) == Op::sin ? id : other);
-        plan_.order.push_back(graph_.op(id) == Op::sin ? other : id);
+        plan_.order.push_back(id);
     }
 
     const Graph& graph_;
-    const std::vector<NodeId>& partner_;
     BodyPlan& plan_;
     std::vector<bool> done_;
+    std::vector<bool> placed_; ///< by batch
     std::vector<std::pair<NodeId, std::size_t>> stack_;
 };
 
@@ -162,12 +212,12 @@ bool needs_chain(const Graph& graph, NodeId id)
 BodyPlan plan_body(const Graph& graph, std::span<const NodeId> outputs)
 {
     const std::vector<NodeId> nodes = reachable(graph, outputs);
-    const std::vector<NodeId> partner = find_partners(graph, nodes);
     BodyPlan plan;
+    find_batches(graph, nodes, plan);
     plan.used.assign(graph.size(), false);
     for (const NodeId id : nodes) plan.used[id] = true;
-    plan.named = choose_named(graph, nodes, outputs, partner);
-    Walk walk(graph, partner, plan);
+    plan.named = choose_named(graph, nodes, outputs, plan);
+    Walk walk(graph, plan);
     for (const NodeId id : outputs) walk.from(id);
     return plan;
 }

@@ -1,17 +1,34 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Which nodes of a function body get a name, and in which order they are computed: each next to its first use, sine
-/// and cosine of one angle side by side, so that a compiler merges them into one call. Stumpff functions of one
-/// argument are all named: they come from one call.
+/// Which nodes of a function body get a name, and in which order they are computed: each next to its first use.
+/// Operations that take long and that a processor does on several numbers at once stand together: the sines and cosines
+/// of all angles, square roots and reciprocals where there are several. Stumpff functions of one argument are all
+/// named: they come from one call.
 #pragma once
 
 #include "graph/graph.hpp"
 
+#include <limits>
+#include <map>
+
 namespace lagen {
+
+/// No node.
+inline constexpr NodeId no_node = std::numeric_limits<NodeId>::max();
+
+/// Operations that one call computes; none of them depends on another's result.
+struct Batch {
+    enum class Kind { angles, roots, reciprocals } kind = Kind::angles;
+    std::vector<NodeId> arguments; ///< angles, radicands or divisors, ascending
+    std::vector<NodeId> values;    ///< the nodes, one an argument: sines, roots, quotients; no_node where not used
+    std::vector<NodeId> cosines;   ///< the same for cosines; empty for other kinds
+};
 
 struct BodyPlan {
     std::vector<NodeId> order; ///< named nodes, factors and solves, in order of evaluation
     std::vector<bool> named;   ///< by node: stands in `order`
     std::vector<bool> used;    ///< by node: reachable from the outputs
+    std::vector<Batch> batches;
+    std::map<NodeId, std::size_t> batch_of; ///< by node; of a batch the first to be reached stands in `order`
 };
 
 [[nodiscard]] BodyPlan plan_body(const Graph& graph, std::span<const NodeId> outputs);

@@ -92,10 +92,67 @@ class BodyPrinter {
         if (graph_.op(id) == Op::factor) return print_factor_node(id);
         if (graph_.op(id) == Op::solve) return print_solve_node(id);
         if (graph_.op(id) == Op::stumpff && print_family(id)) return;
+        if (const auto batch = plan_.batch_of.find(id); batch != plan_.batch_of.end())
+            return print_batch(plan_.batches[batch->second]);
         const std::string value = needs_chain(graph_, id) ? print_chain(id) : spell_.operation(id).text;
         const std::string name = next_term();
         define(name, value);
         spell_.name(id, name);
+    }
+
+    /// sin_x and cos_x where x is an input, else two further terms.
+    std::pair<std::string, std::string> names_of_pair(NodeId angle)
+    {
+        if (graph_.op(angle) != Op::input) {
+            const std::string sine = next_term();
+            return {sine, next_term()};
+        }
+        const std::string& name = request_.names.inputs.at(angle);
+        const std::string sine = fresh("sin_" + name);
+        return {sine, fresh("cos_" + name)};
+    }
+
+    /// "<S, K>({a, b, ..})": the K arguments of a batch.
+    std::string arguments_of(const Batch& batch)
+    {
+        std::string text;
+        for (const NodeId argument : batch.arguments) text += (text.empty() ? "" : ", ") + spell_(argument).text;
+        return fmt::format("<S, {}>({{{}}})", batch.arguments.size(), text);
+    }
+
+    void name_entries(const std::vector<NodeId>& nodes, const std::string& array)
+    {
+        for (std::size_t k = 0; k < nodes.size(); ++k)
+            if (nodes[k] != no_node) spell_.name(nodes[k], fmt::format("{}[{}]", array, k));
+    }
+
+    void print_batch(const Batch& batch)
+    {
+        if (batch.kind == Batch::Kind::angles) return print_angles(batch);
+        const bool roots = batch.kind == Batch::Kind::roots;
+        const std::string name = fresh(roots ? "roots" : "inverses");
+        body_.statements.push_back(
+            fmt::format("const auto {} = {}{};", name, roots ? "square_roots" : "reciprocals", arguments_of(batch)));
+        name_entries(batch.values, name);
+    }
+
+    /// The sines and cosines of one batch from one call.
+    void print_angles(const Batch& batch)
+    {
+        if (batch.arguments.size() == 1) {
+            const NodeId angle = batch.arguments[0];
+            const auto [sine, cosine] = names_of_pair(angle);
+            body_.statements.push_back(
+                fmt::format("const auto [{}, {}] = sincos<S>({});", sine, cosine, spell_(angle).text));
+            spell_.name(batch.values[0], sine);
+            spell_.name(batch.cosines[0], cosine);
+            return;
+        }
+        const std::string sines = fresh("sines");
+        const std::string cosines = fresh("cosines");
+        body_.statements.push_back(fmt::format("const auto [{}, {}] = sincos{};", sines, cosines, arguments_of(batch)));
+        name_entries(batch.values, sines);
+        name_entries(batch.cosines, cosines);
     }
 
     /// The Stumpff functions of one argument from one call, an entry an order; false where this one stands alone.

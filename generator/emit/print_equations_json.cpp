@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Equations as JSON. Expressions are texts of the expression language:
 ///   {"model", "title", "form", "blocks": [{"title", "formula", "equations":
-///     [{"left": {"kind": "time_derivative" | "symbol" | "zero", "symbol", "mass": [{"symbol", "value"}]},
+///     [{"left": {"kind": "time_derivative" | "symbol" | "zero" | "bracket", "symbol", "other",
+///                "mass": [{"symbol", "value"}]},
 ///       "right": "...", "groups": [{"label", "value"}]}]}]}
-/// `symbol` is left out of kind "zero", `mass` where the left side has no mass matrix.
+/// `symbol` is left out of kind "zero", `mass` where the left side has no mass matrix; `other` is of kind "bracket",
+/// {symbol, other}.
 #include "emit/json.hpp"
 #include "emit/print_equations.hpp"
 #include "emit/print_equations_terms.hpp"
@@ -27,8 +29,10 @@ void write_left(JsonWriter& json, const Equation& equation)
     case LeftSide::time_derivative: json.key("kind").value("time_derivative"); break;
     case LeftSide::symbol: json.key("kind").value("symbol"); break;
     case LeftSide::zero: json.key("kind").value("zero"); break;
+    case LeftSide::bracket: json.key("kind").value("bracket"); break;
     }
     if (equation.left != LeftSide::zero) json.key("symbol").value(equation.symbol);
+    if (equation.left == LeftSide::bracket) json.key("other").value(equation.other);
     if (!equation.mass.empty()) {
         json.key("mass").begin_array();
         for (const TermGroup& entry : equation.mass)

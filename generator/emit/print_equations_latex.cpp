@@ -239,6 +239,8 @@ std::string left_side(const Equation& equation, const LatexNames& names)
 {
     if (equation.left == LeftSide::zero) return "0";
     if (equation.left == LeftSide::symbol) return names.symbol(equation.symbol);
+    if (equation.left == LeftSide::bracket)
+        return "\\{" + names.symbol(equation.symbol) + ", " + names.symbol(equation.other) + "\\}";
     if (equation.mass.empty()) return names.dotted(equation.symbol);
     std::string text;
     for (const TermGroup& entry : equation.mass) {

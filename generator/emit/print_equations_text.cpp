@@ -171,6 +171,7 @@ std::string left_side(const Equation& equation)
 {
     if (equation.left == LeftSide::zero) return "0";
     if (equation.left == LeftSide::symbol) return equation.symbol;
+    if (equation.left == LeftSide::bracket) return "{" + equation.symbol + ", " + equation.other + "}";
     if (equation.mass.empty()) return dotted(equation.symbol);
     std::string text;
     for (const TermGroup& entry : equation.mass) {

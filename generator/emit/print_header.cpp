@@ -3,6 +3,7 @@
 
 #include "emit/print_banner.hpp"
 #include "emit/print_kernel.hpp"
+#include "emit/spell.hpp"
 
 #include <fmt/format.h>
 
@@ -16,14 +17,15 @@ std::string unit_text(const Quantity& quantity)
 {
     std::string text = comment_text(quantity.text);
     if (!quantity.unit.empty()) text += (text.empty() ? "[" : " [") + comment_text(quantity.unit) + "]";
-    return text.empty() ? "" : " ///< " + text;
+    return text;
 }
 
-/// `S name = value; ///< text [unit]` a line, comments one below the other.
+/// `S name = value; ///< text [unit]` a line, comments one below the other; above the line where it would be too long.
 void print_members(TextBlock& out, const std::vector<std::string>& names, const std::vector<std::string>& values,
                    const std::vector<Quantity>& quantities)
 {
     constexpr std::size_t widest = 60;
+    constexpr std::size_t longest = 100; ///< code and text of a line, with room for its indentation
     out.indent(1);
     std::vector<std::string> lines;
     std::size_t width = 0;
@@ -33,8 +35,13 @@ void print_members(TextBlock& out, const std::vector<std::string>& names, const 
     }
     for (std::size_t k = 0; k < names.size(); ++k) {
         const std::string text = unit_text(quantities[k]);
-        const std::size_t gap = text.empty() || lines[k].size() > width ? 0 : width - lines[k].size();
-        out.line(lines[k] + std::string(gap, ' ') + text);
+        const std::size_t column = std::max(lines[k].size(), width);
+        const bool above = column + text.size() > longest; // a comment that is broken would not be one
+        if (above && !text.empty()) out.comment(text);
+        if (above || text.empty())
+            out.line(lines[k]);
+        else
+            out.line(lines[k] + std::string(column - lines[k].size(), ' ') + " ///< " + text);
     }
     out.indent(-1);
 }
@@ -46,7 +53,7 @@ std::string default_value(const KernelModule& module, NodeId node)
     const NodeId outputs[] = {node};
     const Body body = print_body({*module.graph, none, outputs, {}, {}, Checking::none});
     std::string text = "[] { ";
-    for (const std::string& function : body.functions) text += fmt::format("using std::{}; ", function);
+    for (const std::string& function : body.functions) text += using_declaration(function) + " ";
     for (const std::string& statement : body.statements) text += statement + " ";
     return text + "return S(" + body.values.front() + "); }()";
 }
@@ -171,6 +178,7 @@ std::string print_header(const KernelModule& module)
     print_group(kernels, module.fibre_name, module.fibre, names.fibre, "The other lanes of State.");
     print_state(kernels, module, names);
     print_parameter_status(kernels, module, names, needs);
+    for (const ImplicitBlock& block : module.implicit) print_implicit(kernels, module, names, block, needs);
     for (const Kernel& kernel : module.kernels) print_kernel(kernels, module, names, kernel, needs);
 
     TextBlock out;
@@ -179,6 +187,11 @@ std::string print_header(const KernelModule& module)
     out.blank();
     out.line("#include \"lagen/kernel.hpp\"");
     if (needs.linear) out.line("#include \"lagen/linear.hpp\"");
+    if (needs.newton) out.line("#include \"lagen/newton.hpp\"");
+    const auto calls = [&](const char* name) { return kernels.text().find(name) != std::string::npos; };
+    if (calls("arithmetic::sqrt") || calls("square_roots<S") || calls("reciprocals<S"))
+        out.line("#include \"lagen/roots.hpp\"");
+    if (calls("sincos<S")) out.line("#include \"lagen/sincos.hpp\"");
     if (needs_stumpff(module)) out.line("#include \"lagen/stumpff.hpp\"");
     out.blank();
     for (const char* header : {"Eigen/Core", "array", "cmath", "cstddef"}) {

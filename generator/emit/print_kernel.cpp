@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "emit/print_kernel.hpp"
 
+#include "emit/spell.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,7 +31,16 @@ bool reads(const Body& body, NodeId id)
     return std::ranges::count(body.inputs, id) > 0;
 }
 
-bool reads_state(const Body& body, const KernelModule& module)
+/// The blocks whose unknowns the body reads.
+std::vector<const ImplicitBlock*> blocks_of(const Body& body, const KernelModule& module)
+{
+    std::vector<const ImplicitBlock*> blocks;
+    for (const ImplicitBlock& block : module.implicit)
+        if (std::ranges::any_of(block.unknowns, [&](NodeId id) { return reads(body, id); })) blocks.push_back(&block);
+    return blocks;
+}
+
+bool reads_lane(const Body& body, const KernelModule& module)
 {
     const auto any = [&](const std::vector<Quantity>& group) {
         return std::ranges::any_of(group, [&](const Quantity& q) { return reads(body, q.input); });
@@ -37,10 +48,16 @@ bool reads_state(const Body& body, const KernelModule& module)
     return any(module.base) || any(module.fibre);
 }
 
+bool reads_state(const Body& body, const KernelModule& module)
+{
+    return reads_lane(body, module) || !blocks_of(body, module).empty();
+}
+
 /// "S t, const State& s" with what the body leaves unread marked.
 std::string arguments(const Body& body, const KernelModule& module)
 {
-    return fmt::format("{}S t, {}const State& s", maybe_unused(reads(body, module.time)),
+    return fmt::format("{}S t, {}const State& s",
+                       maybe_unused(reads(body, module.time) || !blocks_of(body, module).empty()),
                        maybe_unused(reads_state(body, module)));
 }
 
@@ -60,13 +77,40 @@ void load(TextBlock& out, const Body& body, const ModuleNames& names, const Kern
     }
 }
 
-/// Everything up to the stores.
-void print_statements(TextBlock& out, const Body& body, const ModuleNames& names, const KernelModule& module)
+/// Solves the implicit blocks that the body reads; answers whether a `status` was declared.
+bool solve_blocks(TextBlock& out, const Body& body, const ModuleNames& names, const KernelModule& module,
+                  bool returns_status)
 {
-    for (const std::string& function : body.functions) out.line(fmt::format("using std::{};", function));
+    bool declared = false;
+    for (const ImplicitBlock* block : blocks_of(body, module)) {
+        out.line(fmt::format("std::array<S, {}> solved_{};", block->unknowns.size(), block->name));
+        const std::string call = fmt::format("solve_{}(t, s, solved_{})", block->name, block->name);
+        if (!returns_status)
+            out.line(fmt::format("static_cast<void>({});", call));
+        else if (declared)
+            out.line(fmt::format("status = StatusOf<S>::first(status, {});", call));
+        else
+            out.line(fmt::format("{} status = {};", body.has_status ? "auto" : "const auto", call));
+        declared = declared || returns_status;
+        for (std::size_t k = 0; k < block->unknowns.size(); ++k)
+            if (reads(body, block->unknowns[k]))
+                out.line(fmt::format("const S {} = solved_{}[{}];", names.locals.inputs.at(block->unknowns[k]),
+                                     block->name, k));
+    }
+    return declared;
+}
+
+/// Everything up to the stores. Answers whether a `status` was declared.
+bool print_statements(TextBlock& out, const Body& body, const ModuleNames& names, const KernelModule& module,
+                      bool returns_status = false)
+{
+    for (const std::string& function : body.functions) out.line(using_declaration(function));
     load(out, body, names, module);
-    if (body.has_status) out.line("auto status = StatusOf<S>::good();");
+    bool declared = solve_blocks(out, body, names, module, returns_status);
+    if (body.has_status && !declared) out.line("auto status = StatusOf<S>::good();");
+    declared = declared || body.has_status;
     for (const std::string& statement : body.statements) out.line(statement);
+    return declared;
 }
 
 void print_documentation(TextBlock& out, const Kernel& kernel)
@@ -76,7 +120,7 @@ void print_documentation(TextBlock& out, const Kernel& kernel)
 
 void open(TextBlock& out, const std::string& signature)
 {
-    out.line(signature);
+    if (!signature.empty()) out.line(signature);
     out.line("{");
     out.indent(1);
 }
@@ -99,12 +143,31 @@ void print_right_hand_side(TextBlock& out, const KernelModule& module, const Ker
     const bool writes = kernel.output.rows > 0;
     open(out, fmt::format("[[nodiscard]] status_t<S> {}({}, {}State& {}) const noexcept", kernel.name,
                           arguments(body, module), maybe_unused(writes), target));
-    print_statements(out, body, names, module);
+    const bool has_status = print_statements(out, body, names, module, true);
     std::vector<std::string> values(kernel.output.rows, "S(0)");
     for (std::size_t k = 0; k < body.values.size(); ++k) values[kernel.output.entries[k].row] = body.values[k];
     for (std::size_t row = 0; row < values.size(); ++row)
         out.line(fmt::format("{}[{}] = {};", target, row, values[row]));
-    out.line(body.has_status ? "return status;" : "return StatusOf<S>::good();");
+    out.line(has_status ? "return status;" : "return StatusOf<S>::good();");
+    close(out);
+}
+
+/// The directional derivative along v.
+void print_directional(TextBlock& out, const KernelModule& module, const Kernel& kernel, const Body& body,
+                       const ModuleNames& names)
+{
+    const bool reads_v =
+        std::ranges::any_of(module.direction, [&](const Quantity& entry) { return reads(body, entry.input); });
+    const bool writes = kernel.output.rows > 0;
+    open(out, fmt::format("[[nodiscard]] status_t<S> {}({}, {}const State& v, {}State& {}) const noexcept", kernel.name,
+                          arguments(body, module), maybe_unused(reads_v), maybe_unused(writes), kernel.output.name));
+    for (std::size_t lane = 0; lane < module.direction.size(); ++lane)
+        if (reads(body, module.direction[lane].input))
+            out.line(fmt::format("const S {} = v[{}];", names.locals.inputs.at(module.direction[lane].input), lane));
+    const bool has_status = print_statements(out, body, names, module, true);
+    for (std::size_t k = 0; k < body.values.size(); ++k)
+        out.line(fmt::format("{}[{}] = {};", kernel.output.name, kernel.output.entries[k].row, body.values[k]));
+    out.line(has_status ? "return status;" : "return StatusOf<S>::good();");
     close(out);
 }
 
@@ -198,7 +261,7 @@ void print_kernel(TextBlock& out, const KernelModule& module, const ModuleNames&
                   KernelNeeds& needs)
 {
     const std::vector<NodeId> outputs = outputs_of(kernel);
-    const bool has_status = kernel.shape == KernelShape::right_hand_side;
+    const bool has_status = kernel.shape == KernelShape::right_hand_side || kernel.shape == KernelShape::directional;
     LocalNames locals = names.locals;
     locals.taken.insert(kernel.output.name);
     const Body body = print_body(
@@ -213,6 +276,7 @@ void print_kernel(TextBlock& out, const KernelModule& module, const ModuleNames&
     case KernelShape::vector:
     case KernelShape::matrix: return print_array(out, module, kernel, body, names);
     case KernelShape::sparse: return print_sparse(out, module, kernel, body, names);
+    case KernelShape::directional: return print_directional(out, module, kernel, body, names);
     }
 }
 
@@ -238,6 +302,47 @@ void print_parameter_status(TextBlock& out, const KernelModule& module, const Mo
     open(out, "[[nodiscard]] status_t<S> parameter_status() const noexcept");
     print_statements(out, body, names, module);
     out.line(body.has_status ? "return status;" : "return StatusOf<S>::good();");
+    close(out);
+}
+
+void print_implicit(TextBlock& out, const KernelModule& module, const ModuleNames& names, const ImplicitBlock& block,
+                    KernelNeeds& needs)
+{
+    const std::size_t size = block.unknowns.size();
+    std::vector<NodeId> inner = block.residuals;
+    inner.insert(inner.end(), block.jacobian.begin(), block.jacobian.end());
+    const auto body_of = [&](const std::vector<NodeId>& outputs) {
+        return print_body({*module.graph, names.locals, outputs, {}, names.moving, Checking::none});
+    };
+    const Body guess = body_of(block.guess);
+    Body iteration = body_of(inner);
+    needs.linear = needs.newton = true;
+    out.blank();
+    out.comment(block.documentation);
+    out.comment("By Newton's method; answers newton_diverged, and NaN in z, where it finds no solution to round-off.");
+    const bool reads_time = reads(guess, module.time) || reads(iteration, module.time);
+    const bool reads_lanes = reads_lane(guess, module) || reads_lane(iteration, module);
+    open(out, fmt::format("[[nodiscard]] status_t<S> solve_{}({}S t, {}const State& s, std::array<S, {}>& z) const "
+                          "noexcept",
+                          block.name, maybe_unused(reads_time), maybe_unused(reads_lanes), size));
+    open(out, "");
+    print_statements(out, guess, names, module);
+    for (std::size_t k = 0; k < size; ++k) out.line(fmt::format("z[{}] = {};", k, guess.values[k]));
+    close(out);
+    out.line(fmt::format("return newton(z, [&](const std::array<S, {0}>& unknowns, std::array<S, {0}>& residual, "
+                         "std::array<S, {1}>& derivative) noexcept {{",
+                         size, size * size));
+    out.indent(1);
+    for (std::size_t k = 0; k < size; ++k)
+        if (reads(iteration, block.unknowns[k]))
+            out.line(fmt::format("const S {} = unknowns[{}];", names.locals.inputs.at(block.unknowns[k]), k));
+    std::erase_if(iteration.inputs, [&](NodeId id) { return std::ranges::count(block.unknowns, id) > 0; });
+    print_statements(out, iteration, names, module);
+    for (std::size_t k = 0; k < inner.size(); ++k)
+        out.line(k < size ? fmt::format("residual[{}] = {};", k, iteration.values[k])
+                          : fmt::format("derivative[{}] = {};", k - size, iteration.values[k]));
+    out.indent(-1);
+    out.line("});");
     close(out);
 }
 

@@ -10,10 +10,15 @@ namespace lagen {
 /// What the functions printed so far need from elsewhere.
 struct KernelNeeds {
     bool linear = false; ///< lagen/linear.hpp
+    bool newton = false; ///< lagen/newton.hpp
 };
 
 void print_kernel(TextBlock& out, const KernelModule& module, const ModuleNames& names, const Kernel& kernel,
                   KernelNeeds& needs);
+
+/// solve_NAME(): the unknowns of a block at a state, by Newton's method.
+void print_implicit(TextBlock& out, const KernelModule& module, const ModuleNames& names, const ImplicitBlock& block,
+                    KernelNeeds& needs);
 
 /// parameter_status(): the factorisations and divisors of all kernels that depend on parameters alone.
 void print_parameter_status(TextBlock& out, const KernelModule& module, const ModuleNames& names, KernelNeeds& needs);

@@ -184,4 +184,10 @@ Spelling Speller::comparison(NodeId id)
     return {fmt::format("select({}, S(1), S(0))", condition(id).text), 5};
 }
 
+/// The square root of the runtime sets no errno, see runtime/include/lagen/roots.hpp.
+std::string using_declaration(const std::string& function)
+{
+    return fmt::format("using {}::{};", function == "sqrt" ? "arithmetic" : "std", function);
+}
+
 } // namespace lagen

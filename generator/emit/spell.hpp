@@ -48,4 +48,7 @@ class Speller {
     std::set<std::string> functions_;
 };
 
+/// The declaration by which kernels call `function`: `using std::sin;`.
+[[nodiscard]] std::string using_declaration(const std::string& function);
+
 } // namespace lagen

@@ -11,6 +11,7 @@ enum class LeftSide {
     time_derivative, ///< d(symbol)/dt
     symbol,          ///< symbol itself
     zero,            ///< 0 = right
+    bracket,         ///< {symbol, other}
 };
 
 /// A group of terms of a right-hand side that belongs together in the formula it came from, for instance
@@ -26,6 +27,7 @@ struct Equation {
     std::string symbol;
     std::vector<TermGroup> mass;   ///< W_ab ydot^b: label = y^b, value = W_ab (zero entries left out)
     std::vector<TermGroup> groups; ///< empty: the right side is 0
+    std::string other = {};        ///< of a bracket: its second function
 };
 
 /// One titled block, e.g. "momenta" or "equations of motion (acceleration form)", with its formula in UTF-8.
@@ -45,7 +47,7 @@ struct SymbolText {
 struct EquationSet {
     std::string model;
     std::string title;
-    std::string form; ///< "lagrange", ...
+    std::string form; ///< "lagrange", "hamilton", "pontryagin"
     std::vector<SymbolText> symbols;
     std::vector<EquationBlock> blocks;
 };

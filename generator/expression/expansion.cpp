@@ -51,13 +51,14 @@ Expansion::Closing::Result Expansion::Closing::enter(const Tree& tree, const std
 
 Expansion::Closing::Result Expansion::Closing::enter_name(const Tree& tree, const std::shared_ptr<OpenBody>& body)
 {
-    const std::string& text = tree->kind == TreeKind::pi ? "pi" : tree->name;
+    if (tree->kind == TreeKind::pi && tree->name.empty()) return leaf(tree); // the number, found to be it before
+    const std::string& text = tree->name;
     if (const Value* bound = find_bound(*body, text)) return *bound;
     if (scope_.has_symbol(text)) return leaf(tree->kind == TreeKind::pi ? name(text, tree->where) : tree);
     if (const std::optional<long> size = scope_.find_size(text)) return leaf(number(*size, tree->where));
     if (const Shape* shape = scope_.find_family(text)) return family(text, *shape, *body);
     const Definition* definition = scope_.find_definition(text);
-    if (!definition && tree->kind == TreeKind::pi) return leaf(tree);
+    if (!definition && tree->kind == TreeKind::pi) return leaf(constant_pi(tree->where));
     if (!definition) unknown(*tree, *body, false);
     if (!definition->parameters.empty())
         throw ModelError(

@@ -186,7 +186,7 @@ ArrayValue Scope::close_array(const Tree& tree, bool nonsmooth) const
         const TreeNode* refused = entry.measure.nonsmooth;
         if (refused && !nonsmooth)
             throw ModelError(fmt::format("the function '{}' is not smooth", entry_of(refused->function).name),
-                             refused->where, "min, max, sign and if stand in observables and events only");
+                             refused->where, "min, max, sign and if stand in forces, observables and events only");
         result.entries.push_back(entry.tree);
     }
     return result;

@@ -24,14 +24,15 @@ std::size_t cost_of(const Tree& tree)
     return text.size() + parenthesis_cost * static_cast<std::size_t>(std::count(text.begin(), text.end(), '('));
 }
 
-/// x[3] as the symbol that it stands for.
-Tree with_entries_as_names(const Tree& tree)
+/// x[3], and pi where the model declares it, as the symbol that it stands for. (The number is acos(-1) then.)
+Tree with_entries_as_names(const Tree& tree, bool declares_pi)
 {
+    if (tree->kind == TreeKind::pi && declares_pi) return name("pi", tree->where);
     if (tree->kind == TreeKind::index) return name(to_text(tree), tree->where);
     if (tree->arguments.empty()) return tree;
     auto node = std::make_shared<TreeNode>(*tree);
     node->where = {};
-    for (Tree& argument : node->arguments) argument = with_entries_as_names(argument);
+    for (Tree& argument : node->arguments) argument = with_entries_as_names(argument, declares_pi);
     return node;
 }
 
@@ -87,7 +88,8 @@ Tree BuildWorkspace::normal_tree(NodeId node, bool& zero)
         zero = form.is_zero();
         const std::string text = proof::to_text(forms.ring(), forms.readable(form), 2 * normal_length);
         if (text.size() > normal_length || !proof::is_whole(text)) return nullptr;
-        return with_entries_as_names(parse_expression(whole_text("<normal form>", text)));
+        return with_entries_as_names(parse_expression(whole_text("<normal form>", text)),
+                                     model_.scope.has_symbol("pi"));
     } catch (const proof::BudgetExhausted&) {
         return nullptr;
     } catch (const proof::VanishingDivisor&) {

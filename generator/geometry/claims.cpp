@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Lowering of a model for its proofs, and the setting in which they are decided.
 #include "geometry/claims.hpp"
-#include "geometry/equations_of_motion.hpp"
+#include "geometry/lagrange_motion.hpp"
 #include "geometry/model_trees.hpp"
 #include "geometry/regularity.hpp"
 #include "geometry/zero_divisors.hpp"
@@ -40,20 +40,65 @@ void Claims::lower_model()
     if (!declared("t")) time_ = graph_.input("t");
     for (const Tree& tree : algebroid_.constraints) functions_.constraints.push_back((*lower_)(tree));
     for (const NamedTree& casimir : model_.base.casimirs) functions_.casimirs.push_back((*lower_)(casimir.value));
+    lower_mechanics();
+}
+
+void Claims::lower_mechanics()
+{
     if (model_.lagrangian) hessian_ = fibre_hessian(graph_, (*lower_)(model_.lagrangian), lowered_.y);
+    forces_ = generalized_forces(graph_, *lower_, model_, lowered_.y);
+    if (!model_.hamiltonian && !model_.control) return;
+    for (const Symbol& symbol : model_.fibre.momenta) mu_.push_back(graph_.input(symbol.name));
+    if (model_.hamiltonian) hamiltonian_hessian_ = fibre_hessian(graph_, (*lower_)(model_.hamiltonian), mu_);
+    if (!model_.control) return;
+    ControlNodes& control = control_.emplace();
+    for (const Symbol& symbol : model_.control->controls) control.u.push_back(graph_.input(symbol.name));
+    control.sigma.assign(lowered_.r(), graph_.constant(0));
+    for (const ComponentEntry& entry : model_.control->sigma) control.sigma[entry.section] = (*lower_)(entry.value);
+    control.cost = (*lower_)(model_.control->cost);
+    control.bounded = !model_.control->bounds.empty();
+}
+
+/// What H, forces and the control problem are made of: they count where they are defined.
+void Claims::append_mechanics(std::vector<NodeId>& nodes) const
+{
+    const auto append = [&](NodeId node) {
+        if (!graph_.is_constant(node)) nodes.push_back(node);
+    };
+    if (hessian_) append(hessian_->lagrangian);
+    if (hamiltonian_hessian_) append(hamiltonian_hessian_->lagrangian);
+    for (const NodeId force : forces_) append(force);
+    if (!control_) return;
+    for (const NodeId component : control_->sigma) append(component);
+    append(control_->cost);
+}
+
+/// Those of the model's default form.
+std::unique_ptr<EquationsOfMotion> Claims::equations_of_motion()
+{
+    if (control_)
+        return std::make_unique<PhaseMotion>(graph_, lowered_,
+                                             pontryagin_system(graph_, lowered_, *control_, mu_, time_), time_);
+    if (hamiltonian_hessian_ && !hessian_)
+        return std::make_unique<PhaseMotion>(
+            graph_, lowered_, hamilton_system(graph_, lowered_, hamiltonian_hessian_->lagrangian, mu_, forces_, time_),
+            time_);
+    return std::make_unique<LagrangeMotion>(graph_, lowered_, hessian_ ? &*hessian_ : nullptr, forces_, time_);
 }
 
 void Claims::make_setting()
 {
     setting_.variables = lowered_.x;
     setting_.variables.insert(setting_.variables.end(), lowered_.y.begin(), lowered_.y.end());
+    setting_.variables.insert(setting_.variables.end(), mu_.begin(), mu_.end());
+    if (control_) setting_.variables.insert(setting_.variables.end(), control_->u.begin(), control_->u.end());
     if (time_) setting_.variables.push_back(*time_);
     for (const std::string& name : algebroid_.parameters) setting_.parameters.push_back(graph_.input(name));
     setting_.constraints = functions_.constraints;
     for (const Tree& tree : algebroid_.domain) setting_.domain.push_back((*lower_)(tree));
     for (const NodeId entry : lowered_.entries())
         if (!graph_.is_constant(entry)) setting_.defined.push_back(entry);
-    if (hessian_) setting_.defined.push_back(hessian_->lagrangian);
+    append_mechanics(setting_.defined);
     setting_.defined.insert(setting_.defined.end(), functions_.casimirs.begin(), functions_.casimirs.end());
     // 0*log(-1 - x^2) folds to 0, but is defined nowhere; sqrt(x)^2 folds to x, and is defined for x >= 0 only.
     const std::vector<NodeId> whole = reachable(graph_, setting_.defined);
@@ -86,20 +131,25 @@ void Claims::require_triangular_constraints()
 
 void Claims::refuse_zero_divisors(const ProofBudget& budget)
 {
-    EquationsOfMotion motion(graph_, lowered_, hessian_ ? &*hessian_ : nullptr, time_);
-    Binding names = motion.names(model_);
+    const std::unique_ptr<EquationsOfMotion> motion = equations_of_motion();
+    Binding names = motion->names(model_);
     names.insert(binding_.begin(), binding_.end());
     Lowering lower(graph_, names);
     ZeroDivisors divisors(graph_, setting_, budget);
+    for (const Tree& tree : phase_trees(model_))
+        divisors.refuse(tree, [&](const Tree& divisor) { return (*lower_)(divisor); });
     for (const Tree& tree : all_trees(model_, algebroid_))
-        divisors.refuse(tree, [&](const Tree& divisor) { return motion.in_states(lower(divisor)); });
+        divisors.refuse(tree, [&](const Tree& divisor) { return motion->in_states(lower(divisor)); });
 }
 
 /// Inputs that only some claims are about.
 std::set<std::string> Claims::accessory() const
 {
     std::set<std::string> names;
-    for (const NodeId y : lowered_.y) names.insert(graph_.input_name(y));
+    for (const std::vector<NodeId>* inputs : {&lowered_.y, &mu_})
+        for (const NodeId input : *inputs) names.insert(graph_.input_name(input));
+    if (control_)
+        for (const NodeId u : control_->u) names.insert(graph_.input_name(u));
     if (time_) names.insert(graph_.input_name(*time_));
     return names;
 }
@@ -124,9 +174,11 @@ std::vector<std::pair<NodeId, NodeId>> Claims::parameter_values()
 
 void Claims::decide_regularity(VerifiedAlgebroid& verified)
 {
-    if (hessian_)
-        verified.regularity =
-            lagen::decide_regularity(graph_, *hessian_, setting_, judge_->decider(), parameter_values());
+    const bool of_hamiltonian = !hessian_ && hamiltonian_hessian_;
+    const std::optional<FibreHessian>& hessian = of_hamiltonian ? hamiltonian_hessian_ : hessian_;
+    if (!hessian) return;
+    verified.regularity = lagen::decide_regularity(graph_, *hessian, setting_, judge_->decider(), parameter_values());
+    verified.regularity.of_hamiltonian = of_hamiltonian;
 }
 
 } // namespace lagen

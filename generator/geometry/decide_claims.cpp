@@ -2,7 +2,8 @@
 /// The claims of a model, one kind after another, with names for people.
 #include "geometry/claims.hpp"
 #include "geometry/construction.hpp"
-#include "geometry/equations_of_motion.hpp"
+#include "geometry/jumps.hpp"
+#include "graph/differentiate.hpp"
 #include "proof/partial_parts.hpp"
 
 namespace lagen {
@@ -77,6 +78,12 @@ void Claims::decide_structure(VerifiedAlgebroid& verified)
     for (std::size_t k = 0; k < list.residuals.size(); ++k) {
         Check check = check_of(list.residuals[k]);
         check.decision = judge_->decide(list.residuals[k].value);
+        // The last index of these is the function.
+        if (check.name == "tangency" || check.name == "casimir") {
+            const std::vector<NodeId>& functions =
+                check.name == "casimir" ? functions_.casimirs : functions_.constraints;
+            respect_jumps(check.decision, graph_, functions.at(list.residuals[k].indices.back()), judge_->decider());
+        }
         check.hint = hints[k];
         check.reevaluation = judge_->reevaluate(list.residuals[k].value);
         verified.checks.push_back(std::move(check));
@@ -85,8 +92,8 @@ void Claims::decide_structure(VerifiedAlgebroid& verified)
 
 void Claims::decide_invariants(VerifiedAlgebroid& verified, const std::vector<NamedTree>& extra)
 {
-    EquationsOfMotion motion(graph_, lowered_, hessian_ ? &*hessian_ : nullptr, time_);
-    Binding binding = motion.names(model_);
+    const std::unique_ptr<EquationsOfMotion> motion = equations_of_motion();
+    Binding binding = motion->names(model_);
     binding.insert(binding_.begin(), binding_.end());
     Lowering lower(graph_, binding);
     std::vector<NamedTree> claims = model_.invariants;
@@ -94,21 +101,48 @@ void Claims::decide_invariants(VerifiedAlgebroid& verified, const std::vector<Na
     for (const NamedTree& claim : claims) {
         Check check{"invariant", {claim.name}, {}, {}, {}};
         const NodeId f = lower(claim.value);
-        const Rate rate = motion.rate(f);
+        const Rate rate = motion->rate(f);
         if (!rate.value) {
             check.decision.evidence = rate.obstacle;
         } else {
             // d log(x)/dt = xdot/x is defined where log(x) is not: the claim is about points where f is.
             ProofSetting setting = setting_;
-            setting.defined.push_back(motion.in_states(f));
+            setting.defined.push_back(motion->in_states(f));
             for (const NodeId part : partial_parts(graph_, lower, claim.value))
-                setting.defined.push_back(motion.in_states(part));
+                setting.defined.push_back(motion->in_states(part));
             Judge judge(graph_, setting, accessory(), points_, judge_->decider().budget());
             check.decision = judge.decide(*rate.value);
+            respect_jumps(check.decision, graph_, motion->in_states(f), judge.decider());
             check.reevaluation = judge.reevaluate(*rate.value);
+            if (rate.for_every_control && check.decision.status == ProofStatus::refuted) {
+                check.decision = Decision{};
+                check.decision.evidence = rate.obstacle;
+            }
         }
         verified.checks.push_back(std::move(check));
     }
+}
+
+void Claims::decide_legendre(VerifiedAlgebroid& verified)
+{
+    if (!hessian_ || !hamiltonian_hessian_) return;
+    std::vector<NodeId> terms;
+    std::vector<std::pair<NodeId, NodeId>> momenta;
+    for (std::size_t a = 0; a < lowered_.r(); ++a) {
+        terms.push_back(graph_.multiply(lowered_.y[a], hessian_->momenta[a]));
+        momenta.emplace_back(mu_[a], hessian_->momenta[a]);
+    }
+    const NodeId energy = graph_.subtract(graph_.sum(terms), hessian_->lagrangian);
+    const NodeId given[] = {hamiltonian_hessian_->lagrangian};
+    const NodeId hamiltonian = substitute(graph_, given, momenta)[0];
+    const NodeId residual = graph_.subtract(hamiltonian, energy);
+    ProofSetting setting = setting_;
+    setting.defined.push_back(hamiltonian);
+    Judge judge(graph_, setting, accessory(), points_, judge_->decider().budget());
+    Check check{"legendre", {}, judge.decide(residual), {}, judge.reevaluate(residual)};
+    if (check.decision.status == ProofStatus::refuted)
+        check.hint = "H is y^a dL/dy^a - L at mu_a = dL/dy^a; leave [hamiltonian] out, and it is found from L";
+    verified.checks.push_back(std::move(check));
 }
 
 } // namespace lagen

@@ -22,7 +22,7 @@ void append_definition(std::vector<Tree>& trees, const Scope& scope, const Defin
     }
 }
 
-/// Domain, constraints, Casimirs, rho, C and L.
+/// Domain, constraints, Casimirs, rho, C, L, R and forces.
 void append_built(std::vector<Tree>& trees, const Model& model, const Algebroid& algebroid)
 {
     trees.insert(trees.end(), algebroid.domain.begin(), algebroid.domain.end());
@@ -30,7 +30,9 @@ void append_built(std::vector<Tree>& trees, const Model& model, const Algebroid&
     for (const NamedTree& casimir : model.base.casimirs) trees.push_back(casimir.value);
     for (const AnchorValue& entry : algebroid.rho) trees.push_back(entry.value);
     for (const StructureValue& entry : algebroid.C) trees.push_back(entry.value);
-    if (model.lagrangian) trees.push_back(model.lagrangian);
+    for (const Tree& tree : {model.lagrangian, model.dissipation})
+        if (tree) trees.push_back(tree);
+    for (const ComponentEntry& force : model.forces) trees.push_back(force.value);
 }
 
 /// What the file gives, the tables inside it included.
@@ -47,11 +49,26 @@ void append_block(std::vector<Tree>& trees, const AlgebroidBlock& block)
 
 } // namespace
 
+std::vector<Tree> phase_trees(const Model& model)
+{
+    std::vector<Tree> trees;
+    if (model.hamiltonian) trees.push_back(model.hamiltonian);
+    if (!model.control) return trees;
+    for (const ComponentEntry& entry : model.control->sigma) trees.push_back(entry.value);
+    trees.push_back(model.control->cost);
+    for (const ControlBound& bound : model.control->bounds) trees.insert(trees.end(), {bound.lower, bound.upper});
+    if (model.control->boundary && model.control->boundary->terminal_cost)
+        trees.push_back(model.control->boundary->terminal_cost);
+    return trees;
+}
+
 std::vector<Tree> structure_trees(const Model& model, const Algebroid& algebroid)
 {
     std::vector<Tree> trees;
     append_built(trees, model, algebroid);
     append_block(trees, model.algebroid);
+    const std::vector<Tree> phase = phase_trees(model);
+    trees.insert(trees.end(), phase.begin(), phase.end());
     return trees;
 }
 

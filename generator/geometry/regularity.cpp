@@ -2,13 +2,13 @@
 /// Rank, regularity and definiteness of W, block by block.
 #include "geometry/regularity.hpp"
 #include "geometry/definite_squares.hpp"
+#include "geometry/kernel_vectors.hpp"
 #include "geometry/rational_matrix.hpp"
 #include "geometry/singular_points.hpp"
 #include "graph/differentiate.hpp"
 #include "graph/evaluate.hpp"
 
 #include <algorithm>
-#include <bit>
 
 namespace lagen {
 namespace {
@@ -65,23 +65,13 @@ GenericRank rank_at_point(const Graph& graph, const FibreHessian& hessian, const
     return {rank, rank == block.size()};
 }
 
-/// A symmetric matrix has a nonzero principal minor of the size of its rank.
 GenericRank generic_rank(Graph& graph, const FibreHessian& hessian, const Block& block, const ZeroDecider& decider)
 {
     const std::vector<Rational> entries = constant_entries(graph, hessian, block);
     if (!entries.empty()) return {rank_of(entries, block.size()), true};
     if (block.size() > determinant_limit) return rank_at_point(graph, hessian, block, decider);
-    for (std::size_t size = block.size(); size > 0; --size)
-        for (std::size_t set = 0; set < std::size_t{1} << block.size(); ++set) {
-            if (static_cast<std::size_t>(std::popcount(set)) != size) continue;
-            Block part;
-            for (std::size_t k = 0; k < block.size(); ++k)
-                if (set >> k & 1U) part.push_back(block[k]);
-            const Decision decision = decider.decide(minor_determinant(graph, hessian, part, part));
-            if (decision.status == ProofStatus::refuted) return {size, true};
-            if (decision.status == ProofStatus::undecided) return {};
-        }
-    return {0, true};
+    const std::optional<Block> minor = nonzero_principal_minor(graph, hessian, block, decider);
+    return minor ? GenericRank{minor->size(), true} : GenericRank{};
 }
 
 /// Leading principal minors of every block, the determinant of the block last; none of a block that is too large. A
@@ -248,6 +238,10 @@ Regularity decide_regularity(Graph& graph, const FibreHessian& hessian, const Pr
     if (!add_ranks(graph, hessian, quick, result) && !add_ranks(graph, hessian, decider, result)) return result;
     if (result.rank < hessian.momenta.size()) {
         result.kind = Regularity::Kind::degenerate;
+        for (const KernelVector& vector : kernel_vectors(graph, hessian, decider, setting)) {
+            auto& named = result.kernel.emplace_back();
+            for (const auto& [a, text] : vector) named.emplace_back(graph.input_name(hessian.y[a]), text);
+        }
         return result;
     }
     result.kind = Regularity::Kind::generically_regular;

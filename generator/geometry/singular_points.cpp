@@ -15,8 +15,8 @@ constexpr ProofBudget slice_budget{.products = 200'000};
 using Replacements = std::vector<std::pair<NodeId, NodeId>>;
 
 /// A point of the slice `zero` where a determinant vanishes; it does on the whole slice.
-std::optional<NamedPoint> singular_point(Graph& graph, const ProofSetting& setting, const ProofBudget& budget, const Replacements& zero,
-                                         const std::vector<NodeId>& determinants)
+std::optional<NamedPoint> singular_point(Graph& graph, const ProofSetting& setting, const ProofBudget& budget,
+                                         const Replacements& zero, const std::vector<NodeId>& determinants)
 {
     const ZeroDecider decider(graph, replaced(graph, setting, zero), smaller(budget, slice_budget));
     std::optional<NamedPoint> point = decider.sample_point();

@@ -11,7 +11,8 @@ using NamedPoint = std::vector<std::pair<std::string, std::string>>;
 
 /// One point on each slice "a variable is zero" on which everything is defined and one of `determinants` is proved to
 /// vanish; eight at most.
-[[nodiscard]] std::vector<NamedPoint> singular_points(Graph& graph, const ProofSetting& setting, const ProofBudget& budget,
+[[nodiscard]] std::vector<NamedPoint> singular_points(Graph& graph, const ProofSetting& setting,
+                                                      const ProofBudget& budget,
                                                       const std::vector<NodeId>& determinants);
 
 /// The setting with some of its inputs replaced; those are no variables or parameters any more.

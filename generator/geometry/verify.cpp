@@ -65,6 +65,7 @@ VerifiedAlgebroid verify(const Model& model, const std::vector<NamedTree>& extra
     claims.decide_structure(verified);
     append_involutive(verified, model);
     claims.decide_regularity(verified);
+    claims.decide_legendre(verified);
     claims.decide_invariants(verified, extra_invariants);
     for (const Check& check : verified.checks) require_confirmed(check);
     verified.reevaluation = summary_of(verified, points);

@@ -5,7 +5,8 @@
 ///   jacobi        sum_cyc(a,b,c) [ rho_a(C^v_bc) + C^m_bc C^v_am ] = 0       a < b < c, all v
 ///   tangency      rho_a(h) = 0 on M for each base constraint h
 ///   casimir       rho_a(f) = 0
-///   invariant     df/dt = 0 along the equations of motion
+///   legendre      H(t, x, dL/dy) = y^a dL/dy^a - L                            (where both are given)
+///   invariant     df/dt = 0 along the equations of motion of the model's default form
 #pragma once
 
 #include "geometry/algebroid.hpp"
@@ -31,8 +32,11 @@ struct Regularity {
     std::size_t rank = 0;              ///< generic rank, by a witness
     bool positive_definite = false;    ///< proved on the whole domain
     bool for_given_parameters = false; ///< `regular` and `positive_definite` rest on the parameter values of the file
+    bool of_hamiltonian = false;       ///< of d2H/dmu2, where the model has H and no L
     std::string evidence;              ///< why `undecided`; may be empty
     std::vector<std::vector<std::pair<std::string, std::string>>> singular_at; ///< known singular points
+    std::vector<std::vector<std::pair<std::string, std::string>>>
+        kernel; ///< where degenerate: vectors k with W k = 0, proved, as components by fibre coordinate
 };
 
 struct VerifiedAlgebroid {

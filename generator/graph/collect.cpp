@@ -12,6 +12,11 @@ constexpr std::size_t largest_expanded_sum = 400;
 /// A sum with several users is flattened into them only while it is short; a long one keeps its own name.
 constexpr std::size_t largest_shared_sum = 24;
 
+std::size_t largest_flattened_sum(ExpansionMode expansion)
+{
+    return expansion == ExpansionMode::nested ? 1 : largest_shared_sum;
+}
+
 class Collector {
   public:
     Collector(const Graph& graph, Algebra& algebra, ExpansionMode expansion, std::size_t size)
@@ -25,7 +30,7 @@ class Collector {
     void visit(NodeId id)
     {
         Polynomial result = algebra_.contract_circles(read(id));
-        if (uses_[id] > 1 && result.size() > largest_shared_sum) result = {algebra_.as_term(result)};
+        if (uses_[id] > 1 && result.size() > largest_flattened_sum(expansion_)) result = {algebra_.as_term(result)};
         values_[id] = std::move(result);
     }
 
@@ -57,7 +62,7 @@ class Collector {
     [[nodiscard]] bool may_distribute(const Polynomial& a, const Polynomial& b) const
     {
         if (a.size() == 1 && b.size() == 1) return true;
-        if (expansion_ == ExpansionMode::none)
+        if (expansion_ == ExpansionMode::none || expansion_ == ExpansionMode::nested)
             // A rational factor is no multiplication to save: it goes in, the content comes out again later.
             return (a.size() == 1 && a[0].monomial.empty()) || (b.size() == 1 && b[0].monomial.empty());
         if (expansion_ == ExpansionMode::monomials && a.size() > 1 && b.size() > 1) return false;

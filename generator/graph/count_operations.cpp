@@ -3,6 +3,7 @@
 #include "graph/operators.hpp"
 #include "graph/simplify.hpp"
 
+#include <algorithm>
 #include <set>
 
 namespace lagen {
@@ -45,6 +46,30 @@ OperationCount count_operations(const Graph& graph, std::span<const NodeId> root
         }
     }
     return count;
+}
+
+std::size_t expanded_terms(const Graph& graph, NodeId node, std::size_t most)
+{
+    const NodeId roots[] = {node};
+    std::vector<std::size_t> terms(std::size_t{node} + 1, 1);
+    for (const NodeId id : reachable(graph, roots)) {
+        const auto of = [&](std::size_t k) { return terms[graph.operands(id)[k]]; };
+        std::size_t count = 1;
+        switch (graph.op(id)) {
+        case Op::add:
+        case Op::subtract: count = of(0) + of(1); break;
+        case Op::negate:
+        case Op::divide: count = of(0); break;
+        case Op::multiply: count = of(0) * of(1); break; // both at most `most`
+        case Op::power:
+            for (std::int32_t k = 0; k < std::min(static_cast<std::int32_t>(graph.payload(id)), 8) && count < most; ++k)
+                count *= of(0);
+            break;
+        default: break;
+        }
+        terms[id] = std::min(count, most);
+    }
+    return terms[node];
 }
 
 } // namespace lagen

@@ -8,6 +8,7 @@ namespace lagen {
 
 /// What is multiplied out while a form is read off the graph.
 enum class ExpansionMode {
+    nested,    ///< sums stay closed, and a sum with several users stays one term of theirs: no work is repeated
     none,      ///< sums stay closed
     monomials, ///< x (a + b), but not (a + b)(c + d)
     all,       ///< everything, under a budget of terms for each sum

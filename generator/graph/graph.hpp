@@ -7,6 +7,7 @@
 #include "expression/tree.hpp"
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -65,6 +66,12 @@ enum class MatrixStructure : std::uint32_t {
     positive_definite, ///< proved: LDL^T without pivoting
 };
 
+/// Where a matrix comes from: its entry (a, b) is d2 value / d variables[a] d variables[b].
+struct HessianOrigin {
+    NodeId value = 0;
+    std::vector<NodeId> variables; ///< inputs
+};
+
 class Graph {
   public:
     // Leaves.
@@ -94,6 +101,10 @@ class Graph {
     std::vector<std::vector<NodeId>> solve(std::span<const NodeId> matrix,
                                            const std::vector<std::vector<NodeId>>& columns, MatrixStructure structure);
 
+    /// Notes that `matrix` (positive definite, n*n entries by rows) is the Hessian of `value`, which its factorisations
+    /// cannot tell: `simplify` then may solve with it through the intermediate terms of `value`.
+    void remember_hessian(std::span<const NodeId> matrix, std::span<const NodeId> variables, NodeId value);
+
     NodeId sum(std::span<const NodeId> terms);       ///< left to right; empty: 0
     NodeId product(std::span<const NodeId> factors); ///< left to right; empty: 1
 
@@ -108,6 +119,8 @@ class Graph {
     [[nodiscard]] bool is_zero(NodeId id) const; ///< the constant 0 (structurally; not a proof of anything else)
     [[nodiscard]] bool is_one(NodeId id) const;
     [[nodiscard]] const std::vector<NodeId>& inputs() const { return inputs_; } ///< in order of declaration
+    /// What remember_hessian() knows of a `factor`; null where it knows nothing.
+    [[nodiscard]] const HessianOrigin* hessian_origin(NodeId factor) const;
 
   private:
     NodeId intern(Op op, std::span<const NodeId> operands, std::uint32_t payload);
@@ -121,6 +134,7 @@ class Graph {
     std::vector<NodeId> inputs_;
     std::unordered_map<std::string, NodeId> input_ids_;
     std::unordered_map<std::string, NodeId> constant_ids_;
+    std::map<NodeId, HessianOrigin> hessians_;           ///< by factor
     std::unordered_multimap<std::size_t, NodeId> table_; ///< structural hash -> id; looked up, never iterated
 };
 

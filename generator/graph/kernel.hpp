@@ -2,7 +2,7 @@
 /// Kernels: named functions on a graph, as the header printer and the interpreter see them. No mechanics in here.
 #pragma once
 
-#include "graph/graph.hpp"
+#include "graph/implicit.hpp"
 
 #include <memory>
 #include <string>
@@ -32,6 +32,7 @@ enum class KernelShape {
     vector,          ///< Eigen::Matrix<Scalar, rows, 1> NAME(t, s)
     matrix,          ///< Eigen::Matrix<Scalar, rows, columns> NAME(t, s)
     sparse,          ///< void NAME(t, s, values) with constexpr NAME_rows / NAME_columns arrays
+    directional,     ///< Status NAME(t, s, const State& v, State& dv): linear in v, KernelModule::direction
 };
 
 /// A function of (t, state, parameters) with one output.
@@ -59,7 +60,7 @@ struct KernelModule {
     std::string name;  ///< class name: model name, with _FORM for forms other than lagrange
     std::string model; ///< model name
     std::string title;
-    std::string form;                   ///< "lagrange"
+    std::string form;                   ///< "lagrange", "hamilton", "pontryagin"
     std::string hash;                   ///< of the model's content, 16 hexadecimal digits
     std::string regenerate;             ///< the command that makes this header again
     std::vector<std::string> warnings;  ///< e.g. that the model was not proved
@@ -71,6 +72,8 @@ struct KernelModule {
     std::vector<Quantity> base;             ///< first lanes of State
     std::vector<Quantity> fibre;            ///< the other lanes (fibre coordinates, or momenta)
     std::string fibre_name = "Fibre";       ///< the struct of the second group: "Fibre" or "Momenta"
+    std::vector<Quantity> direction;        ///< inputs of a vector v beside the state, a lane each; may be empty
+    std::vector<ImplicitBlock> implicit;    ///< unknowns of the kernels, in the order in which they are solved
     std::vector<Kernel> kernels;
 };
 

@@ -93,6 +93,7 @@ std::string to_text(const Graph& graph, NodeId id, std::size_t limit)
         stack.insert(stack.end(), pieces.rbegin(), pieces.rend());
     }
     if (text.size() <= limit) return text;
+    while (limit > 0 && (static_cast<unsigned char>(text[limit]) & 0xC0U) == 0x80U) --limit; // whole characters
     text.resize(limit);
     return text + "...";
 }

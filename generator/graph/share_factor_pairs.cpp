@@ -12,33 +12,21 @@ namespace {
 
 /// Pairs are not sought in longer products.
 constexpr std::size_t longest_product = 40;
-constexpr int largest_rounds = 2000;
-
-/// A distinct monomial and where it stands: equal monomials are one node of the graph already.
-using Uses = std::map<Monomial, std::vector<Place>>;
-
-Uses monomials_of(const Form& form)
-{
-    Uses uses;
-    for (const Place& place : live_places(form))
-        for (const Term& term : at(form, place))
-            if (!term.monomial.empty()) uses[term.monomial].push_back(place);
-    return uses;
-}
+constexpr int factor_rounds = 2000;
 
 /// Two factors by atom and side of the fraction bar.
-struct Pair {
+struct FactorPair {
     AtomId first = 0;
     AtomId second = 0;
     bool first_below = false;
     bool second_below = false;
-    friend auto operator<=>(const Pair&, const Pair&) = default;
+    friend auto operator<=>(const FactorPair&, const FactorPair&) = default;
     [[nodiscard]] bool both_below() const { return first_below && second_below; }
 };
 
-std::vector<Pair> pairs_of(const Monomial& monomial)
+std::vector<FactorPair> pairs_of(const Monomial& monomial)
 {
-    std::vector<Pair> pairs;
+    std::vector<FactorPair> pairs;
     if (monomial.size() > longest_product) return pairs;
     for (std::size_t i = 0; i < monomial.size(); ++i)
         for (std::size_t j = i + 1; j < monomial.size(); ++j)
@@ -46,26 +34,90 @@ std::vector<Pair> pairs_of(const Monomial& monomial)
     return pairs;
 }
 
-/// The pair in most distinct monomials, at least two; ties go to pairs of divisors, then to the earlier one.
-bool best_pair(const Uses& uses, Pair& best, std::vector<Monomial>& holders)
-{
-    std::map<Pair, std::vector<const Monomial*>> counts;
-    for (const auto& [monomial, places] : uses)
-        for (const Pair& pair : pairs_of(monomial)) counts[pair].push_back(&monomial);
-    const std::vector<const Monomial*>* most = nullptr;
-    for (const auto& [pair, found] : counts) {
-        if (found.size() < 2) continue;
-        if (most == nullptr || found.size() > most->size() ||
-            (found.size() == most->size() && pair.both_below() && !best.both_below())) {
-            most = &found;
-            best = pair;
+/// The distinct monomials (equal ones are one node of the graph already) with their places, and for every pair of
+/// factors the monomials that hold it.
+class Monomials {
+  public:
+    enum class Index : std::uint8_t { none, pairs };
+
+    Monomials(const Form& form, Index index) : indexed_(index == Index::pairs)
+    {
+        for (const Place& place : live_places(form))
+            for (const Term& term : at(form, place))
+                if (!term.monomial.empty()) add(term.monomial, place);
+    }
+
+    void add(const Monomial& monomial, const Place& place)
+    {
+        const auto [entry, fresh] = uses_.try_emplace(monomial);
+        entry->second.push_back(place);
+        if (fresh) enter(entry->first);
+    }
+
+    /// Removes the monomial; answers its places.
+    std::vector<Place> take(const Monomial& monomial)
+    {
+        const auto found = uses_.find(monomial);
+        if (found == uses_.end()) return {};
+        leave(found->first);
+        std::vector<Place> places = std::move(found->second);
+        uses_.erase(found);
+        return places;
+    }
+
+    /// The pair in most distinct monomials, at least two, and these in order; ties go to pairs of divisors, then to the
+    /// earlier one.
+    [[nodiscard]] bool best_pair(FactorPair& best, std::vector<Monomial>& holders) const
+    {
+        if (ranks_.empty()) return false;
+        best = ranks_.begin()->pair;
+        const std::set<Monomial>& found = holders_.at(best);
+        holders.assign(found.begin(), found.end());
+        return true;
+    }
+
+    [[nodiscard]] const std::map<Monomial, std::vector<Place>>& uses() const { return uses_; }
+
+  private:
+    struct Rank {
+        std::size_t holders = 0;
+        FactorPair pair;
+
+        friend bool operator<(const Rank& a, const Rank& b)
+        {
+            if (a.holders != b.holders) return a.holders > b.holders;
+            if (a.pair.both_below() != b.pair.both_below()) return a.pair.both_below();
+            return a.pair < b.pair;
+        }
+    };
+
+    void enter(const Monomial& monomial)
+    {
+        if (!indexed_) return;
+        for (const FactorPair& pair : pairs_of(monomial)) {
+            std::set<Monomial>& found = holders_[pair];
+            if (found.size() > 1) ranks_.erase({found.size(), pair});
+            found.insert(monomial);
+            if (found.size() > 1) ranks_.insert({found.size(), pair});
         }
     }
-    if (most == nullptr) return false;
-    holders.clear();
-    for (const Monomial* monomial : *most) holders.push_back(*monomial);
-    return true;
-}
+
+    void leave(const Monomial& monomial)
+    {
+        if (!indexed_) return;
+        for (const FactorPair& pair : pairs_of(monomial)) {
+            std::set<Monomial>& found = holders_[pair];
+            if (found.size() > 1) ranks_.erase({found.size(), pair});
+            found.erase(monomial);
+            if (found.size() > 1) ranks_.insert({found.size(), pair});
+        }
+    }
+
+    std::map<Monomial, std::vector<Place>> uses_;
+    bool indexed_;
+    std::map<FactorPair, std::set<Monomial>> holders_;
+    std::set<Rank> ranks_; ///< of the pairs with two holders or more
+};
 
 int held_exponent(const Monomial& monomial, AtomId atom)
 {
@@ -73,7 +125,7 @@ int held_exponent(const Monomial& monomial, AtomId atom)
 }
 
 /// The smallest exponents of the pair in all its holders: k / w^3 is shared whole, not as k / w.
-Monomial common_part(const Pair& pair, const std::vector<Monomial>& holders)
+Monomial common_part(const FactorPair& pair, const std::vector<Monomial>& holders)
 {
     const auto smallest = [&](AtomId atom, bool below) {
         int magnitude = INT32_MAX;
@@ -101,29 +153,27 @@ Monomial replaced(const Monomial& monomial, const Monomial& part, Factor replace
 }
 
 /// Writes `next` for `old` wherever it stands, but for the definition of the atom `own`.
-void rewrite(Form& form, Uses& uses, const Monomial& old, const Monomial& next, AtomId own)
+void rewrite(Form& form, Monomials& monomials, const Monomial& old, const Monomial& next, AtomId own)
 {
-    auto node = uses.extract(old);
-    if (node.empty()) return;
-    for (const Place& place : node.mapped()) {
+    for (const Place& place : monomials.take(old)) {
         if (!place.root && place.atom == own) {
-            uses[old].push_back(place);
+            monomials.add(old, place);
             continue;
         }
         Polynomial& polynomial = at(form, place);
         for (Term& term : polynomial)
             if (term.monomial == old) term.monomial = next;
         std::ranges::sort(polynomial, [](const Term& a, const Term& b) { return a.monomial < b.monomial; });
-        uses[next].push_back(place);
+        monomials.add(next, place);
     }
 }
 
 /// An atom for a product; its definition joins the monomials in use.
-AtomId name_product(Form& form, Uses& uses, const Monomial& product)
+AtomId name_product(Form& form, Monomials& monomials, const Monomial& product)
 {
     const std::size_t known = form.algebra.size();
     const AtomId id = form.algebra.atom(Op::multiply, 0, {Polynomial{{1, product}}});
-    if (id == known) uses[product].push_back({false, id, 0});
+    if (id == known) monomials.add(product, {false, id, 0});
     return id;
 }
 
@@ -131,33 +181,39 @@ AtomId name_product(Form& form, Uses& uses, const Monomial& product)
 
 void share_factor_pairs(Form& form)
 {
-    Uses uses = monomials_of(form);
-    Pair pair;
+    Monomials monomials(form, Monomials::Index::pairs);
+    FactorPair pair;
     std::vector<Monomial> holders;
-    for (int round = 0; round < largest_rounds && best_pair(uses, pair, holders); ++round) {
+    for (int round = 0; round < factor_rounds && monomials.best_pair(pair, holders); ++round) {
         const Monomial part = common_part(pair, holders);
-        const AtomId name = name_product(form, uses, part);
-        for (const Monomial& holder : holders) rewrite(form, uses, holder, replaced(holder, part, {name, 1}), name);
+        const AtomId name = name_product(form, monomials, part);
+        for (const Monomial& holder : holders)
+            rewrite(form, monomials, holder, replaced(holder, part, {name, 1}), name);
     }
 }
 
 void share_reciprocals(Form& form)
 {
-    Uses uses = monomials_of(form);
-    std::set<AtomId> divisors;
-    for (const auto& [monomial, places] : uses)
+    Monomials monomials(form, Monomials::Index::none);
+    std::map<AtomId, std::set<Monomial>> holders_of; // by divisor
+    for (const auto& [monomial, places] : monomials.uses())
         for (const Factor& factor : monomial)
-            if (factor.exponent < 0) divisors.insert(factor.atom);
-    for (const AtomId atom : divisors) {
-        std::vector<Monomial> holders;
-        for (const auto& [monomial, places] : uses)
-            for (const Factor& factor : monomial)
-                if (factor.atom == atom && factor.exponent < 0) holders.push_back(monomial);
+            if (factor.exponent < 0) holders_of[factor.atom].insert(monomial);
+    while (!holders_of.empty()) {
+        const AtomId atom = holders_of.begin()->first;
+        const std::set<Monomial> holders = std::move(holders_of.begin()->second);
+        holders_of.erase(holders_of.begin());
         if (holders.size() < 2) continue;
-        const AtomId name = name_product(form, uses, {{atom, -1}});
+        const AtomId name = name_product(form, monomials, {{atom, -1}});
         for (const Monomial& holder : holders) {
             const int exponent = held_exponent(holder, atom);
-            rewrite(form, uses, holder, replaced(holder, {{atom, exponent}}, {name, -exponent}), name);
+            const Monomial next = replaced(holder, {{atom, exponent}}, {name, -exponent});
+            rewrite(form, monomials, holder, next, name);
+            for (const Factor& factor : next) // the divisors that are still to come
+                if (const auto other = holders_of.find(factor.atom); factor.exponent < 0 && other != holders_of.end()) {
+                    other->second.erase(holder);
+                    other->second.insert(next);
+                }
         }
     }
 }

@@ -4,22 +4,23 @@
 
 #include <algorithm>
 #include <map>
-#include <tuple>
+#include <set>
+#include <unordered_map>
 
 namespace lagen {
 namespace {
 
 /// Pairs are not sought in longer sums: their number is quadratic.
 constexpr std::size_t longest_sum = 40;
-constexpr int largest_rounds = 1000;
+constexpr int term_rounds = 1000;
 
 /// Two monomials and the ratio of their coefficients.
-struct Pair {
+struct TermPair {
     Monomial first;
     Monomial second;
     Rational ratio;
 
-    friend bool operator<(const Pair& a, const Pair& b)
+    friend bool operator<(const TermPair& a, const TermPair& b)
     {
         if (a.first != b.first) return a.first < b.first;
         if (a.second != b.second) return a.second < b.second;
@@ -45,7 +46,16 @@ class Sums {
         const auto [entry, fresh] = uses_.try_emplace(sum);
         entry->second.push_back(place);
         const Polynomial* key = &entry->first;
-        if (fresh) for_pairs(*key, [&](const Pair& pair) { holders_[pair].push_back(key); });
+        if (!fresh) return;
+        for_pairs(*key, [&](const Key& pair, std::size_t i, std::size_t j) {
+            const auto [held, unseen] = holders_.try_emplace(pair);
+            if (unseen)
+                held->second.pair = {(*key)[i].monomial, (*key)[j].monomial,
+                                     (*key)[j].coefficient / (*key)[i].coefficient};
+            unrank(held->second);
+            held->second.sums.push_back(key);
+            rank(held->second);
+        });
     }
 
     [[nodiscard]] const std::vector<Place>* places(const Polynomial& sum) const
@@ -57,9 +67,12 @@ class Sums {
     std::vector<Place> take(const Polynomial& sum)
     {
         const auto found = uses_.find(sum);
-        for_pairs(found->first, [&](const Pair& pair) {
-            const auto holders = holders_.find(pair);
-            if (std::erase(holders->second, &found->first) > 0 && holders->second.empty()) holders_.erase(holders);
+        for_pairs(found->first, [&](const Key& pair, std::size_t, std::size_t) {
+            const auto held = holders_.find(pair);
+            unrank(held->second);
+            std::erase(held->second.sums, &found->first);
+            rank(held->second);
+            if (held->second.sums.empty()) holders_.erase(held);
         });
         std::vector<Place> places = std::move(found->second);
         uses_.erase(found);
@@ -67,36 +80,87 @@ class Sums {
     }
 
     /// The pair that most sums hold, two at least, and these sums in order; of several such pairs the first.
-    [[nodiscard]] bool best_pair(Pair& best, std::vector<Polynomial>& holders) const
+    [[nodiscard]] bool best_pair(TermPair& best, std::vector<Polynomial>& holders) const
     {
-        const std::vector<const Polynomial*>* most = nullptr;
-        for (const auto& [pair, found] : holders_)
-            if (found.size() > 1 && (most == nullptr || found.size() > most->size())) {
-                most = &found;
-                best = pair;
-            }
-        if (most == nullptr) return false;
+        if (ranks_.empty()) return false;
+        const Held& most = *ranks_.begin()->held;
+        best = most.pair;
         holders.clear();
-        for (const Polynomial* sum : *most) holders.push_back(*sum);
+        for (const Polynomial* sum : most.sums) holders.push_back(*sum);
         std::sort(holders.begin(), holders.end(), PolynomialLess{});
         return true;
     }
 
   private:
-    template <class Action>
-    static void for_pairs(const Polynomial& sum, Action action)
+    /// A pair by the numbers of its monomials and of its ratio: comparing these takes no time.
+    struct Key {
+        std::uint32_t first = 0;
+        std::uint32_t second = 0;
+        std::uint32_t ratio = 0;
+        friend bool operator==(const Key&, const Key&) = default;
+    };
+    struct KeyHash {
+        std::size_t operator()(const Key& key) const
+        {
+            const std::uint64_t monomials = (std::uint64_t{key.first} << 32U) | key.second;
+            const std::uint64_t mixed = (monomials ^ (std::uint64_t{key.ratio} << 48U)) * 0x9e3779b97f4a7c15ULL;
+            return static_cast<std::size_t>(mixed ^ (mixed >> 29U));
+        }
+    };
+    struct Held {
+        TermPair pair;
+        std::vector<const Polynomial*> sums; ///< keys of uses_
+    };
+    struct Rank {
+        std::size_t holders = 0;
+        const Held* held = nullptr;
+
+        friend bool operator<(const Rank& a, const Rank& b)
+        {
+            return a.holders != b.holders ? a.holders > b.holders : a.held->pair < b.held->pair;
+        }
+    };
+
+    void unrank(const Held& held)
     {
-        for (std::size_t i = 0; i < sum.size(); ++i)
-            for (std::size_t j = i + 1; j < sum.size(); ++j)
-                action(Pair{sum[i].monomial, sum[j].monomial, sum[j].coefficient / sum[i].coefficient});
+        if (held.sums.size() > 1) ranks_.erase({held.sums.size(), &held});
+    }
+    void rank(const Held& held)
+    {
+        if (held.sums.size() > 1) ranks_.insert({held.sums.size(), &held});
     }
 
+    template <class Value, class Numbers>
+    static std::uint32_t number_of(const Value& value, Numbers& numbers)
+    {
+        return numbers.try_emplace(value, static_cast<std::uint32_t>(numbers.size())).first->second;
+    }
+
+    template <class Action>
+    void for_pairs(const Polynomial& sum, Action action)
+    {
+        std::vector<std::uint32_t> numbers;
+        for (const Term& term : sum) numbers.push_back(number_of(term.monomial, monomials_));
+        for (std::size_t i = 0; i < sum.size(); ++i)
+            for (std::size_t j = i + 1; j < sum.size(); ++j) {
+                const bool equal = sum[i].coefficient == sum[j].coefficient;
+                const std::uint32_t ratio = equal
+                                                ? number_of(one_, ratios_)
+                                                : number_of(Rational(sum[j].coefficient / sum[i].coefficient), ratios_);
+                action(Key{numbers[i], numbers[j], ratio}, i, j);
+            }
+    }
+
+    const Rational one_ = 1;
     std::map<Polynomial, std::vector<Place>, PolynomialLess> uses_;
-    std::map<Pair, std::vector<const Polynomial*>> holders_; ///< keys of uses_
+    std::map<Monomial, std::uint32_t> monomials_;
+    std::map<Rational, std::uint32_t> ratios_;
+    std::unordered_map<Key, Held, KeyHash> holders_; ///< looked up, never iterated
+    std::set<Rank> ranks_;                           ///< of the pairs with two holders or more
 };
 
 /// The sum without the pair.
-Polynomial without(const Polynomial& sum, const Pair& pair, Rational& first)
+Polynomial without(const Polynomial& sum, const TermPair& pair, Rational& first)
 {
     Polynomial rest;
     for (const Term& term : sum) {
@@ -106,7 +170,7 @@ Polynomial without(const Polynomial& sum, const Pair& pair, Rational& first)
     return rest;
 }
 
-void rewrite(Form& form, Sums& sums, const Polynomial& old, const Pair& pair, const Term& name)
+void rewrite(Form& form, Sums& sums, const Polynomial& old, const TermPair& pair, const Term& name)
 {
     Rational first;
     const Polynomial rest = without(old, pair, first);
@@ -126,9 +190,9 @@ void rewrite(Form& form, Sums& sums, const Polynomial& old, const Pair& pair, co
 void share_term_pairs(Form& form)
 {
     Sums sums(form);
-    Pair pair;
+    TermPair pair;
     std::vector<Polynomial> holders;
-    for (int round = 0; round < largest_rounds && sums.best_pair(pair, holders); ++round) {
+    for (int round = 0; round < term_rounds && sums.best_pair(pair, holders); ++round) {
         const std::size_t known = form.algebra.size();
         const Term name = form.algebra.as_term({{1, pair.first}, {pair.ratio, pair.second}});
         for (std::size_t id = known; id < form.algebra.size(); ++id)

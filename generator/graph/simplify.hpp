@@ -5,6 +5,8 @@
 
 #include "graph/graph.hpp"
 
+#include <string>
+
 namespace lagen {
 
 /// Operation counts of what is reachable from some roots.
@@ -19,6 +21,10 @@ struct OperationCount {
 
 [[nodiscard]] OperationCount count_operations(const Graph& graph, std::span<const NodeId> roots);
 
+/// The terms of the node with all products and small powers multiplied out, none of them collected; `most` where there
+/// are more. A function is one term.
+[[nodiscard]] std::size_t expanded_terms(const Graph& graph, NodeId node, std::size_t most);
+
 /// The same values in the cheapest form found. Nodes of the result live in the same graph. Equalities of real numbers
 /// only: rational algebra, sqrt(a)^2 = a, sin^2 + cos^2 = 1, sums of angles. The values agree wherever the original is
 /// defined; where it is not (0/0 from x/x), the result may be. A shared reciprocal narrows the range: x/w is x * (1/w)
@@ -26,12 +32,45 @@ struct OperationCount {
 /// Careful forms survive: an output takes a new form only where that does not lose digits (graph/probe_rounding.hpp).
 /// Cheap candidates that lose digits near a cancellation are (a - b)^2 multiplied out or 2 x (y + 1/2) as x + 2 x y;
 /// among the models of models/ the check refuses such forms for the double pendulum and for Henon-Heiles. Same outputs,
-/// same graph, same result; outputs that reach more than 50,000 nodes stay as they are.
+/// same graph, same result; outputs that reach more than 50,000 nodes stay as they are. Linear systems whose matrix is
+/// a remembered Hessian (Graph::remember_hessian) may be solved through its terms, where that costs less
+/// (graph/sparse_hessian.hpp).
 [[nodiscard]] std::vector<NodeId> simplify(Graph& graph, std::span<const NodeId> outputs);
 
-/// The same; `divisors` receives what rows of matrices were divided by: where one of these is zero, a matrix that stood
-/// in the outputs is singular, and the new one may not be.
-[[nodiscard]] std::vector<NodeId> simplify(Graph& graph, std::span<const NodeId> outputs,
-                                           std::vector<NodeId>& divisors);
+/// What one pass made of one form of the portfolio.
+struct PassReport {
+    std::string form; ///< "flattened, factored, shared": what was done to the outputs before
+    std::string pass; ///< "shared factor pairs"; "the whole" for a finished form
+    OperationCount before;
+    OperationCount after;
+};
+
+/// A named term of the result with the operations that it adds to those of the terms in it.
+struct CostlyTerm {
+    std::string text;
+    double weight = 0;
+    std::size_t uses = 0;
+};
+
+/// Everything that was tried, in order, and what it came to.
+struct SimplifyReport {
+    OperationCount written;
+    std::vector<PassReport> passes;
+    OperationCount kept;
+    std::vector<CostlyTerm> costliest; ///< by weight, the heaviest first
+};
+
+/// The same; `divisors` receives what rows of matrices were divided by, and the pivots of eliminations: where one of
+/// these is zero, a matrix that stood in the outputs is singular, and the new one may not be. `report`, where it is not
+/// null, receives what was tried; the result does not depend on it.
+[[nodiscard]] std::vector<NodeId> simplify(Graph& graph, std::span<const NodeId> outputs, std::vector<NodeId>& divisors,
+                                           SimplifyReport* report = nullptr);
+
+/// The report as a table of operations and weights, with the costliest terms below it. Lines end in a line feed.
+[[nodiscard]] std::string to_text(const SimplifyReport& report, const std::string& kernel);
+
+/// The `count` terms of the outputs that cost most.
+[[nodiscard]] std::vector<CostlyTerm> costliest_terms(const Graph& graph, std::span<const NodeId> outputs,
+                                                      std::size_t count);
 
 } // namespace lagen

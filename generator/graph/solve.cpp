@@ -85,6 +85,30 @@ Graph::solve(std::span<const NodeId> matrix, const std::vector<std::vector<NodeI
     return result;
 }
 
+void Graph::remember_hessian(std::span<const NodeId> matrix, std::span<const NodeId> variables, NodeId value)
+{
+    const std::size_t n = variables.size();
+    if (matrix.size() != n * n) throw InternalError("remember_hessian() wants n*n entries for n variables");
+    const std::vector<NodeId> entries(matrix.begin(), matrix.end());
+    for (const Block& block : connected_blocks(*this, entries, n)) {
+        if (block.rows.size() < 2 || block.rows != block.columns) continue;
+        std::vector<NodeId> part;
+        HessianOrigin origin{value, {}};
+        for (const std::size_t i : block.rows) {
+            origin.variables.push_back(variables[i]);
+            for (const std::size_t j : block.columns) part.push_back(entries[i * n + j]);
+        }
+        const auto structure = static_cast<std::uint32_t>(MatrixStructure::positive_definite);
+        hessians_.insert_or_assign(intern(Op::factor, part, structure), std::move(origin));
+    }
+}
+
+const HessianOrigin* Graph::hessian_origin(NodeId factor) const
+{
+    const auto found = hessians_.find(factor);
+    return found == hessians_.end() ? nullptr : &found->second;
+}
+
 std::vector<NodeId> Graph::solve(std::span<const NodeId> matrix, std::span<const NodeId> right,
                                  MatrixStructure structure)
 {

@@ -76,9 +76,10 @@ struct RequiredRank {
 void merge_included(ModelReader& reader);
 /// The names of their fibre coordinates in this model; `hidden`: they have none there.
 void note_fibre_names(ModelReader& reader, const AlgebroidDraft& draft, const AlgebroidBlock& block, bool hidden);
-/// Their definitions, and where the model has no Lagrangian theirs; once the fibre names are noted.
+/// Their definitions; once the fibre names are noted.
 void inherit_definitions(ModelReader& reader);
-void inherit_lagrangian(ModelReader& reader);
+/// Their Lagrangians, forces and dissipation, where the model has no mechanics of its own; once the entries are read.
+void inherit_mechanics(ModelReader& reader);
 
 /// The entries of a table, and of the tables inside it, closed; `block` is their record.
 void read_entries(const ModelReader& reader, AlgebroidBlock& block, const AlgebroidDraft& draft);
@@ -92,6 +93,9 @@ void read_representation(const ModelReader& reader, AlgebroidBlock& block, const
 void define_inner_velocities(ModelReader& reader);
 /// The names that define_inner_velocities gives: families by their names.
 [[nodiscard]] std::vector<std::string> velocity_names(const Model& model);
+
+/// value * y, written as a person would: y itself where value is 1, -y where it is -1.
+[[nodiscard]] Tree product_of(const Tree& value, const Tree& y);
 
 /// Whether one of the replacements mentions `name`.
 [[nodiscard]] bool introduces(const std::map<std::string, Tree>& replacements, const std::string& name);

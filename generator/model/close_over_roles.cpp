@@ -43,11 +43,7 @@ void require_roles(const std::vector<Tree>& closed, const Names& names, std::ini
     const TreeNode* bad = first_forbidden(closed, names, roles);
     if (bad == nullptr) return;
     std::string allowed;
-    for (const Role each : roles) {
-        const std::string_view text = role_text(each);
-        const char* plural = each == Role::time ? "" : "s";
-        allowed += fmt::format("{}{}{}", allowed.empty() ? "" : ", ", text.substr(text.find(' ') + 1), plural);
-    }
+    for (const Role each : roles) allowed += (allowed.empty() ? "" : ", ") + role_plural(each);
     throw ModelError(fmt::format("{} may not depend on {} ('{}')", what,
                                  std::string_view(role_text(role_of(names, bad->name))), bad->name),
                      bad->where.file ? bad->where : where, "allowed here: " + allowed);
@@ -66,28 +62,36 @@ void require_roles(const std::vector<Tree>& closed, const Names& names, std::ini
     throw ModelError(error.diagnostic().message, error.diagnostic().where, hint_for_symbol(error.name(), known));
 }
 
-} // namespace
-
-Tree ModelReader::close(const Tree& tree, std::initializer_list<Role> roles, const std::string& what) const
+template <class Close>
+auto closed_over(const Names& names, std::initializer_list<Role> roles, Close close)
 {
     try {
-        Tree closed = model.scope.close(tree);
-        require_roles({closed}, names, roles, tree->where, what);
-        return closed;
+        return close();
     } catch (const UnknownSymbol& error) {
         refuse_unknown(error, names, roles);
     }
 }
 
-ArrayValue ModelReader::close_array(const Tree& tree, std::initializer_list<Role> roles, const std::string& what) const
+} // namespace
+
+Tree ModelReader::close_in(const Scope& scope, const Tree& tree, std::initializer_list<Role> roles,
+                           const std::string& what) const
 {
-    try {
-        ArrayValue closed = model.scope.close_array(tree);
+    return closed_over(names, roles, [&] {
+        Tree closed = scope.close(tree);
+        require_roles({closed}, names, roles, tree->where, what);
+        return closed;
+    });
+}
+
+ArrayValue ModelReader::close_array_in(const Scope& scope, const Tree& tree, std::initializer_list<Role> roles,
+                                       const std::string& what, bool nonsmooth) const
+{
+    return closed_over(names, roles, [&] {
+        ArrayValue closed = scope.close_array(tree, nonsmooth);
         require_roles(closed.entries, names, roles, tree->where, what);
         return closed;
-    } catch (const UnknownSymbol& error) {
-        refuse_unknown(error, names, roles);
-    }
+    });
 }
 
 void append_entries(std::vector<NamedTree>& list, const Excerpt& key, const ArrayValue& value)

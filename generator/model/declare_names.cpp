@@ -14,17 +14,6 @@ namespace lagen {
 
 namespace {
 
-/// The names and families of a list, entry by entry.
-std::vector<Symbol> read_names(const ModelReader& reader, const TomlEntry& entry, const std::string& what)
-{
-    std::vector<Symbol> out;
-    for (const Excerpt& key : read_list(entry.value, what)) {
-        const DeclaredKey declared = read_declaration(reader, key);
-        out.insert(out.end(), declared.symbols.begin(), declared.symbols.end());
-    }
-    return out;
-}
-
 void declare_default_momenta(ModelReader& reader)
 {
     std::vector<Symbol> momenta;
@@ -60,6 +49,16 @@ Definition read_definition_key(const Excerpt& key)
 }
 
 } // namespace
+
+std::vector<Symbol> read_names(const ModelReader& reader, const TomlEntry& entry, const std::string& what)
+{
+    std::vector<Symbol> out;
+    for (const Excerpt& key : read_list(entry.value, what)) {
+        const DeclaredKey declared = read_declaration(reader, key);
+        out.insert(out.end(), declared.symbols.begin(), declared.symbols.end());
+    }
+    return out;
+}
 
 void read_header(ModelReader& reader, const TomlEntry* name, const TomlEntry* title, const std::string& file_name)
 {

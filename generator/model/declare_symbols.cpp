@@ -18,6 +18,7 @@ FamilyRole family_role(Role role)
     case Role::base: return FamilyRole::base;
     case Role::fibre: return FamilyRole::fibre;
     case Role::momentum: return FamilyRole::momentum;
+    case Role::control: return FamilyRole::control;
     default: throw InternalError("a family of a role that has none");
     }
 }
@@ -29,6 +30,7 @@ std::size_t count_of(const Model& model, Role role)
     case Role::parameter: return model.parameters.size();
     case Role::base: return model.base.coordinates.size();
     case Role::fibre: return model.fibre.coordinates.size();
+    case Role::control: return model.control ? model.control->controls.size() : 0;
     default: return model.fibre.momenta.size();
     }
 }
@@ -39,6 +41,7 @@ void append_symbol(Model& model, const Symbol& symbol, Role role)
     case Role::parameter: model.parameters.push_back(Parameter{symbol, nullptr}); break;
     case Role::base: model.base.coordinates.push_back(symbol); break;
     case Role::fibre: model.fibre.coordinates.push_back(symbol); break;
+    case Role::control: model.control->controls.push_back(symbol); break;
     default: model.fibre.momenta.push_back(symbol); break;
     }
 }

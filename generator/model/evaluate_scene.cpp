@@ -120,6 +120,23 @@ void require_domain(const Model& model, const Scene& scene, const Values& values
     }
 }
 
+/// Of bounds over parameters.
+void require_bounds(const Model& model, const Scene& scene, const Values& parameters)
+{
+    if (!model.control) return;
+    for (const ControlBound& bound : model.control->bounds) {
+        const std::string& name = model.control->controls[bound.control].name;
+        const std::string what = fmt::format("a bound of '{}'", name);
+        const long double lower = finite(bound.lower, parameters, what, bound.where);
+        const long double upper = finite(bound.upper, parameters, what, bound.where);
+        if (lower < upper) continue;
+        throw ModelError(
+            fmt::format("in scene '{}' the bounds of '{}' are {:.6g} and {:.6g}, where the first must be the smaller",
+                        scene.name, name, static_cast<double>(lower), static_cast<double>(upper)),
+            bound.where, "correct the parameters");
+    }
+}
+
 std::vector<NamedNumber> pick(const std::vector<Symbol>& symbols, const Values& values)
 {
     std::vector<NamedNumber> out;
@@ -149,6 +166,7 @@ SceneValues evaluate_scene(const Model& model, const Scene& scene)
     }
     require_constraints(model, scene, values);
     require_domain(model, scene, values);
+    require_bounds(model, scene, parameters);
     out.base = pick(model.base.coordinates, values);
     const auto is_given = [&](const Symbol& symbol) { return given.contains(symbol.name); };
     const Fibre& fibre = model.fibre;

@@ -2,6 +2,9 @@
 /// Names of families and of their entries, by their texts: "x[3]" and "W[1,2]" are what closed trees contain.
 #include "model/families.hpp"
 
+#include "expression/parse_family.hpp"
+#include "model/table_reader.hpp"
+
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -101,6 +104,15 @@ std::optional<ResolvedKey> resolve_key(const std::vector<Symbol>& symbols, const
             return ResolvedKey{wanted, run->shape, numbers_from(k, run->count)};
     }
     return std::nullopt;
+}
+
+ResolvedKey require_key(const std::vector<Symbol>& symbols, const Excerpt& key, const std::string& owner,
+                        const char* noun, const Scope* scope)
+{
+    if (auto found = resolve_key(symbols, scope != nullptr ? entry_key(key, *scope) : key.text))
+        return *std::move(found);
+    throw ModelError(fmt::format("{} names '{}', which is no {}", owner, key.text, noun), key.range(0, key.text.size()),
+                     hint_for(key.text, declared_names(symbols), fmt::format("{}s", noun).c_str()));
 }
 
 std::string family_name(const std::string& name)

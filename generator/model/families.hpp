@@ -18,6 +18,11 @@ struct ResolvedKey {
 /// What `key` names among `symbols` (families stand in them entry by entry); nothing where it names none of them.
 [[nodiscard]] std::optional<ResolvedKey> resolve_key(const std::vector<Symbol>& symbols, const std::string& key);
 
+/// The same where it must name one: ModelError "OWNER names 'KEY', which is no NOUN". With a scope an index may be an
+/// expression over sizes: "x[n]".
+[[nodiscard]] ResolvedKey require_key(const std::vector<Symbol>& symbols, const Excerpt& key, const std::string& owner,
+                                      const char* noun, const Scope* scope = nullptr);
+
 /// The family of an entry: "x" of "x[3]", "W" of "W[1,2]"; any other name itself.
 [[nodiscard]] std::string family_name(const std::string& name);
 
@@ -34,6 +39,10 @@ struct DeclaredKey {
     std::vector<Symbol> symbols; ///< its entries in order, or itself
 };
 [[nodiscard]] DeclaredKey read_declaration(const ModelReader& reader, const Excerpt& key);
+
+/// The names and families of a list, entry by entry.
+[[nodiscard]] std::vector<Symbol> read_names(const ModelReader& reader, const TomlEntry& entry,
+                                             const std::string& what);
 
 /// What a setting names, with its indices as closing spells them: "x[n]" is "x[8]" where n is 8.
 [[nodiscard]] std::string key_of(const ModelReader& reader, const Setting& setting);

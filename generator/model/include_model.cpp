@@ -93,6 +93,11 @@ std::size_t include_model(ModelReader& reader, const TomlValue& of)
     included.of = &of;
     included.model = read_model_text(file->name, file->text, size_settings(reader, file), trail);
     trail.open.pop_back();
+    const Scope& scope = included.model.scope;
+    const auto is_pi = [](const Definition& definition) { return definition.name == "pi"; };
+    const bool has_pi = scope.has_symbol("pi") || scope.find_family("pi") || scope.find_size("pi").has_value() ||
+                        std::ranges::any_of(included.model.definitions, is_pi);
+    if (!has_pi) included.renamed.emplace("pi", constant_pi()); // whatever the including model calls pi
     list_once(reader.model.included, included.model.file);
     for (const auto& each : included.model.included) list_once(reader.model.included, each);
     reader.included.push_back(std::move(included));

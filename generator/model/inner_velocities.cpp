@@ -12,15 +12,6 @@ namespace lagen {
 
 namespace {
 
-/// value * y, written as a person would.
-Tree product_of(const Tree& value, const Tree& y)
-{
-    const bool negative = value->kind == TreeKind::negate && value->arguments[0]->kind == TreeKind::number;
-    if (value->kind == TreeKind::number && value->number == 1) return y;
-    if (negative && value->arguments[0]->number == 1) return negate(y);
-    return multiply({value, y});
-}
-
 Tree sum_of(const std::vector<Tree>& terms)
 {
     if (terms.empty()) return number(0);
@@ -133,6 +124,14 @@ void append_velocity_names(std::vector<std::string>& names, const Model& model, 
 }
 
 } // namespace
+
+Tree product_of(const Tree& value, const Tree& y)
+{
+    const bool negative = value->kind == TreeKind::negate && value->arguments[0]->kind == TreeKind::number;
+    if (value->kind == TreeKind::number && value->number == 1) return y;
+    if (negative && value->arguments[0]->number == 1) return negate(y);
+    return multiply({value, y});
+}
 
 Tree array_tree(const Shape& shape, const std::vector<Tree>& entries)
 {

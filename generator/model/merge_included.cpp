@@ -175,27 +175,6 @@ void define_inherited(ModelReader& reader, const IncludedModel& included, const 
     all.push_back(std::move(own));
 }
 
-/// The sum of the Lagrangians of all files below `draft`, or null where one has none. A prolongation has no use for it:
-/// there it would be a function on the base.
-Tree inherited_lagrangian(const ModelReader& reader, const AlgebroidDraft& draft)
-{
-    if (draft.kind == nullptr) {
-        const IncludedModel& included = reader.included[draft.included];
-        if (included.model.lagrangian == nullptr) return nullptr;
-        std::map<std::string, Tree> replacements = included.velocities;
-        replacements.insert(included.renamed.begin(), included.renamed.end());
-        return replace_names(included.model.lagrangian, replacements);
-    }
-    if (draft.kind->kind == AlgebroidKind::prolongation) return nullptr;
-    std::vector<Tree> terms;
-    for (const AlgebroidDraft& inner : draft.of) {
-        const Tree term = inherited_lagrangian(reader, inner);
-        if (term == nullptr) return nullptr;
-        terms.push_back(term);
-    }
-    return terms.empty() ? nullptr : terms.size() == 1 ? terms[0] : add(terms);
-}
-
 } // namespace
 
 void merge_included(ModelReader& reader)
@@ -234,13 +213,6 @@ void inherit_definitions(ModelReader& reader)
         for (const Definition& definition : included.model.definitions)
             if (!dropped.contains(definition.name)) define_inherited(reader, included, definition);
     }
-}
-
-void inherit_lagrangian(ModelReader& reader)
-{
-    if (reader.lagrangian != nullptr || reader.included.empty()) return;
-    reader.lagrangian = inherited_lagrangian(reader, *reader.draft);
-    if (reader.lagrangian != nullptr) reader.model.lagrangian_where = reader.included.front().of->where;
 }
 
 } // namespace lagen

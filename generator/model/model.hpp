@@ -140,6 +140,12 @@ struct Sampling {
     std::vector<Tree> at;
 };
 
+/// Where "state" stands in `observe`: that many columns from `first` on.
+struct StateColumns {
+    std::size_t first, count;
+    SourceRange where;
+};
+
 /// One set-up to simulate; `like` is resolved already. All values are trees over the parameters.
 struct Scene {
     std::string name;
@@ -150,12 +156,14 @@ struct Scene {
     Tree start;                     ///< null: 0
     Tree duration;                  ///< null where the scene gives none
     std::vector<NamedTree> parameters;
-    std::string form;   ///< empty: the default for the model
+    std::string form; ///< empty: the default for the model
+    SourceRange form_where;
     std::string method; ///< empty: the default for the form
     SourceRange method_where;
     Tree step, tolerance, relative, absolute; ///< null where absent
     Sampling sampling;
     std::optional<std::vector<NamedTree>> observe; ///< absent: all states
+    std::optional<StateColumns> states;            ///< where "state" stands in `observe`
     std::vector<Event> events;
 };
 
@@ -219,14 +227,14 @@ struct Model {
     std::vector<Scene> scenes; ///< in the order of the file
 
     Scope scope;    ///< symbols and definitions: what L may use
-    Scope observer; ///< with momenta, energy, lagrangian, observables and invariants: what expressions from the
-                    ///< command line may use
+    Scope observer; ///< with momenta, controls, energy, hamiltonian, lagrangian, observables and invariants: what
+                    ///< expressions from the command line may use
 };
 
 /// The scene called `name`; with an empty name `default`, else the first. Throws ModelError where there is none.
 [[nodiscard]] const Scene& find_scene(const Model& model, const std::string& name);
 
-/// All parameter names, then base, fibre: the names that an expression in L may use besides t.
+/// All parameter names, then base, fibre, controls: the names of symbols that a model declares itself, besides momenta.
 [[nodiscard]] std::vector<std::string> symbol_names(const Model& model);
 
 } // namespace lagen

@@ -30,6 +30,15 @@ struct IncludedModel {
 
 struct AlgebroidDraft;
 
+/// The blocks that make a mechanical system or a control problem of an algebroid; null where absent.
+struct MechanicsBlocks {
+    const TomlEntry* lagrangian = nullptr;
+    const TomlEntry* hamiltonian = nullptr;
+    const TomlEntry* forces = nullptr;
+    const TomlEntry* dissipation = nullptr;
+    const TomlEntry* control = nullptr;
+};
+
 /// A model in the making.
 struct ModelReader {
     Model model;
@@ -43,18 +52,44 @@ struct ModelReader {
     std::vector<std::pair<Excerpt, Tree>> casimirs;    ///< as parsed
     std::vector<std::pair<Excerpt, Tree>> observables; ///< as parsed
     std::vector<std::pair<Excerpt, Tree>> invariants;  ///< as parsed
-    Tree lagrangian;                                   ///< as parsed; null where absent
+    MechanicsBlocks mechanics;
+    Tree lagrangian, hamiltonian, dissipation;    ///< as parsed; null where absent
+    std::vector<ComponentEntry> inherited_forces; ///< of included files, over the model's names
+    Scope mechanical;                             ///< the model's scope with momenta and controls
     Scope observer; ///< the model's scope with momenta, observables, invariants and built-in quantities
 
     /// The closed form of `tree`, in which only names of the given roles may occur (others: ModelError). `what` is the
     /// subject of the message: "the value of parameter 'm'".
-    [[nodiscard]] Tree close(const Tree& tree, std::initializer_list<Role> roles, const std::string& what) const;
+    [[nodiscard]] Tree close(const Tree& tree, std::initializer_list<Role> roles, const std::string& what) const
+    {
+        return close_in(model.scope, tree, roles, what);
+    }
     /// The same for an expression that may be a vector or a matrix.
     [[nodiscard]] ArrayValue close_array(const Tree& tree, std::initializer_list<Role> roles,
-                                         const std::string& what) const;
+                                         const std::string& what) const
+    {
+        return close_array_in(model.scope, tree, roles, what, false);
+    }
+    /// The same for what may use momenta or controls; `nonsmooth`: min max sign if are legal.
+    [[nodiscard]] Tree close_mechanical(const Tree& tree, std::initializer_list<Role> roles,
+                                        const std::string& what) const
+    {
+        return close_in(mechanical, tree, roles, what);
+    }
+    [[nodiscard]] ArrayValue close_mechanical_array(const Tree& tree, std::initializer_list<Role> roles,
+                                                    const std::string& what, bool nonsmooth) const
+    {
+        return close_array_in(mechanical, tree, roles, what, nonsmooth);
+    }
     /// The same in the observer's scope, where min max sign if are legal and every role is.
     [[nodiscard]] Tree close_observed(const Tree& tree) const { return observer.close(tree, true); }
     [[nodiscard]] ArrayValue close_observed_array(const Tree& tree) const { return observer.close_array(tree, true); }
+
+  private:
+    [[nodiscard]] Tree close_in(const Scope& scope, const Tree& tree, std::initializer_list<Role> roles,
+                                const std::string& what) const;
+    [[nodiscard]] ArrayValue close_array_in(const Scope& scope, const Tree& tree, std::initializer_list<Role> roles,
+                                            const std::string& what, bool nonsmooth) const;
 };
 
 /// The model of a text that was reached by `trail`.
@@ -74,8 +109,10 @@ void read_algebroid_kind(ModelReader& reader, const TomlEntry* block);
 void require_rank(const ModelReader& reader, const SourceRange& where);
 void declare_fibre(ModelReader& reader, const TomlEntry* block);
 void declare_definitions(ModelReader& reader, const TomlEntry* block);
-void declare_quantities(ModelReader& reader, const TomlEntry* observables, const TomlEntry* invariants,
-                        const TomlEntry* lagrangian);
+void declare_control(ModelReader& reader);
+void declare_quantities(ModelReader& reader, const TomlEntry* observables, const TomlEntry* invariants);
+/// L, H and R, parsed.
+void declare_mechanics(ModelReader& reader);
 void build_scopes(ModelReader& reader);
 /// The entries of [algebroid]; called by build_scopes once the model's scope has symbols and definitions. The inner
 /// fibre coordinates of frames and the ambient velocities of subbundles join the scope as definitions.
@@ -84,6 +121,9 @@ void read_algebroid(ModelReader& reader);
 // Expressions.
 void read_parameters(ModelReader& reader, const TomlEntry* block, const std::vector<Setting>& settings);
 void read_base(ModelReader& reader, const TomlEntry* block);
+void read_mechanics(ModelReader& reader);
+void read_control(ModelReader& reader);
+[[nodiscard]] ControlBoundary read_boundary(const ModelReader& reader, const TomlEntry& block);
 void read_quantities(ModelReader& reader);
 void read_about(ModelReader& reader, const TomlEntry* block);
 void read_scenes(ModelReader& reader, const TomlEntry* block, const std::vector<Setting>& settings);

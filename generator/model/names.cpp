@@ -19,6 +19,7 @@ const char* role_text(Role role)
     case Role::base: return "a base coordinate";
     case Role::fibre: return "a fibre coordinate";
     case Role::momentum: return "a momentum";
+    case Role::control: return "a control";
     case Role::definition: return "a definition";
     case Role::casimir: return "a Casimir";
     case Role::observable: return "an observable";
@@ -26,6 +27,14 @@ const char* role_text(Role role)
     case Role::built_in: return "a built-in quantity";
     }
     return "a name";
+}
+
+std::string role_plural(Role role)
+{
+    if (role == Role::time) return "time";
+    if (role == Role::momentum) return "momenta";
+    const std::string_view text = role_text(role);
+    return std::string(text.substr(text.find(' ') + 1)) + "s";
 }
 
 std::string place_text(const SourceRange& where)

@@ -11,10 +11,26 @@
 
 namespace lagen {
 
-enum class Role { time, size, parameter, base, fibre, momentum, definition, velocity, casimir, observable, built_in };
+enum class Role {
+    time,
+    size,
+    parameter,
+    base,
+    fibre,
+    momentum,
+    control,
+    definition,
+    velocity,
+    casimir,
+    observable,
+    built_in
+};
 
 /// "a base coordinate", ...: how messages call a role.
 [[nodiscard]] const char* role_text(Role role);
+
+/// "base coordinates", ...: several of them.
+[[nodiscard]] std::string role_plural(Role role);
 
 /// Line and column (both from 1, columns in characters) of the start of `where`, as "line 3, column 5".
 [[nodiscard]] std::string place_text(const SourceRange& where);

@@ -93,7 +93,7 @@ void read_algebroid(ModelReader& reader)
     inherit_definitions(reader);
     read_entries(reader, block, *reader.draft);
     define_inner_velocities(reader);
-    inherit_lagrangian(reader);
+    inherit_mechanics(reader);
 }
 
 } // namespace lagen

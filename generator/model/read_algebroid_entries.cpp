@@ -26,13 +26,6 @@ struct RowTexts {
     const char* entry_noun;
 };
 
-ResolvedKey key_of(const std::vector<Symbol>& symbols, const Excerpt& key, const std::string& owner, const char* noun)
-{
-    if (auto found = resolve_key(symbols, key.text)) return *std::move(found);
-    throw ModelError(fmt::format("{} names '{}', which is no {}", owner, key.text, noun), key.range(0, key.text.size()),
-                     hint_for(key.text, declared_names(symbols), fmt::format("{}s", noun).c_str()));
-}
-
 /// The shape of the value of an entry.
 Shape shape_of(const ResolvedKey& outer, const ResolvedKey& inner)
 {
@@ -49,11 +42,11 @@ void read_rows(const ModelReader& reader, const TomlEntry& block, const RowTexts
     const TableReader table(block.value, texts.title);
     std::set<std::pair<std::size_t, std::size_t>> seen;
     for (const TomlEntry& line : block.value.entries) {
-        const ResolvedKey outer = key_of(rows, line.key, texts.title, texts.row_noun);
+        const ResolvedKey outer = require_key(rows, line.key, texts.title, texts.row_noun);
         const std::string title = fmt::format("{} '{}'", texts.row, outer.name);
         const TableReader row(line.value, title);
         for (const TomlEntry& entry : line.value.entries) {
-            const ResolvedKey inner = key_of(entries, entry.key, title, texts.entry_noun);
+            const ResolvedKey inner = require_key(entries, entry.key, title, texts.entry_noun);
             const std::string what = fmt::format("{} '{}' of '{}'", texts.entry, inner.name, outer.name);
             const ArrayValue closed =
                 reader.close_array(read_array_expression(entry.value, what), {Role::parameter, Role::base}, what);
@@ -135,7 +128,7 @@ void read_connection(const ModelReader& reader, AlgebroidBlock& block, const Tom
 
 std::size_t section_index(const AlgebroidBlock& block, const Excerpt& key, const std::string& owner)
 {
-    const ResolvedKey found = key_of(block.fibre, key, owner, "fibre coordinate");
+    const ResolvedKey found = require_key(block.fibre, key, owner, "fibre coordinate");
     const SourceRange where = key.range(0, key.text.size());
     if (found.shape.rank != Rank::scalar) {
         throw ModelError(

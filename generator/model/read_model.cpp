@@ -13,8 +13,7 @@ namespace lagen {
 namespace {
 
 constexpr std::initializer_list<const char*> later_blocks = {
-    "hamiltonian", "forces",          "dissipation", "control",  "groupoid",
-    "discrete",    "hamilton_jacobi", "forms",       "morphism", "compose",
+    "groupoid", "discrete", "hamilton_jacobi", "forms", "morphism", "compose",
 };
 
 } // namespace
@@ -48,7 +47,11 @@ Model read_model_text(const std::string& name, std::string text, const std::vect
     const TomlEntry* fibre = top.take("fibre");
     reader.algebroid = top.take("algebroid");
     const TomlEntry* definitions = top.take("definitions");
-    const TomlEntry* lagrangian = top.take("lagrangian");
+    reader.mechanics.lagrangian = top.take("lagrangian");
+    reader.mechanics.hamiltonian = top.take("hamiltonian");
+    reader.mechanics.forces = top.take("forces");
+    reader.mechanics.dissipation = top.take("dissipation");
+    reader.mechanics.control = top.take("control");
     const TomlEntry* observables = top.take("observables");
     const TomlEntry* invariants = top.take("invariants");
     const TomlEntry* about = top.take("about");
@@ -61,12 +64,16 @@ Model read_model_text(const std::string& name, std::string text, const std::vect
     declare_base(reader, base);
     read_algebroid_kind(reader, reader.algebroid);
     declare_fibre(reader, fibre);
+    declare_control(reader);
     declare_definitions(reader, definitions);
-    declare_quantities(reader, observables, invariants, lagrangian);
+    declare_quantities(reader, observables, invariants);
+    declare_mechanics(reader);
     build_scopes(reader);
 
     read_parameters(reader, parameters, settings);
     read_base(reader, base);
+    read_mechanics(reader);
+    read_control(reader);
     read_quantities(reader);
     read_about(reader, about);
     read_scenes(reader, scenes, settings);
@@ -96,6 +103,8 @@ std::vector<std::string> symbol_names(const Model& model)
     for (const Parameter& parameter : model.parameters) out.push_back(parameter.symbol.name);
     for (const Symbol& symbol : model.base.coordinates) out.push_back(symbol.name);
     for (const Symbol& symbol : model.fibre.coordinates) out.push_back(symbol.name);
+    if (model.control)
+        for (const Symbol& symbol : model.control->controls) out.push_back(symbol.name);
     return out;
 }
 

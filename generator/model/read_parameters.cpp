@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace lagen {
 
 namespace {
@@ -79,14 +81,27 @@ bool is_strict(Comparison comparison)
     return comparison == Comparison::less || comparison == Comparison::greater || comparison == Comparison::not_equal;
 }
 
-Tree read_inequality(const ModelReader& reader, const Excerpt& text)
+/// One strict inequality an entry: a vector is compared with a scalar, or with a vector of its shape.
+std::vector<Tree> read_inequalities(const ModelReader& reader, const Excerpt& text)
 {
     const Tree parsed = parse_comparison(text);
     if (parsed->kind != TreeKind::compare || !is_strict(parsed->comparison)) {
         throw ModelError(fmt::format("the domain condition '{}' is not a strict inequality", text.text),
                          text.range(0, text.text.size()), "use <, > or !=");
     }
-    return reader.close(parsed, {Role::parameter, Role::base}, "the domain");
+    const auto close = [&](std::size_t side) {
+        return reader.close_array(parsed->arguments[side], {Role::parameter, Role::base}, "the domain");
+    };
+    const ArrayValue left = close(0);
+    const ArrayValue right = close(1);
+    const bool scalars = left.shape.rank == Rank::scalar && right.shape.rank == Rank::scalar;
+    const bool alike = left.shape == right.shape || left.shape.rank == Rank::scalar || right.shape.rank == Rank::scalar;
+    if (scalars || !alike) return {reader.close(parsed, {Role::parameter, Role::base}, "the domain")};
+    std::vector<Tree> inequalities;
+    for (std::size_t k = 0; k < std::max(left.shape.size(), right.shape.size()); ++k)
+        inequalities.push_back(compare(parsed->comparison, left.entries[left.entries.size() == 1 ? 0 : k],
+                                       right.entries[right.entries.size() == 1 ? 0 : k]));
+    return inequalities;
 }
 
 } // namespace
@@ -124,7 +139,8 @@ void read_base(ModelReader& reader, const TomlEntry* block)
         const ArrayValue closed = reader.close_array(value, point, fmt::format("the Casimir '{}'", key.text));
         append_entries(base.casimirs, key, closed);
     }
-    for (const Excerpt& text : base_list(block, "domain")) base.domain.push_back(read_inequality(reader, text));
+    for (const Excerpt& text : base_list(block, "domain"))
+        for (Tree& inequality : read_inequalities(reader, text)) base.domain.push_back(std::move(inequality));
 }
 
 } // namespace lagen

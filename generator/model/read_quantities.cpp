@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Scopes, and the blocks that are lists of named expressions: definitions, Lagrangian, observables, invariants, about.
+/// Scopes, and the blocks that are lists of named expressions: definitions, observables, invariants.
 #include "model/model_reader.hpp"
 
 #include "model/families.hpp"
@@ -97,8 +97,12 @@ void require_sound_definitions(const ModelReader& reader)
 void explain_observed(Scope& scope, const Model& model)
 {
     for (const std::string& momentum : declared_names(model.fibre.momenta))
-        scope.explain(momentum, "momenta stand in observables, invariants and events only");
+        scope.explain(momentum, "momenta stand in H, observables, invariants and events only");
+    if (model.control)
+        for (const std::string& control : declared_names(model.control->controls))
+            scope.explain(control, "controls stand in sigma, cost, observables, invariants and events only");
     scope.explain("energy", "the energy stands in observables, invariants and events only");
+    scope.explain("hamiltonian", "the Hamiltonian stands in observables, invariants and events only");
 }
 
 /// The fibre of a prolongation is X_a and V_a, or X_a and P_a: the other letter is a slip.
@@ -116,25 +120,11 @@ void explain_prolongation(Scope& scope, const AlgebroidBlock& block)
 
 } // namespace
 
-void declare_quantities(ModelReader& reader, const TomlEntry* observables, const TomlEntry* invariants,
-                        const TomlEntry* lagrangian)
+void declare_quantities(ModelReader& reader, const TomlEntry* observables, const TomlEntry* invariants)
 {
     reader.observables = read_named(observables, "[observables]", "observable");
     for (const auto& [key, value] : reader.observables) declare_observable(reader, key, value);
     reader.invariants = read_named(invariants, "[invariants]", "invariant");
-    if (lagrangian == nullptr) return;
-    for (const auto& [key, value] : reader.invariants)
-        if (key.text == "energy" || key.text == "lagrangian")
-            throw ModelError(fmt::format("the invariant '{0}' bears the name of the {0} of the model", key.text),
-                             place_of(key), "choose another name; every run tracks the energy without being asked");
-    TableReader table(lagrangian->value, "[lagrangian]");
-    const TomlEntry* entry = table.take("L");
-    table.finish();
-    if (entry == nullptr) {
-        throw ModelError("[lagrangian] has no key 'L'", lagrangian->where(), "[lagrangian] L = \"..\"");
-    }
-    reader.lagrangian = read_expression(entry->value, "the Lagrangian 'L'");
-    reader.model.lagrangian_where = entry->value.where;
 }
 
 void build_scopes(ModelReader& reader)
@@ -154,12 +144,14 @@ void build_scopes(ModelReader& reader)
     std::set<std::string> used(reader.names.order().begin(), reader.names.order().end());
     std::vector<std::string> extra;
     const auto fresh = [&used](const std::string& name) { return used.insert(name).second; };
-    if (fresh("energy")) extra.push_back("energy");
+    for (const char* quantity : {"energy", "hamiltonian"})
+        if (fresh(quantity)) extra.emplace_back(quantity);
     const bool lagrangian = fresh("lagrangian");
     if (lagrangian && !reader.lagrangian) extra.push_back("lagrangian");
-    reader.observer = scope;
-    add_to_scope(reader.observer, model, model.fibre.momenta, FamilyRole::momentum);
-    reader.observer = reader.observer.with(extra);
+    reader.mechanical = scope;
+    add_to_scope(reader.mechanical, model, model.fibre.momenta, FamilyRole::momentum);
+    if (model.control) add_to_scope(reader.mechanical, model, model.control->controls, FamilyRole::control);
+    reader.observer = reader.mechanical.with(extra);
     if (lagrangian && reader.lagrangian) {
         reader.observer.define(Definition{"lagrangian", {}, reader.lagrangian, model.lagrangian_where});
     }
@@ -176,8 +168,6 @@ void build_scopes(ModelReader& reader)
 void read_quantities(ModelReader& reader)
 {
     Model& model = reader.model;
-    const auto state = {Role::time, Role::parameter, Role::base, Role::fibre};
-    if (reader.lagrangian) model.lagrangian = reader.close(reader.lagrangian, state, "the Lagrangian");
     for (const auto& [key, value] : reader.observables)
         append_entries(model.observables, key, reader.close_observed_array(value));
     for (const auto& [key, value] : reader.invariants)

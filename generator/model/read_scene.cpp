@@ -5,6 +5,7 @@
 #include "expression/parse.hpp"
 #include "model/families.hpp"
 #include "model/read_values.hpp"
+#include "model/scene_form.hpp"
 #include "model/table_reader.hpp"
 
 #include <fmt/format.h>
@@ -21,6 +22,7 @@ constexpr std::size_t most_columns = 4096;
 void read_observe(const ModelReader& reader, Scene& scene, const TomlEntry& entry)
 {
     std::vector<NamedTree> out;
+    scene.states.reset();
     std::set<std::string> seen{"t"}; // the column t is always there
     const auto add = [&](NamedTree column) {
         if (seen.insert(column.name).second) out.push_back(std::move(column));
@@ -28,12 +30,10 @@ void read_observe(const ModelReader& reader, Scene& scene, const TomlEntry& entr
     for (const Excerpt& text : read_list(entry.value, fmt::format("'observe' of scene '{}'", scene.name))) {
         const SourceRange where = text.range(0, text.text.size());
         if (text.text == "state" && reader.names.find("state") == nullptr) {
-            const Fibre& fibre = reader.model.fibre;
-            for (const Symbol& symbol : reader.model.base.coordinates)
-                add({symbol.name, name(symbol.name, where), where});
-            for (const Symbol& symbol : scene.form == "hamilton" ? fibre.momenta : fibre.coordinates) {
-                add({symbol.name, name(symbol.name, where), where});
-            }
+            const std::size_t first = out.size();
+            for (const std::string& state : state_names(reader.model, form_of(reader.model, scene)))
+                add({state, name(state, where), where});
+            if (!scene.states) scene.states = StateColumns{first, out.size() - first, where};
             continue;
         }
         const Excerpt inner = trimmed(text, 0, text.text.size());
@@ -118,7 +118,7 @@ void read_numbers(const ModelReader& reader, Scene& scene, TableReader& table)
     if (absolute) scene.absolute = absolute;
 }
 
-void read_options(Scene& scene, TableReader& table)
+void read_options(const Model& model, Scene& scene, TableReader& table)
 {
     const auto text = [&](const char* key) { return fmt::format("'{}' of scene '{}'", key, scene.name); };
     if (const TomlEntry* entry = table.take("rest")) scene.rest = read_flag(entry->value, text("rest"));
@@ -129,11 +129,8 @@ void read_options(Scene& scene, TableReader& table)
     }
     if (const TomlEntry* entry = table.take("form")) {
         scene.form = read_text(entry->value, text("form"));
-        const std::vector<std::string> forms{"lagrange", "hamilton", "pontryagin", "discrete"};
-        if (std::find(forms.begin(), forms.end(), scene.form) == forms.end()) {
-            throw ModelError(fmt::format("{} is '{}', which is no form", text("form"), scene.form), entry->value.where,
-                             hint_for(scene.form, forms, "forms"));
-        }
+        scene.form_where = entry->value.where;
+        require_form(model, scene.form, text("form"), scene.form_where);
     }
 }
 
@@ -151,7 +148,7 @@ Scene read_scene(const ModelReader& reader, Scene scene, const TomlEntry& block,
     TableReader table(block.value, fmt::format("[scene.{}]", scene.name));
     table.refuse_later({"element", "next", "steps"});
     (void)table.take("like");
-    read_options(scene, table);
+    read_options(reader.model, scene, table);
     read_numbers(reader, scene, table);
     if (const TomlEntry* entry = table.take("initial")) read_initial(reader, scene, *entry);
     if (const TomlEntry* entry = table.take("parameters")) read_scene_parameters(reader, scene, *entry);
@@ -164,6 +161,11 @@ Scene read_scene(const ModelReader& reader, Scene scene, const TomlEntry& block,
         std::erase_if(scene.parameters, [&](const NamedTree& each) { return names_entry(key, each.name); });
     }
     require_acyclic_scene(reader, scene);
+    if (!forms_of(reader.model).empty()) {
+        std::string form = scene.form;
+        scene = in_form(reader.model, std::move(scene), form_of(reader.model, scene));
+        scene.form = std::move(form);
+    }
     require_complete(reader, scene);
     return scene;
 }

@@ -6,6 +6,7 @@
 #include "model/dependency_order.hpp"
 #include "model/families.hpp"
 #include "model/read_values.hpp"
+#include "model/scene_form.hpp"
 #include "model/table_reader.hpp"
 
 #include <algorithm>
@@ -180,10 +181,11 @@ void require_complete(const ModelReader& reader, const Scene& scene)
                          scene.where, "give every fibre coordinate or every momentum");
     }
     Missing missing = missing_of(reader.model.base.coordinates, given);
-    const Missing& rest = some_momenta ? no_momentum : no_fibre;
-    if (!scene.rest || some_momenta) missing.add(rest);
+    const bool momenta = some_momenta || form_of(reader.model, scene) == "pontryagin";
+    const Missing& rest = momenta ? no_momentum : no_fibre;
+    if (!scene.rest || momenta) missing.add(rest);
     if (missing.count == 0) return;
-    const bool fibre_left_out = rest.count > 0 && !some_momenta && !scene.rest;
+    const bool fibre_left_out = rest.count > 0 && !momenta && !scene.rest;
     throw ModelError(fmt::format("scene '{}' leaves out the initial value{} of {}", scene.name,
                                  missing.count > 1 ? "s" : "", missing.text()),
                      scene.where, fibre_left_out ? "rest = true sets the fibre coordinates left out to zero" : "");

@@ -76,7 +76,8 @@ Tree replace_names(const Tree& tree, const Replacements& replacements)
             stack.pop_back();
             continue;
         }
-        const auto found = top->kind == TreeKind::name ? replacements.find(top->name) : replacements.end();
+        const bool named = top->kind == TreeKind::name || top->kind == TreeKind::pi;
+        const auto found = named ? replacements.find(top->name) : replacements.end();
         if (found != replacements.end()) {
             done.emplace(top.get(), found->second);
         } else if (binds(*top, replacements)) {

@@ -26,13 +26,13 @@ mpq_class common_divisor(const mpq_class& a, const mpq_class& b)
     return divisor;
 }
 
-Fraction Elementary::pi()
+Fraction Elementary::pi(const char* text)
 {
-    return ring_.of(ring_.keyed("pi", [this] {
+    return ring_.of(ring_.keyed("pi", [this, text] {
         const Range range{End{false, mpq_class(333, 106), true}, End{false, mpq_class(355, 113), true}, true};
         Ball value;
         arb_const_pi(value.get(), 256);
-        Generator generator{"pi", range, 0, {}, -1, false, value};
+        Generator generator{text, range, 0, {}, -1, false, value};
         return ring_.add_generator(generator);
     }));
 }

@@ -346,17 +346,6 @@ Reevaluation ZeroDecider::State::reevaluate(NodeId residual, std::size_t points)
     return result;
 }
 
-ProofBudget smaller(ProofBudget budget, const ProofBudget& other)
-{
-    budget.terms = std::min(budget.terms, other.terms);
-    budget.products = std::min(budget.products, other.products);
-    budget.points = std::min(budget.points, other.points);
-    budget.tries = std::min(budget.tries, other.tries);
-    budget.searches = std::min(budget.searches, other.searches);
-    budget.precision = std::min(budget.precision, other.precision);
-    return budget;
-}
-
 ZeroDecider::ZeroDecider(const Graph& graph, ProofSetting setting, ProofBudget budget)
     : state_(std::make_unique<State>(graph, std::move(setting), budget))
 {

@@ -32,7 +32,8 @@ class Elementary {
     {
     }
 
-    [[nodiscard]] Fraction pi();
+    /// The number; `text` is its name from the first call on.
+    [[nodiscard]] Fraction pi(const char* text = "pi");
     struct SineCosine {
         Fraction sine, cosine;
     };
@@ -130,6 +131,7 @@ class Elementary {
     Ring& ring_;
     Angles angles_;
     bool refined_ = false;
+    int log_depth_ = 0;     ///< logarithms of relations that wait for one another
     unsigned pi_parts_ = 1; ///< common denominator of the multiples of pi
     std::map<std::string, Unit> angle_units_;
     std::map<std::string, Unit> exponential_units_;

@@ -5,6 +5,8 @@
 
 namespace lagen::proof {
 
+constexpr int deepest_log = 6;
+
 Fraction Elementary::log_generator(const Polynomial& p)
 {
     const GeneratorId id = ring_.keyed("log:" + key_of(p), [&] {
@@ -44,8 +46,12 @@ Fraction Elementary::factor_logarithm(const Polynomial& p)
         const Generator generator = ring_.generator(p[0].monomial.generator(0));
         // A root w >= 0 with w^q = r, and log w defined: log w = log(r) / q. (Not for |x|, a root of degree 2 of a
         // square.)
-        if (generator.power > 0 && !generator.range.low.infinite && generator.text.compare(0, 4, "abs(") != 0) {
+        if (generator.power > 0 && !generator.range.low.infinite && generator.text.compare(0, 4, "abs(") != 0 &&
+            log_depth_ < deepest_log) {
+            // Relations of coordinates may lead back to one another (x^2 = x*y): the depth is bounded.
+            ++log_depth_;
             const Fraction log = logarithm(ring_.of(generator.relation));
+            --log_depth_;
             return ring_.times(ring_.constant(mpq_class(1, generator.power)), log);
         }
     }

@@ -29,6 +29,9 @@ NormalForm::NormalForm(const Graph& graph, const ProofSetting& setting,
     all.insert(all.end(), setting.domain.begin(), setting.domain.end());
     for (const NodeId node : reachable(graph, all))
         if (graph.op(node) == Op::input) declare(node);
+    // A model may call a quantity pi: then the number is written otherwise, since texts tell generators apart.
+    const auto is_called_pi = [&](const auto& entry) { return graph_.input_name(entry.first) == "pi"; };
+    if (std::any_of(inputs_.begin(), inputs_.end(), is_called_pi)) static_cast<void>(elementary_.pi("acos(-1)"));
     prepare(all);
 }
 
@@ -190,7 +193,7 @@ void NormalForm::solve_constraint(const SolvedConstraint& solved)
         // V = leading * v satisfies the monic V^k = -leading^(k-1) lower.
         const Fraction ratio = ring_.of(leading);
         const std::string& name = graph_.input_name(solved.variable);
-        Generator scaled{name + "*(" + to_text(ring_, leading) + ")", {}, 0, {}, -1, false};
+        Generator scaled{"(" + name + "*(" + to_text(ring_, leading) + "))", {}, 0, {}, -1, false};
         scaled.power = solved.degree;
         scaled.relation = ring_.times(negate(ring_.power(leading, solved.degree - 1)), lower);
         const GeneratorId multiple = ring_.add_generator(scaled);

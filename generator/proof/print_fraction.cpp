@@ -3,14 +3,28 @@
 #include "proof/print_fraction.hpp"
 
 #include <algorithm>
+#include <string_view>
 
 namespace lagen::proof {
 
 namespace {
 
+/// Whether an operator of `text` stands outside of all parentheses.
+bool is_open(const std::string& text)
+{
+    int depth = 0;
+    for (const char c : text) {
+        depth += c == '(' || c == '[' ? 1 : c == ')' || c == ']' ? -1 : 0;
+        if (depth == 0 && std::string_view("+-*/^ ").find(c) != std::string_view::npos) return true;
+    }
+    return false;
+}
+
+/// `^` is right-associative and binds more tightly than anything else: the base of a power stands in parentheses.
 std::string power_text(const std::string& base, unsigned exponent)
 {
-    return exponent == 1 ? base : base + '^' + std::to_string(exponent);
+    if (exponent == 1) return base;
+    return (is_open(base) ? '(' + base + ')' : base) + '^' + std::to_string(exponent);
 }
 
 /// Without its sign.

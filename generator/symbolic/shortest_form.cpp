@@ -4,6 +4,7 @@
 #include "symbolic/sorted_form.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace lagen {
 namespace {
@@ -246,6 +247,33 @@ SortedTerm with_joined_squares(const SortedTerm& expanded)
     return sorted_sum(list);
 }
 
+/// A term to a whole power; not of 0 to a negative one.
+SortedTerm raised(SortedTerm term, long exponent)
+{
+    Rational coefficient = 1;
+    for (long k = 0; k < std::abs(exponent); ++k) coefficient *= term.coefficient;
+    term.coefficient = exponent < 0 ? Rational(1 / coefficient) : coefficient;
+    for (SortedFactor& factor : term.factors) factor.exponent *= exponent;
+    return sorted_product({term});
+}
+
+/// A product with sin^2 + cos^2 = 1 used in each sum that is one of its factors.
+SortedTerm with_joined_factors(const SortedTerm& product)
+{
+    std::vector<SortedTerm> parts = {product_of({}, product.coefficient)};
+    for (const SortedFactor& factor : product.factors) {
+        SortedTerm part = product_of({factor}, 1);
+        if (!factor.terms.empty() && factor.exponent.get_den() == 1 && abs(factor.exponent) <= factor_degree) {
+            SortedFactor sum = factor;
+            sum.exponent = 1;
+            const SortedTerm joined = with_joined_squares(product_of({sum}, 1));
+            if (joined.coefficient != 0) part = raised(joined, factor.exponent.get_num().get_si());
+        }
+        parts.push_back(std::move(part));
+    }
+    return sorted_product(parts);
+}
+
 std::size_t cost_of(const Tree& tree)
 {
     const std::string text = to_text(tree);
@@ -288,6 +316,7 @@ Tree shortest_form(const GiNaC::ex& expression, const SymbolTable& symbols, cons
                 const SortedTerm sorted = sort_expression(*product, symbols, order);
                 shortest.offer(tree_of(sorted));
                 shortest.offer(tree_of(with_collected_factors(sorted)));
+                shortest.offer(tree_of(with_joined_factors(sorted)));
             }
         }
         shortest.offer(from_ginac(expression, symbols, order));

@@ -27,6 +27,31 @@ TEST_CASE("the equations of every model are the same text in fresh processes, in
     }
 }
 
+TEST_CASE("Hamilton's equations are the same text in fresh processes, and those of a control problem are Pontryagin's")
+{
+    for (const std::string name :
+         {"double_pendulum", "elroys_beanie", "heavy_top", "relativistic_oscillator", "wong"}) {
+        INFO(name);
+        const Outcome first = call({"derive", name + ".toml", "--form", "hamilton"});
+        CHECK(first.code == 0);
+        CHECK(first.out.find("\nPoisson brackets:") != std::string::npos);
+        CHECK(call({"derive", name + ".toml", "--form", "hamilton"},
+                   {.environment = {{"PADDING", std::string(997, 'x')}}})
+                  .out == first.out);
+    }
+    const Outcome pontryagin = call({"derive", "unicycle.toml", "--format", "json"});
+    CHECK(pontryagin.out.find("\"form\": \"pontryagin\"") != std::string::npos);
+    CHECK(call({"derive", "unicycle.toml", "--format", "json", "--form", "pontryagin"}).out == pontryagin.out);
+}
+
+TEST_CASE("a form that is none is answered with the nearest one")
+{
+    const Outcome outcome = call({"derive", "pendulum.toml", "--form", "hamiltonian"});
+    CHECK(outcome.code == 4);
+    CHECK(outcome.err == "lagen derive: --form is 'hamiltonian', it must be one of lagrange, hamilton, pontryagin; did "
+                         "you mean 'hamilton'?\n");
+}
+
 TEST_CASE("Euler's equations of the rigid body are those of the textbook")
 {
     const std::string text = call({"derive", "rigid_body.toml"}).out;

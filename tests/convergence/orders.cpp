@@ -38,6 +38,23 @@ double global_order(int coarsest)
     return measured_order(points, 1e-16L);
 }
 
+/// The free rigid body over one period, after which it is back (known to 21 digits).
+template <class Method>
+double period_order(int coarsest)
+{
+    using Body = lagen::problems::RigidBody<Real>;
+    const Real period = 10.7314652348828038338L;
+    const Body::State start(std::cos(1.1L), 0, std::sin(1.1L));
+    std::vector<lagen::support::ErrorPoint> points;
+    for (int k = 0; k < 4; ++k) {
+        const double h = static_cast<double>(period) / (coarsest << k);
+        const auto run = lagen::integrate(Body{}, start, {0, period}, with_step<Method>(h));
+        REQUIRE(run.status() == lagen::Status::ok);
+        points.push_back({h, (run.state - start).norm()});
+    }
+    return measured_order(points, 1e-17L);
+}
+
 /// One step; the worst error at three points inside it, which is of order dense_order + 1.
 template <class Method>
 double dense_order(double coarsest)
@@ -93,4 +110,18 @@ TEST_CASE("Splitting methods converge with their order, inside steps too")
     CHECK_ORDERS(LeapfrogKdk, 2, 2, 256, 0.1);
     CHECK_ORDERS(McLachlan4, 4, 4, 64, 0.1);
     CHECK_ORDERS(Yoshida6, 6, 6, 64, 0.2);
+}
+
+TEST_CASE("Gauss' methods converge with twice the number of their stages, Radau IIA with 5, inside steps too")
+{
+    CHECK_ORDERS(Gauss2, 2, 2, 128, 0.2);
+    CHECK_ORDERS(Gauss4, 4, 4, 32, 0.4);
+    CHECK_ORDERS(Gauss6, 6, 6, 16, 0.8);
+    CHECK_ORDERS(Gauss8, 8, 8, 8, 0.2);
+    CHECK_ORDERS(Radau5Fixed, 5, 5, 32, 0.4);
+    CHECK_THAT(period_order<lagen::Gauss2>(128), near(2));
+    CHECK_THAT(period_order<lagen::Gauss4>(64), near(4));
+    CHECK_THAT(period_order<lagen::Gauss6>(32), near(6));
+    CHECK_THAT(period_order<lagen::Gauss8>(32), near(8));
+    CHECK_THAT(period_order<lagen::Radau5Fixed>(64), near(5));
 }

@@ -65,6 +65,28 @@ KernelModule operators_module()
     return module;
 }
 
+/// Operations that come in batches: angles of two levels, roots and reciprocals.
+KernelModule batches_module()
+{
+    KernelModule module = empty_module("batches");
+    Graph& g = *module.graph;
+    for (const char* name : {"x", "y", "z", "sines", "roots"}) module.base.push_back(declare(g, name));
+    std::vector<NodeId> values;
+    std::vector<NodeId> sums;
+    for (std::size_t k = 0; k < module.base.size(); ++k) {
+        const NodeId x = module.base[k].input;
+        const NodeId y = module.base[(k + 1) % module.base.size()].input;
+        const NodeId inner = g.add(g.apply(Op::sin, x), g.apply(Op::cos, g.multiply(g.constant(100), y)));
+        const NodeId square = g.add(g.power(x, 2), g.add(g.power(y, 2), g.constant(Rational(1, 100))));
+        const NodeId cube = g.divide(g.constant(1), g.multiply(square, g.apply(Op::sqrt, square)));
+        values.push_back(g.multiply(cube, g.apply(Op::cos, inner)));
+        sums.push_back(g.add(cube, g.apply(Op::sin, inner)));
+    }
+    values.push_back(g.apply(Op::sqrt, g.power(g.sum(sums), 2)));
+    module.kernels = {vector_kernel("values_of", values), scalar_kernel("total", g.sum(sums))};
+    return module;
+}
+
 std::vector<CompiledCase> all_cases()
 {
     const std::vector<std::vector<bool>> arrow{
@@ -73,6 +95,7 @@ std::vector<CompiledCase> all_cases()
     return {sampled(product_module(), 1),
             sampled(pendulum_module(), 2),
             sampled(operators_module(), 3),
+            sampled(batches_module(), 9),
             sampled(solve_module("arrow", arrow, MatrixStructure::positive_definite), 4),
             sampled(solve_module("definite", full(5), MatrixStructure::positive_definite), 5),
             sampled(solve_module("pivoted", full(4), MatrixStructure::general), 6),

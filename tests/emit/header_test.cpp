@@ -66,6 +66,21 @@ TEST_CASE("Stumpff functions of one argument are one call, and their header is i
     CHECK(print_header(product_module()).find("stumpff") == std::string::npos);
 }
 
+TEST_CASE("square roots are the runtime's, and headers are included where their functions are called", "[emit]")
+{
+    KernelModule module = empty_module("rooted");
+    Graph& g = *module.graph;
+    module.base = {declare(g, "x"), declare(g, "square_roots")};
+    const NodeId sum = g.add(module.base[0].input, module.base[1].input);
+    module.kernels = {scalar_kernel("f", g.apply(Op::sqrt, sum))};
+    const std::string text = print_header(module);
+    CHECK(text.find("#include \"lagen/roots.hpp\"\n") != std::string::npos);
+    CHECK(text.find("using arithmetic::sqrt;\n") != std::string::npos);
+    CHECK(text.find("return sqrt(x + square_roots_);\n") != std::string::npos);
+    CHECK(text.find("lagen/sincos.hpp") == std::string::npos);
+    CHECK(print_header(product_module()).find("roots.hpp") == std::string::npos);
+}
+
 TEST_CASE("the same module gives the same bytes", "[emit]")
 {
     CHECK(print_header(pendulum_module()) == print_header(pendulum_module()));

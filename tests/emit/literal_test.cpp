@@ -56,21 +56,6 @@ TEST_CASE("expressions have the fewest parentheses and no sign behind a sign", "
     CHECK(spelled(g, g.apply(Op::maximum, a, b)) == "select(a > b, a, b)");
 }
 
-TEST_CASE("sine and cosine of one angle are computed side by side", "[emit]")
-{
-    Graph g;
-    const NodeId a = g.add(g.input("a"), g.input("b"));
-    const NodeId sine = g.apply(Op::sin, a);
-    const NodeId other = g.apply(Op::exp, g.multiply(sine, sine));
-    const NodeId cosine = g.apply(Op::cos, a);
-    const NodeId outputs[] = {g.multiply(sine, other), cosine};
-    const BodyPlan plan = plan_body(g, outputs);
-    REQUIRE(plan.order.size() == 3);
-    CHECK(plan.order[0] == a);
-    CHECK(plan.order[1] == sine);
-    CHECK(plan.order[2] == cosine);
-}
-
 TEST_CASE("a long chain of single uses is cut into named terms", "[emit]")
 {
     Graph g;

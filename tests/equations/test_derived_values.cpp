@@ -1,56 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The derived formulas as numbers: against reference points that share no code with lagen.
 #include "equations/lagrange.hpp"
-#include "graph/evaluate.hpp"
-#include "graph/lower.hpp"
+#include "equations/numbers.hpp"
 #include "model/read_model.hpp"
 #include "support/reference_case.hpp"
 #include "support/tolerances.hpp"
 
 #include <catch2/catch.hpp>
 
-#include <cmath>
-
 using namespace lagen;
 
 namespace {
-
-using Values = std::map<std::string, double>;
-
-/// The value of a tree, its names replaced by numbers.
-class Numbers {
-  public:
-    explicit Numbers(Values values) : values_(std::move(values)) {}
-
-    double operator()(const Tree& tree)
-    {
-        const NodeId outputs[] = {lower_(tree)};
-        for (const NodeId input : graph_.inputs()) values_.try_emplace(graph_.input_name(input), std::nan(""));
-        return evaluate<double>(graph_, outputs, values_)[0];
-    }
-
-    double right(const Equation& equation)
-    {
-        double sum = 0;
-        for (const TermGroup& group : equation.groups) sum += (*this)(group.value);
-        return sum;
-    }
-
-    /// The largest absolute value among the groups and masses: the scale of rounding in an equation.
-    double scale(const Equation& equation, const Values& rates)
-    {
-        double largest = 1e-3;
-        for (const TermGroup& group : equation.groups) largest = std::max(largest, std::abs((*this)(group.value)));
-        for (const TermGroup& mass : equation.mass)
-            largest = std::max(largest, std::abs((*this)(mass.value) * rates.at(mass.label)));
-        return largest;
-    }
-
-  private:
-    Graph graph_;
-    Lowering lower_{graph_};
-    Values values_;
-};
 
 struct Point {
     Values values; ///< parameters, state and momenta

@@ -86,10 +86,9 @@ std::vector<Theme> read_themes()
     std::vector<Theme> themes;
     std::istringstream lines(testing::read_text(examples_folder() + "/themes.txt"));
     for (std::string line; std::getline(lines, line);) {
-        if (line.starts_with("# "))
-            themes.push_back({line.substr(2), {}});
-        else if (!line.empty() && !themes.empty())
-            themes.back().names.push_back(line);
+        if (line.starts_with("# ")) themes.push_back({line.substr(2), {}});
+        std::istringstream names(line.starts_with("# ") ? "" : line);
+        for (std::string name; names >> name && !themes.empty();) themes.back().names.push_back(name);
     }
     return themes;
 }

@@ -73,8 +73,7 @@ constexpr std::array guards{
 
 /// Messages for which no model is known.
 constexpr std::array without_model{
-    "' could not be derived: ",
-    "error: Lagrange's equations of model '",
+    "error: {} of model '{}' could not be derived: {}",
     "it could not be shown that the sections of the subbundle are linearly independent somewhere",
     "no convergence in 100 iterations",
     "the iterates are not finite",

@@ -50,7 +50,8 @@ Model with_parameters(const ReferenceCase& reference, const std::vector<std::str
             CHECK(std::find(absent.begin(), absent.end(), name) != absent.end());
             continue;
         }
-        model.parameter(static_cast<std::size_t>(place - Model::parameter_names.begin())) = decimal(value);
+        if constexpr (Model::parameter_names.size() > 0)
+            model.parameter(static_cast<std::size_t>(place - Model::parameter_names.begin())) = decimal(value);
     }
     return model;
 }

@@ -2,9 +2,13 @@
 /// Examples on Lie algebras and action algebroids.
 #include "examples/follow.hpp"
 
+#include "gyrostat.hpp"
+#include "heavy_top.hpp"
 #include "heavy_top_quaternion.hpp"
 #include "kirchhoff.hpp"
+#include "lagrange_top.hpp"
 #include "planar_body.hpp"
+#include "rigid_body.hpp"
 
 using namespace lagen;
 using examples::follow;
@@ -18,4 +22,22 @@ TEST_CASE("bodies in an ideal fluid follow the reference on se(2) and se(3)")
 TEST_CASE("the heavy top over the quaternions follows the reference")
 {
     follow<models::heavy_top_quaternion<double>>("heavy_top_quaternion");
+}
+
+TEST_CASE("the free rigid body follows the reference near its stable axes and off the unstable one")
+{
+    follow<models::rigid_body<double>>("rigid_body_near_axis1");
+    follow<models::rigid_body<double>>("rigid_body_near_axis3");
+    follow<models::rigid_body<double>>("rigid_body_unstable_axis");
+}
+
+TEST_CASE("the heavy top and Lagrange's top follow the reference")
+{
+    follow<models::heavy_top<double>>("heavy_top_asymmetric");
+    follow<models::lagrange_top<double>>("heavy_top_lagrange", {"I2", "e1", "e2", "e3"});
+}
+
+TEST_CASE("a body with a rotor follows the reference")
+{
+    follow<models::gyrostat<double>>("gyrostat");
 }

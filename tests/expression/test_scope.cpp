@@ -178,7 +178,7 @@ TEST_CASE("functions that are not smooth are refused where smoothness matters, a
     CHECK(closed(scope, "x + a") == "a:1:3: error: the function 'max' is not smooth\n"
                                     "  2*max(x, 0)\n"
                                     "    ^~~~~~~~~\n"
-                                    "hint: min, max, sign and if stand in observables and events only");
+                                    "hint: min, max, sign and if stand in forces, observables and events only");
     CHECK(closed(scope, "x + a", true) == "(add x (multiply 2 (max x 0)))");
     CHECK_THAT(closed(scope, "if(x > 0, 1, 2)"), Catch::Contains("the function 'if' is not smooth"));
     CHECK(closed(scope, "if(x > 0, 1, a)", true) == "(if (> x 0) 1 (multiply 2 (max x 0)))");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Bytes as a model file: read; where it reads, its scenes are evaluated, it is verified and its equations are derived.
 /// A model with many sections or large expressions is read only: deciding it may take its time.
-#include "equations/lagrange.hpp"
+#include "equations/derive.hpp"
 #include "fuzz/harness.hpp"
 #include "fuzz/small_budget.hpp"
 #include "geometry/verify.hpp"
@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::size_t largest_rank = 4;
 constexpr std::size_t largest_base = 6;
-constexpr std::size_t longest_text = 1000;     ///< of all expressions of the model together
-constexpr std::size_t longest_lagrangian = 60; ///< that is differentiated and simplified
+constexpr std::size_t longest_text = 1000;    ///< of all expressions of the model together
+constexpr std::size_t longest_mechanics = 60; ///< of what is differentiated and simplified
 
 /// Models name other files; those of the machine are none of a fuzzer's business.
 bool names_other_files(const std::string& text)
@@ -36,10 +36,24 @@ std::size_t written(const AlgebroidBlock& block)
     return length;
 }
 
+/// L, H, R, forces, sigma and cost.
+std::size_t written_mechanics(const Model& model)
+{
+    std::vector<Tree> trees = {model.lagrangian, model.hamiltonian, model.dissipation};
+    for (const ComponentEntry& entry : model.forces) trees.push_back(entry.value);
+    if (model.control) {
+        trees.push_back(model.control->cost);
+        for (const ComponentEntry& entry : model.control->sigma) trees.push_back(entry.value);
+    }
+    std::size_t length = 0;
+    for (const Tree& tree : trees)
+        if (tree) length += to_text(tree).size();
+    return length;
+}
+
 bool is_small(const Model& model)
 {
-    std::size_t length = written(model.algebroid);
-    if (model.lagrangian) length += to_text(model.lagrangian).size();
+    std::size_t length = written(model.algebroid) + written_mechanics(model);
     for (const Tree& constraint : model.base.constraints) length += to_text(constraint).size();
     for (const NamedTree& claim : model.invariants) length += to_text(claim.value).size();
     return model.fibre.coordinates.size() <= largest_rank && model.base.coordinates.size() <= largest_base &&
@@ -58,8 +72,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         if (!is_small(model)) return;
         const VerifiedAlgebroid verified = verify(model, {}, 2, small_budget);
         for (const Check& check : verified.checks) require_confirmed(check);
-        if (!model.lagrangian || to_text(model.lagrangian).size() > longest_lagrangian) return;
-        accepted([&] { static_cast<void>(derive_lagrange(model, verified.algebroid)); });
+        if (written_mechanics(model) > longest_mechanics) return;
+        for (const std::string& form : derived_forms())
+            accepted([&] { static_cast<void>(derive(form, model, verified)); });
     });
     return 0;
 }

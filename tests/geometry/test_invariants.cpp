@@ -1,27 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Conserved quantities along Lagrange's equations, proved and refuted.
-#include "geometry/checking.hpp"
-
-#include "expression/parse.hpp"
+#include "geometry/claim_statuses.hpp"
 
 #include <catch2/catch.hpp>
 
 using namespace lagen;
 
 namespace {
-
-/// The statuses of claims about a model, in their order, as "proved refuted ...".
-std::string statuses(const std::string& text, const std::vector<std::string>& claims)
-{
-    std::vector<NamedTree> extra;
-    for (const std::string& claim : claims)
-        extra.push_back({claim, parse_expression(whole_text("<claim>", claim)), {}});
-    const VerifiedAlgebroid verified = verified_text(text, extra);
-    std::string line;
-    for (const Check& check : verified.checks)
-        if (check.name == "invariant") line += (line.empty() ? "" : " ") + std::string(to_text(check.decision.status));
-    return line;
-}
 
 const std::string so3 = R"(
 [algebroid.bracket]

@@ -25,6 +25,7 @@
 
 #include "lagen/kernel.hpp"
 #include "lagen/linear.hpp"
+#include "lagen/sincos.hpp"
 
 #include <Eigen/Core>
 
@@ -122,15 +123,12 @@ class pendulum {
     static constexpr std::array<const char*, 2> tip_names = {"tip x", "tip y"};
     [[nodiscard]] Eigen::Matrix<S, 2, 1> tip([[maybe_unused]] S t, const State& s) const noexcept
     {
-        using std::cos;
-        using std::sin;
         const S th = s[0];
         const S l = parameters.l;
-        const S w0 = sin(th);
-        const S w1 = cos(th);
+        const auto [sin_th, cos_th] = sincos<S>(th);
         Eigen::Matrix<S, 2, 1> result;
-        result[0] = l * w0;
-        result[1] = l * w1;
+        result[0] = l * sin_th;
+        result[1] = l * cos_th;
         return result;
     }
 };

@@ -56,7 +56,8 @@ TEST_CASE("every C++ file and script names its licence in its first lines")
 TEST_CASE("no hand-written file is longer than 400 lines")
 {
     for (const SourceText& text : read_tree(hand_written())) {
-        if (text.path.starts_with("tests/golden/") || text.path == "docs/messages.md") continue; // generated
+        if (text.path.starts_with("tests/golden/") || text.path == "docs/messages.md" || text.path == "docs/gallery.md")
+            continue; // generated
         INFO(text.path << " has " << text.lines.size() << " lines");
         CHECK(text.lines.size() <= largest_allowed);
     }

@@ -9,13 +9,17 @@ TEST_CASE("the compiled kernels of every model agree with the interpreter in fou
 {
     std::vector<CompiledCase> cases;
     for (const std::string& file : model_files()) {
-        const KernelModule& module = kernels_of_file(file);
-        std::vector<Point> points;
-        for (unsigned seed = 1; seed < 4; ++seed) {
-            points.push_back(random_point(module, seed));
-            points.back()["t"] = 0.25;
+        for (const KernelModule& module : kernels_of_file(file)) {
+            // Second forms of large models would double the time and show nothing new.
+            const bool first = &module == &kernels_of_file(file).front();
+            if (!first && module.base.size() + module.fibre.size() > 8) continue;
+            std::vector<Point> points;
+            for (unsigned seed = 1; seed < (first ? 4 : 2); ++seed) {
+                points.push_back(random_point(module, seed));
+                points.back()["t"] = 0.25;
+            }
+            cases.push_back({module, std::move(points)});
         }
-        cases.push_back({module, std::move(points)});
     }
     REQUIRE(cases.size() >= 10);
     compare_compiled("models", "g++", cases, 2000);
@@ -25,7 +29,7 @@ TEST_CASE("the compiled kernels of every model agree with the interpreter in fou
 TEST_CASE("the header of a model is the same in a second generation", "[kernels]")
 {
     for (const std::string& file : model_files()) {
-        const std::string first = print_header(kernels_of_file(file));
+        const std::string first = print_header(kernels_of_file(file).front());
         CHECK(first.find("class ") != std::string::npos);
         CHECK(first == print_header(kernels_of(read_model(file))));
     }

@@ -4,8 +4,10 @@
 
 #include "graph/differentiate.hpp"
 #include "graph/evaluate.hpp"
-#include "kernels/lagrange_kernels.hpp"
+#include "graph/solve_unknowns.hpp"
+#include "kernels/form_kernels.hpp"
 #include "model/read_model.hpp"
+#include "model/scene_form.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -18,7 +20,7 @@ namespace lagen::testing {
 
 inline KernelModule kernels_of(const Model& model, const KernelRequest& request = {})
 {
-    return lagrange_kernels(model, verify(model), request);
+    return form_kernels(model, verify(model), request);
 }
 
 inline KernelModule kernels_of_text(const std::string& text)
@@ -45,17 +47,32 @@ using Values = std::map<std::string, double>;
 
 inline std::vector<double> values_of(const KernelModule& module, const std::string& kernel, const Values& point)
 {
-    return evaluate<double>(*module.graph, nodes_of(find_kernel(module, kernel)), point);
+    Values inputs = point;
+    solve_unknowns(*module.graph, module.implicit, inputs);
+    return evaluate<double>(*module.graph, nodes_of(find_kernel(module, kernel)), inputs);
 }
 
-/// Every input between 0.5 and 1.5, seeded.
+inline bool has_kernel(const KernelModule& module, const std::string& name)
+{
+    return std::ranges::any_of(module.kernels, [&](const Kernel& kernel) { return kernel.name == name; });
+}
+
+/// Every input between 0.5 and 1.5, seeded; smaller lanes where the right-hand side is not finite there.
 inline Values random_point(const KernelModule& module, unsigned seed)
 {
     std::mt19937 random(seed);
-    Values point;
-    for (const NodeId input : module.graph->inputs())
-        point[module.graph->input_name(input)] = 0.5 + static_cast<double>(random()) / 4294967295.0;
-    return point;
+    for (double scale = 1;; scale *= 0.9) {
+        REQUIRE(scale > 1e-3);
+        Values point;
+        for (const NodeId input : module.graph->inputs())
+            point[module.graph->input_name(input)] = 0.5 + static_cast<double>(random()) / 4294967295.0;
+        for (const auto* group : {&module.base, &module.fibre})
+            for (const Quantity& lane : *group) point[lane.name] *= scale;
+        bool finite = true;
+        if (has_kernel(module, "rhs"))
+            for (const double value : values_of(module, "rhs", point)) finite = finite && std::isfinite(value);
+        if (finite) return point;
+    }
 }
 
 /// The files of models/, sorted.
@@ -67,12 +84,21 @@ inline std::set<std::string> model_files()
     return files;
 }
 
-/// The kernels of a file of models/, derived once for all tests.
-inline const KernelModule& kernels_of_file(const std::string& file)
+/// The kernels of every form of a file of models/, derived once for all tests.
+inline const std::vector<KernelModule>& kernels_of_file(const std::string& file)
 {
-    static std::map<std::string, KernelModule> modules;
+    static std::map<std::string, std::vector<KernelModule>> modules;
     const auto found = modules.find(file);
-    return found != modules.end() ? found->second : modules.emplace(file, kernels_of(read_model(file))).first->second;
+    if (found != modules.end()) return found->second;
+    const Model model = read_model(file);
+    const VerifiedAlgebroid verified = verify(model);
+    std::vector<KernelModule> all;
+    for (const std::string& form : forms_of(model)) {
+        KernelRequest request;
+        request.form = form;
+        all.push_back(form_kernels(model, verified, request));
+    }
+    return modules.emplace(file, std::move(all)).first->second;
 }
 
 } // namespace lagen::testing

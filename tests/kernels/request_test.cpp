@@ -33,7 +33,7 @@ same = { when = "v_x" }
 std::string message_of(const Model& model, const VerifiedAlgebroid& verified, const KernelRequest& request)
 {
     try {
-        static_cast<void>(lagrange_kernels(model, verified, request));
+        static_cast<void>(form_kernels(model, verified, request));
     } catch (const Error& error) {
         return error.what();
     }
@@ -60,9 +60,9 @@ TEST_CASE("a kernel that does not exist is refused with the list of those that d
     KernelRequest request;
     request.only = {"enrgy"};
     CHECK(message_of(model, verify(model), request) ==
-          "error: there is no kernel 'enrgy'; there are rhs, mass_matrix, momentum, energy, lagrangian, constraints, "
-          "domain, "
-          "observables, invariants, events, jacobian\nhint: did you mean 'energy'?");
+          "error: there is no kernel 'enrgy'; there are rhs, jacobian, variational, mass_matrix, momentum, velocity, "
+          "controls, energy, power, hamiltonian, lagrangian, cost, constraints, domain, observables, invariants, "
+          "lagrangian_hessian, hamiltonian_hessian, events\nhint: did you mean 'energy'?");
 }
 
 TEST_CASE("events of all scenes are distinct, those of one scene bear their own names", "[kernels]")

@@ -218,6 +218,26 @@ TEST_CASE("a key names a symbol, an entry or a whole family")
     CHECK(lagen::declared_names(symbols) == Texts{"m", "mass", "c", "W", "I"});
 }
 
+TEST_CASE("a vector in the domain is compared entry by entry, with a scalar or a vector of its shape")
+{
+    const auto domain_of = [](const std::string& condition) {
+        const Model model =
+            lagen::read_model_text("test.toml", "[parameters]\n\"m[1..2]\" = 1\n\"k[1..3]\" = 0\n[base]\n"
+                                                "coordinates = [\"x[1..2]\"]\ndomain = [\"" +
+                                                    condition +
+                                                    "\"]\n[algebroid]\nkind = \"tangent\"\n[lagrangian]"
+                                                    "\nL = \"dot(v_x, v_x)/2\"\n");
+        Texts texts;
+        for (const lagen::Tree& tree : model.base.domain) texts.push_back(lagen::to_text(tree));
+        return texts;
+    };
+    CHECK(domain_of("m > 0") == Texts{"m[1] > 0", "m[2] > 0"});
+    CHECK(domain_of("1 != x") == Texts{"1 != x[1]", "1 != x[2]"});
+    CHECK(domain_of("x < 2*m") == Texts{"x[1] < 2*m[1]", "x[2] < 2*m[2]"});
+    CHECK(domain_of("dot(x, m) < 1") == Texts{"x[1]*m[1] + x[2]*m[2] < 1"});
+    CHECK_THROWS_WITH(domain_of("k > x"), Catch::StartsWith("test.toml:6:12: error: a vector of 3 is compared"));
+}
+
 TEST_CASE("a family of 4096 parameters is read in a moment, and 200 scenes that give it values as well")
 {
     std::string text = "name = 'm'\n[parameters]\n'k[1..4096]' = 1\n[base]\ncoordinates = ['x']\n[algebroid]\nkind = "

@@ -67,6 +67,7 @@ b = { y = "y" }
 L = "(a^2+b^2)/2"
 
 [scene.default]
+observe = ["x", "y", "a", "b"]
 initial = { x = "-0.4", y = "0.8", a = "0.7", b = "1.1" }
 start = "0"
 duration = "5 - (0)"

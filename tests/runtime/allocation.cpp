@@ -59,9 +59,15 @@ TEST_CASE("A longer run allocates no more than a short one")
     check(Dopri5{});
     check(Tsit5{});
     check(Dop853{});
+    check(Gauss2{.step = 0.01});
+    check(Gauss8{.step = 0.01});
+    check(Radau5Fixed{.step = 0.01});
+    check(Radau5{});
     const std::size_t before = allocations;
     const auto plain = integrate(Pendulum{}, Pendulum::State(1, 0), {0.0, 100.0}, Dop853{});
+    const auto implicit = integrate(Pendulum{}, Pendulum::State(1, 0), {0.0, 100.0}, Gauss8{.step = 0.1});
     CHECK(plain.steps > 50);
+    CHECK(implicit.steps == 1000);
     CHECK(allocations == before);
 }
 

@@ -43,6 +43,11 @@ struct Bare {
     }
 };
 
+struct WithJacobian : Bare {
+    static constexpr std::array<int, 1> jacobian_rows{0}, jacobian_columns{0};
+    void jacobian_values(double, const State&, std::array<double, 1>& values) const noexcept { values = {0}; }
+};
+
 std::string slurp(const std::filesystem::path& path)
 {
     std::ifstream file(path, std::ios::binary);
@@ -103,6 +108,16 @@ TEST_CASE("The driver writes rows and a report")
     CHECK(run.out == "0,0.5\n0.5,1\n1,1.5\n");
     CHECK(without_seconds(run.report) ==
           "status=ok\nt=1\nfailed_at=1\nsteps=4\nrejected=0\nrhs_calls=16\nrows=3\nstate=1.5\n");
+}
+
+TEST_CASE("The report of an implicit method says what its calls were spent on")
+{
+    // Two Newton iterations for the first step, one to confirm the prediction of each other one.
+    const auto run =
+        drive_with<WithJacobian, Gauss2>({"--initial", "0.5", "--end", "1", "--step", "0.25", "--samples", "3"});
+    CHECK(run.code == 0);
+    CHECK(without_seconds(run.report) == "status=ok\nt=1\nfailed_at=1\nsteps=4\nrejected=0\nrhs_calls=5\nnewton=5\n"
+                                         "decompositions=4\nrows=3\nstate=1.5\n");
 }
 
 TEST_CASE("The driver reports events, energy, invariants and constraints, and picks columns")

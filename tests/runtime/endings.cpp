@@ -21,6 +21,11 @@ struct Infall {
         ds[1] = -1 / (s[0] * s[0]);
         return Status::ok;
     }
+    static constexpr std::array<int, 2> jacobian_rows{0, 1}, jacobian_columns{1, 0};
+    void jacobian_values(double, const State& s, std::array<double, 2>& values) const noexcept
+    {
+        values = {1, 2 / (s[0] * s[0] * s[0])};
+    }
 };
 
 /// x' = rate x.
@@ -34,6 +39,8 @@ struct Growth {
         ds[0] = rate * s[0];
         return Status::ok;
     }
+    static constexpr std::array<int, 1> jacobian_rows{0}, jacobian_columns{0};
+    void jacobian_values(double, const State&, std::array<double, 1>& values) const noexcept { values = {rate}; }
 };
 
 } // namespace
@@ -54,6 +61,7 @@ TEST_CASE("An infall that no step resolves ends as step_too_small, an overflow a
         check(Dopri5{.tolerance = tolerance});
         check(Tsit5{.tolerance = tolerance});
         check(Dop853{.tolerance = tolerance});
+        check(Radau5{.tolerance = tolerance});
     }
 }
 
@@ -70,4 +78,11 @@ TEST_CASE("A fixed step that diverges ends as non_finite at the first state that
     // |1 + z + .. | at z = -100: 99 for Euler, 4001 for the midpoint rule + 900, and so on: log 1.8e308 / log of it.
     check(Euler{.step = 1}, static_cast<std::size_t>(308.2547 / std::log10(99.0)));
     check(Midpoint{.step = 1}, static_cast<std::size_t>(308.2547 / std::log10(4901.0)));
+    // Implicit methods damp it.
+    const auto damped = integrate(Growth{.rate = -100}, Growth::State(1.0), {0.0, 1000.0}, Gauss2{.step = 1});
+    CHECK(damped.status() == Status::ok);
+    CHECK_THAT(std::abs(damped.state[0]), Catch::WithinRel(std::pow(49.0 / 51.0, 1000), 1e-9));
+    const auto over = integrate(Growth{}, Growth::State(1.0), {0.0, 1000.0}, Gauss4{.step = 0.25});
+    CHECK(over.status() == Status::non_finite);
+    CHECK_THAT(over.t, Catch::WithinAbs(709.75, 0.5));
 }

@@ -56,6 +56,11 @@ TEST_CASE("Crossings of the pendulum are found to 1e-12 with every dense output"
     check(Tsit5{.tolerance = 1e-14, .max_step = 1e-3}, 1e-12);
     check(Yoshida6{.step = 0.005}, 1e-12);
     check(Rk4{.step = 0.0005}, 1e-12);
+    check(Gauss2{.step = 2e-5}, 1e-9);
+    check(Gauss6{.step = 0.02}, 1e-12);
+    check(Gauss8{.step = 0.1}, 1e-12);
+    check(Radau5Fixed{.step = 0.002}, 1e-12);
+    check(Radau5{.tolerance = 1e-13, .max_step = 1e-3}, 1e-12);
 }
 
 TEST_CASE("Direction and count choose crossings; stop ends the run there")

@@ -6,6 +6,7 @@
 #include "emit/print_header.hpp"
 #include "golden.hpp"
 #include "graph/evaluate.hpp"
+#include "graph/solve_unknowns.hpp"
 
 #include <fmt/format.h>
 
@@ -116,7 +117,9 @@ inline std::vector<double> expected_values(const std::vector<CompiledCase>& case
             for (const Kernel& kernel : one.module.kernels) {
                 std::vector<NodeId> nodes;
                 for (const KernelEntry& entry : kernel.output.entries) nodes.push_back(entry.node);
-                for (const double value : evaluate<double>(*one.module.graph, nodes, point)) values.push_back(value);
+                Point inputs = point;
+                solve_unknowns(*one.module.graph, one.module.implicit, inputs);
+                for (const double value : evaluate<double>(*one.module.graph, nodes, inputs)) values.push_back(value);
             }
     return values;
 }

@@ -4,6 +4,7 @@
 
 #include "lagen/kernel.hpp"
 
+#include <array>
 #include <cmath>
 
 namespace lagen::problems {
@@ -25,6 +26,16 @@ struct Kepler {
         ds[2] = -x / cube;
         ds[3] = -y / cube;
         return StatusOf<S>::good();
+    }
+
+    static constexpr std::array<int, 6> jacobian_rows{0, 1, 2, 2, 3, 3}, jacobian_columns{2, 3, 0, 1, 0, 1};
+    void jacobian_values(S, const State& s, std::array<S, 6>& values) const noexcept
+    {
+        using std::sqrt;
+        const S x = s[0], y = s[1], square = x * x + y * y, cube = square * sqrt(square), fifth = cube * square;
+        const S mixed = S(3) * x * y / fifth;
+        values = {S(1),  S(1),  S(S(3) * x * x / fifth - S(1) / cube),
+                  mixed, mixed, S(S(3) * y * y / fifth - S(1) / cube)};
     }
 
     S energy(S, const State& s) const noexcept
@@ -62,6 +73,12 @@ struct Pendulum {
         ds[1] = -sin(th);
         return StatusOf<S>::good();
     }
+    static constexpr std::array<int, 2> jacobian_rows{0, 1}, jacobian_columns{1, 0};
+    void jacobian_values(S, const State& s, std::array<S, 2>& values) const noexcept
+    {
+        using std::cos;
+        values = {S(1), S(-cos(s[0]))};
+    }
     Eigen::Matrix<S, 2, 1> events(S, const State& s) const noexcept { return s; }
     S energy(S, const State& s) const noexcept
     {
@@ -84,6 +101,11 @@ struct LotkaVolterra {
         ds[1] = v * (S(1) - u);
         return StatusOf<S>::good();
     }
+    static constexpr std::array<int, 4> jacobian_rows{0, 0, 1, 1}, jacobian_columns{0, 1, 0, 1};
+    void jacobian_values(S, const State& s, std::array<S, 4>& values) const noexcept
+    {
+        values = {S(s[1] - S(2)), s[0], S(-s[1]), S(S(1) - s[0])};
+    }
 };
 
 /// Free rigid body in momenta, moments of inertia (2, 1, 2/3); Pi' = Pi x (Pi / I).
@@ -100,6 +122,84 @@ struct RigidBody {
         ds[1] = c * u - a * w;
         ds[2] = a * v - b * u;
         return StatusOf<S>::good();
+    }
+    static constexpr std::array<int, 6> jacobian_rows{0, 0, 1, 1, 2, 2}, jacobian_columns{1, 2, 0, 2, 0, 1};
+    void jacobian_values(S, const State& s, std::array<S, 6>& values) const noexcept
+    {
+        const S a = s[0], b = s[1], c = s[2];
+        values = {S(c / S(2)), S(b / S(2)), S(-c), S(-a), S(b / S(2)), S(a / S(2))};
+    }
+};
+
+/// Van der Pol's equation, x' = y, epsilon y' = (1 - x^2) y - x.
+template <class S>
+struct VanDerPol {
+    using Scalar = S;
+    using State = Eigen::Matrix<S, 2, 1>;
+    static constexpr int dimension = 2;
+    S epsilon = S(1) / S(1000000);
+
+    status_t<S> rhs(S, const State& s, State& ds) const noexcept
+    {
+        const S x = s[0], y = s[1];
+        ds[0] = y;
+        ds[1] = ((S(1) - x * x) * y - x) / epsilon;
+        return StatusOf<S>::good();
+    }
+    static constexpr std::array<int, 3> jacobian_rows{0, 1, 1}, jacobian_columns{1, 0, 1};
+    void jacobian_values(S, const State& s, std::array<S, 3>& values) const noexcept
+    {
+        const S x = s[0], y = s[1];
+        values = {S(1), S((S(-2) * x * y - S(1)) / epsilon), S((S(1) - x * x) / epsilon)};
+    }
+};
+
+/// Robertson's reaction A -> B (0.04), 2 B -> B + C (3e7), B + C -> A + C (1e4).
+template <class S>
+struct Robertson {
+    using Scalar = S;
+    using State = Eigen::Matrix<S, 3, 1>;
+    static constexpr int dimension = 3;
+
+    status_t<S> rhs(S, const State& s, State& ds) const noexcept
+    {
+        const S a = s[0], b = s[1], c = s[2];
+        const S first = a / S(25), second = S(30000000) * b * b, third = S(10000) * b * c;
+        ds[0] = third - first;
+        ds[1] = first - second - third;
+        ds[2] = second;
+        return StatusOf<S>::good();
+    }
+    static constexpr std::array<int, 7> jacobian_rows{0, 0, 0, 1, 1, 1, 2}, jacobian_columns{0, 1, 2, 0, 1, 2, 1};
+    void jacobian_values(S, const State& s, std::array<S, 7>& values) const noexcept
+    {
+        const S b = s[1], c = s[2], rate = S(1) / S(25), second = S(60000000) * b, in_b = S(10000) * c,
+                in_c = S(10000) * b;
+        values = {S(-rate), in_b, in_c, rate, S(-second - in_b), S(-in_c), second};
+    }
+};
+
+/// Prothero and Robinson's equation y' = lambda (y - g(t)) + g'(t), g = sin(t + 1/4): y = g, whatever lambda; the error
+/// of a method shows what its stages make of it.
+template <class S>
+struct ProtheroRobinson {
+    using Scalar = S;
+    using State = Eigen::Matrix<S, 1, 1>;
+    static constexpr int dimension = 1;
+    S lambda = S(-1000000);
+
+    status_t<S> rhs(S t, const State& s, State& ds) const noexcept
+    {
+        using std::cos;
+        ds[0] = lambda * (s[0] - exact(t)) + cos(t + S(1) / S(4));
+        return StatusOf<S>::good();
+    }
+    static constexpr std::array<int, 1> jacobian_rows{0}, jacobian_columns{0};
+    void jacobian_values(S, const State&, std::array<S, 1>& values) const noexcept { values = {lambda}; }
+    static S exact(S t)
+    {
+        using std::sin;
+        return sin(t + S(1) / S(4));
     }
 };
 

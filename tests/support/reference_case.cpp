@@ -48,10 +48,10 @@ ReferenceCase read_case(const json::Value& file)
     reference.t_end = file["t_end"].text;
     reference.initial = file["initial_state"].texts();
     for (const json::Value& sample : file["samples"].entries)
-        reference.samples.push_back({sample["t"].text, sample["state"].texts()});
+        reference.samples.push_back({sample["t"].text, sample["state"].texts(), {}});
     for (const json::Value& point : file["points"].entries)
-        reference.points.push_back(
-            {point["state"].texts(), point["state_dot"].texts(), point["momenta"].texts(), point["energy"].text});
+        reference.points.push_back({point["state"].texts(), point["state_dot"].texts(), point["momenta"].texts(),
+                                    point["energy"].text, point["momenta_dot"].texts()});
     return reference;
 }
 
@@ -119,11 +119,28 @@ void write_algebroid(std::ostringstream& out, const ReferenceCase& reference)
     out << '\n';
 }
 
+/// [control], where the case is a control problem.
+void write_control(std::ostringstream& out, const ReferenceCase& reference)
+{
+    if (reference.controls.empty()) return;
+    out << "[control]\ncontrols = " << name_list(reference.controls) << "\ncost = \"" << reference.cost << "\"\n";
+    std::vector<std::pair<std::string, std::string>> sigma;
+    for (std::size_t a = 0; a < reference.fibre.size(); ++a)
+        if (reference.sigma.at(a) != "0") sigma.emplace_back(reference.fibre[a], reference.sigma[a]);
+    write_entries(out, "sigma", sigma);
+    out << '\n';
+}
+
+/// All states of the case are observed, so that every form of the equations gives the same columns.
 void write_scene(std::ostringstream& out, const ReferenceCase& reference)
 {
     out << "[scene.default]\n";
     std::vector<std::string> names = reference.base;
-    names.insert(names.end(), reference.fibre.begin(), reference.fibre.end());
+    const std::vector<std::string>& others = reference.controls.empty() ? reference.fibre : reference.momenta;
+    names.insert(names.end(), others.begin(), others.end());
+    std::vector<std::string> observed = names;
+    observed.insert(observed.end(), reference.controls.begin(), reference.controls.end());
+    out << "observe = " << name_list(observed) << '\n';
     std::vector<std::pair<std::string, std::string>> initial;
     for (std::size_t k = 0; k < names.size(); ++k) initial.emplace_back(names[k], reference.initial.at(k));
     write_entries(out, "initial", initial);
@@ -148,9 +165,12 @@ std::string model_text(const ReferenceCase& reference)
     out << "name = \"" << reference.name << "\"\n\n[parameters]\n";
     for (const auto& [name, value] : reference.parameters) out << name << " = \"" << value << "\"\n";
     if (!reference.base.empty()) out << "\n[base]\ncoordinates = " << name_list(reference.base) << '\n';
-    out << "\n[fibre]\ncoordinates = " << name_list(reference.fibre) << "\n\n";
+    out << "\n[fibre]\ncoordinates = " << name_list(reference.fibre) << '\n';
+    if (!reference.momenta.empty()) out << "momenta = " << name_list(reference.momenta) << '\n';
+    out << '\n';
     write_algebroid(out, reference);
     if (!reference.lagrangian.empty()) out << "[lagrangian]\nL = \"" << reference.lagrangian << "\"\n\n";
+    write_control(out, reference);
     if (!reference.initial.empty()) write_scene(out, reference);
     return out.str();
 }
@@ -161,6 +181,39 @@ std::vector<ReferenceDefinition> read_reference_definitions()
     const json::Value file = json::read_file((data_folder / "definitions" / "definitions.json").string());
     for (const json::Value& entry : file.entries) definitions.push_back(read_definition(entry));
     return definitions;
+}
+
+std::vector<ReferenceCase> read_control_cases()
+{
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(data_folder / "bvp")) files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    std::vector<ReferenceCase> cases;
+    for (const fs::path& path : files) {
+        const json::Value file = json::read_file(path.string());
+        const json::Value& model = file["model"];
+        ReferenceCase reference;
+        reference.name = file["name"].text;
+        reference.description = file["description"].text;
+        reference.base = model["base"].texts();
+        reference.momenta = model["momenta"].texts();
+        for (const std::string& momentum : reference.momenta) reference.fibre.push_back("y_" + momentum);
+        reference.rho = read_rows(model["rho"]);
+        reference.brackets = read_brackets(model["C"]);
+        reference.controls = model["controls"].texts();
+        reference.sigma = model["sigma"].texts();
+        reference.cost = model["cost"].text;
+        reference.hamiltonian = file["invariants"][0]["value"].text;
+        for (const std::string& name : model["parameters"].texts())
+            reference.parameters.emplace_back(name, file["parameters"][name].text);
+        for (const json::Value& sample : file["samples"].entries)
+            reference.samples.push_back({sample["t"].text, sample["state"].texts(), sample["u"].texts()});
+        reference.t0 = reference.samples.front().t;
+        reference.t_end = reference.samples.back().t;
+        reference.initial = reference.samples.front().state;
+        cases.push_back(std::move(reference));
+    }
+    return cases;
 }
 
 std::vector<ReferenceCase> read_morphism_algebroids()

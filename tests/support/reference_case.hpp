@@ -21,11 +21,13 @@ struct ReferencePoint {
     std::vector<std::string> state_dot; ///< same order
     std::vector<std::string> momenta;   ///< p_a = dL/dy^a, shape (r)
     std::string energy;
+    std::vector<std::string> momenta_dot; ///< dp_a/dt = rho_a(L) - p_c C^c_ab y^b, shape (r)
 };
 
 struct ReferenceSample {
     std::string t;
     std::vector<std::string> state;
+    std::vector<std::string> controls; ///< of control problems
 };
 
 struct ReferenceCase {
@@ -35,7 +37,12 @@ struct ReferenceCase {
     std::vector<std::string> fibre;
     std::vector<std::vector<std::string>> rho; ///< rho[i][a] = rho^i_a, shape (n, r)
     std::vector<ReferenceBracket> brackets;
-    std::string lagrangian; ///< empty where there is none
+    std::string lagrangian;            ///< empty where there is none
+    std::vector<std::string> momenta;  ///< names; empty: those of the model
+    std::vector<std::string> controls; ///< of a control problem, else empty
+    std::vector<std::string> sigma;    ///< sigma^a, shape (r)
+    std::string cost;
+    std::string hamiltonian; ///< of a control problem: its value along the extremal
     std::vector<std::pair<std::string, std::string>> parameters;
     std::string t0, t_end;
     std::vector<std::string> initial; ///< base, then fibre
@@ -45,6 +52,9 @@ struct ReferenceCase {
 
 /// Every case of tests/data/continuous, sorted by name.
 [[nodiscard]] std::vector<ReferenceCase> read_reference_cases();
+
+/// Every control problem of tests/data/bvp, sorted by name: state (x, mu), started from the known initial costates.
+[[nodiscard]] std::vector<ReferenceCase> read_control_cases();
 
 /// The case as a model file of kind `general`, with its start as the scene `default`.
 [[nodiscard]] std::string model_text(const ReferenceCase& reference);

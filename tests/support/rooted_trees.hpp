@@ -49,11 +49,11 @@ inline std::vector<RootedTree> rooted_trees(std::size_t order)
     return list;
 }
 
-/// Largest |sum_i weights_i Phi_i(t) - theta^order / gamma(t)| over the trees of order `from` to `to`; a(i, j) by rows
-/// of the strict lower triangle.
+/// Largest |sum_i weights_i Phi_i(t) - theta^order / gamma(t)| over the trees of order `from` to `to`; the rows of the
+/// method's matrix may end before the zeros at their end.
 template <class Number>
-Number worst_residual(const std::vector<Number>& a, const std::vector<Number>& weights, std::size_t from,
-                      std::size_t to, const Number& theta = Number(1))
+Number worst_residual(const std::vector<std::vector<Number>>& rows, const std::vector<Number>& weights,
+                      std::size_t from, std::size_t to, const Number& theta = Number(1))
 {
     const std::vector<RootedTree> trees = rooted_trees(to);
     const std::size_t stages = weights.size();
@@ -64,7 +64,7 @@ Number worst_residual(const std::vector<Number>& a, const std::vector<Number>& w
         for (std::size_t i = 0; i < stages; ++i) {
             for (std::size_t child : trees[t].children) {
                 Number inner = Number(0);
-                for (std::size_t j = 0; j < i; ++j) inner += a[i * (i - 1) / 2 + j] * phi[child][j];
+                for (std::size_t j = 0; j < rows[i].size(); ++j) inner += rows[i][j] * phi[child][j];
                 phi[t][i] *= inner;
             }
             sum += weights[i] * phi[t][i];
@@ -75,6 +75,17 @@ Number worst_residual(const std::vector<Number>& a, const std::vector<Number>& w
         if (trees[t].order >= from && residual > worst) worst = residual;
     }
     return worst;
+}
+
+/// The same for an explicit method: a(i, j) by rows of the strict lower triangle.
+template <class Number>
+Number worst_residual(const std::vector<Number>& a, const std::vector<Number>& weights, std::size_t from,
+                      std::size_t to, const Number& theta = Number(1))
+{
+    std::vector<std::vector<Number>> rows(weights.size());
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j) rows[i].push_back(a[i * (i - 1) / 2 + j]);
+    return worst_residual(rows, weights, from, to, theta);
 }
 
 } // namespace lagen::support

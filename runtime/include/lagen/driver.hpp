@@ -31,9 +31,9 @@
 ///   status=ok             as to_text(Status)
 ///   t=10                  time of the last good state
 ///   failed_at=10          time at which the run met what ended it; the same as t where nothing failed
-///   steps=  rejected=  rhs_calls=  rows=  seconds=
-///   event=NAME@T          one line an event found, in the order of the run
-///   [energy=INITIAL,MAX_DRIFT]  [invariant:NAME=INITIAL,MAX_DRIFT]  [constraints=MAX]   max |value - initial|, max
+///   steps=  rejected=  rhs_calls=  [newton=  decompositions=]  rows=  seconds=      those in brackets of implicit
+///   methods event=NAME@T          one line an event found, in the order of the run [energy= or
+///   hamiltonian=INITIAL,MAX_DRIFT]  [invariant:NAME=INITIAL,MAX_DRIFT]  [constraints=MAX]   max |value - initial|, max
 ///   |constraint|
 ///                         over all accepted steps
 ///   state=v,v,..          the last good state
@@ -210,7 +210,10 @@ std::string report_text(const DrivePlan<M>& plan, const Run<M>& run, const Drive
     std::string text = std::string("status=") + to_text(run.status()) + '\n';
     text += "t=" + number_text(run.t) + "\nfailed_at=" + number_text(run.failed_at) + '\n';
     text += "steps=" + std::to_string(run.steps) + "\nrejected=" + std::to_string(run.rejected) + '\n';
-    text += "rhs_calls=" + std::to_string(run.rhs_calls) + "\nrows=" + std::to_string(record.rows()) + '\n';
+    text += "rhs_calls=" + std::to_string(run.rhs_calls) + '\n';
+    if (run.newton_iterations != 0) text += "newton=" + std::to_string(run.newton_iterations) + '\n';
+    if (run.decompositions != 0) text += "decompositions=" + std::to_string(run.decompositions) + '\n';
+    text += "rows=" + std::to_string(record.rows()) + '\n';
     text += "seconds=" + number_text(seconds) + '\n';
     for (const auto& found : run.events)
         text += "event=" + plan.event_names[found.request] + '@' + number_text(found.t) + '\n';

@@ -7,7 +7,9 @@
 #include "lagen/integrate/dop853.hpp"
 #include "lagen/integrate/dopri5.hpp"
 #include "lagen/integrate/fixed_step.hpp"
+#include "lagen/integrate/gauss.hpp"
 #include "lagen/integrate/march.hpp"
+#include "lagen/integrate/radau5.hpp"
 #include "lagen/integrate/run.hpp"
 #include "lagen/integrate/symplectic.hpp"
 #include "lagen/integrate/tsit5.hpp"
@@ -26,10 +28,10 @@ namespace lagen {
 /// there
 ///                 instead of into the result
 /// @return the last good state, what was counted and found, and a status. Statuses: ok, stopped_by_event, non_finite,
-///         step_too_small, too_many_steps, left_domain, interrupted, invalid_input, not_separable, and what the model
-///         answers (singular_mass_matrix). On failure the state is the one after the last accepted step; on left_domain
-///         the last point found inside. Values inside a step come from the method's dense output, or from a shorter
-///         step of the same method, so the sequence of steps does not depend on the rows.
+///         step_too_small, too_many_steps, left_domain, interrupted, invalid_input, not_separable, newton_diverged,
+///         and what the model answers (singular_mass_matrix). On failure the state is the one after the last accepted
+///         step; on left_domain the last point found inside. Values inside a step come from the method's dense output,
+///         or from a shorter step of the same method, so the sequence of steps does not depend on the rows.
 template <RightHandSide M, class Method, class Observer>
 Run<M> integrate(const M& model, const std::type_identity_t<typename M::State>& s,
                  std::type_identity_t<Interval<real_t<typename M::Scalar>>> span, const Method& method,

@@ -85,6 +85,16 @@ concept HasEnergy = requires(const M& model, typename M::Scalar t, const typenam
     noexcept->std::convertible_to<typename M::Scalar>;
 };
 
+/// Of Pontryagin's form, where the Hamiltonian is no energy.
+template <class M>
+concept HasHamiltonian = requires(const M& model, typename M::Scalar t, const typename M::State& s)
+{
+    {
+        model.hamiltonian(t, s)
+    }
+    noexcept->std::convertible_to<typename M::Scalar>;
+};
+
 template <class M>
 concept HasEvents = requires(const M& model, typename M::Scalar t, const typename M::State& s)
 {

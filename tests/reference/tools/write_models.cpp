@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// write_models FOLDER: every case of tests/data/continuous as FOLDER/NAME.toml, for scripts/reference-table.
+/// write_models FOLDER: every case of tests/data/continuous and tests/data/bvp as FOLDER/NAME.toml, for
+/// scripts/reference-table.
 #include "support/reference_case.hpp"
 
 #include <fstream>
@@ -11,7 +12,9 @@ int main(int argc, char** argv)
         std::cerr << "usage: write_models FOLDER\n";
         return 4;
     }
-    for (const lagen::ReferenceCase& reference : lagen::read_reference_cases()) {
+    std::vector<lagen::ReferenceCase> cases = lagen::read_reference_cases();
+    for (lagen::ReferenceCase& problem : lagen::read_control_cases()) cases.push_back(std::move(problem));
+    for (const lagen::ReferenceCase& reference : cases) {
         std::ofstream file(std::string(argv[1]) + "/" + reference.name + ".toml");
         file << lagen::model_text(reference);
         if (!file.flush()) {

@@ -54,7 +54,10 @@ class DriveRecord {
     DriveRecord(const M& model, std::vector<Column> columns, bool binary, std::FILE* out)
         : model_(model), columns_(std::move(columns)), binary_(binary), out_(out)
     {
-        if constexpr (HasEnergy<M>) drifts_.push_back({"energy"});
+        if constexpr (HasEnergy<M>)
+            drifts_.push_back({"energy"});
+        else if constexpr (HasHamiltonian<M>)
+            drifts_.push_back({"hamiltonian"});
         if constexpr (requires { M::invariants_names; })
             for (const char* name : M::invariants_names) drifts_.push_back({std::string("invariant:") + name});
     }
@@ -77,7 +80,10 @@ class DriveRecord {
     void operator()(double t, const State& s)
     {
         std::size_t next = 0;
-        if constexpr (HasEnergy<M>) drifts_[next++].see(static_cast<double>(model_.energy(t, s)));
+        if constexpr (HasEnergy<M>)
+            drifts_[next++].see(static_cast<double>(model_.energy(t, s)));
+        else if constexpr (HasHamiltonian<M>)
+            drifts_[next++].see(static_cast<double>(model_.hamiltonian(t, s)));
         if constexpr (requires { M::invariants_names; }) {
             const auto values = model_.invariants(t, s);
             for (Eigen::Index i = 0; i < values.size(); ++i) drifts_[next++].see(static_cast<double>(values[i]));

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: MIT
 /// Pack<T, N>: N lanes of T on the compiler's vector extension (g++, clang), a scalar for generated models and
 /// fixed-step methods: N trajectories at once. N is a power of two. Comparisons answer a Mask, `select` chooses a lane,
-/// a kernel answers a status a lane. Elementary functions are libm's, a lane at a time.
+/// a kernel answers a status a lane. sincos and square roots work on all lanes at once; the other elementary functions
+/// are libm's, a lane at a time. A lane gets the bits that its scalar gets.
 #pragma once
 
 #include "lagen/kernel.hpp"
+#include "lagen/roots.hpp"
+#include "lagen/sincos.hpp"
 
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 
 namespace lagen {
@@ -158,6 +162,32 @@ template <class T, int N, class Function>
 
 } // namespace detail
 
+/// All lanes at once.
+template <class T, int N>
+struct SinCosOf<Pack<T, N>> {
+    [[nodiscard]] static SineCosine<Pack<T, N>> compute(const Pack<T, N>& x) noexcept
+    {
+        std::array<T, static_cast<std::size_t>(N)> angles;
+        std::memcpy(&angles, &x.lanes, sizeof angles);
+        const auto [sines, cosines] = sincos(angles);
+        SineCosine<Pack<T, N>> result;
+        std::memcpy(&result.sine.lanes, &sines, sizeof sines);
+        std::memcpy(&result.cosine.lanes, &cosines, sizeof cosines);
+        return result;
+    }
+};
+
+template <class T, int N>
+[[nodiscard]] Pack<T, N> sqrt(const Pack<T, N>& a) noexcept
+{
+    std::array<T, static_cast<std::size_t>(N)> lanes;
+    std::memcpy(&lanes, &a.lanes, sizeof lanes);
+    lanes = square_roots(lanes);
+    Pack<T, N> result;
+    std::memcpy(&result.lanes, &lanes, sizeof lanes);
+    return result;
+}
+
 // clang-format off
 #define LAGEN_PACK_FUNCTION(name) \
     template <class T, int N> [[nodiscard]] Pack<T, N> name(const Pack<T, N>& a) noexcept \
@@ -165,7 +195,7 @@ template <class T, int N, class Function>
 LAGEN_PACK_FUNCTION(sin) LAGEN_PACK_FUNCTION(cos) LAGEN_PACK_FUNCTION(tan)
 LAGEN_PACK_FUNCTION(asin) LAGEN_PACK_FUNCTION(acos) LAGEN_PACK_FUNCTION(atan)
 LAGEN_PACK_FUNCTION(sinh) LAGEN_PACK_FUNCTION(cosh) LAGEN_PACK_FUNCTION(tanh)
-LAGEN_PACK_FUNCTION(exp) LAGEN_PACK_FUNCTION(log) LAGEN_PACK_FUNCTION(sqrt)
+LAGEN_PACK_FUNCTION(exp) LAGEN_PACK_FUNCTION(log)
 LAGEN_PACK_FUNCTION(abs) LAGEN_PACK_FUNCTION(fabs)
 #undef LAGEN_PACK_FUNCTION
     // clang-format on

@@ -5,7 +5,9 @@
 ///   finish(model, t1, s1), accept()           the derivative at the end where it is needed; then the step counts
 ///   interpolate(model, t, s, h, s1, theta, out)   a value inside the last attempted step
 ///   calls()                                   of the right-hand side so far
-/// Nothing in a step allocates; rows, and lists of events found, grow outside of it.
+/// Adaptive ones may choose their steps themselves: after_accepted(h, error), after_rejected(h, error),
+/// after_failure(h). Implicit ones count newton_iterations() and decompositions(). Nothing in a step allocates; rows,
+/// and lists of events found, grow outside of it.
 #pragma once
 
 #include "lagen/integrate/control.hpp"
@@ -27,6 +29,7 @@ class March {
     static Real epsilon() noexcept { return std::numeric_limits<Real>::epsilon(); }
     /// Adaptive steps are long and their interpolants cheap: events are looked for in four pieces of each.
     static constexpr int pieces = Stepper::adaptive ? 4 : 1;
+    static constexpr bool chooses_lengths = requires(Stepper stepper, Real h) { stepper.after_failure(h); };
 
     March(const M& model, const State& s, Interval<Real> span, const Method& method, const Options<M>& options,
           Observer& observer)
@@ -46,6 +49,10 @@ class March {
         run_.t = t_;
         run_.state = s_;
         run_.rhs_calls = stepper_.calls();
+        if constexpr (requires { stepper_.newton_iterations(); }) {
+            run_.newton_iterations = stepper_.newton_iterations();
+            run_.decompositions = stepper_.decompositions();
+        }
         if (is_success(status)) run_.failed_at = t_;
         run_.outcome = status;
         if constexpr (is_pack<Scalar>) {
@@ -101,7 +108,17 @@ class March {
     {
         const Real first = static_cast<Real>(method_.control().first_step);
         h_ = first > Real(0) ? first : size(length == Real(0) ? Real(0) : stepper_.first_step(model_, t_, length, s_));
-        controller_ = Controller<Real>(method_.control(), Stepper::error_order, Real(Stepper::beta_share));
+        if constexpr (!chooses_lengths)
+            controller_ = Controller<Real>(method_.control(), Stepper::error_order, Real(Stepper::beta_share));
+    }
+
+    /// Whose lengths the next steps have.
+    auto& lengths() noexcept
+    {
+        if constexpr (chooses_lengths)
+            return stepper_;
+        else
+            return controller_;
     }
 
     /// Failures of lanes are kept, and those lanes stay as they are; a failure of every lane ends the run.
@@ -198,20 +215,20 @@ class March {
         if (status == Status::ok && error > Real(1)) {
             ++run_.rejected;
             imprecise_ = true;
-            h_ = controller_.after_rejected(size(h), error);
+            h_ = lengths().after_rejected(size(h), error);
             return size_verdict(Status::step_too_small, t1);
         }
         if (status == Status::ok) status = stepper_.finish(model_, t1, s1_);
         if (status != Status::ok) {
             ++run_.rejected;
             if (failed_length_ == Real(0)) failed_length_ = h;
-            h_ = controller_.after_failure(size(h));
+            h_ = lengths().after_failure(size(h));
             return size_verdict(status, t1);
         }
         retry_ = false;
         imprecise_ = false;
         failed_length_ = Real(0);
-        h_ = controller_.after_accepted(size(h), error);
+        h_ = lengths().after_accepted(size(h), error);
         return Status::ok;
     }
 

@@ -68,7 +68,9 @@ struct [[nodiscard]] Run {
     std::size_t steps = 0;    ///< accepted
     std::size_t rejected = 0;
     std::size_t rhs_calls = 0;
-    std::vector<Real> times; ///< of the rows
+    std::size_t newton_iterations = 0; ///< of implicit methods, a call of the right-hand side for every stage each
+    std::size_t decompositions = 0;    ///< of implicit methods; all matrices of one Newton iteration count as one
+    std::vector<Real> times;           ///< of the rows
     std::vector<State> states;
     std::vector<EventFound<Real, State>> events;       ///< in the order of the run
     status_t<Scalar> lanes = StatusOf<Scalar>::good(); ///< a status a lane of a pack; else the status

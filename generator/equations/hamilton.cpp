@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "equations/hamilton.hpp"
+
+#include "equations/legendre.hpp"
+
+namespace lagen {
+namespace {
+
+/// {mu_a, x^j} = rho^j_a and {mu_a, mu_b} = C^c_ab mu_c, those that are not zero.
+EquationBlock poisson_brackets(const SymbolicModel& symbolic)
+{
+    EquationBlock block{
+        "Poisson brackets",
+        "{μ_a, x^j} = ρ^j_a,  {μ_a, μ_b} = C^c_ab μ_c;  Ḟ = {H, F}",
+        R"(\{\mu_a, x^j\} = \rho^j_a, \quad \{\mu_a, \mu_b\} = C^c_{ab}\, \mu_c; \quad \dot F = \{H, F\})",
+        {}};
+    const auto append = [&](const std::string& first, const std::string& second, const Sum& terms) {
+        Equation bracket = symbolic.equation(LeftSide::bracket, first, terms);
+        bracket.other = second;
+        if (!bracket.groups.empty()) block.equations.push_back(std::move(bracket));
+    };
+    for (std::size_t a = 0; a < symbolic.r(); ++a)
+        for (std::size_t j = 0; j < symbolic.n(); ++j)
+            append(symbolic.momentum_name(a), symbolic.algebroid().base[j].name, {symbolic.rho(j, a)});
+    for (std::size_t a = 0; a < symbolic.r(); ++a)
+        for (std::size_t b = a + 1; b < symbolic.r(); ++b) {
+            Sum terms;
+            for (std::size_t c = 0; c < symbolic.r(); ++c) terms.push_back(symbolic.C(c, a, b) * symbolic.mu()[c]);
+            append(symbolic.momentum_name(a), symbolic.momentum_name(b), terms);
+        }
+    return block;
+}
+
+class HamiltonDerivation {
+  public:
+    HamiltonDerivation(const Model& model, const Algebroid& algebroid)
+        : symbolic_(model, algebroid, {model.hamiltonian ? model.hamiltonian : model.lagrangian, model.dissipation})
+    {
+        if (model.hamiltonian)
+            take_hamiltonian(symbolic_.lower(model.hamiltonian));
+        else
+            transform(symbolic_.lower(model.lagrangian));
+        forces_ = symbolic_.forces(y_);
+    }
+
+    EquationSet derive()
+    {
+        EquationSet set = symbolic_.empty_set("hamilton");
+        set.blocks = {hamiltonian()};
+        if (EquationBlock labels = symbolic_.casimirs(); !labels.equations.empty()) set.blocks.push_back(labels);
+        set.blocks.push_back(velocities());
+        set.blocks.push_back(in_velocities_
+                                 ? EquationBlock{"kinematics", "ẋ^i = ρ^i_a y^a", R"(\dot x^i = \rho^i_a\, y^a)",
+                                                 symbolic_.kinematics(y_)}
+                                 : EquationBlock{"kinematics", "ẋ^i = ρ^i_a ∂H/∂μ_a",
+                                                 R"(\dot x^i = \rho^i_a\, \frac{\partial H}{\partial \mu_a})",
+                                                 symbolic_.kinematics(y_)});
+        set.blocks.push_back(motion());
+        if (EquationBlock balance = energy_balance(); !balance.equations[0].groups.empty())
+            set.blocks.push_back(std::move(balance));
+        set.blocks.push_back(poisson_brackets(symbolic_));
+        return set;
+    }
+
+  private:
+    [[nodiscard]] std::size_t r() const { return symbolic_.r(); }
+
+    void take_hamiltonian(const GiNaC::ex& H)
+    {
+        hamiltonian_ = H;
+        for (const GiNaC::ex& mu : symbolic_.mu()) y_.push_back(derivative(H, mu));
+        velocities_ = y_;
+    }
+
+    /// H from L; where y(x, mu) has no formula, the symbols y stand for it.
+    void transform(const GiNaC::ex& L)
+    {
+        transformed_ = true;
+        lagrangian_ = L;
+        if (const auto legendre = legendre_transform(symbolic_, L)) {
+            hamiltonian_ = legendre->hamiltonian;
+            velocities_ = legendre->velocities;
+            in_velocities_ = legendre->coupled;
+            y_ = in_velocities_ ? symbolic_.y() : velocities_;
+            return;
+        }
+        implicit_ = in_velocities_ = true;
+        y_ = symbolic_.y();
+        Sum terms = {-L};
+        for (std::size_t a = 0; a < r(); ++a) terms.push_back(symbolic_.mu()[a] * y_[a]);
+        hamiltonian_ = total(terms);
+    }
+
+    [[nodiscard]] std::string energy_name() const { return symbolic_.free_name({"H", "H_E"}); }
+
+    [[nodiscard]] EquationBlock hamiltonian() const
+    {
+        const Equation equation = symbolic_.equation(LeftSide::symbol, energy_name(), {hamiltonian_});
+        if (!transformed_) return {"Hamiltonian", "H(x, μ)", R"(H(x, \mu))", {equation}};
+        return {implicit_ ? "Hamiltonian (the Legendre transform of L, at the velocities below)"
+                          : "Hamiltonian (the Legendre transform of L)",
+                "H = μ_a y^a - L",
+                R"(H = \mu_a\, y^a - L)",
+                {equation}};
+    }
+
+    [[nodiscard]] EquationBlock velocities() const
+    {
+        EquationBlock block{"velocities", "y^a = ∂H/∂μ_a", R"(y^a = \frac{\partial H}{\partial \mu_a})", {}};
+        if (implicit_)
+            block = {"velocities",
+                     "y(x, μ) solves μ_a = ∂L/∂y^a",
+                     R"(y(x, \mu) \text{ solves } \mu_a = \frac{\partial L}{\partial y^a})",
+                     {}};
+        for (std::size_t a = 0; a < r(); ++a)
+            block.equations.push_back(
+                implicit_
+                    ? symbolic_.equation(LeftSide::symbol, symbolic_.momentum_name(a),
+                                         {derivative(lagrangian_, symbolic_.y()[a])})
+                    : symbolic_.equation(LeftSide::symbol, symbolic_.algebroid().fibre[a].name, {velocities_[a]}));
+        return block;
+    }
+
+    [[nodiscard]] EquationBlock motion() const
+    {
+        EquationBlock block{"equations of motion",
+                            "μ̇_a = -ρ_a(H) - μ_c C^c_ab ∂H/∂μ_b",
+                            R"(\dot \mu_a = -\rho_a(H) - \mu_c\, C^c_{ab}\, \frac{\partial H}{\partial \mu_b})",
+                            {}};
+        if (in_velocities_)
+            block = {"equations of motion",
+                     "μ̇_a = ρ_a(L) - μ_c C^c_ab y^b",
+                     R"(\dot \mu_a = \rho_a(L) - \mu_c\, C^c_{ab}\, y^b)",
+                     {}};
+        if (symbolic_.has_forces()) {
+            block.formula += " + Q_a";
+            block.latex_formula += " + Q_a";
+        }
+        for (std::size_t a = 0; a < r(); ++a) {
+            Equation next{LeftSide::time_derivative, symbolic_.momentum_name(a), {}, {}};
+            next.groups = symbolic_.simplified({in_velocities_
+                                                    ? Group{"ρ_a(L)", total(symbolic_.along_anchor(a, lagrangian_))}
+                                                    : Group{"-ρ_a(H)", -total(symbolic_.along_anchor(a, hamiltonian_))},
+                                                {in_velocities_ ? "-μ_c C^c_ab y^b" : "-μ_c C^c_ab ∂H/∂μ_b",
+                                                 total(symbolic_.bracket_terms(a, symbolic_.mu(), y_))},
+                                                {"Q_a", forces_[a]}});
+            block.equations.push_back(std::move(next));
+        }
+        return block;
+    }
+
+    [[nodiscard]] EquationBlock energy_balance()
+    {
+        Sum power;
+        for (std::size_t a = 0; a < r(); ++a) power.push_back(forces_[a] * y_[a]);
+        // At fixed mu the explicit dependence of H on t is minus that of L, however y(x, mu) moves.
+        const GiNaC::ex drift = in_velocities_ ? GiNaC::ex(-symbolic_.time_derivative(lagrangian_))
+                                               : symbolic_.time_derivative(hamiltonian_);
+        Equation balance{LeftSide::time_derivative, energy_name(), {}, {}};
+        balance.groups =
+            symbolic_.simplified({{"Q_a y^a", total(power)}, {in_velocities_ ? "-∂L/∂t" : "∂H/∂t", drift}});
+        std::string formula = in_velocities_ ? "Ḣ = -∂L/∂t" : "Ḣ = ∂H/∂t";
+        std::string latex =
+            in_velocities_ ? R"(\dot H = -\frac{\partial L}{\partial t})" : R"(\dot H = \frac{\partial H}{\partial t})";
+        if (symbolic_.has_forces()) {
+            formula += " + Q_a y^a";
+            latex += R"( + Q_a\, y^a)";
+        }
+        return {"energy balance", formula, latex, {std::move(balance)}};
+    }
+
+    SymbolicModel symbolic_;
+    GiNaC::ex hamiltonian_, lagrangian_;
+    bool transformed_ = false;   ///< H comes from L
+    bool implicit_ = false;      ///< y(x, mu) has no formula
+    bool in_velocities_ = false; ///< the equations are written in y, which stands for y(x, mu)
+    Sum velocities_;             ///< y^a(t, x, mu), shape (r), where it has a formula
+    Sum y_;                      ///< what the equations have for y^a, shape (r)
+    Sum forces_;                 ///< Q_a at these velocities, shape (r)
+};
+
+} // namespace
+
+EquationSet derive_hamilton(const Model& model, const Algebroid& algebroid, const Regularity& regularity)
+{
+    if (!model.hamiltonian && !model.lagrangian)
+        throw MathematicsError(
+            "error: model '" + model.name +
+            "' has neither a Hamiltonian nor a Lagrangian; Hamilton's equations need [hamiltonian] H "
+            "or [lagrangian] L");
+    if (!model.hamiltonian && regularity.kind == Regularity::Kind::degenerate)
+        throw MathematicsError("error: the Lagrangian of model '" + model.name +
+                               "' is degenerate: its momenta p_a = dL/dy^a have rank " +
+                               std::to_string(regularity.rank) + " of " + std::to_string(algebroid.r()) +
+                               ", so that it has no Hamiltonian form; Hamilton's equations need [hamiltonian] H");
+    return derived(model, "Hamilton's equations", [&] { return HamiltonDerivation(model, algebroid).derive(); });
+}
+
+} // namespace lagen

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "equations/pontryagin.hpp"
+
+#include "equations/linear_equations.hpp"
+#include "equations/symbolic_model.hpp"
+
+#include <algorithm>
+
+namespace lagen {
+namespace {
+
+class PontryaginDerivation {
+  public:
+    PontryaginDerivation(const Model& model, const Algebroid& algebroid)
+        : control_(*model.control), symbolic_(model, algebroid, functions_of(*model.control)), sigma_(symbolic_.r(), 0)
+    {
+        for (const ComponentEntry& entry : control_.sigma) sigma_[entry.section] += symbolic_.lower(entry.value);
+        Sum terms;
+        if (control_.cost) terms.push_back(-symbolic_.lower(control_.cost));
+        for (std::size_t a = 0; a < symbolic_.r(); ++a) terms.push_back(symbolic_.mu()[a] * sigma_[a]);
+        hamiltonian_ = total(terms);
+        solve_controls();
+    }
+
+    EquationSet derive()
+    {
+        EquationSet set = symbolic_.empty_set("pontryagin");
+        set.blocks = {hamiltonian()};
+        if (EquationBlock labels = symbolic_.casimirs(); !labels.equations.empty()) set.blocks.push_back(labels);
+        set.blocks.push_back(section());
+        set.blocks.push_back(condition());
+        if (optimal_) {
+            set.blocks.push_back(optimal_controls());
+            if (control_.bounds.empty()) set.blocks.push_back(maximal_hamiltonian());
+        }
+        set.blocks.push_back(
+            {"kinematics", "ẋ^i = ρ^i_a σ^a", R"(\dot x^i = \rho^i_a\, \sigma^a)", symbolic_.kinematics(sigma_)});
+        set.blocks.push_back(motion());
+        Equation balance =
+            symbolic_.equation(LeftSide::time_derivative, energy_name(), {symbolic_.time_derivative(hamiltonian_)});
+        if (!balance.groups.empty())
+            set.blocks.push_back(
+                {"energy balance", "Ḣ = ∂H/∂t", R"(\dot H = \frac{\partial H}{\partial t})", {std::move(balance)}});
+        return set;
+    }
+
+  private:
+    static std::vector<Tree> functions_of(const Control& control)
+    {
+        std::vector<Tree> functions = {control.cost};
+        for (const ComponentEntry& entry : control.sigma) functions.push_back(entry.value);
+        return functions;
+    }
+
+    [[nodiscard]] std::string energy_name() const { return symbolic_.free_name({"H", "H_P"}); }
+    [[nodiscard]] const std::string& control_name(std::size_t A) const { return control_.controls[A].name; }
+
+    /// u with dH/du = 0 where that is a regular linear system in u.
+    void solve_controls()
+    {
+        const Sum& u = symbolic_.controls();
+        GiNaC::exmap none;
+        for (const GiNaC::ex& control : u) none[control] = 0;
+        SquareMatrix second{u.size(), {}};
+        Sum right;
+        for (const GiNaC::ex& control : u) {
+            const GiNaC::ex first = derivative(hamiltonian_, control);
+            right.push_back(-first.subs(none, GiNaC::subs_options::no_pattern));
+            for (const GiNaC::ex& other : u) {
+                GiNaC::ex entry = derivative(first, other);
+                if (expanded_length(entry)) entry = entry.expand();
+                if (std::any_of(u.begin(), u.end(), [&](const GiNaC::ex& symbol) { return entry.has(symbol); })) return;
+                second.entries.push_back(entry);
+            }
+        }
+        if (!u.empty())
+            optimal_ = solve_in_blocks(second, right, [&](const GiNaC::ex& e) { return symbolic_.simpler(e); });
+        // A bound on one control moves the maximum of those that it is coupled to; where H is convex it is at a bound.
+        if (!control_.bounds.empty() && coupled_unknowns(second).size() != u.size()) optimal_.reset();
+        for (const ControlBound& bound : control_.bounds)
+            if (second(bound.control, bound.control).info(GiNaC::info_flags::positive)) optimal_.reset();
+    }
+
+    [[nodiscard]] EquationBlock hamiltonian() const
+    {
+        return {"Hamiltonian",
+                "H = μ_a σ^a - cost",
+                R"(H = \mu_a\, \sigma^a - \mathit{cost})",
+                {symbolic_.equation(LeftSide::symbol, energy_name(), {hamiltonian_})}};
+    }
+
+    [[nodiscard]] EquationBlock section() const
+    {
+        EquationBlock block{"section of the controls", "y^a = σ^a(x, u)", R"(y^a = \sigma^a(x, u))", {}};
+        for (std::size_t a = 0; a < symbolic_.r(); ++a)
+            block.equations.push_back(
+                symbolic_.equation(LeftSide::symbol, symbolic_.algebroid().fibre[a].name, {sigma_[a]}));
+        return block;
+    }
+
+    [[nodiscard]] EquationBlock condition() const
+    {
+        EquationBlock block{"condition for the controls", "0 = ∂H/∂u^A", R"(0 = \frac{\partial H}{\partial u^A})", {}};
+        if (!control_.bounds.empty()) {
+            block.formula += ", or u^A at a bound where H is largest";
+            block.latex_formula += R"(, \text{ or } u^A \text{ at a bound where } H \text{ is largest})";
+        }
+        for (const GiNaC::ex& control : symbolic_.controls())
+            block.equations.push_back(symbolic_.equation(LeftSide::zero, "", {derivative(hamiltonian_, control)}));
+        return block;
+    }
+
+    /// u cut to its bounds: a concave function of one variable is largest at the admissible point next to its maximum.
+    [[nodiscard]] EquationBlock optimal_controls() const
+    {
+        EquationBlock block{"optimal controls", "u(x, μ)", R"(u(x, \mu))", {}};
+        for (std::size_t A = 0; A < optimal_->size(); ++A) {
+            Equation next = symbolic_.equation(LeftSide::symbol, control_name(A), {(*optimal_)[A]});
+            for (const ControlBound& bound : control_.bounds) {
+                if (bound.control != A) continue;
+                Tree value = next.groups.empty() ? number(0) : next.groups[0].value;
+                if (bound.lower) value = call(Function::maximum, {value, bound.lower});
+                if (bound.upper) value = call(Function::minimum, {value, bound.upper});
+                next.groups = {{"", value}};
+            }
+            block.equations.push_back(std::move(next));
+        }
+        return block;
+    }
+
+    [[nodiscard]] EquationBlock maximal_hamiltonian() const
+    {
+        GiNaC::exmap inserted;
+        for (std::size_t A = 0; A < optimal_->size(); ++A) inserted[symbolic_.controls()[A]] = (*optimal_)[A];
+        return {"maximal Hamiltonian",
+                "H_max(x, μ) = H(x, μ, u(x, μ))",
+                R"(H_{\max}(x, \mu) = H(x, \mu, u(x, \mu)))",
+                {symbolic_.equation(LeftSide::symbol, "H_max",
+                                    {hamiltonian_.subs(inserted, GiNaC::subs_options::no_pattern)})}};
+    }
+
+    [[nodiscard]] EquationBlock motion() const
+    {
+        EquationBlock block{"equations of motion",
+                            "μ̇_a = -ρ_a(H) - μ_c C^c_ab σ^b",
+                            R"(\dot \mu_a = -\rho_a(H) - \mu_c\, C^c_{ab}\, \sigma^b)",
+                            {}};
+        for (std::size_t a = 0; a < symbolic_.r(); ++a) {
+            Equation next{LeftSide::time_derivative, symbolic_.momentum_name(a), {}, {}};
+            next.groups =
+                symbolic_.simplified({{"-ρ_a(H)", -total(symbolic_.along_anchor(a, hamiltonian_))},
+                                      {"-μ_c C^c_ab σ^b", total(symbolic_.bracket_terms(a, symbolic_.mu(), sigma_))}});
+            block.equations.push_back(std::move(next));
+        }
+        return block;
+    }
+
+    const Control& control_;
+    SymbolicModel symbolic_;
+    Sum sigma_; ///< sigma^a(t, x, u), shape (r)
+    GiNaC::ex hamiltonian_;
+    std::optional<Sum> optimal_; ///< u^A(t, x, mu) without bounds
+};
+
+} // namespace
+
+EquationSet derive_pontryagin(const Model& model, const Algebroid& algebroid)
+{
+    if (!model.control)
+        throw MathematicsError("error: model '" + model.name +
+                               "' has no controls; Pontryagin's equations need [control] controls, sigma and cost");
+    return derived(model, "Pontryagin's equations", [&] { return PontryaginDerivation(model, algebroid).derive(); });
+}
+
+} // namespace lagen

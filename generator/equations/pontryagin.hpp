@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Pontryagin's equations of an optimal control problem on a Lie algebroid, normal extremals, for a person to read:
+///   H(x, mu, u) = mu_a sigma^a(x, u) - cost(x, u),   u maximises H: dH/du^A = 0 where no bound is reached
+///   xdot^i = rho^i_a sigma^a,   mudot_a = -rho_a(H) - mu_c C^c_ab sigma^b,   dH/dt = dH/dt at fixed x, mu, u
+///                                                                                            [Martinez 2004]
+#pragma once
+
+#include "expression/equation_set.hpp"
+#include "geometry/algebroid.hpp"
+
+namespace lagen {
+
+/// Blocks: Hamiltonian, labels of the leaves where there are any, section of the controls, condition for the controls,
+/// optimal controls and maximal Hamiltonian where dH/du is affine in u with a regular matrix, kinematics, equations of
+/// motion, energy balance where it is not zero. Throws MathematicsError where the model has no controls.
+[[nodiscard]] EquationSet derive_pontryagin(const Model& model, const Algebroid& algebroid);
+
+} // namespace lagen

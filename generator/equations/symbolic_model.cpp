@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "equations/symbolic_model.hpp"
+
+#include "equations/rewrite_tree.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace lagen {
+namespace {
+
+bool is_rough(const TreeNode& node)
+{
+    return node.kind == TreeKind::compare ||
+           (node.kind == TreeKind::call && (!entry_of(node.function).smooth || node.function == Function::select));
+}
+
+bool is_zero(const Tree& tree)
+{
+    return tree->kind == TreeKind::number && tree->number == 0;
+}
+
+} // namespace
+
+GiNaC::ex total(const Sum& terms)
+{
+    return GiNaC::ex(GiNaC::dynallocate<GiNaC::add>(terms));
+}
+
+GiNaC::ex derivative(const GiNaC::ex& f, const GiNaC::ex& symbol)
+{
+    return f.diff(GiNaC::ex_to<GiNaC::symbol>(symbol));
+}
+
+SymbolicModel::SymbolicModel(const Model& model, const Algebroid& algebroid, const std::vector<Tree>& functions)
+    : model_(model), algebroid_(algebroid)
+{
+    for (const Parameter& parameter : model.parameters) order_.parameters.push_back(parameter.symbol.name);
+    for (const NamedTree& casimir : model.base.casimirs)
+        if (!is_declared(casimir.name)) order_.parameters.push_back(casimir.name);
+    if (!is_declared("t")) {
+        order_.variables.emplace_back("t");
+        time_ = symbols_.symbol("t");
+    }
+    for (const Symbol& symbol : algebroid.base) x_.push_back(variable(symbol.name));
+    for (const Symbol& symbol : algebroid.fibre) y_.push_back(variable(symbol.name));
+    for (const Symbol& symbol : model.fibre.momenta) mu_.push_back(variable(symbol.name));
+    if (model.control)
+        for (const Symbol& symbol : model.control->controls) controls_.push_back(variable(symbol.name));
+    lower_structure();
+    take_labels(functions);
+}
+
+bool SymbolicModel::is_declared(const std::string& name) const
+{
+    const std::vector<std::string> names = symbol_names(model_);
+    if (std::find(names.begin(), names.end(), name) != names.end()) return true;
+    const auto called = [&](const Symbol& symbol) { return symbol.name == name; };
+    const auto& momenta = model_.fibre.momenta;
+    return std::any_of(momenta.begin(), momenta.end(), called) ||
+           (model_.control && std::any_of(model_.control->controls.begin(), model_.control->controls.end(), called));
+}
+
+std::string SymbolicModel::free_name(const std::vector<std::string>& names) const
+{
+    const auto free = std::find_if(names.begin(), names.end(), [&](const auto& name) { return !is_declared(name); });
+    return free != names.end() ? *free : names.back();
+}
+
+GiNaC::ex SymbolicModel::variable(const std::string& name)
+{
+    order_.variables.push_back(name);
+    return symbols_.symbol(name);
+}
+
+void SymbolicModel::lower_structure()
+{
+    anchor_.assign(r() * n(), 0);
+    for (const AnchorValue& entry : algebroid_.rho) anchor_[entry.a * n() + entry.i] += to_ginac(entry.value, symbols_);
+    std::vector<bool> given(r() * r(), false);
+    bracket_.assign(r() * r() * r(), 0);
+    for (const StructureValue& entry : algebroid_.C) {
+        given[entry.a * r() + entry.b] = true;
+        bracket_[(entry.a * r() + entry.b) * r() + entry.c] += to_ginac(entry.value, symbols_);
+    }
+    for (std::size_t a = 0; a < r(); ++a)
+        for (std::size_t b = 0; b < r(); ++b)
+            if (given[a * r() + b] && !given[b * r() + a])
+                for (std::size_t c = 0; c < r(); ++c)
+                    bracket_[(b * r() + a) * r() + c] = -bracket_[(a * r() + b) * r() + c];
+}
+
+void SymbolicModel::take_labels(const std::vector<Tree>& functions)
+{
+    std::vector<NamedTree> constant;
+    for (const NamedTree& casimir : model_.base.casimirs) {
+        const GiNaC::ex f = to_ginac(casimir.value, symbols_);
+        bool zero = !is_declared(casimir.name);
+        for (std::size_t a = 0; a < r() && zero; ++a) zero = total(along_anchor(a, f)).expand().is_zero();
+        if (zero) constant.push_back(casimir);
+    }
+    for (const NamedTree& casimir : constant) {
+        const bool used = std::any_of(functions.begin(), functions.end(), [&](const Tree& function) {
+            if (function == nullptr) return false;
+            const std::vector<std::string> names = names_in(label_casimirs(function, constant));
+            return std::find(names.begin(), names.end(), casimir.name) != names.end();
+        });
+        if (used) labels_.push_back(casimir);
+    }
+}
+
+GiNaC::ex SymbolicModel::lower(const Tree& tree)
+{
+    return to_ginac(label_casimirs(tree, labels_), symbols_);
+}
+
+/// What is not smooth stands for itself: it is not differentiated, and comes back as it is written.
+GiNaC::ex SymbolicModel::lower_rough(const Tree& tree)
+{
+    return to_ginac(rewrite_tree(label_casimirs(tree, labels_),
+                                 [&](const Tree& node) {
+                                     if (!is_rough(*node)) return Tree{};
+                                     const std::string text = to_text(node);
+                                     rough_.emplace(text, node);
+                                     return name(text);
+                                 }),
+                    symbols_);
+}
+
+Tree SymbolicModel::shortest(const GiNaC::ex& e) const
+{
+    const Tree tree = shortest_form(e, symbols_, order_);
+    if (rough_.empty()) return tree;
+    return rewrite_tree(tree, [&](const Tree& node) {
+        const auto known = node->kind == TreeKind::name ? rough_.find(node->name) : rough_.end();
+        return known != rough_.end() ? known->second : Tree{};
+    });
+}
+
+GiNaC::ex SymbolicModel::simpler(const GiNaC::ex& e)
+{
+    return to_ginac(shortest_form(e, symbols_, order_), symbols_);
+}
+
+GiNaC::ex SymbolicModel::time_derivative(const GiNaC::ex& f)
+{
+    return time_ ? f.diff(*time_) : GiNaC::ex(0);
+}
+
+Sum SymbolicModel::along_anchor(std::size_t a, const GiNaC::ex& f) const
+{
+    Sum terms;
+    for (std::size_t i = 0; i < n(); ++i)
+        if (!rho(i, a).is_zero()) terms.push_back(rho(i, a) * derivative(f, x_[i]));
+    return terms;
+}
+
+Sum SymbolicModel::bracket_terms(std::size_t a, const Sum& p, const Sum& y) const
+{
+    Sum terms;
+    for (std::size_t b = 0; b < r(); ++b)
+        for (std::size_t c = 0; c < r(); ++c)
+            if (!C(c, a, b).is_zero()) terms.push_back(-p[c] * C(c, a, b) * y[b]);
+    return terms;
+}
+
+Sum SymbolicModel::forces(const Sum& y)
+{
+    Sum forces(r(), 0);
+    std::map<std::string, Tree> inserted;
+    GiNaC::exmap substituted;
+    for (std::size_t a = 0; a < r(); ++a) {
+        if (y[a].is_equal(y_[a])) continue;
+        inserted.emplace(algebroid_.fibre[a].name, shortest(y[a]));
+        substituted[y_[a]] = y[a];
+    }
+    for (const ComponentEntry& entry : model_.forces) {
+        const Tree tree = rewrite_tree(entry.value, [&](const Tree& node) {
+            const auto known = node->kind == TreeKind::name ? inserted.find(node->name) : inserted.end();
+            return known != inserted.end() ? known->second : Tree{};
+        });
+        forces[entry.section] += lower_rough(tree);
+    }
+    if (model_.dissipation == nullptr) return forces;
+    const GiNaC::ex R = lower(model_.dissipation);
+    for (std::size_t a = 0; a < r(); ++a)
+        forces[a] -= derivative(R, y_[a]).subs(substituted, GiNaC::subs_options::no_pattern);
+    return forces;
+}
+
+std::vector<TermGroup> SymbolicModel::simplified(std::vector<Group> groups) const
+{
+    for (std::size_t k = 0; k < groups.size(); ++k)
+        for (std::size_t l = k + 1; l < groups.size(); ++l) {
+            const auto first = expanded_length(groups[k].value);
+            const auto second = expanded_length(groups[l].value);
+            const auto both = expanded_length(groups[k].value + groups[l].value);
+            if (!first || !second || !both || *first == 0 || *second == 0 || *both >= *first + *second) continue;
+            groups[k].value += groups[l].value;
+            const std::string& label = groups[l].label;
+            groups[k].label += label.starts_with('-') ? " - " + label.substr(1) : " + " + label;
+            groups.erase(groups.begin() + static_cast<std::ptrdiff_t>(l));
+            l = k;
+        }
+    std::vector<TermGroup> result;
+    for (const Group& group : groups)
+        if (Tree value = shortest(group.value); !is_zero(value)) result.push_back({group.label, std::move(value)});
+    return result;
+}
+
+Equation SymbolicModel::equation(LeftSide left, const std::string& symbol, const Sum& terms) const
+{
+    return {left, symbol, {}, simplified({{"", total(terms)}})};
+}
+
+std::vector<Equation> SymbolicModel::kinematics(const Sum& y) const
+{
+    std::vector<Equation> equations;
+    for (std::size_t i = 0; i < n(); ++i) {
+        Sum terms;
+        for (std::size_t a = 0; a < r(); ++a) terms.push_back(rho(i, a) * y[a]);
+        equations.push_back(equation(LeftSide::time_derivative, algebroid_.base[i].name, terms));
+    }
+    return equations;
+}
+
+EquationBlock SymbolicModel::casimirs()
+{
+    EquationBlock block{"labels of the leaves (constant along every motion)", "ρ_a(f) = 0", R"(\rho_a(f) = 0)", {}};
+    for (const NamedTree& casimir : labels_)
+        block.equations.push_back(equation(LeftSide::symbol, casimir.name, {to_ginac(casimir.value, symbols_)}));
+    return block;
+}
+
+EquationSet SymbolicModel::empty_set(const std::string& form) const
+{
+    EquationSet set{model_.name, model_.title, form, {}, {}};
+    for (const Parameter& parameter : model_.parameters)
+        set.symbols.push_back({parameter.symbol.name, parameter.symbol.latex});
+    for (const std::vector<Symbol>* list : {&algebroid_.base, &algebroid_.fibre})
+        for (const Symbol& symbol : *list) set.symbols.push_back({symbol.name, symbol.latex});
+    for (std::size_t a = 0; a < model_.fibre.momenta.size(); ++a) {
+        const Symbol& momentum = model_.fibre.momenta[a];
+        const Symbol& coordinate = algebroid_.fibre[a];
+        const bool follows =
+            momentum.latex.empty() && !coordinate.latex.empty() && momentum.name == "p_" + coordinate.name;
+        set.symbols.push_back({momentum.name, follows ? "p_{" + coordinate.latex + "}" : momentum.latex});
+    }
+    if (model_.control)
+        for (const Symbol& symbol : model_.control->controls) set.symbols.push_back({symbol.name, symbol.latex});
+    return set;
+}
+
+EquationSet derived(const Model& model, const char* equations, const std::function<EquationSet()>& derivation)
+{
+    try {
+        return derivation();
+    } catch (const Error&) {
+        throw;
+    } catch (const std::exception& error) {
+        throw MathematicsError(
+            fmt::format("error: {} of model '{}' could not be derived: {}", equations, model.name, error.what()));
+    }
+}
+
+} // namespace lagen

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Unknowns that equations define: z with F(z, s) = 0, solved by Newton's method inside a kernel. The unknowns are
+/// ordinary inputs of the graph; a block says what they mean. Its derivative is that of the implicit function,
+///   dz = -F_z^-1 F_s ds.
+#pragma once
+
+#include "graph/graph.hpp"
+
+namespace lagen {
+
+struct ImplicitBlock {
+    std::string name;              ///< as in C++: "velocity"
+    std::string documentation;     ///< the equations, e.g. "y with dL/dy^a = mu_a"
+    std::vector<NodeId> unknowns;  ///< input nodes z, N of them
+    std::vector<NodeId> residuals; ///< F, shape (N); may use the unknowns of earlier blocks
+    std::vector<NodeId> jacobian;  ///< dF/dz, shape (N, N), entry (i, j) at i * N + j
+    std::vector<NodeId> guess;     ///< where Newton's method starts, free of z
+    MatrixStructure structure = MatrixStructure::general;
+};
+
+/// A block with its Jacobian, differentiated here.
+[[nodiscard]] ImplicitBlock implicit_block(Graph& graph, std::string name, std::string documentation,
+                                           std::vector<NodeId> unknowns, std::vector<NodeId> residuals,
+                                           std::vector<NodeId> guess, MatrixStructure structure);
+
+/// The tangents of all unknowns along `seeds` (pairs input node, its tangent), behind the seeds: what `directional`
+/// needs to differentiate through the blocks.
+[[nodiscard]] std::vector<std::pair<NodeId, NodeId>> seeds_through(Graph& graph, std::span<const ImplicitBlock> blocks,
+                                                                   std::vector<std::pair<NodeId, NodeId>> seeds);
+
+/// d outputs[r] / d inputs[c] with the unknowns as functions of the inputs; one factorisation a block.
+[[nodiscard]] std::vector<std::vector<NodeId>> jacobian_through(Graph& graph, std::span<const NodeId> outputs,
+                                                                std::span<const NodeId> inputs,
+                                                                std::span<const ImplicitBlock> blocks);
+
+} // namespace lagen

@@ -1,0 +1,371 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "kernels/form_kernels.hpp"
+
+#include "graph/differentiate.hpp"
+#include "graph/simplify.hpp"
+#include "kernels/formulation.hpp"
+#include "model/scene_form.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace lagen {
+
+namespace {
+
+const std::vector<std::string> kernel_names{
+    "rhs",         "jacobian",   "variational",        "mass_matrix",         "momentum", "velocity",    "controls",
+    "energy",      "power",      "hamiltonian",        "lagrangian",          "cost",     "constraints", "domain",
+    "observables", "invariants", "lagrangian_hessian", "hamiltonian_hessian", "events"};
+/// Those that are made only where they are asked for by name.
+const std::vector<std::string> on_request{"variational", "lagrangian_hessian", "hamiltonian_hessian"};
+
+bool is_among(const std::vector<std::string>& names, const std::string& name)
+{
+    return std::ranges::find(names, name) != names.end();
+}
+
+void refuse_unknown(const std::vector<std::string>& only)
+{
+    for (const std::string& name : only) {
+        if (is_among(kernel_names, name)) continue;
+        const std::string near = nearest_name(name, kernel_names);
+        std::string text = fmt::format("error: there is no kernel '{}'; there are", name);
+        for (const std::string& known : kernel_names) text += (known == kernel_names.front() ? " " : ", ") + known;
+        if (!near.empty()) text += fmt::format("\nhint: did you mean '{}'?", near);
+        throw Error(ExitCode::usage, text);
+    }
+}
+
+Formulation formulation(Graph& graph, const Model& model, const VerifiedAlgebroid& verified,
+                        const KernelRequest& request, const FormulationParts& parts)
+{
+    const std::string form = request.form.empty() ? default_form(model) : request.form;
+    if (form == "hamilton") return hamilton_form(graph, model, verified, parts);
+    if (form == "pontryagin") return pontryagin_form(graph, model, verified, parts);
+    return lagrange_form(graph, model, verified, parts);
+}
+
+/// Kernels of one module, each simplified on its own and left out where nobody asked for it or it would be empty.
+class ModuleBuilder {
+  public:
+    ModuleBuilder(const Model& model, const VerifiedAlgebroid& verified, const KernelRequest& request)
+        : model_(model), verified_(verified), request_(request), graph_(std::make_shared<Graph>()),
+          form_(formulation(*graph_, model, verified, request, parts())), lower_(*graph_, form_.binding)
+    {
+    }
+
+    KernelModule build()
+    {
+        describe();
+        if (wants("rhs")) add_right_hand_side();
+        for (Kernel& kernel : form_.kernels)
+            if (wants(kernel.name)) add(std::move(kernel));
+        add_trees("constraints", model_base_constraints(), "Base constraints: each is 0 on M.");
+        if (wants("domain")) add_domain();
+        add_trees("observables", observables(), "Observables of the model.");
+        add_trees("invariants", named(model_.invariants), "Functions that are constant along solutions.");
+        if (wants("events")) add_trees("events", events(), "Events: each happens where its value crosses 0.");
+        if (wants("jacobian")) add_jacobian();
+        if (wants("variational")) add_variational();
+        simplify_implicit();
+        return std::move(module_);
+    }
+
+  private:
+    using NamedTrees = std::vector<std::pair<std::string, Tree>>;
+
+    [[nodiscard]] bool wants(const std::string& name) const
+    {
+        return request_.only.empty() ? !is_among(on_request, name) : is_among(request_.only, name);
+    }
+
+    [[nodiscard]] FormulationParts parts() const
+    {
+        return {.motion = wants("rhs") || wants("jacobian") || wants("variational"),
+                .hessians = wants("lagrangian_hessian") || wants("hamiltonian_hessian")};
+    }
+
+    [[nodiscard]] static Quantity quantity(const Symbol& symbol, NodeId input)
+    {
+        return {symbol.name, symbol.text, symbol.unit, input};
+    }
+
+    void describe()
+    {
+        module_.model = model_.name;
+        module_.form = form_.form;
+        module_.name = form_.form == "lagrange" ? model_.name : model_.name + "_" + form_.form;
+        module_.title = model_.title;
+        module_.regenerate = fmt::format("lagen generate {}.toml", model_.name);
+        module_.graph = graph_;
+        module_.time = form_.time;
+        for (std::size_t k = 0; k < model_.parameters.size(); ++k)
+            module_.parameters.push_back(quantity(model_.parameters[k].symbol, form_.parameters[k]));
+        for (std::size_t i = 0; i < form_.x.size(); ++i)
+            module_.base.push_back(quantity(model_.base.coordinates[i], form_.x[i]));
+        for (std::size_t a = 0; a < form_.lanes.size(); ++a)
+            module_.fibre.push_back(quantity(form_.lane_names[a], form_.lanes[a]));
+        module_.fibre_name = form_.lane_group;
+        module_.implicit = form_.implicit;
+        module_.parameter_defaults = defaults();
+    }
+
+    /// Every default lowered after those that it uses; the model has made sure that there is no cycle.
+    std::vector<NodeId> defaults()
+    {
+        const std::size_t count = model_.parameters.size();
+        Binding known;
+        std::vector<NodeId> result(count);
+        for (std::size_t done = 0; done < count;) {
+            const std::size_t before = done;
+            for (std::size_t k = 0; k < count; ++k) {
+                const Parameter& parameter = model_.parameters[k];
+                const std::vector<std::string> uses = names_in(parameter.value);
+                const bool ready =
+                    std::ranges::all_of(uses, [&](const std::string& use) { return known.contains(use); });
+                if (known.contains(parameter.symbol.name) || !ready) continue;
+                known[parameter.symbol.name] = result[k] = Lowering(*graph_, known)(parameter.value);
+                ++done;
+            }
+            if (done == before) throw InternalError("parameters that depend on each other in a cycle");
+        }
+        return result;
+    }
+
+    /// Adds a kernel with its entries and pivots simplified together.
+    void add(Kernel kernel)
+    {
+        std::vector<NodeId> outputs;
+        for (const KernelEntry& entry : kernel.output.entries) outputs.push_back(entry.node);
+        outputs.insert(outputs.end(), kernel.pivots.begin(), kernel.pivots.end());
+        std::vector<NodeId> divisors;
+        SimplifyReport report;
+        outputs = simplify(*graph_, outputs, divisors, request_.report != nullptr ? &report : nullptr);
+        if (request_.report != nullptr) *request_.report += to_text(report, kernel.name);
+        for (std::size_t k = 0; k < kernel.output.entries.size(); ++k) kernel.output.entries[k].node = outputs[k];
+        for (std::size_t k = 0; k < kernel.pivots.size(); ++k)
+            kernel.pivots[k] = outputs[kernel.output.entries.size() + k];
+        if (kernel.shape == KernelShape::right_hand_side)
+            for (const NodeId divisor : divisors)
+                if (std::ranges::find(kernel.pivots, divisor) == kernel.pivots.end()) kernel.pivots.push_back(divisor);
+        module_.kernels.push_back(std::move(kernel));
+    }
+
+    void add_right_hand_side()
+    {
+        Kernel kernel;
+        kernel.name = "rhs";
+        kernel.shape = KernelShape::right_hand_side;
+        kernel.output = column("ds", form_.derivative);
+        kernel.pivots = form_.pivots;
+        kernel.documentation = form_.documentation;
+        add(std::move(kernel));
+    }
+
+    void add_trees(const std::string& name, const NamedTrees& trees, const std::string& text)
+    {
+        if (trees.empty() || !wants(name)) return;
+        std::vector<NodeId> values;
+        std::vector<std::string> names;
+        for (const auto& [label, tree] : trees) {
+            if (form_.controls.empty() && uses_controls(model_, tree)) continue; // no value in this form
+            values.push_back(lower_(tree));
+            names.push_back(label);
+        }
+        if (values.empty()) return;
+        add({name, KernelShape::vector, column(name, values), {text}, std::move(names), {}});
+    }
+
+    [[nodiscard]] NamedTrees model_base_constraints() const
+    {
+        NamedTrees trees;
+        for (const Tree& tree : verified_.algebroid.constraints) trees.emplace_back(to_text(tree), tree);
+        return trees;
+    }
+
+    [[nodiscard]] static NamedTrees named(const std::vector<NamedTree>& list)
+    {
+        NamedTrees trees;
+        for (const NamedTree& entry : list) trees.emplace_back(entry.name, entry.value);
+        return trees;
+    }
+
+    /// Of the model, then what the scene asks for that is neither a state lane nor one of them.
+    [[nodiscard]] NamedTrees observables() const
+    {
+        NamedTrees trees = named(model_.observables);
+        if (request_.scene == nullptr) return trees;
+        if (!request_.scene->observe)
+            for (const std::string& control : form_.controls) trees.emplace_back(control, lagen::name(control));
+        if (!request_.scene->observe) return trees;
+        for (const NamedTree& entry : *request_.scene->observe) {
+            const auto known = [&](const auto& other) { return other.first == entry.name; };
+            const auto lane = [&](const Quantity& other) { return other.name == entry.name; };
+            if (std::ranges::any_of(trees, known) || std::ranges::any_of(module_.base, lane) ||
+                std::ranges::any_of(module_.fibre, lane))
+                continue;
+            trees.emplace_back(entry.name, entry.value);
+        }
+        return trees;
+    }
+
+    [[nodiscard]] bool depends_on_parameters_alone(std::initializer_list<NodeId> nodes) const
+    {
+        const std::vector<NodeId> below = reachable(*graph_, std::vector<NodeId>(nodes));
+        const auto moves = [&](const Quantity& lane) { return std::ranges::find(below, lane.input) != below.end(); };
+        return !std::ranges::any_of(module_.base, moves) && !std::ranges::any_of(module_.fibre, moves) &&
+               std::ranges::find(below, module_.time) == below.end();
+    }
+
+    /// a < b as b - a, a > b as a - b, a != b as (a - b)^2: positive inside the domain. What holds of the parameters
+    /// alone cannot change along a run and is left out: a scene is refused where its parameters violate it.
+    void add_domain()
+    {
+        std::vector<NodeId> values;
+        std::vector<std::string> names;
+        for (const Tree& tree : verified_.algebroid.domain) {
+            if (tree->kind != TreeKind::compare)
+                throw InternalError("a domain that is no comparison: " + to_text(tree));
+            const NodeId a = lower_(tree->arguments[0]);
+            const NodeId b = lower_(tree->arguments[1]);
+            const bool less = tree->comparison == Comparison::less || tree->comparison == Comparison::less_equal;
+            if (depends_on_parameters_alone({a, b})) continue;
+            const NodeId difference = less ? graph_->subtract(b, a) : graph_->subtract(a, b);
+            values.push_back(tree->comparison == Comparison::not_equal ? graph_->power(difference, 2) : difference);
+            names.push_back(to_text(tree));
+        }
+        if (values.empty()) return;
+        add({"domain",
+             KernelShape::vector,
+             column("domain", values),
+             {"Positive inside the domain of the model."},
+             std::move(names),
+             {}});
+    }
+
+    /// Of the one scene asked for, or of all; the same event of two scenes once, different ones of one name with the
+    /// scene's name in front.
+    [[nodiscard]] NamedTrees events() const
+    {
+        NamedTrees trees;
+        const auto find = [&](const std::string& name) {
+            return std::ranges::find_if(trees, [&](const auto& entry) { return entry.first == name; });
+        };
+        const auto append = [&](const Scene& scene) {
+            for (const Event& event : scene.events) {
+                const auto found = find(event.name);
+                if (found == trees.end())
+                    trees.emplace_back(event.name, event.when);
+                else if (!same_tree(found->second, event.when))
+                    trees.emplace_back(scene.name + "." + event.name, event.when);
+            }
+        };
+        if (request_.scene != nullptr)
+            append(*request_.scene);
+        else
+            for (const Scene& scene : model_.scenes) append(scene);
+        return trees;
+    }
+
+    [[nodiscard]] std::vector<NodeId> state() const
+    {
+        std::vector<NodeId> lanes = form_.x;
+        lanes.insert(lanes.end(), form_.lanes.begin(), form_.lanes.end());
+        return lanes;
+    }
+
+    void add_jacobian()
+    {
+        const std::vector<NodeId> lanes = state();
+        std::vector<NodeId> values;
+        for (const std::vector<NodeId>& row : jacobian_through(*graph_, form_.derivative, lanes, form_.implicit))
+            values.insert(values.end(), row.begin(), row.end());
+        add({"jacobian",
+             KernelShape::sparse,
+             matrix(*graph_, "values", lanes.size(), lanes.size(), values),
+             {"Derivative of ds with respect to s: the entries that are not zero by structure."},
+             {},
+             {}});
+    }
+
+    /// The directional derivative of the right-hand side along v: one sweep, however many lanes there are.
+    void add_variational()
+    {
+        std::vector<std::pair<NodeId, NodeId>> seeds;
+        for (const NodeId lane : state()) {
+            const NodeId input = graph_->input("tangent of " + graph_->input_name(lane));
+            module_.direction.push_back({graph_->input_name(lane), {}, {}, input});
+            seeds.emplace_back(lane, input);
+        }
+        const std::vector<NodeId> tangent =
+            directional(*graph_, form_.derivative, seeds_through(*graph_, form_.implicit, std::move(seeds)));
+        add({"variational",
+             KernelShape::directional,
+             column("dv", tangent),
+             {"The variational equations at s: dv = (d rhs / d s) v. v and dv may be the same object."},
+             {},
+             {}});
+    }
+
+    /// Residuals, Jacobian and guess of each block, simplified together.
+    void simplify_implicit()
+    {
+        for (ImplicitBlock& block : module_.implicit) {
+            std::vector<NodeId> divisors;
+            block.guess = simplify(*graph_, block.guess, divisors);
+            std::vector<NodeId> inner = block.residuals;
+            inner.insert(inner.end(), block.jacobian.begin(), block.jacobian.end());
+            inner = simplify(*graph_, inner, divisors);
+            const auto split = inner.begin() + static_cast<std::ptrdiff_t>(block.residuals.size());
+            block.residuals.assign(inner.begin(), split);
+            block.jacobian.assign(split, inner.end());
+        }
+    }
+
+    const Model& model_;
+    const VerifiedAlgebroid& verified_;
+    const KernelRequest& request_;
+    std::shared_ptr<Graph> graph_;
+    Formulation form_;
+    Lowering lower_;
+    KernelModule module_;
+};
+
+} // namespace
+
+KernelOutput column(std::string name, const std::vector<NodeId>& values)
+{
+    KernelOutput output{std::move(name), values.size(), 1, {}};
+    for (std::size_t k = 0; k < values.size(); ++k) output.entries.push_back({k, 0, values[k]});
+    return output;
+}
+
+KernelOutput matrix(const Graph& graph, std::string name, std::size_t rows, std::size_t columns,
+                    const std::vector<NodeId>& values)
+{
+    KernelOutput output{std::move(name), rows, columns, {}};
+    for (std::size_t k = 0; k < values.size(); ++k)
+        if (!graph.is_zero(values[k])) output.entries.push_back({k / columns, k % columns, values[k]});
+    return output;
+}
+
+Kernel scalar_kernel(std::string name, NodeId value, std::string documentation)
+{
+    return {std::move(name), KernelShape::scalar, column("value", {value}), {std::move(documentation)}, {}, {}};
+}
+
+const std::vector<std::string>& form_names()
+{
+    static const std::vector<std::string> names{"lagrange", "hamilton", "pontryagin"};
+    return names;
+}
+
+KernelModule form_kernels(const Model& model, const VerifiedAlgebroid& verified, const KernelRequest& request)
+{
+    refuse_unknown(request.only);
+    return ModuleBuilder(model, verified, request).build();
+}
+
+} // namespace lagen

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// The kernels of one form of a model, differentiated on the graph from the user's own form of rho, C, L, H, cost.
+/// State lanes: x^i (n), then y^a or mu_a (r).
+///   rhs           the equations of motion (kernels/formulation.hpp)
+///   jacobian      d rhs / d state, sparse;  variational: d rhs / d state * v
+///   constraints, domain, observables, invariants, events: vectors in the order of the model
+///   of lagrange: mass_matrix, momentum, energy, power, lagrangian; lagrangian_hessian on request
+///   of hamilton: velocity, energy, power, hamiltonian, lagrangian; hamiltonian_hessian on request
+///   of pontryagin: controls, hamiltonian, power, cost
+#pragma once
+
+#include "geometry/verify.hpp"
+#include "graph/kernel.hpp"
+
+namespace lagen {
+
+struct KernelRequest {
+    std::string form;              ///< empty: default_form(model)
+    std::vector<std::string> only; ///< kernel names wanted; empty: all but the variational equations and Hessians
+    const Scene* scene = nullptr;  ///< events and observed expressions of this scene only; null: events of every scene
+    std::string* report = nullptr; ///< receives what the simplification of each kernel tried, as text
+};
+
+/// Throws MathematicsError where the model has no such form.
+[[nodiscard]] KernelModule form_kernels(const Model& model, const VerifiedAlgebroid& verified,
+                                        const KernelRequest& request = {});
+
+/// Every form there is.
+[[nodiscard]] const std::vector<std::string>& form_names();
+
+} // namespace lagen

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// A form of the equations as nodes of a graph: what every kernel is made from. Names that observables, events and
+/// invariants may use are in `binding`; what the model declares wins.
+///   lagrange    state (x, y):   W ydot = rho_a(L) + Q_a - (d2L/dydx) rho y - d2L/dydt - p_c C^c_ab y^b
+///   hamilton    state (x, mu):  xdot = rho dH/dmu, mudot_a = -(rho_a(H) + mu_c C^c_ab dH/dmu_b) + Q_a
+///   pontryagin  state (x, mu):  the same with H = mu_a sigma^a - cost where u maximises it          [Martinez 2004]
+#pragma once
+
+#include "geometry/verify.hpp"
+#include "graph/kernel.hpp"
+#include "graph/lower.hpp"
+
+namespace lagen {
+
+struct Formulation {
+    std::string form;
+    NodeId time = 0;
+    std::vector<NodeId> parameters;
+    std::vector<NodeId> x;                  ///< x^i, shape (n)
+    std::vector<NodeId> lanes;              ///< the other lanes of the state, shape (r)
+    std::vector<Symbol> lane_names;         ///< of `lanes`
+    std::string lane_group;                 ///< the struct of them: "Fibre" or "Momenta"
+    std::vector<NodeId> derivative;         ///< of x, then of the lanes; empty unless asked for
+    std::vector<NodeId> pivots;             ///< 1 x 1 blocks of what is solved for the derivative
+    std::vector<std::string> documentation; ///< of the right-hand side
+    std::vector<ImplicitBlock> implicit;
+    std::vector<Kernel> kernels;       ///< of this form alone, in order; empty outputs are left out
+    std::vector<std::string> controls; ///< their names, pontryagin
+    Binding binding;
+};
+
+/// What is to be there: `motion` for the derivative; `hessians` for the second derivatives of L and H.
+struct FormulationParts {
+    bool motion = true;
+    bool hessians = false;
+};
+
+/// Throw MathematicsError where the model has no such form: no L, no H, no control problem; a degenerate L; a
+/// Hamiltonian that the controls do not maximise in a way that can be solved for.
+[[nodiscard]] Formulation lagrange_form(Graph& graph, const Model& model, const VerifiedAlgebroid& verified,
+                                        const FormulationParts& parts);
+[[nodiscard]] Formulation hamilton_form(Graph& graph, const Model& model, const VerifiedAlgebroid& verified,
+                                        const FormulationParts& parts);
+[[nodiscard]] Formulation pontryagin_form(Graph& graph, const Model& model, const VerifiedAlgebroid& verified,
+                                          const FormulationParts& parts);
+
+/// A column of all entries.
+[[nodiscard]] KernelOutput column(std::string name, const std::vector<NodeId>& values);
+/// The entries of a rows x columns matrix that are no zeros by structure.
+[[nodiscard]] KernelOutput matrix(const Graph& graph, std::string name, std::size_t rows, std::size_t columns,
+                                  const std::vector<NodeId>& values);
+[[nodiscard]] Kernel scalar_kernel(std::string name, NodeId value, std::string documentation);
+
+} // namespace lagen

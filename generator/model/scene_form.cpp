@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "model/scene_form.hpp"
+
+#include "model/families.hpp"
+#include "model/table_reader.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <set>
+#include <unordered_set>
+
+namespace lagen {
+
+namespace {
+
+/// What a model lacks that has not this form.
+const char* missing_block(const std::string& form)
+{
+    if (form == "lagrange") return "no [lagrangian]";
+    if (form == "hamilton") return "neither [hamiltonian] nor [lagrangian]";
+    return form == "pontryagin" ? "no [control]" : "no [discrete]";
+}
+
+std::string form_hint(const std::vector<std::string>& forms)
+{
+    return forms.empty() ? "equations of motion need [lagrangian], [hamiltonian] or [control]"
+                         : fmt::format("forms of this model: {}", comma_list(forms));
+}
+
+/// Looks for controls in trees that may share their parts; a part is looked through once.
+class ControlSearch {
+  public:
+    explicit ControlSearch(const Model& model)
+    {
+        if (!model.control) return;
+        for (const Symbol& control : model.control->controls) controls_.insert(control.name);
+    }
+
+    /// A control in `root`; empty where there is none, or none in parts that were not looked through before.
+    std::string operator()(const Tree& root)
+    {
+        std::vector<const TreeNode*> stack{root.get()};
+        while (!stack.empty() && !controls_.empty()) {
+            const TreeNode* node = stack.back();
+            stack.pop_back();
+            if (node == nullptr || !seen_.insert(node).second) continue;
+            if (node->kind == TreeKind::name && controls_.contains(node->name)) return node->name;
+            for (auto argument = node->arguments.rbegin(); argument != node->arguments.rend(); ++argument)
+                stack.push_back(argument->get());
+        }
+        return {};
+    }
+
+  private:
+    std::set<std::string> controls_;
+    std::unordered_set<const TreeNode*> seen_; // looked up, never iterated
+};
+
+[[noreturn]] void refuse_control(const std::string& what, const std::string& control, const std::string& form,
+                                 const SourceRange& where)
+{
+    throw ModelError(
+        fmt::format("{} depends on the control '{}', which the form '{}' does not have", what, control, form), where,
+        "controls are there in Pontryagin's form: form = \"pontryagin\"");
+}
+
+/// No form but Pontryagin's has controls to observe.
+void require_no_controls(const Model& model, const Scene& scene, const std::string& form)
+{
+    ControlSearch control_in(model);
+    for (const NamedTree& column : scene.observe.value_or(std::vector<NamedTree>{}))
+        if (const std::string control = control_in(column.value); !control.empty())
+            refuse_control(fmt::format("the column '{}' of scene '{}'", column.name, scene.name), control, form,
+                           column.where);
+    for (const Event& event : scene.events)
+        if (const std::string control = control_in(event.when); !control.empty())
+            refuse_control(fmt::format("event '{}' of scene '{}'", event.name, scene.name), control, form, event.where);
+}
+
+/// A costate follows from no velocity: sigma gives y for each (x, u), and u is what is sought.
+void require_momenta(const Model& model, const Scene& scene)
+{
+    std::set<std::string> fibre;
+    for (const Symbol& symbol : model.fibre.coordinates) fibre.insert(symbol.name);
+    const auto is_fibre = [&](const NamedTree& each) { return fibre.contains(each.name); };
+    if (std::ranges::none_of(scene.initial, is_fibre)) return;
+    throw ModelError(
+        fmt::format("scene '{}' starts from fibre coordinates, where Pontryagin's equations start from momenta",
+                    scene.name),
+        scene.where, fmt::format("give 'initial' the momenta {}", comma_list(declared_names(model.fibre.momenta))));
+}
+
+/// Puts the states of `form` where "state" stood; columns that are there already are not repeated.
+void replace_states(const Model& model, Scene& scene, const std::string& form)
+{
+    if (!scene.observe || !scene.states) return;
+    const auto [first, count, where] = *scene.states;
+    std::vector<NamedTree>& columns = *scene.observe;
+    const auto begin = columns.begin() + static_cast<std::ptrdiff_t>(first);
+    columns.erase(begin, begin + static_cast<std::ptrdiff_t>(count));
+    std::set<std::string> before, after;
+    for (std::size_t k = 0; k < first; ++k) before.insert(columns[k].name);
+    std::vector<NamedTree> states;
+    for (const std::string& each : state_names(model, form)) {
+        if (before.contains(each)) continue;
+        states.push_back({each, name(each, where), where});
+        after.insert(each);
+    }
+    std::erase_if(columns, [&](const NamedTree& column) { return after.contains(column.name); });
+    scene.states->count = states.size();
+    columns.insert(columns.begin() + static_cast<std::ptrdiff_t>(first), states.begin(), states.end());
+}
+
+} // namespace
+
+std::string default_form(const Model& model)
+{
+    if (model.control) return "pontryagin";
+    return model.lagrangian == nullptr && model.hamiltonian != nullptr ? "hamilton" : "lagrange";
+}
+
+std::vector<std::string> forms_of(const Model& model)
+{
+    std::vector<std::string> forms;
+    if (model.control) forms.emplace_back("pontryagin");
+    if (model.lagrangian) forms.emplace_back("lagrange");
+    if (model.lagrangian || model.hamiltonian) forms.emplace_back("hamilton");
+    return forms;
+}
+
+void require_form(const Model& model, const std::string& form, const std::string& what, const SourceRange& where)
+{
+    const std::vector<std::string> known{"lagrange", "hamilton", "pontryagin", "discrete"};
+    if (std::ranges::find(known, form) == known.end())
+        throw ModelError(fmt::format("{} is '{}', which is no form", what, form), where,
+                         hint_for(form, known, "forms"));
+    const std::vector<std::string> forms = forms_of(model);
+    if (std::ranges::find(forms, form) == forms.end())
+        throw ModelError(fmt::format("{} is '{}', but the model has {}", what, form, missing_block(form)), where,
+                         form_hint(forms));
+}
+
+std::string form_of(const Model& model, const Scene& scene)
+{
+    return scene.form.empty() ? default_form(model) : scene.form;
+}
+
+std::vector<std::string> state_names(const Model& model, const std::string& form)
+{
+    std::vector<std::string> names = names_of(model.base.coordinates);
+    const auto append = [&](const std::vector<Symbol>& symbols) {
+        for (const Symbol& symbol : symbols) names.push_back(symbol.name);
+    };
+    append(form == "lagrange" ? model.fibre.coordinates : model.fibre.momenta);
+    if (form == "pontryagin" && model.control) append(model.control->controls);
+    return names;
+}
+
+bool uses_controls(const Model& model, const Tree& tree)
+{
+    return !ControlSearch(model)(tree).empty();
+}
+
+Scene in_form(const Model& model, Scene scene, const std::string& form)
+{
+    if (form == scene.form)
+        require_form(model, form, fmt::format("'form' of scene '{}'", scene.name), scene.form_where);
+    const std::vector<std::string> forms = forms_of(model);
+    if (form != form_of(model, scene) && std::ranges::find(forms, form) == forms.end())
+        throw MathematicsError(fmt::format("error: the form asked for is '{}', but the model has {}\nhint: {}", form,
+                                           missing_block(form), form_hint(forms)));
+    scene.form = form;
+    replace_states(model, scene, form);
+    if (form == "pontryagin")
+        require_momenta(model, scene);
+    else
+        require_no_controls(model, scene, form);
+    return scene;
+}
+
+} // namespace lagen

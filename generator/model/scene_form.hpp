@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Forms of the equations of motion, "lagrange", "hamilton", "pontryagin": which of them a model has, and what a scene
+/// means in one of them.
+#pragma once
+
+#include "model/model.hpp"
+
+namespace lagen {
+
+/// "pontryagin" where the model has [control], else "lagrange" where it has L, else "hamilton" where it has H;
+/// "lagrange" for a model that has none of them.
+[[nodiscard]] std::string default_form(const Model& model);
+
+/// The forms that the model has, the default first.
+[[nodiscard]] std::vector<std::string> forms_of(const Model& model);
+
+/// Throws ModelError where `form` is no form, or none of the model's. `what` calls it: "'form' of scene 'default'".
+void require_form(const Model& model, const std::string& form, const std::string& what, const SourceRange& where);
+
+/// The form of a scene, the model's default where it names none.
+[[nodiscard]] std::string form_of(const Model& model, const Scene& scene);
+
+/// The columns of a state: base coordinates, then fibre coordinates (lagrange), momenta (hamilton), or momenta and
+/// controls (pontryagin).
+[[nodiscard]] std::vector<std::string> state_names(const Model& model, const std::string& form);
+
+/// Whether `tree` contains a control: such an expression has a value in Pontryagin's form alone.
+[[nodiscard]] bool uses_controls(const Model& model, const Tree& tree);
+
+/// `scene` with another form: "state" in `observe` means the states of that form. Throws MathematicsError where the
+/// model does not have it (ModelError where the scene itself names it; nothing for the default of a model that has
+/// none), and ModelError where the scene cannot do in this form: Pontryagin's equations start from momenta, and no
+/// other form has controls to observe.
+[[nodiscard]] Scene in_form(const Model& model, Scene scene, const std::string& form);
+
+} // namespace lagen

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+/// The equations of the stages of a collocation method and one step of Newton's method on them, for Gauss' methods and
+/// Radau IIA: the Jacobian of the model, the decompositions of 1 - h lambda J for every eigenvalue lambda of the
+/// method's matrix, residuals and increments. When to stop is the steppers' business.
+#pragma once
+
+#include "lagen/integrate/collocation.hpp"
+#include "lagen/integrate/tableau.hpp"
+
+#include <limits>
+
+namespace lagen::detail {
+
+template <class Scheme, class M>
+class StageEquations {
+    static_assert(!is_pack<typename M::Scalar>, "implicit methods iterate until one trajectory has converged: use them "
+                                                "with a scalar, and packs with explicit fixed-step methods");
+    static_assert(HasJacobian<M>,
+                  "implicit methods need the exact Jacobian of the right-hand side: jacobian_values(t, s, values) with "
+                  "jacobian_rows and jacobian_columns, as generated headers have them");
+
+  public:
+    using Real = typename M::Scalar;
+    using State = typename M::State;
+    static constexpr std::size_t stages = Scheme::stages, n = static_cast<std::size_t>(M::dimension);
+    using Stages = std::array<State, stages>;
+
+    StageEquations() : method_(Scheme::template coefficients<Real>()), modes_(modes<Scheme, Real>(method_.c)) {}
+
+    [[nodiscard]] const Collocation<Real, stages>& method() const noexcept { return method_; }
+
+    /// Everything zero, with the number of lanes of `s`.
+    void begin(const State& s) noexcept
+    {
+        const State zero = State::Zero(s.size());
+        for (State& stage : slopes) stage = zero;
+        for (State& stage : residuals) stage = zero;
+        x_ = zero;
+    }
+
+    /// J at (t, s). Entries that are no numbers make the next decomposition fail.
+    void linearise(const M& model, const Real& t, const State& s) noexcept { model.jacobian_values(t, s, values_); }
+
+    /// Sets the length of the step and decomposes 1 - h lambda J; false where one of these matrices is singular.
+    [[nodiscard]] bool factor(const Real& h) noexcept
+    {
+        ++decompositions;
+        split(h);
+        for (std::size_t k = 0; k < real_.size(); ++k)
+            if (!factor(real_[k], Real(h * modes_.real[k].lambda))) return false;
+        for (std::size_t k = 0; k < complex_.size(); ++k)
+            if (!factor(complex_[k], h * modes_.complex[k].lambda)) return false;
+        return true;
+    }
+
+    /// slopes_i = b_i f(t + c_i h, s - lost + z_i), residuals_i = h sum_j mu_ij slopes_j - z_i; the status of the first
+    /// stage that cannot be evaluated. `lost` is the rounding error of s, small against it.
+    Status evaluate(const M& model, const Real& t, const State& s, const State& lost, const Stages& z) noexcept
+    {
+        for (std::size_t i = 0; i < stages; ++i) {
+            for (Eigen::Index lane = 0; lane < s.size(); ++lane) x_[lane] = s[lane] + (z[i][lane] - lost[lane]);
+            ++calls;
+            const Status status = model.rhs(Real(t + method_.c[i] * h_), x_, slopes[i]);
+            if (status != Status::ok) return status;
+            for (Eigen::Index lane = 0; lane < s.size(); ++lane) slopes[i][lane] *= method_.b[i];
+        }
+        for (std::size_t i = 0; i < stages; ++i)
+            for (Eigen::Index lane = 0; lane < s.size(); ++lane) {
+                Real sum = method_.mu[i][0] * slopes[0][lane];
+                for (std::size_t j = 1; j < stages; ++j) sum += method_.mu[i][j] * slopes[j][lane];
+                residuals[i][lane] = times_length(sum) - z[i][lane];
+            }
+        return Status::ok;
+    }
+
+    /// Why increments are no numbers: the right-hand side was not finite, or the iteration ran away.
+    [[nodiscard]] Status runaway() const noexcept
+    {
+        for (const State& slope : slopes)
+            if (check_finite(slope) != Status::ok) return Status::non_finite;
+        return Status::newton_diverged;
+    }
+
+    /// h a, without a bias: products with a step such as 0.1, close to a fraction of small denominator, are rounded up
+    /// or down according to the size of `a`, and invariants then drift by 1e-4 units of the last place a step. Products
+    /// with its halves are not.
+    [[nodiscard]] Real times_length(const Real& a) const noexcept { return high_ * a + low_ * a; }
+
+    /// Turns the residuals into the increments of z.
+    void solve() noexcept
+    {
+        ++iterations;
+        for (std::size_t k = 0; k < real_.size(); ++k) {
+            for (std::size_t lane = 0; lane < n; ++lane) w_real_[k][lane] = project(modes_.real[k].left, lane);
+            real_[k].solve(w_real_[k]);
+        }
+        for (std::size_t k = 0; k < complex_.size(); ++k) {
+            for (std::size_t lane = 0; lane < n; ++lane) w_complex_[k][lane] = project(modes_.complex[k].left, lane);
+            complex_[k].solve(w_complex_[k]);
+        }
+        for (std::size_t i = 0; i < stages; ++i)
+            for (std::size_t lane = 0; lane < n; ++lane) {
+                Real sum = Real(0);
+                for (std::size_t k = 0; k < real_.size(); ++k) sum += modes_.real[k].right[i] * w_real_[k][lane];
+                for (std::size_t k = 0; k < complex_.size(); ++k) {
+                    const Complex<Real>& v = modes_.complex[k].right[i];
+                    const Complex<Real>& w = w_complex_[k][lane];
+                    sum += Real(2) * (v.re * w.re - v.im * w.im);
+                }
+                residuals[i][static_cast<Eigen::Index>(lane)] = sum;
+            }
+    }
+
+    /// Sum of the squares of the last increments, in the coordinates of the modes, in units of `scale`; where there is
+    /// no increment, a scale of zero is met. (The same norm as in radau5.f.)
+    [[nodiscard]] Real squared_increments(const State& scale) const noexcept
+    {
+        Real sum = Real(0);
+        const auto add = [&](const Real& w, std::size_t lane) {
+            if (w == Real(0)) return;
+            const Real ratio = w / scale[static_cast<Eigen::Index>(lane)];
+            sum += ratio * ratio;
+        };
+        for (std::size_t lane = 0; lane < n; ++lane) {
+            for (const auto& w : w_real_) add(w[lane], lane);
+            for (const auto& w : w_complex_) {
+                add(w[lane].re, lane);
+                add(w[lane].im, lane);
+            }
+        }
+        return sum;
+    }
+
+    [[nodiscard]] const Real& real_eigenvalue() const noexcept requires(Scheme::real_poles == 1)
+    {
+        return modes_.real[0].lambda;
+    }
+
+    /// Replaces `e` by (1 - h lambda J)^-1 e with the real eigenvalue.
+    void solve_real(State& e) noexcept requires(Scheme::real_poles == 1)
+    {
+        for (std::size_t lane = 0; lane < n; ++lane) w_real_[0][lane] = e[static_cast<Eigen::Index>(lane)];
+        real_[0].solve(w_real_[0]);
+        for (std::size_t lane = 0; lane < n; ++lane) e[static_cast<Eigen::Index>(lane)] = w_real_[0][lane];
+    }
+
+    /// sizes_l = sum_m |J_lm| |s_m|.
+    void row_sizes(const State& s, State& sizes) const noexcept
+    {
+        for (Eigen::Index lane = 0; lane < sizes.size(); ++lane) sizes[lane] = Real(0);
+        for (std::size_t k = 0; k < values_.size(); ++k)
+            sizes[M::jacobian_rows[k]] += magnitude(values_[k]) * magnitude(s[M::jacobian_columns[k]]);
+    }
+
+    Stages slopes, residuals;
+    std::size_t calls = 0, iterations = 0, decompositions = 0;
+
+  private:
+    /// h = high + low, each with half the digits [Dekker 1971].
+    void split(const Real& h) noexcept
+    {
+        Real factor = Real(1);
+        for (int k = 0; k < (std::numeric_limits<Real>::digits + 1) / 2; ++k) factor *= Real(2);
+        const Real large = (factor + Real(1)) * h, rest = large - h;
+        high_ = large - rest;
+        low_ = h - high_;
+        h_ = h;
+    }
+
+    template <class Entry>
+    bool factor(MatrixLu<Entry, n>& lu, const Entry& scale) noexcept
+    {
+        const Entry one = unit(scale);
+        for (std::size_t i = 0; i < n; ++i)
+            for (std::size_t j = 0; j < n; ++j) lu(i, j) = i == j ? one : Entry{};
+        for (std::size_t k = 0; k < values_.size(); ++k) {
+            Entry& entry =
+                lu(static_cast<std::size_t>(M::jacobian_rows[k]), static_cast<std::size_t>(M::jacobian_columns[k]));
+            entry = entry - values_[k] * scale;
+        }
+        return lu.factor();
+    }
+
+    static Real unit(const Real&) noexcept { return Real(1); }
+    static Complex<Real> unit(const Complex<Real>&) noexcept { return {Real(1), Real(0)}; }
+
+    template <class Entry>
+    Entry project(const std::array<Entry, stages>& left, std::size_t lane) const noexcept
+    {
+        const auto index = static_cast<Eigen::Index>(lane);
+        Entry sum = residuals[0][index] * left[0];
+        for (std::size_t i = 1; i < stages; ++i) sum = sum + residuals[i][index] * left[i];
+        return sum;
+    }
+
+    Collocation<Real, stages> method_;
+    Modes<Scheme, Real> modes_;
+    std::array<Real, M::jacobian_rows.size()> values_{};
+    std::array<MatrixLu<Real, n>, Modes<Scheme, Real>::reals> real_;
+    std::array<MatrixLu<Complex<Real>, n>, Modes<Scheme, Real>::pairs> complex_;
+    std::array<std::array<Real, n>, Modes<Scheme, Real>::reals> w_real_;
+    std::array<std::array<Complex<Real>, n>, Modes<Scheme, Real>::pairs> w_complex_;
+    State x_;
+    Real h_ = Real(0), high_ = Real(0), low_ = Real(0);
+};
+
+/// The collocation polynomial of a step, s + Z(theta), Z(0) = 0, Z(c_i) = Z_i: weights of the Z_i in Z(theta).
+template <class Real, std::size_t stages>
+void collocation_weights(const std::array<Real, stages>& c, const Real& theta,
+                         std::array<Real, stages>& weights) noexcept
+{
+    for (std::size_t j = 0; j < stages; ++j) {
+        weights[j] = theta / c[j];
+        for (std::size_t m = 0; m < stages; ++m)
+            if (m != j) weights[j] *= (theta - c[m]) / (c[j] - c[m]);
+    }
+}
+
+} // namespace lagen::detail

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Hamilton's and Pontryagin's forms against equations written by hand, and what they refuse.
+#include "models.hpp"
+
+#include "../support/compiled.hpp"
+#include "../support/tolerances.hpp"
+
+#include <cmath>
+
+using namespace lagen;
+using namespace lagen::testing;
+
+namespace {
+
+KernelModule module_of(const std::string& text, const std::string& form, std::vector<std::string> only = {})
+{
+    KernelRequest request;
+    request.form = form;
+    request.only = std::move(only);
+    return kernels_of(read_model_text("test.toml", text), request);
+}
+
+std::string refusal(const std::string& text, const std::string& form)
+{
+    try {
+        static_cast<void>(module_of(text, form));
+        return "";
+    } catch (const MathematicsError& error) {
+        return error.what();
+    }
+}
+
+void check_close(const std::vector<double>& found, const std::vector<double>& expected)
+{
+    REQUIRE(found.size() == expected.size());
+    for (std::size_t k = 0; k < found.size(); ++k)
+        CHECK(std::abs(found[k] - expected[k]) <= tolerance::roundoff(64) * (1 + std::abs(expected[k])));
+}
+
+const std::string body = R"toml(name = "body"
+[parameters]
+I1 = 1
+I2 = 2
+I3 = 3
+[fibre]
+coordinates = ["w1", "w2", "w3"]
+momenta = ["m1", "m2", "m3"]
+[algebroid]
+kind = "lie_algebra"
+algebra = "so(3)"
+)toml";
+
+/// m sqrt(1 - u^2): p = m u / sqrt(1 - u^2).
+const std::string particle = R"toml(name = "particle"
+[parameters]
+m = 2
+[base]
+coordinates = ["x"]
+[algebroid]
+kind = "tangent"
+[lagrangian]
+L = "-m*sqrt(1 - v_x^2) - x^2/2"
+[forces]
+v_x = "-v_x*exp(-t)"
+)toml";
+
+std::string control(const std::string& block)
+{
+    return "name = \"problem\"\n[base]\ncoordinates = [\"x\", \"v\"]\n[fibre]\ncoordinates = [\"a\", \"b\"]\n"
+           "momenta = [\"px\", \"pv\"]\n[algebroid]\nkind = \"tangent\"\n[control]\n" +
+           block;
+}
+
+} // namespace
+
+TEST_CASE("a Hamiltonian that is given moves by the Lie-Poisson equations", "[kernels]")
+{
+    const KernelModule module =
+        module_of(body + "[hamiltonian]\nH = \"m1^2/(2*I1) + m2^2/(2*I2) + m3^2/(2*I3)\"\n", "");
+    CHECK(module.name == "body_hamilton");
+    const Values point{{"t", 0}, {"I1", 1}, {"I2", 2}, {"I3", 3}, {"m1", 0.5}, {"m2", -1.5}, {"m3", 2}};
+    // m' = m x w, w = m / I
+    check_close(values_of(module, "rhs", point),
+                {-1.5 * 2 / 3 + 2 * 0.75, 2 * 0.5 - 0.5 * 2 / 3, 0.5 * -0.75 + 1.5 * 0.5});
+    check_close(values_of(module, "velocity", point), {0.5, -0.75, 2.0 / 3});
+    check_close(values_of(module, "hamiltonian", point), {0.125 + 0.5625 + 2.0 / 3});
+}
+
+TEST_CASE("velocities that are no linear functions of the momenta are solved for", "[kernels]")
+{
+    const KernelModule module = module_of(particle, "hamilton");
+    REQUIRE(module.implicit.size() == 1);
+    for (const double p : {0.0, 1e-9, 0.5, -3.0, 40.0, -900.0}) {
+        INFO(p);
+        const double v = p / std::sqrt(4 + p * p);
+        const double energy = std::sqrt(4 + p * p) + 0.125;
+        const Values point{{"t", 0.25}, {"m", 2}, {"x", 0.5}, {"p_v_x", p}};
+        check_close(values_of(module, "velocity", point), {v});
+        check_close(values_of(module, "rhs", point), {v, -0.5 - v * std::exp(-0.25)});
+        check_close(values_of(module, "power", point), {-v * v * std::exp(-0.25)});
+        // Cancellation in mu v - L: the energy loses what sqrt(1 - v^2) loses.
+        CHECK(std::abs(values_of(module, "energy", point)[0] - energy) <= 1e-9 * energy);
+    }
+}
+
+TEST_CASE("compiled Newton iterations agree with the interpreter in four scalars", "[kernels][compile]")
+{
+    std::vector<CompiledCase> cases;
+    const KernelModule particles =
+        module_of(particle, "hamilton", {"rhs", "velocity", "energy", "jacobian", "hamiltonian_hessian"});
+    cases.push_back({particles, {}});
+    for (const double p : {0.0, 0.5, -3.0})
+        cases.back().points.push_back({{"t", 0.25}, {"m", 2}, {"x", 0.5}, {"p_v_x", p}});
+    const KernelModule steering = module_of(
+        control("controls = [\"u\"]\nsigma = { a = \"v\", b = \"u\" }\ncost = \"exp(u) - u + x^2/2\"\n"), "pontryagin");
+    REQUIRE(steering.implicit.size() == 1);
+    cases.push_back({steering, {{{"t", 0}, {"x", 1}, {"v", 2}, {"px", 0.5}, {"pv", 3}}}});
+    compare_compiled("newton", "g++", cases, 200);
+    if (run_shell("clang++ --version").status == 0) compare_compiled("newton", "clang++", cases, 200);
+}
+
+TEST_CASE("the variational equations are the Jacobian times a vector", "[kernels]")
+{
+    for (const auto& [text, form] : {std::pair{particle, "hamilton"}, {particle, "lagrange"}}) {
+        const KernelModule module = module_of(text, form, {"rhs", "jacobian", "variational"});
+        Values point{{"t", 0.25}, {"m", 2}, {"x", 0.5}, {"p_v_x", 0.75}, {"v_x", 0.6}};
+        const std::vector<double> v{0.3, -1.25};
+        for (std::size_t k = 0; k < 2; ++k) point[module.graph->input_name(module.direction[k].input)] = v[k];
+        std::vector<double> expected(2, 0.0);
+        const Kernel& jacobian = find_kernel(module, "jacobian");
+        const std::vector<double> values = values_of(module, "jacobian", point);
+        for (std::size_t k = 0; k < values.size(); ++k)
+            expected[jacobian.output.entries[k].row] += values[k] * v[jacobian.output.entries[k].column];
+        check_close(values_of(module, "variational", point), expected);
+        CHECK(std::abs(expected[1]) > 0.05);
+    }
+}
+
+TEST_CASE("controls solve dH/du = 0 and stay within their bounds", "[kernels]")
+{
+    const std::string problem =
+        control("controls = [\"u\"]\nsigma = { a = \"v\", b = \"u\" }\ncost = \"u^2/2\"\nbounds = { u = [-1, 2] }\n");
+    const KernelModule module = module_of(problem, "");
+    CHECK(module.name == "problem_pontryagin");
+    for (const double pv : {-3.0, -0.5, 1.5, 7.0}) {
+        const double u = std::min(std::max(pv, -1.0), 2.0);
+        const Values point{{"t", 0}, {"x", 1}, {"v", 2}, {"px", 0.5}, {"pv", pv}};
+        check_close(values_of(module, "controls", point), {u});
+        check_close(values_of(module, "rhs", point), {2, u, 0, -0.5});
+        check_close(values_of(module, "hamiltonian", point), {0.5 * 2 + pv * u - u * u / 2});
+    }
+    const KernelModule implicit = module_of(
+        control(
+            "controls = [\"u\"]\nsigma = { a = \"v\", b = \"u\" }\ncost = \"exp(u) - u\"\nbounds = { u = [-3, 1] }\n"),
+        "");
+    for (const double pv : {-0.5, 0.5, 9.0})
+        check_close(values_of(implicit, "controls", {{"t", 0}, {"x", 1}, {"v", 2}, {"px", 0.5}, {"pv", pv}}),
+                    {std::min(std::log(1 + pv), 1.0)});
+}
+
+TEST_CASE("forms that a model does not have are refused with the reason", "[kernels]")
+{
+    CHECK(refusal(body, "lagrange") ==
+          "error: model 'body' has no Lagrangian; the Lagrangian form needs [lagrangian] L");
+    CHECK(refusal(body, "hamilton") ==
+          "error: model 'body' has no Lagrangian; the Hamiltonian form needs [lagrangian] L or [hamiltonian] H");
+    CHECK(refusal(body + "[lagrangian]\nL = \"w1^2/2 + w2^2\"\n", "hamilton") ==
+          "error: the Lagrangian of model 'body' is degenerate: d2L/dy2 has rank 2, and the Hamiltonian form needs "
+          "rank 3\n"
+          "hint: the velocities cannot be solved for; give every fibre coordinate a kinetic term");
+    CHECK(refusal(body, "pontryagin") == "error: model 'body' is no control problem; the Pontryagin form needs "
+                                         "[control] with controls, sigma and cost");
+    CHECK(refusal(control("controls = [\"u\"]\nsigma = { a = \"v\", b = \"u\" }\ncost = \"x^2\"\n"), "pontryagin") ==
+          "error: the Hamiltonian of model 'problem' is affine in the control u: dH/du = 0 does not determine it (a "
+          "singular or bang-bang control)\nhint: give the cost a term in which u is strictly convex");
+    CHECK(
+        refusal(control("controls = [\"u\", \"w\"]\nsigma = { a = \"u\", b = \"w\" }\ncost = \"u^2 + u*w + w^2\"\n"
+                        "bounds = { u = [0, 1] }\n"),
+                "pontryagin") ==
+        "error: the controls of model 'problem' have bounds, which clip the solution of dH/du = 0 only where H is "
+        "separable and strictly concave in them: d2H/dudw is not zero\nhint: without bounds dH/du = 0 is solved as it "
+        "is");
+    CHECK(
+        refusal(control("controls = [\"u\"]\nsigma = { a = \"v\", b = \"u\" }\ncost = \"x*u^2\"\n"
+                        "bounds = { u = [0, 1] }\n"),
+                "pontryagin") ==
+        "error: the controls of model 'problem' have bounds, which clip the solution of dH/du = 0 only where H is "
+        "separable and strictly concave in them: d2H/du2 < 0 was not proved\nhint: without bounds dH/du = 0 is solved "
+        "as it is");
+}
