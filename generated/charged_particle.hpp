@@ -185,7 +185,7 @@ class charged_particle {
         const S v = s[3];
         const S q = s[4];
         const S k = parameters.k;
-        return S(0.5) * (q * q + (v * v + (u * u + k * (x * x + y * y))));
+        return S(0.5) * (q * q + (v * v + (u * u + k * (y * y + x * x))));
     }
 
     /// L(t, x, y).
@@ -197,7 +197,7 @@ class charged_particle {
         const S v = s[3];
         const S q = s[4];
         const S k = parameters.k;
-        return S(0.5) * (q * q + (u * u + v * v) - k * (x * x + y * y));
+        return S(0.5) * (q * q + (u * u + v * v) - k * (y * y + x * x));
     }
 
     static constexpr std::array<const char*, 1> observables_names = {"field"};
@@ -226,7 +226,7 @@ class charged_particle {
         const S k = parameters.k;
         Eigen::Matrix<S, 2, 1> result;
         result[0] = q;
-        result[1] = S(0.5) * (v * v + (u * u + k * (x * x + y * y)));
+        result[1] = S(0.5) * (v * v + (u * u + k * (y * y + x * x)));
         return result;
     }
 

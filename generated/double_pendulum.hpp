@@ -53,6 +53,7 @@
 
 #include "lagen/kernel.hpp"
 #include "lagen/linear.hpp"
+#include "lagen/sincos.hpp"
 
 #include <Eigen/Core>
 
@@ -139,8 +140,6 @@ class double_pendulum {
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
         using std::abs;
-        using std::cos;
-        using std::sin;
         const S a = s[0];
         const S b = s[1];
         const S u = s[2];
@@ -154,22 +153,19 @@ class double_pendulum {
         const S w0 = m1 + m2;
         const S w1 = w0 * l1;
         const S w2 = m2 * l2;
-        const S w3 = sin(a);
-        const S w4 = cos(a);
-        const S w5 = sin(b);
-        const S w6 = cos(b);
-        const S w7 = w4 * w6 + w3 * w5;
-        const S w8 = w2 * w7;
-        const S w9 = l1 * w7;
-        const S det0 = w1 * l2 - w8 * w9;
-        StatusOf<S>::fail(status, abs(det0) <= singular_tolerance<S>(2) * (abs(w1 * l2) + abs(w8 * w9)),
+        const auto [sines, cosines] = sincos<S, 2>({a, b});
+        const S w3 = cosines[0] * cosines[1] + sines[0] * sines[1];
+        const S w4 = w2 * w3;
+        const S w5 = l1 * w3;
+        const S det0 = w1 * l2 - w4 * w5;
+        StatusOf<S>::fail(status, abs(det0) <= singular_tolerance<S>(2) * (abs(w1 * l2) + abs(w4 * w5)),
                 Status::singular_mass_matrix);
         const S inv_det0 = S(1) / det0;
-        const S w10 = w4 * w5 - w3 * w6;
-        const S w11 = w2 * w10 * (v * v) - w0 * g * w3;
-        const S w12 = -(g * w5 + l1 * w10 * (u * u));
-        const S z0_0 = (l2 * w11 - w8 * w12) * inv_det0;
-        const S z0_1 = (w1 * w12 - w9 * w11) * inv_det0;
+        const S w6 = cosines[0] * sines[1] - sines[0] * cosines[1];
+        const S w7 = w2 * w6 * (v * v) - w0 * g * sines[0];
+        const S w8 = -(g * sines[1] + l1 * w6 * (u * u));
+        const S z0_0 = (l2 * w7 - w4 * w8) * inv_det0;
+        const S z0_1 = (w1 * w8 - w5 * w7) * inv_det0;
         ds[0] = u;
         ds[1] = v;
         ds[2] = z0_0;
@@ -221,7 +217,6 @@ class double_pendulum {
     /// E = y^a p_a - L.
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
-        using std::cos;
         const S a = s[0];
         const S b = s[1];
         const S u = s[2];
@@ -236,14 +231,14 @@ class double_pendulum {
         const S w2 = l1 * u;
         const S w3 = m1 + m2;
         const S w4 = w3 * w2;
-        const S w5 = S(0.5) * l2 * v * w1 + w2 * (w4 + cos(a - b) * w1) - w3 * l1 * g * cos(a) - w0 * g * cos(b);
-        return w5 - S(0.5) * w2 * w4;
+        const auto [sines, cosines] = sincos<S, 3>({a, b, a - b});
+        return S(0.5) * l2 * v * w1 + w2 * (w4 + cosines[2] * w1) - w3 * l1 * g * cosines[0] - w0 * g * cosines[1] -
+                S(0.5) * w2 * w4;
     }
 
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        using std::cos;
         const S a = s[0];
         const S b = s[1];
         const S u = s[2];
@@ -253,10 +248,11 @@ class double_pendulum {
         const S l1 = parameters.l1;
         const S l2 = parameters.l2;
         const S g = parameters.g;
+        const auto [sines, cosines] = sincos<S, 3>({a, b, a - b});
         const S w0 = S(2) * g;
         const S w1 = l1 * u;
-        const S w2 = m2 * l2 * (w0 * cos(b) + v * (l2 * v + S(2) * cos(a - b) * w1)) + (m1 + m2) * l1 * (u * w1 + w0 *
-                cos(a));
+        const S w2 = m2 * l2 * (w0 * cosines[1] + v * (l2 * v + S(2) * cosines[2] * w1)) + (m1 + m2) * l1 * (u * w1 + w0
+                * cosines[0]);
         return S(0.5) * w2;
     }
 
@@ -264,23 +260,18 @@ class double_pendulum {
     /// Observables of the model.
     [[nodiscard]] Eigen::Matrix<S, 4, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
-        using std::cos;
-        using std::sin;
         const S a = s[0];
         const S b = s[1];
         const S l1 = parameters.l1;
         const S l2 = parameters.l2;
-        const S w0 = sin(a);
-        const S w1 = cos(a);
-        const S w2 = l1 * w0;
-        const S w3 = l1 * w1;
-        const S w4 = sin(b);
-        const S w5 = cos(b);
+        const auto [sines, cosines] = sincos<S, 2>({a, b});
+        const S w0 = l1 * sines[0];
+        const S w1 = l1 * cosines[0];
         Eigen::Matrix<S, 4, 1> result;
-        result[0] = w2;
-        result[1] = -w3;
-        result[2] = w2 + l2 * w4;
-        result[3] = -(w3 + l2 * w5);
+        result[0] = w0;
+        result[1] = -w1;
+        result[2] = w0 + l2 * sines[1];
+        result[3] = -(w1 + l2 * cosines[1]);
         return result;
     }
 
@@ -302,8 +293,6 @@ class double_pendulum {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 10>& values) const noexcept
     {
-        using std::cos;
-        using std::sin;
         const S a = s[0];
         const S b = s[1];
         const S u = s[2];
@@ -317,37 +306,34 @@ class double_pendulum {
         const S w1 = l1 * w0;
         const S w2 = m2 * l2;
         const S w3 = l1 * w2;
-        const S w4 = sin(a);
-        const S w5 = cos(a);
-        const S w6 = sin(b);
-        const S w7 = cos(b);
-        const S w8 = w3 * (w5 * w7 + w4 * w6);
-        const S w9 = l2 * w2;
-        const S det0 = w1 * w9 - w8 * w8;
+        const auto [sines, cosines] = sincos<S, 2>({a, b});
+        const S w4 = w3 * (cosines[0] * cosines[1] + sines[0] * sines[1]);
+        const S w5 = l2 * w2;
+        const S det0 = w1 * w5 - w4 * w4;
         const S inv_det0 = S(1) / det0;
-        const S w10 = w0 * g;
-        const S w11 = v * v;
-        const S w12 = w3 * (w5 * w6 - w4 * w7);
-        const S w13 = w12 * w11 - w10 * w4;
-        const S w14 = w2 * g;
-        const S w15 = w12 * u;
-        const S w16 = -(w14 * w6 + u * w15);
-        const S z0_0 = (w9 * w13 - w8 * w16) * inv_det0;
-        const S z0_1 = (w1 * w16 - w8 * w13) * inv_det0;
-        const S w17 = w8 * w11 + w12 * z0_1;
-        const S w18 = -(w10 * w5 + w17);
-        const S w19 = w8 * (u * u) - w12 * z0_0;
-        const S z1_0 = (w9 * w18 - w8 * w19) * inv_det0;
-        const S z1_1 = (w1 * w19 - w8 * w18) * inv_det0;
-        const S w20 = -(w14 * w7 + w19);
-        const S z2_0 = (w9 * w17 - w8 * w20) * inv_det0;
-        const S z2_1 = (w1 * w20 - w8 * w17) * inv_det0;
-        const S w21 = -S(2) * w15;
-        const S z3_0 = (-w8 * w21) * inv_det0;
-        const S z3_1 = (w1 * w21) * inv_det0;
-        const S w22 = w15 + w12 * (v + (v - u));
-        const S z4_0 = (w9 * w22) * inv_det0;
-        const S z4_1 = (-w8 * w22) * inv_det0;
+        const S w6 = w0 * g;
+        const S w7 = v * v;
+        const S w8 = w3 * (cosines[0] * sines[1] - sines[0] * cosines[1]);
+        const S w9 = w8 * w7 - w6 * sines[0];
+        const S w10 = w2 * g;
+        const S w11 = w8 * u;
+        const S w12 = -(w10 * sines[1] + u * w11);
+        const S z0_0 = (w5 * w9 - w4 * w12) * inv_det0;
+        const S z0_1 = (w1 * w12 - w4 * w9) * inv_det0;
+        const S w13 = w4 * w7 + w8 * z0_1;
+        const S w14 = -(w6 * cosines[0] + w13);
+        const S w15 = w4 * (u * u) - w8 * z0_0;
+        const S z1_0 = (w5 * w14 - w4 * w15) * inv_det0;
+        const S z1_1 = (w1 * w15 - w4 * w14) * inv_det0;
+        const S w16 = -(w10 * cosines[1] + w15);
+        const S z2_0 = (w5 * w13 - w4 * w16) * inv_det0;
+        const S z2_1 = (w1 * w16 - w4 * w13) * inv_det0;
+        const S w17 = -S(2) * w11;
+        const S z3_0 = (-w4 * w17) * inv_det0;
+        const S z3_1 = (w1 * w17) * inv_det0;
+        const S w18 = w11 + w8 * (v + (v - u));
+        const S z4_0 = (w5 * w18) * inv_det0;
+        const S z4_1 = (-w4 * w18) * inv_det0;
         values[0] = S(1);
         values[1] = S(1);
         values[2] = z1_0;

@@ -85,6 +85,7 @@
 
 #include "lagen/kernel.hpp"
 #include "lagen/linear.hpp"
+#include "lagen/sincos.hpp"
 
 #include <Eigen/Core>
 
@@ -169,8 +170,6 @@ class heavy_top_euler {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        using std::cos;
-        using std::sin;
         const S th = s[1];
         const S ps = s[2];
         const S dph = s[3];
@@ -184,45 +183,43 @@ class heavy_top_euler {
         const S e2 = parameters.e2;
         const S e3 = parameters.e3;
         auto status = StatusOf<S>::good();
-        const S w0 = sin(ps);
-        const S w1 = cos(ps);
-        const S w2 = w0 * w0;
-        const S w3 = w1 * w1;
-        const S w4 = I1 * w2 + I2 * w3;
-        const S w5 = sin(th);
-        const S w6 = cos(th);
-        const S w7 = I3 * w6;
-        const S w8 = w5 * w5 * w4 + w6 * w7;
-        const S w9 = I1 - I2;
-        const S w10 = w9 * w1;
-        const S w11 = w0 * w10;
-        const S w12 = w5 * w11;
-        const S w13 = I1 * w3 + I2 * w2;
-        StatusOf<S>::fail(status, w13 <= singular_tolerance<S>(3) * w13, Status::singular_mass_matrix);
-        const S r0_0 = S(1) / w13;
-        const S l0_1_0 = w12 * r0_0;
-        const S v0_1_1 = w8 - l0_1_0 * w12;
-        StatusOf<S>::fail(status, v0_1_1 <= singular_tolerance<S>(3) * w8, Status::singular_mass_matrix);
+        const auto [sines, cosines] = sincos<S, 2>({th, ps});
+        const S w0 = sines[1] * sines[1];
+        const S w1 = cosines[1] * cosines[1];
+        const S w2 = I1 * w0 + I2 * w1;
+        const S w3 = I3 * cosines[0];
+        const S w4 = sines[0] * sines[0] * w2 + cosines[0] * w3;
+        const S w5 = I1 - I2;
+        const S w6 = w5 * cosines[1];
+        const S w7 = sines[1] * w6;
+        const S w8 = sines[0] * w7;
+        const S w9 = I1 * w1 + I2 * w0;
+        StatusOf<S>::fail(status, w9 <= singular_tolerance<S>(3) * w9, Status::singular_mass_matrix);
+        const S r0_0 = S(1) / w9;
+        const S l0_1_0 = w8 * r0_0;
+        const S v0_1_1 = w4 - l0_1_0 * w8;
+        StatusOf<S>::fail(status, v0_1_1 <= singular_tolerance<S>(3) * w4, Status::singular_mass_matrix);
         const S r0_1 = S(1) / v0_1_1;
-        const S l0_2_1 = w7 * r0_1;
-        const S v0_2_2 = I3 - l0_2_1 * w7;
+        const S l0_2_1 = w3 * r0_1;
+        const S v0_2_2 = I3 - l0_2_1 * w3;
         StatusOf<S>::fail(status, v0_2_2 <= singular_tolerance<S>(3) * I3, Status::singular_mass_matrix);
         const S r0_2 = S(1) / v0_2_2;
-        const S w14 = w9 * (w2 - w3);
-        const S w15 = w4 - I3;
-        const S w16 = w11 * dth;
-        const S w17 = w12 * dph;
-        const S w18 = dth * (w5 * ((I3 + w14) * dps - S(2) * w6 * w15 * dph) - w6 * w16) - S(2) * w5 * w17 * dps;
-        const S w19 = w14 - I3;
-        const S w20 = mgl * w6;
-        const S w21 = w5 * (mgl * e3 + dph * (w6 * w15 * dph + w19 * dps)) + w0 * (S(2) * w10 * dth * dps - e1 * w20) -
-                e2 * w20 * w1;
-        const S w22 = w5 * (mgl * (e2 * w0 - e1 * w1) + dph * (w17 - w19 * dth)) - dth * w16;
-        const S f0_1 = w18 - l0_1_0 * w21;
-        const S f0_2 = w22 - l0_2_1 * f0_1;
+        const S w10 = w5 * (w0 - w1);
+        const S w11 = w2 - I3;
+        const S w12 = w7 * dth;
+        const S w13 = w8 * dph;
+        const S w14 = dth * (sines[0] * ((I3 + w10) * dps - S(2) * cosines[0] * w11 * dph) - cosines[0] * w12) - S(2) *
+                sines[0] * w13 * dps;
+        const S w15 = w10 - I3;
+        const S w16 = mgl * cosines[0];
+        const S w17 = sines[0] * (mgl * e3 + dph * (cosines[0] * w11 * dph + w15 * dps)) + sines[1] * (S(2) * w6 * dth *
+                dps - e1 * w16) - e2 * w16 * cosines[1];
+        const S w18 = sines[0] * (mgl * (e2 * sines[1] - e1 * cosines[1]) + dph * (w13 - w15 * dth)) - dth * w12;
+        const S f0_1 = w14 - l0_1_0 * w17;
+        const S f0_2 = w18 - l0_2_1 * f0_1;
         const S z0_2 = f0_2 * r0_2;
         const S z0_0 = f0_1 * r0_1 - l0_2_1 * z0_2;
-        const S z0_1 = w21 * r0_0 - l0_1_0 * z0_0;
+        const S z0_1 = w17 * r0_0 - l0_1_0 * z0_0;
         ds[0] = dph;
         ds[1] = dth;
         ds[2] = dps;
@@ -235,28 +232,23 @@ class heavy_top_euler {
     /// W_ab = d2L/dy^a dy^b, shape (3, 3), symmetric.
     [[nodiscard]] Eigen::Matrix<S, 3, 3> mass_matrix([[maybe_unused]] S t, const State& s) const noexcept
     {
-        using std::cos;
-        using std::sin;
         const S th = s[1];
         const S ps = s[2];
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        const S w0 = sin(ps);
-        const S w1 = cos(ps);
-        const S w2 = w0 * w0;
-        const S w3 = w1 * w1;
-        const S w4 = sin(th);
-        const S w5 = cos(th);
-        const S w6 = I3 * w5;
-        const S w7 = (I1 - I2) * w4 * w0 * w1;
+        const auto [sines, cosines] = sincos<S, 2>({th, ps});
+        const S w0 = sines[1] * sines[1];
+        const S w1 = cosines[1] * cosines[1];
+        const S w2 = I3 * cosines[0];
+        const S w3 = (I1 - I2) * sines[0] * sines[1] * cosines[1];
         Eigen::Matrix<S, 3, 3> result = Eigen::Matrix<S, 3, 3>::Zero();
-        result(0, 0) = w4 * w4 * (I1 * w2 + I2 * w3) + w5 * w6;
-        result(0, 1) = w7;
-        result(0, 2) = w6;
-        result(1, 0) = w7;
-        result(1, 1) = I1 * w3 + I2 * w2;
-        result(2, 0) = w6;
+        result(0, 0) = sines[0] * sines[0] * (I1 * w0 + I2 * w1) + cosines[0] * w2;
+        result(0, 1) = w3;
+        result(0, 2) = w2;
+        result(1, 0) = w3;
+        result(1, 1) = I1 * w1 + I2 * w0;
+        result(2, 0) = w2;
         result(2, 2) = I3;
         return result;
     }
@@ -264,8 +256,6 @@ class heavy_top_euler {
     /// p_a = dL/dy^a, shape (3).
     [[nodiscard]] Eigen::Matrix<S, 3, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
-        using std::cos;
-        using std::sin;
         const S th = s[1];
         const S ps = s[2];
         const S dph = s[3];
@@ -274,26 +264,21 @@ class heavy_top_euler {
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        const S w0 = sin(th);
-        const S w1 = cos(th);
-        const S w2 = sin(ps);
-        const S w3 = cos(ps);
-        const S w4 = w0 * dph;
-        const S w5 = I1 * (w2 * w4 + w3 * dth);
-        const S w6 = I2 * (w3 * w4 - w2 * dth);
-        const S w7 = I3 * (dps + w1 * dph);
+        const auto [sines, cosines] = sincos<S, 2>({th, ps});
+        const S w0 = sines[0] * dph;
+        const S w1 = I1 * (sines[1] * w0 + cosines[1] * dth);
+        const S w2 = I2 * (cosines[1] * w0 - sines[1] * dth);
+        const S w3 = I3 * (dps + cosines[0] * dph);
         Eigen::Matrix<S, 3, 1> result;
-        result[0] = w0 * (w2 * w5 + w3 * w6) + w1 * w7;
-        result[1] = w3 * w5 - w2 * w6;
-        result[2] = w7;
+        result[0] = sines[0] * (sines[1] * w1 + cosines[1] * w2) + cosines[0] * w3;
+        result[1] = cosines[1] * w1 - sines[1] * w2;
+        result[2] = w3;
         return result;
     }
 
     /// E = y^a p_a - L.
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
-        using std::cos;
-        using std::sin;
         const S th = s[1];
         const S ps = s[2];
         const S dph = s[3];
@@ -306,27 +291,22 @@ class heavy_top_euler {
         const S e1 = parameters.e1;
         const S e2 = parameters.e2;
         const S e3 = parameters.e3;
-        const S w0 = sin(th);
-        const S w1 = cos(th);
-        const S w2 = sin(ps);
-        const S w3 = cos(ps);
-        const S w4 = w0 * dph;
-        const S w5 = w2 * w4 + w3 * dth;
-        const S w6 = I1 * w5;
-        const S w7 = w3 * w4 - w2 * dth;
-        const S w8 = I2 * w7;
-        const S w9 = dps + w1 * dph;
-        const S w10 = I3 * w9;
-        const S w11 = mgl * (e3 * w1 + w0 * (e1 * w2 + e2 * w3)) + dph * (w0 * (w2 * w6 + w3 * w8) + w1 * w10) + dth *
-                (w3 * w6 - w2 * w8);
-        return w11 + dps * w10 - S(0.5) * (w5 * w6 + w7 * w8 + w9 * w10);
+        const auto [sines, cosines] = sincos<S, 2>({th, ps});
+        const S w0 = sines[0] * dph;
+        const S w1 = sines[1] * w0 + cosines[1] * dth;
+        const S w2 = I1 * w1;
+        const S w3 = cosines[1] * w0 - sines[1] * dth;
+        const S w4 = I2 * w3;
+        const S w5 = dps + cosines[0] * dph;
+        const S w6 = I3 * w5;
+        const S w7 = mgl * (e3 * cosines[0] + sines[0] * (e1 * sines[1] + e2 * cosines[1])) + dph * (sines[0] *
+                (sines[1] * w2 + cosines[1] * w4) + cosines[0] * w6) + dth * (cosines[1] * w2 - sines[1] * w4);
+        return w7 + dps * w6 - S(0.5) * (w1 * w2 + w3 * w4 + w5 * w6);
     }
 
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        using std::cos;
-        using std::sin;
         const S th = s[1];
         const S ps = s[2];
         const S dph = s[3];
@@ -339,16 +319,13 @@ class heavy_top_euler {
         const S e1 = parameters.e1;
         const S e2 = parameters.e2;
         const S e3 = parameters.e3;
-        const S w0 = sin(th);
-        const S w1 = cos(th);
-        const S w2 = dps + w1 * dph;
-        const S w3 = sin(ps);
-        const S w4 = cos(ps);
-        const S w5 = w0 * dph;
-        const S w6 = w3 * w5 + w4 * dth;
-        const S w7 = w4 * w5 - w3 * dth;
-        return S(0.5) * (I3 * (w2 * w2) + (I1 * (w6 * w6) + I2 * (w7 * w7))) - mgl * (e3 * w1 + w0 * (e1 * w3 + e2 *
-                w4));
+        const auto [sines, cosines] = sincos<S, 2>({th, ps});
+        const S w0 = dps + cosines[0] * dph;
+        const S w1 = sines[0] * dph;
+        const S w2 = sines[1] * w1 + cosines[1] * dth;
+        const S w3 = cosines[1] * w1 - sines[1] * dth;
+        return S(0.5) * (I3 * (w0 * w0) + (I1 * (w2 * w2) + I2 * (w3 * w3))) - mgl * (e3 * cosines[0] + sines[0] * (e1 *
+                sines[1] + e2 * cosines[1]));
     }
 
     static constexpr std::array<const char*, 1> domain_names = {"sin(th) > 0"};
@@ -366,8 +343,6 @@ class heavy_top_euler {
     /// Functions that are constant along solutions.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
-        using std::cos;
-        using std::sin;
         const S th = s[1];
         const S ps = s[2];
         const S dph = s[3];
@@ -376,13 +351,11 @@ class heavy_top_euler {
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        const S w0 = sin(th);
-        const S w1 = cos(th);
-        const S w2 = w0 * dph;
-        const S w3 = sin(ps);
-        const S w4 = cos(ps);
+        const auto [sines, cosines] = sincos<S, 2>({th, ps});
+        const S w0 = sines[0] * dph;
         Eigen::Matrix<S, 1, 1> result;
-        result[0] = I3 * w1 * (dps + w1 * dph) + w0 * (I2 * w4 * (w4 * w2 - w3 * dth) + I1 * w3 * (w3 * w2 + w4 * dth));
+        result[0] = I3 * cosines[0] * (dps + cosines[0] * dph) + sines[0] * (I2 * cosines[1] * (cosines[1] * w0 -
+                sines[1] * dth) + I1 * sines[1] * (sines[1] * w0 + cosines[1] * dth));
         return result;
     }
 
@@ -393,8 +366,6 @@ class heavy_top_euler {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 18>& values) const noexcept
     {
-        using std::cos;
-        using std::sin;
         const S th = s[1];
         const S ps = s[2];
         const S dph = s[3];
@@ -407,112 +378,110 @@ class heavy_top_euler {
         const S e1 = parameters.e1;
         const S e2 = parameters.e2;
         const S e3 = parameters.e3;
-        const S w0 = sin(ps);
-        const S w1 = cos(ps);
-        const S w2 = w0 * w0;
-        const S w3 = w1 * w1;
-        const S w4 = I2 * w3;
-        const S w5 = I1 * w2 + w4;
-        const S w6 = sin(th);
-        const S w7 = cos(th);
-        const S w8 = I3 * w7;
-        const S w9 = w6 * w6 * w5 + w7 * w8;
-        const S w10 = I1 - I2;
-        const S w11 = w10 * w0;
-        const S w12 = w1 * w11;
-        const S w13 = w6 * w12;
-        const S w14 = I1 * w3 + I2 * w2;
-        const S r0_0 = S(1) / w14;
-        const S l0_1_0 = w13 * r0_0;
-        const S v0_1_1 = w9 - l0_1_0 * w13;
+        const auto [sines, cosines] = sincos<S, 2>({th, ps});
+        const S w0 = sines[1] * sines[1];
+        const S w1 = cosines[1] * cosines[1];
+        const S w2 = I2 * w1;
+        const S w3 = I1 * w0 + w2;
+        const S w4 = I3 * cosines[0];
+        const S w5 = sines[0] * sines[0] * w3 + cosines[0] * w4;
+        const S w6 = I1 - I2;
+        const S w7 = w6 * sines[1];
+        const S w8 = cosines[1] * w7;
+        const S w9 = sines[0] * w8;
+        const S w10 = I1 * w1 + I2 * w0;
+        const S r0_0 = S(1) / w10;
+        const S l0_1_0 = w9 * r0_0;
+        const S v0_1_1 = w5 - l0_1_0 * w9;
         const S r0_1 = S(1) / v0_1_1;
-        const S l0_2_1 = w8 * r0_1;
-        const S v0_2_2 = I3 - l0_2_1 * w8;
+        const S l0_2_1 = w4 * r0_1;
+        const S v0_2_2 = I3 - l0_2_1 * w4;
         const S r0_2 = S(1) / v0_2_2;
-        const S w15 = w10 * (w2 - w3);
-        const S w16 = I3 + w15;
-        const S w17 = w7 * dph;
-        const S w18 = I3 - w5;
-        const S w19 = S(2) * w18;
-        const S w20 = w19 * w17;
-        const S w21 = w16 * dps + w20;
-        const S w22 = w6 * w21;
-        const S w23 = w7 * dth;
-        const S w24 = w12 * dps;
-        const S w25 = w6 * dph;
-        const S w26 = w6 * w25;
-        const S w27 = dth * (w22 - w12 * w23) - S(2) * w26 * w24;
-        const S w28 = w15 - I3;
-        const S w29 = w28 * dps;
-        const S w30 = w29 - w18 * w17;
-        const S w31 = dth * dps;
-        const S w32 = mgl * w7;
-        const S w33 = e1 * w32;
-        const S w34 = e2 * w1;
-        const S w35 = w6 * (mgl * e3 + dph * w30) + w0 * (S(2) * w10 * w1 * w31 - w33) - w32 * w34;
-        const S w36 = mgl * (e2 * w0 - e1 * w1);
-        const S w37 = w28 * dth;
-        const S w38 = w12 * dth;
-        const S w39 = w6 * (w36 + dph * (w12 * w25 - w37)) - dth * w38;
-        const S f0_1 = w27 - l0_1_0 * w35;
-        const S f0_2 = w39 - l0_2_1 * f0_1;
+        const S w11 = w6 * (w0 - w1);
+        const S w12 = I3 + w11;
+        const S w13 = cosines[0] * dph;
+        const S w14 = I3 - w3;
+        const S w15 = S(2) * w14;
+        const S w16 = w15 * w13;
+        const S w17 = w12 * dps + w16;
+        const S w18 = sines[0] * w17;
+        const S w19 = cosines[0] * dth;
+        const S w20 = w8 * dps;
+        const S w21 = sines[0] * dph;
+        const S w22 = sines[0] * w21;
+        const S w23 = dth * (w18 - w8 * w19) - S(2) * w22 * w20;
+        const S w24 = dth * dps;
+        const S w25 = mgl * cosines[0];
+        const S w26 = e1 * w25;
+        const S w27 = w11 - I3;
+        const S w28 = w27 * dps;
+        const S w29 = w28 - w14 * w13;
+        const S w30 = e2 * cosines[1];
+        const S w31 = sines[1] * (S(2) * w6 * cosines[1] * w24 - w26) + sines[0] * (mgl * e3 + dph * w29) - w25 * w30;
+        const S w32 = mgl * (e2 * sines[1] - e1 * cosines[1]);
+        const S w33 = w27 * dth;
+        const S w34 = w8 * dth;
+        const S w35 = sines[0] * (w32 + dph * (w8 * w21 - w33)) - dth * w34;
+        const S f0_1 = w23 - l0_1_0 * w31;
+        const S f0_2 = w35 - l0_2_1 * f0_1;
         const S z0_2 = f0_2 * r0_2;
         const S z0_0 = f0_1 * r0_1 - l0_2_1 * z0_2;
-        const S z0_1 = w35 * r0_0 - l0_1_0 * z0_0;
-        const S w40 = S(2) * w6;
-        const S w41 = w1 * dph;
-        const S w42 = w41 * dps;
-        const S w43 = w40 * (w0 * (I1 * (w0 * z0_0 + S(2) * w42) - S(2) * I2 * w42) + (w4 - I3) * z0_0) + w12 * z0_1 -
-                dth * w21;
-        const S w44 = w6 * (I3 * z0_2 + dth * (w38 - w19 * w25)) - w7 * w43;
-        const S w45 = e1 * w0 + w34;
-        const S w46 = mgl * (e3 * w7 + w6 * w45) + dph * (w7 * w30 + w18 * w26) - w7 * w12 * z0_0;
-        const S w47 = w6 * z0_0;
-        const S w48 = S(2) * w12;
-        const S w49 = w48 * w25;
-        const S w50 = w49 - w37;
-        const S w51 = I3 * w47 + w7 * (w36 + dph * w50);
-        const S f1_1 = w44 - l0_1_0 * w46;
-        const S f1_2 = w51 - l0_2_1 * f1_1;
+        const S z0_1 = w31 * r0_0 - l0_1_0 * z0_0;
+        const S w36 = S(2) * sines[0];
+        const S w37 = cosines[1] * dph;
+        const S w38 = w37 * dps;
+        const S w39 = w36 * (sines[1] * (I1 * (S(2) * w38 + sines[1] * z0_0) - S(2) * I2 * w38) + (w2 - I3) * z0_0) + w8
+                * z0_1 - dth * w17;
+        const S w40 = sines[0] * (I3 * z0_2 + dth * (w34 - w15 * w21)) - cosines[0] * w39;
+        const S w41 = e1 * sines[1] + w30;
+        const S w42 = mgl * (e3 * cosines[0] + sines[0] * w41) + dph * (cosines[0] * w29 + w14 * w22) - cosines[0] * w8
+                * z0_0;
+        const S w43 = S(2) * w8;
+        const S w44 = w43 * w21;
+        const S w45 = w44 - w33;
+        const S w46 = sines[0] * z0_0;
+        const S w47 = cosines[0] * (w32 + dph * w45) + I3 * w46;
+        const S f1_1 = w40 - l0_1_0 * w42;
+        const S f1_2 = w47 - l0_2_1 * f1_1;
         const S z1_2 = f1_2 * r0_2;
         const S z1_0 = f1_1 * r0_1 - l0_2_1 * z1_2;
-        const S z1_1 = w46 * r0_0 - l0_1_0 * z1_0;
-        const S w52 = w15 * dth;
-        const S w53 = w10 * (z0_1 + S(2) * w25 * dps);
-        const S w54 = w23 * w52 - w6 * (w0 * (S(2) * w1 * (S(2) * dth * (w10 * (w17 - dps)) + w10 * w47) - w0 * w53) +
-                w3 * w53);
-        const S w55 = e2 * w32 + w6 * (w11 * z0_0 + S(2) * w41 * (w10 * (w17 + S(2) * dps))) - S(2) * (w10 * (w0 * w31 -
-                w1 * z0_1));
-        const S w56 = w0 * w55 + w1 * (w10 * (S(2) * w31 - w47) * w1 - w33);
-        const S w57 = dth * w52 + w6 * (mgl * w45 - dph * (w15 * w25 + S(4) * w38));
-        const S f2_1 = w54 - l0_1_0 * w56;
-        const S f2_2 = w57 - l0_2_1 * f2_1;
+        const S z1_1 = w42 * r0_0 - l0_1_0 * z1_0;
+        const S w48 = w11 * dth;
+        const S w49 = w6 * (S(2) * w21 * dps + z0_1);
+        const S w50 = w19 * w48 - sines[0] * (sines[1] * (S(2) * cosines[1] * (S(2) * dth * (w6 * (w13 - dps)) + w6 *
+                w46) - sines[1] * w49) + w1 * w49);
+        const S w51 = e2 * w25 + sines[0] * (S(2) * w37 * (w6 * (w13 + S(2) * dps)) + w7 * z0_0) - S(2) * (w6 *
+                (sines[1] * w24 - cosines[1] * z0_1));
+        const S w52 = sines[1] * w51 + cosines[1] * (w6 * (S(2) * w24 - w46) * cosines[1] - w26);
+        const S w53 = dth * w48 + sines[0] * (mgl * w41 - dph * (w11 * w21 + S(4) * w34));
+        const S f2_1 = w50 - l0_1_0 * w52;
+        const S f2_2 = w53 - l0_2_1 * f2_1;
         const S z2_2 = f2_2 * r0_2;
         const S z2_0 = f2_1 * r0_1 - l0_2_1 * z2_2;
-        const S z2_1 = w56 * r0_0 - l0_1_0 * z2_0;
-        const S w58 = w40 * (w18 * w23 - w6 * w24);
-        const S w59 = w6 * (w29 - w20);
-        const S w60 = w6 * w50;
-        const S f3_1 = w58 - l0_1_0 * w59;
-        const S f3_2 = w60 - l0_2_1 * f3_1;
+        const S z2_1 = w52 * r0_0 - l0_1_0 * z2_0;
+        const S w54 = w36 * (w14 * w19 - sines[0] * w20);
+        const S w55 = sines[0] * (w28 - w16);
+        const S w56 = sines[0] * w45;
+        const S f3_1 = w54 - l0_1_0 * w55;
+        const S f3_2 = w56 - l0_2_1 * f3_1;
         const S z3_2 = f3_2 * r0_2;
         const S z3_0 = f3_1 * r0_1 - l0_2_1 * z3_2;
-        const S z3_1 = w59 * r0_0 - l0_1_0 * z3_0;
-        const S w61 = w22 - w48 * w23;
-        const S w62 = S(2) * w24;
-        const S w63 = w28 * w25 + S(2) * w38;
-        const S w64 = -w63;
-        const S f4_1 = w61 - l0_1_0 * w62;
-        const S f4_2 = w64 - l0_2_1 * f4_1;
+        const S z3_1 = w55 * r0_0 - l0_1_0 * z3_0;
+        const S w57 = w18 - w43 * w19;
+        const S w58 = S(2) * w20;
+        const S w59 = w27 * w21 + S(2) * w34;
+        const S w60 = -w59;
+        const S f4_1 = w57 - l0_1_0 * w58;
+        const S f4_2 = w60 - l0_2_1 * f4_1;
         const S z4_2 = f4_2 * r0_2;
         const S z4_0 = f4_1 * r0_1 - l0_2_1 * z4_2;
-        const S z4_1 = w62 * r0_0 - l0_1_0 * z4_0;
-        const S w65 = w6 * (w16 * dth - w49);
-        const S f5_1 = w65 - l0_1_0 * w63;
+        const S z4_1 = w58 * r0_0 - l0_1_0 * z4_0;
+        const S w61 = sines[0] * (w12 * dth - w44);
+        const S f5_1 = w61 - l0_1_0 * w59;
         const S f5_2 = -l0_2_1 * f5_1;
         const S z5_2 = f5_2 * r0_2;
         const S z5_0 = f5_1 * r0_1 - l0_2_1 * z5_2;
-        const S z5_1 = w63 * r0_0 - l0_1_0 * z5_0;
+        const S z5_1 = w59 * r0_0 - l0_1_0 * z5_0;
         values[0] = S(1);
         values[1] = S(1);
         values[2] = S(1);

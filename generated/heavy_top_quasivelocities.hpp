@@ -62,6 +62,7 @@
 
 #include "lagen/kernel.hpp"
 #include "lagen/linear.hpp"
+#include "lagen/sincos.hpp"
 
 #include <Eigen/Core>
 
@@ -153,8 +154,6 @@ class heavy_top_quasivelocities {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        using std::cos;
-        using std::sin;
         const S th = s[1];
         const S ps = s[2];
         const S w1 = s[3];
@@ -167,18 +166,15 @@ class heavy_top_quasivelocities {
         const S e1 = parameters.e1;
         const S e2 = parameters.e2;
         const S e3 = parameters.e3;
-        const S u0 = sin(ps);
-        const S u1 = cos(ps);
-        const S u2 = sin(th);
-        const S u3 = cos(th);
-        const S u4 = (u0 * w1 + u1 * w2) / u2;
-        const S u5 = e3 * u2;
-        ds[0] = u4;
-        ds[1] = u1 * w1 - u0 * w2;
-        ds[2] = w3 - u3 * u4;
-        ds[3] = ((I2 - I3) * w2 * w3 + mgl * (u5 * u1 - e2 * u3)) / I1;
-        ds[4] = ((I3 - I1) * w3 * w1 + mgl * (e1 * u3 - u5 * u0)) / I2;
-        ds[5] = ((I1 - I2) * w1 * w2 + mgl * u2 * (e2 * u0 - e1 * u1)) / I3;
+        const auto [sines, cosines] = sincos<S, 2>({th, ps});
+        const S u0 = (sines[1] * w1 + cosines[1] * w2) / sines[0];
+        const S u1 = e3 * sines[0];
+        ds[0] = u0;
+        ds[1] = cosines[1] * w1 - sines[1] * w2;
+        ds[2] = w3 - cosines[0] * u0;
+        ds[3] = ((I2 - I3) * w2 * w3 + mgl * (u1 * cosines[1] - e2 * cosines[0])) / I1;
+        ds[4] = ((I3 - I1) * w3 * w1 + mgl * (e1 * cosines[0] - u1 * sines[1])) / I2;
+        ds[5] = ((I1 - I2) * w1 * w2 + mgl * sines[0] * (e2 * sines[1] - e1 * cosines[1])) / I3;
         return StatusOf<S>::good();
     }
 
@@ -215,8 +211,6 @@ class heavy_top_quasivelocities {
     /// E = y^a p_a - L.
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
-        using std::cos;
-        using std::sin;
         const S th = s[1];
         const S ps = s[2];
         const S w1 = s[3];
@@ -229,19 +223,14 @@ class heavy_top_quasivelocities {
         const S e1 = parameters.e1;
         const S e2 = parameters.e2;
         const S e3 = parameters.e3;
-        const S u0 = sin(th);
-        const S u1 = cos(th);
-        const S u2 = sin(ps);
-        const S u3 = cos(ps);
-        return mgl * (e3 * u1 + u0 * (e1 * u2 + e2 * u3)) + S(0.5) * (I3 * (w3 * w3) + (I1 * (w1 * w1) + I2 * (w2 *
-                w2)));
+        const auto [sines, cosines] = sincos<S, 2>({th, ps});
+        return mgl * (e3 * cosines[0] + sines[0] * (e1 * sines[1] + e2 * cosines[1])) + S(0.5) * (I3 * (w3 * w3) + (I1 *
+                (w1 * w1) + I2 * (w2 * w2)));
     }
 
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        using std::cos;
-        using std::sin;
         const S th = s[1];
         const S ps = s[2];
         const S w1 = s[3];
@@ -254,12 +243,9 @@ class heavy_top_quasivelocities {
         const S e1 = parameters.e1;
         const S e2 = parameters.e2;
         const S e3 = parameters.e3;
-        const S u0 = sin(th);
-        const S u1 = cos(th);
-        const S u2 = sin(ps);
-        const S u3 = cos(ps);
-        return S(0.5) * (I3 * (w3 * w3) + (I1 * (w1 * w1) + I2 * (w2 * w2))) - mgl * (e3 * u1 + u0 * (e1 * u2 + e2 *
-                u3));
+        const auto [sines, cosines] = sincos<S, 2>({th, ps});
+        return S(0.5) * (I3 * (w3 * w3) + (I1 * (w1 * w1) + I2 * (w2 * w2))) - mgl * (e3 * cosines[0] + sines[0] * (e1 *
+                sines[1] + e2 * cosines[1]));
     }
 
     static constexpr std::array<const char*, 1> domain_names = {"sin(th) > 0"};
@@ -277,15 +263,12 @@ class heavy_top_quasivelocities {
     /// Observables of the model.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
-        using std::cos;
-        using std::sin;
         const S ps = s[2];
         const S w1 = s[3];
         const S w2 = s[4];
-        const S u0 = sin(ps);
-        const S u1 = cos(ps);
+        const auto [sin_ps, cos_ps] = sincos<S>(ps);
         Eigen::Matrix<S, 1, 1> result;
-        result[0] = u1 * w1 - u0 * w2;
+        result[0] = cos_ps * w1 - sin_ps * w2;
         return result;
     }
 
@@ -293,8 +276,6 @@ class heavy_top_quasivelocities {
     /// Functions that are constant along solutions.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
-        using std::cos;
-        using std::sin;
         const S th = s[1];
         const S ps = s[2];
         const S w1 = s[3];
@@ -303,12 +284,9 @@ class heavy_top_quasivelocities {
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        const S u0 = sin(th);
-        const S u1 = cos(th);
-        const S u2 = sin(ps);
-        const S u3 = cos(ps);
+        const auto [sines, cosines] = sincos<S, 2>({th, ps});
         Eigen::Matrix<S, 1, 1> result;
-        result[0] = I3 * u1 * w3 + u0 * (I1 * u2 * w1 + I2 * u3 * w2);
+        result[0] = I3 * cosines[0] * w3 + sines[0] * (I1 * sines[1] * w1 + I2 * cosines[1] * w2);
         return result;
     }
 
@@ -321,8 +299,6 @@ class heavy_top_quasivelocities {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 24>& values) const noexcept
     {
-        using std::cos;
-        using std::sin;
         const S th = s[1];
         const S ps = s[2];
         const S w1 = s[3];
@@ -335,48 +311,45 @@ class heavy_top_quasivelocities {
         const S e1 = parameters.e1;
         const S e2 = parameters.e2;
         const S e3 = parameters.e3;
-        const S u0 = sin(th);
-        const S u1 = cos(th);
-        const S u2 = S(1) / u0;
-        const S u3 = sin(ps);
-        const S u4 = cos(ps);
-        const S u5 = u3 * w1 + u4 * w2;
-        const S u6 = u1 * u2;
-        const S u7 = u6 * u5;
-        const S u8 = u4 * w1 - u3 * w2;
-        const S u9 = S(1) / I1;
-        const S u10 = e3 * u4;
-        const S u11 = e3 * u3;
-        const S u12 = mgl * u0;
-        const S u13 = u9 * (I2 - I3);
-        const S u14 = S(1) / I2;
-        const S u15 = u14 * (I1 - I3);
-        const S u16 = S(1) / I3;
-        const S u17 = (I1 - I2) * u16;
-        values[0] = -u2 * u7;
-        values[1] = u2 * u8;
-        values[2] = u2 * u3;
-        values[3] = u2 * u4;
-        values[4] = -u5;
-        values[5] = u4;
-        values[6] = -u3;
-        values[7] = u5 + u6 * u7;
-        values[8] = -u6 * u8;
-        values[9] = -u6 * u3;
-        values[10] = -u6 * u4;
+        const auto [sines, cosines] = sincos<S, 2>({th, ps});
+        const S u0 = S(1) / sines[0];
+        const S u1 = sines[1] * w1 + cosines[1] * w2;
+        const S u2 = cosines[0] * u0;
+        const S u3 = u2 * u1;
+        const S u4 = sines[1] * w2 - cosines[1] * w1;
+        const S u5 = S(1) / I1;
+        const S u6 = e3 * cosines[1];
+        const S u7 = e3 * sines[1];
+        const S u8 = mgl * sines[0];
+        const S u9 = u5 * (I2 - I3);
+        const S u10 = S(1) / I2;
+        const S u11 = u10 * (I1 - I3);
+        const S u12 = S(1) / I3;
+        const S u13 = (I1 - I2) * u12;
+        values[0] = -u0 * u3;
+        values[1] = -u0 * u4;
+        values[2] = u0 * sines[1];
+        values[3] = u0 * cosines[1];
+        values[4] = -u1;
+        values[5] = cosines[1];
+        values[6] = -sines[1];
+        values[7] = u1 + u2 * u3;
+        values[8] = u2 * u4;
+        values[9] = -u2 * sines[1];
+        values[10] = -u2 * cosines[1];
         values[11] = S(1);
-        values[12] = u9 * mgl * (e2 * u0 + u1 * u10);
-        values[13] = -u9 * u12 * u11;
-        values[14] = u13 * w3;
-        values[15] = u13 * w2;
-        values[16] = -u14 * mgl * (e1 * u0 + u1 * u11);
-        values[17] = -u14 * u12 * u10;
-        values[18] = -u15 * w3;
-        values[19] = -u15 * w1;
-        values[20] = u16 * mgl * u1 * (e2 * u3 - e1 * u4);
-        values[21] = u16 * u12 * (e1 * u3 + e2 * u4);
-        values[22] = u17 * w2;
-        values[23] = u17 * w1;
+        values[12] = u5 * mgl * (e2 * sines[0] + cosines[0] * u6);
+        values[13] = -u5 * u8 * u7;
+        values[14] = u9 * w3;
+        values[15] = u9 * w2;
+        values[16] = -u10 * mgl * (e1 * sines[0] + cosines[0] * u7);
+        values[17] = -u10 * u8 * u6;
+        values[18] = -u11 * w3;
+        values[19] = -u11 * w1;
+        values[20] = u12 * mgl * cosines[0] * (e2 * sines[1] - e1 * cosines[1]);
+        values[21] = u12 * u8 * (e1 * sines[1] + e2 * cosines[1]);
+        values[22] = u13 * w2;
+        values[23] = u13 * w1;
     }
 
     /// The same as a dense matrix, shape (6, 6).

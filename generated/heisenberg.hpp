@@ -52,6 +52,7 @@
 #pragma once
 
 #include "lagen/kernel.hpp"
+#include "lagen/roots.hpp"
 
 #include <Eigen/Core>
 
@@ -180,7 +181,7 @@ class heisenberg {
     /// Observables of the model.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
-        using std::sqrt;
+        using arithmetic::sqrt;
         const S x = s[0];
         const S y = s[1];
         Eigen::Matrix<S, 1, 1> result;

@@ -148,12 +148,12 @@ class hyperboloids {
         const S w5 = k * w3;
         const S w6 = z * z;
         const S w7 = w1 + S(2) * w2;
-        const S w8 = c * x + (m * ((w1 * (w6 + S(3) * w7) + w2 * (w6 + S(3) * w2)) * (b * b) - w3 * (a * a)) + w5);
+        const S w8 = c * x + (w5 + m * ((w2 * (w6 + S(3) * w2) + w1 * (w6 + S(3) * w7)) * (b * b) - w3 * (a * a)));
         ds[0] = x * w0 - y * a;
         ds[1] = x * a + y * w0;
         ds[2] = w3 * b;
         ds[3] = (c * y - S(2) * w4 * a * w0) / w4;
-        ds[4] = (w5 - z * w8) / (m * (w1 * (w6 + w7) + w2 * (w2 + w6)));
+        ds[4] = (w5 - z * w8) / (m * (w1 * (w7 + w6) + w2 * (w2 + w6)));
         return StatusOf<S>::good();
     }
 
@@ -277,23 +277,23 @@ class hyperboloids {
         const S w6 = m * w5;
         const S w7 = w6 * a;
         const S w8 = S(2) * w7;
-        const S w9 = m * ((c * y - w8 * w0) / w6 + S(2) * a * w0);
+        const S w9 = m * (S(2) * a * w0 + (c * y - w8 * w0) / w6);
         const S w10 = S(2) * y;
         const S w11 = S(2) * z;
         const S w12 = w11 * w7;
-        const S w13 = k * w5;
-        const S w14 = b * b;
-        const S w15 = z * z;
+        const S w13 = b * b;
+        const S w14 = z * z;
+        const S w15 = k * w5;
         const S w16 = w3 + S(2) * w4;
-        const S w17 = w3 * (w15 + S(3) * w16) + w4 * (w15 + S(3) * w4);
+        const S w17 = w4 * (w14 + S(3) * w4) + w3 * (w14 + S(3) * w16);
         const S w18 = a * a;
-        const S w19 = c * x + w13;
-        const S w20 = w15 + w16;
-        const S w21 = m * (w3 * w20 + w4 * (w4 + w15));
-        const S w22 = (w13 - z * (m * (w17 * w14 - w5 * w18) + w19)) / w21;
-        const S w23 = k * (S(1) - z) - m * (z * (z * w22 + (w15 + S(6) * w5) * w14 - w18) + S(2) * w5 * w22);
-        const S w24 = w3 * (w18 - w11 * w22 - S(3) * w20 * w14) - w4 * (z * (S(3) * b * w0 + S(2) * w22) + S(3) * (w1 *
-                w1) - w18);
+        const S w19 = c * x + w15;
+        const S w20 = w16 + w14;
+        const S w21 = m * (w3 * w20 + w4 * (w4 + w14));
+        const S w22 = (w15 - z * (m * (w17 * w13 - w5 * w18) + w19)) / w21;
+        const S w23 = k * (S(1) - z) - m * (z * ((w14 + S(6) * w5) * w13 + z * w22 - w18) + S(2) * w5 * w22);
+        const S w24 = w3 * (w18 - w11 * w22 - S(3) * w20 * w13) - w4 * (S(3) * (w1 * w1) + z * (S(3) * b * w0 + S(2) *
+                w22) - w18);
         values[0] = w0;
         values[1] = -a;
         values[2] = x * b;

@@ -51,6 +51,7 @@
 #pragma once
 
 #include "lagen/kernel.hpp"
+#include "lagen/roots.hpp"
 
 #include <Eigen/Core>
 
@@ -125,7 +126,7 @@ class kepler {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        using std::sqrt;
+        using arithmetic::sqrt;
         const S x = s[0];
         const S y = s[1];
         const S u = s[2];
@@ -164,7 +165,7 @@ class kepler {
     /// E = y^a p_a - L.
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
-        using std::sqrt;
+        using arithmetic::sqrt;
         const S x = s[0];
         const S y = s[1];
         const S u = s[2];
@@ -176,7 +177,7 @@ class kepler {
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        using std::sqrt;
+        using arithmetic::sqrt;
         const S x = s[0];
         const S y = s[1];
         const S u = s[2];
@@ -200,7 +201,7 @@ class kepler {
     /// Observables of the model.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
-        using std::sqrt;
+        using arithmetic::sqrt;
         const S x = s[0];
         const S y = s[1];
         Eigen::Matrix<S, 1, 1> result;
@@ -212,7 +213,7 @@ class kepler {
     /// Functions that are constant along solutions.
     [[nodiscard]] Eigen::Matrix<S, 3, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
-        using std::sqrt;
+        using arithmetic::sqrt;
         const S x = s[0];
         const S y = s[1];
         const S u = s[2];
@@ -247,7 +248,7 @@ class kepler {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 6>& values) const noexcept
     {
-        using std::sqrt;
+        using arithmetic::sqrt;
         const S x = s[0];
         const S y = s[1];
         const S k = parameters.k;

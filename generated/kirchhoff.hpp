@@ -63,6 +63,7 @@
 
 #include "lagen/kernel.hpp"
 #include "lagen/linear.hpp"
+#include "lagen/roots.hpp"
 
 #include <Eigen/Core>
 
@@ -310,48 +311,43 @@ class kirchhoff {
         const S m1 = parameters.m1;
         const S m2 = parameters.m2;
         const S m3 = parameters.m3;
-        const S u0 = S(1) / J1;
-        const S u1 = u0 * (J2 - J3);
-        const S u2 = u0 * (m2 - m3);
-        const S u3 = S(1) / J2;
-        const S u4 = u3 * (J1 - J3);
-        const S u5 = u3 * (m1 - m3);
-        const S u6 = S(1) / J3;
-        const S u7 = (J1 - J2) * u6;
-        const S u8 = u6 * (m1 - m2);
-        const S u9 = S(1) / m1;
-        const S u10 = u9 * m3;
-        const S u11 = u9 * m2;
-        const S u12 = S(1) / m2;
-        const S u13 = u12 * m3;
-        const S u14 = m1 * u12;
-        const S u15 = S(1) / m3;
-        const S u16 = m2 * u15;
-        const S u17 = m1 * u15;
-        values[0] = u1 * w3;
-        values[1] = u1 * w2;
-        values[2] = u2 * v3;
-        values[3] = u2 * v2;
-        values[4] = -u4 * w3;
-        values[5] = -u4 * w1;
-        values[6] = -u5 * v3;
-        values[7] = -u5 * v1;
-        values[8] = u7 * w2;
-        values[9] = u7 * w1;
-        values[10] = u8 * v2;
-        values[11] = u8 * v1;
-        values[12] = -u10 * v3;
-        values[13] = u11 * v2;
-        values[14] = u11 * w3;
-        values[15] = -u10 * w2;
-        values[16] = u13 * v3;
-        values[17] = -u14 * v1;
-        values[18] = -u14 * w3;
-        values[19] = u13 * w1;
-        values[20] = -u16 * v2;
-        values[21] = u17 * v1;
-        values[22] = u17 * w2;
-        values[23] = -u16 * w1;
+        const auto inverses = reciprocals<S, 6>({J1, J2, J3, m1, m2, m3});
+        const S u0 = inverses[0] * (J2 - J3);
+        const S u1 = inverses[0] * (m2 - m3);
+        const S u2 = inverses[1] * (J1 - J3);
+        const S u3 = inverses[1] * (m1 - m3);
+        const S u4 = (J1 - J2) * inverses[2];
+        const S u5 = inverses[2] * (m1 - m2);
+        const S u6 = inverses[3] * m3;
+        const S u7 = inverses[3] * m2;
+        const S u8 = inverses[4] * m3;
+        const S u9 = m1 * inverses[4];
+        const S u10 = m2 * inverses[5];
+        const S u11 = m1 * inverses[5];
+        values[0] = u0 * w3;
+        values[1] = u0 * w2;
+        values[2] = u1 * v3;
+        values[3] = u1 * v2;
+        values[4] = -u2 * w3;
+        values[5] = -u2 * w1;
+        values[6] = -u3 * v3;
+        values[7] = -u3 * v1;
+        values[8] = u4 * w2;
+        values[9] = u4 * w1;
+        values[10] = u5 * v2;
+        values[11] = u5 * v1;
+        values[12] = -u6 * v3;
+        values[13] = u7 * v2;
+        values[14] = u7 * w3;
+        values[15] = -u6 * w2;
+        values[16] = u8 * v3;
+        values[17] = -u9 * v1;
+        values[18] = -u9 * w3;
+        values[19] = u8 * w1;
+        values[20] = -u10 * v2;
+        values[21] = u11 * v1;
+        values[22] = u11 * w2;
+        values[23] = -u10 * w1;
     }
 
     /// The same as a dense matrix, shape (6, 6).

@@ -45,6 +45,7 @@
 
 #include "lagen/kernel.hpp"
 #include "lagen/linear.hpp"
+#include "lagen/sincos.hpp"
 
 #include <Eigen/Core>
 
@@ -180,18 +181,15 @@ class pendulum {
     /// Observables of the model.
     [[nodiscard]] Eigen::Matrix<S, 3, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
-        using std::cos;
-        using std::sin;
         const S th = s[0];
         const S m = parameters.m;
         const S l = parameters.l;
         const S g = parameters.g;
-        const S w0 = sin(th);
-        const S w1 = cos(th);
+        const auto [sin_th, cos_th] = sincos<S>(th);
         Eigen::Matrix<S, 3, 1> result;
-        result[0] = l * w0;
-        result[1] = -l * w1;
-        result[2] = m * g * l * (S(1) - w1);
+        result[0] = l * sin_th;
+        result[1] = -l * cos_th;
+        result[2] = m * g * l * (S(1) - cos_th);
         return result;
     }
 

@@ -52,6 +52,7 @@
 
 #include "lagen/kernel.hpp"
 #include "lagen/linear.hpp"
+#include "lagen/sincos.hpp"
 
 #include <Eigen/Core>
 
@@ -131,8 +132,6 @@ class spherical_pendulum {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        using std::cos;
-        using std::sin;
         const S th = s[0];
         const S w = s[2];
         const S v = s[3];
@@ -140,14 +139,13 @@ class spherical_pendulum {
         const S l = parameters.l;
         const S g = parameters.g;
         auto status = StatusOf<S>::good();
-        const S w0 = sin(th);
-        const S w1 = cos(th);
-        const S w2 = w1 * v;
-        StatusOf<S>::fail(status, m * (l * l) * (w0 * w0) == S(0), Status::singular_mass_matrix);
+        const auto [sin_th, cos_th] = sincos<S>(th);
+        const S w0 = cos_th * v;
+        StatusOf<S>::fail(status, m * (l * l) * (sin_th * sin_th) == S(0), Status::singular_mass_matrix);
         ds[0] = w;
         ds[1] = v;
-        ds[2] = w0 * (v * w2 - g / l);
-        ds[3] = -S(2) * w * w2 / w0;
+        ds[2] = sin_th * (v * w0 - g / l);
+        ds[3] = -S(2) * w * w0 / sin_th;
         return status;
     }
 
@@ -186,33 +184,27 @@ class spherical_pendulum {
     /// E = y^a p_a - L.
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
-        using std::cos;
-        using std::sin;
         const S th = s[0];
         const S w = s[2];
         const S v = s[3];
         const S m = parameters.m;
         const S l = parameters.l;
         const S g = parameters.g;
-        const S w0 = sin(th);
-        const S w1 = cos(th);
-        return S(0.5) * m * l * (l * (w * w + w0 * w0 * (v * v)) - S(2) * g * w1);
+        const auto [sin_th, cos_th] = sincos<S>(th);
+        return S(0.5) * m * l * (l * (w * w + sin_th * sin_th * (v * v)) - S(2) * g * cos_th);
     }
 
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        using std::cos;
-        using std::sin;
         const S th = s[0];
         const S w = s[2];
         const S v = s[3];
         const S m = parameters.m;
         const S l = parameters.l;
         const S g = parameters.g;
-        const S w0 = sin(th);
-        const S w1 = cos(th);
-        return S(0.5) * m * l * (l * (w * w + w0 * w0 * (v * v)) + S(2) * g * w1);
+        const auto [sin_th, cos_th] = sincos<S>(th);
+        return S(0.5) * m * l * (l * (w * w + sin_th * sin_th * (v * v)) + S(2) * g * cos_th);
     }
 
     static constexpr std::array<const char*, 1> domain_names = {"sin(th) > 0"};
@@ -260,24 +252,21 @@ class spherical_pendulum {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 7>& values) const noexcept
     {
-        using std::cos;
-        using std::sin;
         const S th = s[0];
         const S w = s[2];
         const S v = s[3];
         const S l = parameters.l;
         const S g = parameters.g;
-        const S w0 = sin(th);
-        const S w1 = cos(th);
-        const S w2 = w1 / w0;
-        const S w3 = S(2) * w2;
+        const auto [sin_th, cos_th] = sincos<S>(th);
+        const S w0 = cos_th / sin_th;
+        const S w1 = S(2) * w0;
         values[0] = S(1);
         values[1] = S(1);
-        values[2] = (w1 * w1 - w0 * w0) * (v * v) - g * w1 / l;
-        values[3] = S(2) * w0 * w1 * v;
-        values[4] = S(2) * (S(1) + w2 * w2) * w * v;
-        values[5] = -w3 * v;
-        values[6] = -w3 * w;
+        values[2] = (cos_th * cos_th - sin_th * sin_th) * (v * v) - g * cos_th / l;
+        values[3] = S(2) * sin_th * cos_th * v;
+        values[4] = S(2) * (S(1) + w0 * w0) * w * v;
+        values[5] = -w1 * v;
+        values[6] = -w1 * w;
     }
 
     /// The same as a dense matrix, shape (4, 4).

@@ -139,7 +139,7 @@ class spherical_pendulum_meridian {
         const S w3 = w1 + w2;
         const S w4 = w3 * a;
         const S w5 = z * z;
-        const S w6 = w1 * (w5 + (w1 + S(2) * w2)) + w2 * (w2 + w5);
+        const S w6 = w1 * (w1 + S(2) * w2 + w5) + w2 * (w2 + w5);
         ds[0] = x * w0 - y * a;
         ds[1] = x * a + y * w0;
         ds[2] = -w3 * b;
@@ -191,9 +191,9 @@ class spherical_pendulum_meridian {
         const S m = parameters.m;
         const S g = parameters.g;
         const S w0 = x * x;
-        const S w1 = z * z;
-        const S w2 = y * y;
-        const S w3 = (w0 * (w1 + (w0 + S(2) * w2)) + w2 * (w2 + w1)) * (b * b) + ((w0 + w2) * (a * a) + S(2) * g * z);
+        const S w1 = y * y;
+        const S w2 = z * z;
+        const S w3 = (w0 * (w0 + S(2) * w1 + w2) + w1 * (w1 + w2)) * (b * b) + ((w0 + w1) * (a * a) + S(2) * g * z);
         return S(0.5) * m * w3;
     }
 
@@ -210,7 +210,7 @@ class spherical_pendulum_meridian {
         const S w0 = x * x;
         const S w1 = y * y;
         const S w2 = z * z;
-        const S w3 = (w0 + w1) * (a * a) + (w0 * (w2 + (w0 + S(2) * w1)) + w1 * (w1 + w2)) * (b * b) - S(2) * g * z;
+        const S w3 = (w0 * (w0 + S(2) * w1 + w2) + w1 * (w1 + w2)) * (b * b) + (w0 + w1) * (a * a) - S(2) * g * z;
         return S(0.5) * m * w3;
     }
 
@@ -269,7 +269,7 @@ class spherical_pendulum_meridian {
         const S w13 = b * b;
         const S w14 = z * z;
         const S w15 = w3 + S(2) * w4;
-        const S w16 = w3 * (w14 + w15) + w4 * (w4 + w14);
+        const S w16 = w3 * (w15 + w14) + w4 * (w4 + w14);
         const S w17 = (g * w5 + z * (a * w6 - w16 * w13)) / w16;
         const S w18 = a * a;
         const S w19 = g - z * ((w10 + w14) * w13 + z * w17 - w18) - w10 * w17;

@@ -50,6 +50,7 @@
 
 #include "lagen/kernel.hpp"
 #include "lagen/linear.hpp"
+#include "lagen/sincos.hpp"
 
 #include <Eigen/Core>
 
@@ -127,23 +128,20 @@ class torus {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        using std::cos;
-        using std::sin;
         const S th = s[0];
         const S u = s[2];
         const S v = s[3];
         const S R = parameters.R;
         const S r = parameters.r;
         auto status = StatusOf<S>::good();
-        const S w0 = sin(th);
-        const S w1 = cos(th);
-        const S w2 = w0 * v;
-        const S w3 = R + r * w1;
-        StatusOf<S>::fail(status, w3 * w3 == S(0), Status::singular_mass_matrix);
+        const auto [sin_th, cos_th] = sincos<S>(th);
+        const S w0 = sin_th * v;
+        const S w1 = R + r * cos_th;
+        StatusOf<S>::fail(status, w1 * w1 == S(0), Status::singular_mass_matrix);
         ds[0] = u;
         ds[1] = v;
-        ds[2] = -w3 * v * w2 / r;
-        ds[3] = S(2) * r * u * w2 / w3;
+        ds[2] = -w1 * v * w0 / r;
+        ds[3] = S(2) * r * u * w0 / w1;
         return status;
     }
 
@@ -207,21 +205,16 @@ class torus {
     /// Observables of the model.
     [[nodiscard]] Eigen::Matrix<S, 3, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
-        using std::cos;
-        using std::sin;
         const S th = s[0];
         const S ph = s[1];
         const S R = parameters.R;
         const S r = parameters.r;
-        const S w0 = sin(th);
-        const S w1 = cos(th);
-        const S w2 = R + r * w1;
-        const S w3 = sin(ph);
-        const S w4 = cos(ph);
+        const auto [sines, cosines] = sincos<S, 2>({th, ph});
+        const S w0 = R + r * cosines[0];
         Eigen::Matrix<S, 3, 1> result;
-        result[0] = w2 * w4;
-        result[1] = w2 * w3;
-        result[2] = r * w0;
+        result[0] = w0 * cosines[1];
+        result[1] = w0 * sines[1];
+        result[2] = r * sines[0];
         return result;
     }
 
@@ -247,27 +240,24 @@ class torus {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 7>& values) const noexcept
     {
-        using std::cos;
-        using std::sin;
         const S th = s[0];
         const S u = s[2];
         const S v = s[3];
         const S R = parameters.R;
         const S r = parameters.r;
-        const S w0 = sin(th);
-        const S w1 = cos(th);
-        const S w2 = w1 + R / r;
-        const S w3 = w0 * v;
-        const S w4 = S(1) / (R + r * w1);
-        const S w5 = r * w4;
-        const S w6 = w5 * u;
+        const auto [sin_th, cos_th] = sincos<S>(th);
+        const S w0 = cos_th + R / r;
+        const S w1 = sin_th * v;
+        const S w2 = S(1) / (R + r * cos_th);
+        const S w3 = r * w2;
+        const S w4 = w3 * u;
         values[0] = S(1);
         values[1] = S(1);
-        values[2] = (w0 * w0 - w1 * w2) * (v * v);
-        values[3] = -S(2) * w2 * w3;
-        values[4] = S(2) * (r + R * w1) * w4 * w6 * v;
-        values[5] = S(2) * w5 * w3;
-        values[6] = S(2) * w0 * w6;
+        values[2] = (sin_th * sin_th - cos_th * w0) * (v * v);
+        values[3] = -S(2) * w0 * w1;
+        values[4] = S(2) * (r + R * cos_th) * w2 * w4 * v;
+        values[5] = S(2) * w3 * w1;
+        values[6] = S(2) * sin_th * w4;
     }
 
     /// The same as a dense matrix, shape (4, 4).

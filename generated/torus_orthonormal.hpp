@@ -48,6 +48,7 @@
 #pragma once
 
 #include "lagen/kernel.hpp"
+#include "lagen/sincos.hpp"
 
 #include <Eigen/Core>
 
@@ -122,21 +123,18 @@ class torus_orthonormal {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        using std::cos;
-        using std::sin;
         const S th = s[0];
         const S a = s[2];
         const S b = s[3];
         const S R = parameters.R;
         const S r = parameters.r;
-        const S w0 = sin(th);
-        const S w1 = cos(th);
-        const S w2 = b / (R + r * w1);
-        const S w3 = w0 * w2;
+        const auto [sin_th, cos_th] = sincos<S>(th);
+        const S w0 = b / (R + r * cos_th);
+        const S w1 = sin_th * w0;
         ds[0] = a / r;
-        ds[1] = w2;
-        ds[2] = -b * w3;
-        ds[3] = a * w3;
+        ds[1] = w0;
+        ds[2] = -b * w1;
+        ds[3] = a * w1;
         return StatusOf<S>::good();
     }
 
@@ -198,28 +196,25 @@ class torus_orthonormal {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 8>& values) const noexcept
     {
-        using std::cos;
-        using std::sin;
         const S th = s[0];
         const S a = s[2];
         const S b = s[3];
         const S R = parameters.R;
         const S r = parameters.r;
-        const S w0 = sin(th);
-        const S w1 = cos(th);
-        const S w2 = S(1) / (R + r * w1);
-        const S w3 = w2 * b;
-        const S w4 = w2 * w0;
-        const S w5 = r * w4;
-        const S w6 = (w1 + w0 * w5) * w3;
+        const auto [sin_th, cos_th] = sincos<S>(th);
+        const S w0 = S(1) / (R + r * cos_th);
+        const S w1 = w0 * b;
+        const S w2 = w0 * sin_th;
+        const S w3 = r * w2;
+        const S w4 = (cos_th + sin_th * w3) * w1;
         values[0] = S(1) / r;
-        values[1] = w5 * w3;
-        values[2] = w2;
-        values[3] = -b * w6;
-        values[4] = -S(2) * w0 * w3;
-        values[5] = a * w6;
-        values[6] = w0 * w3;
-        values[7] = w4 * a;
+        values[1] = w3 * w1;
+        values[2] = w0;
+        values[3] = -b * w4;
+        values[4] = -S(2) * w2 * b;
+        values[5] = a * w4;
+        values[6] = w2 * b;
+        values[7] = w2 * a;
     }
 
     /// The same as a dense matrix, shape (4, 4).

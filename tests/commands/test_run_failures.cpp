@@ -121,10 +121,6 @@ TEST_CASE("a scene that cannot start is an error of the model file, and nothing 
     refused("s", "initial = { x = 1, v = 0 }\nduration = 1\nmethod = \"rk44\"\n",
             "m.toml:21:10: error: unknown method 'rk44'\n  method = \"rk44\"\n           ^~~~~~\n"
             "hint: did you mean 'rk4'?\n");
-    refused("s", "initial = { x = 1, v = 0 }\nduration = 1\nform = \"hamilton\"\n",
-            "m.toml:18:8: error: scene 's' asks for the form 'hamilton', where 'lagrange' alone is run by this version "
-            "of lagen\n"
-            "  [scene.s]\n         ^\n");
     refused(
         "s", "initial = { x = 1, v = 0 }\nduration = 1\nat = [0, 2]\n",
         "m.toml:21:10: error: a row is wanted at t = 2, outside of the run from 0 to 1\n  at = [0, 2]\n           ^\n");

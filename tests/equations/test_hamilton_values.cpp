@@ -12,7 +12,7 @@ using namespace lagen;
 
 namespace {
 
-const double rounding = tolerance::roundoff(2000);
+const double hamilton_rounding = tolerance::roundoff(2000);
 
 bool is_implicit(const EquationSet& set)
 {
@@ -31,7 +31,7 @@ void check_rates(Numbers& number, const EquationBlock& block, const Values& rate
     for (const Equation& equation : block.equations) {
         INFO(block.title << ": " << equation.symbol);
         const double scale = number.scale(equation, rates);
-        CHECK(std::abs(number.right(equation) - rates.at(equation.symbol)) <= rounding * scale);
+        CHECK(std::abs(number.right(equation) - rates.at(equation.symbol)) <= hamilton_rounding * scale);
     }
 }
 
@@ -69,7 +69,7 @@ TEST_CASE("Hamilton's equations from every reference Lagrangian have its velocit
             if (!reference.base.empty()) check_rates(moving, block_of(set, "kinematics"), rates);
             check_rates(moving, block_of(set, "equations of motion"), rates);
             const Equation& H = set.blocks[0].equations.at(0);
-            CHECK(std::abs(number.right(H) - std::stod(given.energy)) <= rounding * number.scale(H, {}));
+            CHECK(std::abs(number.right(H) - std::stod(given.energy)) <= hamilton_rounding * number.scale(H, {}));
         }
     }
     CHECK(implicit_cases == 1); // the relativistic oscillator

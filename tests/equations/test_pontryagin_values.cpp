@@ -17,7 +17,7 @@ using namespace lagen;
 
 namespace {
 
-const double rounding = tolerance::roundoff(500);
+const double extremal_rounding = tolerance::roundoff(500);
 
 /// The value of an expression of the data file.
 double value_of(const std::string& text, const Values& values)
@@ -81,12 +81,13 @@ TEST_CASE("the optimal controls of every reference problem are those of its extr
             const Values values = values_at(control, sample);
             Numbers number(values);
             for (const Equation& equation : block_of(set, "condition").equations)
-                CHECK(std::abs(number.right(equation)) <= rounding * 20);
+                CHECK(std::abs(number.right(equation)) <= extremal_rounding * 20);
             for (const Equation& equation : block_of(set, "optimal controls").equations)
-                CHECK(number.right(equation) == Approx(values.at(equation.symbol)).margin(rounding).epsilon(rounding));
+                CHECK(number.right(equation) ==
+                      Approx(values.at(equation.symbol)).margin(extremal_rounding).epsilon(extremal_rounding));
             for (const char* title : {"Hamiltonian", "maximal Hamiltonian"}) {
                 const Equation& H = block_of(set, title).equations.at(0);
-                CHECK(std::abs(number.right(H) - std::stod(control.hamiltonian)) <= rounding * 40);
+                CHECK(std::abs(number.right(H) - std::stod(control.hamiltonian)) <= extremal_rounding * 40);
             }
             ++instants;
         }
@@ -117,7 +118,7 @@ TEST_CASE("costates move by the coordinate formula with derivatives of H by diff
                 double rate = 0;
                 for (std::size_t a = 0; a < control.sigma.size(); ++a)
                     rate += value_of(control.rho[i][a], values) * value_of(control.sigma[a], values);
-                CHECK(number.right(equation) == Approx(rate).margin(rounding).epsilon(rounding));
+                CHECK(number.right(equation) == Approx(rate).margin(extremal_rounding).epsilon(extremal_rounding));
             }
         }
     }

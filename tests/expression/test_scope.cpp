@@ -85,8 +85,16 @@ TEST_CASE("a definition is one shared tree wherever it stands")
 TEST_CASE("a tree without definitions is closed already and is returned as it is")
 {
     const Scope scope = scope_of({"x"});
-    const Tree tree = parse("sin(x)^2 + pi");
+    const Tree tree = parse("sin(x)^2 + 3");
     CHECK(scope.close(tree) == tree);
+}
+
+TEST_CASE("what a closed tree calls pi is the number, whatever another scope calls pi")
+{
+    const Tree closed_here = scope_of({"x"}).close(parse("x + pi"));
+    const Scope other = scope_of({"x", "pi"});
+    CHECK(names_in(other.close(closed_here)) == std::vector<std::string>{"x"});
+    CHECK(names_in(other.close(parse("x + pi"))) == std::vector<std::string>{"x", "pi"});
 }
 
 TEST_CASE("an unknown symbol gets the nearest name")

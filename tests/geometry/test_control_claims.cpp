@@ -10,7 +10,7 @@ using namespace lagen;
 
 namespace {
 
-std::string plane(const std::string& control)
+std::string controlled_plane(const std::string& control)
 {
     return "[parameters]\nk = 1\n[base]\ncoordinates = [\"x\", \"y\"]\n[fibre]\ncoordinates = [\"a\", \"b\"]\nmomenta "
            "= "
@@ -41,15 +41,16 @@ TEST_CASE("what the reference problems conserve is proved, and what they do not 
 TEST_CASE("controls in a claim are those of the extremal")
 {
     // H = p u + q x - u^2/2: u = p, p' = -q, q' = 0
-    const std::string problem = plane("controls = [\"u\"]\nsigma = { a = \"u\", b = \"x\" }\ncost = \"u^2/2\"\n");
+    const std::string problem =
+        controlled_plane("controls = [\"u\"]\nsigma = { a = \"u\", b = \"x\" }\ncost = \"u^2/2\"\n");
     CHECK(statuses(problem, {"u - p", "u + q*t", "u", "a - u", "b - x", "lagrangian - u^2/2", "energy"}) ==
           "proved proved refuted proved proved proved proved");
 }
 
 TEST_CASE("coupled controls are solved for together")
 {
-    const std::string problem = plane("controls = [\"u[1..2]\"]\nsigma = { a = \"u[1]\", b = \"u[2]\" }\n"
-                                      "cost = \"u[1]^2 + u[1]*u[2] + u[2]^2 + k*u[1]\"\n");
+    const std::string problem = controlled_plane("controls = [\"u[1..2]\"]\nsigma = { a = \"u[1]\", b = \"u[2]\" }\n"
+                                                 "cost = \"u[1]^2 + u[1]*u[2] + u[2]^2 + k*u[1]\"\n");
     // p = 2 u1 + u2 + k, q = u1 + 2 u2
     CHECK(statuses(problem, {"3*u[1] - 2*p + q + 2*k", "3*u[2] - 2*q + p - k", "x - u[1]*t", "x"}) ==
           "proved proved proved refuted");
@@ -57,14 +58,15 @@ TEST_CASE("coupled controls are solved for together")
 
 TEST_CASE("a cost of time leaves the Hamiltonian no invariant")
 {
-    const std::string problem = plane("controls = [\"u\"]\nsigma = { a = \"u\" }\ncost = \"u^2/2 + x^2*cos(t)\"\n");
+    const std::string problem =
+        controlled_plane("controls = [\"u\"]\nsigma = { a = \"u\" }\ncost = \"u^2/2 + x^2*cos(t)\"\n");
     CHECK(statuses(problem, {"hamiltonian", "q"}) == "refuted proved");
 }
 
 TEST_CASE("with bounded controls only what holds for every control is proved, and nothing is refuted")
 {
-    const std::string problem =
-        plane("controls = [\"u\"]\nsigma = { a = \"u\", b = \"x\" }\ncost = \"u^2/2\"\nbounds = { u = [-1, 1] }\n");
+    const std::string problem = controlled_plane(
+        "controls = [\"u\"]\nsigma = { a = \"u\", b = \"x\" }\ncost = \"u^2/2\"\nbounds = { u = [-1, 1] }\n");
     const std::vector<std::string> claims = {"q", "p + q*t", "hamiltonian", "x", "u", "p"};
     CHECK(statuses(problem, claims) == "proved proved proved undecided undecided refuted");
     CHECK(first_obstacle(problem, claims) ==
@@ -73,18 +75,19 @@ TEST_CASE("with bounded controls only what holds for every control is proved, an
 
 TEST_CASE("controls that are not solved for leave a claim undecided, with the reason")
 {
-    CHECK(first_obstacle(plane("controls = [\"u\"]\nsigma = { a = \"u\" }\ncost = \"u^4/4\"\n"), {"x"}) ==
+    CHECK(first_obstacle(controlled_plane("controls = [\"u\"]\nsigma = { a = \"u\" }\ncost = \"u^4/4\"\n"), {"x"}) ==
           "dH/du is not affine in the controls, which are not solved for then");
-    CHECK(first_obstacle(plane("controls = [\"u\", \"w\"]\nsigma = { a = \"u\", b = \"w\" }\ncost = \"(u + w)^2\"\n"),
-                         {"x"}) == "d2H/du2 is singular, so that dH/du = 0 does not determine the controls");
+    CHECK(first_obstacle(
+              controlled_plane("controls = [\"u\", \"w\"]\nsigma = { a = \"u\", b = \"w\" }\ncost = \"(u + w)^2\"\n"),
+              {"x"}) == "d2H/du2 is singular, so that dH/du = 0 does not determine the controls");
 }
 
 TEST_CASE("sigma and cost count where they are defined, and may divide by nothing that is zero everywhere")
 {
     const std::string control = "controls = [\"u\"]\nsigma = { a = \"u\" }\ncost = \"u^2/2 + log(-1 - x^2)\"\n";
-    CHECK(verified_text(plane(control)).verdict == Verdict::undecided);
+    CHECK(verified_text(controlled_plane(control)).verdict == Verdict::undecided);
     CHECK_THROWS_WITH(
-        verified_text(
-            plane("controls = [\"u\"]\nsigma = { a = \"u/(u*(sin(x)^2 + cos(x)^2) - u)\" }\ncost = \"u^2/2\"\n")),
+        verified_text(controlled_plane(
+            "controls = [\"u\"]\nsigma = { a = \"u/(u*(sin(x)^2 + cos(x)^2) - u)\" }\ncost = \"u^2/2\"\n")),
         Catch::Contains("division by u*(sin(x)^2 + cos(x)^2) - u, which is zero everywhere"));
 }

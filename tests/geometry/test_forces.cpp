@@ -8,7 +8,8 @@ using namespace lagen;
 
 namespace {
 
-std::string plane(const std::string& blocks, const std::string& lagrangian = "(m*(v_x^2 + v_y^2) - k*(x^2 + y^2))/2")
+std::string forced_plane(const std::string& blocks,
+                         const std::string& lagrangian = "(m*(v_x^2 + v_y^2) - k*(x^2 + y^2))/2")
 {
     return "[parameters]\nm = 2\nk = 3\nc = \"1/5\"\n[base]\ncoordinates = [\"x\", \"y\"]\ndomain = [\"m > 0\", \"c > "
            "0\"]\n"
@@ -20,24 +21,24 @@ std::string plane(const std::string& blocks, const std::string& lagrangian = "(m
 
 TEST_CASE("friction takes energy away, a gyroscopic force does not")
 {
-    CHECK(statuses(plane("[dissipation]\nR = \"c*(v_x^2 + v_y^2)/2\"\n"), {"energy"}) == "refuted");
-    CHECK(statuses(plane("[forces]\nv_x = \"-c*v_y\"\nv_y = \"c*v_x\"\n"), {"energy", "hamiltonian", "lagrangian"}) ==
-          "proved proved refuted");
-    CHECK(statuses(plane("[forces]\nv_x = \"-c*v_y\"\nv_y = \"2*c*v_x\"\n"), {"energy"}) == "refuted");
+    CHECK(statuses(forced_plane("[dissipation]\nR = \"c*(v_x^2 + v_y^2)/2\"\n"), {"energy"}) == "refuted");
+    CHECK(statuses(forced_plane("[forces]\nv_x = \"-c*v_y\"\nv_y = \"c*v_x\"\n"),
+                   {"energy", "hamiltonian", "lagrangian"}) == "proved proved refuted");
+    CHECK(statuses(forced_plane("[forces]\nv_x = \"-c*v_y\"\nv_y = \"2*c*v_x\"\n"), {"energy"}) == "refuted");
 }
 
 TEST_CASE("a force and the dissipation that takes as much leave the energy as it is")
 {
     const std::string balanced = "[forces]\nv_x = \"c*v_x^3\"\n[dissipation]\nR = \"c*v_x^4/4\"\n";
-    CHECK(statuses(plane(balanced), {"energy", "p_v_x"}) == "proved refuted");
+    CHECK(statuses(forced_plane(balanced), {"energy", "p_v_x"}) == "proved refuted");
 }
 
 TEST_CASE("momenta of a free particle in friction, in wind and in a pulsating field follow their integrals")
 {
     const std::string free = "m*(v_x^2 + v_y^2)/2";
-    CHECK(statuses(plane("[dissipation]\nR = \"c*v_x^2/2\"\n", free),
+    CHECK(statuses(forced_plane("[dissipation]\nR = \"c*v_x^2/2\"\n", free),
                    {"v_x*exp(c*t/m)", "p_v_x + c*x", "v_x*exp(2*c*t/m)", "v_y"}) == "proved proved refuted proved");
-    CHECK(statuses(plane("[forces]\nv_x = 1\nv_y = \"cos(t)\"\n", free),
+    CHECK(statuses(forced_plane("[forces]\nv_x = 1\nv_y = \"cos(t)\"\n", free),
                    {"p_v_x - t", "p_v_y - sin(t)", "energy - x", "energy"}) == "proved proved refuted refuted");
 }
 
@@ -67,16 +68,16 @@ p3 = "3*w3"
 TEST_CASE("a force that switches is followed along: what it does not touch is proved")
 {
     const std::string wall = "[forces]\nv_x = \"if(x < 0, -k*x, 0)\"\n";
-    CHECK(statuses(plane(wall, "m*(v_x^2 + v_y^2)/2"), {"p_v_y", "energy"}) == "proved refuted");
+    CHECK(statuses(forced_plane(wall, "m*(v_x^2 + v_y^2)/2"), {"p_v_y", "energy"}) == "proved refuted");
 }
 
 TEST_CASE("forces and dissipation count where they are defined, and may divide by nothing that is zero everywhere")
 {
-    const VerifiedAlgebroid nowhere = verified_text(plane("[forces]\nv_x = \"log(-1 - x^2)\"\n"));
+    const VerifiedAlgebroid nowhere = verified_text(forced_plane("[forces]\nv_x = \"log(-1 - x^2)\"\n"));
     CHECK(nowhere.verdict == Verdict::undecided);
     CHECK(nowhere.note == "no point was found where everything in the model is defined and every condition of [base] "
                           "holds");
-    CHECK(verified_text(plane("[forces]\nv_x = \"log(1 + x^2)\"\n")).note.empty());
-    CHECK_THROWS_WITH(verified_text(plane("[dissipation]\nR = \"v_x^2/(sin(x)^2 + cos(x)^2 - 1)\"\n")),
+    CHECK(verified_text(forced_plane("[forces]\nv_x = \"log(1 + x^2)\"\n")).note.empty());
+    CHECK_THROWS_WITH(verified_text(forced_plane("[dissipation]\nR = \"v_x^2/(sin(x)^2 + cos(x)^2 - 1)\"\n")),
                       Catch::Contains("division by sin(x)^2 + cos(x)^2 - 1, which is zero everywhere"));
 }

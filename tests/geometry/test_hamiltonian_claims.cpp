@@ -9,7 +9,7 @@ using namespace lagen;
 
 namespace {
 
-std::string plane(const std::string& hamiltonian, const std::string& more = "")
+std::string hamiltonian_plane(const std::string& hamiltonian, const std::string& more = "")
 {
     return "[parameters]\nk = 1\n[base]\ncoordinates = [\"x\", \"y\"]\n[fibre]\ncoordinates = [\"u\", \"v\"]\nmomenta "
            "= "
@@ -17,7 +17,7 @@ std::string plane(const std::string& hamiltonian, const std::string& more = "")
            hamiltonian + "\"\n" + more;
 }
 
-const std::string heavy_top = R"(
+const std::string heavy_top_momenta = R"(
 [parameters]
 I1 = 1
 I3 = 3
@@ -51,7 +51,7 @@ const Check& legendre_of(const VerifiedAlgebroid& verified)
 
 TEST_CASE("Kepler's problem in momenta conserves angular momentum and the Laplace vector")
 {
-    CHECK(statuses(plane("(p^2 + q^2)/2 - k/sqrt(x^2 + y^2)"),
+    CHECK(statuses(hamiltonian_plane("(p^2 + q^2)/2 - k/sqrt(x^2 + y^2)"),
                    {"x*q - y*p", "q*(x*q - y*p) - k*x/sqrt(x^2 + y^2)", "q*(x*q - y*p) + k*x/sqrt(x^2 + y^2)", "energy",
                     "hamiltonian", "lagrangian"}) == "proved proved refuted proved proved refuted");
 }
@@ -59,44 +59,47 @@ TEST_CASE("Kepler's problem in momenta conserves angular momentum and the Laplac
 TEST_CASE("fibre coordinates in a claim are dH/dmu")
 {
     // H = p^2/2 + p q + q^2: u = p + q, v = p + 2 q
-    CHECK(statuses(plane("p^2/2 + p*q + q^2"), {"u", "v", "u - p - q", "u*x", "lagrangian - hamiltonian"}) ==
-          "proved proved proved refuted proved");
-    CHECK(statuses(plane("sqrt(1 + p^2 + q^2)"), {"u^2 + v^2", "u*q - v*p", "x - u*t", "x + u*t"}) ==
+    CHECK(
+        statuses(hamiltonian_plane("p^2/2 + p*q + q^2"), {"u", "v", "u - p - q", "u*x", "lagrangian - hamiltonian"}) ==
+        "proved proved proved refuted proved");
+    CHECK(statuses(hamiltonian_plane("sqrt(1 + p^2 + q^2)"), {"u^2 + v^2", "u*q - v*p", "x - u*t", "x + u*t"}) ==
           "proved proved proved refuted");
 }
 
 TEST_CASE("Lagrange's top in momenta conserves m.g, m3 and the energy, but not m1")
 {
-    CHECK(statuses(heavy_top, {"m1*g1 + m2*g2 + m3*g3", "m3", "energy", "w3", "m1", "g1^2 + g2^2 + g3^2"}) ==
+    CHECK(statuses(heavy_top_momenta, {"m1*g1 + m2*g2 + m3*g3", "m3", "energy", "w3", "m1", "g1^2 + g2^2 + g3^2"}) ==
           "proved proved proved proved refuted proved");
 }
 
 TEST_CASE("a Hamiltonian of time does not conserve itself, and forces act over y = dH/dmu")
 {
-    CHECK(statuses(plane("(p^2 + q^2)/2 + x*sin(t)"), {"energy", "q"}) == "refuted proved");
-    CHECK(statuses(plane("p^2 + q^2/2", "[forces]\nu = \"-u\"\n[dissipation]\nR = \"v^2/2\"\n"),
+    CHECK(statuses(hamiltonian_plane("(p^2 + q^2)/2 + x*sin(t)"), {"energy", "q"}) == "refuted proved");
+    CHECK(statuses(hamiltonian_plane("p^2 + q^2/2", "[forces]\nu = \"-u\"\n[dissipation]\nR = \"v^2/2\"\n"),
                    {"p + x", "q + y", "p*exp(2*t)", "q*exp(t)", "energy"}) == "proved proved proved proved refuted");
-    CHECK(statuses(plane("p^2 + q^2/2", "[forces]\nu = \"v\"\nv = \"-u\"\n"), {"energy"}) == "proved");
+    CHECK(statuses(hamiltonian_plane("p^2 + q^2/2", "[forces]\nu = \"v\"\nv = \"-u\"\n"), {"energy"}) == "proved");
 }
 
 TEST_CASE("without a Lagrangian the regularity is that of d2H/dmu2")
 {
-    const Regularity regular = verified_text(heavy_top).regularity;
+    const Regularity regular = verified_text(heavy_top_momenta).regularity;
     CHECK(regular.of_hamiltonian);
     CHECK(regular.kind == Regularity::Kind::regular);
     CHECK(regular.rank == 3);
-    const Regularity degenerate = verified_text(plane("p^2/2 + x*q")).regularity;
+    const Regularity degenerate = verified_text(hamiltonian_plane("p^2/2 + x*q")).regularity;
     CHECK(degenerate.kind == Regularity::Kind::degenerate);
     CHECK(degenerate.rank == 1);
-    CHECK_FALSE(verified_text(plane("p^2/2 + q^2", "[lagrangian]\nL = \"u^2 + v^2\"\n")).regularity.of_hamiltonian);
+    CHECK_FALSE(
+        verified_text(hamiltonian_plane("p^2/2 + q^2", "[lagrangian]\nL = \"u^2 + v^2\"\n")).regularity.of_hamiltonian);
 }
 
 TEST_CASE("H is proved to be the Legendre transform of L, or refuted at a point")
 {
-    const std::string right =
-        plane("p^2/(2*(2 + cos(x))) + q^2/2 + k*x^2/2", "[lagrangian]\nL = \"((2 + cos(x))*u^2 + v^2 - k*x^2)/2\"\n");
+    const std::string right = hamiltonian_plane("p^2/(2*(2 + cos(x))) + q^2/2 + k*x^2/2",
+                                                "[lagrangian]\nL = \"((2 + cos(x))*u^2 + v^2 - k*x^2)/2\"\n");
     CHECK(legendre_of(verified_text(right)).decision.status == ProofStatus::proved);
-    const std::string wrong = plane("p^2/2 + q^2/2 - k*x^2/2", "[lagrangian]\nL = \"(u^2 + v^2 - k*x^2)/2\"\n");
+    const std::string wrong =
+        hamiltonian_plane("p^2/2 + q^2/2 - k*x^2/2", "[lagrangian]\nL = \"(u^2 + v^2 - k*x^2)/2\"\n");
     const VerifiedAlgebroid verified = verified_text(wrong);
     const Check& check = legendre_of(verified);
     CHECK(verified.verdict == Verdict::invalid);
@@ -108,14 +111,14 @@ TEST_CASE("H is proved to be the Legendre transform of L, or refuted at a point"
 
 TEST_CASE("a Legendre transform that only algebra sees is proved: the relativistic particle")
 {
-    const std::string model = plane("sqrt(1 + p^2)", "[lagrangian]\nL = \"-sqrt(1 - u^2)\"\n");
+    const std::string model = hamiltonian_plane("sqrt(1 + p^2)", "[lagrangian]\nL = \"-sqrt(1 - u^2)\"\n");
     CHECK(legendre_of(verified_text(model)).decision.status == ProofStatus::proved);
 }
 
 TEST_CASE("H counts where it is defined, and may divide by nothing that is zero everywhere")
 {
-    CHECK(verified_text(plane("log(-1 - p^2)")).verdict == Verdict::undecided);
-    CHECK(verified_text(plane("log(1 + p^2)")).verdict == Verdict::valid);
-    CHECK_THROWS_WITH(verified_text(plane("p/(q - q*(sin(x)^2 + cos(x)^2))")),
+    CHECK(verified_text(hamiltonian_plane("log(-1 - p^2)")).verdict == Verdict::undecided);
+    CHECK(verified_text(hamiltonian_plane("log(1 + p^2)")).verdict == Verdict::valid);
+    CHECK_THROWS_WITH(verified_text(hamiltonian_plane("p/(q - q*(sin(x)^2 + cos(x)^2))")),
                       Catch::Contains("which is zero everywhere"));
 }

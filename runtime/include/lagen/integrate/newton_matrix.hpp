@@ -136,8 +136,9 @@ class MatrixLu {
             row = i;
         }
         // Whole rows, so that a right-hand side takes every exchange before the first elimination.
-        if (row != k)
-            for (std::size_t j = 0; j < n; ++j) std::swap(lu_(k, j), lu_(row, j));
+        if constexpr (n > 1)
+            if (k < row && row < n)
+                for (std::size_t j = 0; j < n; ++j) std::swap(lu_(k, j), lu_(row, j));
         swaps_[k] = row;
         return largest > Real(0) && largest - largest == Real(0);
     }
