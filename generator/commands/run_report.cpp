@@ -49,13 +49,18 @@ std::string report_json(const RunOutcome& outcome)
     const std::string events = list_text(outcome.events, [](const EventReport& event) {
         return fmt::format("{{\"name\": {}, \"t\": {}}}", string_text(event.name), number_text(event.time));
     });
+    const std::string implicit = outcome.newton.empty()
+                                     ? ""
+                                     : fmt::format(" \"newton_iterations\": {}, \"decompositions\": {},",
+                                                   number_text(outcome.newton), number_text(outcome.decompositions));
     return fmt::format(
         "{{\"model\": {}, \"scene\": {}, \"form\": {}, \"method\": {}, \"status\": {}, \"t\": {},\n \"steps\": {}, "
-        "\"rejected\": {}, \"rhs_calls\": {}, \"seconds\": {},\n \"columns\": {},\n \"rows\": {},\n \"events\": {},\n "
+        "\"rejected\": {}, \"rhs_calls\": {},{} \"seconds\": {},\n \"columns\": {},\n \"rows\": {},\n \"events\": "
+        "{},\n "
         "\"invariants\": {}}}\n",
         string_text(outcome.model), string_text(outcome.scene), string_text(outcome.form), string_text(outcome.method),
         string_text(outcome.status), number_text(outcome.where), number_text(outcome.steps),
-        number_text(outcome.rejected), number_text(outcome.rhs_calls), number_text(outcome.seconds),
+        number_text(outcome.rejected), number_text(outcome.rhs_calls), implicit, number_text(outcome.seconds),
         list_text(outcome.table.columns, [](const std::string& column) { return string_text(column); }),
         list_text(outcome.table.lines(), row_text), events, invariants);
 }
@@ -72,6 +77,9 @@ std::string report_text(const RunOutcome& outcome)
         "{}, scene {}: {} at t = {}; {}, {} ({} rejected), {}, {}\n", outcome.model, outcome.scene, outcome.status,
         brief(outcome.where, 9), outcome.method, counted(outcome.steps, "step"), outcome.rejected,
         counted(outcome.rhs_calls, "right-hand side"), counted(std::to_string(outcome.table.count), "row"));
+    if (!outcome.newton.empty())
+        text += fmt::format("  {}, {}\n", counted(outcome.newton, "Newton iteration"),
+                            counted(outcome.decompositions, "factorisation"));
     for (const EventReport& event : outcome.events)
         text += fmt::format("  event {} at t = {}\n", event.name, brief(event.time, 15));
     for (const Drift& drift : outcome.invariants)

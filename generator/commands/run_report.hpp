@@ -27,6 +27,7 @@ struct RunOutcome {
     std::string status;                              ///< "ok", "stopped_by_event", "left_domain", ... (runtime's names)
     std::string where;                               ///< time that was reached
     std::string steps, rejected, rhs_calls, seconds; ///< numbers as printed
+    std::string newton, decompositions; ///< Newton iterations and factorisations of implicit methods; else empty
     std::vector<EventReport> events;
     std::vector<Drift> invariants;
     bool energy_changes = false; ///< forces or explicit time: the energy is not conserved

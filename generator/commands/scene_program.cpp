@@ -67,6 +67,8 @@ void read_line(const std::string& key, const std::string& value, RunOutcome& out
     if (key == "steps") outcome.steps = value;
     if (key == "rejected") outcome.rejected = value;
     if (key == "rhs_calls") outcome.rhs_calls = value;
+    if (key == "newton") outcome.newton = value;
+    if (key == "decompositions") outcome.decompositions = value;
     if (key == "seconds") outcome.seconds = value;
     if (key == "event") {
         const std::size_t at = value.rfind('@');

@@ -127,9 +127,11 @@ class PontryaginForm {
         std::vector<NodeId> guess(u_.size(), graph_.constant(0));
         Lowering lower(graph_);
         for (const ControlBound& bound : control_.bounds)
-            if (bound.lower && bound.upper)
-                guess[bound.control] =
-                    graph_.divide(graph_.add(lower(bound.lower), lower(bound.upper)), graph_.constant(2));
+            if (bound.lower && bound.upper) {
+                const NodeId low = lower(bound.lower); // nodes are numbered in the order of these lines
+                const NodeId high = lower(bound.upper);
+                guess[bound.control] = graph_.divide(graph_.add(low, high), graph_.constant(2));
+            }
         implicit_.push_back(implicit_block(graph_, "controls", "u with dH/du = 0.", u_, dH_du_, std::move(guess),
                                            MatrixStructure::symmetric));
         solution_ = u_;

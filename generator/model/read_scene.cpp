@@ -163,7 +163,8 @@ Scene read_scene(const ModelReader& reader, Scene scene, const TomlEntry& block,
     require_acyclic_scene(reader, scene);
     if (!forms_of(reader.model).empty()) {
         std::string form = scene.form;
-        scene = in_form(reader.model, std::move(scene), form_of(reader.model, scene));
+        const std::string form_of_scene = form_of(reader.model, scene); // before the move
+        scene = in_form(reader.model, std::move(scene), form_of_scene);
         scene.form = std::move(form);
     }
     require_complete(reader, scene);

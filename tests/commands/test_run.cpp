@@ -221,3 +221,16 @@ TEST_CASE("--plot draws SVG and PNG")
     CHECK(read_text(folder + "/a.png").substr(0, 4) == "\x89PNG");
     CHECK(names_in(folder) == std::vector<std::string>{"a.csv", "a.png", "a.svg"});
 }
+
+TEST_CASE("a run by an implicit method tells its Newton iterations and factorisations")
+{
+    const Outcome text = call({"run", "oscillator.toml", "--method", "gauss4", "--step", "1/2", "--at", "1"});
+    CHECK(text.code == 0);
+    // A linear problem: one iteration finds the stages, one more finds nothing to correct.
+    CHECK_THAT(text.err, Catch::Contains("2 steps") && Catch::Contains(" Newton iterations, 2 factorisations\n"));
+    const Outcome json =
+        call({"run", "oscillator.toml", "--method", "gauss4", "--step", "1/2", "--at", "1", "--format", "json"});
+    CHECK_THAT(json.out, Catch::Contains("\"newton_iterations\": ") && Catch::Contains("\"decompositions\": 2,"));
+    const Outcome explicitly = call({"run", "oscillator.toml", "--method", "rk4", "--step", "1/2", "--at", "1"});
+    CHECK_THAT(explicitly.err, !Catch::Contains("Newton"));
+}

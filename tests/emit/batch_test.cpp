@@ -33,7 +33,8 @@ TEST_CASE("sine and cosine of one angle come from one call and are called after 
     const NodeId sum = g.add(a, g.input("b"));
     CHECK(lines(g, {g.apply(Op::cos, a), g.apply(Op::sin, a)}) ==
           Lines{"const auto [sin_a, cos_a] = sincos<S>(a);", "cos_a", "sin_a"});
-    CHECK(lines(g, {g.multiply(g.apply(Op::cos, sum), g.apply(Op::sin, sum))}) ==
+    const NodeId sine = g.apply(Op::sin, sum);
+    CHECK(lines(g, {g.multiply(g.apply(Op::cos, sum), sine)}) ==
           Lines{"const S w0 = a + b;", "const auto [w1, w2] = sincos<S>(w0);", "w1 * w2"});
 }
 

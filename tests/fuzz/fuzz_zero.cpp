@@ -11,7 +11,9 @@
 #include "graph/lower.hpp"
 #include "proof/decide.hpp"
 #include "proof/enclosure.hpp"
+#include "proof/partial_parts.hpp"
 
+#include <algorithm>
 #include <array>
 
 using namespace lagen;
@@ -70,7 +72,13 @@ bool ask(Choices& choices, Question& question)
     }
     question.has_kinks = fuzz::has_kinks(question.tree);
     set_place(question);
-    return accepted([&] { question.residual = Lowering(question.graph)(question.tree); }) &&
+    return accepted([&] {
+               Lowering lower(question.graph);
+               question.residual = lower(question.tree);
+               // What is folded away (0 * log(x)) says where the expression is defined all the same.
+               for (const NodeId part : partial_parts(question.graph, lower, question.tree))
+                   question.setting.defined.push_back(part);
+           }) &&
            question.graph.size() <= largest_graph;
 }
 
@@ -98,6 +106,13 @@ std::vector<Point> points_of(Place place)
         points.push_back(point);
     }
     return points;
+}
+
+/// Everything that the expression names has a value at the point.
+bool is_defined(const Question& question, const Point& point)
+{
+    return std::all_of(question.setting.defined.begin(), question.setting.defined.end(),
+                       [&](NodeId part) { return enclosure(question, part, point, 400).is_finite(); });
 }
 
 /// The point of a witness where all its values are exact.
@@ -136,7 +151,7 @@ void examine_refuted(const Question& question, const Decision& decision, const s
 void examine_proved(const Question& question, const ZeroDecider& decider, const std::string& text)
 {
     for (const Point& point : points_of(question.place))
-        require(!enclosure(question, question.residual, point, 400).excludes_zero(),
+        require(!is_defined(question, point) || !enclosure(question, question.residual, point, 400).excludes_zero(),
                 "proved to be zero, but is not at a point: " + text);
     require(!decider.reevaluate(question.residual, 5).zero_excluded,
             "proved, and its re-evaluation excludes zero: " + text);
