@@ -22,7 +22,7 @@ std::string line_of(const std::string& text, int number)
     return line;
 }
 
-constexpr std::size_t long_header = 40'000; ///< bytes; of the n-body problems, a second or more each
+constexpr std::size_t long_header = 20'000; ///< bytes; a second or more each
 
 // Sanitizers look for faults in one generation and are slow; that twenty agree is the matter of the other builds.
 #if defined(__has_feature)
