@@ -50,7 +50,7 @@ ExitCode run_derive(Arguments arguments)
     const Options options(derive_syntax, arguments);
     if (options.help()) return ExitCode::done;
     const std::string format = options.choice("format", {"text", "latex", "json"});
-    if (options.has("form")) (void)options.choice("form", derived_forms());
+    if (options.has("form")) (void)options.choice("form", form_names());
     // A refuted model has equations too, and reading them may show why; they come with the warning.
     const CheckedModel checked = load(model_path(options.positional()[0]), options.settings(), true);
     for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));

@@ -5,6 +5,7 @@
 #include "commands/places.hpp"
 #include "commands/write_file.hpp"
 #include "emit/json.hpp"
+#include "model/scene_form.hpp"
 #include "pipeline.hpp"
 
 #include <fmt/core.h>

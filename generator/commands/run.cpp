@@ -140,11 +140,6 @@ std::vector<Panel> panels_of(const std::vector<Column>& columns, const Model& mo
     return panels;
 }
 
-bool has_kernel(const KernelModule& module, const std::string& name)
-{
-    return std::ranges::any_of(module.kernels, [&](const Kernel& kernel) { return kernel.name == name; });
-}
-
 void tell(const Options& options, const RunOutcome& outcome, bool as_json)
 {
     if (as_json) {

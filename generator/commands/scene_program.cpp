@@ -78,18 +78,10 @@ void read_line(const std::string& key, const std::string& value, RunOutcome& out
     if (key.starts_with(invariant)) outcome.invariants.push_back(drift_of(key.substr(invariant.size()), value));
 }
 
-const Kernel* kernel_of(const KernelModule& module, const std::string& name)
-{
-    const auto found = std::ranges::find(module.kernels, name, &Kernel::name);
-    return found == module.kernels.end() ? nullptr : &*found;
-}
-
 /// The column of an entry of the module's observables.
 Column observable(const KernelModule& module, const std::string& name)
 {
-    const Kernel* observables = kernel_of(module, "observables");
-    if (observables == nullptr) throw InternalError(fmt::format("no observables for '{}'", name));
-    const std::vector<std::string>& names = observables->entry_names;
+    const std::vector<std::string>& names = kernel_named(module, "observables").entry_names;
     const auto entry = std::ranges::find(names, name);
     if (entry == names.end()) throw InternalError(fmt::format("'{}' is missing among the observables", name));
     return {name, false, static_cast<std::size_t>(entry - names.begin())};
@@ -113,8 +105,9 @@ std::vector<Column> columns_of(const KernelModule& module, const Scene& scene)
     std::vector<Column> columns;
     if (!scene.observe) {
         for (std::size_t k = 0; k < states.size(); ++k) columns.push_back({states[k], true, k});
-        if (const Kernel* controls = kernel_of(module, "controls"))
-            for (const std::string& name : controls->entry_names) columns.push_back(observable(module, name));
+        if (has_kernel(module, "controls"))
+            for (const std::string& name : kernel_named(module, "controls").entry_names)
+                columns.push_back(observable(module, name));
         return columns;
     }
     for (const NamedTree& wanted : *scene.observe) {

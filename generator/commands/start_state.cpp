@@ -2,6 +2,7 @@
 #include "commands/start_state.hpp"
 
 #include "diagnostic.hpp"
+#include "graph/dense_lu.hpp"
 #include "graph/evaluate.hpp"
 
 #include <fmt/core.h>
@@ -18,13 +19,6 @@ constexpr long double small = 1e-17L;
 
 using Values = std::map<std::string, long double>;
 
-const Kernel& kernel_of(const KernelModule& module, const std::string& name)
-{
-    for (const Kernel& kernel : module.kernels)
-        if (kernel.name == name) return kernel;
-    throw InternalError(fmt::format("the module has no kernel '{}'", name));
-}
-
 /// A kernel's output as a dense array by rows.
 std::vector<long double> dense(const KernelModule& module, const Kernel& kernel, const Values& inputs)
 {
@@ -37,30 +31,6 @@ std::vector<long double> dense(const KernelModule& module, const Kernel& kernel,
         array[entry.row * kernel.output.columns + entry.column] = values[k];
     }
     return array;
-}
-
-/// Solves A x = b by Gauss elimination with row pivoting; false where A is singular. Both are used up; x replaces b.
-bool solve_linear(std::vector<long double>& a, std::vector<long double>& b)
-{
-    const std::size_t n = b.size();
-    for (std::size_t k = 0; k < n; ++k) {
-        std::size_t pivot = k;
-        for (std::size_t row = k + 1; row < n; ++row)
-            if (std::abs(a[row * n + k]) > std::abs(a[pivot * n + k])) pivot = row;
-        if (!(std::abs(a[pivot * n + k]) > 0)) return false;
-        for (std::size_t column = 0; column < n; ++column) std::swap(a[k * n + column], a[pivot * n + column]);
-        std::swap(b[k], b[pivot]);
-        for (std::size_t row = k + 1; row < n; ++row) {
-            const long double factor = a[row * n + k] / a[k * n + k];
-            for (std::size_t column = k; column < n; ++column) a[row * n + column] -= factor * a[k * n + column];
-            b[row] -= factor * b[k];
-        }
-    }
-    for (std::size_t k = n; k-- > 0;) {
-        for (std::size_t column = k + 1; column < n; ++column) b[k] -= a[k * n + column] * b[column];
-        b[k] /= a[k * n + k];
-    }
-    return true;
 }
 
 /// An equation value(z) = target for the lanes `unknowns` of a module, by Newton's method from 0.
@@ -96,9 +66,11 @@ std::vector<long double> invert(const Inversion& inversion, const std::vector<Na
         for (std::size_t a = 0; a < z.size(); ++a) inputs[unknowns[a].name] = z[a];
         std::vector<long double> residual = dense(inversion.module, inversion.value, inputs);
         for (std::size_t a = 0; a < z.size(); ++a) residual[a] = target[a].second - residual[a];
-        std::vector<long double> matrix =
-            corner(dense(inversion.module, inversion.matrix, inputs), inversion.matrix.output.rows, z.size());
-        if (!solve_linear(matrix, residual)) fail(inversion, "the matrix of the equations is singular");
+        const auto matrix =
+            factorise(corner(dense(inversion.module, inversion.matrix, inputs), inversion.matrix.output.rows, z.size()),
+                      z.size());
+        if (!matrix.regular) fail(inversion, "the matrix of the equations is singular");
+        residual = substitute(matrix, residual);
         long double change = 0;
         long double size = 0;
         for (std::size_t a = 0; a < z.size(); ++a) {
@@ -116,7 +88,7 @@ std::vector<long double> invert(const Inversion& inversion, const std::vector<Na
 std::vector<long double> velocities_of(const KernelModule& module, const SceneValues& values, const Values& inputs)
 {
     return invert(
-        {module, kernel_of(module, "momentum"), kernel_of(module, "mass_matrix"), "momenta", "fibre coordinates"},
+        {module, kernel_named(module, "momentum"), kernel_named(module, "mass_matrix"), "momenta", "fibre coordinates"},
         values.momenta, inputs);
 }
 
@@ -132,11 +104,12 @@ std::vector<long double> momenta_of(const CheckedModel& checked, const SceneValu
     if (checked.model.lagrangian) {
         const KernelModule module = module_of("lagrange", {"momentum"});
         for (const auto& [name, value] : values.fibre) inputs[name] = value;
-        return values.fibre.empty() ? std::vector<long double>{} : dense(module, kernel_of(module, "momentum"), inputs);
+        return values.fibre.empty() ? std::vector<long double>{}
+                                    : dense(module, kernel_named(module, "momentum"), inputs);
     }
     const KernelModule module = module_of("hamilton", {"velocity", "hamiltonian_hessian"});
-    return invert({module, kernel_of(module, "velocity"), kernel_of(module, "hamiltonian_hessian"), "fibre coordinates",
-                   "momenta"},
+    return invert({module, kernel_named(module, "velocity"), kernel_named(module, "hamiltonian_hessian"),
+                   "fibre coordinates", "momenta"},
                   values.fibre, inputs);
 }
 

@@ -7,12 +7,6 @@
 
 namespace lagen {
 
-const std::vector<std::string>& derived_forms()
-{
-    static const std::vector<std::string> forms = {"lagrange", "hamilton", "pontryagin"};
-    return forms;
-}
-
 EquationSet derive(const std::string& form, const Model& model, const VerifiedAlgebroid& verified)
 {
     if (form == "lagrange") return derive_lagrange(model, verified.algebroid, verified.regularity);

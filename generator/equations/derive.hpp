@@ -7,10 +7,7 @@
 
 namespace lagen {
 
-/// The forms that `derive` knows, the names of --form.
-[[nodiscard]] const std::vector<std::string>& derived_forms();
-
-/// `form` is one of derived_forms(). Throws MathematicsError where the model has no equations of that form.
+/// `form` is one of form_names(). Throws MathematicsError where the model has no equations of that form.
 [[nodiscard]] EquationSet derive(const std::string& form, const Model& model, const VerifiedAlgebroid& verified);
 
 } // namespace lagen

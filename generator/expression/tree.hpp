@@ -75,7 +75,7 @@ enum class Comparison { less, less_equal, greater, greater_equal, equal, not_equ
 
 enum class TreeKind {
     number,   ///< `number`
-    pi,       ///< the constant, where the model declares no symbol "pi"
+    pi,       ///< the constant; as parsed (then with its name) what a model declares as "pi" may still take its place
     name,     ///< a symbol: coordinate, parameter, time, or (before expansion) a definition
     negate,   ///< -arguments[0]
     add,      ///< arguments[0] + arguments[1] + ... (n-ary; a - b is add(a, negate(b)))

@@ -180,6 +180,13 @@ std::vector<NodeId> gradient(Graph& graph, NodeId output, std::span<const NodeId
     return result;
 }
 
+std::vector<NodeId> joined_rows(const std::vector<std::vector<NodeId>>& rows)
+{
+    std::vector<NodeId> entries;
+    for (const std::vector<NodeId>& row : rows) entries.insert(entries.end(), row.begin(), row.end());
+    return entries;
+}
+
 std::vector<std::vector<NodeId>> jacobian(Graph& graph, std::span<const NodeId> outputs, std::span<const NodeId> inputs)
 {
     std::vector<std::vector<NodeId>> result(outputs.size());

@@ -21,6 +21,9 @@ namespace lagen {
 [[nodiscard]] std::vector<std::vector<NodeId>> jacobian(Graph& graph, std::span<const NodeId> outputs,
                                                         std::span<const NodeId> inputs);
 
+/// The rows of such a matrix one after another.
+[[nodiscard]] std::vector<NodeId> joined_rows(const std::vector<std::vector<NodeId>>& rows);
+
 /// The same outputs with inputs replaced by nodes (simultaneously).
 [[nodiscard]] std::vector<NodeId> substitute(Graph& graph, std::span<const NodeId> outputs,
                                              std::span<const std::pair<NodeId, NodeId>> replacements);

@@ -31,8 +31,7 @@ ImplicitBlock implicit_block(Graph& graph, std::string name, std::string documen
     ImplicitBlock block{
         std::move(name), std::move(documentation), std::move(unknowns), std::move(residuals), {}, std::move(guess),
         structure};
-    for (const std::vector<NodeId>& row : jacobian(graph, block.residuals, block.unknowns))
-        block.jacobian.insert(block.jacobian.end(), row.begin(), row.end());
+    block.jacobian = joined_rows(jacobian(graph, block.residuals, block.unknowns));
     return block;
 }
 

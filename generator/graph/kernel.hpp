@@ -77,4 +77,8 @@ struct KernelModule {
     std::vector<Kernel> kernels;
 };
 
+[[nodiscard]] bool has_kernel(const KernelModule& module, const std::string& name);
+/// Throws InternalError where the module has none of that name.
+[[nodiscard]] const Kernel& kernel_named(const KernelModule& module, const std::string& name);
+
 } // namespace lagen

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "graph/solve_unknowns.hpp"
 
+#include "graph/dense_lu.hpp"
 #include "graph/evaluate.hpp"
 
 #include "diagnostic.hpp"
@@ -15,30 +16,6 @@ namespace {
 
 constexpr int most_steps = 100;
 constexpr int most_halvings = 40;
-
-/// A x = b by elimination with row pivoting; A by rows. Entries of a singular system are not finite.
-template <class Scalar>
-std::vector<Scalar> solved(std::vector<Scalar> a, std::vector<Scalar> b)
-{
-    const std::size_t n = b.size();
-    for (std::size_t k = 0; k < n; ++k) {
-        std::size_t pivot = k;
-        for (std::size_t row = k + 1; row < n; ++row)
-            if (std::abs(a[row * n + k]) > std::abs(a[pivot * n + k])) pivot = row;
-        for (std::size_t column = 0; column < n; ++column) std::swap(a[k * n + column], a[pivot * n + column]);
-        std::swap(b[k], b[pivot]);
-        for (std::size_t row = k + 1; row < n; ++row) {
-            const Scalar factor = a[row * n + k] / a[k * n + k];
-            for (std::size_t column = k; column < n; ++column) a[row * n + column] -= factor * a[k * n + column];
-            b[row] -= factor * b[k];
-        }
-    }
-    for (std::size_t k = n; k-- > 0;) {
-        for (std::size_t column = k + 1; column < n; ++column) b[k] -= a[k * n + column] * b[column];
-        b[k] /= a[k * n + k];
-    }
-    return b;
-}
 
 template <class Scalar>
 class UnknownSolver {
@@ -56,8 +33,8 @@ class UnknownSolver {
         set(z);
         Values residual = evaluate<Scalar>(graph_, block_.residuals, inputs_);
         for (int count = 0; count < most_steps; ++count) {
-            const Values matrix = evaluate<Scalar>(graph_, block_.jacobian, inputs_);
-            const Values step = solved(matrix, residual);
+            const auto matrix = factorise(evaluate<Scalar>(graph_, block_.jacobian, inputs_), z.size());
+            const Values step = substitute(matrix, residual);
             const Scalar length = size_of(step);
             // The natural monotonicity test [Deuflhard 2004]: the next simplified step is shorter.
             Values trial;
@@ -69,7 +46,7 @@ class UnknownSolver {
                 for (std::size_t i = 0; i < z.size(); ++i) trial[i] -= damping * step[i];
                 set(trial);
                 residual = evaluate<Scalar>(graph_, block_.residuals, inputs_);
-                simplified = size_of(solved(matrix, residual));
+                simplified = size_of(substitute(matrix, residual));
                 better = simplified <= (1 - damping / 4) * length;
             }
             if (!better) return finish(z, length);

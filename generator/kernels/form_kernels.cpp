@@ -269,19 +269,11 @@ class ModuleBuilder {
         return trees;
     }
 
-    [[nodiscard]] std::vector<NodeId> state() const
-    {
-        std::vector<NodeId> lanes = form_.x;
-        lanes.insert(lanes.end(), form_.lanes.begin(), form_.lanes.end());
-        return lanes;
-    }
-
     void add_jacobian()
     {
-        const std::vector<NodeId> lanes = state();
-        std::vector<NodeId> values;
-        for (const std::vector<NodeId>& row : jacobian_through(*graph_, form_.derivative, lanes, form_.implicit))
-            values.insert(values.end(), row.begin(), row.end());
+        const std::vector<NodeId> lanes = state_of(form_);
+        const std::vector<NodeId> values =
+            joined_rows(jacobian_through(*graph_, form_.derivative, lanes, form_.implicit));
         add({"jacobian",
              KernelShape::sparse,
              matrix(*graph_, "values", lanes.size(), lanes.size(), values),
@@ -294,7 +286,7 @@ class ModuleBuilder {
     void add_variational()
     {
         std::vector<std::pair<NodeId, NodeId>> seeds;
-        for (const NodeId lane : state()) {
+        for (const NodeId lane : state_of(form_)) {
             const NodeId input = graph_->input("tangent of " + graph_->input_name(lane));
             module_.direction.push_back({graph_->input_name(lane), {}, {}, input});
             seeds.emplace_back(lane, input);
@@ -351,15 +343,29 @@ KernelOutput matrix(const Graph& graph, std::string name, std::size_t rows, std:
     return output;
 }
 
+std::vector<NodeId> state_of(const Formulation& form)
+{
+    std::vector<NodeId> lanes = form.x;
+    lanes.insert(lanes.end(), form.lanes.begin(), form.lanes.end());
+    return lanes;
+}
+
+Kernel hessian_kernel(Graph& graph, std::string name, const std::vector<NodeId>& first, const Formulation& form,
+                      const std::string& formula)
+{
+    const std::vector<NodeId> state = state_of(form);
+    const std::vector<NodeId> hessian = joined_rows(jacobian_through(graph, first, state, form.implicit));
+    return {std::move(name),
+            KernelShape::matrix,
+            matrix(graph, "H", state.size(), state.size(), hessian),
+            {formula + " over the lanes of the state, symmetric."},
+            {},
+            {}};
+}
+
 Kernel scalar_kernel(std::string name, NodeId value, std::string documentation)
 {
     return {std::move(name), KernelShape::scalar, column("value", {value}), {std::move(documentation)}, {}, {}};
-}
-
-const std::vector<std::string>& form_names()
-{
-    static const std::vector<std::string> names{"lagrange", "hamilton", "pontryagin"};
-    return names;
 }
 
 KernelModule form_kernels(const Model& model, const VerifiedAlgebroid& verified, const KernelRequest& request)

@@ -25,7 +25,4 @@ struct KernelRequest {
 [[nodiscard]] KernelModule form_kernels(const Model& model, const VerifiedAlgebroid& verified,
                                         const KernelRequest& request = {});
 
-/// Every form there is.
-[[nodiscard]] const std::vector<std::string>& form_names();
-
 } // namespace lagen

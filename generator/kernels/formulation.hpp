@@ -49,6 +49,11 @@ struct FormulationParts {
 /// The entries of a rows x columns matrix that are no zeros by structure.
 [[nodiscard]] KernelOutput matrix(const Graph& graph, std::string name, std::size_t rows, std::size_t columns,
                                   const std::vector<NodeId>& values);
+/// The lanes of the state: x, then the others.
+[[nodiscard]] std::vector<NodeId> state_of(const Formulation& form);
+/// The derivatives of `first` = df/ds with respect to the state, through the implicit blocks; `formula`: "d2L/ds2".
+[[nodiscard]] Kernel hessian_kernel(Graph& graph, std::string name, const std::vector<NodeId>& first,
+                                    const Formulation& form, const std::string& formula);
 [[nodiscard]] Kernel scalar_kernel(std::string name, NodeId value, std::string documentation);
 
 } // namespace lagen

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// xdot^i = rho^i_a y^a,   mudot_a = -(rho_a(H) + mu_c C^c_ab y^b) + Q_a,   y^a = dH/dmu_a               [Martinez
 /// 2001] From L without forming H: y solves mu_a = dL/dy^a, and at that y dH/dx^i = -dL/dx^i, dH/dt = -dL/dt.
+#include "geometry/momentum_balance.hpp"
 #include "graph/differentiate.hpp"
 #include "graph/simplify.hpp"
 #include "kernels/formulation.hpp"
@@ -28,31 +29,14 @@ struct HamiltonianNodes {
     std::vector<ImplicitBlock> implicit;
 };
 
-bool uses(const Graph& graph, const std::vector<NodeId>& nodes, const std::vector<NodeId>& inputs)
-{
-    const std::vector<NodeId> below = reachable(graph, nodes);
-    return std::ranges::any_of(inputs, [&](NodeId input) { return std::ranges::binary_search(below, input); });
-}
-
-Replacements replacements(const std::vector<NodeId>& inputs, const std::vector<NodeId>& nodes)
-{
-    Replacements result;
-    for (std::size_t k = 0; k < inputs.size(); ++k) result.emplace_back(inputs[k], nodes[k]);
-    return result;
-}
-
 /// From [hamiltonian] H.
 HamiltonianNodes given_hamiltonian(Graph& graph, const Model& model, const SystemNodes& system, HamiltonianNodes nodes)
 {
     nodes.value = Lowering(graph)(model.hamiltonian);
-    std::vector<NodeId> variables = nodes.mu;
-    variables.insert(variables.end(), system.x.begin(), system.x.end());
-    variables.push_back(system.time);
-    const std::vector<NodeId> dH = gradient(graph, nodes.value, variables);
-    const auto first_x = dH.begin() + static_cast<std::ptrdiff_t>(nodes.mu.size());
-    nodes.y.assign(dH.begin(), first_x);
-    nodes.dH_dx.assign(first_x, dH.end() - 1);
-    nodes.dH_dt = dH.back();
+    Slopes slopes = slopes_of(graph, nodes.value, nodes.mu, system);
+    nodes.y = std::move(slopes.lanes);
+    nodes.dH_dx = std::move(slopes.x);
+    nodes.dH_dt = slopes.t;
     return nodes;
 }
 
@@ -64,7 +48,7 @@ HamiltonianNodes legendre(Graph& graph, const Model& model, const SystemNodes& s
     const std::size_t r = lagrangian.y.size();
     const MatrixStructure structure = mass_structure(regularity);
     std::vector<NodeId> W = lagrangian.W;
-    if (uses(graph, W, lagrangian.y)) {
+    if (depends_on_any(graph, W, lagrangian.y)) {
         std::vector<NodeId> divisors;
         W = simplify(graph, W, divisors);
     }
@@ -72,7 +56,7 @@ HamiltonianNodes legendre(Graph& graph, const Model& model, const SystemNodes& s
     for (std::size_t a = 0; a < r; ++a) residuals[a] = graph.subtract(lagrangian.momentum[a], nodes.mu[a]);
     const std::vector<NodeId> zeros(r, graph.constant(0));
     Replacements velocities;
-    if (uses(graph, W, lagrangian.y)) {
+    if (depends_on_any(graph, W, lagrangian.y)) {
         nodes.implicit.push_back(implicit_block(graph, "velocity", "y with dL/dy^a = mu_a (the Legendre transform).",
                                                 lagrangian.y, residuals, zeros, structure));
         nodes.y = lagrangian.y;
@@ -125,19 +109,9 @@ void add_kernels(Graph& graph, const HamiltonianNodes& hamiltonian, NodeId power
     if (hamiltonian.lagrangian)
         form.kernels.push_back(scalar_kernel("lagrangian", *hamiltonian.lagrangian, "L at y = dH/dmu."));
     if (!parts.hessians) return;
-    std::vector<NodeId> state = form.x;
-    state.insert(state.end(), form.lanes.begin(), form.lanes.end());
     std::vector<NodeId> first = hamiltonian.dH_dx;
     first.insert(first.end(), hamiltonian.y.begin(), hamiltonian.y.end());
-    std::vector<NodeId> hessian;
-    for (const std::vector<NodeId>& row : jacobian_through(graph, first, state, form.implicit))
-        hessian.insert(hessian.end(), row.begin(), row.end());
-    form.kernels.push_back({"hamiltonian_hessian",
-                            KernelShape::matrix,
-                            matrix(graph, "H", state.size(), state.size(), hessian),
-                            {"d2H/ds2 over the lanes of the state, symmetric."},
-                            {},
-                            {}});
+    form.kernels.push_back(hessian_kernel(graph, "hamiltonian_hessian", first, form, "d2H/ds2"));
 }
 
 } // namespace
@@ -161,10 +135,11 @@ Formulation hamilton_form(Graph& graph, const Model& model, const VerifiedAlgebr
     form.lane_names = model.fibre.momenta;
     form.lane_group = "Momenta";
     form.implicit = hamiltonian.implicit;
+    Lowering lower(graph);
     std::vector<NodeId> y_inputs;
     for (const Symbol& symbol : model.fibre.coordinates) y_inputs.push_back(graph.input(symbol.name));
     const std::vector<NodeId> forces =
-        substitute(graph, force_nodes(graph, model, y_inputs), replacements(y_inputs, hamiltonian.y));
+        substitute(graph, generalized_forces(graph, lower, model, y_inputs), replacements(y_inputs, hamiltonian.y));
     if (parts.motion) {
         form.derivative = base_velocity(graph, system, hamiltonian.y);
         std::vector<NodeId> rate = along_anchor(graph, system, hamiltonian.dH_dx);

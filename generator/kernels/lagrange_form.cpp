@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// W_ab ydot^b = rho_a(L) + Q_a - [d/dt p_a along (xdot, 1) at fixed y] - p_c C^c_ab y^b                [Martinez 2001]
+#include "geometry/momentum_balance.hpp"
 #include "graph/differentiate.hpp"
 #include "kernels/formulation.hpp"
 #include "kernels/lagrangian.hpp"
@@ -59,17 +60,8 @@ void add_kernels(Graph& graph, const LagrangianNodes& lagrangian, NodeId power, 
         form.kernels.push_back(scalar_kernel("power", power, "dE/dt = Q_a y^a - dL/dt along the motion."));
     form.kernels.push_back(scalar_kernel("lagrangian", lagrangian.value, "L(t, x, y)."));
     if (!parts.hessians) return;
-    std::vector<NodeId> state = form.x;
-    state.insert(state.end(), form.lanes.begin(), form.lanes.end());
-    std::vector<NodeId> hessian;
-    for (const std::vector<NodeId>& row : jacobian(graph, gradient(graph, lagrangian.value, state), state))
-        hessian.insert(hessian.end(), row.begin(), row.end());
-    form.kernels.push_back({"lagrangian_hessian",
-                            KernelShape::matrix,
-                            matrix(graph, "H", state.size(), state.size(), hessian),
-                            {"d2L/ds2 over the lanes of the state, symmetric."},
-                            {},
-                            {}});
+    const std::vector<NodeId> first = gradient(graph, lagrangian.value, state_of(form));
+    form.kernels.push_back(hessian_kernel(graph, "lagrangian_hessian", first, form, "d2L/ds2"));
 }
 
 } // namespace
@@ -88,7 +80,8 @@ Formulation lagrange_form(Graph& graph, const Model& model, const VerifiedAlgebr
     form.lanes = lagrangian.y;
     form.lane_names = model.fibre.coordinates;
     form.lane_group = "Fibre";
-    const std::vector<NodeId> forces = force_nodes(graph, model, lagrangian.y);
+    Lowering lower(graph);
+    const std::vector<NodeId> forces = generalized_forces(graph, lower, model, lagrangian.y);
     if (parts.motion) {
         form.derivative = base_velocity(graph, system, lagrangian.y);
         const std::vector<NodeId> ydot =

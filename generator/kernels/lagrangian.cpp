@@ -29,14 +29,10 @@ LagrangianNodes lagrangian_nodes(Graph& graph, const Model& model, const SystemN
     LagrangianNodes nodes;
     for (const Symbol& symbol : model.fibre.coordinates) nodes.y.push_back(graph.input(symbol.name));
     nodes.value = Lowering(graph)(model.lagrangian);
-    std::vector<NodeId> variables = nodes.y;
-    variables.insert(variables.end(), system.x.begin(), system.x.end());
-    variables.push_back(system.time);
-    const std::vector<NodeId> dL = gradient(graph, nodes.value, variables);
-    const auto first_x = dL.begin() + static_cast<std::ptrdiff_t>(nodes.y.size());
-    nodes.momentum.assign(dL.begin(), first_x);
-    nodes.dL_dx.assign(first_x, dL.end() - 1);
-    nodes.dL_dt = dL.back();
+    Slopes slopes = slopes_of(graph, nodes.value, nodes.y, system);
+    nodes.momentum = std::move(slopes.lanes);
+    nodes.dL_dx = std::move(slopes.x);
+    nodes.dL_dt = slopes.t;
     nodes.energy = graph.subtract(contraction(graph, nodes.y, nodes.momentum), nodes.value);
     nodes.W = fibre_hessian_of(graph, nodes);
     graph.remember_hessian(nodes.W, nodes.y, nodes.value);

@@ -16,15 +16,6 @@ namespace lagen {
 
 namespace {
 
-using Replacements = std::vector<std::pair<NodeId, NodeId>>;
-
-bool uses(const Graph& graph, NodeId node, const std::vector<NodeId>& inputs)
-{
-    const NodeId roots[] = {node};
-    const std::vector<NodeId> below = reachable(graph, roots);
-    return std::ranges::any_of(inputs, [&](NodeId input) { return std::ranges::binary_search(below, input); });
-}
-
 class PontryaginForm {
   public:
     PontryaginForm(Graph& graph, const Model& model, const VerifiedAlgebroid& verified)
@@ -78,17 +69,12 @@ class PontryaginForm {
   private:
     void differentiate()
     {
-        std::vector<NodeId> variables = u_;
-        variables.insert(variables.end(), system_.x.begin(), system_.x.end());
-        variables.push_back(system_.time);
-        const std::vector<NodeId> dH = gradient(graph_, hamiltonian_, variables);
-        const auto first_x = dH.begin() + static_cast<std::ptrdiff_t>(u_.size());
-        dH_du_.assign(dH.begin(), first_x);
-        dH_dx_.assign(first_x, dH.end() - 1);
-        dH_dt_ = dH.back();
-        std::vector<NodeId> curvature; // -d2H/du2: positive where H is concave
-        for (const std::vector<NodeId>& row : jacobian(graph_, dH_du_, u_))
-            for (const NodeId entry : row) curvature.push_back(graph_.negate(entry));
+        Slopes slopes = slopes_of(graph_, hamiltonian_, u_, system_);
+        dH_du_ = std::move(slopes.lanes);
+        dH_dx_ = std::move(slopes.x);
+        dH_dt_ = slopes.t;
+        std::vector<NodeId> curvature = joined_rows(jacobian(graph_, dH_du_, u_));
+        for (NodeId& entry : curvature) entry = graph_.negate(entry); // positive where H is concave
         std::vector<NodeId> divisors;
         curvature_ = simplify(graph_, curvature, divisors);
     }
@@ -109,15 +95,14 @@ class PontryaginForm {
                     model_.name, name_of(k), name_of(k), name_of(k)));
         }
         if (!control_.bounds.empty()) require_concave();
-        const bool affine = std::ranges::none_of(curvature_, [&](NodeId entry) { return uses(graph_, entry, u_); });
-        affine ? solve_linearly() : solve_by_newton();
+        depends_on_any(graph_, curvature_, u_) ? solve_by_newton() : solve_linearly();
         clip();
     }
 
     void solve_linearly()
     {
-        const Replacements at_zero = replacements(std::vector<NodeId>(u_.size(), graph_.constant(0)));
-        const std::vector<NodeId> right = substitute(graph_, dH_du_, at_zero);
+        const std::vector<NodeId> zeros(u_.size(), graph_.constant(0));
+        const std::vector<NodeId> right = substitute(graph_, dH_du_, replacements(u_, zeros));
         solution_ = graph_.solve(curvature_, right, MatrixStructure::symmetric);
         pivots_ = single_blocks(graph_, curvature_, u_.size());
     }
@@ -177,17 +162,10 @@ class PontryaginForm {
 
     [[nodiscard]] const std::string& name_of(std::size_t k) const { return control_.controls[k].name; }
 
-    [[nodiscard]] Replacements replacements(const std::vector<NodeId>& values) const
-    {
-        Replacements result;
-        for (std::size_t k = 0; k < u_.size(); ++k) result.emplace_back(u_[k], values[k]);
-        return result;
-    }
-
     /// The unknowns of an implicit block stand for themselves, clipped ones for their clipped values.
     [[nodiscard]] std::vector<NodeId> at_controls(const std::vector<NodeId>& nodes)
     {
-        return substitute(graph_, nodes, replacements(solution_));
+        return substitute(graph_, nodes, replacements(u_, solution_));
     }
 
     void bind_names(Formulation& form)

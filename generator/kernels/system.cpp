@@ -80,16 +80,27 @@ void subtract_brackets(Graph& graph, const SystemNodes& system, const std::vecto
     }
 }
 
-std::vector<NodeId> force_nodes(Graph& graph, const Model& model, const std::vector<NodeId>& y)
+Slopes slopes_of(Graph& graph, NodeId f, const std::vector<NodeId>& lanes, const SystemNodes& system)
 {
-    std::vector<NodeId> forces(y.size(), graph.constant(0));
-    Lowering lower(graph);
-    for (const ComponentEntry& entry : model.forces)
-        forces[entry.section] = graph.add(forces[entry.section], lower(entry.value));
-    if (!model.dissipation) return forces;
-    const std::vector<NodeId> dR_dy = gradient(graph, lower(model.dissipation), y);
-    for (std::size_t a = 0; a < y.size(); ++a) forces[a] = graph.subtract(forces[a], dR_dy[a]);
-    return forces;
+    std::vector<NodeId> variables = lanes;
+    variables.insert(variables.end(), system.x.begin(), system.x.end());
+    variables.push_back(system.time);
+    const std::vector<NodeId> df = gradient(graph, f, variables);
+    const auto first_x = df.begin() + static_cast<std::ptrdiff_t>(lanes.size());
+    return {{df.begin(), first_x}, {first_x, df.end() - 1}, df.back()};
+}
+
+bool depends_on_any(const Graph& graph, const std::vector<NodeId>& nodes, const std::vector<NodeId>& inputs)
+{
+    const std::vector<NodeId> below = reachable(graph, nodes);
+    return std::ranges::any_of(inputs, [&](NodeId input) { return std::ranges::binary_search(below, input); });
+}
+
+std::vector<std::pair<NodeId, NodeId>> replacements(const std::vector<NodeId>& inputs, const std::vector<NodeId>& nodes)
+{
+    std::vector<std::pair<NodeId, NodeId>> result;
+    for (std::size_t k = 0; k < inputs.size(); ++k) result.emplace_back(inputs[k], nodes[k]);
+    return result;
 }
 
 Binding system_names(const Model& model, const SystemNodes& system)

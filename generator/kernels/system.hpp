@@ -35,8 +35,21 @@ struct SystemNodes {
 void subtract_brackets(Graph& graph, const SystemNodes& system, const std::vector<NodeId>& p,
                        const std::vector<NodeId>& y, std::vector<NodeId>& right);
 
-/// Q_a: [forces] less dR/dy^a over the input nodes `y` of the fibre coordinates, shape (r). Zeros where there are none.
-[[nodiscard]] std::vector<NodeId> force_nodes(Graph& graph, const Model& model, const std::vector<NodeId>& y);
+/// Partial derivatives of a function of (lanes, x, t).
+struct Slopes {
+    std::vector<NodeId> lanes; ///< shape (r), or as many as there are controls
+    std::vector<NodeId> x;     ///< shape (n)
+    NodeId t = 0;
+};
+[[nodiscard]] Slopes slopes_of(Graph& graph, NodeId f, const std::vector<NodeId>& lanes, const SystemNodes& system);
+
+/// Does one of `nodes` depend on one of `inputs`?
+[[nodiscard]] bool depends_on_any(const Graph& graph, const std::vector<NodeId>& nodes,
+                                  const std::vector<NodeId>& inputs);
+
+/// Pairs for `substitute`.
+[[nodiscard]] std::vector<std::pair<NodeId, NodeId>> replacements(const std::vector<NodeId>& inputs,
+                                                                  const std::vector<NodeId>& nodes);
 
 /// t, parameters and base coordinates by name.
 [[nodiscard]] Binding system_names(const Model& model, const SystemNodes& system);

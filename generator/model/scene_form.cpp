@@ -119,6 +119,12 @@ std::string default_form(const Model& model)
     return model.lagrangian == nullptr && model.hamiltonian != nullptr ? "hamilton" : "lagrange";
 }
 
+const std::vector<std::string>& form_names()
+{
+    static const std::vector<std::string> names{"lagrange", "hamilton", "pontryagin"};
+    return names;
+}
+
 std::vector<std::string> forms_of(const Model& model)
 {
     std::vector<std::string> forms;
@@ -130,7 +136,8 @@ std::vector<std::string> forms_of(const Model& model)
 
 void require_form(const Model& model, const std::string& form, const std::string& what, const SourceRange& where)
 {
-    const std::vector<std::string> known{"lagrange", "hamilton", "pontryagin", "discrete"};
+    std::vector<std::string> known = form_names();
+    known.emplace_back("discrete"); // of models on groupoids
     if (std::ranges::find(known, form) == known.end())
         throw ModelError(fmt::format("{} is '{}', which is no form", what, form), where,
                          hint_for(form, known, "forms"));

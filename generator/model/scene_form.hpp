@@ -11,6 +11,9 @@ namespace lagen {
 /// "lagrange" for a model that has none of them.
 [[nodiscard]] std::string default_form(const Model& model);
 
+/// Every form that lagen derives, generates and runs.
+[[nodiscard]] const std::vector<std::string>& form_names();
+
 /// The forms that the model has, the default first.
 [[nodiscard]] std::vector<std::string> forms_of(const Model& model);
 

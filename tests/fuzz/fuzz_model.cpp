@@ -7,6 +7,7 @@
 #include "geometry/verify.hpp"
 #include "model/evaluate_scene.hpp"
 #include "model/read_model.hpp"
+#include "model/scene_form.hpp"
 
 using namespace lagen;
 using fuzz::accepted;
@@ -73,7 +74,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const VerifiedAlgebroid verified = verify(model, {}, 2, small_budget);
         for (const Check& check : verified.checks) require_confirmed(check);
         if (written_mechanics(model) > longest_mechanics) return;
-        for (const std::string& form : derived_forms())
+        for (const std::string& form : form_names())
             accepted([&] { static_cast<void>(derive(form, model, verified)); });
     });
     return 0;

@@ -52,11 +52,6 @@ inline std::vector<double> values_of(const KernelModule& module, const std::stri
     return evaluate<double>(*module.graph, nodes_of(find_kernel(module, kernel)), inputs);
 }
 
-inline bool has_kernel(const KernelModule& module, const std::string& name)
-{
-    return std::ranges::any_of(module.kernels, [&](const Kernel& kernel) { return kernel.name == name; });
-}
-
 /// Every input between 0.5 and 1.5, seeded; smaller lanes where the right-hand side is not finite there.
 inline Values random_point(const KernelModule& module, unsigned seed)
 {
