@@ -1,6 +1,9 @@
 # Warnings and sanitizers for our own targets, and the functions that keep the house in order:
 #   lagen_room(NAME DEPENDS rooms... LIBRARIES libs...)   one static library a folder of generator/
-#   lagen_test_room(NAME LIBRARIES libs... [SEPARATE])    one test executable a folder of tests/; its files never united
+#   lagen_test_room(NAME LIBRARIES libs...                one test executable a folder of tests/
+#     [SEPARATE]         its files are never united
+#     [UNSANITIZED]      left out of builds with sanitizers: its tests compile programs of their own, or look at digits
+#     [APART tag])       its tests of that tag are a test by themselves, NAME_tag
 #   lagen_fuzz_target(NAME LIBRARIES libs... SOURCES files... CORPUS places... LONGEST bytes RUNS n)  one of tests/fuzz
 
 add_library(lagen_settings INTERFACE)
@@ -51,9 +54,9 @@ function(lagen_room name)
 endfunction()
 
 function(lagen_test_room name)
-  cmake_parse_arguments(PARSE_ARGV 1 ROOM "SEPARATE" "" "LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 1 ROOM "SEPARATE;UNSANITIZED" "APART" "LIBRARIES")
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
-  if(NOT sources)
+  if(NOT sources OR (ROOM_UNSANITIZED AND LAGEN_SANITIZE))
     return()
   endif()
   add_executable(test_${name} ${sources} $<TARGET_OBJECTS:catch_main>)
@@ -63,9 +66,17 @@ function(lagen_test_room name)
   target_include_directories(test_${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
   target_compile_definitions(test_${name} PRIVATE LAGEN_SOURCE_DIR="${PROJECT_SOURCE_DIR}" LAGEN_BINARY_DIR="${PROJECT_BINARY_DIR}")
   target_link_libraries(test_${name} PRIVATE ${ROOM_LIBRARIES} lagen_settings)
-  add_test(NAME ${name} COMMAND test_${name})
+  set(tests ${name})
+  if(ROOM_APART)
+    list(APPEND tests ${name}_${ROOM_APART})
+    add_test(NAME ${name} COMMAND test_${name} ~[${ROOM_APART}])
+    add_test(NAME ${name}_${ROOM_APART} COMMAND test_${name} [${ROOM_APART}])
+    set_tests_properties(${tests} PROPERTIES COST 100) # the long ones start first
+  else()
+    add_test(NAME ${name} COMMAND test_${name})
+  endif()
   if(LAGEN_SANITIZE)
-    set_tests_properties(${name} PROPERTIES ENVIRONMENT
+    set_tests_properties(${tests} PROPERTIES ENVIRONMENT
       "LSAN_OPTIONS=suppressions=${CMAKE_CURRENT_FUNCTION_LIST_DIR}/leaks.supp:print_suppressions=0")
   endif()
 endfunction()

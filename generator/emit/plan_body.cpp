@@ -151,62 +151,20 @@ std::vector<bool> choose_named(const Graph& graph, const std::vector<NodeId>& no
     return named;
 }
 
-/// Post-order from each output in turn, without recursion.
-class Walk {
-  public:
-    Walk(const Graph& graph, BodyPlan& plan)
-        : graph_(graph), plan_(plan), done_(graph.size(), false), placed_(plan.batches.size(), false)
-    {
-    }
-    void from(NodeId root)
-    {
-        enter(root);
-        while (!stack_.empty()) {
-            auto& [id, next] = stack_.back();
-            const std::span<const NodeId> needed = needed_by(id);
-            if (next < needed.size()) {
-                enter(needed[next++]);
-                continue;
-            }
-            finish(id);
-            stack_.pop_back();
-        }
-    }
-
-  private:
-    void enter(NodeId id)
-    {
-        if (!done_[id]) stack_.emplace_back(id, 0);
-        done_[id] = true;
-    }
-    /// The operands; for a part of a batch all arguments of it.
-    [[nodiscard]] std::span<const NodeId> needed_by(NodeId id) const
-    {
-        const auto batch = plan_.batch_of.find(id);
-        return batch == plan_.batch_of.end() ? graph_.operands(id) : plan_.batches[batch->second].arguments;
-    }
-    void finish(NodeId id)
-    {
-        if (!plan_.named[id]) return;
-        if (const auto batch = plan_.batch_of.find(id); batch != plan_.batch_of.end()) {
-            if (placed_[batch->second]) return;
-            placed_[batch->second] = true;
-        }
-        plan_.order.push_back(id);
-    }
-
-    const Graph& graph_;
-    BodyPlan& plan_;
-    std::vector<bool> done_;
-    std::vector<bool> placed_; ///< by batch
-    std::vector<std::pair<NodeId, std::size_t>> stack_;
-};
-
 } // namespace
 
 bool needs_chain(const Graph& graph, NodeId id)
 {
     return graph.op(id) == Op::power && std::abs(static_cast<std::int32_t>(graph.payload(id))) > 4;
+}
+
+std::vector<NodeId> BodyPlan::family_of(const Graph& graph, NodeId id) const
+{
+    std::vector<NodeId> family;
+    const NodeId argument = graph.operands(id)[0];
+    for (const NodeId node : users.at(argument))
+        if (graph.op(node) == Op::stumpff) family.push_back(node);
+    return family;
 }
 
 BodyPlan plan_body(const Graph& graph, std::span<const NodeId> outputs)
@@ -217,8 +175,9 @@ BodyPlan plan_body(const Graph& graph, std::span<const NodeId> outputs)
     plan.used.assign(graph.size(), false);
     for (const NodeId id : nodes) plan.used[id] = true;
     plan.named = choose_named(graph, nodes, outputs, plan);
-    Walk walk(graph, plan);
-    for (const NodeId id : outputs) walk.from(id);
+    for (const NodeId id : nodes)
+        if (const Op op = graph.op(id); op == Op::stumpff || op == Op::component || op == Op::solve)
+            plan.users[graph.operands(id)[0]].push_back(id);
     return plan;
 }
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Which nodes of a function body get a name, and in which order they are computed: each next to its first use.
-/// Operations that take long and that a processor does on several numbers at once stand together: the sines and cosines
-/// of all angles, square roots and reciprocals where there are several. Stumpff functions of one argument are all
-/// named: they come from one call.
+/// Which nodes of a function body get a name. Operations that take long and that a processor does on several numbers at
+/// once stand together: the sines and cosines of all angles, square roots and reciprocals where there are several.
+/// Stumpff functions of one argument are all named: they come from one call.
 #pragma once
 
 #include "graph/graph.hpp"
@@ -24,11 +23,15 @@ struct Batch {
 };
 
 struct BodyPlan {
-    std::vector<NodeId> order; ///< named nodes, factors and solves, in order of evaluation
-    std::vector<bool> named;   ///< by node: stands in `order`
-    std::vector<bool> used;    ///< by node: reachable from the outputs
+    std::vector<bool> named; ///< by node: has a statement; all factors and solves have
+    std::vector<bool> used;  ///< by node: reachable from the outputs
     std::vector<Batch> batches;
-    std::map<NodeId, std::size_t> batch_of; ///< by node; of a batch the first to be reached stands in `order`
+    std::map<NodeId, std::size_t> batch_of;
+    /// Used Stumpff functions by argument, components by solve, solves by factor; ascending.
+    std::map<NodeId, std::vector<NodeId>> users;
+
+    /// The Stumpff functions of the argument of `id`, itself among them.
+    [[nodiscard]] std::vector<NodeId> family_of(const Graph& graph, NodeId id) const;
 };
 
 [[nodiscard]] BodyPlan plan_body(const Graph& graph, std::span<const NodeId> outputs);

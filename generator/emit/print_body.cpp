@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "emit/print_body.hpp"
 
+#include "emit/cut_body.hpp"
 #include "emit/print_solve.hpp"
 
 #include <fmt/format.h>
@@ -40,19 +41,24 @@ class BodyPrinter {
 
     Body print()
     {
+        std::vector<NodeId> checked;
+        for (const NodeId pivot : request_.pivots)
+            if (is_checked(pivot) && graph_.op(pivot) != Op::factor) checked.push_back(pivot);
         std::vector<NodeId> roots(request_.outputs.begin(), request_.outputs.end());
         for (const NodeId pivot : request_.pivots)
-            if (is_checked(pivot)) roots.push_back(pivot);
+            if (is_checked(pivot)) roots.push_back(pivot); // a factorisation is checked where it stands
         plan_ = plan_body(graph_, roots);
-        load_inputs();
-        for (const NodeId id : plan_.order) print_node(id);
-        for (const NodeId pivot : std::span(roots).subspan(request_.outputs.size())) {
-            if (graph_.op(pivot) == Op::factor) continue; // checked where it stands
-            body_.statements.push_back(fmt::format(
-                "StatusOf<S>::fail(status, {} == S(0), Status::singular_mass_matrix);", spell_.at_least(1, pivot)));
-            body_.has_status = true;
+        name_inputs();
+        steps_ =
+            order_body(graph_, plan_,
+                       {request_.outputs, std::span(roots).subspan(request_.outputs.size()), request_.arrangements});
+        CutBody cut = cut_body(graph_, plan_, steps_, request_.longest_part);
+        body_.workspace = cut.workspace;
+        for (const std::vector<BodyStep>& part : cut.parts) {
+            body_.parts.emplace_back();
+            for (const BodyStep& step : part) print_step(step);
+            body_.has_status = body_.has_status || body_.parts.back().has_status;
         }
-        for (const NodeId id : request_.outputs) body_.values.push_back(spell_(id).text);
         body_.functions = spell_.functions();
         return std::move(body_);
     }
@@ -71,7 +77,7 @@ class BodyPrinter {
         return name;
     }
 
-    void load_inputs()
+    void name_inputs()
     {
         for (const NodeId id : graph_.inputs()) {
             if (!plan_.used[id]) continue;
@@ -80,11 +86,44 @@ class BodyPrinter {
         }
     }
 
+    void add_line(BodyLine line) { body_.parts.back().lines.push_back(std::move(line)); }
+    void add_statement(std::string text) { add_line({BodyLine::Kind::statement, 0, std::move(text)}); }
+
+    void print_step(const BodyStep& step)
+    {
+        switch (step.kind) {
+        case BodyStep::Kind::load: return add_line({BodyLine::Kind::load, step.node, ""});
+        case BodyStep::Kind::define: return print_node(step.node);
+        case BodyStep::Kind::check: return print_check(step.node);
+        case BodyStep::Kind::store: return add_line({BodyLine::Kind::store, step.index, spell_(step.node).text});
+        case BodyStep::Kind::keep:
+            return add_statement(fmt::format("work[{}] = {};", step.index, spell_(step.node).text));
+        case BodyStep::Kind::recall: return print_recall(step);
+        }
+    }
+
+    void print_check(NodeId pivot)
+    {
+        if (graph_.op(pivot) == Op::factor) return;
+        add_statement(fmt::format("StatusOf<S>::fail(status, {} == S(0), Status::singular_mass_matrix);",
+                                  spell_.at_least(1, pivot)));
+        body_.parts.back().has_status = true;
+    }
+
+    /// Under its own name, where that is a name (and no entry of an array).
+    void print_recall(const BodyStep& step)
+    {
+        std::string name = spell_(step.node).text;
+        if (name.find_first_of("[( ") != std::string::npos) name = next_term();
+        define(name, fmt::format("work[{}]", step.index));
+        spell_.name(step.node, name);
+    }
+
     std::string next_term() { return fresh(prefix_ + std::to_string(terms_++)); }
 
     void define(const std::string& name, const std::string& value)
     {
-        body_.statements.push_back(fmt::format("const S {} = {};", name, value));
+        add_statement(fmt::format("const S {} = {};", name, value));
     }
 
     void print_node(NodeId id)
@@ -131,7 +170,7 @@ class BodyPrinter {
         if (batch.kind == Batch::Kind::angles) return print_angles(batch);
         const bool roots = batch.kind == Batch::Kind::roots;
         const std::string name = fresh(roots ? "roots" : "inverses");
-        body_.statements.push_back(
+        add_statement(
             fmt::format("const auto {} = {}{};", name, roots ? "square_roots" : "reciprocals", arguments_of(batch)));
         name_entries(batch.values, name);
     }
@@ -142,15 +181,14 @@ class BodyPrinter {
         if (batch.arguments.size() == 1) {
             const NodeId angle = batch.arguments[0];
             const auto [sine, cosine] = names_of_pair(angle);
-            body_.statements.push_back(
-                fmt::format("const auto [{}, {}] = sincos<S>({});", sine, cosine, spell_(angle).text));
+            add_statement(fmt::format("const auto [{}, {}] = sincos<S>({});", sine, cosine, spell_(angle).text));
             spell_.name(batch.values[0], sine);
             spell_.name(batch.cosines[0], cosine);
             return;
         }
         const std::string sines = fresh("sines");
         const std::string cosines = fresh("cosines");
-        body_.statements.push_back(fmt::format("const auto [{}, {}] = sincos{};", sines, cosines, arguments_of(batch)));
+        add_statement(fmt::format("const auto [{}, {}] = sincos{};", sines, cosines, arguments_of(batch)));
         name_entries(batch.values, sines);
         name_entries(batch.cosines, cosines);
     }
@@ -158,18 +196,14 @@ class BodyPrinter {
     /// The Stumpff functions of one argument from one call, an entry an order; false where this one stands alone.
     bool print_family(NodeId id)
     {
-        if (spell_.has_name(id)) return true;
-        std::vector<NodeId> family;
-        for (const NodeId node : plan_.order)
-            if (graph_.op(node) == Op::stumpff && graph_.operands(node)[0] == graph_.operands(id)[0])
-                family.push_back(node);
+        const std::vector<NodeId> family = plan_.family_of(graph_, id);
         if (family.size() < 2) return false;
         const auto [lowest, highest] =
             std::ranges::minmax_element(family, {}, [&](NodeId node) { return graph_.payload(node); });
         const std::uint32_t first = graph_.payload(*lowest);
         const std::string name = next_term();
-        body_.statements.push_back(fmt::format("const auto {} = stumpff_orders<{}, {}, S>({});", name, first,
-                                               graph_.payload(*highest), spell_(graph_.operands(id)[0]).text));
+        add_statement(fmt::format("const auto {} = stumpff_orders<{}, {}, S>({});", name, first,
+                                  graph_.payload(*highest), spell_(graph_.operands(id)[0]).text));
         for (const NodeId node : family) spell_.name(node, fmt::format("{}[{}]", name, graph_.payload(node) - first));
         return true;
     }
@@ -193,16 +227,15 @@ class BodyPrinter {
 
     [[nodiscard]] SolveContext context()
     {
-        return {graph_, spell_, body_.statements, [this](const std::string& wish) { return fresh(wish); }};
+        return {graph_, spell_, [this](std::string text) { add_statement(std::move(text)); },
+                [this](const std::string& wish) { return fresh(wish); }};
     }
 
     void print_factor_node(NodeId id)
     {
         const bool check = is_checked(id);
-        const bool solved = std::ranges::any_of(
-            plan_.order, [&](NodeId user) { return graph_.op(user) == Op::solve && graph_.operands(user)[0] == id; });
-        factors_[id] = print_factor(context(), id, factors_.size(), check, solved);
-        body_.has_status = body_.has_status || check;
+        factors_[id] = print_factor(context(), id, factors_.size(), check, plan_.users.contains(id));
+        body_.parts.back().has_status = body_.parts.back().has_status || check;
         body_.has_pivoting = body_.has_pivoting || factors_[id].kind == PrintedFactor::Kind::pivoted;
     }
 
@@ -211,8 +244,8 @@ class BodyPrinter {
         const std::size_t n = graph_.operands(id).size() - 1;
         std::vector<NodeId> components(n, id);
         std::vector<bool> wanted(n, false);
-        for (NodeId user = id + 1; user < graph_.size(); ++user) {
-            if (graph_.op(user) != Op::component || graph_.operands(user)[0] != id || !plan_.used[user]) continue;
+        const auto users = plan_.users.find(id);
+        for (const NodeId user : users == plan_.users.end() ? std::vector<NodeId>{} : users->second) {
             wanted[graph_.payload(user)] = true;
             components[graph_.payload(user)] = user;
         }
@@ -229,6 +262,7 @@ class BodyPrinter {
     std::string prefix_;
     std::vector<bool> moves_;
     BodyPlan plan_;
+    std::vector<BodyStep> steps_;
     Body body_;
     std::map<NodeId, PrintedFactor> factors_;
     std::size_t terms_ = 0;

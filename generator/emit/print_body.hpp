@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// The statements of one generated function: inputs loaded into locals, named terms, factorisations, and the
-/// expressions of the outputs.
+/// The lines of one generated function: inputs loaded into locals, named terms, factorisations, and the expressions of
+/// the outputs, each as soon as it is known.
 #pragma once
 
 #include "emit/plan_body.hpp"
@@ -26,13 +26,29 @@ enum class Checking {
     parameters, ///< those that depend on neither
 };
 
+/// A line of a function body.
+struct BodyLine {
+    enum class Kind {
+        load,      ///< of the input node `index`; `text` is empty
+        statement, ///< without indentation; may be longer than a line
+        store,     ///< of the output `index`, whose value is the expression `text`
+    } kind = Kind::statement;
+    std::size_t index = 0;
+    std::string text;
+};
+
+struct BodyPart {
+    std::vector<BodyLine> lines;
+    bool has_status = false; ///< the statements use a variable `status`
+};
+
 struct Body {
-    std::vector<std::string> statements; ///< without indentation; one may be longer than a line
-    std::vector<std::string> values;     ///< an expression for every output
-    std::vector<NodeId> inputs;          ///< that are read, ascending
-    std::set<std::string> functions;     ///< "sin", ...: to be found in std or by argument-dependent lookup
-    bool has_status = false;             ///< the statements use a variable `status`
-    bool has_pivoting = false;           ///< uses PivotedLu
+    std::vector<BodyPart> parts;     ///< one, unless the body is long
+    std::size_t workspace = 0;       ///< size of an array `work`, by which parts hand values on
+    std::vector<NodeId> inputs;      ///< that are read, ascending
+    std::set<std::string> functions; ///< "sin", ...: to be found in std or by argument-dependent lookup
+    bool has_status = false;         ///< of one of the parts
+    bool has_pivoting = false;       ///< uses PivotedLu
 };
 
 /// `moving` are the inputs that change during a run (time and state): factorisations that depend on none of them
@@ -45,6 +61,9 @@ struct BodyRequest {
     std::span<const NodeId> pivots;
     std::span<const NodeId> moving;
     Checking checking = Checking::none;
+    /// Other orders in which the outputs may be stored.
+    std::vector<std::vector<std::size_t>> arrangements = {};
+    std::size_t longest_part = 0; ///< steps; 0: the body stays whole
 };
 
 [[nodiscard]] Body print_body(const BodyRequest& request);

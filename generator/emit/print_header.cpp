@@ -54,8 +54,9 @@ std::string default_value(const KernelModule& module, NodeId node)
     const Body body = print_body({*module.graph, none, outputs, {}, {}, Checking::none});
     std::string text = "[] { ";
     for (const std::string& function : body.functions) text += using_declaration(function) + " ";
-    for (const std::string& statement : body.statements) text += statement + " ";
-    return text + "return S(" + body.values.front() + "); }()";
+    for (const BodyLine& line : body.parts.front().lines)
+        text += line.kind == BodyLine::Kind::store ? "return S(" + line.text + "); " : line.text + " ";
+    return text + "}()";
 }
 
 void print_parameters(TextBlock& out, const KernelModule& module, const ModuleNames& names)

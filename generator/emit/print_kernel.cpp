@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "emit/print_kernel.hpp"
 
-#include "emit/spell.hpp"
+#include "emit/print_function.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace lagen {
 
 namespace {
+
+/// Steps of a part of a long function. Compilers are linear in the length of such parts.
+constexpr std::size_t longest_part = 400;
 
 /// Beyond this many rows or columns no dense Jacobian is offered: Eigen keeps fixed-size matrices on the stack.
 constexpr std::size_t largest_dense = 32;
@@ -21,182 +25,14 @@ std::vector<NodeId> outputs_of(const Kernel& kernel)
     return nodes;
 }
 
-std::string maybe_unused(bool used)
-{
-    return used ? "" : "[[maybe_unused]] ";
-}
-
-bool reads(const Body& body, NodeId id)
-{
-    return std::ranges::count(body.inputs, id) > 0;
-}
-
-/// The blocks whose unknowns the body reads.
-std::vector<const ImplicitBlock*> blocks_of(const Body& body, const KernelModule& module)
-{
-    std::vector<const ImplicitBlock*> blocks;
-    for (const ImplicitBlock& block : module.implicit)
-        if (std::ranges::any_of(block.unknowns, [&](NodeId id) { return reads(body, id); })) blocks.push_back(&block);
-    return blocks;
-}
-
-bool reads_lane(const Body& body, const KernelModule& module)
-{
-    const auto any = [&](const std::vector<Quantity>& group) {
-        return std::ranges::any_of(group, [&](const Quantity& q) { return reads(body, q.input); });
-    };
-    return any(module.base) || any(module.fibre);
-}
-
-bool reads_state(const Body& body, const KernelModule& module)
-{
-    return reads_lane(body, module) || !blocks_of(body, module).empty();
-}
-
-/// "S t, const State& s" with what the body leaves unread marked.
-std::string arguments(const Body& body, const KernelModule& module)
-{
-    return fmt::format("{}S t, {}const State& s",
-                       maybe_unused(reads(body, module.time) || !blocks_of(body, module).empty()),
-                       maybe_unused(reads_state(body, module)));
-}
-
-void load(TextBlock& out, const Body& body, const ModuleNames& names, const KernelModule& module)
-{
-    std::size_t lane = 0;
-    for (const auto* group : {&module.base, &module.fibre})
-        for (const Quantity& quantity : *group) {
-            if (reads(body, quantity.input))
-                out.line(fmt::format("const S {} = s[{}];", names.locals.inputs.at(quantity.input), lane));
-            ++lane;
-        }
-    for (std::size_t k = 0; k < module.parameters.size(); ++k) {
-        const NodeId input = module.parameters[k].input;
-        if (reads(body, input))
-            out.line(fmt::format("const S {} = parameters.{};", names.locals.inputs.at(input), names.parameters[k]));
-    }
-}
-
-/// Solves the implicit blocks that the body reads; answers whether a `status` was declared.
-bool solve_blocks(TextBlock& out, const Body& body, const ModuleNames& names, const KernelModule& module,
-                  bool returns_status)
-{
-    bool declared = false;
-    for (const ImplicitBlock* block : blocks_of(body, module)) {
-        out.line(fmt::format("std::array<S, {}> solved_{};", block->unknowns.size(), block->name));
-        const std::string call = fmt::format("solve_{}(t, s, solved_{})", block->name, block->name);
-        if (!returns_status)
-            out.line(fmt::format("static_cast<void>({});", call));
-        else if (declared)
-            out.line(fmt::format("status = StatusOf<S>::first(status, {});", call));
-        else
-            out.line(fmt::format("{} status = {};", body.has_status ? "auto" : "const auto", call));
-        declared = declared || returns_status;
-        for (std::size_t k = 0; k < block->unknowns.size(); ++k)
-            if (reads(body, block->unknowns[k]))
-                out.line(fmt::format("const S {} = solved_{}[{}];", names.locals.inputs.at(block->unknowns[k]),
-                                     block->name, k));
-    }
-    return declared;
-}
-
-/// Everything up to the stores. Answers whether a `status` was declared.
-bool print_statements(TextBlock& out, const Body& body, const ModuleNames& names, const KernelModule& module,
-                      bool returns_status = false)
-{
-    for (const std::string& function : body.functions) out.line(using_declaration(function));
-    load(out, body, names, module);
-    bool declared = solve_blocks(out, body, names, module, returns_status);
-    if (body.has_status && !declared) out.line("auto status = StatusOf<S>::good();");
-    declared = declared || body.has_status;
-    for (const std::string& statement : body.statements) out.line(statement);
-    return declared;
-}
-
 void print_documentation(TextBlock& out, const Kernel& kernel)
 {
     for (const std::string& line : kernel.documentation) out.comment(line);
 }
 
-void open(TextBlock& out, const std::string& signature)
-{
-    if (!signature.empty()) out.line(signature);
-    out.line("{");
-    out.indent(1);
-}
-
-void close(TextBlock& out)
-{
-    out.indent(-1);
-    out.line("}");
-}
-
 bool is_full(const KernelOutput& output)
 {
     return output.entries.size() == output.rows * output.columns;
-}
-
-void print_right_hand_side(TextBlock& out, const KernelModule& module, const Kernel& kernel, const Body& body,
-                           const ModuleNames& names)
-{
-    const std::string& target = kernel.output.name;
-    const bool writes = kernel.output.rows > 0;
-    open(out, fmt::format("[[nodiscard]] status_t<S> {}({}, {}State& {}) const noexcept", kernel.name,
-                          arguments(body, module), maybe_unused(writes), target));
-    const bool has_status = print_statements(out, body, names, module, true);
-    std::vector<std::string> values(kernel.output.rows, "S(0)");
-    for (std::size_t k = 0; k < body.values.size(); ++k) values[kernel.output.entries[k].row] = body.values[k];
-    for (std::size_t row = 0; row < values.size(); ++row)
-        out.line(fmt::format("{}[{}] = {};", target, row, values[row]));
-    out.line(has_status ? "return status;" : "return StatusOf<S>::good();");
-    close(out);
-}
-
-/// The directional derivative along v.
-void print_directional(TextBlock& out, const KernelModule& module, const Kernel& kernel, const Body& body,
-                       const ModuleNames& names)
-{
-    const bool reads_v =
-        std::ranges::any_of(module.direction, [&](const Quantity& entry) { return reads(body, entry.input); });
-    const bool writes = kernel.output.rows > 0;
-    open(out, fmt::format("[[nodiscard]] status_t<S> {}({}, {}const State& v, {}State& {}) const noexcept", kernel.name,
-                          arguments(body, module), maybe_unused(reads_v), maybe_unused(writes), kernel.output.name));
-    for (std::size_t lane = 0; lane < module.direction.size(); ++lane)
-        if (reads(body, module.direction[lane].input))
-            out.line(fmt::format("const S {} = v[{}];", names.locals.inputs.at(module.direction[lane].input), lane));
-    const bool has_status = print_statements(out, body, names, module, true);
-    for (std::size_t k = 0; k < body.values.size(); ++k)
-        out.line(fmt::format("{}[{}] = {};", kernel.output.name, kernel.output.entries[k].row, body.values[k]));
-    out.line(has_status ? "return status;" : "return StatusOf<S>::good();");
-    close(out);
-}
-
-void print_scalar(TextBlock& out, const KernelModule& module, const Kernel& kernel, const Body& body,
-                  const ModuleNames& names)
-{
-    open(out, fmt::format("[[nodiscard]] S {}({}) const noexcept", kernel.name, arguments(body, module)));
-    print_statements(out, body, names, module);
-    out.line(fmt::format("return {};", body.values.empty() ? "S(0)" : body.values.front()));
-    close(out);
-}
-
-/// A name array where entries have names, and a column or a matrix by value.
-void print_array(TextBlock& out, const KernelModule& module, const Kernel& kernel, const Body& body,
-                 const ModuleNames& names)
-{
-    const KernelOutput& output = kernel.output;
-    const bool column = kernel.shape == KernelShape::vector;
-    const std::string type = fmt::format("Eigen::Matrix<S, {}, {}>", output.rows, column ? 1 : output.columns);
-    open(out, fmt::format("[[nodiscard]] {} {}({}) const noexcept", type, kernel.name, arguments(body, module)));
-    print_statements(out, body, names, module);
-    out.line(is_full(output) ? type + " result;" : fmt::format("{} result = {}::Zero();", type, type));
-    for (std::size_t k = 0; k < body.values.size(); ++k) {
-        const KernelEntry& entry = output.entries[k];
-        out.line(column ? fmt::format("result[{}] = {};", entry.row, body.values[k])
-                        : fmt::format("result({}, {}) = {};", entry.row, entry.column, body.values[k]));
-    }
-    out.line("return result;");
-    close(out);
 }
 
 void print_pattern(TextBlock& out, const Kernel& kernel)
@@ -221,7 +57,7 @@ void print_dense(TextBlock& out, const Kernel& kernel)
     const std::size_t count = kernel.output.entries.size();
     out.blank();
     out.comment(fmt::format("The same as a dense matrix, shape ({}, {}).", kernel.output.rows, kernel.output.columns));
-    open(out, fmt::format("[[nodiscard]] {} {}(S t, const State& s) const noexcept", type, kernel.name));
+    open_block(out, fmt::format("[[nodiscard]] {} {}(S t, const State& s) const noexcept", type, kernel.name));
     out.line(fmt::format("std::array<S, {}> values;", count));
     out.line(fmt::format("{}_values(t, s, values);", kernel.name));
     out.line(fmt::format("{} result = {}::Zero();", type, type));
@@ -229,21 +65,7 @@ void print_dense(TextBlock& out, const Kernel& kernel)
         out.line(fmt::format("for (std::size_t k = 0; k < {}; ++k) result({}_rows[k], {}_columns[k]) = values[k];",
                              count, kernel.name, kernel.name));
     out.line("return result;");
-    close(out);
-}
-
-void print_sparse(TextBlock& out, const KernelModule& module, const Kernel& kernel, const Body& body,
-                  const ModuleNames& names)
-{
-    const std::size_t count = kernel.output.entries.size();
-    print_pattern(out, kernel);
-    print_documentation(out, kernel);
-    open(out, fmt::format("void {}_values({}, {}std::array<S, {}>& values) const noexcept", kernel.name,
-                          arguments(body, module), maybe_unused(count > 0), count));
-    print_statements(out, body, names, module);
-    for (std::size_t k = 0; k < count; ++k) out.line(fmt::format("values[{}] = {};", k, body.values[k]));
-    close(out);
-    if (kernel.output.rows <= largest_dense && kernel.output.columns <= largest_dense) print_dense(out, kernel);
+    close_block(out);
 }
 
 void print_entry_names(TextBlock& out, const Kernel& kernel)
@@ -255,6 +77,137 @@ void print_entry_names(TextBlock& out, const Kernel& kernel)
                          kernel.name, joined(literals)));
 }
 
+/// By rows and by columns; which is better depends on the recursion behind them.
+std::vector<std::vector<std::size_t>> arrangements_of(const KernelOutput& output)
+{
+    if (output.columns < 2) return {};
+    std::vector<std::size_t> by_columns(output.entries.size());
+    std::iota(by_columns.begin(), by_columns.end(), std::size_t{0});
+    std::ranges::stable_sort(by_columns, {}, [&](std::size_t k) { return output.entries[k].column; });
+    return {by_columns};
+}
+
+/// What all shapes of kernels have in common.
+class KernelPrinter {
+  public:
+    KernelPrinter(TextBlock& out, const KernelModule& module, const ModuleNames& names, const Kernel& kernel,
+                  const Body& body)
+        : out_(out), module_(module), names_(names), kernel_(kernel), body_(body)
+    {
+    }
+
+    void print()
+    {
+        switch (kernel_.shape) {
+        case KernelShape::right_hand_side:
+        case KernelShape::directional: return print_derivative();
+        case KernelShape::scalar: return print_scalar();
+        case KernelShape::vector:
+        case KernelShape::matrix: return print_array();
+        case KernelShape::sparse: return print_sparse();
+        }
+    }
+
+  private:
+    [[nodiscard]] FunctionRequest request(const std::string& output) const
+    {
+        FunctionRequest request{module_, names_, kernel_.name, false, false, output, false, {}};
+        return request;
+    }
+
+    [[nodiscard]] std::string arguments() const { return state_arguments(body_, module_); }
+
+    /// Of the state, or of a perturbation of it along v.
+    void print_derivative()
+    {
+        const bool directional = kernel_.shape == KernelShape::directional;
+        const std::string& target = kernel_.output.name;
+        FunctionRequest function = request("State& " + target);
+        function.returns_status = function.output_is_state = true;
+        function.reads_direction = directional;
+        function.store = [&](std::size_t k, const std::string& value) {
+            return fmt::format("{}[{}] = {};", target, kernel_.output.entries[k].row, value);
+        };
+        print_parts(out_, body_, function);
+        print_documentation(out_, kernel_);
+        const bool reads_v =
+            body_.parts.size() > 1 ||
+            std::ranges::any_of(module_.direction, [&](const Quantity& entry) { return reads(body_, entry.input); });
+        open_block(out_, fmt::format("[[nodiscard]] status_t<S> {}({}, {}{}State& {}) const noexcept", kernel_.name,
+                                     arguments(), directional ? maybe_unused(reads_v) + "const State& v, " : "",
+                                     maybe_unused(kernel_.output.rows > 0), target));
+        const bool has_status = print_lines(out_, body_, function);
+        std::vector<bool> written(kernel_.output.rows, false);
+        for (const KernelEntry& entry : kernel_.output.entries) written[entry.row] = true;
+        for (std::size_t row = 0; row < written.size(); ++row)
+            if (!written[row]) out_.line(fmt::format("{}[{}] = S(0);", target, row));
+        out_.line(has_status ? "return status;" : "return StatusOf<S>::good();");
+        close_block(out_);
+    }
+
+    void print_scalar()
+    {
+        const bool whole = body_.parts.size() == 1;
+        FunctionRequest function = request("S& result");
+        function.store = [&](std::size_t, const std::string& value) {
+            return fmt::format("{} {};", whole ? "return" : "result =", value);
+        };
+        print_parts(out_, body_, function);
+        print_documentation(out_, kernel_);
+        open_block(out_, fmt::format("[[nodiscard]] S {}({}) const noexcept", kernel_.name, arguments()));
+        if (!whole) out_.line("S result;");
+        print_lines(out_, body_, function);
+        if (kernel_.output.entries.empty()) out_.line("return S(0);");
+        if (!whole) out_.line("return result;");
+        close_block(out_);
+    }
+
+    /// A column or a matrix by value.
+    void print_array()
+    {
+        const KernelOutput& output = kernel_.output;
+        const bool column = kernel_.shape == KernelShape::vector;
+        const std::string type = fmt::format("Eigen::Matrix<S, {}, {}>", output.rows, column ? 1 : output.columns);
+        FunctionRequest function = request(type + "& result");
+        function.store = [&](std::size_t k, const std::string& value) {
+            const KernelEntry& entry = output.entries[k];
+            return column ? fmt::format("result[{}] = {};", entry.row, value)
+                          : fmt::format("result({}, {}) = {};", entry.row, entry.column, value);
+        };
+        print_parts(out_, body_, function);
+        print_documentation(out_, kernel_);
+        open_block(out_, fmt::format("[[nodiscard]] {} {}({}) const noexcept", type, kernel_.name, arguments()));
+        out_.line(is_full(output) ? type + " result;" : fmt::format("{} result = {}::Zero();", type, type));
+        print_lines(out_, body_, function);
+        out_.line("return result;");
+        close_block(out_);
+    }
+
+    void print_sparse()
+    {
+        const std::size_t count = kernel_.output.entries.size();
+        print_pattern(out_, kernel_);
+        FunctionRequest function = request(fmt::format("std::array<S, {}>& values", count));
+        function.name += "_values";
+        function.store = [](std::size_t k, const std::string& value) {
+            return fmt::format("values[{}] = {};", k, value);
+        };
+        print_parts(out_, body_, function);
+        print_documentation(out_, kernel_);
+        open_block(out_, fmt::format("void {}({}, {}std::array<S, {}>& values) const noexcept", function.name,
+                                     arguments(), maybe_unused(count > 0), count));
+        print_lines(out_, body_, function);
+        close_block(out_);
+        if (kernel_.output.rows <= largest_dense && kernel_.output.columns <= largest_dense) print_dense(out_, kernel_);
+    }
+
+    TextBlock& out_;
+    const KernelModule& module_;
+    const ModuleNames& names_;
+    const Kernel& kernel_;
+    const Body& body_;
+};
+
 } // namespace
 
 void print_kernel(TextBlock& out, const KernelModule& module, const ModuleNames& names, const Kernel& kernel,
@@ -264,20 +217,19 @@ void print_kernel(TextBlock& out, const KernelModule& module, const ModuleNames&
     const bool has_status = kernel.shape == KernelShape::right_hand_side || kernel.shape == KernelShape::directional;
     LocalNames locals = names.locals;
     locals.taken.insert(kernel.output.name);
-    const Body body = print_body(
-        {*module.graph, locals, outputs, kernel.pivots, names.moving, has_status ? Checking::state : Checking::none});
+    BodyRequest request{*module.graph,
+                        locals,
+                        outputs,
+                        kernel.pivots,
+                        names.moving,
+                        has_status ? Checking::state : Checking::none,
+                        arrangements_of(kernel.output),
+                        longest_part};
+    const Body body = print_body(request);
     needs.linear = needs.linear || body.has_status || body.has_pivoting;
     out.blank();
     print_entry_names(out, kernel);
-    if (kernel.shape != KernelShape::sparse) print_documentation(out, kernel);
-    switch (kernel.shape) {
-    case KernelShape::right_hand_side: return print_right_hand_side(out, module, kernel, body, names);
-    case KernelShape::scalar: return print_scalar(out, module, kernel, body, names);
-    case KernelShape::vector:
-    case KernelShape::matrix: return print_array(out, module, kernel, body, names);
-    case KernelShape::sparse: return print_sparse(out, module, kernel, body, names);
-    case KernelShape::directional: return print_directional(out, module, kernel, body, names);
-    }
+    KernelPrinter(out, module, names, kernel, body).print();
 }
 
 void print_parameter_status(TextBlock& out, const KernelModule& module, const ModuleNames& names, KernelNeeds& needs)
@@ -299,51 +251,10 @@ void print_parameter_status(TextBlock& out, const KernelModule& module, const Mo
     out.comment("What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a "
                 "divisor");
     out.comment("made of them has no inverse. Call it once after the parameters are set; integrate() does.");
-    open(out, "[[nodiscard]] status_t<S> parameter_status() const noexcept");
-    print_statements(out, body, names, module);
+    open_block(out, "[[nodiscard]] status_t<S> parameter_status() const noexcept");
+    print_lines(out, body, {module, names, "parameter_status", true, false, "", false, {}});
     out.line(body.has_status ? "return status;" : "return StatusOf<S>::good();");
-    close(out);
-}
-
-void print_implicit(TextBlock& out, const KernelModule& module, const ModuleNames& names, const ImplicitBlock& block,
-                    KernelNeeds& needs)
-{
-    const std::size_t size = block.unknowns.size();
-    std::vector<NodeId> inner = block.residuals;
-    inner.insert(inner.end(), block.jacobian.begin(), block.jacobian.end());
-    const auto body_of = [&](const std::vector<NodeId>& outputs) {
-        return print_body({*module.graph, names.locals, outputs, {}, names.moving, Checking::none});
-    };
-    const Body guess = body_of(block.guess);
-    Body iteration = body_of(inner);
-    needs.linear = needs.newton = true;
-    out.blank();
-    out.comment(block.documentation);
-    out.comment("By Newton's method; answers newton_diverged, and NaN in z, where it finds no solution to round-off.");
-    const bool reads_time = reads(guess, module.time) || reads(iteration, module.time);
-    const bool reads_lanes = reads_lane(guess, module) || reads_lane(iteration, module);
-    open(out, fmt::format("[[nodiscard]] status_t<S> solve_{}({}S t, {}const State& s, std::array<S, {}>& z) const "
-                          "noexcept",
-                          block.name, maybe_unused(reads_time), maybe_unused(reads_lanes), size));
-    open(out, "");
-    print_statements(out, guess, names, module);
-    for (std::size_t k = 0; k < size; ++k) out.line(fmt::format("z[{}] = {};", k, guess.values[k]));
-    close(out);
-    out.line(fmt::format("return newton(z, [&](const std::array<S, {0}>& unknowns, std::array<S, {0}>& residual, "
-                         "std::array<S, {1}>& derivative) noexcept {{",
-                         size, size * size));
-    out.indent(1);
-    for (std::size_t k = 0; k < size; ++k)
-        if (reads(iteration, block.unknowns[k]))
-            out.line(fmt::format("const S {} = unknowns[{}];", names.locals.inputs.at(block.unknowns[k]), k));
-    std::erase_if(iteration.inputs, [&](NodeId id) { return std::ranges::count(block.unknowns, id) > 0; });
-    print_statements(out, iteration, names, module);
-    for (std::size_t k = 0; k < inner.size(); ++k)
-        out.line(k < size ? fmt::format("residual[{}] = {};", k, iteration.values[k])
-                          : fmt::format("derivative[{}] = {};", k - size, iteration.values[k]));
-    out.indent(-1);
-    out.line("});");
-    close(out);
+    close_block(out);
 }
 
 } // namespace lagen

@@ -35,14 +35,13 @@ std::string minus_products(const std::string& first, const std::vector<std::pair
 
 void report_singular(const SolveContext& context, const std::string& condition)
 {
-    context.statements.push_back(
-        fmt::format("StatusOf<S>::fail(status, {}, Status::singular_mass_matrix);", condition));
+    context.add_statement(fmt::format("StatusOf<S>::fail(status, {}, Status::singular_mass_matrix);", condition));
 }
 
 std::string define(const SolveContext& context, const std::string& wish, const std::string& value)
 {
     std::string name = context.fresh(wish);
-    context.statements.push_back(fmt::format("const S {} = {};", name, value));
+    context.add_statement(fmt::format("const S {} = {};", name, value));
     return name;
 }
 
@@ -130,12 +129,12 @@ PrintedFactor print_pivoted(const SolveContext& context, NodeId id, std::size_t 
     std::string entries;
     for (const NodeId entry : context.graph.operands(id))
         entries += (entries.empty() ? "" : ", ") + context.spell(entry).text;
-    context.statements.push_back(fmt::format("PivotedLu<S, {}> {};", n, factor.name));
+    context.add_statement(fmt::format("PivotedLu<S, {}> {};", n, factor.name));
     const std::string call = fmt::format("{}.factor({{{}}})", factor.name, entries);
     if (check)
         report_singular(context, call);
     else
-        context.statements.push_back(fmt::format("static_cast<void>({});", call));
+        context.add_statement(fmt::format("static_cast<void>({});", call));
     return factor;
 }
 
@@ -242,7 +241,7 @@ std::vector<std::string> print_solution(const SolveContext& context, const Print
         std::string entries;
         for (const NodeId entry : right) entries += (entries.empty() ? "" : ", ") + context.spell(entry).text;
         const std::string name = context.fresh(fmt::format("z{}", number));
-        context.statements.push_back(
+        context.add_statement(
             fmt::format("const std::array<S, {}> {} = {}.solve({{{}}});", factor.order, name, factor.name, entries));
         std::vector<std::string> result;
         for (std::size_t k = 0; k < factor.order; ++k) result.push_back(fmt::format("{}[{}]", name, k));

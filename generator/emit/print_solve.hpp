@@ -26,7 +26,7 @@ struct PrintedFactor {
 struct SolveContext {
     const Graph& graph;
     Speller& spell;
-    std::vector<std::string>& statements;
+    std::function<void(std::string)> add_statement;
     std::function<std::string(const std::string&)> fresh; ///< a name that nobody uses, from a wish
 };
 

@@ -11,6 +11,8 @@ namespace {
 constexpr std::size_t largest_expanded_sum = 400;
 /// A sum with several users is flattened into them only while it is short; a long one keeps its own name.
 constexpr std::size_t largest_shared_sum = 24;
+/// Terms that the nested form may make for each node of the graph: its sums are short.
+constexpr std::size_t largest_work_a_node = 40;
 
 std::size_t largest_flattened_sum(ExpansionMode expansion)
 {
@@ -114,6 +116,7 @@ Form collect(const Graph& graph, std::span<const NodeId> outputs, ExpansionMode 
 {
     Form form;
     const auto nodes = reachable(graph, outputs);
+    if (expansion == ExpansionMode::nested) form.algebra.allow(largest_work_a_node * nodes.size());
     Collector collector(graph, form.algebra, expansion, nodes.empty() ? 0 : std::size_t{nodes.back()} + 1);
     for (const NodeId id : nodes)
         for (const NodeId operand : graph.operands(id)) collector.count_use(operand);

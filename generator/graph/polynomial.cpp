@@ -9,7 +9,6 @@ namespace lagen {
 namespace {
 
 /// Terms that one form may make: about 50 MB, a second.
-constexpr std::size_t largest_work = 300'000;
 constexpr int largest_exponent = 4096;
 constexpr std::size_t largest_bits = 4096;
 
@@ -141,7 +140,7 @@ AtomId Algebra::atom(Op op, std::uint32_t payload, std::vector<Polynomial> opera
 void Algebra::spend(std::size_t terms)
 {
     work_ += terms;
-    if (work_ > largest_work) throw FormRefused{};
+    if (work_ > most_work_) throw FormRefused{};
 }
 
 void Algebra::learn_root(AtomId root)

@@ -5,6 +5,7 @@
 
 #include "graph/graph.hpp"
 
+#include <algorithm>
 #include <map>
 
 namespace lagen {
@@ -64,6 +65,9 @@ class Algebra {
     /// c m sin(a)^2 + c m cos(a)^2 = c m, wherever both terms stand.
     [[nodiscard]] Polynomial contract_circles(Polynomial a);
 
+    /// How many terms may be made before FormRefused is thrown; for forms whose work is linear in the graph.
+    void allow(std::size_t terms) { most_work_ = std::max(most_work_, terms); }
+
     /// Divides out the content: rational (sign of the first term, gcd of numerators over lcm of denominators) times the
     /// common monomial. `a` becomes primitive.
     [[nodiscard]] Term extract_content(Polynomial& a) const;
@@ -89,6 +93,7 @@ class Algebra {
     std::map<Atom, AtomId, KeyLess> ids_;
     std::vector<Root> roots_;
     std::size_t work_ = 0; ///< terms made so far
+    std::size_t most_work_ = 300'000;
 };
 
 } // namespace lagen

@@ -13,7 +13,7 @@ namespace lagen {
 namespace {
 
 /// Beyond this the outputs stay as they are: the passes are quadratic in places.
-constexpr std::size_t largest_graph = 50'000;
+constexpr std::size_t largest_graph = 200'000;
 
 /// Pairs of terms that stand in one sum of a form: the passes that look for shared ones take about a second for so
 /// many. Forms with more are left out, but for the nested one, whose sums are short.

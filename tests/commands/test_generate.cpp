@@ -24,22 +24,12 @@ std::string line_of(const std::string& text, int number)
 
 constexpr std::size_t long_header = 20'000; ///< bytes; a second or more each
 
-// Sanitizers look for faults in one generation and are slow; that twenty agree is the matter of the other builds.
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-constexpr int generations = 2;
-#else
 constexpr int generations = 20;
-#endif
-#elif defined(__SANITIZE_ADDRESS__)
-constexpr int generations = 2;
-#else
-constexpr int generations = 20;
-#endif
 
 } // namespace
 
-TEST_CASE("twenty fresh processes (five for a long header) write the same bytes, from any folder and by any path")
+TEST_CASE("twenty fresh processes (five for a long header) write the same bytes, from any folder and by any path",
+          "[fresh_processes]")
 {
     const std::string elsewhere = fresh_folder();
     for (const std::string& name : example_models()) {
@@ -62,7 +52,7 @@ TEST_CASE("twenty fresh processes (five for a long header) write the same bytes,
     }
 }
 
-TEST_CASE("generated/ is what the models give today")
+TEST_CASE("generated/ is what the models give today", "[fresh_processes]")
 {
     for (const std::string& name : example_models()) {
         const std::string path = LAGEN_SOURCE_DIR "/generated/" + name + ".hpp";

@@ -11,17 +11,18 @@
 
 namespace lagen::testing {
 
-/// Generates a header of every model (paths from the root of the sources), compiles tests/compile/programs/NAME.cpp
-/// with all warnings as errors, runs it: what it prints.
-inline std::string run_on_headers(const std::string& name, const std::vector<std::string>& models)
+/// Generates a header of every model (paths from the root of the sources) with `options`, compiles
+/// tests/compile/programs/NAME.cpp with all warnings as errors, runs it: what it prints.
+inline std::string run_on_headers(const std::string& name, const std::vector<std::string>& models,
+                                  const std::string& options = "")
 {
     const std::string source = LAGEN_SOURCE_DIR;
     const std::string folder = std::string(LAGEN_BINARY_DIR) + "/compiled/" + name;
     std::filesystem::create_directories(folder);
     for (const std::string& model : models) {
         const std::string header = folder + "/" + std::filesystem::path(model).stem().string() + ".hpp";
-        const Shell generated =
-            run_shell("'" LAGEN_PROGRAM "' generate '" + source + "/" + model + "' -o '" + header + "'");
+        const Shell generated = run_shell("'" LAGEN_PROGRAM "' generate '" + source + "/" + model + "' " + options +
+                                          " -o '" + header + "'");
         INFO(generated.output);
         REQUIRE(generated.status == 0);
     }

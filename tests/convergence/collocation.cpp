@@ -166,7 +166,8 @@ TEST_CASE("Gauss' nodes satisfy B(2s), C(s) and D(s), those of Radau IIA B(2s-1)
     check_assumptions<GaussScheme<2>>(4, 2, 2);
     check_assumptions<GaussScheme<3>>(6, 3, 3);
     check_assumptions<GaussScheme<4>>(8, 4, 4);
-    check_assumptions<RadauScheme>(5, 3, 2);
+    check_assumptions<RadauScheme<2>>(3, 2, 1);
+    check_assumptions<RadauScheme<3>>(5, 3, 2);
 }
 
 TEST_CASE("Collocation methods satisfy the order conditions of every rooted tree up to their order in 50 digits")
@@ -175,7 +176,8 @@ TEST_CASE("Collocation methods satisfy the order conditions of every rooted tree
     check_order<GaussScheme<2>>();
     check_order<GaussScheme<3>>();
     check_order<GaussScheme<4>>();
-    check_order<RadauScheme>();
+    check_order<RadauScheme<2>>();
+    check_order<RadauScheme<3>>();
 }
 
 TEST_CASE("The rounded coefficients of Gauss' methods are exactly symplectic, symmetric and of sum 1 in every scalar")
@@ -208,7 +210,8 @@ TEST_CASE("Rounded coefficients are those of 50 digits to their last places")
     check(GaussScheme<2>{});
     check(GaussScheme<3>{});
     check(GaussScheme<4>{});
-    check(RadauScheme{});
+    check(RadauScheme<2>{});
+    check(RadauScheme<3>{});
 }
 
 TEST_CASE("The modes of a collocation method diagonalise its matrix")
@@ -217,8 +220,9 @@ TEST_CASE("The modes of a collocation method diagonalise its matrix")
     check_modes<GaussScheme<2>>();
     check_modes<GaussScheme<3>>();
     check_modes<GaussScheme<4>>();
-    check_modes<RadauScheme>();
+    check_modes<RadauScheme<2>>();
+    check_modes<RadauScheme<3>>();
     // gamma_0 of radau5.f: (6 + 81^(1/3) - 9^(1/3)) / 30 is the real eigenvalue of A.
-    const auto radau = lagen::detail::modes<RadauScheme, Wide>(RadauScheme::coefficients<Wide>().c);
+    const auto radau = lagen::detail::modes<RadauScheme<3>, Wide>(RadauScheme<3>::coefficients<Wide>().c);
     CHECK(abs(radau.real[0].lambda - (6 + cbrt(Wide(81)) - cbrt(Wide(9))) / 30) < tiny);
 }

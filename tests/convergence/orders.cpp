@@ -112,16 +112,18 @@ TEST_CASE("Splitting methods converge with their order, inside steps too")
     CHECK_ORDERS(Yoshida6, 6, 6, 64, 0.2);
 }
 
-TEST_CASE("Gauss' methods converge with twice the number of their stages, Radau IIA with 5, inside steps too")
+TEST_CASE("Gauss' methods converge with twice the number of their stages, Radau IIA with 3 and 5, inside steps too")
 {
     CHECK_ORDERS(Gauss2, 2, 2, 128, 0.2);
     CHECK_ORDERS(Gauss4, 4, 4, 32, 0.4);
     CHECK_ORDERS(Gauss6, 6, 6, 16, 0.8);
     CHECK_ORDERS(Gauss8, 8, 8, 8, 0.2);
+    CHECK_ORDERS(Radau3Fixed, 3, 3, 64, 0.2);
     CHECK_ORDERS(Radau5Fixed, 5, 5, 32, 0.4);
     CHECK_THAT(period_order<lagen::Gauss2>(128), near(2));
     CHECK_THAT(period_order<lagen::Gauss4>(64), near(4));
     CHECK_THAT(period_order<lagen::Gauss6>(32), near(6));
     CHECK_THAT(period_order<lagen::Gauss8>(32), near(8));
+    CHECK_THAT(period_order<lagen::Radau3Fixed>(128), near(3));
     CHECK_THAT(period_order<lagen::Radau5Fixed>(64), near(5));
 }

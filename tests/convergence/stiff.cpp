@@ -78,7 +78,20 @@ TEST_CASE("Gauss' methods neither damp nor excite any oscillation")
     CHECK_THAT(growth<Gauss8>(-1, 0), Catch::WithinAbs(1001.0 / 2721, 1e-15));
 }
 
-TEST_CASE("Radau IIA is L-stable: |R| = (1 + 2z/5 + z^2/20) / (1 - 3z/5 + 3z^2/20 - z^3/60), below 1 on the left")
+TEST_CASE("Radau IIA of order 3 is L-stable: |R| = (1 + z/3) / (1 - 2z/3 + z^2/6), below 1 on the left")
+{
+    const auto stability = [](double z) { return (1 + z / 3) / (1 - 2 * z / 3 + z * z / 6); };
+    for (const double z : {-0.5, -1.0, -10.0, -1e3, -1e6})
+        CHECK_THAT(growth<Radau3Fixed>(z, 0), Catch::WithinAbs(std::abs(stability(z)), 1e-15));
+    CHECK(growth<Radau3Fixed>(-1e6, 0) < 3e-6);
+    for (const double y : {0.1, 1.0, 3.0, 10.0, 1e3}) {
+        CHECK(growth<Radau3Fixed>(0, y) < 1);
+        CHECK(growth<Radau3Fixed>(-y / 10, y) < growth<Radau3Fixed>(0, y));
+    }
+}
+
+TEST_CASE(
+    "Radau IIA of order 5 is L-stable: |R| = (1 + 2z/5 + z^2/20) / (1 - 3z/5 + 3z^2/20 - z^3/60), below 1 on the left")
 {
     const auto stability = [](double z) {
         return (1 + 2 * z / 5 + z * z / 20) / (1 - 3 * z / 5 + 3 * z * z / 20 - z * z * z / 60);
@@ -92,12 +105,14 @@ TEST_CASE("Radau IIA is L-stable: |R| = (1 + 2z/5 + z^2/20) / (1 - 3z/5 + 3z^2/2
     }
 }
 
-TEST_CASE("The order falls to 2, 2, 4, 4 for Gauss and to 3 for Radau IIA where the problem is stiff beyond the step")
+TEST_CASE(
+    "The order falls to 2, 2, 4, 4 for Gauss and to 2, 3 for Radau IIA where the problem is stiff beyond the step")
 {
     CHECK_THAT(stiff_order<Gauss2>(), near(2));
     CHECK_THAT(stiff_order<Gauss4>(), near(2));
     CHECK_THAT(stiff_order<Gauss6>(), near(4));
     CHECK_THAT(stiff_order<Gauss8>(), near(4));
+    CHECK_THAT(stiff_order<Radau3Fixed>(), near(2));
     CHECK_THAT(stiff_order<Radau5Fixed>(), near(3));
 }
 

@@ -17,8 +17,9 @@ std::vector<std::string> lines(const Graph& graph, const std::vector<NodeId>& ou
         names.taken.insert(graph.input_name(id));
     }
     const Body body = print_body({graph, names, outputs, {}, {}, Checking::none});
-    std::vector<std::string> text = body.statements;
-    text.insert(text.end(), body.values.begin(), body.values.end());
+    std::vector<std::string> text;
+    for (const BodyLine& line : body.parts.front().lines)
+        if (line.kind != BodyLine::Kind::load) text.push_back(line.text);
     return text;
 }
 

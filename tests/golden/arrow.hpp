@@ -111,6 +111,13 @@ class arrow {
         const S b2 = s[9];
         const S b3 = s[10];
         auto status = StatusOf<S>::good();
+        ds[0] = S(0);
+        ds[1] = S(0);
+        ds[2] = S(0);
+        ds[3] = S(0);
+        ds[4] = S(0);
+        ds[5] = S(0);
+        ds[6] = S(0);
         StatusOf<S>::fail(status, a1_1 <= singular_tolerance<S>(4) * a1_1, Status::singular_mass_matrix);
         const S r0_0 = S(1) / a1_1;
         const S l0_2_0 = a1_0 * r0_0;
@@ -130,13 +137,6 @@ class arrow {
         const S z0_0 = f0_2 * r0_2 - l0_3_2 * z0_3;
         const S z0_2 = b2 * r0_1 - l0_2_1 * z0_0;
         const S z0_1 = b1 * r0_0 - l0_2_0 * z0_0;
-        ds[0] = S(0);
-        ds[1] = S(0);
-        ds[2] = S(0);
-        ds[3] = S(0);
-        ds[4] = S(0);
-        ds[5] = S(0);
-        ds[6] = S(0);
         ds[7] = z0_0;
         ds[8] = z0_1;
         ds[9] = z0_2;

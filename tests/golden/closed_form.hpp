@@ -91,16 +91,16 @@ class closed_form {
         const S b0 = s[4];
         const S b1 = s[5];
         auto status = StatusOf<S>::good();
+        ds[0] = S(0);
+        ds[1] = S(0);
+        ds[2] = S(0);
+        ds[3] = S(0);
         const S det0 = a0_0 * a1_1 - a0_1 * a1_0;
         StatusOf<S>::fail(status, abs(det0) <= singular_tolerance<S>(2) * (abs(a0_0 * a1_1) + abs(a0_1 * a1_0)),
                 Status::singular_mass_matrix);
         const S inv_det0 = S(1) / det0;
         const S z0_0 = (a1_1 * b0 - a0_1 * b1) * inv_det0;
         const S z0_1 = (a0_0 * b1 - a1_0 * b0) * inv_det0;
-        ds[0] = S(0);
-        ds[1] = S(0);
-        ds[2] = S(0);
-        ds[3] = S(0);
         ds[4] = z0_0;
         ds[5] = z0_1;
         return status;

@@ -88,9 +88,9 @@ class pendulum {
     /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
+        auto status = StatusOf<S>::good();
         const S m = parameters.m;
         const S l = parameters.l;
-        auto status = StatusOf<S>::good();
         StatusOf<S>::fail(status, m * (l * l) == S(0), Status::singular_mass_matrix);
         return status;
     }
@@ -101,10 +101,10 @@ class pendulum {
         using std::sin;
         const S th = s[0];
         const S v = s[1];
+        ds[0] = v;
         const S m = parameters.m;
         const S l = parameters.l;
         const S g = parameters.g;
-        ds[0] = v;
         ds[1] = -m * g * l * sin(th) / (m * (l * l));
         return StatusOf<S>::good();
     }
@@ -123,10 +123,10 @@ class pendulum {
     static constexpr std::array<const char*, 2> tip_names = {"tip x", "tip y"};
     [[nodiscard]] Eigen::Matrix<S, 2, 1> tip([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S th = s[0];
-        const S l = parameters.l;
-        const auto [sin_th, cos_th] = sincos<S>(th);
         Eigen::Matrix<S, 2, 1> result;
+        const S th = s[0];
+        const auto [sin_th, cos_th] = sincos<S>(th);
+        const S l = parameters.l;
         result[0] = l * sin_th;
         result[1] = l * cos_th;
         return result;

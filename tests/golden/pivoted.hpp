@@ -103,16 +103,16 @@ class pivoted {
         const S b1 = s[7];
         const S b2 = s[8];
         auto status = StatusOf<S>::good();
-        PivotedLu<S, 3> lu0;
-        StatusOf<S>::fail(status, lu0.factor({a0_0, a1_0, a2_0, a1_0, a1_1, a2_1, a2_0, a2_1, a2_2}),
-                Status::singular_mass_matrix);
-        const std::array<S, 3> z0 = lu0.solve({b0, b1, b2});
         ds[0] = S(0);
         ds[1] = S(0);
         ds[2] = S(0);
         ds[3] = S(0);
         ds[4] = S(0);
         ds[5] = S(0);
+        PivotedLu<S, 3> lu0;
+        StatusOf<S>::fail(status, lu0.factor({a0_0, a1_0, a2_0, a1_0, a1_1, a2_1, a2_0, a2_1, a2_2}),
+                Status::singular_mass_matrix);
+        const std::array<S, 3> z0 = lu0.solve({b0, b1, b2});
         ds[6] = z0[0];
         ds[7] = z0[1];
         ds[8] = z0[2];

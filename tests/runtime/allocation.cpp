@@ -61,6 +61,7 @@ TEST_CASE("A longer run allocates no more than a short one")
     check(Dop853{});
     check(Gauss2{.step = 0.01});
     check(Gauss8{.step = 0.01});
+    check(Radau3Fixed{.step = 0.01});
     check(Radau5Fixed{.step = 0.01});
     check(Radau5{});
     const std::size_t before = allocations;

@@ -59,6 +59,7 @@ TEST_CASE("Crossings of the pendulum are found to 1e-12 with every dense output"
     check(Gauss2{.step = 2e-5}, 1e-9);
     check(Gauss6{.step = 0.02}, 1e-12);
     check(Gauss8{.step = 0.1}, 1e-12);
+    check(Radau3Fixed{.step = 0.002}, 1e-8);
     check(Radau5Fixed{.step = 0.002}, 1e-12);
     check(Radau5{.tolerance = 1e-13, .max_step = 1e-3}, 1e-12);
 }

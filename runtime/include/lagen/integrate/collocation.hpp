@@ -136,8 +136,32 @@ struct GaussScheme<4> {
     }
 };
 
-/// Radau IIA with three stages, order 5 [Hairer, Wanner IV.5, table 5.6].
-struct RadauScheme {
+/// Radau IIA with s stages, order 2 s - 1; the nodes end at 1 [Hairer, Wanner IV.5, tables 5.5 and 5.6].
+template <std::size_t s>
+struct RadauScheme;
+
+template <>
+struct RadauScheme<2> {
+    static constexpr std::size_t stages = 2, real_poles = 0;
+    static constexpr int order = 3;
+    static constexpr bool stiffly_accurate = true; ///< s1 = X_2
+    static constexpr std::array<int, 3> denominator{6, -4, 1};
+    static constexpr std::array<Complex<double>, 1> poles{{{2, 1.41}}};
+
+    template <class Real>
+    static Collocation<Real, 2> coefficients() noexcept
+    {
+        const Real one = Real(1), three = Real(3);
+        Collocation<Real, 2> method;
+        method.c = {Real(one / three), one};
+        method.b = {Real(three / Real(4)), Real(one / Real(4))};
+        method.mu = {{{Real(Real(5) / Real(9)), Real(-one / three)}, {one, one}}};
+        return method;
+    }
+};
+
+template <>
+struct RadauScheme<3> {
     static constexpr std::size_t stages = 3, real_poles = 1;
     static constexpr int order = 5;
     static constexpr bool stiffly_accurate = true; ///< s1 = X_3

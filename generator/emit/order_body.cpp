@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "emit/order_body.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+
+namespace lagen {
+
+namespace {
+
+/// So many values stay in the registers of a processor; below this the order of the outputs is left alone.
+constexpr std::size_t enough_registers = 12;
+
+bool is_number(const Graph& graph, NodeId id)
+{
+    return graph.op(id) == Op::constant || graph.op(id) == Op::pi;
+}
+
+/// Named nodes below `id` (itself where it has a name), each once, in order of appearance.
+void add_reads(const Graph& graph, const BodyPlan& plan, NodeId id, std::vector<NodeId>& reads)
+{
+    std::vector<NodeId> stack = {id};
+    while (!stack.empty()) {
+        const NodeId node = stack.back();
+        stack.pop_back();
+        if (is_number(graph, node)) continue;
+        if (plan.named[node] || graph.op(node) == Op::input || graph.op(node) == Op::component) {
+            if (std::ranges::find(reads, node) == reads.end()) reads.push_back(node);
+            continue;
+        }
+        const std::span<const NodeId> operands = graph.operands(node);
+        stack.insert(stack.end(), operands.rbegin(), operands.rend());
+    }
+}
+
+/// By node: how many registers its expression needs, where each operand is computed for itself (Sethi and Ullman 1970).
+std::vector<std::uint32_t> registers_needed(const Graph& graph, const BodyPlan& plan)
+{
+    std::vector<std::uint32_t> needed(graph.size(), 1);
+    std::vector<std::uint32_t> operands;
+    for (NodeId id = 0; id < graph.size(); ++id) {
+        if (!plan.used[id]) continue;
+        operands.clear();
+        for (const NodeId operand : graph.operands(id)) operands.push_back(needed[operand]);
+        std::ranges::sort(operands, std::greater());
+        for (std::size_t k = 0; k < operands.size(); ++k)
+            needed[id] = std::max(needed[id], operands[k] + static_cast<std::uint32_t>(k));
+    }
+    return needed;
+}
+
+/// Post-order from each output in turn, without recursion.
+class Walk {
+  public:
+    Walk(const Graph& graph, const BodyPlan& plan, const BodyRoots& roots, const std::vector<std::uint32_t>* registers)
+        : graph_(graph), plan_(plan), registers_(registers), done_(graph.size(), false),
+          placed_(plan.batches.size(), false)
+    {
+        for (std::size_t k = 0; k < roots.outputs.size(); ++k) stores_[roots.outputs[k]].push_back(k);
+        for (const NodeId id : roots.checked) checks_.push_back(id);
+        std::ranges::sort(checks_);
+    }
+
+    void from(NodeId root)
+    {
+        enter(root);
+        while (!stack_.empty()) {
+            Visit& visit = stack_.back();
+            if (visit.next < visit.needed.size()) {
+                enter(visit.needed[visit.next++]);
+                continue;
+            }
+            const NodeId id = visit.node;
+            stack_.pop_back();
+            finish(id);
+        }
+    }
+
+    std::vector<BodyStep> steps() { return std::move(steps_); }
+
+  private:
+    struct Visit {
+        NodeId node;
+        std::vector<NodeId> needed;
+        std::size_t next = 0;
+    };
+
+    void enter(NodeId id)
+    {
+        if (!done_[id]) stack_.push_back({id, needed_by(id)});
+        done_[id] = true;
+    }
+    /// The operands, those that need most registers first if so wished; for a part of a batch all arguments of it.
+    [[nodiscard]] std::vector<NodeId> needed_by(NodeId id) const
+    {
+        if (const auto batch = plan_.batch_of.find(id); batch != plan_.batch_of.end())
+            return plan_.batches[batch->second].arguments;
+        std::vector<NodeId> needed(graph_.operands(id).begin(), graph_.operands(id).end());
+        if (registers_ != nullptr)
+            std::ranges::stable_sort(needed, std::greater(), [&](NodeId node) { return (*registers_)[node]; });
+        return needed;
+    }
+    void finish(NodeId id)
+    {
+        if (plan_.named[id] && !is_placed(id)) steps_.push_back({BodyStep::Kind::define, id, 0});
+        if (std::ranges::binary_search(checks_, id)) steps_.push_back({BodyStep::Kind::check, id, 0});
+        if (const auto stores = stores_.find(id); stores != stores_.end())
+            for (const std::size_t k : stores->second) steps_.push_back({BodyStep::Kind::store, id, k});
+    }
+    /// By the statement of another node of its batch or family.
+    bool is_placed(NodeId id)
+    {
+        if (graph_.op(id) == Op::stumpff) return !families_.insert(graph_.operands(id)[0]).second;
+        const auto batch = plan_.batch_of.find(id);
+        if (batch == plan_.batch_of.end()) return false;
+        const bool placed = placed_[batch->second];
+        placed_[batch->second] = true;
+        return placed;
+    }
+
+    const Graph& graph_;
+    const BodyPlan& plan_;
+    const std::vector<std::uint32_t>* registers_;
+    std::map<NodeId, std::vector<std::size_t>> stores_;
+    std::vector<NodeId> checks_;
+    std::vector<bool> done_;
+    std::vector<bool> placed_;  ///< by batch
+    std::set<NodeId> families_; ///< by their argument, that have been placed
+    std::vector<Visit> stack_;
+    std::vector<BodyStep> steps_;
+};
+
+} // namespace
+
+StepEffects effects_of(const Graph& graph, const BodyPlan& plan, const BodyStep& step)
+{
+    StepEffects effects;
+    const NodeId id = step.node;
+    if (step.kind != BodyStep::Kind::define) {
+        add_reads(graph, plan, id, effects.reads);
+        return effects;
+    }
+    if (const auto found = plan.batch_of.find(id); found != plan.batch_of.end()) {
+        const Batch& batch = plan.batches[found->second];
+        for (const std::vector<NodeId>* side : {&batch.values, &batch.cosines})
+            for (const NodeId value : *side)
+                if (value != no_node) effects.defines.push_back(value);
+        for (const NodeId argument : batch.arguments) add_reads(graph, plan, argument, effects.reads);
+        return effects;
+    }
+    effects.defines.push_back(id);
+    if (graph.op(id) == Op::stumpff) effects.defines = plan.family_of(graph, id);
+    if (graph.op(id) == Op::solve) {
+        if (const auto components = plan.users.find(id); components != plan.users.end())
+            effects.defines.insert(effects.defines.end(), components->second.begin(), components->second.end());
+        // A closed form reads the entries of the matrix again.
+        for (const NodeId entry : graph.operands(graph.operands(id)[0])) add_reads(graph, plan, entry, effects.reads);
+    }
+    for (const NodeId operand : graph.operands(id)) add_reads(graph, plan, operand, effects.reads);
+    return effects;
+}
+
+namespace {
+
+/// How many values are alive: at most, and summed over the steps.
+struct Pressure {
+    std::size_t most = 0;
+    std::size_t sum = 0;
+
+    /// What fits into registers is best; of what does not, the order with fewer values to be put aside.
+    [[nodiscard]] bool is_below(const Pressure& other) const
+    {
+        const bool spills = most > enough_registers;
+        const bool other_spills = other.most > enough_registers;
+        return spills != other_spills ? other_spills : sum < other.sum;
+    }
+};
+
+Pressure pressure_of(const Graph& graph, const BodyPlan& plan, const std::vector<BodyStep>& steps)
+{
+    std::vector<std::size_t> last(graph.size(), 0);
+    std::vector<StepEffects> effects;
+    for (const BodyStep& step : steps) {
+        effects.push_back(effects_of(graph, plan, step));
+        for (const NodeId id : effects.back().reads) last[id] = effects.size();
+    }
+    std::size_t live = 0;
+    Pressure pressure;
+    std::vector<bool> alive(graph.size(), false);
+    for (std::size_t k = 0; k < steps.size(); ++k) {
+        for (const NodeId id : effects[k].defines)
+            if (last[id] > k + 1 && !alive[id]) alive[id] = true, ++live;
+        pressure.most = std::max(pressure.most, live);
+        pressure.sum += live;
+        for (const NodeId id : effects[k].reads)
+            if (alive[id] && last[id] == k + 1) alive[id] = false, --live;
+    }
+    return pressure;
+}
+
+} // namespace
+
+std::size_t most_live(const Graph& graph, const BodyPlan& plan, const std::vector<BodyStep>& steps)
+{
+    return pressure_of(graph, plan, steps).most;
+}
+
+std::vector<BodyStep> order_body(const Graph& graph, const BodyPlan& plan, const BodyRoots& roots)
+{
+    const auto walked = [&](const std::vector<std::size_t>& order, const std::vector<std::uint32_t>* registers) {
+        Walk walk(graph, plan, roots, registers);
+        for (const std::size_t k : order) walk.from(roots.outputs[k]);
+        for (const NodeId id : roots.checked) walk.from(id);
+        return walk.steps();
+    };
+    std::vector<std::size_t> given(roots.outputs.size());
+    std::iota(given.begin(), given.end(), std::size_t{0});
+    std::vector<BodyStep> best = walked(given, nullptr);
+    Pressure best_pressure = pressure_of(graph, plan, best);
+    if (best_pressure.most <= enough_registers) return best;
+    const std::vector<std::uint32_t> registers = registers_needed(graph, plan);
+    std::vector<std::vector<std::size_t>> orders = roots.arrangements;
+    orders.insert(orders.begin(), given);
+    for (std::size_t k = orders.size(); k-- > 0;) orders.emplace_back(orders[k].rbegin(), orders[k].rend());
+    for (const std::vector<std::size_t>& order : orders)
+        for (const std::vector<std::uint32_t>* wish :
+             {static_cast<const std::vector<std::uint32_t>*>(nullptr), &registers}) {
+            std::vector<BodyStep> steps = walked(order, wish);
+            const Pressure found = pressure_of(graph, plan, steps);
+            if (found.is_below(best_pressure)) best = std::move(steps), best_pressure = found;
+        }
+    return best;
+}
+
+} // namespace lagen
