@@ -135,15 +135,19 @@ class attitude_pontryagin {
 
     /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
     /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// left_domain unless I1 > 0, I2 > 0, I3 > 0.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
+        auto status = StatusOf<S>::good();
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        auto status = StatusOf<S>::good();
         StatusOf<S>::fail(status, I1 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(I1 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, I2 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(I2 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, I3 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(I3 > S(0)), Status::left_domain);
         return status;
     }
 
@@ -168,8 +172,8 @@ class attitude_pontryagin {
         const S w3 = S(0.5) * q2;
         const S w4 = mu3 / I3;
         const S w5 = S(0.5) * q3;
-        const S w6 = S(0.5) * q0;
         ds[0] = -(w1 * w0 + w3 * w2 + w5 * w4);
+        const S w6 = S(0.5) * q0;
         ds[1] = w6 * w0 + w3 * w4 - w5 * w2;
         ds[2] = w6 * w2 + w5 * w0 - w1 * w4;
         ds[3] = w6 * w4 + w1 * w2 - w3 * w0;
@@ -183,13 +187,13 @@ class attitude_pontryagin {
     /// The controls that maximise H.
     [[nodiscard]] Eigen::Matrix<S, 3, 1> controls([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 3, 1> result;
         const S mu1 = s[4];
         const S mu2 = s[5];
         const S mu3 = s[6];
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        Eigen::Matrix<S, 3, 1> result;
         result[0] = mu1 / I1;
         result[1] = mu2 / I2;
         result[2] = mu3 / I3;
@@ -224,9 +228,9 @@ class attitude_pontryagin {
     /// Observables of the model.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         using std::acos;
         const S q0 = s[0];
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = S(2) * acos(q0);
         return result;
     }
@@ -235,10 +239,10 @@ class attitude_pontryagin {
     /// Functions that are constant along solutions.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S mu1 = s[4];
         const S mu2 = s[5];
         const S mu3 = s[6];
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = mu3 * mu3 + (mu1 * mu1 + mu2 * mu2);
         return result;
     }
@@ -265,46 +269,46 @@ class attitude_pontryagin {
         const S w0 = S(1) / I1;
         const S w1 = S(0.5) * w0;
         const S w2 = w1 * mu1;
+        values[6] = w2;
+        values[14] = w2;
         const S w3 = -w2;
+        values[0] = w3;
+        values[20] = w3;
         const S w4 = S(1) / I2;
         const S w5 = S(0.5) * w4;
         const S w6 = w5 * mu2;
+        values[12] = w6;
+        values[19] = w6;
         const S w7 = -w6;
+        values[1] = w7;
+        values[8] = w7;
         const S w8 = S(1) / I3;
         const S w9 = S(0.5) * w8;
         const S w10 = w9 * mu3;
+        values[7] = w10;
+        values[18] = w10;
         const S w11 = -w10;
-        const S w12 = w8 - w4;
-        const S w13 = w0 - w8;
-        const S w14 = w4 - w0;
-        values[0] = w3;
-        values[1] = w7;
         values[2] = w11;
+        values[13] = w11;
         values[3] = -w1 * q1;
         values[4] = -w5 * q2;
         values[5] = -w9 * q3;
-        values[6] = w2;
-        values[7] = w10;
-        values[8] = w7;
         values[9] = w1 * q0;
         values[10] = -w5 * q3;
         values[11] = w9 * q2;
-        values[12] = w6;
-        values[13] = w11;
-        values[14] = w2;
         values[15] = w1 * q3;
         values[16] = w5 * q0;
         values[17] = -w9 * q1;
-        values[18] = w10;
-        values[19] = w6;
-        values[20] = w3;
         values[21] = -w1 * q2;
         values[22] = w5 * q1;
         values[23] = w9 * q0;
+        const S w12 = w8 - w4;
         values[24] = w12 * mu3;
         values[25] = w12 * mu2;
+        const S w13 = w0 - w8;
         values[26] = w13 * mu3;
         values[27] = w13 * mu1;
+        const S w14 = w4 - w0;
         values[28] = w14 * mu2;
         values[29] = w14 * mu1;
     }

@@ -196,9 +196,27 @@ class chain {
 
     /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
     /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// left_domain unless m[1] > 0, m[2] > 0, m[3] > 0, m[4] > 0, l[1] > 0, l[2] > 0, l[3] > 0, l[4] > 0.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
-        return StatusOf<S>::good();
+        auto status = StatusOf<S>::good();
+        const S m_1 = parameters.m_1;
+        const S m_2 = parameters.m_2;
+        const S m_3 = parameters.m_3;
+        const S m_4 = parameters.m_4;
+        const S l_1 = parameters.l_1;
+        const S l_2 = parameters.l_2;
+        const S l_3 = parameters.l_3;
+        const S l_4 = parameters.l_4;
+        StatusOf<S>::fail(status, !(m_1 > S(0)), Status::left_domain);
+        StatusOf<S>::fail(status, !(m_2 > S(0)), Status::left_domain);
+        StatusOf<S>::fail(status, !(m_3 > S(0)), Status::left_domain);
+        StatusOf<S>::fail(status, !(m_4 > S(0)), Status::left_domain);
+        StatusOf<S>::fail(status, !(l_1 > S(0)), Status::left_domain);
+        StatusOf<S>::fail(status, !(l_2 > S(0)), Status::left_domain);
+        StatusOf<S>::fail(status, !(l_3 > S(0)), Status::left_domain);
+        StatusOf<S>::fail(status, !(l_4 > S(0)), Status::left_domain);
+        return status;
     }
 
     /// The equations of motion, ds = (xdot, ydot): xdot^i = rho^i_a y^a and
@@ -215,6 +233,11 @@ class chain {
         const S w_2 = s[5];
         const S w_3 = s[6];
         const S w_4 = s[7];
+        auto status = StatusOf<S>::good();
+        ds[0] = w_1;
+        ds[1] = w_2;
+        ds[2] = w_3;
+        ds[3] = w_4;
         const S m_1 = parameters.m_1;
         const S m_2 = parameters.m_2;
         const S m_3 = parameters.m_3;
@@ -224,7 +247,6 @@ class chain {
         const S l_3 = parameters.l_3;
         const S l_4 = parameters.l_4;
         const S g = parameters.g;
-        auto status = StatusOf<S>::good();
         const S w0 = m_3 + m_4;
         const S w1 = m_2 + w0;
         const S w2 = m_1 + w1;
@@ -298,10 +320,6 @@ class chain {
         const S z0_2 = f0_2 * r0_2 - l0_3_2 * z0_3;
         const S z0_1 = f0_1 * r0_1 - l0_2_1 * z0_2 - l0_3_1 * z0_3;
         const S z0_0 = w40 * r0_0 - l0_1_0 * z0_1 - l0_2_0 * z0_2 - l0_3_0 * z0_3;
-        ds[0] = w_1;
-        ds[1] = w_2;
-        ds[2] = w_3;
-        ds[3] = w_4;
         ds[4] = z0_0;
         ds[5] = z0_1;
         ds[6] = z0_2;
@@ -312,6 +330,7 @@ class chain {
     /// W_ab = d2L/dy^a dy^b, shape (4, 4), symmetric.
     [[nodiscard]] Eigen::Matrix<S, 4, 4> mass_matrix([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 4, 4> result;
         const S a_1 = s[0];
         const S a_2 = s[1];
         const S a_3 = s[2];
@@ -326,31 +345,30 @@ class chain {
         const S l_4 = parameters.l_4;
         const S w0 = m_3 + m_4;
         const S w1 = m_2 + w0;
+        result(0, 0) = (m_1 + w1) * (l_1 * l_1);
         const auto [sines, cosines] = sincos<S, 4>({a_1, a_2, a_3, a_4});
         const S w2 = w1 * l_2;
         const S w3 = l_1 * w2 * (cosines[0] * cosines[1] + sines[0] * sines[1]);
+        result(0, 1) = w3;
+        result(1, 0) = w3;
         const S w4 = w0 * l_3;
         const S w5 = l_1 * w4 * (cosines[0] * cosines[2] + sines[0] * sines[2]);
+        result(0, 2) = w5;
+        result(2, 0) = w5;
         const S w6 = m_4 * l_4;
         const S w7 = l_1 * w6 * (cosines[0] * cosines[3] + sines[0] * sines[3]);
-        const S w8 = l_2 * w4 * (cosines[1] * cosines[2] + sines[1] * sines[2]);
-        const S w9 = l_2 * w6 * (cosines[1] * cosines[3] + sines[1] * sines[3]);
-        const S w10 = l_3 * w6 * (cosines[2] * cosines[3] + sines[2] * sines[3]);
-        Eigen::Matrix<S, 4, 4> result;
-        result(0, 0) = (m_1 + w1) * (l_1 * l_1);
-        result(0, 1) = w3;
-        result(0, 2) = w5;
         result(0, 3) = w7;
-        result(1, 0) = w3;
-        result(1, 1) = l_2 * w2;
-        result(1, 2) = w8;
-        result(1, 3) = w9;
-        result(2, 0) = w5;
-        result(2, 1) = w8;
-        result(2, 2) = l_3 * w4;
-        result(2, 3) = w10;
         result(3, 0) = w7;
+        result(1, 1) = l_2 * w2;
+        const S w8 = l_2 * w4 * (cosines[1] * cosines[2] + sines[1] * sines[2]);
+        result(1, 2) = w8;
+        result(2, 1) = w8;
+        const S w9 = l_2 * w6 * (cosines[1] * cosines[3] + sines[1] * sines[3]);
+        result(1, 3) = w9;
         result(3, 1) = w9;
+        result(2, 2) = l_3 * w4;
+        const S w10 = l_3 * w6 * (cosines[2] * cosines[3] + sines[2] * sines[3]);
+        result(2, 3) = w10;
         result(3, 2) = w10;
         result(3, 3) = l_4 * w6;
         return result;
@@ -359,6 +377,7 @@ class chain {
     /// p_a = dL/dy^a, shape (4).
     [[nodiscard]] Eigen::Matrix<S, 4, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 4, 1> result;
         const S a_1 = s[0];
         const S a_2 = s[1];
         const S a_3 = s[2];
@@ -375,27 +394,26 @@ class chain {
         const S l_2 = parameters.l_2;
         const S l_3 = parameters.l_3;
         const S l_4 = parameters.l_4;
-        const auto [sines, cosines] = sincos<S, 4>({a_1, a_2, a_3, a_4});
         const S w0 = l_1 * w_1;
+        const auto [sines, cosines] = sincos<S, 4>({a_1, a_2, a_3, a_4});
         const S w1 = l_2 * w_2;
         const S w2 = cosines[0] * w0 + cosines[1] * w1;
         const S w3 = l_3 * w_3;
         const S w4 = w2 + cosines[2] * w3;
         const S w5 = l_4 * w_4;
         const S w6 = w4 + cosines[3] * w5;
-        const S w7 = m_3 * w4 + m_4 * w6;
-        const S w8 = w7 + m_2 * w2;
-        const S w9 = m_1 * w0;
-        const S w10 = sines[0] * w0 + sines[1] * w1;
-        const S w11 = w10 + sines[2] * w3;
-        const S w12 = w11 + sines[3] * w5;
-        const S w13 = m_3 * w11 + m_4 * w12;
-        const S w14 = w13 + m_2 * w10;
-        Eigen::Matrix<S, 4, 1> result;
-        result[0] = l_1 * (cosines[0] * (w8 + cosines[0] * w9) + sines[0] * (w14 + sines[0] * w9));
-        result[1] = l_2 * (cosines[1] * w8 + sines[1] * w14);
-        result[2] = l_3 * (cosines[2] * w7 + sines[2] * w13);
-        result[3] = m_4 * l_4 * (cosines[3] * w6 + sines[3] * w12);
+        const S w7 = sines[0] * w0 + sines[1] * w1;
+        const S w8 = w7 + sines[2] * w3;
+        const S w9 = w8 + sines[3] * w5;
+        result[3] = m_4 * l_4 * (cosines[3] * w6 + sines[3] * w9);
+        const S w10 = m_3 * w4 + m_4 * w6;
+        const S w11 = m_3 * w8 + m_4 * w9;
+        result[2] = l_3 * (cosines[2] * w10 + sines[2] * w11);
+        const S w12 = w10 + m_2 * w2;
+        const S w13 = w11 + m_2 * w7;
+        result[1] = l_2 * (cosines[1] * w12 + sines[1] * w13);
+        const S w14 = m_1 * w0;
+        result[0] = l_1 * (cosines[0] * (w12 + cosines[0] * w14) + sines[0] * (w13 + sines[0] * w14));
         return result;
     }
 
@@ -466,39 +484,39 @@ class chain {
         const S l_3 = parameters.l_3;
         const S l_4 = parameters.l_4;
         const S g = parameters.g;
+        const S w0 = l_1 * w_1;
         const auto [sines, cosines] = sincos<S, 4>({a_1, a_2, a_3, a_4});
-        const S w0 = l_1 * cosines[0] + l_2 * cosines[1];
-        const S w1 = l_3 * cosines[2] + w0;
-        const S w2 = m_1 * l_1;
-        const S w3 = l_1 * w_1;
-        const S w4 = l_2 * w_2;
-        const S w5 = cosines[0] * w3 + cosines[1] * w4;
-        const S w6 = sines[0] * w3 + sines[1] * w4;
-        const S w7 = l_3 * w_3;
-        const S w8 = w5 + cosines[2] * w7;
-        const S w9 = w6 + sines[2] * w7;
-        const S w10 = l_4 * w_4;
-        const S w11 = w8 + cosines[3] * w10;
-        const S w12 = w9 + sines[3] * w10;
-        const S w13 = m_2 * (w5 * w5 + w6 * w6) + m_3 * (w8 * w8 + w9 * w9) + m_4 * (w11 * w11 + w12 * w12) + w2 * w_1 *
-                w3;
-        return g * (m_4 * (l_4 * cosines[3] + w1) + (m_2 * w0 + m_3 * w1) + w2 * cosines[0]) + S(0.5) * w13;
+        const S w1 = l_2 * w_2;
+        const S w2 = cosines[0] * w0 + cosines[1] * w1;
+        const S w3 = sines[0] * w0 + sines[1] * w1;
+        const S w4 = l_3 * w_3;
+        const S w5 = w2 + cosines[2] * w4;
+        const S w6 = w3 + sines[2] * w4;
+        const S w7 = l_4 * w_4;
+        const S w8 = w5 + cosines[3] * w7;
+        const S w9 = w6 + sines[3] * w7;
+        const S w10 = m_1 * l_1;
+        const S w11 = m_2 * (w2 * w2 + w3 * w3) + m_3 * (w5 * w5 + w6 * w6) + m_4 * (w8 * w8 + w9 * w9) + w10 * w_1 *
+                w0;
+        const S w12 = l_1 * cosines[0] + l_2 * cosines[1];
+        const S w13 = l_3 * cosines[2] + w12;
+        return g * (m_4 * (l_4 * cosines[3] + w13) + (m_2 * w12 + m_3 * w13) + w10 * cosines[0]) + S(0.5) * w11;
     }
 
     static constexpr std::array<const char*, 2> observables_names = {"tip[1]", "tip[2]"};
     /// Observables of the model.
     [[nodiscard]] Eigen::Matrix<S, 2, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 2, 1> result;
         const S a_1 = s[0];
         const S a_2 = s[1];
         const S a_3 = s[2];
         const S a_4 = s[3];
+        const auto [sines, cosines] = sincos<S, 4>({a_1, a_2, a_3, a_4});
         const S l_1 = parameters.l_1;
         const S l_2 = parameters.l_2;
         const S l_3 = parameters.l_3;
         const S l_4 = parameters.l_4;
-        const auto [sines, cosines] = sincos<S, 4>({a_1, a_2, a_3, a_4});
-        Eigen::Matrix<S, 2, 1> result;
         result[0] = l_4 * sines[3] + (l_3 * sines[2] + (l_1 * sines[0] + l_2 * sines[1]));
         result[1] = -(l_4 * cosines[3] + (l_3 * cosines[2] + (l_1 * cosines[0] + l_2 * cosines[1])));
         return result;
@@ -521,6 +539,10 @@ class chain {
         const S w_2 = s[5];
         const S w_3 = s[6];
         const S w_4 = s[7];
+        values[0] = S(1);
+        values[1] = S(1);
+        values[2] = S(1);
+        values[3] = S(1);
         const S m_1 = parameters.m_1;
         const S m_2 = parameters.m_2;
         const S m_3 = parameters.m_3;
@@ -627,6 +649,7 @@ class chain {
         const S z1_2 = f1_2 * r0_2 - l0_3_2 * z1_3;
         const S z1_1 = f1_1 * r0_1 - l0_2_1 * z1_2 - l0_3_1 * z1_3;
         const S z1_0 = w61 * r0_0 - l0_1_0 * z1_1 - l0_2_0 * z1_2 - l0_3_0 * z1_3;
+        values[4] = z1_0;
         const S w66 = w_2 * w_2;
         const S w67 = w6 * (w4 * w66 + w60);
         const S w68 = l_1 * z0_0;
@@ -644,6 +667,7 @@ class chain {
         const S z2_2 = f2_2 * r0_2 - l0_3_2 * z2_3;
         const S z2_1 = f2_1 * r0_1 - l0_2_1 * z2_2 - l0_3_1 * z2_3;
         const S z2_0 = w67 * r0_0 - l0_1_0 * z2_1 - l0_2_0 * z2_2 - l0_3_0 * z2_3;
+        values[5] = z2_0;
         const S w75 = w_3 * w_3;
         const S w76 = w10 * (w8 * w75 + w58);
         const S w77 = w18 * (w17 * w75 + w71);
@@ -659,6 +683,7 @@ class chain {
         const S z3_2 = f3_2 * r0_2 - l0_3_2 * z3_3;
         const S z3_1 = f3_1 * r0_1 - l0_2_1 * z3_2 - l0_3_1 * z3_3;
         const S z3_0 = w76 * r0_0 - l0_1_0 * z3_1 - l0_2_0 * z3_2 - l0_3_0 * z3_3;
+        values[6] = z3_0;
         const S w83 = w_4 * w_4;
         const S w84 = w14 * (w12 * w83 + w49 * z0_3);
         const S w85 = w21 * (w20 * w83 + w69 * z0_3);
@@ -671,6 +696,7 @@ class chain {
         const S z4_2 = f4_2 * r0_2 - l0_3_2 * z4_3;
         const S z4_1 = f4_1 * r0_1 - l0_2_1 * z4_2 - l0_3_1 * z4_3;
         const S z4_0 = w84 * r0_0 - l0_1_0 * z4_1 - l0_2_0 * z4_2 - l0_3_0 * z4_3;
+        values[7] = z4_0;
         const S w88 = sines[0] * w28;
         const S w89 = w88 + sines[1] * w30;
         const S w90 = w89 + sines[2] * w33;
@@ -696,6 +722,7 @@ class chain {
         const S z5_2 = f5_2 * r0_2 - l0_3_2 * z5_3;
         const S z5_1 = f5_1 * r0_1 - l0_2_1 * z5_2 - l0_3_1 * z5_3;
         const S z5_0 = w100 * r0_0 - l0_1_0 * z5_1 - l0_2_0 * z5_2 - l0_3_0 * z5_3;
+        values[8] = z5_0;
         const S w106 = w1 * w30;
         const S w107 = S(2) * l_1 * w59 * w106;
         const S w108 = l_2 * (cosines[1] * (w92 + sines[1] * w106 - w92) + sines[1] * (w98 - (w98 + cosines[1] *
@@ -709,6 +736,7 @@ class chain {
         const S z6_2 = f6_2 * r0_2 - l0_3_2 * z6_3;
         const S z6_1 = f6_1 * r0_1 - l0_2_1 * z6_2 - l0_3_1 * z6_3;
         const S z6_0 = w107 * r0_0 - l0_1_0 * z6_1 - l0_2_0 * z6_2 - l0_3_0 * z6_3;
+        values[9] = z6_0;
         const S w111 = S(2) * w10 * w57 * w_3;
         const S w112 = S(2) * w18 * w70 * w_3;
         const S w113 = w9 * w_3;
@@ -722,6 +750,7 @@ class chain {
         const S z7_2 = f7_2 * r0_2 - l0_3_2 * z7_3;
         const S z7_1 = f7_1 * r0_1 - l0_2_1 * z7_2 - l0_3_1 * z7_3;
         const S z7_0 = w111 * r0_0 - l0_1_0 * z7_1 - l0_2_0 * z7_2 - l0_3_0 * z7_3;
+        values[10] = z7_0;
         const S w116 = S(2) * w14 * w49 * w_4;
         const S w117 = S(2) * w21 * w69 * w_4;
         const S w118 = S(2) * w25 * w79 * w_4;
@@ -732,17 +761,6 @@ class chain {
         const S z8_2 = f8_2 * r0_2 - l0_3_2 * z8_3;
         const S z8_1 = f8_1 * r0_1 - l0_2_1 * z8_2 - l0_3_1 * z8_3;
         const S z8_0 = w116 * r0_0 - l0_1_0 * z8_1 - l0_2_0 * z8_2 - l0_3_0 * z8_3;
-        values[0] = S(1);
-        values[1] = S(1);
-        values[2] = S(1);
-        values[3] = S(1);
-        values[4] = z1_0;
-        values[5] = z2_0;
-        values[6] = z3_0;
-        values[7] = z4_0;
-        values[8] = z5_0;
-        values[9] = z6_0;
-        values[10] = z7_0;
         values[11] = z8_0;
         values[12] = z1_1;
         values[13] = z2_1;

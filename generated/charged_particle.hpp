@@ -139,13 +139,13 @@ class charged_particle {
         const S u = s[2];
         const S v = s[3];
         const S q = s[4];
+        ds[0] = u;
+        ds[1] = v;
         const S b0 = parameters.b0;
         const S b1 = parameters.b1;
         const S b2 = parameters.b2;
         const S k = parameters.k;
         const S w0 = (b2 * (y * y) + (b0 + b1 * x)) * q;
-        ds[0] = u;
-        ds[1] = v;
         ds[2] = v * w0 - k * x;
         ds[3] = -(u * w0 + k * y);
         ds[4] = S(0);
@@ -166,10 +166,10 @@ class charged_particle {
     /// p_a = dL/dy^a, shape (3).
     [[nodiscard]] Eigen::Matrix<S, 3, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 3, 1> result;
         const S u = s[2];
         const S v = s[3];
         const S q = s[4];
-        Eigen::Matrix<S, 3, 1> result;
         result[0] = u;
         result[1] = v;
         result[2] = q;
@@ -204,12 +204,12 @@ class charged_particle {
     /// Observables of the model.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S x = s[0];
         const S y = s[1];
         const S b0 = parameters.b0;
         const S b1 = parameters.b1;
         const S b2 = parameters.b2;
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = b2 * (y * y) + (b0 + b1 * x);
         return result;
     }
@@ -218,14 +218,14 @@ class charged_particle {
     /// Functions that are constant along solutions.
     [[nodiscard]] Eigen::Matrix<S, 2, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 2, 1> result;
         const S x = s[0];
         const S y = s[1];
         const S u = s[2];
         const S v = s[3];
         const S q = s[4];
-        const S k = parameters.k;
-        Eigen::Matrix<S, 2, 1> result;
         result[0] = q;
+        const S k = parameters.k;
         result[1] = S(0.5) * (v * v + (u * u + k * (y * y + x * x)));
         return result;
     }
@@ -242,18 +242,18 @@ class charged_particle {
         const S u = s[2];
         const S v = s[3];
         const S q = s[4];
+        values[0] = S(1);
+        values[1] = S(1);
         const S b0 = parameters.b0;
         const S b1 = parameters.b1;
         const S b2 = parameters.b2;
         const S k = parameters.k;
         const S w0 = b1 * q;
+        values[2] = v * w0 - k;
         const S w1 = S(2) * y * b2 * q;
+        values[3] = v * w1;
         const S w2 = b2 * (y * y) + (b0 + b1 * x);
         const S w3 = w2 * q;
-        values[0] = S(1);
-        values[1] = S(1);
-        values[2] = v * w0 - k;
-        values[3] = v * w1;
         values[4] = w3;
         values[5] = w2 * v;
         values[6] = -u * w0;

@@ -109,23 +109,27 @@ class double_integrator_pontryagin {
 
     /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
     /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// left_domain unless u_max > 0.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
-        return StatusOf<S>::good();
+        auto status = StatusOf<S>::good();
+        const S u_max = parameters.u_max;
+        StatusOf<S>::fail(status, !(u_max > S(0)), Status::left_domain);
+        return status;
     }
 
     /// Pontryagin's equations for H = mu_a sigma^a - cost, ds = (xdot, mudot): xdot^i = rho^i_a sigma^a and
-    /// mudot_a = -(rho_a(H) + mu_c C^c_ab sigma^b), with the controls that solve dH/du = 0, clipped to their bounds.
+    /// mudot_a = -(rho_a(H) + mu_c C^c_ab sigma^b), with the controls that solve dH/du = 0, or are at the bound next to that.
     /// s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
         const S v = s[1];
         const S mu_x = s[2];
         const S mu_v = s[3];
+        ds[0] = v;
         const S u_max = parameters.u_max;
         const S w0 = -u_max;
         const S w1 = select(mu_v > w0, mu_v, w0);
-        ds[0] = v;
         ds[1] = select(u_max < w1, u_max, w1);
         ds[2] = S(0);
         ds[3] = -mu_x;
@@ -136,11 +140,11 @@ class double_integrator_pontryagin {
     /// The controls that maximise H.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> controls([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S mu_v = s[3];
         const S u_max = parameters.u_max;
         const S w0 = -u_max;
         const S w1 = select(mu_v > w0, mu_v, w0);
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = select(u_max < w1, u_max, w1);
         return result;
     }
@@ -173,8 +177,8 @@ class double_integrator_pontryagin {
     /// Functions that are constant along solutions.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S mu_x = s[2];
         Eigen::Matrix<S, 1, 1> result;
+        const S mu_x = s[2];
         result[0] = mu_x;
         return result;
     }
@@ -187,9 +191,9 @@ class double_integrator_pontryagin {
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 3>& values) const noexcept
     {
         const S mu_v = s[3];
+        values[0] = S(1);
         const S u_max = parameters.u_max;
         const S w0 = -u_max;
-        values[0] = S(1);
         values[1] = select(u_max <= select(mu_v > w0, mu_v, w0), S(0), select(mu_v >= w0, S(1), S(0)));
         values[2] = S(-1);
     }

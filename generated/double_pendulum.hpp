@@ -121,15 +121,21 @@ class double_pendulum {
 
     /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
     /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// left_domain unless m1 > 0, m2 > 0, l1 > 0, l2 > 0.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
+        auto status = StatusOf<S>::good();
+        const S m1 = parameters.m1;
         const S m2 = parameters.m2;
         const S l1 = parameters.l1;
         const S l2 = parameters.l2;
-        auto status = StatusOf<S>::good();
+        StatusOf<S>::fail(status, !(m1 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, m2 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(m2 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, l1 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(l1 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, l2 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(l2 > S(0)), Status::left_domain);
         return status;
     }
 
@@ -144,12 +150,14 @@ class double_pendulum {
         const S b = s[1];
         const S u = s[2];
         const S v = s[3];
+        auto status = StatusOf<S>::good();
+        ds[0] = u;
+        ds[1] = v;
         const S m1 = parameters.m1;
         const S m2 = parameters.m2;
         const S l1 = parameters.l1;
         const S l2 = parameters.l2;
         const S g = parameters.g;
-        auto status = StatusOf<S>::good();
         const S w0 = m1 + m2;
         const S w1 = w0 * l1;
         const S w2 = m2 * l2;
@@ -166,8 +174,6 @@ class double_pendulum {
         const S w8 = -(g * sines[1] + l1 * w6 * (u * u));
         const S z0_0 = (l2 * w7 - w4 * w8) * inv_det0;
         const S z0_1 = (w1 * w8 - w5 * w7) * inv_det0;
-        ds[0] = u;
-        ds[1] = v;
         ds[2] = z0_0;
         ds[3] = z0_1;
         return status;
@@ -176,6 +182,7 @@ class double_pendulum {
     /// W_ab = d2L/dy^a dy^b, shape (2, 2), symmetric.
     [[nodiscard]] Eigen::Matrix<S, 2, 2> mass_matrix([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 2, 2> result;
         using std::cos;
         const S a = s[0];
         const S b = s[1];
@@ -183,10 +190,9 @@ class double_pendulum {
         const S m2 = parameters.m2;
         const S l1 = parameters.l1;
         const S l2 = parameters.l2;
+        result(0, 0) = (m1 + m2) * (l1 * l1);
         const S w0 = m2 * l2;
         const S w1 = l1 * w0 * cos(a - b);
-        Eigen::Matrix<S, 2, 2> result;
-        result(0, 0) = (m1 + m2) * (l1 * l1);
         result(0, 1) = w1;
         result(1, 0) = w1;
         result(1, 1) = l2 * w0;
@@ -196,19 +202,19 @@ class double_pendulum {
     /// p_a = dL/dy^a, shape (2).
     [[nodiscard]] Eigen::Matrix<S, 2, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 2, 1> result;
         using std::cos;
         const S a = s[0];
         const S b = s[1];
         const S u = s[2];
         const S v = s[3];
+        const S w0 = cos(a - b);
         const S m1 = parameters.m1;
         const S m2 = parameters.m2;
         const S l1 = parameters.l1;
         const S l2 = parameters.l2;
-        const S w0 = cos(a - b);
         const S w1 = m2 * l2;
         const S w2 = l1 * u;
-        Eigen::Matrix<S, 2, 1> result;
         result[0] = l1 * (w1 * w0 * v + (m1 + m2) * w2);
         result[1] = w1 * (l2 * v + w0 * w2);
         return result;
@@ -243,12 +249,12 @@ class double_pendulum {
         const S b = s[1];
         const S u = s[2];
         const S v = s[3];
+        const auto [sines, cosines] = sincos<S, 3>({a, b, a - b});
         const S m1 = parameters.m1;
         const S m2 = parameters.m2;
         const S l1 = parameters.l1;
         const S l2 = parameters.l2;
         const S g = parameters.g;
-        const auto [sines, cosines] = sincos<S, 3>({a, b, a - b});
         const S w0 = S(2) * g;
         const S w1 = l1 * u;
         const S w2 = m2 * l2 * (w0 * cosines[1] + v * (l2 * v + S(2) * cosines[2] * w1)) + (m1 + m2) * l1 * (u * w1 + w0
@@ -260,15 +266,15 @@ class double_pendulum {
     /// Observables of the model.
     [[nodiscard]] Eigen::Matrix<S, 4, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 4, 1> result;
         const S a = s[0];
         const S b = s[1];
+        const auto [sines, cosines] = sincos<S, 2>({a, b});
         const S l1 = parameters.l1;
         const S l2 = parameters.l2;
-        const auto [sines, cosines] = sincos<S, 2>({a, b});
         const S w0 = l1 * sines[0];
-        const S w1 = l1 * cosines[0];
-        Eigen::Matrix<S, 4, 1> result;
         result[0] = w0;
+        const S w1 = l1 * cosines[0];
         result[1] = -w1;
         result[2] = w0 + l2 * sines[1];
         result[3] = -(w1 + l2 * cosines[1]);
@@ -279,9 +285,9 @@ class double_pendulum {
     /// Events: each happens where its value crosses 0.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> events([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         using std::cos;
         const S b = s[1];
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = cos(S(0.5) * b);
         return result;
     }
@@ -297,6 +303,8 @@ class double_pendulum {
         const S b = s[1];
         const S u = s[2];
         const S v = s[3];
+        values[0] = S(1);
+        values[1] = S(1);
         const S m1 = parameters.m1;
         const S m2 = parameters.m2;
         const S l1 = parameters.l1;
@@ -325,20 +333,18 @@ class double_pendulum {
         const S w15 = w4 * (u * u) - w8 * z0_0;
         const S z1_0 = (w5 * w14 - w4 * w15) * inv_det0;
         const S z1_1 = (w1 * w15 - w4 * w14) * inv_det0;
+        values[2] = z1_0;
         const S w16 = -(w10 * cosines[1] + w15);
         const S z2_0 = (w5 * w13 - w4 * w16) * inv_det0;
         const S z2_1 = (w1 * w16 - w4 * w13) * inv_det0;
+        values[3] = z2_0;
         const S w17 = -S(2) * w11;
         const S z3_0 = (-w4 * w17) * inv_det0;
         const S z3_1 = (w1 * w17) * inv_det0;
+        values[4] = z3_0;
         const S w18 = w11 + w8 * (v + (v - u));
         const S z4_0 = (w5 * w18) * inv_det0;
         const S z4_1 = (-w4 * w18) * inv_det0;
-        values[0] = S(1);
-        values[1] = S(1);
-        values[2] = z1_0;
-        values[3] = z2_0;
-        values[4] = z3_0;
         values[5] = z4_0;
         values[6] = z1_1;
         values[7] = z2_1;

@@ -114,11 +114,13 @@ class driven_pendulum {
 
     /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
     /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// left_domain unless I > 0.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
-        const S I_ = parameters.I_;
         auto status = StatusOf<S>::good();
+        const S I_ = parameters.I_;
         StatusOf<S>::fail(status, I_ == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(I_ > S(0)), Status::left_domain);
         return status;
     }
 
@@ -132,12 +134,12 @@ class driven_pendulum {
         using std::sin;
         const S th = s[0];
         const S w = s[1];
+        ds[0] = w;
         const S I_ = parameters.I_;
         const S mgl = parameters.mgl;
         const S b = parameters.b;
         const S A = parameters.A;
         const S Omega = parameters.Omega;
-        ds[0] = w;
         ds[1] = (A * cos(t * Omega) - mgl * sin(th) - b * w) / I_;
         return StatusOf<S>::good();
     }
@@ -146,8 +148,8 @@ class driven_pendulum {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> mass_matrix([[maybe_unused]] S t, [[maybe_unused]] const State& s) const
             noexcept
     {
-        const S I_ = parameters.I_;
         Eigen::Matrix<S, 1, 1> result;
+        const S I_ = parameters.I_;
         result(0, 0) = I_;
         return result;
     }
@@ -155,9 +157,9 @@ class driven_pendulum {
     /// p_a = dL/dy^a, shape (1).
     [[nodiscard]] Eigen::Matrix<S, 1, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S w = s[1];
         const S I_ = parameters.I_;
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = I_ * w;
         return result;
     }
@@ -199,14 +201,14 @@ class driven_pendulum {
     /// Observables of the model.
     [[nodiscard]] Eigen::Matrix<S, 2, 1> observables(S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 2, 1> result;
         using std::cos;
         const S th = s[0];
         const S w = s[1];
+        result[0] = S(0.5) * th / (S(3.141592653589793) + S(1.2246467991473532e-16));
         const S b = parameters.b;
         const S A = parameters.A;
         const S Omega = parameters.Omega;
-        Eigen::Matrix<S, 2, 1> result;
-        result[0] = S(0.5) * th / (S(3.141592653589793) + S(1.2246467991473532e-16));
         result[1] = w * (A * cos(t * Omega) - b * w);
         return result;
     }
@@ -215,9 +217,9 @@ class driven_pendulum {
     /// Events: each happens where its value crosses 0.
     [[nodiscard]] Eigen::Matrix<S, 2, 1> events([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 2, 1> result;
         using std::cos;
         const S th = s[0];
-        Eigen::Matrix<S, 2, 1> result;
         result[0] = th * th - (S(3.141592653589793) + S(1.2246467991473532e-16)) * (S(3.141592653589793) +
                 S(1.2246467991473532e-16));
         result[1] = cos(S(0.5) * th);
@@ -233,11 +235,11 @@ class driven_pendulum {
     {
         using std::cos;
         const S th = s[0];
+        values[0] = S(1);
         const S I_ = parameters.I_;
         const S mgl = parameters.mgl;
         const S b = parameters.b;
         const S w0 = S(1) / I_;
-        values[0] = S(1);
         values[1] = -w0 * mgl * cos(th);
         values[2] = -w0 * b;
     }

@@ -109,11 +109,13 @@ class duffing {
 
     /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
     /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// left_domain unless m > 0.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
-        const S m = parameters.m;
         auto status = StatusOf<S>::good();
+        const S m = parameters.m;
         StatusOf<S>::fail(status, m == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(m > S(0)), Status::left_domain);
         return status;
     }
 
@@ -127,10 +129,10 @@ class duffing {
         const S k = s[1];
         const S c = s[2];
         const S v = s[3];
-        const S m = parameters.m;
         ds[0] = v;
         ds[1] = S(0);
         ds[2] = S(0);
+        const S m = parameters.m;
         ds[3] = -q * (k + q * q * c) / m;
         return StatusOf<S>::good();
     }
@@ -139,8 +141,8 @@ class duffing {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> mass_matrix([[maybe_unused]] S t, [[maybe_unused]] const State& s) const
             noexcept
     {
-        const S m = parameters.m;
         Eigen::Matrix<S, 1, 1> result;
+        const S m = parameters.m;
         result(0, 0) = m;
         return result;
     }
@@ -148,9 +150,9 @@ class duffing {
     /// p_a = dL/dy^a, shape (1).
     [[nodiscard]] Eigen::Matrix<S, 1, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S v = s[3];
         const S m = parameters.m;
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = m * v;
         return result;
     }
@@ -162,8 +164,8 @@ class duffing {
         const S k = s[1];
         const S c = s[2];
         const S v = s[3];
-        const S m = parameters.m;
         const S w0 = q * q;
+        const S m = parameters.m;
         return S(0.5) * m * (v * v) + S(0.25) * w0 * (w0 * c + S(2) * k);
     }
 
@@ -174,8 +176,8 @@ class duffing {
         const S k = s[1];
         const S c = s[2];
         const S v = s[3];
-        const S m = parameters.m;
         const S w0 = q * q;
+        const S m = parameters.m;
         return S(0.5) * m * (v * v) - S(0.25) * w0 * (w0 * c + S(2) * k);
     }
 
@@ -183,10 +185,10 @@ class duffing {
     /// Observables of the model.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S q = s[0];
         const S k = s[1];
         const S c = s[2];
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = -q * (k + q * q * c);
         return result;
     }
@@ -195,8 +197,8 @@ class duffing {
     /// Events: each happens where its value crosses 0.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> events([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S q = s[0];
         Eigen::Matrix<S, 1, 1> result;
+        const S q = s[0];
         result[0] = q;
         return result;
     }
@@ -211,12 +213,12 @@ class duffing {
         const S q = s[0];
         const S k = s[1];
         const S c = s[2];
-        const S m = parameters.m;
-        const S w0 = q * q;
-        const S w1 = S(1) / m;
-        const S w2 = w1 * q;
         values[0] = S(1);
+        const S w0 = q * q;
+        const S m = parameters.m;
+        const S w1 = S(1) / m;
         values[1] = -w1 * (k + S(3) * w0 * c);
+        const S w2 = w1 * q;
         values[2] = -w2;
         values[3] = -w0 * w2;
     }

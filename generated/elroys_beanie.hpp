@@ -125,16 +125,20 @@ class elroys_beanie {
 
     /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
     /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// left_domain unless I1 > 0, I2 > 0, M > 0.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
+        auto status = StatusOf<S>::good();
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S M = parameters.M;
-        auto status = StatusOf<S>::good();
-        const S w0 = I1 + I2;
-        StatusOf<S>::fail(status, I1 * (I2 / w0) == S(0), Status::singular_mass_matrix);
-        StatusOf<S>::fail(status, w0 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(I1 > S(0)), Status::left_domain);
+        StatusOf<S>::fail(status, !(I2 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, M == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(M > S(0)), Status::left_domain);
+        const S w0 = I1 + I2;
+        StatusOf<S>::fail(status, w0 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, I1 * (I2 / w0) == S(0), Status::singular_mass_matrix);
         return status;
     }
 
@@ -150,14 +154,14 @@ class elroys_beanie {
         const S W = s[2];
         const S v1 = s[3];
         const S v2 = s[4];
+        ds[0] = d;
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S k = parameters.k;
         const S w0 = I1 + I2;
-        const S w1 = I2 / w0 * d - W;
-        ds[0] = d;
         ds[1] = -w0 * k * sin(ps) / (I1 * I2);
         ds[2] = S(0);
+        const S w1 = I2 / w0 * d - W;
         ds[3] = -w1 * v2;
         ds[4] = w1 * v1;
         return StatusOf<S>::good();
@@ -167,13 +171,13 @@ class elroys_beanie {
     [[nodiscard]] Eigen::Matrix<S, 4, 4> mass_matrix([[maybe_unused]] S t, [[maybe_unused]] const State& s) const
             noexcept
     {
+        Eigen::Matrix<S, 4, 4> result = Eigen::Matrix<S, 4, 4>::Zero();
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S M = parameters.M;
         const S w0 = I1 + I2;
-        Eigen::Matrix<S, 4, 4> result = Eigen::Matrix<S, 4, 4>::Zero();
-        result(0, 0) = I1 * I2 / w0;
         result(1, 1) = w0;
+        result(0, 0) = I1 * I2 / w0;
         result(2, 2) = M;
         result(3, 3) = M;
         return result;
@@ -182,6 +186,7 @@ class elroys_beanie {
     /// p_a = dL/dy^a, shape (4).
     [[nodiscard]] Eigen::Matrix<S, 4, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 4, 1> result;
         const S d = s[1];
         const S W = s[2];
         const S v1 = s[3];
@@ -190,7 +195,6 @@ class elroys_beanie {
         const S I2 = parameters.I2;
         const S M = parameters.M;
         const S w0 = I1 + I2;
-        Eigen::Matrix<S, 4, 1> result;
         result[0] = I1 * I2 * d / w0;
         result[1] = w0 * W;
         result[2] = M * v1;
@@ -236,13 +240,13 @@ class elroys_beanie {
     /// Functions that are constant along solutions.
     [[nodiscard]] Eigen::Matrix<S, 2, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 2, 1> result;
         const S W = s[2];
         const S v1 = s[3];
         const S v2 = s[4];
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S M = parameters.M;
-        Eigen::Matrix<S, 2, 1> result;
         result[0] = (I1 + I2) * W;
         result[1] = M * M * (v1 * v1 + v2 * v2);
         return result;
@@ -261,20 +265,20 @@ class elroys_beanie {
         const S W = s[2];
         const S v1 = s[3];
         const S v2 = s[4];
+        values[0] = S(1);
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S k = parameters.k;
         const S w0 = I1 + I2;
-        const S w1 = I2 / w0;
-        const S w2 = w1 * d;
-        values[0] = S(1);
         values[1] = -w0 * k * cos(ps) / (I1 * I2);
         values[2] = S(0);
         values[3] = S(0);
         values[4] = S(0);
         values[5] = S(0);
-        values[6] = -w1 * v2;
+        const S w1 = I2 / w0;
         values[7] = v2;
+        values[6] = -w1 * v2;
+        const S w2 = w1 * d;
         values[8] = W - w2;
         values[9] = w1 * v1;
         values[10] = -v1;

@@ -113,15 +113,19 @@ class gyrostat {
 
     /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
     /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// left_domain unless I1 > 0, I2 > 0, I3 > 0.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
+        auto status = StatusOf<S>::good();
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        auto status = StatusOf<S>::good();
         StatusOf<S>::fail(status, I1 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(I1 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, I2 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(I2 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, I3 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(I3 > S(0)), Status::left_domain);
         return status;
     }
 
@@ -142,8 +146,8 @@ class gyrostat {
         const S b3 = parameters.b3;
         const S u0 = b2 + I2 * w2;
         const S u1 = b3 + I3 * w3;
-        const S u2 = b1 + I1 * w1;
         ds[0] = (u0 * w3 - w2 * u1) / I1;
+        const S u2 = b1 + I1 * w1;
         ds[1] = (w1 * u1 - u2 * w3) / I2;
         ds[2] = (u2 * w2 - w1 * u0) / I3;
         return StatusOf<S>::good();
@@ -153,10 +157,10 @@ class gyrostat {
     [[nodiscard]] Eigen::Matrix<S, 3, 3> mass_matrix([[maybe_unused]] S t, [[maybe_unused]] const State& s) const
             noexcept
     {
+        Eigen::Matrix<S, 3, 3> result = Eigen::Matrix<S, 3, 3>::Zero();
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        Eigen::Matrix<S, 3, 3> result = Eigen::Matrix<S, 3, 3>::Zero();
         result(0, 0) = I1;
         result(1, 1) = I2;
         result(2, 2) = I3;
@@ -166,6 +170,7 @@ class gyrostat {
     /// p_a = dL/dy^a, shape (3).
     [[nodiscard]] Eigen::Matrix<S, 3, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 3, 1> result;
         const S w1 = s[0];
         const S w2 = s[1];
         const S w3 = s[2];
@@ -175,7 +180,6 @@ class gyrostat {
         const S b1 = parameters.b1;
         const S b2 = parameters.b2;
         const S b3 = parameters.b3;
-        Eigen::Matrix<S, 3, 1> result;
         result[0] = b1 + I1 * w1;
         result[1] = b2 + I2 * w2;
         result[2] = b3 + I3 * w3;
@@ -213,6 +217,7 @@ class gyrostat {
     /// Functions that are constant along solutions.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S w1 = s[0];
         const S w2 = s[1];
         const S w3 = s[2];
@@ -225,7 +230,6 @@ class gyrostat {
         const S u0 = b3 + I3 * w3;
         const S u1 = b1 + I1 * w1;
         const S u2 = b2 + I2 * w2;
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = u0 * u0 + (u1 * u1 + u2 * u2);
         return result;
     }
@@ -248,14 +252,14 @@ class gyrostat {
         const S b3 = parameters.b3;
         const S u0 = I2 - I3;
         const S u1 = S(1) / I1;
-        const S u2 = I3 - I1;
-        const S u3 = S(1) / I2;
-        const S u4 = I1 - I2;
-        const S u5 = S(1) / I3;
         values[0] = u1 * (u0 * w3 - b3);
         values[1] = u1 * (b2 + u0 * w2);
+        const S u2 = I3 - I1;
+        const S u3 = S(1) / I2;
         values[2] = u3 * (b3 + u2 * w3);
         values[3] = u3 * (u2 * w1 - b1);
+        const S u4 = I1 - I2;
+        const S u5 = S(1) / I3;
         values[4] = u5 * (u4 * w2 - b2);
         values[5] = u5 * (b1 + u4 * w1);
     }

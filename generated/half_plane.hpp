@@ -134,9 +134,9 @@ class half_plane {
     /// p_a = dL/dy^a, shape (2).
     [[nodiscard]] Eigen::Matrix<S, 2, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 2, 1> result;
         const S a = s[2];
         const S b = s[3];
-        Eigen::Matrix<S, 2, 1> result;
         result[0] = a;
         result[1] = b;
         return result;
@@ -162,8 +162,8 @@ class half_plane {
     /// Positive inside the domain of the model.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> domain([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S y = s[1];
         Eigen::Matrix<S, 1, 1> result;
+        const S y = s[1];
         result[0] = y;
         return result;
     }
@@ -172,9 +172,9 @@ class half_plane {
     /// Observables of the model.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         using std::log;
         const S y = s[1];
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = log(y);
         return result;
     }
@@ -183,12 +183,12 @@ class half_plane {
     /// Functions that are constant along solutions.
     [[nodiscard]] Eigen::Matrix<S, 2, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 2, 1> result;
         const S x = s[0];
         const S y = s[1];
         const S a = s[2];
         const S b = s[3];
         const S w0 = a / y;
-        Eigen::Matrix<S, 2, 1> result;
         result[0] = w0;
         result[1] = b + x * w0;
         return result;
@@ -198,8 +198,8 @@ class half_plane {
     /// Events: each happens where its value crosses 0.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> events([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S b = s[3];
         Eigen::Matrix<S, 1, 1> result;
+        const S b = s[3];
         result[0] = b;
         return result;
     }
@@ -215,11 +215,11 @@ class half_plane {
         const S a = s[2];
         const S b = s[3];
         values[0] = a;
-        values[1] = y;
-        values[2] = b;
-        values[3] = y;
-        values[4] = b;
         values[5] = a;
+        values[1] = y;
+        values[3] = y;
+        values[2] = b;
+        values[4] = b;
         values[6] = -S(2) * a;
     }
 

@@ -118,8 +118,8 @@ class half_plane_control_pontryagin {
         const S mu1 = s[2];
         const S mu2 = s[3];
         const S w0 = y * mu1;
-        const S w1 = y * mu2;
         ds[0] = y * w0;
+        const S w1 = y * mu2;
         ds[1] = y * w1;
         ds[2] = S(0);
         ds[3] = -(mu2 * w1 + mu1 * w0);
@@ -130,10 +130,10 @@ class half_plane_control_pontryagin {
     /// The controls that maximise H.
     [[nodiscard]] Eigen::Matrix<S, 2, 1> controls([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 2, 1> result;
         const S y = s[1];
         const S mu1 = s[2];
         const S mu2 = s[3];
-        Eigen::Matrix<S, 2, 1> result;
         result[0] = y * mu1;
         result[1] = y * mu2;
         return result;
@@ -161,8 +161,8 @@ class half_plane_control_pontryagin {
     /// Positive inside the domain of the model.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> domain([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S y = s[1];
         Eigen::Matrix<S, 1, 1> result;
+        const S y = s[1];
         result[0] = y;
         return result;
     }
@@ -171,11 +171,11 @@ class half_plane_control_pontryagin {
     /// Observables of the model.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S x = s[0];
         const S y = s[1];
         const S mu1 = s[2];
         const S mu2 = s[3];
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = x + y * mu2 / mu1;
         return result;
     }
@@ -184,11 +184,11 @@ class half_plane_control_pontryagin {
     /// Functions that are constant along solutions.
     [[nodiscard]] Eigen::Matrix<S, 2, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 2, 1> result;
         const S x = s[0];
         const S y = s[1];
         const S mu1 = s[2];
         const S mu2 = s[3];
-        Eigen::Matrix<S, 2, 1> result;
         result[0] = mu1;
         result[1] = y * mu2 + x * mu1;
         return result;
@@ -206,12 +206,12 @@ class half_plane_control_pontryagin {
         const S mu2 = s[3];
         const S w0 = S(2) * y;
         const S w1 = w0 * mu1;
-        const S w2 = y * y;
-        const S w3 = w0 * mu2;
         values[0] = w1;
+        const S w2 = y * y;
         values[1] = w2;
-        values[2] = w3;
         values[3] = w2;
+        const S w3 = w0 * mu2;
+        values[2] = w3;
         values[4] = -(mu1 * mu1 + mu2 * mu2);
         values[5] = -w1;
         values[6] = -w3;

@@ -136,15 +136,19 @@ class heavy_top {
 
     /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
     /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// left_domain unless I1 > 0, I2 > 0, I3 > 0.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
+        auto status = StatusOf<S>::good();
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        auto status = StatusOf<S>::good();
         StatusOf<S>::fail(status, I1 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(I1 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, I2 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(I2 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, I3 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(I3 > S(0)), Status::left_domain);
         return status;
     }
 
@@ -160,6 +164,9 @@ class heavy_top {
         const S w1 = s[3];
         const S w2 = s[4];
         const S w3 = s[5];
+        ds[0] = g2 * w3 - g3 * w2;
+        ds[1] = g3 * w1 - g1 * w3;
+        ds[2] = g1 * w2 - g2 * w1;
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
@@ -167,9 +174,6 @@ class heavy_top {
         const S e1 = parameters.e1;
         const S e2 = parameters.e2;
         const S e3 = parameters.e3;
-        ds[0] = g2 * w3 - g3 * w2;
-        ds[1] = g3 * w1 - g1 * w3;
-        ds[2] = g1 * w2 - g2 * w1;
         ds[3] = (mgl * (e3 * g2 - e2 * g3) + (I2 - I3) * w2 * w3) / I1;
         ds[4] = (mgl * (e1 * g3 - e3 * g1) + (I3 - I1) * w3 * w1) / I2;
         ds[5] = (mgl * (e2 * g1 - e1 * g2) + (I1 - I2) * w1 * w2) / I3;
@@ -180,10 +184,10 @@ class heavy_top {
     [[nodiscard]] Eigen::Matrix<S, 3, 3> mass_matrix([[maybe_unused]] S t, [[maybe_unused]] const State& s) const
             noexcept
     {
+        Eigen::Matrix<S, 3, 3> result = Eigen::Matrix<S, 3, 3>::Zero();
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        Eigen::Matrix<S, 3, 3> result = Eigen::Matrix<S, 3, 3>::Zero();
         result(0, 0) = I1;
         result(1, 1) = I2;
         result(2, 2) = I3;
@@ -193,13 +197,13 @@ class heavy_top {
     /// p_a = dL/dy^a, shape (3).
     [[nodiscard]] Eigen::Matrix<S, 3, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 3, 1> result;
         const S w1 = s[3];
         const S w2 = s[4];
         const S w3 = s[5];
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        Eigen::Matrix<S, 3, 1> result;
         result[0] = I1 * w1;
         result[1] = I2 * w2;
         result[2] = I3 * w3;
@@ -248,10 +252,10 @@ class heavy_top {
     /// Base constraints: each is 0 on M.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> constraints([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S g1 = s[0];
         const S g2 = s[1];
         const S g3 = s[2];
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = g3 * g3 + (g1 * g1 + g2 * g2) - S(1);
         return result;
     }
@@ -260,13 +264,13 @@ class heavy_top {
     /// Observables of the model.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S g1 = s[0];
         const S g2 = s[1];
         const S g3 = s[2];
         const S e1 = parameters.e1;
         const S e2 = parameters.e2;
         const S e3 = parameters.e3;
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = e3 * g3 + (e1 * g1 + e2 * g2);
         return result;
     }
@@ -275,6 +279,7 @@ class heavy_top {
     /// Functions that are constant along solutions.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S g1 = s[0];
         const S g2 = s[1];
         const S g3 = s[2];
@@ -284,7 +289,6 @@ class heavy_top {
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = I3 * w3 * g3 + (I1 * w1 * g1 + I2 * w2 * g2);
         return result;
     }
@@ -293,6 +297,7 @@ class heavy_top {
     /// Events: each happens where its value crosses 0.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> events([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S g1 = s[0];
         const S g2 = s[1];
         const S g3 = s[2];
@@ -302,7 +307,6 @@ class heavy_top {
         const S e1 = parameters.e1;
         const S e2 = parameters.e2;
         const S e3 = parameters.e3;
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = e3 * (g1 * w2 - g2 * w1) + (e1 * (g2 * w3 - g3 * w2) + e2 * (g3 * w1 - g1 * w3));
         return result;
     }
@@ -322,6 +326,18 @@ class heavy_top {
         const S w1 = s[3];
         const S w2 = s[4];
         const S w3 = s[5];
+        values[0] = w3;
+        values[8] = w2;
+        values[1] = -w2;
+        values[6] = g3;
+        values[2] = -g3;
+        values[3] = g2;
+        values[4] = -w3;
+        values[5] = w1;
+        values[11] = g1;
+        values[7] = -g1;
+        values[9] = -w1;
+        values[10] = -g2;
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
@@ -331,35 +347,23 @@ class heavy_top {
         const S e3 = parameters.e3;
         const S u0 = S(1) / I1;
         const S u1 = u0 * mgl;
-        const S u2 = u0 * (I2 - I3);
-        const S u3 = S(1) / I2;
-        const S u4 = u3 * mgl;
-        const S u5 = u3 * (I1 - I3);
-        const S u6 = S(1) / I3;
-        const S u7 = u6 * mgl;
-        const S u8 = (I1 - I2) * u6;
-        values[0] = w3;
-        values[1] = -w2;
-        values[2] = -g3;
-        values[3] = g2;
-        values[4] = -w3;
-        values[5] = w1;
-        values[6] = g3;
-        values[7] = -g1;
-        values[8] = w2;
-        values[9] = -w1;
-        values[10] = -g2;
-        values[11] = g1;
         values[12] = u1 * e3;
         values[13] = -u1 * e2;
+        const S u2 = u0 * (I2 - I3);
         values[14] = u2 * w3;
         values[15] = u2 * w2;
+        const S u3 = S(1) / I2;
+        const S u4 = u3 * mgl;
         values[16] = -u4 * e3;
         values[17] = u4 * e1;
+        const S u5 = u3 * (I1 - I3);
         values[18] = -u5 * w3;
         values[19] = -u5 * w1;
+        const S u6 = S(1) / I3;
+        const S u7 = u6 * mgl;
         values[20] = u7 * e2;
         values[21] = -u7 * e1;
+        const S u8 = (I1 - I2) * u6;
         values[22] = u8 * w2;
         values[23] = u8 * w1;
     }

@@ -159,9 +159,17 @@ class heavy_top_euler {
 
     /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
     /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// left_domain unless I1 > 0, I2 > 0, I3 > 0.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
-        return StatusOf<S>::good();
+        auto status = StatusOf<S>::good();
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
+        StatusOf<S>::fail(status, !(I1 > S(0)), Status::left_domain);
+        StatusOf<S>::fail(status, !(I2 > S(0)), Status::left_domain);
+        StatusOf<S>::fail(status, !(I3 > S(0)), Status::left_domain);
+        return status;
     }
 
     /// The equations of motion, ds = (xdot, ydot): xdot^i = rho^i_a y^a and
@@ -175,6 +183,13 @@ class heavy_top_euler {
         const S dph = s[3];
         const S dth = s[4];
         const S dps = s[5];
+        auto status = StatusOf<S>::good();
+        ds[0] = dph;
+        ds[1] = dth;
+        ds[2] = dps;
+        const auto [sines, cosines] = sincos<S, 2>({th, ps});
+        const S w0 = sines[1] * sines[1];
+        const S w1 = cosines[1] * cosines[1];
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
@@ -182,10 +197,6 @@ class heavy_top_euler {
         const S e1 = parameters.e1;
         const S e2 = parameters.e2;
         const S e3 = parameters.e3;
-        auto status = StatusOf<S>::good();
-        const auto [sines, cosines] = sincos<S, 2>({th, ps});
-        const S w0 = sines[1] * sines[1];
-        const S w1 = cosines[1] * cosines[1];
         const S w2 = I1 * w0 + I2 * w1;
         const S w3 = I3 * cosines[0];
         const S w4 = sines[0] * sines[0] * w2 + cosines[0] * w3;
@@ -220,9 +231,6 @@ class heavy_top_euler {
         const S z0_2 = f0_2 * r0_2;
         const S z0_0 = f0_1 * r0_1 - l0_2_1 * z0_2;
         const S z0_1 = w17 * r0_0 - l0_1_0 * z0_0;
-        ds[0] = dph;
-        ds[1] = dth;
-        ds[2] = dps;
         ds[3] = z0_0;
         ds[4] = z0_1;
         ds[5] = z0_2;
@@ -232,47 +240,47 @@ class heavy_top_euler {
     /// W_ab = d2L/dy^a dy^b, shape (3, 3), symmetric.
     [[nodiscard]] Eigen::Matrix<S, 3, 3> mass_matrix([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 3, 3> result = Eigen::Matrix<S, 3, 3>::Zero();
         const S th = s[1];
         const S ps = s[2];
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
         const auto [sines, cosines] = sincos<S, 2>({th, ps});
         const S w0 = sines[1] * sines[1];
         const S w1 = cosines[1] * cosines[1];
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
+        result(2, 2) = I3;
         const S w2 = I3 * cosines[0];
-        const S w3 = (I1 - I2) * sines[0] * sines[1] * cosines[1];
-        Eigen::Matrix<S, 3, 3> result = Eigen::Matrix<S, 3, 3>::Zero();
-        result(0, 0) = sines[0] * sines[0] * (I1 * w0 + I2 * w1) + cosines[0] * w2;
-        result(0, 1) = w3;
         result(0, 2) = w2;
+        result(2, 0) = w2;
+        result(0, 0) = sines[0] * sines[0] * (I1 * w0 + I2 * w1) + cosines[0] * w2;
+        const S w3 = (I1 - I2) * sines[0] * sines[1] * cosines[1];
+        result(0, 1) = w3;
         result(1, 0) = w3;
         result(1, 1) = I1 * w1 + I2 * w0;
-        result(2, 0) = w2;
-        result(2, 2) = I3;
         return result;
     }
 
     /// p_a = dL/dy^a, shape (3).
     [[nodiscard]] Eigen::Matrix<S, 3, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 3, 1> result;
         const S th = s[1];
         const S ps = s[2];
         const S dph = s[3];
         const S dth = s[4];
         const S dps = s[5];
+        const auto [sines, cosines] = sincos<S, 2>({th, ps});
+        const S w0 = sines[0] * dph;
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        const auto [sines, cosines] = sincos<S, 2>({th, ps});
-        const S w0 = sines[0] * dph;
         const S w1 = I1 * (sines[1] * w0 + cosines[1] * dth);
         const S w2 = I2 * (cosines[1] * w0 - sines[1] * dth);
         const S w3 = I3 * (dps + cosines[0] * dph);
-        Eigen::Matrix<S, 3, 1> result;
+        result[2] = w3;
         result[0] = sines[0] * (sines[1] * w1 + cosines[1] * w2) + cosines[0] * w3;
         result[1] = cosines[1] * w1 - sines[1] * w2;
-        result[2] = w3;
         return result;
     }
 
@@ -284,6 +292,9 @@ class heavy_top_euler {
         const S dph = s[3];
         const S dth = s[4];
         const S dps = s[5];
+        const auto [sines, cosines] = sincos<S, 2>({th, ps});
+        const S w0 = sines[0] * dph;
+        const S w1 = sines[1] * w0 + cosines[1] * dth;
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
@@ -291,9 +302,6 @@ class heavy_top_euler {
         const S e1 = parameters.e1;
         const S e2 = parameters.e2;
         const S e3 = parameters.e3;
-        const auto [sines, cosines] = sincos<S, 2>({th, ps});
-        const S w0 = sines[0] * dph;
-        const S w1 = sines[1] * w0 + cosines[1] * dth;
         const S w2 = I1 * w1;
         const S w3 = cosines[1] * w0 - sines[1] * dth;
         const S w4 = I2 * w3;
@@ -312,6 +320,11 @@ class heavy_top_euler {
         const S dph = s[3];
         const S dth = s[4];
         const S dps = s[5];
+        const auto [sines, cosines] = sincos<S, 2>({th, ps});
+        const S w0 = dps + cosines[0] * dph;
+        const S w1 = sines[0] * dph;
+        const S w2 = sines[1] * w1 + cosines[1] * dth;
+        const S w3 = cosines[1] * w1 - sines[1] * dth;
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
@@ -319,11 +332,6 @@ class heavy_top_euler {
         const S e1 = parameters.e1;
         const S e2 = parameters.e2;
         const S e3 = parameters.e3;
-        const auto [sines, cosines] = sincos<S, 2>({th, ps});
-        const S w0 = dps + cosines[0] * dph;
-        const S w1 = sines[0] * dph;
-        const S w2 = sines[1] * w1 + cosines[1] * dth;
-        const S w3 = cosines[1] * w1 - sines[1] * dth;
         return S(0.5) * (I3 * (w0 * w0) + (I1 * (w2 * w2) + I2 * (w3 * w3))) - mgl * (e3 * cosines[0] + sines[0] * (e1 *
                 sines[1] + e2 * cosines[1]));
     }
@@ -332,9 +340,9 @@ class heavy_top_euler {
     /// Positive inside the domain of the model.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> domain([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         using std::sin;
         const S th = s[1];
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = sin(th);
         return result;
     }
@@ -343,17 +351,17 @@ class heavy_top_euler {
     /// Functions that are constant along solutions.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S th = s[1];
         const S ps = s[2];
         const S dph = s[3];
         const S dth = s[4];
         const S dps = s[5];
+        const auto [sines, cosines] = sincos<S, 2>({th, ps});
+        const S w0 = sines[0] * dph;
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        const auto [sines, cosines] = sincos<S, 2>({th, ps});
-        const S w0 = sines[0] * dph;
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = I3 * cosines[0] * (dps + cosines[0] * dph) + sines[0] * (I2 * cosines[1] * (cosines[1] * w0 -
                 sines[1] * dth) + I1 * sines[1] * (sines[1] * w0 + cosines[1] * dth));
         return result;
@@ -371,6 +379,12 @@ class heavy_top_euler {
         const S dph = s[3];
         const S dth = s[4];
         const S dps = s[5];
+        values[0] = S(1);
+        values[1] = S(1);
+        values[2] = S(1);
+        const auto [sines, cosines] = sincos<S, 2>({th, ps});
+        const S w0 = sines[1] * sines[1];
+        const S w1 = cosines[1] * cosines[1];
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
@@ -378,9 +392,6 @@ class heavy_top_euler {
         const S e1 = parameters.e1;
         const S e2 = parameters.e2;
         const S e3 = parameters.e3;
-        const auto [sines, cosines] = sincos<S, 2>({th, ps});
-        const S w0 = sines[1] * sines[1];
-        const S w1 = cosines[1] * cosines[1];
         const S w2 = I2 * w1;
         const S w3 = I1 * w0 + w2;
         const S w4 = I3 * cosines[0];
@@ -446,6 +457,7 @@ class heavy_top_euler {
         const S z1_2 = f1_2 * r0_2;
         const S z1_0 = f1_1 * r0_1 - l0_2_1 * z1_2;
         const S z1_1 = w42 * r0_0 - l0_1_0 * z1_0;
+        values[3] = z1_0;
         const S w48 = w11 * dth;
         const S w49 = w6 * (S(2) * w21 * dps + z0_1);
         const S w50 = w19 * w48 - sines[0] * (sines[1] * (S(2) * cosines[1] * (S(2) * dth * (w6 * (w13 - dps)) + w6 *
@@ -459,6 +471,7 @@ class heavy_top_euler {
         const S z2_2 = f2_2 * r0_2;
         const S z2_0 = f2_1 * r0_1 - l0_2_1 * z2_2;
         const S z2_1 = w52 * r0_0 - l0_1_0 * z2_0;
+        values[4] = z2_0;
         const S w54 = w36 * (w14 * w19 - sines[0] * w20);
         const S w55 = sines[0] * (w28 - w16);
         const S w56 = sines[0] * w45;
@@ -467,6 +480,7 @@ class heavy_top_euler {
         const S z3_2 = f3_2 * r0_2;
         const S z3_0 = f3_1 * r0_1 - l0_2_1 * z3_2;
         const S z3_1 = w55 * r0_0 - l0_1_0 * z3_0;
+        values[5] = z3_0;
         const S w57 = w18 - w43 * w19;
         const S w58 = S(2) * w20;
         const S w59 = w27 * w21 + S(2) * w34;
@@ -476,19 +490,13 @@ class heavy_top_euler {
         const S z4_2 = f4_2 * r0_2;
         const S z4_0 = f4_1 * r0_1 - l0_2_1 * z4_2;
         const S z4_1 = w58 * r0_0 - l0_1_0 * z4_0;
+        values[6] = z4_0;
         const S w61 = sines[0] * (w12 * dth - w44);
         const S f5_1 = w61 - l0_1_0 * w59;
         const S f5_2 = -l0_2_1 * f5_1;
         const S z5_2 = f5_2 * r0_2;
         const S z5_0 = f5_1 * r0_1 - l0_2_1 * z5_2;
         const S z5_1 = w59 * r0_0 - l0_1_0 * z5_0;
-        values[0] = S(1);
-        values[1] = S(1);
-        values[2] = S(1);
-        values[3] = z1_0;
-        values[4] = z2_0;
-        values[5] = z3_0;
-        values[6] = z4_0;
         values[7] = z5_0;
         values[8] = z1_1;
         values[9] = z2_1;

@@ -163,9 +163,17 @@ class heavy_top_prolongation {
 
     /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
     /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// left_domain unless I1 > 0, I2 > 0, I3 > 0.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
-        return StatusOf<S>::good();
+        auto status = StatusOf<S>::good();
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
+        StatusOf<S>::fail(status, !(I1 > S(0)), Status::left_domain);
+        StatusOf<S>::fail(status, !(I2 > S(0)), Status::left_domain);
+        StatusOf<S>::fail(status, !(I3 > S(0)), Status::left_domain);
+        return status;
     }
 
     /// The equations of motion, ds = (xdot, ydot): xdot^i = rho^i_a y^a and
@@ -183,16 +191,16 @@ class heavy_top_prolongation {
         const S V_w1 = s[9];
         const S V_w2 = s[10];
         const S V_w3 = s[11];
-        const S mgl = parameters.mgl;
-        const S e1 = parameters.e1;
-        const S e2 = parameters.e2;
-        const S e3 = parameters.e3;
         ds[0] = g2 * X_w3 - g3 * X_w2;
         ds[1] = g3 * X_w1 - g1 * X_w3;
         ds[2] = g1 * X_w2 - g2 * X_w1;
         ds[3] = V_w1;
         ds[4] = V_w2;
         ds[5] = V_w3;
+        const S mgl = parameters.mgl;
+        const S e1 = parameters.e1;
+        const S e2 = parameters.e2;
+        const S e3 = parameters.e3;
         ds[6] = mgl * (e3 * g2 - e2 * g3);
         ds[7] = mgl * (e1 * g3 - e3 * g1);
         ds[8] = mgl * (e2 * g1 - e1 * g2);
@@ -219,13 +227,13 @@ class heavy_top_prolongation {
     /// p_a = dL/dy^a, shape (6).
     [[nodiscard]] Eigen::Matrix<S, 6, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 6, 1> result;
         const S X_w1 = s[6];
         const S X_w2 = s[7];
         const S X_w3 = s[8];
         const S V_w1 = s[9];
         const S V_w2 = s[10];
         const S V_w3 = s[11];
-        Eigen::Matrix<S, 6, 1> result;
         result[0] = X_w1;
         result[1] = X_w2;
         result[2] = X_w3;
@@ -279,10 +287,10 @@ class heavy_top_prolongation {
     /// Base constraints: each is 0 on M.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> constraints([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S g1 = s[0];
         const S g2 = s[1];
         const S g3 = s[2];
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = g3 * g3 + (g1 * g1 + g2 * g2) - S(1);
         return result;
     }
@@ -302,33 +310,33 @@ class heavy_top_prolongation {
         const S X_w1 = s[6];
         const S X_w2 = s[7];
         const S X_w3 = s[8];
+        values[0] = X_w3;
+        values[8] = X_w2;
+        values[1] = -X_w2;
+        values[6] = g3;
+        values[2] = -g3;
+        values[3] = g2;
+        values[4] = -X_w3;
+        values[5] = X_w1;
+        values[11] = g1;
+        values[7] = -g1;
+        values[9] = -X_w1;
+        values[10] = -g2;
+        values[12] = S(1);
+        values[13] = S(1);
+        values[14] = S(1);
         const S mgl = parameters.mgl;
         const S e1 = parameters.e1;
         const S e2 = parameters.e2;
         const S e3 = parameters.e3;
         const S u0 = mgl * e3;
-        const S u1 = mgl * e2;
-        const S u2 = mgl * e1;
-        values[0] = X_w3;
-        values[1] = -X_w2;
-        values[2] = -g3;
-        values[3] = g2;
-        values[4] = -X_w3;
-        values[5] = X_w1;
-        values[6] = g3;
-        values[7] = -g1;
-        values[8] = X_w2;
-        values[9] = -X_w1;
-        values[10] = -g2;
-        values[11] = g1;
-        values[12] = S(1);
-        values[13] = S(1);
-        values[14] = S(1);
         values[15] = u0;
+        const S u1 = mgl * e2;
+        values[19] = u1;
         values[16] = -u1;
         values[17] = -u0;
+        const S u2 = mgl * e1;
         values[18] = u2;
-        values[19] = u1;
         values[20] = -u2;
     }
 

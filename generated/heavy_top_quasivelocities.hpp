@@ -136,15 +136,19 @@ class heavy_top_quasivelocities {
 
     /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
     /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// left_domain unless I1 > 0, I2 > 0, I3 > 0.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
+        auto status = StatusOf<S>::good();
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        auto status = StatusOf<S>::good();
         StatusOf<S>::fail(status, I1 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(I1 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, I2 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(I2 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, I3 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(I3 > S(0)), Status::left_domain);
         return status;
     }
 
@@ -159,6 +163,11 @@ class heavy_top_quasivelocities {
         const S w1 = s[3];
         const S w2 = s[4];
         const S w3 = s[5];
+        const auto [sines, cosines] = sincos<S, 2>({th, ps});
+        const S u0 = (sines[1] * w1 + cosines[1] * w2) / sines[0];
+        ds[0] = u0;
+        ds[1] = cosines[1] * w1 - sines[1] * w2;
+        ds[2] = w3 - cosines[0] * u0;
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
@@ -166,12 +175,7 @@ class heavy_top_quasivelocities {
         const S e1 = parameters.e1;
         const S e2 = parameters.e2;
         const S e3 = parameters.e3;
-        const auto [sines, cosines] = sincos<S, 2>({th, ps});
-        const S u0 = (sines[1] * w1 + cosines[1] * w2) / sines[0];
         const S u1 = e3 * sines[0];
-        ds[0] = u0;
-        ds[1] = cosines[1] * w1 - sines[1] * w2;
-        ds[2] = w3 - cosines[0] * u0;
         ds[3] = ((I2 - I3) * w2 * w3 + mgl * (u1 * cosines[1] - e2 * cosines[0])) / I1;
         ds[4] = ((I3 - I1) * w3 * w1 + mgl * (e1 * cosines[0] - u1 * sines[1])) / I2;
         ds[5] = ((I1 - I2) * w1 * w2 + mgl * sines[0] * (e2 * sines[1] - e1 * cosines[1])) / I3;
@@ -182,10 +186,10 @@ class heavy_top_quasivelocities {
     [[nodiscard]] Eigen::Matrix<S, 3, 3> mass_matrix([[maybe_unused]] S t, [[maybe_unused]] const State& s) const
             noexcept
     {
+        Eigen::Matrix<S, 3, 3> result = Eigen::Matrix<S, 3, 3>::Zero();
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        Eigen::Matrix<S, 3, 3> result = Eigen::Matrix<S, 3, 3>::Zero();
         result(0, 0) = I1;
         result(1, 1) = I2;
         result(2, 2) = I3;
@@ -195,13 +199,13 @@ class heavy_top_quasivelocities {
     /// p_a = dL/dy^a, shape (3).
     [[nodiscard]] Eigen::Matrix<S, 3, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 3, 1> result;
         const S w1 = s[3];
         const S w2 = s[4];
         const S w3 = s[5];
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        Eigen::Matrix<S, 3, 1> result;
         result[0] = I1 * w1;
         result[1] = I2 * w2;
         result[2] = I3 * w3;
@@ -216,6 +220,7 @@ class heavy_top_quasivelocities {
         const S w1 = s[3];
         const S w2 = s[4];
         const S w3 = s[5];
+        const auto [sines, cosines] = sincos<S, 2>({th, ps});
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
@@ -223,7 +228,6 @@ class heavy_top_quasivelocities {
         const S e1 = parameters.e1;
         const S e2 = parameters.e2;
         const S e3 = parameters.e3;
-        const auto [sines, cosines] = sincos<S, 2>({th, ps});
         return mgl * (e3 * cosines[0] + sines[0] * (e1 * sines[1] + e2 * cosines[1])) + S(0.5) * (I3 * (w3 * w3) + (I1 *
                 (w1 * w1) + I2 * (w2 * w2)));
     }
@@ -236,6 +240,7 @@ class heavy_top_quasivelocities {
         const S w1 = s[3];
         const S w2 = s[4];
         const S w3 = s[5];
+        const auto [sines, cosines] = sincos<S, 2>({th, ps});
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
@@ -243,7 +248,6 @@ class heavy_top_quasivelocities {
         const S e1 = parameters.e1;
         const S e2 = parameters.e2;
         const S e3 = parameters.e3;
-        const auto [sines, cosines] = sincos<S, 2>({th, ps});
         return S(0.5) * (I3 * (w3 * w3) + (I1 * (w1 * w1) + I2 * (w2 * w2))) - mgl * (e3 * cosines[0] + sines[0] * (e1 *
                 sines[1] + e2 * cosines[1]));
     }
@@ -252,9 +256,9 @@ class heavy_top_quasivelocities {
     /// Positive inside the domain of the model.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> domain([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         using std::sin;
         const S th = s[1];
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = sin(th);
         return result;
     }
@@ -263,11 +267,11 @@ class heavy_top_quasivelocities {
     /// Observables of the model.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S ps = s[2];
         const S w1 = s[3];
         const S w2 = s[4];
         const auto [sin_ps, cos_ps] = sincos<S>(ps);
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = cos_ps * w1 - sin_ps * w2;
         return result;
     }
@@ -276,16 +280,16 @@ class heavy_top_quasivelocities {
     /// Functions that are constant along solutions.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S th = s[1];
         const S ps = s[2];
         const S w1 = s[3];
         const S w2 = s[4];
         const S w3 = s[5];
+        const auto [sines, cosines] = sincos<S, 2>({th, ps});
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        const auto [sines, cosines] = sincos<S, 2>({th, ps});
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = I3 * cosines[0] * w3 + sines[0] * (I1 * sines[1] * w1 + I2 * cosines[1] * w2);
         return result;
     }
@@ -304,6 +308,24 @@ class heavy_top_quasivelocities {
         const S w1 = s[3];
         const S w2 = s[4];
         const S w3 = s[5];
+        values[11] = S(1);
+        const auto [sines, cosines] = sincos<S, 2>({th, ps});
+        const S u0 = S(1) / sines[0];
+        values[5] = cosines[1];
+        const S u1 = sines[1] * w1 + cosines[1] * w2;
+        const S u2 = cosines[0] * u0;
+        const S u3 = u2 * u1;
+        values[0] = -u0 * u3;
+        const S u4 = sines[1] * w2 - cosines[1] * w1;
+        values[1] = -u0 * u4;
+        values[2] = u0 * sines[1];
+        values[3] = u0 * cosines[1];
+        values[4] = -u1;
+        values[6] = -sines[1];
+        values[7] = u1 + u2 * u3;
+        values[8] = u2 * u4;
+        values[9] = -u2 * sines[1];
+        values[10] = -u2 * cosines[1];
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
@@ -311,43 +333,25 @@ class heavy_top_quasivelocities {
         const S e1 = parameters.e1;
         const S e2 = parameters.e2;
         const S e3 = parameters.e3;
-        const auto [sines, cosines] = sincos<S, 2>({th, ps});
-        const S u0 = S(1) / sines[0];
-        const S u1 = sines[1] * w1 + cosines[1] * w2;
-        const S u2 = cosines[0] * u0;
-        const S u3 = u2 * u1;
-        const S u4 = sines[1] * w2 - cosines[1] * w1;
         const S u5 = S(1) / I1;
         const S u6 = e3 * cosines[1];
+        values[12] = u5 * mgl * (e2 * sines[0] + cosines[0] * u6);
         const S u7 = e3 * sines[1];
         const S u8 = mgl * sines[0];
-        const S u9 = u5 * (I2 - I3);
-        const S u10 = S(1) / I2;
-        const S u11 = u10 * (I1 - I3);
-        const S u12 = S(1) / I3;
-        const S u13 = (I1 - I2) * u12;
-        values[0] = -u0 * u3;
-        values[1] = -u0 * u4;
-        values[2] = u0 * sines[1];
-        values[3] = u0 * cosines[1];
-        values[4] = -u1;
-        values[5] = cosines[1];
-        values[6] = -sines[1];
-        values[7] = u1 + u2 * u3;
-        values[8] = u2 * u4;
-        values[9] = -u2 * sines[1];
-        values[10] = -u2 * cosines[1];
-        values[11] = S(1);
-        values[12] = u5 * mgl * (e2 * sines[0] + cosines[0] * u6);
         values[13] = -u5 * u8 * u7;
+        const S u9 = u5 * (I2 - I3);
         values[14] = u9 * w3;
         values[15] = u9 * w2;
+        const S u10 = S(1) / I2;
         values[16] = -u10 * mgl * (e1 * sines[0] + cosines[0] * u7);
         values[17] = -u10 * u8 * u6;
+        const S u11 = u10 * (I1 - I3);
         values[18] = -u11 * w3;
         values[19] = -u11 * w1;
+        const S u12 = S(1) / I3;
         values[20] = u12 * mgl * cosines[0] * (e2 * sines[1] - e1 * cosines[1]);
         values[21] = u12 * u8 * (e1 * sines[1] + e2 * cosines[1]);
+        const S u13 = (I1 - I2) * u12;
         values[22] = u13 * w2;
         values[23] = u13 * w1;
     }

@@ -137,15 +137,19 @@ class heavy_top_quaternion {
 
     /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
     /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// left_domain unless I1 > 0, I2 > 0, I3 > 0.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
+        auto status = StatusOf<S>::good();
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        auto status = StatusOf<S>::good();
         StatusOf<S>::fail(status, I1 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(I1 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, I2 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(I2 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, I3 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(I3 > S(0)), Status::left_domain);
         return status;
     }
 
@@ -162,6 +166,11 @@ class heavy_top_quaternion {
         const S w1 = s[4];
         const S w2 = s[5];
         const S w3 = s[6];
+        ds[0] = -S(0.5) * (q1 * w1 + q2 * w2 + q3 * w3);
+        ds[1] = S(0.5) * (q0 * w1 + q2 * w3 - q3 * w2);
+        ds[2] = S(0.5) * (q0 * w2 + q3 * w1 - q1 * w3);
+        ds[3] = S(0.5) * (q0 * w3 + q1 * w2 - q2 * w1);
+        const S u0 = q2 * q3 + q0 * q1;
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
@@ -169,15 +178,10 @@ class heavy_top_quaternion {
         const S e1 = parameters.e1;
         const S e2 = parameters.e2;
         const S e3 = parameters.e3;
-        const S u0 = q2 * q3 + q0 * q1;
         const S u1 = S(2) * e3;
         const S u2 = q0 * q0 + q3 * q3 - q1 * q1 - q2 * q2;
-        const S u3 = q0 * q2 - q1 * q3;
-        ds[0] = -S(0.5) * (q1 * w1 + q2 * w2 + q3 * w3);
-        ds[1] = S(0.5) * (q0 * w1 + q2 * w3 - q3 * w2);
-        ds[2] = S(0.5) * (q0 * w2 + q3 * w1 - q1 * w3);
-        ds[3] = S(0.5) * (q0 * w3 + q1 * w2 - q2 * w1);
         ds[4] = ((I2 - I3) * w2 * w3 + mgl * (u1 * u0 - e2 * u2)) / I1;
+        const S u3 = q0 * q2 - q1 * q3;
         ds[5] = ((I3 - I1) * w3 * w1 + mgl * (e1 * u2 + u1 * u3)) / I2;
         ds[6] = ((I1 - I2) * w1 * w2 - S(2) * mgl * (e1 * u0 + e2 * u3)) / I3;
         return StatusOf<S>::good();
@@ -187,10 +191,10 @@ class heavy_top_quaternion {
     [[nodiscard]] Eigen::Matrix<S, 3, 3> mass_matrix([[maybe_unused]] S t, [[maybe_unused]] const State& s) const
             noexcept
     {
+        Eigen::Matrix<S, 3, 3> result = Eigen::Matrix<S, 3, 3>::Zero();
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        Eigen::Matrix<S, 3, 3> result = Eigen::Matrix<S, 3, 3>::Zero();
         result(0, 0) = I1;
         result(1, 1) = I2;
         result(2, 2) = I3;
@@ -200,13 +204,13 @@ class heavy_top_quaternion {
     /// p_a = dL/dy^a, shape (3).
     [[nodiscard]] Eigen::Matrix<S, 3, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 3, 1> result;
         const S w1 = s[4];
         const S w2 = s[5];
         const S w3 = s[6];
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        Eigen::Matrix<S, 3, 1> result;
         result[0] = I1 * w1;
         result[1] = I2 * w2;
         result[2] = I3 * w3;
@@ -261,6 +265,7 @@ class heavy_top_quaternion {
     /// Functions that are constant along solutions.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S q0 = s[0];
         const S q1 = s[1];
         const S q2 = s[2];
@@ -271,7 +276,6 @@ class heavy_top_quaternion {
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = I3 * (q0 * q0 + q3 * q3 - q1 * q1 - q2 * q2) * w3 + S(2) * (I2 * (q2 * q3 + q0 * q1) * w2 - I1 * (q0
                 * q2 - q1 * q3) * w1);
         return result;
@@ -293,6 +297,43 @@ class heavy_top_quaternion {
         const S w1 = s[4];
         const S w2 = s[5];
         const S w3 = s[6];
+        const S u0 = S(0.5) * w1;
+        values[6] = u0;
+        values[14] = u0;
+        const S u1 = -u0;
+        values[0] = u1;
+        values[20] = u1;
+        const S u2 = S(0.5) * w2;
+        values[12] = u2;
+        values[19] = u2;
+        const S u3 = -u2;
+        values[1] = u3;
+        values[8] = u3;
+        const S u4 = S(0.5) * w3;
+        values[7] = u4;
+        values[18] = u4;
+        const S u5 = -u4;
+        values[2] = u5;
+        values[13] = u5;
+        const S u6 = S(0.5) * q1;
+        values[22] = u6;
+        const S u7 = -u6;
+        values[3] = u7;
+        values[17] = u7;
+        const S u8 = S(0.5) * q2;
+        values[11] = u8;
+        const S u9 = -u8;
+        values[4] = u9;
+        values[21] = u9;
+        const S u10 = S(0.5) * q3;
+        values[15] = u10;
+        const S u11 = -u10;
+        values[5] = u11;
+        values[10] = u11;
+        const S u12 = S(0.5) * q0;
+        values[9] = u12;
+        values[16] = u12;
+        values[23] = u12;
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
@@ -300,80 +341,43 @@ class heavy_top_quaternion {
         const S e1 = parameters.e1;
         const S e2 = parameters.e2;
         const S e3 = parameters.e3;
-        const S u0 = S(0.5) * w1;
-        const S u1 = -u0;
-        const S u2 = S(0.5) * w2;
-        const S u3 = -u2;
-        const S u4 = S(0.5) * w3;
-        const S u5 = -u4;
-        const S u6 = S(0.5) * q1;
-        const S u7 = -u6;
-        const S u8 = S(0.5) * q2;
-        const S u9 = -u8;
-        const S u10 = S(0.5) * q3;
-        const S u11 = -u10;
-        const S u12 = S(0.5) * q0;
         const S u13 = S(1) / I1;
         const S u14 = S(2) * (u13 * mgl);
         const S u15 = e3 * q1;
         const S u16 = e2 * q0;
+        values[24] = u14 * (u15 - u16);
         const S u17 = e2 * q1;
         const S u18 = e3 * q0;
+        values[25] = u14 * (u17 + u18);
         const S u19 = e2 * q2;
         const S u20 = e3 * q3;
+        values[26] = u14 * (u19 + u20);
         const S u21 = e3 * q2;
         const S u22 = e2 * q3;
+        values[27] = u14 * (u21 - u22);
         const S u23 = u13 * (I2 - I3);
+        values[28] = u23 * w3;
+        values[29] = u23 * w2;
         const S u24 = e1 * q0;
         const S u25 = S(1) / I2;
         const S u26 = S(2) * (u25 * mgl);
-        const S u27 = e1 * q1;
-        const S u28 = e1 * q2;
-        const S u29 = e1 * q3;
-        const S u30 = u25 * (I1 - I3);
-        const S u31 = S(1) / I3;
-        const S u32 = S(2) * (u31 * mgl);
-        const S u33 = (I1 - I2) * u31;
-        values[0] = u1;
-        values[1] = u3;
-        values[2] = u5;
-        values[3] = u7;
-        values[4] = u9;
-        values[5] = u11;
-        values[6] = u0;
-        values[7] = u4;
-        values[8] = u3;
-        values[9] = u12;
-        values[10] = u11;
-        values[11] = u8;
-        values[12] = u2;
-        values[13] = u5;
-        values[14] = u0;
-        values[15] = u10;
-        values[16] = u12;
-        values[17] = u7;
-        values[18] = u4;
-        values[19] = u2;
-        values[20] = u1;
-        values[21] = u9;
-        values[22] = u6;
-        values[23] = u12;
-        values[24] = u14 * (u15 - u16);
-        values[25] = u14 * (u17 + u18);
-        values[26] = u14 * (u19 + u20);
-        values[27] = u14 * (u21 - u22);
-        values[28] = u23 * w3;
-        values[29] = u23 * w2;
         values[30] = u26 * (u24 + u21);
+        const S u27 = e1 * q1;
         values[31] = -u26 * (u27 + u20);
+        const S u28 = e1 * q2;
         values[32] = u26 * (u18 - u28);
+        const S u29 = e1 * q3;
         values[33] = u26 * (u29 - u15);
+        const S u30 = u25 * (I1 - I3);
         values[34] = -u30 * w3;
         values[35] = -u30 * w1;
+        const S u31 = S(1) / I3;
+        const S u32 = S(2) * (u31 * mgl);
         values[36] = -u32 * (u27 + u19);
         values[37] = u32 * (u22 - u24);
         values[38] = -u32 * (u29 + u16);
         values[39] = u32 * (u17 - u28);
+        const S u33 = (I1 - I2) * u31;
         values[40] = u33 * w2;
         values[41] = u33 * w1;
     }

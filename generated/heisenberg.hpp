@@ -149,10 +149,10 @@ class heisenberg {
     /// p_a = dL/dy^a, shape (3).
     [[nodiscard]] Eigen::Matrix<S, 3, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 3, 1> result;
         const S v1 = s[3];
         const S v2 = s[4];
         const S v3 = s[5];
-        Eigen::Matrix<S, 3, 1> result;
         result[0] = v1;
         result[1] = v2;
         result[2] = v3;
@@ -181,10 +181,10 @@ class heisenberg {
     /// Observables of the model.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         using arithmetic::sqrt;
         const S x = s[0];
         const S y = s[1];
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = sqrt(x * x + y * y);
         return result;
     }
@@ -193,12 +193,12 @@ class heisenberg {
     /// Functions that are constant along solutions.
     [[nodiscard]] Eigen::Matrix<S, 3, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 3, 1> result;
         const S x = s[0];
         const S y = s[1];
         const S v1 = s[3];
         const S v2 = s[4];
         const S v3 = s[5];
-        Eigen::Matrix<S, 3, 1> result;
         result[0] = v3;
         result[1] = v1 + y * v3;
         result[2] = v2 - x * v3;
@@ -209,8 +209,8 @@ class heisenberg {
     /// Events: each happens where its value crosses 0.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> events([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S x = s[0];
         Eigen::Matrix<S, 1, 1> result;
+        const S x = s[0];
         result[0] = x;
         return result;
     }
@@ -229,15 +229,15 @@ class heisenberg {
         const S v3 = s[5];
         values[0] = S(1);
         values[1] = S(1);
+        values[6] = S(1);
         values[2] = S(0.5) * v2;
+        values[10] = v1;
         values[3] = -S(0.5) * v1;
         values[4] = -S(0.5) * y;
         values[5] = S(0.5) * x;
-        values[6] = S(1);
+        values[9] = v3;
         values[7] = -v3;
         values[8] = -v2;
-        values[9] = v3;
-        values[10] = v1;
     }
 
     /// The same as a dense matrix, shape (6, 6).

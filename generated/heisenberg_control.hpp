@@ -141,9 +141,9 @@ class heisenberg_control_pontryagin {
     /// The controls that maximise H.
     [[nodiscard]] Eigen::Matrix<S, 2, 1> controls([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 2, 1> result;
         const S mu1 = s[3];
         const S mu2 = s[4];
-        Eigen::Matrix<S, 2, 1> result;
         result[0] = mu1;
         result[1] = mu2;
         return result;
@@ -169,10 +169,10 @@ class heisenberg_control_pontryagin {
     /// Observables of the model.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         using arithmetic::sqrt;
         const S mu1 = s[3];
         const S mu2 = s[4];
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = sqrt(mu1 * mu1 + mu2 * mu2);
         return result;
     }
@@ -181,12 +181,12 @@ class heisenberg_control_pontryagin {
     /// Functions that are constant along solutions.
     [[nodiscard]] Eigen::Matrix<S, 3, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 3, 1> result;
         const S x = s[0];
         const S y = s[1];
         const S mu1 = s[3];
         const S mu2 = s[4];
         const S mu3 = s[5];
-        Eigen::Matrix<S, 3, 1> result;
         result[0] = mu3;
         result[1] = mu1 + y * mu3;
         result[2] = mu2 - x * mu3;
@@ -208,13 +208,13 @@ class heisenberg_control_pontryagin {
         values[0] = S(1);
         values[1] = S(1);
         values[2] = S(0.5) * mu2;
+        values[9] = mu1;
         values[3] = -S(0.5) * mu1;
         values[4] = -S(0.5) * y;
         values[5] = S(0.5) * x;
+        values[8] = mu3;
         values[6] = -mu3;
         values[7] = -mu2;
-        values[8] = mu3;
-        values[9] = mu1;
     }
 
     /// The same as a dense matrix, shape (6, 6).

@@ -133,9 +133,9 @@ class henon_heiles {
     /// p_a = dL/dy^a, shape (2).
     [[nodiscard]] Eigen::Matrix<S, 2, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 2, 1> result;
         const S u = s[2];
         const S v = s[3];
-        Eigen::Matrix<S, 2, 1> result;
         result[0] = u;
         result[1] = v;
         return result;
@@ -169,10 +169,10 @@ class henon_heiles {
     /// Observables of the model.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S x = s[0];
         const S y = s[1];
         const S w0 = x * x;
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = S(0.5) * w0 + S(1) / S(6) * y * (S(6) * w0 + y * (S(3) - S(2) * y));
         return result;
     }
@@ -181,9 +181,9 @@ class henon_heiles {
     /// Events: each happens where its value crosses 0.
     [[nodiscard]] Eigen::Matrix<S, 2, 1> events([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 2, 1> result;
         const S x = s[0];
         const S y = s[1];
-        Eigen::Matrix<S, 2, 1> result;
         result[0] = x;
         result[1] = x * x + y * y - S(4);
         return result;
@@ -198,11 +198,11 @@ class henon_heiles {
     {
         const S x = s[0];
         const S y = s[1];
-        const S w0 = S(2) * y;
-        const S w1 = -S(2) * x;
         values[0] = S(1);
         values[1] = S(1);
+        const S w0 = S(2) * y;
         values[2] = S(-1) - w0;
+        const S w1 = -S(2) * x;
         values[3] = w1;
         values[4] = w1;
         values[5] = w0 - S(1);

@@ -121,9 +121,13 @@ class hyperboloids {
 
     /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
     /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// left_domain unless m > 0.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
-        return StatusOf<S>::good();
+        auto status = StatusOf<S>::good();
+        const S m = parameters.m;
+        StatusOf<S>::fail(status, !(m > S(0)), Status::left_domain);
+        return status;
     }
 
     /// The equations of motion, ds = (xdot, ydot): xdot^i = rho^i_a y^a and
@@ -137,22 +141,22 @@ class hyperboloids {
         const S z = s[2];
         const S a = s[3];
         const S b = s[4];
-        const S m = parameters.m;
-        const S k = parameters.k;
-        const S c = parameters.c;
         const S w0 = z * b;
+        ds[0] = x * w0 - y * a;
+        ds[1] = x * a + y * w0;
         const S w1 = x * x;
         const S w2 = y * y;
         const S w3 = w1 + w2;
+        ds[2] = w3 * b;
+        const S m = parameters.m;
+        const S k = parameters.k;
+        const S c = parameters.c;
         const S w4 = m * w3;
+        ds[3] = (c * y - S(2) * w4 * a * w0) / w4;
         const S w5 = k * w3;
         const S w6 = z * z;
         const S w7 = w1 + S(2) * w2;
         const S w8 = c * x + (w5 + m * ((w2 * (w6 + S(3) * w2) + w1 * (w6 + S(3) * w7)) * (b * b) - w3 * (a * a)));
-        ds[0] = x * w0 - y * a;
-        ds[1] = x * a + y * w0;
-        ds[2] = w3 * b;
-        ds[3] = (c * y - S(2) * w4 * a * w0) / w4;
         ds[4] = (w5 - z * w8) / (m * (w1 * (w7 + w6) + w2 * (w2 + w6)));
         return StatusOf<S>::good();
     }
@@ -160,12 +164,12 @@ class hyperboloids {
     /// W_ab = d2L/dy^a dy^b, shape (2, 2), symmetric.
     [[nodiscard]] Eigen::Matrix<S, 2, 2> mass_matrix([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 2, 2> result;
         const S x = s[0];
         const S y = s[1];
         const S z = s[2];
-        const S m = parameters.m;
         const S w0 = x * x + y * y;
-        Eigen::Matrix<S, 2, 2> result;
+        const S m = parameters.m;
         result(0, 0) = m * w0;
         result(0, 1) = S(0);
         result(1, 0) = S(0);
@@ -176,14 +180,14 @@ class hyperboloids {
     /// p_a = dL/dy^a, shape (2).
     [[nodiscard]] Eigen::Matrix<S, 2, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 2, 1> result;
         const S x = s[0];
         const S y = s[1];
         const S z = s[2];
         const S a = s[3];
         const S b = s[4];
-        const S m = parameters.m;
         const S w0 = x * x + y * y;
-        Eigen::Matrix<S, 2, 1> result;
+        const S m = parameters.m;
         result[0] = m * w0 * a;
         result[1] = w0 * (w0 + z * z) * m * b;
         return result;
@@ -197,13 +201,13 @@ class hyperboloids {
         const S z = s[2];
         const S a = s[3];
         const S b = s[4];
-        const S m = parameters.m;
-        const S k = parameters.k;
-        const S c = parameters.c;
         const S w0 = b * b;
         const S w1 = y * y;
         const S w2 = x * x;
         const S w3 = z * z;
+        const S m = parameters.m;
+        const S k = parameters.k;
+        const S c = parameters.c;
         const S w4 = x * (c + m * x * w1 * w0) + S(0.5) * (m * ((w2 + w1) * (a * a) + (w1 * (w1 + w3) + w2 * (w2 + w3))
                 * w0) + k * (S(1) + w3));
         return w4 - k * z;
@@ -217,14 +221,14 @@ class hyperboloids {
         const S z = s[2];
         const S a = s[3];
         const S b = s[4];
-        const S m = parameters.m;
-        const S k = parameters.k;
-        const S c = parameters.c;
         const S w0 = z * b;
         const S w1 = x * a + y * w0;
         const S w2 = x * w0 - y * a;
         const S w3 = x * x + y * y;
         const S w4 = S(1) - z;
+        const S m = parameters.m;
+        const S k = parameters.k;
+        const S c = parameters.c;
         return S(0.5) * (m * (w1 * w1 + (w2 * w2 + w3 * w3 * (b * b))) - k * (w4 * w4)) - c * x;
     }
 
@@ -232,9 +236,9 @@ class hyperboloids {
     /// Positive inside the domain of the model.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> domain([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S x = s[0];
         const S y = s[1];
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = x * x + y * y;
         return result;
     }
@@ -243,10 +247,10 @@ class hyperboloids {
     /// Observables of the model.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S x = s[0];
         const S y = s[1];
         const S z = s[2];
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = x * x + y * y - z * z;
         return result;
     }
@@ -265,58 +269,58 @@ class hyperboloids {
         const S z = s[2];
         const S a = s[3];
         const S b = s[4];
+        const S w0 = z * b;
+        values[0] = w0;
+        values[6] = w0;
+        const S w1 = y * y;
+        const S w2 = z * z;
+        values[8] = x;
+        const S w3 = x * x;
+        const S w4 = w3 + S(2) * w1;
+        const S w5 = w1 * (w2 + S(3) * w1) + w3 * (w2 + S(3) * w4);
+        const S w6 = w4 + w2;
         const S m = parameters.m;
         const S k = parameters.k;
         const S c = parameters.c;
-        const S w0 = z * b;
-        const S w1 = y * b;
-        const S w2 = S(2) * x;
-        const S w3 = x * x;
-        const S w4 = y * y;
-        const S w5 = w3 + w4;
-        const S w6 = m * w5;
-        const S w7 = w6 * a;
-        const S w8 = S(2) * w7;
-        const S w9 = m * (S(2) * a * w0 + (c * y - w8 * w0) / w6);
-        const S w10 = S(2) * y;
-        const S w11 = S(2) * z;
-        const S w12 = w11 * w7;
-        const S w13 = b * b;
-        const S w14 = z * z;
-        const S w15 = k * w5;
-        const S w16 = w3 + S(2) * w4;
-        const S w17 = w4 * (w14 + S(3) * w4) + w3 * (w14 + S(3) * w16);
-        const S w18 = a * a;
-        const S w19 = c * x + w15;
-        const S w20 = w16 + w14;
-        const S w21 = m * (w3 * w20 + w4 * (w4 + w14));
-        const S w22 = (w15 - z * (m * (w17 * w13 - w5 * w18) + w19)) / w21;
-        const S w23 = k * (S(1) - z) - m * (z * ((w14 + S(6) * w5) * w13 + z * w22 - w18) + S(2) * w5 * w22);
-        const S w24 = w3 * (w18 - w11 * w22 - S(3) * w20 * w13) - w4 * (S(3) * (w1 * w1) + z * (S(3) * b * w0 + S(2) *
-                w22) - w18);
-        values[0] = w0;
-        values[1] = -a;
-        values[2] = x * b;
-        values[3] = -y;
-        values[4] = x * z;
+        const S w7 = m * (w3 * w6 + w1 * (w1 + w2));
+        values[22] = -S(2) * m * w5 * w0 / w7;
+        const S w8 = S(2) * z;
         values[5] = a;
-        values[6] = w0;
-        values[7] = w1;
-        values[8] = x;
+        const S w9 = w3 + w1;
+        values[12] = w9;
+        const S w10 = m * w9;
+        const S w11 = w10 * a;
+        const S w12 = w8 * w11;
+        values[21] = w12 / w7;
+        const S w13 = a * a;
+        const S w14 = k * w9;
+        const S w15 = b * b;
+        const S w16 = c * x + w14;
+        const S w17 = (w14 - z * (m * (w5 * w15 - w9 * w13) + w16)) / w7;
+        const S w18 = y * b;
+        values[7] = w18;
+        const S w19 = w3 * (w13 - w8 * w17 - S(3) * w6 * w15) - w1 * (S(3) * (w18 * w18) + z * (S(3) * b * w0 + S(2) *
+                w17) - w13);
+        values[20] = (m * w19 - w16) / w7;
+        const S w20 = S(2) * y;
+        const S w21 = k * (S(1) - z) - m * (z * ((w2 + S(6) * w9) * w15 + z * w17 - w13) + S(2) * w9 * w17);
+        values[19] = w20 * w21 / w7;
+        const S w22 = S(2) * x;
+        values[18] = (w22 * w21 - c * z) / w7;
+        values[17] = -w12 / w10;
+        values[16] = -S(2) * w10 * w0 / w10;
+        const S w23 = S(2) * w11;
+        values[15] = -w23 * b / w10;
+        const S w24 = m * (S(2) * a * w0 + (c * y - w23 * w0) / w10);
+        values[14] = (c - w20 * w24) / w10;
+        values[13] = -w22 * w24 / w10;
+        values[11] = S(2) * w18;
+        values[10] = w22 * b;
         values[9] = y * z;
-        values[10] = w2 * b;
-        values[11] = S(2) * w1;
-        values[12] = w5;
-        values[13] = -w2 * w9 / w6;
-        values[14] = (c - w10 * w9) / w6;
-        values[15] = -w8 * b / w6;
-        values[16] = -S(2) * w6 * w0 / w6;
-        values[17] = -w12 / w6;
-        values[18] = (w2 * w23 - c * z) / w21;
-        values[19] = w10 * w23 / w21;
-        values[20] = (m * w24 - w19) / w21;
-        values[21] = w12 / w21;
-        values[22] = -S(2) * m * w17 * w0 / w21;
+        values[4] = x * z;
+        values[3] = -y;
+        values[2] = x * b;
+        values[1] = -a;
     }
 
     /// The same as a dense matrix, shape (5, 5).

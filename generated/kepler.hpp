@@ -131,11 +131,11 @@ class kepler {
         const S y = s[1];
         const S u = s[2];
         const S v = s[3];
-        const S k = parameters.k;
-        const S w0 = x * x + y * y;
-        const S w1 = k / (w0 * sqrt(w0));
         ds[0] = u;
         ds[1] = v;
+        const S w0 = x * x + y * y;
+        const S k = parameters.k;
+        const S w1 = k / (w0 * sqrt(w0));
         ds[2] = -x * w1;
         ds[3] = -y * w1;
         return StatusOf<S>::good();
@@ -154,9 +154,9 @@ class kepler {
     /// p_a = dL/dy^a, shape (2).
     [[nodiscard]] Eigen::Matrix<S, 2, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 2, 1> result;
         const S u = s[2];
         const S v = s[3];
-        Eigen::Matrix<S, 2, 1> result;
         result[0] = u;
         result[1] = v;
         return result;
@@ -190,9 +190,9 @@ class kepler {
     /// Positive inside the domain of the model.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> domain([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S x = s[0];
         const S y = s[1];
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = x * x + y * y;
         return result;
     }
@@ -201,10 +201,10 @@ class kepler {
     /// Observables of the model.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         using arithmetic::sqrt;
         const S x = s[0];
         const S y = s[1];
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = sqrt(x * x + y * y);
         return result;
     }
@@ -213,16 +213,16 @@ class kepler {
     /// Functions that are constant along solutions.
     [[nodiscard]] Eigen::Matrix<S, 3, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 3, 1> result;
         using arithmetic::sqrt;
         const S x = s[0];
         const S y = s[1];
         const S u = s[2];
         const S v = s[3];
-        const S k = parameters.k;
         const S w0 = x * v - y * u;
-        const S w1 = k / sqrt(x * x + y * y);
-        Eigen::Matrix<S, 3, 1> result;
         result[0] = w0;
+        const S k = parameters.k;
+        const S w1 = k / sqrt(x * x + y * y);
         result[1] = v * w0 - x * w1;
         result[2] = -(u * w0 + y * w1);
         return result;
@@ -232,11 +232,11 @@ class kepler {
     /// Events: each happens where its value crosses 0.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> events([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S x = s[0];
         const S y = s[1];
         const S u = s[2];
         const S v = s[3];
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = x * u + y * v;
         return result;
     }
@@ -251,17 +251,17 @@ class kepler {
         using arithmetic::sqrt;
         const S x = s[0];
         const S y = s[1];
-        const S k = parameters.k;
+        values[0] = S(1);
+        values[1] = S(1);
         const S w0 = y * y;
         const S w1 = x * x + w0;
         const S w2 = S(1) / w1;
+        const S k = parameters.k;
         const S w3 = k * w2 / sqrt(w1);
         const S w4 = w2 * w3;
         const S w5 = x * w4;
-        const S w6 = S(3) * y * w5;
-        values[0] = S(1);
-        values[1] = S(1);
         values[2] = S(3) * x * w5 - w3;
+        const S w6 = S(3) * y * w5;
         values[3] = w6;
         values[4] = w6;
         values[5] = S(3) * w0 * w4 - w3;

@@ -132,21 +132,28 @@ class kirchhoff {
 
     /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
     /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// left_domain unless J1 > 0, J2 > 0, J3 > 0, m1 > 0, m2 > 0, m3 > 0.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
+        auto status = StatusOf<S>::good();
         const S J1 = parameters.J1;
         const S J2 = parameters.J2;
         const S J3 = parameters.J3;
         const S m1 = parameters.m1;
         const S m2 = parameters.m2;
         const S m3 = parameters.m3;
-        auto status = StatusOf<S>::good();
         StatusOf<S>::fail(status, J1 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(J1 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, J2 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(J2 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, J3 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(J3 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, m1 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(m1 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, m2 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(m2 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, m3 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(m3 > S(0)), Status::left_domain);
         return status;
     }
 
@@ -168,13 +175,13 @@ class kirchhoff {
         const S m1 = parameters.m1;
         const S m2 = parameters.m2;
         const S m3 = parameters.m3;
-        const S u0 = m2 * v2;
-        const S u1 = m3 * v3;
-        const S u2 = m1 * v1;
         ds[0] = ((J2 - J3) * w2 * w3 + (m2 - m3) * v2 * v3) / J1;
         ds[1] = ((J3 - J1) * w3 * w1 + (m3 - m1) * v3 * v1) / J2;
         ds[2] = ((J1 - J2) * w1 * w2 + (m1 - m2) * v1 * v2) / J3;
+        const S u0 = m2 * v2;
+        const S u1 = m3 * v3;
         ds[3] = (w3 * u0 - w2 * u1) / m1;
+        const S u2 = m1 * v1;
         ds[4] = (w1 * u1 - w3 * u2) / m2;
         ds[5] = (w2 * u2 - w1 * u0) / m3;
         return StatusOf<S>::good();
@@ -184,13 +191,13 @@ class kirchhoff {
     [[nodiscard]] Eigen::Matrix<S, 6, 6> mass_matrix([[maybe_unused]] S t, [[maybe_unused]] const State& s) const
             noexcept
     {
+        Eigen::Matrix<S, 6, 6> result = Eigen::Matrix<S, 6, 6>::Zero();
         const S J1 = parameters.J1;
         const S J2 = parameters.J2;
         const S J3 = parameters.J3;
         const S m1 = parameters.m1;
         const S m2 = parameters.m2;
         const S m3 = parameters.m3;
-        Eigen::Matrix<S, 6, 6> result = Eigen::Matrix<S, 6, 6>::Zero();
         result(0, 0) = J1;
         result(1, 1) = J2;
         result(2, 2) = J3;
@@ -203,6 +210,7 @@ class kirchhoff {
     /// p_a = dL/dy^a, shape (6).
     [[nodiscard]] Eigen::Matrix<S, 6, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 6, 1> result;
         const S w1 = s[0];
         const S w2 = s[1];
         const S w3 = s[2];
@@ -215,7 +223,6 @@ class kirchhoff {
         const S m1 = parameters.m1;
         const S m2 = parameters.m2;
         const S m3 = parameters.m3;
-        Eigen::Matrix<S, 6, 1> result;
         result[0] = J1 * w1;
         result[1] = J2 * w2;
         result[2] = J3 * w3;
@@ -269,6 +276,7 @@ class kirchhoff {
     /// Functions that are constant along solutions.
     [[nodiscard]] Eigen::Matrix<S, 2, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 2, 1> result;
         const S w1 = s[0];
         const S w2 = s[1];
         const S w3 = s[2];
@@ -284,7 +292,6 @@ class kirchhoff {
         const S u0 = m3 * v3;
         const S u1 = m1 * v1;
         const S u2 = m2 * v2;
-        Eigen::Matrix<S, 2, 1> result;
         result[0] = u0 * u0 + (u1 * u1 + u2 * u2);
         result[1] = J1 * w1 * u1 + J2 * w2 * u2 + J3 * w3 * u0;
         return result;
@@ -313,38 +320,38 @@ class kirchhoff {
         const S m3 = parameters.m3;
         const auto inverses = reciprocals<S, 6>({J1, J2, J3, m1, m2, m3});
         const S u0 = inverses[0] * (J2 - J3);
-        const S u1 = inverses[0] * (m2 - m3);
-        const S u2 = inverses[1] * (J1 - J3);
-        const S u3 = inverses[1] * (m1 - m3);
-        const S u4 = (J1 - J2) * inverses[2];
-        const S u5 = inverses[2] * (m1 - m2);
-        const S u6 = inverses[3] * m3;
-        const S u7 = inverses[3] * m2;
-        const S u8 = inverses[4] * m3;
-        const S u9 = m1 * inverses[4];
-        const S u10 = m2 * inverses[5];
-        const S u11 = m1 * inverses[5];
         values[0] = u0 * w3;
         values[1] = u0 * w2;
+        const S u1 = inverses[0] * (m2 - m3);
         values[2] = u1 * v3;
         values[3] = u1 * v2;
+        const S u2 = inverses[1] * (J1 - J3);
         values[4] = -u2 * w3;
         values[5] = -u2 * w1;
+        const S u3 = inverses[1] * (m1 - m3);
         values[6] = -u3 * v3;
         values[7] = -u3 * v1;
+        const S u4 = (J1 - J2) * inverses[2];
         values[8] = u4 * w2;
         values[9] = u4 * w1;
+        const S u5 = inverses[2] * (m1 - m2);
         values[10] = u5 * v2;
         values[11] = u5 * v1;
+        const S u6 = inverses[3] * m3;
         values[12] = -u6 * v3;
+        const S u7 = inverses[3] * m2;
         values[13] = u7 * v2;
         values[14] = u7 * w3;
         values[15] = -u6 * w2;
+        const S u8 = inverses[4] * m3;
         values[16] = u8 * v3;
+        const S u9 = m1 * inverses[4];
         values[17] = -u9 * v1;
         values[18] = -u9 * w3;
         values[19] = u8 * w1;
+        const S u10 = m2 * inverses[5];
         values[20] = -u10 * v2;
+        const S u11 = m1 * inverses[5];
         values[21] = u11 * v1;
         values[22] = u11 * w2;
         values[23] = -u10 * w1;

@@ -124,12 +124,14 @@ class kovalevskaya {
 
     /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
     /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// left_domain unless J > 0.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
-        const S J = parameters.J;
         auto status = StatusOf<S>::good();
-        StatusOf<S>::fail(status, S(2) * J == S(0), Status::singular_mass_matrix);
+        const S J = parameters.J;
         StatusOf<S>::fail(status, J == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(J > S(0)), Status::left_domain);
+        StatusOf<S>::fail(status, S(2) * J == S(0), Status::singular_mass_matrix);
         return status;
     }
 
@@ -145,13 +147,13 @@ class kovalevskaya {
         const S w1 = s[3];
         const S w2 = s[4];
         const S w3 = s[5];
-        const S J = parameters.J;
-        const S mgl = parameters.mgl;
-        const S u0 = mgl / J;
         ds[0] = g2 * w3 - g3 * w2;
         ds[1] = g3 * w1 - g1 * w3;
         ds[2] = g1 * w2 - g2 * w1;
         ds[3] = S(0.5) * w2 * w3;
+        const S J = parameters.J;
+        const S mgl = parameters.mgl;
+        const S u0 = mgl / J;
         ds[4] = S(0.5) * (u0 * g3 - w1 * w3);
         ds[5] = -u0 * g2;
         return StatusOf<S>::good();
@@ -161,24 +163,24 @@ class kovalevskaya {
     [[nodiscard]] Eigen::Matrix<S, 3, 3> mass_matrix([[maybe_unused]] S t, [[maybe_unused]] const State& s) const
             noexcept
     {
-        const S J = parameters.J;
-        const S u0 = S(2) * J;
         Eigen::Matrix<S, 3, 3> result = Eigen::Matrix<S, 3, 3>::Zero();
+        const S J = parameters.J;
+        result(2, 2) = J;
+        const S u0 = S(2) * J;
         result(0, 0) = u0;
         result(1, 1) = u0;
-        result(2, 2) = J;
         return result;
     }
 
     /// p_a = dL/dy^a, shape (3).
     [[nodiscard]] Eigen::Matrix<S, 3, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 3, 1> result;
         const S w1 = s[3];
         const S w2 = s[4];
         const S w3 = s[5];
         const S J = parameters.J;
         const S u0 = S(2) * J;
-        Eigen::Matrix<S, 3, 1> result;
         result[0] = u0 * w1;
         result[1] = u0 * w2;
         result[2] = J * w3;
@@ -213,10 +215,10 @@ class kovalevskaya {
     /// Base constraints: each is 0 on M.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> constraints([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S g1 = s[0];
         const S g2 = s[1];
         const S g3 = s[2];
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = g3 * g3 + (g1 * g1 + g2 * g2) - S(1);
         return result;
     }
@@ -225,8 +227,8 @@ class kovalevskaya {
     /// Observables of the model.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S g1 = s[0];
         Eigen::Matrix<S, 1, 1> result;
+        const S g1 = s[0];
         result[0] = g1;
         return result;
     }
@@ -235,6 +237,7 @@ class kovalevskaya {
     /// Functions that are constant along solutions.
     [[nodiscard]] Eigen::Matrix<S, 2, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 2, 1> result;
         const S g1 = s[0];
         const S g2 = s[1];
         const S g3 = s[2];
@@ -243,11 +246,10 @@ class kovalevskaya {
         const S w3 = s[5];
         const S J = parameters.J;
         const S mgl = parameters.mgl;
+        result[0] = J * (g3 * w3 + S(2) * (g1 * w1 + g2 * w2));
         const S u0 = mgl / J;
         const S u1 = w2 * w2 + u0 * g1 - w1 * w1;
         const S u2 = u0 * g2 - S(2) * w1 * w2;
-        Eigen::Matrix<S, 2, 1> result;
-        result[0] = J * (g3 * w3 + S(2) * (g1 * w1 + g2 * w2));
         result[1] = u1 * u1 + u2 * u2;
         return result;
     }
@@ -266,23 +268,23 @@ class kovalevskaya {
         const S w1 = s[3];
         const S w2 = s[4];
         const S w3 = s[5];
-        const S J = parameters.J;
-        const S mgl = parameters.mgl;
-        const S u0 = S(0.5) * w3;
         values[0] = w3;
+        values[8] = w2;
         values[1] = -w2;
+        values[6] = g3;
         values[2] = -g3;
         values[3] = g2;
         values[4] = -w3;
         values[5] = w1;
-        values[6] = g3;
+        values[11] = g1;
         values[7] = -g1;
-        values[8] = w2;
         values[9] = -w1;
         values[10] = -g2;
-        values[11] = g1;
+        const S u0 = S(0.5) * w3;
         values[12] = u0;
         values[13] = S(0.5) * w2;
+        const S J = parameters.J;
+        const S mgl = parameters.mgl;
         values[14] = S(0.5) * mgl / J;
         values[15] = -u0;
         values[16] = -S(0.5) * w1;

@@ -126,13 +126,16 @@ class lagrange_top {
 
     /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
     /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// left_domain unless I1 > 0, I3 > 0.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
+        auto status = StatusOf<S>::good();
         const S I1 = parameters.I1;
         const S I3 = parameters.I3;
-        auto status = StatusOf<S>::good();
         StatusOf<S>::fail(status, I1 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(I1 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, I3 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(I3 > S(0)), Status::left_domain);
         return status;
     }
 
@@ -148,14 +151,14 @@ class lagrange_top {
         const S w1 = s[3];
         const S w2 = s[4];
         const S w3 = s[5];
+        ds[0] = g2 * w3 - g3 * w2;
+        ds[1] = g3 * w1 - g1 * w3;
+        ds[2] = g1 * w2 - g2 * w1;
         const S I1 = parameters.I1;
         const S I3 = parameters.I3;
         const S mgl = parameters.mgl;
         const S u0 = (I1 - I3) * w3;
         const S u1 = S(1) / I1;
-        ds[0] = g2 * w3 - g3 * w2;
-        ds[1] = g3 * w1 - g1 * w3;
-        ds[2] = g1 * w2 - g2 * w1;
         ds[3] = u1 * (mgl * g2 + w2 * u0);
         ds[4] = -u1 * (mgl * g1 + w1 * u0);
         ds[5] = S(0);
@@ -166,9 +169,9 @@ class lagrange_top {
     [[nodiscard]] Eigen::Matrix<S, 3, 3> mass_matrix([[maybe_unused]] S t, [[maybe_unused]] const State& s) const
             noexcept
     {
+        Eigen::Matrix<S, 3, 3> result = Eigen::Matrix<S, 3, 3>::Zero();
         const S I1 = parameters.I1;
         const S I3 = parameters.I3;
-        Eigen::Matrix<S, 3, 3> result = Eigen::Matrix<S, 3, 3>::Zero();
         result(0, 0) = I1;
         result(1, 1) = I1;
         result(2, 2) = I3;
@@ -178,12 +181,12 @@ class lagrange_top {
     /// p_a = dL/dy^a, shape (3).
     [[nodiscard]] Eigen::Matrix<S, 3, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 3, 1> result;
         const S w1 = s[3];
         const S w2 = s[4];
         const S w3 = s[5];
         const S I1 = parameters.I1;
         const S I3 = parameters.I3;
-        Eigen::Matrix<S, 3, 1> result;
         result[0] = I1 * w1;
         result[1] = I1 * w2;
         result[2] = I3 * w3;
@@ -220,10 +223,10 @@ class lagrange_top {
     /// Base constraints: each is 0 on M.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> constraints([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S g1 = s[0];
         const S g2 = s[1];
         const S g3 = s[2];
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = g3 * g3 + (g1 * g1 + g2 * g2) - S(1);
         return result;
     }
@@ -232,9 +235,9 @@ class lagrange_top {
     /// Observables of the model.
     [[nodiscard]] Eigen::Matrix<S, 2, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 2, 1> result;
         using std::acos;
         const S g3 = s[2];
-        Eigen::Matrix<S, 2, 1> result;
         result[0] = g3;
         result[1] = acos(g3);
         return result;
@@ -244,6 +247,7 @@ class lagrange_top {
     /// Functions that are constant along solutions.
     [[nodiscard]] Eigen::Matrix<S, 2, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 2, 1> result;
         const S g1 = s[0];
         const S g2 = s[1];
         const S g3 = s[2];
@@ -253,9 +257,8 @@ class lagrange_top {
         const S I1 = parameters.I1;
         const S I3 = parameters.I3;
         const S u0 = I3 * w3;
-        Eigen::Matrix<S, 2, 1> result;
-        result[0] = I1 * (g1 * w1 + g2 * w2) + g3 * u0;
         result[1] = u0;
+        result[0] = I1 * (g1 * w1 + g2 * w2) + g3 * u0;
         return result;
     }
 
@@ -273,26 +276,26 @@ class lagrange_top {
         const S w1 = s[3];
         const S w2 = s[4];
         const S w3 = s[5];
+        values[0] = w3;
+        values[8] = w2;
+        values[1] = -w2;
+        values[6] = g3;
+        values[2] = -g3;
+        values[3] = g2;
+        values[4] = -w3;
+        values[5] = w1;
+        values[11] = g1;
+        values[7] = -g1;
+        values[9] = -w1;
+        values[10] = -g2;
         const S I1 = parameters.I1;
         const S I3 = parameters.I3;
         const S mgl = parameters.mgl;
         const S u0 = S(1) / I1;
         const S u1 = u0 * mgl;
+        values[12] = u1;
         const S u2 = u0 * (I1 - I3);
         const S u3 = u2 * w3;
-        values[0] = w3;
-        values[1] = -w2;
-        values[2] = -g3;
-        values[3] = g2;
-        values[4] = -w3;
-        values[5] = w1;
-        values[6] = g3;
-        values[7] = -g1;
-        values[8] = w2;
-        values[9] = -w1;
-        values[10] = -g2;
-        values[11] = g1;
-        values[12] = u1;
         values[13] = u3;
         values[14] = u2 * w2;
         values[15] = -u1;

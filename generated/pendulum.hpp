@@ -106,11 +106,14 @@ class pendulum {
 
     /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
     /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// left_domain unless m > 0, l > 0.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
+        auto status = StatusOf<S>::good();
         const S m = parameters.m;
         const S l = parameters.l;
-        auto status = StatusOf<S>::good();
+        StatusOf<S>::fail(status, !(m > S(0)), Status::left_domain);
+        StatusOf<S>::fail(status, !(l > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, m * (l * l) == S(0), Status::singular_mass_matrix);
         return status;
     }
@@ -124,9 +127,9 @@ class pendulum {
         using std::sin;
         const S th = s[0];
         const S w = s[1];
+        ds[0] = w;
         const S l = parameters.l;
         const S g = parameters.g;
-        ds[0] = w;
         ds[1] = -g * sin(th) / l;
         return StatusOf<S>::good();
     }
@@ -135,9 +138,9 @@ class pendulum {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> mass_matrix([[maybe_unused]] S t, [[maybe_unused]] const State& s) const
             noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S m = parameters.m;
         const S l = parameters.l;
-        Eigen::Matrix<S, 1, 1> result;
         result(0, 0) = m * (l * l);
         return result;
     }
@@ -145,10 +148,10 @@ class pendulum {
     /// p_a = dL/dy^a, shape (1).
     [[nodiscard]] Eigen::Matrix<S, 1, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S w = s[1];
         const S m = parameters.m;
         const S l = parameters.l;
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = m * (l * l) * w;
         return result;
     }
@@ -181,12 +184,12 @@ class pendulum {
     /// Observables of the model.
     [[nodiscard]] Eigen::Matrix<S, 3, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 3, 1> result;
         const S th = s[0];
+        const auto [sin_th, cos_th] = sincos<S>(th);
         const S m = parameters.m;
         const S l = parameters.l;
         const S g = parameters.g;
-        const auto [sin_th, cos_th] = sincos<S>(th);
-        Eigen::Matrix<S, 3, 1> result;
         result[0] = l * sin_th;
         result[1] = -l * cos_th;
         result[2] = m * g * l * (S(1) - cos_th);
@@ -197,8 +200,8 @@ class pendulum {
     /// Events: each happens where its value crosses 0.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> events([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S th = s[0];
         Eigen::Matrix<S, 1, 1> result;
+        const S th = s[0];
         result[0] = th - (S(3.141592653589793) + S(1.2246467991473532e-16));
         return result;
     }
@@ -212,9 +215,9 @@ class pendulum {
     {
         using std::cos;
         const S th = s[0];
+        values[0] = S(1);
         const S l = parameters.l;
         const S g = parameters.g;
-        values[0] = S(1);
         values[1] = -g * cos(th) / l;
     }
 

@@ -106,15 +106,19 @@ class planar_body {
 
     /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
     /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// left_domain unless J > 0, m1 > 0, m2 > 0.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
+        auto status = StatusOf<S>::good();
         const S J = parameters.J;
         const S m1 = parameters.m1;
         const S m2 = parameters.m2;
-        auto status = StatusOf<S>::good();
         StatusOf<S>::fail(status, J == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(J > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, m1 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(m1 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, m2 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(m2 > S(0)), Status::left_domain);
         return status;
     }
 
@@ -140,10 +144,10 @@ class planar_body {
     [[nodiscard]] Eigen::Matrix<S, 3, 3> mass_matrix([[maybe_unused]] S t, [[maybe_unused]] const State& s) const
             noexcept
     {
+        Eigen::Matrix<S, 3, 3> result = Eigen::Matrix<S, 3, 3>::Zero();
         const S J = parameters.J;
         const S m1 = parameters.m1;
         const S m2 = parameters.m2;
-        Eigen::Matrix<S, 3, 3> result = Eigen::Matrix<S, 3, 3>::Zero();
         result(0, 0) = J;
         result(1, 1) = m1;
         result(2, 2) = m2;
@@ -153,13 +157,13 @@ class planar_body {
     /// p_a = dL/dy^a, shape (3).
     [[nodiscard]] Eigen::Matrix<S, 3, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 3, 1> result;
         const S w = s[0];
         const S v1 = s[1];
         const S v2 = s[2];
         const S J = parameters.J;
         const S m1 = parameters.m1;
         const S m2 = parameters.m2;
-        Eigen::Matrix<S, 3, 1> result;
         result[0] = J * w;
         result[1] = m1 * v1;
         result[2] = m2 * v2;
@@ -194,13 +198,13 @@ class planar_body {
     /// Functions that are constant along solutions.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S v1 = s[1];
         const S v2 = s[2];
         const S m1 = parameters.m1;
         const S m2 = parameters.m2;
         const S w0 = m1 * v1;
         const S w1 = m2 * v2;
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = w0 * w0 + w1 * w1;
         return result;
     }
@@ -219,12 +223,12 @@ class planar_body {
         const S m1 = parameters.m1;
         const S m2 = parameters.m2;
         const S w0 = (m1 - m2) / J;
-        const S w1 = m2 / m1;
-        const S w2 = m1 / m2;
         values[0] = w0 * v2;
         values[1] = w0 * v1;
+        const S w1 = m2 / m1;
         values[2] = w1 * v2;
         values[3] = w1 * w;
+        const S w2 = m1 / m2;
         values[4] = -w2 * v1;
         values[5] = -w2 * w;
     }

@@ -130,9 +130,13 @@ class plate_ball_pontryagin {
 
     /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
     /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// left_domain unless R > 0.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
-        return StatusOf<S>::good();
+        auto status = StatusOf<S>::good();
+        const S R = parameters.R;
+        StatusOf<S>::fail(status, !(R > S(0)), Status::left_domain);
+        return status;
     }
 
     /// Pontryagin's equations for H = mu_a sigma^a - cost, ds = (xdot, mudot): xdot^i = rho^i_a sigma^a and
@@ -145,12 +149,12 @@ class plate_ball_pontryagin {
         const S q1 = s[4];
         const S q2 = s[5];
         const S q3 = s[6];
+        ds[0] = mu_x;
+        ds[1] = mu_y;
         const S R = parameters.R;
         const S w0 = S(1) / R;
         const S w1 = w0 * q3;
         const S w2 = w0 * w1;
-        ds[0] = mu_x;
-        ds[1] = mu_y;
         ds[2] = -mu_y * w2;
         ds[3] = mu_x * w2;
         ds[4] = mu_x * w1;
@@ -163,9 +167,9 @@ class plate_ball_pontryagin {
     /// The controls that maximise H.
     [[nodiscard]] Eigen::Matrix<S, 2, 1> controls([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 2, 1> result;
         const S mu_x = s[2];
         const S mu_y = s[3];
-        Eigen::Matrix<S, 2, 1> result;
         result[0] = mu_x;
         result[1] = mu_y;
         return result;
@@ -191,9 +195,9 @@ class plate_ball_pontryagin {
     /// Observables of the model.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S q3 = s[6];
         const S R = parameters.R;
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = q3 / (R * R);
         return result;
     }
@@ -202,15 +206,15 @@ class plate_ball_pontryagin {
     /// Functions that are constant along solutions.
     [[nodiscard]] Eigen::Matrix<S, 3, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 3, 1> result;
         const S mu_x = s[2];
         const S mu_y = s[3];
         const S q1 = s[4];
         const S q2 = s[5];
         const S q3 = s[6];
+        result[0] = q3 * q3 + (q1 * q1 + q2 * q2);
         const S R = parameters.R;
         const S w0 = S(1) / R;
-        Eigen::Matrix<S, 3, 1> result;
-        result[0] = q3 * q3 + (q1 * q1 + q2 * q2);
         result[1] = mu_x + w0 * q2;
         result[2] = mu_y - w0 * q1;
         return result;
@@ -228,22 +232,22 @@ class plate_ball_pontryagin {
         const S q1 = s[4];
         const S q2 = s[5];
         const S q3 = s[6];
+        values[0] = S(1);
+        values[1] = S(1);
         const S R = parameters.R;
         const S w0 = S(1) / R;
         const S w1 = w0 * q3;
-        const S w2 = w0 * w1;
-        const S w3 = w0 * mu_y;
-        const S w4 = w0 * mu_x;
-        values[0] = S(1);
-        values[1] = S(1);
-        values[2] = -w2;
-        values[3] = -w0 * w3;
-        values[4] = w2;
-        values[5] = w0 * w4;
         values[6] = w1;
-        values[7] = w4;
         values[8] = w1;
+        const S w2 = w0 * w1;
+        values[4] = w2;
+        values[2] = -w2;
+        const S w3 = w0 * mu_y;
         values[9] = w3;
+        values[3] = -w0 * w3;
+        const S w4 = w0 * mu_x;
+        values[7] = w4;
+        values[5] = w0 * w4;
         values[10] = -w0 * q1;
         values[11] = -w0 * q2;
         values[12] = -w4;

@@ -134,15 +134,19 @@ class pointing_pontryagin {
 
     /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
     /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// left_domain unless I1 > 0, I2 > 0, I3 > 0.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
+        auto status = StatusOf<S>::good();
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        auto status = StatusOf<S>::good();
         StatusOf<S>::fail(status, I1 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(I1 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, I2 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(I2 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, I3 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(I3 > S(0)), Status::left_domain);
         return status;
     }
 
@@ -163,13 +167,13 @@ class pointing_pontryagin {
         const S k = parameters.k;
         const S w0 = mu3 / I3;
         const S w1 = mu2 / I2;
-        const S w2 = mu1 / I1;
-        const S w3 = S(4) / S(5) * k;
-        const S w4 = S(3) / S(5) * k;
         ds[0] = g2 * w0 - g3 * w1;
+        const S w2 = mu1 / I1;
         ds[1] = g3 * w2 - g1 * w0;
         ds[2] = g1 * w1 - g2 * w2;
+        const S w3 = S(4) / S(5) * k;
         ds[3] = mu2 * w0 - (w3 * g2 + w1 * mu3);
+        const S w4 = S(3) / S(5) * k;
         ds[4] = w3 * g1 - w4 * g3 + w2 * mu3 - mu1 * w0;
         ds[5] = w4 * g2 - w2 * mu2 + mu1 * w1;
         return StatusOf<S>::good();
@@ -179,13 +183,13 @@ class pointing_pontryagin {
     /// The controls that maximise H.
     [[nodiscard]] Eigen::Matrix<S, 3, 1> controls([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 3, 1> result;
         const S mu1 = s[3];
         const S mu2 = s[4];
         const S mu3 = s[5];
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        Eigen::Matrix<S, 3, 1> result;
         result[0] = mu1 / I1;
         result[1] = mu2 / I2;
         result[2] = mu3 / I3;
@@ -226,10 +230,10 @@ class pointing_pontryagin {
     /// Base constraints: each is 0 on M.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> constraints([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S g1 = s[0];
         const S g2 = s[1];
         const S g3 = s[2];
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = g3 * g3 + (g1 * g1 + g2 * g2) - S(1);
         return result;
     }
@@ -238,13 +242,13 @@ class pointing_pontryagin {
     /// Functions that are constant along solutions.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S g1 = s[0];
         const S g2 = s[1];
         const S g3 = s[2];
         const S mu1 = s[3];
         const S mu2 = s[4];
         const S mu3 = s[5];
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = g3 * mu3 + (g1 * mu1 + g2 * mu2);
         return result;
     }
@@ -270,35 +274,35 @@ class pointing_pontryagin {
         const S k = parameters.k;
         const S w0 = S(1) / I3;
         const S w1 = w0 * mu3;
+        values[0] = w1;
         const S w2 = S(1) / I2;
         const S w3 = w2 * mu2;
-        const S w4 = S(1) / I1;
-        const S w5 = w4 * mu1;
-        const S w6 = S(4) / S(5) * k;
-        const S w7 = w0 - w2;
-        const S w8 = S(3) / S(5) * k;
-        const S w9 = w4 - w0;
-        const S w10 = w2 - w4;
-        values[0] = w1;
+        values[8] = w3;
         values[1] = -w3;
         values[2] = -w2 * g3;
         values[3] = w0 * g2;
         values[4] = -w1;
+        const S w4 = S(1) / I1;
+        const S w5 = w4 * mu1;
         values[5] = w5;
         values[6] = w4 * g3;
         values[7] = -w0 * g1;
-        values[8] = w3;
         values[9] = -w5;
         values[10] = -w4 * g2;
         values[11] = w2 * g1;
+        const S w6 = S(4) / S(5) * k;
+        values[15] = w6;
         values[12] = -w6;
+        const S w7 = w0 - w2;
         values[13] = w7 * mu3;
         values[14] = w7 * mu2;
-        values[15] = w6;
+        const S w8 = S(3) / S(5) * k;
+        values[19] = w8;
         values[16] = -w8;
+        const S w9 = w4 - w0;
         values[17] = w9 * mu3;
         values[18] = w9 * mu1;
-        values[19] = w8;
+        const S w10 = w2 - w4;
         values[20] = w10 * mu2;
         values[21] = w10 * mu1;
     }

@@ -115,9 +115,13 @@ class relativistic_oscillator {
 
     /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
     /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// left_domain unless m > 0.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
-        return StatusOf<S>::good();
+        auto status = StatusOf<S>::good();
+        const S m = parameters.m;
+        StatusOf<S>::fail(status, !(m > S(0)), Status::left_domain);
+        return status;
     }
 
     /// The equations of motion, ds = (xdot, ydot): xdot^i = rho^i_a y^a and
@@ -126,18 +130,19 @@ class relativistic_oscillator {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        using std::abs;
         using arithmetic::sqrt;
         const S x = s[0];
         const S y = s[1];
         const S u = s[2];
         const S v = s[3];
+        auto status = StatusOf<S>::good();
+        ds[0] = u;
+        ds[1] = v;
+        const S w0 = v * v;
+        const S w1 = S(1) - u * u - w0;
         const S m = parameters.m;
         const S k = parameters.k;
         const S ratio = parameters.ratio;
-        auto status = StatusOf<S>::good();
-        const S w0 = v * v;
-        const S w1 = S(1) - u * u - w0;
         const S w2 = m / sqrt(w1);
         const S w3 = w2 / w1;
         const S w4 = u * w3;
@@ -145,15 +150,12 @@ class relativistic_oscillator {
         const S w6 = v * w4;
         const S w7 = w2 + w0 * w3;
         const S det0 = w5 * w7 - w6 * w6;
-        StatusOf<S>::fail(status, abs(det0) <= singular_tolerance<S>(2) * (abs(w5 * w7) + abs(w6 * w6)),
-                Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, det0 <= singular_tolerance<S>(2) * (w5 * w7), Status::singular_mass_matrix);
         const S inv_det0 = S(1) / det0;
         const S w8 = -k * x;
         const S w9 = -k * ratio * y;
         const S z0_0 = (w7 * w8 - w6 * w9) * inv_det0;
         const S z0_1 = (w5 * w9 - w6 * w8) * inv_det0;
-        ds[0] = u;
-        ds[1] = v;
         ds[2] = z0_0;
         ds[3] = z0_1;
         return status;
@@ -162,18 +164,18 @@ class relativistic_oscillator {
     /// W_ab = d2L/dy^a dy^b, shape (2, 2), symmetric.
     [[nodiscard]] Eigen::Matrix<S, 2, 2> mass_matrix([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 2, 2> result;
         using arithmetic::sqrt;
         const S u = s[2];
         const S v = s[3];
-        const S m = parameters.m;
         const S w0 = v * v;
         const S w1 = S(1) - u * u - w0;
+        const S m = parameters.m;
         const S w2 = m / sqrt(w1);
         const S w3 = w2 / w1;
         const S w4 = u * w3;
-        const S w5 = v * w4;
-        Eigen::Matrix<S, 2, 2> result;
         result(0, 0) = w2 + u * w4;
+        const S w5 = v * w4;
         result(0, 1) = w5;
         result(1, 0) = w5;
         result(1, 1) = w2 + w0 * w3;
@@ -183,12 +185,12 @@ class relativistic_oscillator {
     /// p_a = dL/dy^a, shape (2).
     [[nodiscard]] Eigen::Matrix<S, 2, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 2, 1> result;
         using arithmetic::sqrt;
         const S u = s[2];
         const S v = s[3];
         const S m = parameters.m;
         const S w0 = m / sqrt(S(1) - u * u - v * v);
-        Eigen::Matrix<S, 2, 1> result;
         result[0] = u * w0;
         result[1] = v * w0;
         return result;
@@ -202,11 +204,11 @@ class relativistic_oscillator {
         const S y = s[1];
         const S u = s[2];
         const S v = s[3];
+        const S w0 = u * u + v * v;
+        const S w1 = sqrt(S(1) - w0);
         const S m = parameters.m;
         const S k = parameters.k;
         const S ratio = parameters.ratio;
-        const S w0 = u * u + v * v;
-        const S w1 = sqrt(S(1) - w0);
         return m * (w1 + w0 / w1) + S(0.5) * k * (x * x + ratio * (y * y));
     }
 
@@ -228,11 +230,11 @@ class relativistic_oscillator {
     /// Observables of the model.
     [[nodiscard]] Eigen::Matrix<S, 2, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 2, 1> result;
         using arithmetic::sqrt;
         const S u = s[2];
         const S v = s[3];
         const S w0 = u * u + v * v;
-        Eigen::Matrix<S, 2, 1> result;
         result[0] = sqrt(w0);
         result[1] = S(1) / sqrt(S(1) - w0);
         return result;
@@ -250,12 +252,14 @@ class relativistic_oscillator {
         const S y = s[1];
         const S u = s[2];
         const S v = s[3];
-        const S m = parameters.m;
-        const S k = parameters.k;
-        const S ratio = parameters.ratio;
+        values[0] = S(1);
+        values[1] = S(1);
         const S w0 = S(1) - u * u - v * v;
         const S w1 = S(1) / w0;
         const S w2 = u * w1;
+        const S m = parameters.m;
+        const S k = parameters.k;
+        const S ratio = parameters.ratio;
         const S w3 = m / sqrt(w0);
         const S w4 = (S(1) + u * w2) * w3;
         const S w5 = w1 * w3;
@@ -264,37 +268,35 @@ class relativistic_oscillator {
         const S w8 = w3 * (S(1) + v * w7);
         const S det0 = w4 * w8 - w6 * w6;
         const S inv_det0 = S(1) / det0;
-        const S w9 = -k;
-        const S z0_0 = (w8 * w9) * inv_det0;
-        const S z0_1 = (-w6 * w9) * inv_det0;
+        const S w9 = -k * x;
         const S w10 = k * ratio;
-        const S w11 = -w10;
-        const S z1_0 = (-w6 * w11) * inv_det0;
-        const S z1_1 = (w4 * w11) * inv_det0;
-        const S w12 = -k * x;
-        const S w13 = -w10 * y;
-        const S z2_0 = (w8 * w12 - w6 * w13) * inv_det0;
-        const S z2_1 = (w4 * w13 - w6 * w12) * inv_det0;
-        const S w14 = v * z2_1;
-        const S w15 = u * z2_0;
-        const S w16 = w15 + w14;
-        const S w17 = -w5 * (w14 + S(3) * u * (z2_0 + w2 * w16));
-        const S w18 = -w5 * (u * (z2_1 + S(3) * w16 * w7) + v * z2_0);
-        const S z3_0 = (w8 * w17 - w6 * w18) * inv_det0;
-        const S z3_1 = (w4 * w18 - w6 * w17) * inv_det0;
-        const S w19 = -w5 * (w15 + S(3) * v * (z2_1 + w7 * w16));
-        const S z4_0 = (w8 * w18 - w6 * w19) * inv_det0;
-        const S z4_1 = (w4 * w19 - w6 * w18) * inv_det0;
-        values[0] = S(1);
-        values[1] = S(1);
-        values[2] = z0_0;
-        values[3] = z1_0;
-        values[4] = z3_0;
-        values[5] = z4_0;
-        values[6] = z0_1;
-        values[7] = z1_1;
-        values[8] = z3_1;
-        values[9] = z4_1;
+        const S w11 = -w10 * y;
+        const S z0_0 = (w8 * w9 - w6 * w11) * inv_det0;
+        const S z0_1 = (w4 * w11 - w6 * w9) * inv_det0;
+        const S w12 = u * z0_0;
+        const S w13 = v * z0_1;
+        const S w14 = w12 + w13;
+        const S w15 = -w5 * (u * (z0_1 + S(3) * w14 * w7) + v * z0_0);
+        const S w16 = -w5 * (w12 + S(3) * v * (z0_1 + w7 * w14));
+        const S z1_0 = (w8 * w15 - w6 * w16) * inv_det0;
+        const S z1_1 = (w4 * w16 - w6 * w15) * inv_det0;
+        values[9] = z1_1;
+        values[5] = z1_0;
+        const S w17 = -w5 * (w13 + S(3) * u * (z0_0 + w2 * w14));
+        const S z2_0 = (w8 * w17 - w6 * w15) * inv_det0;
+        const S z2_1 = (w4 * w15 - w6 * w17) * inv_det0;
+        values[8] = z2_1;
+        values[4] = z2_0;
+        const S w18 = -w10;
+        const S z3_0 = (-w6 * w18) * inv_det0;
+        const S z3_1 = (w4 * w18) * inv_det0;
+        values[7] = z3_1;
+        values[3] = z3_0;
+        const S w19 = -k;
+        const S z4_0 = (w8 * w19) * inv_det0;
+        const S z4_1 = (-w6 * w19) * inv_det0;
+        values[6] = z4_1;
+        values[2] = z4_0;
     }
 
     /// The same as a dense matrix, shape (4, 4).

@@ -107,15 +107,19 @@ class rigid_body {
 
     /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
     /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// left_domain unless I1 > 0, I2 > 0, I3 > 0.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
+        auto status = StatusOf<S>::good();
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        auto status = StatusOf<S>::good();
         StatusOf<S>::fail(status, I1 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(I1 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, I2 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(I2 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, I3 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(I3 > S(0)), Status::left_domain);
         return status;
     }
 
@@ -141,10 +145,10 @@ class rigid_body {
     [[nodiscard]] Eigen::Matrix<S, 3, 3> mass_matrix([[maybe_unused]] S t, [[maybe_unused]] const State& s) const
             noexcept
     {
+        Eigen::Matrix<S, 3, 3> result = Eigen::Matrix<S, 3, 3>::Zero();
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        Eigen::Matrix<S, 3, 3> result = Eigen::Matrix<S, 3, 3>::Zero();
         result(0, 0) = I1;
         result(1, 1) = I2;
         result(2, 2) = I3;
@@ -154,13 +158,13 @@ class rigid_body {
     /// p_a = dL/dy^a, shape (3).
     [[nodiscard]] Eigen::Matrix<S, 3, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 3, 1> result;
         const S w1 = s[0];
         const S w2 = s[1];
         const S w3 = s[2];
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        Eigen::Matrix<S, 3, 1> result;
         result[0] = I1 * w1;
         result[1] = I2 * w2;
         result[2] = I3 * w3;
@@ -195,6 +199,7 @@ class rigid_body {
     /// Functions that are constant along solutions.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S w1 = s[0];
         const S w2 = s[1];
         const S w3 = s[2];
@@ -204,7 +209,6 @@ class rigid_body {
         const S u0 = I3 * w3;
         const S u1 = I1 * w1;
         const S u2 = I2 * w2;
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = u0 * u0 + (u1 * u1 + u2 * u2);
         return result;
     }
@@ -213,8 +217,8 @@ class rigid_body {
     /// Events: each happens where its value crosses 0.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> events([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S w2 = s[1];
         Eigen::Matrix<S, 1, 1> result;
+        const S w2 = s[1];
         result[0] = w2;
         return result;
     }
@@ -233,12 +237,12 @@ class rigid_body {
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
         const S u0 = (I2 - I3) / I1;
-        const S u1 = (I1 - I3) / I2;
-        const S u2 = (I1 - I2) / I3;
         values[0] = u0 * w3;
         values[1] = u0 * w2;
+        const S u1 = (I1 - I3) / I2;
         values[2] = -u1 * w3;
         values[3] = -u1 * w1;
+        const S u2 = (I1 - I2) / I3;
         values[4] = u2 * w2;
         values[5] = u2 * w1;
     }

@@ -110,11 +110,14 @@ class routh_spherical_pendulum {
 
     /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
     /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// left_domain unless m > 0, l > 0.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
+        auto status = StatusOf<S>::good();
         const S m = parameters.m;
         const S l = parameters.l;
-        auto status = StatusOf<S>::good();
+        StatusOf<S>::fail(status, !(m > S(0)), Status::left_domain);
+        StatusOf<S>::fail(status, !(l > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, m * (l * l) == S(0), Status::singular_mass_matrix);
         return status;
     }
@@ -127,13 +130,13 @@ class routh_spherical_pendulum {
     {
         const S th = s[0];
         const S w = s[1];
+        ds[0] = w;
         const S m = parameters.m;
         const S l = parameters.l;
         const S g = parameters.g;
         const S c = parameters.c;
         const S w0 = S(1) / (m * (l * l));
         const auto [sin_th, cos_th] = sincos<S>(th);
-        ds[0] = w;
         ds[1] = w0 * (w0 * (c * c) * cos_th / (sin_th * sin_th * sin_th) - m * l * g * sin_th);
         return StatusOf<S>::good();
     }
@@ -142,9 +145,9 @@ class routh_spherical_pendulum {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> mass_matrix([[maybe_unused]] S t, [[maybe_unused]] const State& s) const
             noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S m = parameters.m;
         const S l = parameters.l;
-        Eigen::Matrix<S, 1, 1> result;
         result(0, 0) = m * (l * l);
         return result;
     }
@@ -152,10 +155,10 @@ class routh_spherical_pendulum {
     /// p_a = dL/dy^a, shape (1).
     [[nodiscard]] Eigen::Matrix<S, 1, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S w = s[1];
         const S m = parameters.m;
         const S l = parameters.l;
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = m * (l * l) * w;
         return result;
     }
@@ -165,11 +168,11 @@ class routh_spherical_pendulum {
     {
         const S th = s[0];
         const S w = s[1];
+        const auto [sin_th, cos_th] = sincos<S>(th);
         const S m = parameters.m;
         const S l = parameters.l;
         const S g = parameters.g;
         const S c = parameters.c;
-        const auto [sin_th, cos_th] = sincos<S>(th);
         return S(0.5) * (c * c / (m * (l * l) * (sin_th * sin_th)) + m * l * (l * (w * w) - S(2) * g * cos_th));
     }
 
@@ -178,11 +181,11 @@ class routh_spherical_pendulum {
     {
         const S th = s[0];
         const S w = s[1];
+        const auto [sin_th, cos_th] = sincos<S>(th);
         const S m = parameters.m;
         const S l = parameters.l;
         const S g = parameters.g;
         const S c = parameters.c;
-        const auto [sin_th, cos_th] = sincos<S>(th);
         return S(0.5) * (m * l * (l * (w * w) + S(2) * g * cos_th) - c * c / (m * (l * l) * (sin_th * sin_th)));
     }
 
@@ -190,9 +193,9 @@ class routh_spherical_pendulum {
     /// Positive inside the domain of the model.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> domain([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         using std::sin;
         const S th = s[0];
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = sin(th);
         return result;
     }
@@ -201,13 +204,13 @@ class routh_spherical_pendulum {
     /// Observables of the model.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         using std::sin;
         const S th = s[0];
+        const S w0 = sin(th);
         const S m = parameters.m;
         const S l = parameters.l;
         const S c = parameters.c;
-        const S w0 = sin(th);
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = c / (m * (l * l) * (w0 * w0));
         return result;
     }
@@ -220,6 +223,7 @@ class routh_spherical_pendulum {
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 2>& values) const noexcept
     {
         const S th = s[0];
+        values[0] = S(1);
         const S m = parameters.m;
         const S l = parameters.l;
         const S g = parameters.g;
@@ -228,7 +232,6 @@ class routh_spherical_pendulum {
         const auto [sin_th, cos_th] = sincos<S>(th);
         const S w1 = S(1) / sin_th;
         const S w2 = w1 * w1;
-        values[0] = S(1);
         values[1] = -w0 * (m * l * g * cos_th + w0 * (c * c) * (S(1) + S(3) * (cos_th * cos_th) * w2) * w2);
     }
 

@@ -114,11 +114,13 @@ class routh_symmetric_top {
 
     /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
     /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// left_domain unless I1 > 0.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
-        const S I1 = parameters.I1;
         auto status = StatusOf<S>::good();
+        const S I1 = parameters.I1;
         StatusOf<S>::fail(status, I1 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(I1 > S(0)), Status::left_domain);
         return status;
     }
 
@@ -130,6 +132,7 @@ class routh_symmetric_top {
     {
         const S th = s[0];
         const S w = s[1];
+        ds[0] = w;
         const S I1 = parameters.I1;
         const S mgl = parameters.mgl;
         const S pph = parameters.pph;
@@ -138,7 +141,6 @@ class routh_symmetric_top {
         const auto [sin_th, cos_th] = sincos<S>(th);
         const S w1 = S(1) / sin_th;
         const S w2 = pph - pps * cos_th;
-        ds[0] = w;
         ds[1] = w0 * (mgl * sin_th - w2 * (pps - cos_th * w2 * (w1 * w1)) * w0 * w1);
         return StatusOf<S>::good();
     }
@@ -147,8 +149,8 @@ class routh_symmetric_top {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> mass_matrix([[maybe_unused]] S t, [[maybe_unused]] const State& s) const
             noexcept
     {
-        const S I1 = parameters.I1;
         Eigen::Matrix<S, 1, 1> result;
+        const S I1 = parameters.I1;
         result(0, 0) = I1;
         return result;
     }
@@ -156,9 +158,9 @@ class routh_symmetric_top {
     /// p_a = dL/dy^a, shape (1).
     [[nodiscard]] Eigen::Matrix<S, 1, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S w = s[1];
         const S I1 = parameters.I1;
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = I1 * w;
         return result;
     }
@@ -168,11 +170,11 @@ class routh_symmetric_top {
     {
         const S th = s[0];
         const S w = s[1];
+        const auto [sin_th, cos_th] = sincos<S>(th);
         const S I1 = parameters.I1;
         const S mgl = parameters.mgl;
         const S pph = parameters.pph;
         const S pps = parameters.pps;
-        const auto [sin_th, cos_th] = sincos<S>(th);
         const S w0 = pph - pps * cos_th;
         return mgl * cos_th + S(0.5) * (I1 * (w * w) + w0 * w0 / (I1 * (sin_th * sin_th)));
     }
@@ -182,11 +184,11 @@ class routh_symmetric_top {
     {
         const S th = s[0];
         const S w = s[1];
+        const auto [sin_th, cos_th] = sincos<S>(th);
         const S I1 = parameters.I1;
         const S mgl = parameters.mgl;
         const S pph = parameters.pph;
         const S pps = parameters.pps;
-        const auto [sin_th, cos_th] = sincos<S>(th);
         const S w0 = pph - pps * cos_th;
         return S(0.5) * (I1 * (w * w) - w0 * w0 / (I1 * (sin_th * sin_th))) - mgl * cos_th;
     }
@@ -195,9 +197,9 @@ class routh_symmetric_top {
     /// Positive inside the domain of the model.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> domain([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         using std::sin;
         const S th = s[0];
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = sin(th);
         return result;
     }
@@ -206,12 +208,12 @@ class routh_symmetric_top {
     /// Observables of the model.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S th = s[0];
+        const auto [sin_th, cos_th] = sincos<S>(th);
         const S I1 = parameters.I1;
         const S pph = parameters.pph;
         const S pps = parameters.pps;
-        const auto [sin_th, cos_th] = sincos<S>(th);
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = (pph - pps * cos_th) / (I1 * (sin_th * sin_th));
         return result;
     }
@@ -224,6 +226,7 @@ class routh_symmetric_top {
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 2>& values) const noexcept
     {
         const S th = s[0];
+        values[0] = S(1);
         const S I1 = parameters.I1;
         const S mgl = parameters.mgl;
         const S pph = parameters.pph;
@@ -233,7 +236,6 @@ class routh_symmetric_top {
         const S w1 = S(1) / sin_th;
         const S w2 = w1 * w1;
         const S w3 = pph - pps * cos_th;
-        values[0] = S(1);
         values[1] = w0 * (mgl * cos_th + w0 * (w2 * (w3 * (pps - cos_th * w3 * w2) * (S(3) * cos_th) - w3 * w3) - pps *
                 pps));
     }

@@ -139,15 +139,19 @@ class satellite {
 
     /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
     /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// left_domain unless I1 > 0, I2 > 0, I3 > 0.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
+        auto status = StatusOf<S>::good();
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        auto status = StatusOf<S>::good();
         StatusOf<S>::fail(status, I1 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(I1 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, I2 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(I2 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, I3 == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(I3 > S(0)), Status::left_domain);
         return status;
     }
 
@@ -165,14 +169,14 @@ class satellite {
         const S w1 = s[4];
         const S w2 = s[5];
         const S w3 = s[6];
+        ds[0] = u;
+        ds[1] = v;
+        const S u0 = x * x + y * y;
         const S k = parameters.k;
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        const S u0 = x * x + y * y;
         const S u1 = k / (u0 * sqrt(u0));
-        ds[0] = u;
-        ds[1] = v;
         ds[2] = -x * u1;
         ds[3] = -y * u1;
         ds[4] = (I2 - I3) * w2 * w3 / I1;
@@ -185,12 +189,12 @@ class satellite {
     [[nodiscard]] Eigen::Matrix<S, 5, 5> mass_matrix([[maybe_unused]] S t, [[maybe_unused]] const State& s) const
             noexcept
     {
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
         Eigen::Matrix<S, 5, 5> result = Eigen::Matrix<S, 5, 5>::Zero();
         result(0, 0) = S(1);
         result(1, 1) = S(1);
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
         result(2, 2) = I1;
         result(3, 3) = I2;
         result(4, 4) = I3;
@@ -200,17 +204,17 @@ class satellite {
     /// p_a = dL/dy^a, shape (5).
     [[nodiscard]] Eigen::Matrix<S, 5, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 5, 1> result;
         const S u = s[2];
         const S v = s[3];
         const S w1 = s[4];
         const S w2 = s[5];
         const S w3 = s[6];
+        result[0] = u;
+        result[1] = v;
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        Eigen::Matrix<S, 5, 1> result;
-        result[0] = u;
-        result[1] = v;
         result[2] = I1 * w1;
         result[3] = I2 * w2;
         result[4] = I3 * w3;
@@ -259,9 +263,9 @@ class satellite {
     /// Positive inside the domain of the model.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> domain([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S x = s[0];
         const S y = s[1];
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = x * x + y * y;
         return result;
     }
@@ -270,10 +274,10 @@ class satellite {
     /// Observables of the model.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         using arithmetic::sqrt;
         const S x = s[0];
         const S y = s[1];
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = sqrt(x * x + y * y);
         return result;
     }
@@ -291,30 +295,30 @@ class satellite {
         const S w1 = s[4];
         const S w2 = s[5];
         const S w3 = s[6];
+        values[0] = S(1);
+        values[1] = S(1);
+        const S u0 = y * y;
+        const S u1 = x * x + u0;
+        const S u2 = S(1) / u1;
         const S k = parameters.k;
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        const S u0 = y * y;
-        const S u1 = x * x + u0;
-        const S u2 = S(1) / u1;
         const S u3 = k * u2 / sqrt(u1);
         const S u4 = u2 * u3;
         const S u5 = x * u4;
-        const S u6 = S(3) * y * u5;
-        const S u7 = (I2 - I3) / I1;
-        const S u8 = (I1 - I3) / I2;
-        const S u9 = (I1 - I2) / I3;
-        values[0] = S(1);
-        values[1] = S(1);
         values[2] = S(3) * x * u5 - u3;
+        const S u6 = S(3) * y * u5;
         values[3] = u6;
         values[4] = u6;
         values[5] = S(3) * u0 * u4 - u3;
+        const S u7 = (I2 - I3) / I1;
         values[6] = u7 * w3;
         values[7] = u7 * w2;
+        const S u8 = (I1 - I3) / I2;
         values[8] = -u8 * w3;
         values[9] = -u8 * w1;
+        const S u9 = (I1 - I2) / I3;
         values[10] = u9 * w2;
         values[11] = u9 * w1;
     }

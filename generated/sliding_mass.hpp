@@ -130,9 +130,19 @@ class sliding_mass {
 
     /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
     /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// left_domain unless J1 > 0, J2 > 0, J3 > 0, m > 0.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
-        return StatusOf<S>::good();
+        auto status = StatusOf<S>::good();
+        const S J1 = parameters.J1;
+        const S J2 = parameters.J2;
+        const S J3 = parameters.J3;
+        const S m = parameters.m;
+        StatusOf<S>::fail(status, !(J1 > S(0)), Status::left_domain);
+        StatusOf<S>::fail(status, !(J2 > S(0)), Status::left_domain);
+        StatusOf<S>::fail(status, !(J3 > S(0)), Status::left_domain);
+        StatusOf<S>::fail(status, !(m > S(0)), Status::left_domain);
+        return status;
     }
 
     /// The equations of motion, ds = (xdot, ydot): xdot^i = rho^i_a y^a and
@@ -146,13 +156,14 @@ class sliding_mass {
         const S w1 = s[2];
         const S w2 = s[3];
         const S w3 = s[4];
+        auto status = StatusOf<S>::good();
+        ds[0] = v;
         const S J1 = parameters.J1;
         const S J2 = parameters.J2;
         const S J3 = parameters.J3;
         const S m = parameters.m;
         const S d0 = parameters.d0;
         const S k = parameters.k;
-        auto status = StatusOf<S>::good();
         const S u0 = m * d0;
         const S u1 = m * s_;
         const S u2 = s_ * u1;
@@ -170,6 +181,8 @@ class sliding_mass {
         const S u11 = w3 * u9 - S(2) * v * u5 - w2 * u10;
         const S z0_0 = (u4 * u8 - u0 * u11) * inv_det0;
         const S z0_1 = (m * u11 - u0 * u8) * inv_det0;
+        ds[1] = z0_0;
+        ds[2] = z0_1;
         const S u12 = J2 + u2;
         const S u13 = -d0 * u1;
         const S u14 = J3 + u3;
@@ -182,9 +195,6 @@ class sliding_mass {
         const S u18 = u15 * w2 + u0 * u16 - w1 * u9;
         const S z1_0 = (u14 * u17 - u13 * u18) * inv_det1;
         const S z1_1 = (u12 * u18 - u13 * u17) * inv_det1;
-        ds[0] = v;
-        ds[1] = z0_0;
-        ds[2] = z0_1;
         ds[3] = z1_0;
         ds[4] = z1_1;
         return status;
@@ -193,22 +203,22 @@ class sliding_mass {
     /// W_ab = d2L/dy^a dy^b, shape (4, 4), symmetric.
     [[nodiscard]] Eigen::Matrix<S, 4, 4> mass_matrix([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 4, 4> result = Eigen::Matrix<S, 4, 4>::Zero();
         const S s_ = s[0];
         const S J1 = parameters.J1;
         const S J2 = parameters.J2;
         const S J3 = parameters.J3;
         const S m = parameters.m;
         const S d0 = parameters.d0;
-        const S u0 = m * d0;
-        const S u1 = d0 * u0;
-        const S u2 = m * (s_ * s_);
-        const S u3 = -u0 * s_;
-        Eigen::Matrix<S, 4, 4> result = Eigen::Matrix<S, 4, 4>::Zero();
         result(0, 0) = m;
+        const S u0 = m * d0;
         result(0, 1) = u0;
         result(1, 0) = u0;
+        const S u1 = d0 * u0;
+        const S u2 = m * (s_ * s_);
         result(1, 1) = u1 + (J1 + u2);
         result(2, 2) = J2 + u2;
+        const S u3 = -u0 * s_;
         result(2, 3) = u3;
         result(3, 2) = u3;
         result(3, 3) = J3 + u1;
@@ -218,6 +228,7 @@ class sliding_mass {
     /// p_a = dL/dy^a, shape (4).
     [[nodiscard]] Eigen::Matrix<S, 4, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 4, 1> result;
         const S s_ = s[0];
         const S v = s[1];
         const S w1 = s[2];
@@ -229,10 +240,9 @@ class sliding_mass {
         const S m = parameters.m;
         const S d0 = parameters.d0;
         const S u0 = v + d0 * w1;
-        const S u1 = m * (d0 * w3 - s_ * w2);
-        Eigen::Matrix<S, 4, 1> result;
         result[0] = m * u0;
         result[1] = J1 * w1 + m * (d0 * u0 + s_ * s_ * w1);
+        const S u1 = m * (d0 * w3 - s_ * w2);
         result[2] = J2 * w2 - s_ * u1;
         result[3] = J3 * w3 + d0 * u1;
         return result;
@@ -246,16 +256,16 @@ class sliding_mass {
         const S w1 = s[2];
         const S w2 = s[3];
         const S w3 = s[4];
+        const S u0 = w3 * w3;
+        const S u1 = w1 * w1;
+        const S u2 = w2 * w2;
+        const S u3 = s_ * s_;
         const S J1 = parameters.J1;
         const S J2 = parameters.J2;
         const S J3 = parameters.J3;
         const S m = parameters.m;
         const S d0 = parameters.d0;
         const S k = parameters.k;
-        const S u0 = w3 * w3;
-        const S u1 = w1 * w1;
-        const S u2 = w2 * w2;
-        const S u3 = s_ * s_;
         const S u4 = J3 * u0 + (J1 * u1 + J2 * u2) + m * (v * v + (d0 * d0 * (u1 + u0) + u3 * (u1 + u2))) + k * (S(1) +
                 u3);
         return m * d0 * (v * w1 - s_ * w2 * w3) + S(0.5) * u4 - k * s_;
@@ -269,13 +279,13 @@ class sliding_mass {
         const S w1 = s[2];
         const S w2 = s[3];
         const S w3 = s[4];
+        const S u0 = w1 * w1;
         const S J1 = parameters.J1;
         const S J2 = parameters.J2;
         const S J3 = parameters.J3;
         const S m = parameters.m;
         const S d0 = parameters.d0;
         const S k = parameters.k;
-        const S u0 = w1 * w1;
         const S u1 = v + d0 * w1;
         const S u2 = d0 * w3 - s_ * w2;
         const S u3 = S(1) - s_;
@@ -288,6 +298,7 @@ class sliding_mass {
     /// Functions that are constant along solutions.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S s_ = s[0];
         const S v = s[1];
         const S w1 = s[2];
@@ -302,7 +313,6 @@ class sliding_mass {
         const S u1 = m * (d0 * w3 - s_ * w2);
         const S u2 = J2 * w2 - s_ * u1;
         const S u3 = J3 * w3 + d0 * u1;
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = u0 * u0 + u2 * u2 + u3 * u3;
         return result;
     }
@@ -327,102 +337,102 @@ class sliding_mass {
         const S m = parameters.m;
         const S d0 = parameters.d0;
         const S k = parameters.k;
-        const S u0 = m * d0;
-        const S u1 = J1 + m * (d0 * d0 + s_ * s_);
-        const S det0 = m * u1 - u0 * u0;
+        const S u0 = m * s_;
+        const S u1 = s_ * u0;
+        const S u2 = J2 + u1;
+        const S u3 = m * d0;
+        const S u4 = u3 * s_;
+        const S u5 = -u4;
+        const S u6 = d0 * u3;
+        const S u7 = J3 + u6;
+        const S det0 = u2 * u7 - u5 * u5;
         const S inv_det0 = S(1) / det0;
-        const S u2 = w2 * w2;
-        const S u3 = w1 * w1 + u2;
-        const S u4 = m * u3 - k;
-        const S u5 = d0 * (u2 - w3 * w3);
-        const S u6 = w2 * w3;
-        const S u7 = d0 * u6;
-        const S u8 = k * (S(1) - s_) + m * (s_ * u3 - u7);
-        const S u9 = S(2) * v;
-        const S u10 = m * (s_ * (u5 + s_ * u6 - u9 * w1) - d0 * u7) + (J2 - J3) * u6;
-        const S z0_1 = (m * u10 - u0 * u8) * inv_det0;
-        const S u11 = m * (u5 + S(2) * (s_ * (u6 - z0_1) - v * w1));
-        const S z1_0 = (u1 * u4 - u0 * u11) * inv_det0;
-        const S z1_1 = (m * u11 - u0 * u4) * inv_det0;
-        const S u12 = m * s_;
-        const S u13 = S(2) * u12;
-        const S u14 = u13 * w1;
-        const S u15 = -u14;
-        const S z2_0 = (-u0 * u15) * inv_det0;
-        const S z2_1 = (m * u15) * inv_det0;
-        const S u16 = -u13 * v;
-        const S z3_0 = (u1 * u14 - u0 * u16) * inv_det0;
-        const S z3_1 = (m * u16 - u0 * u14) * inv_det0;
-        const S u17 = m * (S(2) * s_ * w2 - d0 * w3);
-        const S u18 = d0 * u0;
-        const S u19 = J2 - u18;
-        const S u20 = s_ * u12;
-        const S u21 = J3 - u20;
-        const S u22 = u19 - u21;
-        const S u23 = u0 * s_;
-        const S u24 = S(2) * u23;
-        const S u25 = u22 * w3 + u24 * w2;
-        const S z4_0 = (u1 * u17 - u0 * u25) * inv_det0;
-        const S z4_1 = (m * u25 - u0 * u17) * inv_det0;
-        const S u26 = -u0 * w2;
-        const S u27 = u22 * w2 - u24 * w3;
-        const S z5_0 = (u1 * u26 - u0 * u27) * inv_det0;
-        const S z5_1 = (m * u27 - u0 * u26) * inv_det0;
-        const S u28 = J2 + u20;
-        const S u29 = -u23;
-        const S u30 = J3 + u18;
-        const S det1 = u28 * u30 - u29 * u29;
+        const S u8 = J3 - u1;
+        const S u9 = u8 - J1;
+        const S u10 = u9 * w1;
+        const S u11 = u4 * w1;
+        const S z0_0 = (u7 * u10 - u5 * u11) * inv_det0;
+        const S z0_1 = (u2 * u11 - u5 * u10) * inv_det0;
+        values[20] = z0_1;
+        const S u12 = S(2) * v;
+        const S u13 = -u0 * (d0 * w1 + u12);
+        const S u14 = S(2) * u3;
+        const S u15 = J2 - u6;
+        const S u16 = J1 - u15;
+        const S u17 = u14 * v + u16 * w1;
+        const S z1_0 = (u7 * u13 - u5 * u17) * inv_det0;
+        const S z1_1 = (u2 * u17 - u5 * u13) * inv_det0;
+        values[19] = z1_1;
+        const S u18 = u9 * w3 - u4 * w2;
+        const S u19 = u4 * w3 + u16 * w2;
+        const S z2_0 = (u7 * u18 - u5 * u19) * inv_det0;
+        const S z2_1 = (u2 * u19 - u5 * u18) * inv_det0;
+        values[18] = z2_1;
+        const S u20 = S(2) * u0;
+        const S u21 = -u20 * w2;
+        const S u22 = u14 * w2;
+        const S z3_0 = (u7 * u21 - u5 * u22) * inv_det0;
+        const S z3_1 = (u2 * u22 - u5 * u21) * inv_det0;
+        values[17] = z3_1;
+        const S u23 = v * w2;
+        const S u24 = w1 * u18 - u20 * u23;
+        const S u25 = u14 * u23 + w1 * u19;
+        const S z4_0 = (u7 * u24 - u5 * u25) * inv_det0;
+        const S z4_1 = (u2 * u25 - u5 * u24) * inv_det0;
+        const S u26 = w1 * w3 + z4_0;
+        const S u27 = m * (d0 * (z4_1 - w1 * w2) - S(2) * (u23 + s_ * u26));
+        const S u28 = u3 * u26;
+        const S z5_0 = (u7 * u27 - u5 * u28) * inv_det0;
+        const S z5_1 = (u2 * u28 - u5 * u27) * inv_det0;
+        values[16] = z5_1;
+        values[15] = z0_0;
+        values[14] = z1_0;
+        values[13] = z2_0;
+        values[12] = z3_0;
+        values[11] = z5_0;
+        const S u29 = J1 + m * (d0 * d0 + s_ * s_);
+        const S det1 = m * u29 - u3 * u3;
         const S inv_det1 = S(1) / det1;
-        const S u31 = u21 - J1;
-        const S u32 = u31 * w3 - u23 * w2;
-        const S u33 = v * w2;
-        const S u34 = w1 * u32 - u13 * u33;
-        const S u35 = S(2) * u0;
-        const S u36 = J1 - u19;
-        const S u37 = u23 * w3 + u36 * w2;
-        const S u38 = u35 * u33 + w1 * u37;
-        const S z6_0 = (u30 * u34 - u29 * u38) * inv_det1;
-        const S z6_1 = (u28 * u38 - u29 * u34) * inv_det1;
-        const S u39 = w1 * w3 + z6_0;
-        const S u40 = m * (d0 * (z6_1 - w1 * w2) - S(2) * (u33 + s_ * u39));
-        const S u41 = u0 * u39;
-        const S z7_0 = (u30 * u40 - u29 * u41) * inv_det1;
-        const S z7_1 = (u28 * u41 - u29 * u40) * inv_det1;
-        const S u42 = -u13 * w2;
-        const S u43 = u35 * w2;
-        const S z8_0 = (u30 * u42 - u29 * u43) * inv_det1;
-        const S z8_1 = (u28 * u43 - u29 * u42) * inv_det1;
-        const S z9_0 = (u30 * u32 - u29 * u37) * inv_det1;
-        const S z9_1 = (u28 * u37 - u29 * u32) * inv_det1;
-        const S u44 = -u12 * (d0 * w1 + u9);
-        const S u45 = u35 * v + u36 * w1;
-        const S z10_0 = (u30 * u44 - u29 * u45) * inv_det1;
-        const S z10_1 = (u28 * u45 - u29 * u44) * inv_det1;
-        const S u46 = u31 * w1;
-        const S u47 = u23 * w1;
-        const S z11_0 = (u30 * u46 - u29 * u47) * inv_det1;
-        const S z11_1 = (u28 * u47 - u29 * u46) * inv_det1;
+        const S u30 = u15 - u8;
+        const S u31 = S(2) * u4;
+        const S u32 = u30 * w2 - u31 * w3;
+        const S u33 = -u3 * w2;
+        const S z6_0 = (u29 * u33 - u3 * u32) * inv_det1;
+        const S z6_1 = (m * u32 - u3 * u33) * inv_det1;
+        values[10] = z6_1;
+        const S u34 = m * (S(2) * s_ * w2 - d0 * w3);
+        const S u35 = u30 * w3 + u31 * w2;
+        const S z7_0 = (u29 * u34 - u3 * u35) * inv_det1;
+        const S z7_1 = (m * u35 - u3 * u34) * inv_det1;
+        values[9] = z7_1;
+        const S u36 = u20 * w1;
+        const S u37 = -u20 * v;
+        const S z8_0 = (u29 * u36 - u3 * u37) * inv_det1;
+        const S z8_1 = (m * u37 - u3 * u36) * inv_det1;
+        values[8] = z8_1;
+        const S u38 = -u36;
+        const S z9_0 = (-u3 * u38) * inv_det1;
+        const S z9_1 = (m * u38) * inv_det1;
+        values[7] = z9_1;
+        const S u39 = w2 * w2;
+        const S u40 = d0 * (u39 - w3 * w3);
+        const S u41 = w2 * w3;
+        const S u42 = d0 * u41;
+        const S u43 = m * (s_ * (u40 + s_ * u41 - u12 * w1) - d0 * u42) + (J2 - J3) * u41;
+        const S u44 = w1 * w1 + u39;
         values[0] = S(1);
-        values[1] = z1_0;
-        values[2] = z2_0;
-        values[3] = z3_0;
-        values[4] = z4_0;
-        values[5] = z5_0;
-        values[6] = z1_1;
-        values[7] = z2_1;
-        values[8] = z3_1;
-        values[9] = z4_1;
-        values[10] = z5_1;
-        values[11] = z7_0;
-        values[12] = z8_0;
-        values[13] = z9_0;
-        values[14] = z10_0;
-        values[15] = z11_0;
-        values[16] = z7_1;
-        values[17] = z8_1;
-        values[18] = z9_1;
-        values[19] = z10_1;
-        values[20] = z11_1;
+        const S u45 = k * (S(1) - s_) + m * (s_ * u44 - u42);
+        const S z10_1 = (m * u43 - u3 * u45) * inv_det1;
+        const S u46 = m * (u40 + S(2) * (s_ * (u41 - z10_1) - v * w1));
+        const S u47 = m * u44 - k;
+        const S z11_0 = (u29 * u47 - u3 * u46) * inv_det1;
+        const S z11_1 = (m * u46 - u3 * u47) * inv_det1;
+        values[6] = z11_1;
+        values[5] = z6_0;
+        values[4] = z7_0;
+        values[3] = z8_0;
+        values[2] = z9_0;
+        values[1] = z11_0;
     }
 
     /// The same as a dense matrix, shape (5, 5).

@@ -117,11 +117,14 @@ class spherical_pendulum {
 
     /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
     /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// left_domain unless m > 0, l > 0.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
+        auto status = StatusOf<S>::good();
         const S m = parameters.m;
         const S l = parameters.l;
-        auto status = StatusOf<S>::good();
+        StatusOf<S>::fail(status, !(m > S(0)), Status::left_domain);
+        StatusOf<S>::fail(status, !(l > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, m * (l * l) == S(0), Status::singular_mass_matrix);
         return status;
     }
@@ -135,31 +138,31 @@ class spherical_pendulum {
         const S th = s[0];
         const S w = s[2];
         const S v = s[3];
+        auto status = StatusOf<S>::good();
+        ds[0] = w;
+        ds[1] = v;
+        const auto [sin_th, cos_th] = sincos<S>(th);
+        const S w0 = cos_th * v;
         const S m = parameters.m;
         const S l = parameters.l;
         const S g = parameters.g;
-        auto status = StatusOf<S>::good();
-        const auto [sin_th, cos_th] = sincos<S>(th);
-        const S w0 = cos_th * v;
-        StatusOf<S>::fail(status, m * (l * l) * (sin_th * sin_th) == S(0), Status::singular_mass_matrix);
-        ds[0] = w;
-        ds[1] = v;
         ds[2] = sin_th * (v * w0 - g / l);
         ds[3] = -S(2) * w * w0 / sin_th;
+        StatusOf<S>::fail(status, m * (l * l) * (sin_th * sin_th) == S(0), Status::singular_mass_matrix);
         return status;
     }
 
     /// W_ab = d2L/dy^a dy^b, shape (2, 2), symmetric.
     [[nodiscard]] Eigen::Matrix<S, 2, 2> mass_matrix([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 2, 2> result = Eigen::Matrix<S, 2, 2>::Zero();
         using std::sin;
         const S th = s[0];
         const S m = parameters.m;
         const S l = parameters.l;
         const S w0 = m * (l * l);
-        const S w1 = sin(th);
-        Eigen::Matrix<S, 2, 2> result = Eigen::Matrix<S, 2, 2>::Zero();
         result(0, 0) = w0;
+        const S w1 = sin(th);
         result(1, 1) = w0 * (w1 * w1);
         return result;
     }
@@ -167,6 +170,7 @@ class spherical_pendulum {
     /// p_a = dL/dy^a, shape (2).
     [[nodiscard]] Eigen::Matrix<S, 2, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 2, 1> result;
         using std::sin;
         const S th = s[0];
         const S w = s[2];
@@ -174,9 +178,8 @@ class spherical_pendulum {
         const S m = parameters.m;
         const S l = parameters.l;
         const S w0 = m * (l * l);
-        const S w1 = sin(th);
-        Eigen::Matrix<S, 2, 1> result;
         result[0] = w0 * w;
+        const S w1 = sin(th);
         result[1] = w0 * (w1 * w1) * v;
         return result;
     }
@@ -187,10 +190,10 @@ class spherical_pendulum {
         const S th = s[0];
         const S w = s[2];
         const S v = s[3];
+        const auto [sin_th, cos_th] = sincos<S>(th);
         const S m = parameters.m;
         const S l = parameters.l;
         const S g = parameters.g;
-        const auto [sin_th, cos_th] = sincos<S>(th);
         return S(0.5) * m * l * (l * (w * w + sin_th * sin_th * (v * v)) - S(2) * g * cos_th);
     }
 
@@ -200,10 +203,10 @@ class spherical_pendulum {
         const S th = s[0];
         const S w = s[2];
         const S v = s[3];
+        const auto [sin_th, cos_th] = sincos<S>(th);
         const S m = parameters.m;
         const S l = parameters.l;
         const S g = parameters.g;
-        const auto [sin_th, cos_th] = sincos<S>(th);
         return S(0.5) * m * l * (l * (w * w + sin_th * sin_th * (v * v)) + S(2) * g * cos_th);
     }
 
@@ -211,9 +214,9 @@ class spherical_pendulum {
     /// Positive inside the domain of the model.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> domain([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         using std::sin;
         const S th = s[0];
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = sin(th);
         return result;
     }
@@ -222,10 +225,10 @@ class spherical_pendulum {
     /// Observables of the model.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         using std::cos;
         const S th = s[0];
         const S l = parameters.l;
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = -l * cos(th);
         return result;
     }
@@ -234,13 +237,13 @@ class spherical_pendulum {
     /// Functions that are constant along solutions.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         using std::sin;
         const S th = s[0];
         const S v = s[3];
+        const S w0 = sin(th);
         const S m = parameters.m;
         const S l = parameters.l;
-        const S w0 = sin(th);
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = m * (l * l) * (w0 * w0) * v;
         return result;
     }
@@ -255,16 +258,16 @@ class spherical_pendulum {
         const S th = s[0];
         const S w = s[2];
         const S v = s[3];
-        const S l = parameters.l;
-        const S g = parameters.g;
-        const auto [sin_th, cos_th] = sincos<S>(th);
-        const S w0 = cos_th / sin_th;
-        const S w1 = S(2) * w0;
         values[0] = S(1);
         values[1] = S(1);
+        const auto [sin_th, cos_th] = sincos<S>(th);
+        const S l = parameters.l;
+        const S g = parameters.g;
         values[2] = (cos_th * cos_th - sin_th * sin_th) * (v * v) - g * cos_th / l;
         values[3] = S(2) * sin_th * cos_th * v;
+        const S w0 = cos_th / sin_th;
         values[4] = S(2) * (S(1) + w0 * w0) * w * v;
+        const S w1 = S(2) * w0;
         values[5] = -w1 * v;
         values[6] = -w1 * w;
     }

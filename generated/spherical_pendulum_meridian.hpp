@@ -116,9 +116,13 @@ class spherical_pendulum_meridian {
 
     /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
     /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// left_domain unless m > 0.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
-        return StatusOf<S>::good();
+        auto status = StatusOf<S>::good();
+        const S m = parameters.m;
+        StatusOf<S>::fail(status, !(m > S(0)), Status::left_domain);
+        return status;
     }
 
     /// The equations of motion, ds = (xdot, ydot): xdot^i = rho^i_a y^a and
@@ -132,18 +136,18 @@ class spherical_pendulum_meridian {
         const S z = s[2];
         const S a = s[3];
         const S b = s[4];
-        const S g = parameters.g;
         const S w0 = z * b;
+        ds[0] = x * w0 - y * a;
+        ds[1] = x * a + y * w0;
         const S w1 = x * x;
         const S w2 = y * y;
         const S w3 = w1 + w2;
+        ds[2] = -w3 * b;
         const S w4 = w3 * a;
+        ds[3] = -S(2) * w4 * w0 / w3;
         const S w5 = z * z;
         const S w6 = w1 * (w1 + S(2) * w2 + w5) + w2 * (w2 + w5);
-        ds[0] = x * w0 - y * a;
-        ds[1] = x * a + y * w0;
-        ds[2] = -w3 * b;
-        ds[3] = -S(2) * w4 * w0 / w3;
+        const S g = parameters.g;
         ds[4] = (g * w3 + z * (a * w4 - w6 * (b * b))) / w6;
         return StatusOf<S>::good();
     }
@@ -151,12 +155,12 @@ class spherical_pendulum_meridian {
     /// W_ab = d2L/dy^a dy^b, shape (2, 2), symmetric.
     [[nodiscard]] Eigen::Matrix<S, 2, 2> mass_matrix([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 2, 2> result;
         const S x = s[0];
         const S y = s[1];
         const S z = s[2];
-        const S m = parameters.m;
         const S w0 = x * x + y * y;
-        Eigen::Matrix<S, 2, 2> result;
+        const S m = parameters.m;
         result(0, 0) = m * w0;
         result(0, 1) = S(0);
         result(1, 0) = S(0);
@@ -167,14 +171,14 @@ class spherical_pendulum_meridian {
     /// p_a = dL/dy^a, shape (2).
     [[nodiscard]] Eigen::Matrix<S, 2, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 2, 1> result;
         const S x = s[0];
         const S y = s[1];
         const S z = s[2];
         const S a = s[3];
         const S b = s[4];
-        const S m = parameters.m;
         const S w0 = x * x + y * y;
-        Eigen::Matrix<S, 2, 1> result;
+        const S m = parameters.m;
         result[0] = m * w0 * a;
         result[1] = w0 * (w0 + z * z) * m * b;
         return result;
@@ -188,11 +192,11 @@ class spherical_pendulum_meridian {
         const S z = s[2];
         const S a = s[3];
         const S b = s[4];
-        const S m = parameters.m;
-        const S g = parameters.g;
         const S w0 = x * x;
         const S w1 = y * y;
         const S w2 = z * z;
+        const S m = parameters.m;
+        const S g = parameters.g;
         const S w3 = (w0 * (w0 + S(2) * w1 + w2) + w1 * (w1 + w2)) * (b * b) + ((w0 + w1) * (a * a) + S(2) * g * z);
         return S(0.5) * m * w3;
     }
@@ -205,11 +209,11 @@ class spherical_pendulum_meridian {
         const S z = s[2];
         const S a = s[3];
         const S b = s[4];
-        const S m = parameters.m;
-        const S g = parameters.g;
         const S w0 = x * x;
         const S w1 = y * y;
         const S w2 = z * z;
+        const S m = parameters.m;
+        const S g = parameters.g;
         const S w3 = (w0 * (w0 + S(2) * w1 + w2) + w1 * (w1 + w2)) * (b * b) + (w0 + w1) * (a * a) - S(2) * g * z;
         return S(0.5) * m * w3;
     }
@@ -218,9 +222,9 @@ class spherical_pendulum_meridian {
     /// Positive inside the domain of the model.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> domain([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S x = s[0];
         const S y = s[1];
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = x * x + y * y;
         return result;
     }
@@ -229,11 +233,11 @@ class spherical_pendulum_meridian {
     /// Functions that are constant along solutions.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S x = s[0];
         const S y = s[1];
         const S a = s[3];
         const S m = parameters.m;
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = m * (x * x + y * y) * a;
         return result;
     }
@@ -252,52 +256,52 @@ class spherical_pendulum_meridian {
         const S z = s[2];
         const S a = s[3];
         const S b = s[4];
-        const S g = parameters.g;
         const S w0 = z * b;
-        const S w1 = y * b;
-        const S w2 = S(2) * x;
-        const S w3 = x * x;
-        const S w4 = y * y;
-        const S w5 = w3 + w4;
-        const S w6 = w5 * a;
-        const S w7 = S(2) * w6;
-        const S w8 = w7 * w0 / w5 - S(2) * a * w0;
-        const S w9 = S(2) * y;
-        const S w10 = S(2) * w5;
-        const S w11 = S(2) * z;
-        const S w12 = w11 * w6;
-        const S w13 = b * b;
-        const S w14 = z * z;
-        const S w15 = w3 + S(2) * w4;
-        const S w16 = w3 * (w15 + w14) + w4 * (w4 + w14);
-        const S w17 = (g * w5 + z * (a * w6 - w16 * w13)) / w16;
-        const S w18 = a * a;
-        const S w19 = g - z * ((w10 + w14) * w13 + z * w17 - w18) - w10 * w17;
-        const S w20 = w3 * (w18 - w11 * w17 - (w15 + S(3) * w14) * w13) - w4 * (w1 * w1 + z * (S(3) * b * w0 + S(2) *
-                w17) - w18);
         values[0] = w0;
-        values[1] = -a;
-        values[2] = x * b;
-        values[3] = -y;
-        values[4] = x * z;
-        values[5] = a;
         values[6] = w0;
-        values[7] = w1;
         values[8] = x;
+        const S w1 = x * x;
+        const S w2 = y * y;
+        const S w3 = w1 + S(2) * w2;
+        const S w4 = z * z;
+        const S w5 = w1 * (w3 + w4) + w2 * (w2 + w4);
+        values[22] = -S(2) * w5 * w0 / w5;
+        const S w6 = w1 + w2;
+        values[5] = a;
+        const S w7 = w6 * a;
+        const S w8 = S(2) * z;
+        const S w9 = w8 * w7;
+        values[21] = w9 / w5;
+        const S w10 = a * a;
+        const S w11 = b * b;
+        const S g = parameters.g;
+        const S w12 = (g * w6 + z * (a * w7 - w5 * w11)) / w5;
+        const S w13 = y * b;
+        values[7] = w13;
+        const S w14 = w1 * (w10 - w8 * w12 - (w3 + S(3) * w4) * w11) - w2 * (w13 * w13 + z * (S(3) * b * w0 + S(2) *
+                w12) - w10);
+        values[20] = w14 / w5;
+        const S w15 = S(2) * y;
+        const S w16 = S(2) * w6;
+        const S w17 = g - z * ((w16 + w4) * w11 + z * w12 - w10) - w16 * w12;
+        values[19] = w15 * w17 / w5;
+        const S w18 = S(2) * x;
+        values[18] = w18 * w17 / w5;
+        values[17] = -w9 / w6;
+        values[16] = -w16 * w0 / w6;
+        const S w19 = S(2) * w7;
+        values[15] = -w19 * b / w6;
+        const S w20 = w19 * w0 / w6 - S(2) * a * w0;
+        values[14] = w15 * w20 / w6;
+        values[13] = w18 * w20 / w6;
+        values[12] = -w6;
+        values[11] = -S(2) * w13;
+        values[10] = -w18 * b;
         values[9] = y * z;
-        values[10] = -w2 * b;
-        values[11] = -S(2) * w1;
-        values[12] = -w5;
-        values[13] = w2 * w8 / w5;
-        values[14] = w9 * w8 / w5;
-        values[15] = -w7 * b / w5;
-        values[16] = -w10 * w0 / w5;
-        values[17] = -w12 / w5;
-        values[18] = w2 * w19 / w16;
-        values[19] = w9 * w19 / w16;
-        values[20] = w20 / w16;
-        values[21] = w12 / w16;
-        values[22] = -S(2) * w16 * w0 / w16;
+        values[4] = x * z;
+        values[3] = -y;
+        values[2] = x * b;
+        values[1] = -a;
     }
 
     /// The same as a dense matrix, shape (5, 5).

@@ -117,11 +117,13 @@ class spherical_pendulum_tilted {
 
     /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
     /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// left_domain unless m > 0.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
-        const S m = parameters.m;
         auto status = StatusOf<S>::good();
+        const S m = parameters.m;
         StatusOf<S>::fail(status, m == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(m > S(0)), Status::left_domain);
         return status;
     }
 
@@ -137,11 +139,13 @@ class spherical_pendulum_tilted {
         const S z = s[2];
         const S a = s[3];
         const S b = s[4];
-        const S g = parameters.g;
         auto status = StatusOf<S>::good();
         const S w0 = z * a;
+        ds[0] = w0;
         const S w1 = z * b;
+        ds[1] = w1;
         const S w2 = y * b;
+        ds[2] = -(x * a + w2);
         const S w3 = z * z;
         const S w4 = x * x + w3;
         const S w5 = x * y;
@@ -150,13 +154,11 @@ class spherical_pendulum_tilted {
         StatusOf<S>::fail(status, abs(det0) <= singular_tolerance<S>(2) * (abs(w4 * w6) + abs(w5 * w5)),
                 Status::singular_mass_matrix);
         const S inv_det0 = S(1) / det0;
+        const S g = parameters.g;
         const S w7 = x * (g - b * w1) + w0 * w2;
         const S w8 = x * w0 * b + y * (g - a * w0);
         const S z0_0 = (w6 * w7 - w5 * w8) * inv_det0;
         const S z0_1 = (w4 * w8 - w5 * w7) * inv_det0;
-        ds[0] = w0;
-        ds[1] = w1;
-        ds[2] = -(x * a + w2);
         ds[3] = z0_0;
         ds[4] = z0_1;
         return status;
@@ -165,14 +167,14 @@ class spherical_pendulum_tilted {
     /// W_ab = d2L/dy^a dy^b, shape (2, 2), symmetric.
     [[nodiscard]] Eigen::Matrix<S, 2, 2> mass_matrix([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 2, 2> result;
         const S x = s[0];
         const S y = s[1];
         const S z = s[2];
-        const S m = parameters.m;
         const S w0 = z * z;
-        const S w1 = m * x * y;
-        Eigen::Matrix<S, 2, 2> result;
+        const S m = parameters.m;
         result(0, 0) = m * (x * x + w0);
+        const S w1 = m * x * y;
         result(0, 1) = w1;
         result(1, 0) = w1;
         result(1, 1) = m * (w0 + y * y);
@@ -182,15 +184,15 @@ class spherical_pendulum_tilted {
     /// p_a = dL/dy^a, shape (2).
     [[nodiscard]] Eigen::Matrix<S, 2, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 2, 1> result;
         const S x = s[0];
         const S y = s[1];
         const S z = s[2];
         const S a = s[3];
         const S b = s[4];
-        const S m = parameters.m;
         const S w0 = x * a + y * b;
         const S w1 = z * z;
-        Eigen::Matrix<S, 2, 1> result;
+        const S m = parameters.m;
         result[0] = m * (x * w0 + w1 * a);
         result[1] = m * (y * w0 + w1 * b);
         return result;
@@ -204,10 +206,10 @@ class spherical_pendulum_tilted {
         const S z = s[2];
         const S a = s[3];
         const S b = s[4];
-        const S m = parameters.m;
-        const S g = parameters.g;
         const S w0 = y * b;
         const S w1 = x * a;
+        const S m = parameters.m;
+        const S g = parameters.g;
         return S(0.5) * m * (w0 * w0 + (w1 * (w1 + S(2) * w0) + z * (z * (a * a + b * b) + S(2) * g)));
     }
 
@@ -219,9 +221,9 @@ class spherical_pendulum_tilted {
         const S z = s[2];
         const S a = s[3];
         const S b = s[4];
+        const S w0 = x * a + y * b;
         const S m = parameters.m;
         const S g = parameters.g;
-        const S w0 = x * a + y * b;
         return S(0.5) * m * (w0 * w0 + z * (z * (a * a + b * b) - S(2) * g));
     }
 
@@ -229,8 +231,8 @@ class spherical_pendulum_tilted {
     /// Positive inside the domain of the model.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> domain([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S z = s[2];
         Eigen::Matrix<S, 1, 1> result;
+        const S z = s[2];
         result[0] = -z;
         return result;
     }
@@ -239,13 +241,13 @@ class spherical_pendulum_tilted {
     /// Functions that are constant along solutions.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         const S x = s[0];
         const S y = s[1];
         const S z = s[2];
         const S a = s[3];
         const S b = s[4];
         const S m = parameters.m;
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = m * z * (x * b - y * a);
         return result;
     }
@@ -262,7 +264,14 @@ class spherical_pendulum_tilted {
         const S z = s[2];
         const S a = s[3];
         const S b = s[4];
-        const S g = parameters.g;
+        values[0] = a;
+        values[1] = z;
+        values[3] = z;
+        values[2] = b;
+        values[4] = -a;
+        values[5] = -b;
+        values[6] = -x;
+        values[7] = -y;
         const S w0 = z * z;
         const S w1 = x * x + w0;
         const S w2 = x * y;
@@ -270,52 +279,45 @@ class spherical_pendulum_tilted {
         const S det0 = w1 * w3 - w2 * w2;
         const S inv_det0 = S(1) / det0;
         const S w4 = z * b;
+        const S g = parameters.g;
         const S w5 = g - b * w4;
-        const S w6 = S(2) * x;
-        const S w7 = z * a;
-        const S w8 = w7 * b;
-        const S w9 = x * w5 + y * w8;
-        const S w10 = g - a * w7;
-        const S w11 = y * w10 + x * w8;
-        const S z0_0 = (w3 * w9 - w2 * w11) * inv_det0;
-        const S z0_1 = (w1 * w11 - w2 * w9) * inv_det0;
-        const S w12 = w5 - w6 * z0_0 - y * z0_1;
-        const S w13 = w8 - y * z0_0;
+        const S w6 = z * a;
+        const S w7 = w6 * b;
+        const S w8 = x * w5 + y * w7;
+        const S w9 = g - a * w6;
+        const S w10 = y * w9 + x * w7;
+        const S z0_0 = (w3 * w8 - w2 * w10) * inv_det0;
+        const S z0_1 = (w1 * w10 - w2 * w8) * inv_det0;
+        const S w11 = S(2) * x;
+        const S w12 = w5 - w11 * z0_0 - y * z0_1;
+        const S w13 = w7 - y * z0_0;
         const S z1_0 = (w3 * w12 - w2 * w13) * inv_det0;
         const S z1_1 = (w1 * w13 - w2 * w12) * inv_det0;
-        const S w14 = w8 - x * z0_1;
-        const S w15 = S(2) * y;
-        const S w16 = w10 - x * z0_0 - w15 * z0_1;
-        const S z2_0 = (w3 * w14 - w2 * w16) * inv_det0;
-        const S z2_1 = (w1 * w16 - w2 * w14) * inv_det0;
-        const S w17 = x * b;
-        const S w18 = y * a;
-        const S w19 = w17 - w18;
-        const S w20 = S(2) * z;
-        const S w21 = -(b * w19 + w20 * z0_0);
-        const S w22 = a * w19 - w20 * z0_1;
+        values[8] = z1_0;
+        const S w14 = S(2) * y;
+        const S w15 = w9 - x * z0_0 - w14 * z0_1;
+        const S w16 = w7 - x * z0_1;
+        const S z2_0 = (w3 * w16 - w2 * w15) * inv_det0;
+        const S z2_1 = (w1 * w15 - w2 * w16) * inv_det0;
+        values[9] = z2_0;
+        const S w17 = S(2) * z;
+        const S w18 = x * b;
+        const S w19 = y * a;
+        const S w20 = w18 - w19;
+        const S w21 = -(b * w20 + w17 * z0_0);
+        const S w22 = a * w20 - w17 * z0_1;
         const S z3_0 = (w3 * w21 - w2 * w22) * inv_det0;
         const S z3_1 = (w1 * w22 - w2 * w21) * inv_det0;
-        const S w23 = y * w4;
-        const S w24 = z * (w17 - w15 * a);
-        const S z4_0 = (w3 * w23 - w2 * w24) * inv_det0;
-        const S z4_1 = (w1 * w24 - w2 * w23) * inv_det0;
-        const S w25 = z * (w18 - w6 * b);
-        const S w26 = x * w7;
+        values[10] = z3_0;
+        const S w23 = z * (w18 - w14 * a);
+        const S w24 = y * w4;
+        const S z4_0 = (w3 * w24 - w2 * w23) * inv_det0;
+        const S z4_1 = (w1 * w23 - w2 * w24) * inv_det0;
+        values[11] = z4_0;
+        const S w25 = z * (w19 - w11 * b);
+        const S w26 = x * w6;
         const S z5_0 = (w3 * w25 - w2 * w26) * inv_det0;
         const S z5_1 = (w1 * w26 - w2 * w25) * inv_det0;
-        values[0] = a;
-        values[1] = z;
-        values[2] = b;
-        values[3] = z;
-        values[4] = -a;
-        values[5] = -b;
-        values[6] = -x;
-        values[7] = -y;
-        values[8] = z1_0;
-        values[9] = z2_0;
-        values[10] = z3_0;
-        values[11] = z4_0;
         values[12] = z5_0;
         values[13] = z1_1;
         values[14] = z2_1;

@@ -114,10 +114,14 @@ class torus {
 
     /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
     /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// left_domain unless r > 0, R - r > 0.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
-        const S r = parameters.r;
         auto status = StatusOf<S>::good();
+        const S R = parameters.R;
+        const S r = parameters.r;
+        StatusOf<S>::fail(status, !(r > S(0)), Status::left_domain);
+        StatusOf<S>::fail(status, !(R - r > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, r * r == S(0), Status::singular_mass_matrix);
         return status;
     }
@@ -131,30 +135,30 @@ class torus {
         const S th = s[0];
         const S u = s[2];
         const S v = s[3];
-        const S R = parameters.R;
-        const S r = parameters.r;
         auto status = StatusOf<S>::good();
-        const auto [sin_th, cos_th] = sincos<S>(th);
-        const S w0 = sin_th * v;
-        const S w1 = R + r * cos_th;
-        StatusOf<S>::fail(status, w1 * w1 == S(0), Status::singular_mass_matrix);
         ds[0] = u;
         ds[1] = v;
+        const auto [sin_th, cos_th] = sincos<S>(th);
+        const S w0 = sin_th * v;
+        const S R = parameters.R;
+        const S r = parameters.r;
+        const S w1 = R + r * cos_th;
         ds[2] = -w1 * v * w0 / r;
         ds[3] = S(2) * r * u * w0 / w1;
+        StatusOf<S>::fail(status, w1 * w1 == S(0), Status::singular_mass_matrix);
         return status;
     }
 
     /// W_ab = d2L/dy^a dy^b, shape (2, 2), symmetric.
     [[nodiscard]] Eigen::Matrix<S, 2, 2> mass_matrix([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 2, 2> result = Eigen::Matrix<S, 2, 2>::Zero();
         using std::cos;
         const S th = s[0];
         const S R = parameters.R;
         const S r = parameters.r;
-        const S w0 = R + r * cos(th);
-        Eigen::Matrix<S, 2, 2> result = Eigen::Matrix<S, 2, 2>::Zero();
         result(0, 0) = r * r;
+        const S w0 = R + r * cos(th);
         result(1, 1) = w0 * w0;
         return result;
     }
@@ -162,15 +166,15 @@ class torus {
     /// p_a = dL/dy^a, shape (2).
     [[nodiscard]] Eigen::Matrix<S, 2, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 2, 1> result;
         using std::cos;
         const S th = s[0];
         const S u = s[2];
         const S v = s[3];
         const S R = parameters.R;
         const S r = parameters.r;
-        const S w0 = R + r * cos(th);
-        Eigen::Matrix<S, 2, 1> result;
         result[0] = r * r * u;
+        const S w0 = R + r * cos(th);
         result[1] = w0 * w0 * v;
         return result;
     }
@@ -205,13 +209,13 @@ class torus {
     /// Observables of the model.
     [[nodiscard]] Eigen::Matrix<S, 3, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 3, 1> result;
         const S th = s[0];
         const S ph = s[1];
+        const auto [sines, cosines] = sincos<S, 2>({th, ph});
         const S R = parameters.R;
         const S r = parameters.r;
-        const auto [sines, cosines] = sincos<S, 2>({th, ph});
         const S w0 = R + r * cosines[0];
-        Eigen::Matrix<S, 3, 1> result;
         result[0] = w0 * cosines[1];
         result[1] = w0 * sines[1];
         result[2] = r * sines[0];
@@ -222,13 +226,13 @@ class torus {
     /// Functions that are constant along solutions.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         using std::cos;
         const S th = s[0];
         const S v = s[3];
         const S R = parameters.R;
         const S r = parameters.r;
         const S w0 = R + r * cos(th);
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = w0 * w0 * v;
         return result;
     }
@@ -243,18 +247,18 @@ class torus {
         const S th = s[0];
         const S u = s[2];
         const S v = s[3];
+        values[0] = S(1);
+        values[1] = S(1);
+        const auto [sin_th, cos_th] = sincos<S>(th);
         const S R = parameters.R;
         const S r = parameters.r;
-        const auto [sin_th, cos_th] = sincos<S>(th);
         const S w0 = cos_th + R / r;
+        values[2] = (sin_th * sin_th - cos_th * w0) * (v * v);
         const S w1 = sin_th * v;
+        values[3] = -S(2) * w0 * w1;
         const S w2 = S(1) / (R + r * cos_th);
         const S w3 = r * w2;
         const S w4 = w3 * u;
-        values[0] = S(1);
-        values[1] = S(1);
-        values[2] = (sin_th * sin_th - cos_th * w0) * (v * v);
-        values[3] = -S(2) * w0 * w1;
         values[4] = S(2) * (r + R * cos_th) * w2 * w4 * v;
         values[5] = S(2) * w3 * w1;
         values[6] = S(2) * sin_th * w4;

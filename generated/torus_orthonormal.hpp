@@ -112,9 +112,15 @@ class torus_orthonormal {
 
     /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
     /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// left_domain unless r > 0, R - r > 0.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
-        return StatusOf<S>::good();
+        auto status = StatusOf<S>::good();
+        const S R = parameters.R;
+        const S r = parameters.r;
+        StatusOf<S>::fail(status, !(r > S(0)), Status::left_domain);
+        StatusOf<S>::fail(status, !(R - r > S(0)), Status::left_domain);
+        return status;
     }
 
     /// The equations of motion, ds = (xdot, ydot): xdot^i = rho^i_a y^a and
@@ -128,11 +134,11 @@ class torus_orthonormal {
         const S b = s[3];
         const S R = parameters.R;
         const S r = parameters.r;
+        ds[0] = a / r;
         const auto [sin_th, cos_th] = sincos<S>(th);
         const S w0 = b / (R + r * cos_th);
-        const S w1 = sin_th * w0;
-        ds[0] = a / r;
         ds[1] = w0;
+        const S w1 = sin_th * w0;
         ds[2] = -b * w1;
         ds[3] = a * w1;
         return StatusOf<S>::good();
@@ -151,9 +157,9 @@ class torus_orthonormal {
     /// p_a = dL/dy^a, shape (2).
     [[nodiscard]] Eigen::Matrix<S, 2, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 2, 1> result;
         const S a = s[2];
         const S b = s[3];
-        Eigen::Matrix<S, 2, 1> result;
         result[0] = a;
         result[1] = b;
         return result;
@@ -179,12 +185,12 @@ class torus_orthonormal {
     /// Functions that are constant along solutions.
     [[nodiscard]] Eigen::Matrix<S, 1, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 1, 1> result;
         using std::cos;
         const S th = s[0];
         const S b = s[3];
         const S R = parameters.R;
         const S r = parameters.r;
-        Eigen::Matrix<S, 1, 1> result;
         result[0] = (R + r * cos(th)) * b;
         return result;
     }
@@ -201,15 +207,15 @@ class torus_orthonormal {
         const S b = s[3];
         const S R = parameters.R;
         const S r = parameters.r;
+        values[0] = S(1) / r;
         const auto [sin_th, cos_th] = sincos<S>(th);
         const S w0 = S(1) / (R + r * cos_th);
+        values[2] = w0;
         const S w1 = w0 * b;
         const S w2 = w0 * sin_th;
         const S w3 = r * w2;
-        const S w4 = (cos_th + sin_th * w3) * w1;
-        values[0] = S(1) / r;
         values[1] = w3 * w1;
-        values[2] = w0;
+        const S w4 = (cos_th + sin_th * w3) * w1;
         values[3] = -b * w4;
         values[4] = -S(2) * w2 * b;
         values[5] = a * w4;

@@ -125,11 +125,13 @@ class unicycle_pontryagin {
 
     /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
     /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// left_domain unless kap > 0.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
-        const S kap = parameters.kap;
         auto status = StatusOf<S>::good();
+        const S kap = parameters.kap;
         StatusOf<S>::fail(status, kap == S(0), Status::singular_mass_matrix);
+        StatusOf<S>::fail(status, !(kap > S(0)), Status::left_domain);
         return status;
     }
 
@@ -142,11 +144,11 @@ class unicycle_pontryagin {
         const S mu1 = s[3];
         const S mu2 = s[4];
         const S mu3 = s[5];
-        const S kap = parameters.kap;
         const auto [sin_h, cos_h] = sincos<S>(h);
-        const S w0 = mu2 / kap;
         ds[0] = cos_h * mu1;
         ds[1] = sin_h * mu1;
+        const S kap = parameters.kap;
+        const S w0 = mu2 / kap;
         ds[2] = w0;
         ds[3] = w0 * mu3;
         ds[4] = -mu1 * mu3;
@@ -158,11 +160,11 @@ class unicycle_pontryagin {
     /// The controls that maximise H.
     [[nodiscard]] Eigen::Matrix<S, 2, 1> controls([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 2, 1> result;
         const S mu1 = s[3];
         const S mu2 = s[4];
-        const S kap = parameters.kap;
-        Eigen::Matrix<S, 2, 1> result;
         result[0] = mu1;
+        const S kap = parameters.kap;
         result[1] = mu2 / kap;
         return result;
     }
@@ -190,12 +192,12 @@ class unicycle_pontryagin {
     /// Functions that are constant along solutions.
     [[nodiscard]] Eigen::Matrix<S, 3, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
+        Eigen::Matrix<S, 3, 1> result;
         const S h = s[2];
         const S mu1 = s[3];
         const S mu3 = s[5];
-        const auto [sin_h, cos_h] = sincos<S>(h);
-        Eigen::Matrix<S, 3, 1> result;
         result[0] = mu1 * mu1 + mu3 * mu3;
+        const auto [sin_h, cos_h] = sincos<S>(h);
         result[1] = cos_h * mu1 - sin_h * mu3;
         result[2] = sin_h * mu1 + cos_h * mu3;
         return result;
@@ -212,16 +214,16 @@ class unicycle_pontryagin {
         const S mu1 = s[3];
         const S mu2 = s[4];
         const S mu3 = s[5];
-        const S kap = parameters.kap;
         const auto [sin_h, cos_h] = sincos<S>(h);
-        const S w0 = S(1) / kap;
-        const S w1 = w0 * mu2;
+        values[3] = sin_h;
         values[0] = -sin_h * mu1;
         values[1] = cos_h;
         values[2] = cos_h * mu1;
-        values[3] = sin_h;
+        const S kap = parameters.kap;
+        const S w0 = S(1) / kap;
         values[4] = w0;
         values[5] = w0 * mu3;
+        const S w1 = w0 * mu2;
         values[6] = w1;
         values[7] = -mu3;
         values[8] = -mu1;

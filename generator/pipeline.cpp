@@ -4,6 +4,7 @@
 #include "content_hash.hpp"
 #include "emit/print_equations.hpp"
 #include "emit/print_header.hpp"
+#include "geometry/control_maximum.hpp"
 #include "graph/lower.hpp"
 #include "graph/simplify.hpp"
 #include "model/scene_form.hpp"
@@ -62,11 +63,12 @@ std::vector<std::string> readable_equations(const CheckedModel& checked, const s
     }
 }
 
-/// The first check with this status, as "anchor (w1, w2, g3), residual 2*g3".
+/// The first check with this status, as "anchor (w1, w2, g3), residual 2*g3"; of the maximum of H more is said
+/// elsewhere.
 std::string first_with(const VerifiedAlgebroid& verified, ProofStatus status)
 {
     for (const Check& check : verified.checks)
-        if (check.decision.status == status)
+        if (check.decision.status == status && check.name != "maximum")
             return check.decision.residual.empty()
                        ? names_of(check)
                        : fmt::format("{}, residual {}", names_of(check), check.decision.residual);
@@ -131,18 +133,20 @@ CheckedModel load(const std::string& path, const std::vector<Setting>& settings,
     const VerifiedAlgebroid& verified = checked.verified;
     if (verified.verdict == Verdict::invalid) {
         const std::string what = first_with(verified, ProofStatus::refuted);
+        if (!unchecked && what.empty()) require_maximum(checked.model, verified.maximum);
         if (!unchecked) {
             throw MathematicsError(fmt::format(
                 "error: model '{}' is refuted: {}\nhint: see `lagen check {}`; --unchecked goes on all the same",
                 checked.model.name, what, path));
         }
-        checked.warnings.push_back(fmt::format("this model is REFUTED: {}", what));
-    } else if (verified.verdict == Verdict::undecided) {
-        const std::string what = first_with(verified, ProofStatus::undecided);
+        if (!what.empty()) checked.warnings.push_back(fmt::format("this model is REFUTED: {}", what));
+    } else if (const std::string what = first_with(verified, ProofStatus::undecided);
+               verified.verdict == Verdict::undecided && !what.empty()) {
         checked.warnings.push_back(what == verified.note
                                        ? fmt::format("this model is not proved: {}", what)
                                        : fmt::format("this model is not proved: {} is undecided", what));
     }
+    if (verified.maximum.kind == ControlMaximum::Kind::stationary) checked.warnings.push_back(stationary_controls);
     return checked;
 }
 

@@ -55,6 +55,8 @@ ExitCode check_one(const std::string& path, const Options& options, std::string&
         const Model model = read_model(model_path(path), options.settings());
         const std::size_t points = options.has("verify") ? reevaluation_points : 0;
         const VerifiedAlgebroid verified = verify(model, extra_invariants(options, model), points);
+        if (verified.maximum.kind == ControlMaximum::Kind::stationary)
+            write_standard_error(fmt::format("warning: {}\n", stationary_controls));
         if (json != nullptr) {
             report_json(*json, model.name, verified);
         } else {

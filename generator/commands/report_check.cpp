@@ -95,6 +95,7 @@ std::string equation_text(const Check& check)
         return fmt::format("rho({}) of the constraint {}, on the constraints", k[0], k[1]);
     if (check.name == "casimir" && k.size() == 2) return fmt::format("rho({}) of {}", k[0], k[1]);
     if (check.name == "legendre") return "H at mu = dL/dy less y dL/dy - L";
+    if (check.name == "maximum") return "H = mu_a sigma^a - cost is largest at the controls of Pontryagin's equations";
     if (check.name == "invariant" && k.size() == 1)
         return fmt::format("the rate of {} along the equations of motion", k[0]);
     return "";

@@ -2,20 +2,14 @@
 #include "commands/start_state.hpp"
 
 #include "diagnostic.hpp"
-#include "graph/dense_lu.hpp"
 #include "graph/evaluate.hpp"
+#include "graph/solve_unknowns.hpp"
 
 #include <fmt/core.h>
-
-#include <algorithm>
-#include <cmath>
 
 namespace lagen {
 
 namespace {
-
-constexpr int most_iterations = 100;
-constexpr long double small = 1e-17L;
 
 using Values = std::map<std::string, long double>;
 
@@ -33,84 +27,70 @@ std::vector<long double> dense(const KernelModule& module, const Kernel& kernel,
     return array;
 }
 
-/// An equation value(z) = target for the lanes `unknowns` of a module, by Newton's method from 0.
+[[nodiscard]] KernelModule module_of(const CheckedModel& checked, const char* form, const char* kernel)
+{
+    KernelRequest request;
+    request.form = form;
+    request.only = {kernel};
+    return form_kernels(checked.model, checked.verified, request);
+}
+
+/// The equation value(z) = target for the lanes z of a form.
 struct Inversion {
-    const KernelModule& module;
-    const Kernel& value;  ///< r entries
-    const Kernel& matrix; ///< its derivative: the last r rows and columns
-    const char* given;    ///< for the message
+    const char* form;
+    const char* value; ///< the kernel that is inverted
+    const char* given; ///< for the message
     const char* wanted;
 };
 
-[[noreturn]] void fail(const Inversion& inversion, const char* why)
+/// By Newton's method. Throws MathematicsError where the lanes are not shown to be unique, or not found.
+std::vector<long double> invert(const CheckedModel& checked, const Inversion& inversion,
+                                const std::vector<NamedNumber>& target, Values inputs)
 {
-    throw MathematicsError(fmt::format("error: the {} of the start have no {} that Newton's method finds: {}\n"
-                                       "hint: give the {} in `initial` instead",
-                                       inversion.given, inversion.wanted, why, inversion.wanted));
-}
-
-/// The last r rows and columns.
-std::vector<long double> corner(const std::vector<long double>& array, std::size_t size, std::size_t r)
-{
-    std::vector<long double> result;
-    for (std::size_t row = size - r; row < size; ++row)
-        for (std::size_t column = size - r; column < size; ++column) result.push_back(array[row * size + column]);
-    return result;
-}
-
-std::vector<long double> invert(const Inversion& inversion, const std::vector<NamedNumber>& target, Values inputs)
-{
-    const std::vector<Quantity>& unknowns = inversion.module.fibre;
-    std::vector<long double> z(unknowns.size(), 0);
-    for (int iteration = 0; iteration < most_iterations; ++iteration) {
-        for (std::size_t a = 0; a < z.size(); ++a) inputs[unknowns[a].name] = z[a];
-        std::vector<long double> residual = dense(inversion.module, inversion.value, inputs);
-        for (std::size_t a = 0; a < z.size(); ++a) residual[a] = target[a].second - residual[a];
-        const auto matrix =
-            factorise(corner(dense(inversion.module, inversion.matrix, inputs), inversion.matrix.output.rows, z.size()),
-                      z.size());
-        if (!matrix.regular) fail(inversion, "the matrix of the equations is singular");
-        residual = substitute(matrix, residual);
-        long double change = 0;
-        long double size = 0;
-        for (std::size_t a = 0; a < z.size(); ++a) {
-            z[a] += residual[a];
-            change = std::max(change, std::abs(residual[a]));
-            size = std::max(size, std::abs(z[a]));
-        }
-        if (!std::isfinite(change)) fail(inversion, "the iterates are not finite");
-        if (change <= small * (1 + size)) return z;
+    const auto fail = [&](const std::string& why) {
+        throw MathematicsError(fmt::format("error: the {0} of the start {1}\nhint: give the {2} in `initial` instead",
+                                           inversion.given, why, inversion.wanted));
+    };
+    const std::string& obstacle = checked.verified.regularity.legendre_obstacle;
+    if (!obstacle.empty()) fail(fmt::format("are not shown to fix the {}: {}", inversion.wanted, obstacle));
+    const KernelModule module = module_of(checked, inversion.form, inversion.value);
+    Graph& graph = *module.graph;
+    std::vector<NodeId> unknowns, residuals;
+    for (const KernelEntry& entry : kernel_named(module, inversion.value).output.entries) {
+        const NodeId wanted = graph.input("start of " + module.fibre[entry.row].name);
+        inputs[graph.input_name(wanted)] = target[entry.row].second;
+        residuals.push_back(graph.subtract(entry.node, wanted));
     }
-    fail(inversion, "no convergence in 100 iterations");
+    for (const Quantity& lane : module.fibre) unknowns.push_back(lane.input);
+    std::vector<NodeId> guess(unknowns.size(), graph.constant(0));
+    const std::vector<Rational>& start = checked.verified.regularity.newton_start;
+    for (std::size_t a = 0; a < start.size(); ++a) guess[a] = graph.constant(start[a]);
+    const ImplicitBlock block =
+        implicit_block(graph, inversion.wanted, "", unknowns, residuals, guess, MatrixStructure::symmetric);
+    try {
+        solve_unknowns<long double>(graph, {&block, 1}, inputs);
+    } catch (const MathematicsError&) {
+        fail(fmt::format("have no {} that Newton's method finds", inversion.wanted));
+    }
+    std::vector<long double> lanes;
+    for (const Quantity& lane : module.fibre) lanes.push_back(inputs.at(lane.name));
+    return lanes;
 }
 
 /// y with dL/dy = the given momenta.
-std::vector<long double> velocities_of(const KernelModule& module, const SceneValues& values, const Values& inputs)
+std::vector<long double> velocities_of(const CheckedModel& checked, const SceneValues& values, const Values& inputs)
 {
-    return invert(
-        {module, kernel_named(module, "momentum"), kernel_named(module, "mass_matrix"), "momenta", "fibre coordinates"},
-        values.momenta, inputs);
+    return invert(checked, {"lagrange", "momentum", "momenta", "fibre coordinates"}, values.momenta, inputs);
 }
 
 /// mu = dL/dy at the given fibre coordinates, or mu with dH/dmu = them.
 std::vector<long double> momenta_of(const CheckedModel& checked, const SceneValues& values, Values inputs)
 {
-    const auto module_of = [&](const char* form, std::vector<std::string> only) {
-        KernelRequest request;
-        request.form = form;
-        request.only = std::move(only);
-        return form_kernels(checked.model, checked.verified, request);
-    };
-    if (checked.model.lagrangian) {
-        const KernelModule module = module_of("lagrange", {"momentum"});
-        for (const auto& [name, value] : values.fibre) inputs[name] = value;
-        return values.fibre.empty() ? std::vector<long double>{}
-                                    : dense(module, kernel_named(module, "momentum"), inputs);
-    }
-    const KernelModule module = module_of("hamilton", {"velocity", "hamiltonian_hessian"});
-    return invert({module, kernel_named(module, "velocity"), kernel_named(module, "hamiltonian_hessian"),
-                   "fibre coordinates", "momenta"},
-                  values.fibre, inputs);
+    if (!checked.model.lagrangian)
+        return invert(checked, {"hamilton", "velocity", "fibre coordinates", "momenta"}, values.fibre, inputs);
+    const KernelModule module = module_of(checked, "lagrange", "momentum");
+    for (const auto& [name, value] : values.fibre) inputs[name] = value;
+    return values.fibre.empty() ? std::vector<long double>{} : dense(module, kernel_named(module, "momentum"), inputs);
 }
 
 } // namespace
@@ -132,7 +112,7 @@ std::vector<long double> start_state(const CheckedModel& checked, const KernelMo
     std::vector<long double> given;
     for (const auto& [name, value] : values.momenta.empty() ? values.fibre : values.momenta) given.push_back(value);
     const bool has_momenta = !values.momenta.empty();
-    if (module.form == "lagrange") return append(has_momenta ? velocities_of(module, values, inputs) : given);
+    if (module.form == "lagrange") return append(has_momenta ? velocities_of(checked, values, inputs) : given);
     if (has_momenta || given.empty()) return append(given);
     if (module.form == "pontryagin") throw InternalError("a scene in Pontryagin's form without momenta");
     return append(momenta_of(checked, values, inputs));

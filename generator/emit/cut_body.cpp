@@ -10,6 +10,10 @@ namespace lagen {
 
 namespace {
 
+/// A body of so many times the longest part is left whole: only beyond it do compilers take notably longer, and parts
+/// cost a little, since what they hand on goes through memory.
+constexpr std::size_t largest_whole = 5;
+
 class Cutter {
   public:
     Cutter(const Graph& graph, const BodyPlan& plan, const std::vector<BodyStep>& steps)
@@ -39,7 +43,7 @@ class Cutter {
     [[nodiscard]] std::vector<std::size_t> places(std::size_t longest) const
     {
         const std::size_t count = steps_.size();
-        if (longest == 0 || count <= 2 * longest) return {count};
+        if (longest == 0 || count <= largest_whole * longest) return {count};
         const std::vector<std::size_t> crossing = count_crossing();
         std::vector<std::size_t> ends;
         std::size_t begin = 0;

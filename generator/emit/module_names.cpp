@@ -49,7 +49,8 @@ std::set<std::string> class_scope_names(const KernelModule& module, const std::s
         for (const char* suffix : {"_names", "_rows", "_columns", "_values"}) names.insert(kernel.name + suffix);
     }
     if (!module.direction.empty()) names.insert({"v", "dv"});
-    if (!module.implicit.empty()) names.insert({"z", "newton", "unknowns", "residual", "derivative"});
+    if (!module.implicit.empty())
+        names.insert({"z", "newton", "bracket", "lower", "upper", "unknowns", "residual", "derivative"});
     for (const ImplicitBlock& block : module.implicit) {
         names.insert("solve_" + block.name);
         names.insert("solved_" + block.name);

@@ -187,6 +187,7 @@ std::string print_header(const KernelModule& module)
     out.line("#pragma once");
     out.blank();
     out.line("#include \"lagen/kernel.hpp\"");
+    if (needs.bracket) out.line("#include \"lagen/bracket.hpp\"");
     if (needs.linear) out.line("#include \"lagen/linear.hpp\"");
     if (needs.newton) out.line("#include \"lagen/newton.hpp\"");
     const auto calls = [&](const char* name) { return kernels.text().find(name) != std::string::npos; };

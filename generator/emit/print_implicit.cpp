@@ -29,45 +29,120 @@ void load_own_unknowns(TextBlock& out, Body& body, const ModuleNames& names, con
                   [&](const BodyLine& line) { return line.kind == BodyLine::Kind::load && is_own(line.index); });
 }
 
+/// A body in braces of its own, whose outputs are stored by `store`.
+void print_scope(TextBlock& out, const KernelModule& module, const ModuleNames& names, const Body& body,
+                 std::function<std::string(std::size_t, const std::string&)> store)
+{
+    open_block(out, "");
+    print_lines(out, body, storing_to(module, names, std::move(store)));
+    close_block(out);
+}
+
+/// solve_NAME() of one block.
+class ImplicitPrinter {
+  public:
+    ImplicitPrinter(TextBlock& out, const KernelModule& module, const ModuleNames& names, const ImplicitBlock& block)
+        : out_(out), module_(module), names_(names), block_(block), size_(block.unknowns.size())
+    {
+        std::vector<NodeId> start = block.guess;
+        if (block.bracket)
+            for (const auto* ends : {&block.bracket->lower, &block.bracket->upper})
+                for (const std::optional<NodeId>& end : *ends)
+                    if (end) start.push_back(*end);
+        std::vector<NodeId> inner = block.residuals;
+        for (std::size_t k = 0; k < block.jacobian.size(); ++k)
+            if (!block.bracket || k % (size_ + 1) == 0) inner.push_back(block.jacobian[k]);
+        start_ = body_of(start);
+        iteration_ = body_of(inner);
+    }
+
+    void print()
+    {
+        out_.blank();
+        out_.comment(block_.documentation);
+        out_.comment(block_.bracket
+                         ? "By Newton's method and bisection; answers newton_diverged, and NaN in z, where a value is "
+                           "not finite."
+                         : "By Newton's method; answers newton_diverged, and NaN in z, where it finds no solution to "
+                           "round-off.");
+        const bool reads_time = reads(start_, module_.time) || reads(iteration_, module_.time);
+        const bool reads_lanes = reads_lane(start_, module_) || reads_lane(iteration_, module_);
+        open_block(out_,
+                   fmt::format("[[nodiscard]] status_t<S> solve_{}({}S t, {}const State& s, std::array<S, {}>& z) "
+                               "const noexcept",
+                               block_.name, maybe_unused(reads_time), maybe_unused(reads_lanes), size_));
+        block_.bracket ? print_bounds() : print_guess();
+        print_iteration();
+        close_block(out_);
+    }
+
+  private:
+    [[nodiscard]] Body body_of(const std::vector<NodeId>& outputs) const
+    {
+        return print_body({*module_.graph, names_.locals, outputs, {}, names_.moving, Checking::none, {}, 0});
+    }
+
+    void print_guess()
+    {
+        print_scope(out_, module_, names_, start_,
+                    [](std::size_t k, const std::string& value) { return fmt::format("z[{}] = {};", k, value); });
+    }
+
+    void print_bounds()
+    {
+        std::vector<std::string> places; // of the ends that are there
+        out_.line(fmt::format("std::array<S, {}> lower, upper;", size_));
+        for (const bool is_lower : {true, false}) {
+            const auto& ends = is_lower ? block_.bracket->lower : block_.bracket->upper;
+            for (std::size_t k = 0; k < size_; ++k) {
+                const std::string place = fmt::format("{}[{}]", is_lower ? "lower" : "upper", k);
+                if (ends[k])
+                    places.push_back(place);
+                else
+                    out_.line(fmt::format("{} = S({}std::numeric_limits<real_t<S>>::infinity());", place,
+                                          is_lower ? "-" : ""));
+            }
+        }
+        print_scope(out_, module_, names_, start_, [&places](std::size_t k, const std::string& value) {
+            return fmt::format("{} = {};", places[k], value);
+        });
+    }
+
+    void print_iteration()
+    {
+        const std::size_t derivatives = block_.bracket ? size_ : size_ * size_;
+        out_.line(fmt::format("return {}(z, {}[&](const std::array<S, {}>& unknowns, std::array<S, {}>& residual, "
+                              "std::array<S, {}>& derivative) noexcept {{",
+                              block_.bracket ? "bracket" : "newton", block_.bracket ? "lower, upper, " : "", size_,
+                              size_, derivatives));
+        out_.indent(1);
+        load_own_unknowns(out_, iteration_, names_, block_);
+        const std::size_t size = size_;
+        print_lines(out_, iteration_, storing_to(module_, names_, [size](std::size_t k, const std::string& value) {
+                        return k < size ? fmt::format("residual[{}] = {};", k, value)
+                                        : fmt::format("derivative[{}] = {};", k - size, value);
+                    }));
+        out_.indent(-1);
+        out_.line("});");
+    }
+
+    TextBlock& out_;
+    const KernelModule& module_;
+    const ModuleNames& names_;
+    const ImplicitBlock& block_;
+    std::size_t size_;
+    Body start_;     ///< the guess, or the ends of the bracket
+    Body iteration_; ///< residuals, then the Jacobian, of a bracket its diagonal
+};
+
 } // namespace
 
 void print_implicit(TextBlock& out, const KernelModule& module, const ModuleNames& names, const ImplicitBlock& block,
                     KernelNeeds& needs)
 {
-    const std::size_t size = block.unknowns.size();
-    std::vector<NodeId> inner = block.residuals;
-    inner.insert(inner.end(), block.jacobian.begin(), block.jacobian.end());
-    const auto body_of = [&](const std::vector<NodeId>& outputs) {
-        return print_body({*module.graph, names.locals, outputs, {}, names.moving, Checking::none, {}, 0});
-    };
-    const Body guess = body_of(block.guess);
-    Body iteration = body_of(inner);
-    needs.linear = needs.newton = true;
-    out.blank();
-    out.comment(block.documentation);
-    out.comment("By Newton's method; answers newton_diverged, and NaN in z, where it finds no solution to round-off.");
-    const bool reads_time = reads(guess, module.time) || reads(iteration, module.time);
-    const bool reads_lanes = reads_lane(guess, module) || reads_lane(iteration, module);
-    open_block(out, fmt::format("[[nodiscard]] status_t<S> solve_{}({}S t, {}const State& s, std::array<S, {}>& z) "
-                                "const noexcept",
-                                block.name, maybe_unused(reads_time), maybe_unused(reads_lanes), size));
-    open_block(out, "");
-    print_lines(out, guess, storing_to(module, names, [](std::size_t k, const std::string& value) {
-                    return fmt::format("z[{}] = {};", k, value);
-                }));
-    close_block(out);
-    out.line(fmt::format("return newton(z, [&](const std::array<S, {0}>& unknowns, std::array<S, {0}>& residual, "
-                         "std::array<S, {1}>& derivative) noexcept {{",
-                         size, size * size));
-    out.indent(1);
-    load_own_unknowns(out, iteration, names, block);
-    print_lines(out, iteration, storing_to(module, names, [size](std::size_t k, const std::string& value) {
-                    return k < size ? fmt::format("residual[{}] = {};", k, value)
-                                    : fmt::format("derivative[{}] = {};", k - size, value);
-                }));
-    out.indent(-1);
-    out.line("});");
-    close_block(out);
+    (block.bracket ? needs.bracket : needs.linear) = true;
+    needs.newton = needs.newton || !block.bracket;
+    ImplicitPrinter(out, module, names, block).print();
 }
 
 } // namespace lagen

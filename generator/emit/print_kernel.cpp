@@ -13,7 +13,9 @@ namespace lagen {
 namespace {
 
 /// Steps of a part of a long function. Compilers are linear in the length of such parts.
-constexpr std::size_t longest_part = 400;
+constexpr std::size_t longest_part = 500;
+
+constexpr std::size_t longest_comment = 100; ///< bytes of a line of conditions
 
 /// Beyond this many rows or columns no dense Jacobian is offered: Eigen keeps fixed-size matrices on the stack.
 constexpr std::size_t largest_dense = 32;
@@ -208,6 +210,20 @@ class KernelPrinter {
     const Body& body_;
 };
 
+/// "left_domain unless a > 0, b > 0.", broken between conditions.
+void print_conditions(TextBlock& out, const std::vector<std::string>& conditions)
+{
+    std::string line = "left_domain unless";
+    for (const std::string& condition : conditions) {
+        if (line.size() + condition.size() > longest_comment) {
+            out.comment(line);
+            line.clear();
+        }
+        line += (line.empty() ? "" : " ") + condition + (&condition == &conditions.back() ? "." : ",");
+    }
+    if (!conditions.empty()) out.comment(line);
+}
+
 } // namespace
 
 void print_kernel(TextBlock& out, const KernelModule& module, const ModuleNames& names, const Kernel& kernel,
@@ -245,15 +261,28 @@ void print_parameter_status(TextBlock& out, const KernelModule& module, const Mo
         for (const NodeId id : reachable(*module.graph, outputs_of(kernel)))
             if (module.graph->op(id) == Op::factor) add(id);
     }
-    const Body body = print_body({*module.graph, names.locals, {}, checked, names.moving, Checking::parameters});
+    std::vector<NodeId> conditions;
+    std::vector<std::string> texts;
+    for (const auto& [text, node] : module.parameter_conditions) {
+        conditions.push_back(node);
+        texts.push_back(text);
+    }
+    const Body body =
+        print_body({*module.graph, names.locals, conditions, checked, names.moving, Checking::parameters});
     needs.linear = needs.linear || body.has_status || body.has_pivoting;
+    const bool has_status = body.has_status || !conditions.empty();
     out.blank();
     out.comment("What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a "
                 "divisor");
     out.comment("made of them has no inverse. Call it once after the parameters are set; integrate() does.");
+    print_conditions(out, texts);
     open_block(out, "[[nodiscard]] status_t<S> parameter_status() const noexcept");
-    print_lines(out, body, {module, names, "parameter_status", true, false, "", false, {}});
-    out.line(body.has_status ? "return status;" : "return StatusOf<S>::good();");
+    if (has_status && !body.has_status) out.line("auto status = StatusOf<S>::good();");
+    print_lines(out, body,
+                {module, names, "parameter_status", true, false, "", false, [](std::size_t, const std::string& value) {
+                     return fmt::format("StatusOf<S>::fail(status, !({} > S(0)), Status::left_domain);", value);
+                 }});
+    out.line(has_status ? "return status;" : "return StatusOf<S>::good();");
     close_block(out);
 }
 

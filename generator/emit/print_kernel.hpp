@@ -9,14 +9,15 @@ namespace lagen {
 
 /// What the functions printed so far need from elsewhere.
 struct KernelNeeds {
-    bool linear = false; ///< lagen/linear.hpp
-    bool newton = false; ///< lagen/newton.hpp
+    bool linear = false;  ///< lagen/linear.hpp
+    bool newton = false;  ///< lagen/newton.hpp
+    bool bracket = false; ///< lagen/bracket.hpp
 };
 
 void print_kernel(TextBlock& out, const KernelModule& module, const ModuleNames& names, const Kernel& kernel,
                   KernelNeeds& needs);
 
-/// solve_NAME(): the unknowns of a block at a state, by Newton's method.
+/// solve_NAME(): the unknowns of a block at a state, by Newton's method, between its bounds where it has a bracket.
 void print_implicit(TextBlock& out, const KernelModule& module, const ModuleNames& names, const ImplicitBlock& block,
                     KernelNeeds& needs);
 

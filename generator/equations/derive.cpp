@@ -11,7 +11,7 @@ EquationSet derive(const std::string& form, const Model& model, const VerifiedAl
 {
     if (form == "lagrange") return derive_lagrange(model, verified.algebroid, verified.regularity);
     if (form == "hamilton") return derive_hamilton(model, verified.algebroid, verified.regularity);
-    if (form == "pontryagin") return derive_pontryagin(model, verified.algebroid);
+    if (form == "pontryagin") return derive_pontryagin(model, verified.algebroid, verified.maximum);
     throw InternalError("there is no derivation called " + form);
 }
 

@@ -2,6 +2,7 @@
 #include "equations/hamilton.hpp"
 
 #include "equations/legendre.hpp"
+#include "geometry/legendre_obstacle.hpp"
 
 namespace lagen {
 namespace {
@@ -193,6 +194,7 @@ EquationSet derive_hamilton(const Model& model, const Algebroid& algebroid, cons
                                "' is degenerate: its momenta p_a = dL/dy^a have rank " +
                                std::to_string(regularity.rank) + " of " + std::to_string(algebroid.r()) +
                                ", so that it has no Hamiltonian form; Hamilton's equations need [hamiltonian] H");
+    if (!model.hamiltonian) require_legendre_transform(model, regularity);
     return derived(model, "Hamilton's equations", [&] { return HamiltonDerivation(model, algebroid).derive(); });
 }
 

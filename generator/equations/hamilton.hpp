@@ -14,7 +14,7 @@ namespace lagen {
 
 /// Blocks: Hamiltonian, labels of the leaves where there are any, velocities, kinematics, equations of motion, energy
 /// balance where it is not zero, Poisson brackets. Throws MathematicsError where the model has neither H nor L, and
-/// where it has no H and `regularity` says that L is degenerate.
+/// where it has no H and `regularity` says that L is degenerate or its momenta are not shown to fix the velocities.
 [[nodiscard]] EquationSet derive_hamilton(const Model& model, const Algebroid& algebroid,
                                           const Regularity& regularity = {});
 

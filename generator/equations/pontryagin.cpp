@@ -3,6 +3,7 @@
 
 #include "equations/linear_equations.hpp"
 #include "equations/symbolic_model.hpp"
+#include "geometry/control_maximum.hpp"
 
 #include <algorithm>
 
@@ -11,15 +12,16 @@ namespace {
 
 class PontryaginDerivation {
   public:
-    PontryaginDerivation(const Model& model, const Algebroid& algebroid)
-        : control_(*model.control), symbolic_(model, algebroid, functions_of(*model.control)), sigma_(symbolic_.r(), 0)
+    PontryaginDerivation(const Model& model, const Algebroid& algebroid, const ControlMaximum& maximum)
+        : control_(*model.control), maximal_(maximum.kind == ControlMaximum::Kind::maximal),
+          symbolic_(model, algebroid, functions_of(*model.control)), sigma_(symbolic_.r(), 0)
     {
         for (const ComponentEntry& entry : control_.sigma) sigma_[entry.section] += symbolic_.lower(entry.value);
         Sum terms;
         if (control_.cost) terms.push_back(-symbolic_.lower(control_.cost));
         for (std::size_t a = 0; a < symbolic_.r(); ++a) terms.push_back(symbolic_.mu()[a] * sigma_[a]);
         hamiltonian_ = total(terms);
-        solve_controls();
+        if (maximum.kind != ControlMaximum::Kind::unsolved) solve_controls();
     }
 
     EquationSet derive()
@@ -31,7 +33,7 @@ class PontryaginDerivation {
         set.blocks.push_back(condition());
         if (optimal_) {
             set.blocks.push_back(optimal_controls());
-            if (control_.bounds.empty()) set.blocks.push_back(maximal_hamiltonian());
+            if (maximal_ && control_.bounds.empty()) set.blocks.push_back(maximal_hamiltonian());
         }
         set.blocks.push_back(
             {"kinematics", "ẋ^i = ρ^i_a σ^a", R"(\dot x^i = \rho^i_a\, \sigma^a)", symbolic_.kinematics(sigma_)});
@@ -75,10 +77,6 @@ class PontryaginDerivation {
         }
         if (!u.empty())
             optimal_ = solve_in_blocks(second, right, [&](const GiNaC::ex& e) { return symbolic_.simpler(e); });
-        // A bound on one control moves the maximum of those that it is coupled to; where H is convex it is at a bound.
-        if (!control_.bounds.empty() && coupled_unknowns(second).size() != u.size()) optimal_.reset();
-        for (const ControlBound& bound : control_.bounds)
-            if (second(bound.control, bound.control).info(GiNaC::info_flags::positive)) optimal_.reset();
     }
 
     [[nodiscard]] EquationBlock hamiltonian() const
@@ -114,6 +112,12 @@ class PontryaginDerivation {
     [[nodiscard]] EquationBlock optimal_controls() const
     {
         EquationBlock block{"optimal controls", "u(x, μ)", R"(u(x, \mu))", {}};
+        if (!maximal_) {
+            block.title = "stationary controls";
+            block.formula += " with ∂H/∂u^A = 0; that H is largest there is not proved";
+            block.latex_formula += R"(\text{ with } \partial H/\partial u^A = 0\text{; that } H)"
+                                   R"(\text{ is largest there is not proved})";
+        }
         for (std::size_t A = 0; A < optimal_->size(); ++A) {
             Equation next = symbolic_.equation(LeftSide::symbol, control_name(A), {(*optimal_)[A]});
             for (const ControlBound& bound : control_.bounds) {
@@ -156,6 +160,7 @@ class PontryaginDerivation {
     }
 
     const Control& control_;
+    bool maximal_; ///< proved
     SymbolicModel symbolic_;
     Sum sigma_; ///< sigma^a(t, x, u), shape (r)
     GiNaC::ex hamiltonian_;
@@ -164,12 +169,15 @@ class PontryaginDerivation {
 
 } // namespace
 
-EquationSet derive_pontryagin(const Model& model, const Algebroid& algebroid)
+EquationSet derive_pontryagin(const Model& model, const Algebroid& algebroid, const ControlMaximum& maximum)
 {
     if (!model.control)
         throw MathematicsError("error: model '" + model.name +
                                "' has no controls; Pontryagin's equations need [control] controls, sigma and cost");
-    return derived(model, "Pontryagin's equations", [&] { return PontryaginDerivation(model, algebroid).derive(); });
+    if (maximum.kind == ControlMaximum::Kind::refuted || maximum.kind == ControlMaximum::Kind::nonsmooth)
+        require_maximum(model, maximum);
+    return derived(model, "Pontryagin's equations",
+                   [&] { return PontryaginDerivation(model, algebroid, maximum).derive(); });
 }
 
 } // namespace lagen

@@ -6,13 +6,15 @@
 #pragma once
 
 #include "expression/equation_set.hpp"
-#include "geometry/algebroid.hpp"
+#include "geometry/verify.hpp"
 
 namespace lagen {
 
 /// Blocks: Hamiltonian, labels of the leaves where there are any, section of the controls, condition for the controls,
-/// optimal controls and maximal Hamiltonian where dH/du is affine in u with a regular matrix, kinematics, equations of
-/// motion, energy balance where it is not zero. Throws MathematicsError where the model has no controls.
-[[nodiscard]] EquationSet derive_pontryagin(const Model& model, const Algebroid& algebroid);
+/// where dH/du is affine in u with a regular matrix optimal controls and maximal Hamiltonian (stationary controls alone
+/// where `maximum` is not proved), kinematics, equations of motion, energy balance where it is not zero. Throws
+/// MathematicsError where the model has no controls, and where H has no maximum or no dH/du.
+[[nodiscard]] EquationSet derive_pontryagin(const Model& model, const Algebroid& algebroid,
+                                            const ControlMaximum& maximum);
 
 } // namespace lagen

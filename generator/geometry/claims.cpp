@@ -2,6 +2,7 @@
 /// Lowering of a model for its proofs, and the setting in which they are decided.
 #include "geometry/claims.hpp"
 #include "geometry/lagrange_motion.hpp"
+#include "geometry/legendre_obstacle.hpp"
 #include "geometry/model_trees.hpp"
 #include "geometry/regularity.hpp"
 #include "geometry/zero_divisors.hpp"
@@ -56,7 +57,12 @@ void Claims::lower_mechanics()
     control.sigma.assign(lowered_.r(), graph_.constant(0));
     for (const ComponentEntry& entry : model_.control->sigma) control.sigma[entry.section] = (*lower_)(entry.value);
     control.cost = (*lower_)(model_.control->cost);
-    control.bounded = !model_.control->bounds.empty();
+    control.lower.resize(control.u.size());
+    control.upper.resize(control.u.size());
+    for (const ControlBound& bound : model_.control->bounds) {
+        if (bound.lower) control.lower[bound.control] = (*lower_)(bound.lower);
+        if (bound.upper) control.upper[bound.control] = (*lower_)(bound.upper);
+    }
 }
 
 /// What H, forces and the control problem are made of: they count where they are defined.
@@ -179,6 +185,7 @@ void Claims::decide_regularity(VerifiedAlgebroid& verified)
     if (!hessian) return;
     verified.regularity = lagen::decide_regularity(graph_, *hessian, setting_, judge_->decider(), parameter_values());
     verified.regularity.of_hamiltonian = of_hamiltonian;
+    decide_legendre_transform(graph_, *hessian, setting_, judge_->decider().budget(), verified.regularity);
 }
 
 } // namespace lagen

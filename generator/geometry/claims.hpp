@@ -25,6 +25,8 @@ class Claims {
     void decide_regularity(VerifiedAlgebroid& verified);
     /// Where L and H are given: H(t, x, dL/dy) - (y^a dL/dy^a - L)
     void decide_legendre(VerifiedAlgebroid& verified);
+    /// Of a control problem: do the controls maximise H?
+    void decide_controls(VerifiedAlgebroid& verified);
     void decide_invariants(VerifiedAlgebroid& verified, const std::vector<NamedTree>& extra);
 
   private:

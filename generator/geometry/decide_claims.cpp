@@ -2,6 +2,7 @@
 /// The claims of a model, one kind after another, with names for people.
 #include "geometry/claims.hpp"
 #include "geometry/construction.hpp"
+#include "geometry/control_maximum.hpp"
 #include "geometry/jumps.hpp"
 #include "graph/differentiate.hpp"
 #include "proof/partial_parts.hpp"
@@ -121,6 +122,25 @@ void Claims::decide_invariants(VerifiedAlgebroid& verified, const std::vector<Na
         }
         verified.checks.push_back(std::move(check));
     }
+}
+
+void Claims::decide_controls(VerifiedAlgebroid& verified)
+{
+    if (!control_) return;
+    ControlQuestion question{model_, *control_, mu_, {}};
+    std::vector<Tree> trees{model_.control->cost};
+    for (const ComponentEntry& entry : model_.control->sigma) trees.push_back(entry.value);
+    for (const Tree& tree : trees)
+        for (const NodeId part : partial_parts(graph_, *lower_, tree)) question.parts.push_back(part);
+    verified.maximum = decide_maximum(graph_, question, setting_, judge_->decider().budget());
+    const ControlMaximum& maximum = verified.maximum;
+    Check check{"maximum", {}, {}, {}, {}};
+    check.decision.status = maximum.kind == ControlMaximum::Kind::maximal   ? ProofStatus::proved
+                            : maximum.kind == ControlMaximum::Kind::refuted ? ProofStatus::refuted
+                                                                            : ProofStatus::undecided;
+    check.decision.evidence = maximum.reason;
+    check.hint = maximum.hint;
+    verified.checks.push_back(std::move(check));
 }
 
 void Claims::decide_legendre(VerifiedAlgebroid& verified)

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t most_squares = 2000; ///< of one Lagrangian
 
-/// factor * node^2, or factor * node while L is taken apart.
+/// factor * node while L is taken apart, then factor * d(node) d(node)^T, a part of W.
 struct Part {
     NodeId factor;
     NodeId node;
@@ -23,7 +23,7 @@ class Squares {
     Squares(Graph& graph, const FibreHessian& hessian) : graph_(graph), y_(hessian.y)
     {
         const NodeId roots[] = {hessian.lagrangian};
-        // Degrees in y, from the operands up; 3 stands for "not a polynomial of degree 2".
+        // Degrees in y, from the operands up; 2 stands for everything that is not affine.
         for (const NodeId node : reachable(graph, roots)) degrees_[node] = degree(node);
         split({graph.constant(1), hessian.lagrangian});
     }
@@ -44,10 +44,9 @@ class Squares {
         case Op::add:
         case Op::subtract:
         case Op::negate: return greatest;
-        case Op::multiply: return std::min(3, of(0) + of(1));
-        case Op::divide: return of(1) == 0 ? of(0) : 3;
-        case Op::power: return graph_.payload(node) == 2 ? std::min(3, 2 * of(0)) : 3;
-        default: return 3;
+        case Op::multiply: return std::min(2, of(0) + of(1));
+        case Op::divide: return of(1) == 0 ? of(0) : 2;
+        default: return 2;
         }
     }
 
@@ -57,12 +56,8 @@ class Squares {
         while (!open.empty() && found_) {
             const Part part = open.back();
             open.pop_back();
-            const int degree = degrees_.at(part.node);
-            if (degree <= 1) continue; // nothing of W
-            if (degree == 3 || squares_.size() + open.size() > most_squares) {
-                found_ = false;
-                return;
-            }
+            if (degrees_.at(part.node) <= 1) continue; // nothing of W
+            found_ = squares_.size() + open.size() < most_squares;
             const std::vector<NodeId> operands(graph_.operands(part.node).begin(), graph_.operands(part.node).end());
             switch (graph_.op(part.node)) {
             case Op::add:
@@ -74,16 +69,45 @@ class Squares {
                 open.push_back({graph_.negate(part.factor), operands[1]});
                 break;
             case Op::negate: open.push_back({graph_.negate(part.factor), operands[0]}); break;
-            case Op::divide: open.push_back({graph_.divide(part.factor, operands[1]), operands[0]}); break;
             case Op::multiply: {
                 const std::size_t plain = degrees_.at(operands[0]) == 0 ? 0 : 1;
-                found_ = degrees_.at(operands[plain]) == 0; // no product of two linear forms
+                found_ = degrees_.at(operands[plain]) == 0; // no product of two functions of y
                 open.push_back({graph_.multiply(part.factor, operands[plain]), operands[1 - plain]});
                 break;
             }
-            default: squares_.push_back({part.factor, operands[0]}); // the square of a linear form
+            default: compose(part, operands, open);
             }
         }
+    }
+
+    /// m g(f) where one operand f alone depends on y, or is f in all places where g has one that does.
+    void compose(const Part& part, std::vector<NodeId> operands, std::vector<Part>& open)
+    {
+        NodeId f = part.node;
+        for (const NodeId operand : operands) {
+            if (degrees_.at(operand) == 0) continue;
+            found_ = found_ && (f == part.node || f == operand);
+            f = operand;
+        }
+        const Op op = graph_.op(part.node);
+        found_ = found_ && op < Op::abs;
+        if (!found_) return;
+        const NodeId z = graph_.input("argument of a function");
+        std::replace(operands.begin(), operands.end(), f, z);
+        NodeId g = 0;
+        if (op == Op::power)
+            g = graph_.power(z, static_cast<std::int32_t>(graph_.payload(part.node)));
+        else if (op == Op::divide)
+            g = graph_.divide(operands[0], operands[1]);
+        else
+            g = operands.size() == 1 ? graph_.apply(op, z) : graph_.apply(op, operands[0], operands[1]);
+        const NodeId argument[] = {z};
+        const NodeId first = gradient(graph_, g, argument)[0];
+        const NodeId derivatives[] = {first, gradient(graph_, first, argument)[0]};
+        const std::pair<NodeId, NodeId> back[] = {{z, f}};
+        const std::vector<NodeId> there = substitute(graph_, derivatives, back);
+        open.push_back({graph_.multiply(part.factor, there[0]), f});
+        if (!graph_.is_zero(there[1])) squares_.push_back({graph_.multiply(part.factor, there[1]), f});
     }
 
     Graph& graph_;
@@ -92,6 +116,20 @@ class Squares {
     std::vector<Part> squares_;
     bool found_ = true;
 };
+
+/// The nodes of the squares with a positive factor; nothing where a factor may be negative.
+std::optional<std::vector<NodeId>> positive_squares(const Squares& squares, const ZeroDecider& decider)
+{
+    if (!squares.found()) return {};
+    std::map<NodeId, bool> positive;
+    std::vector<NodeId> nodes;
+    for (const auto& [factor, node] : squares.squares()) {
+        if (positive.count(factor) == 0) positive[factor] = decider.proves_positive(factor);
+        if (!positive[factor] && !decider.proves_nonnegative(factor)) return {};
+        if (positive[factor]) nodes.push_back(node);
+    }
+    return nodes;
+}
 
 /// The one coordinate of a row that is still open; row.size() where there are none or several.
 std::size_t only_open(const Graph& graph, const std::vector<NodeId>& row, const std::vector<bool>& closed)
@@ -107,19 +145,19 @@ std::size_t only_open(const Graph& graph, const std::vector<NodeId>& row, const 
 
 } // namespace
 
+bool proves_semidefinite_by_squares(Graph& graph, const FibreHessian& hessian, const ZeroDecider& decider)
+{
+    return positive_squares(Squares(graph, hessian), decider).has_value();
+}
+
 bool proves_definite_by_squares(Graph& graph, const FibreHessian& hessian, const ZeroDecider& decider)
 {
     const std::size_t r = hessian.y.size();
     if (r == 0) return false;
-    const Squares squares(graph, hessian);
-    if (!squares.found()) return false;
-    std::set<NodeId> positive;
+    const auto nodes = positive_squares(Squares(graph, hessian), decider);
+    if (!nodes) return false;
     std::vector<std::vector<NodeId>> rows; // J_i
-    for (const auto& [factor, form] : squares.squares()) {
-        if (positive.count(factor) == 0 && !decider.proves_positive(factor)) return false;
-        positive.insert(factor);
-        rows.push_back(gradient(graph, form, hessian.y));
-    }
+    for (const NodeId node : *nodes) rows.push_back(gradient(graph, node, hessian.y));
     std::vector<bool> closed(r, false);
     for (std::size_t count = 0; count < r;) {
         std::map<std::size_t, std::vector<NodeId>> sums;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "geometry/kernel_vectors.hpp"
 
+#include "expression/parse.hpp"
 #include "geometry/rational_matrix.hpp"
 #include "graph/lower.hpp"
 #include "proof/print_fraction.hpp"
@@ -28,6 +29,18 @@ Order order_of(const Graph& graph, const ProofSetting& setting)
     return order;
 }
 
+/// The node as it was built, or its normal form where that is shorter.
+Tree shorter_tree(const Graph& graph, NodeId node, const Decision& decision)
+{
+    Tree tree = to_tree(graph, node);
+    if (!proof::is_whole(decision.residual) || decision.residual.size() >= to_text(tree).size()) return tree;
+    try {
+        return parse_expression(whole_text("<normal form>", decision.residual));
+    } catch (const Error&) {
+        return tree; // a name that cannot be read back
+    }
+}
+
 /// The reduced fraction where it is proved to be the same; empty where it is not, or takes too long.
 std::string reduced_text(Graph& graph, NodeId node, const Tree& tree, const Order& order, const ZeroDecider& decider)
 {
@@ -44,7 +57,7 @@ std::string reduced_text(Graph& graph, NodeId node, const Tree& tree, const Orde
 /// The shortest of what was built, its normal form and its reduced fraction; empty where all are too long.
 std::string text_of(Graph& graph, NodeId node, const Decision& decision, const Order& order, const ZeroDecider& decider)
 {
-    const Tree tree = to_tree(graph, node);
+    const Tree tree = shorter_tree(graph, node, decision);
     std::string text = to_text(tree);
     if (text.size() > longest_input) return "";
     const auto offer = [&](std::string other) {
@@ -84,6 +97,31 @@ std::vector<NodeId> kernel_entries(Graph& graph, const FibreHessian& hessian, co
     return k;
 }
 
+/// k times the least common denominator of its entries, so that it is defined wherever W is; k itself where that is a
+/// number, or takes too long to find.
+std::vector<NodeId> without_denominators(Graph& graph, const std::vector<NodeId>& k, const Order& order,
+                                         const ZeroDecider& decider)
+{
+    try {
+        SymbolTable symbols;
+        GiNaC::exmap functions; // as symbols: lcm knows polynomials alone
+        GiNaC::ex common = 1;
+        for (const NodeId entry : k) {
+            const Tree tree = shorter_tree(graph, entry, decider.decide(entry));
+            if (to_text(tree).size() > longest_input) return k;
+            const GiNaC::ex denominator = to_ginac(tree, symbols).normal().denom();
+            common = GiNaC::lcm(common, denominator.to_polynomial(functions));
+        }
+        if (GiNaC::is_a<GiNaC::numeric>(common)) return k;
+        const NodeId factor = Lowering(graph)(shortest_form(common.subs(functions), symbols, order));
+        std::vector<NodeId> multiple;
+        for (const NodeId entry : k) multiple.push_back(graph.multiply(factor, entry));
+        return multiple;
+    } catch (const std::exception&) {
+        return k; // a function that GiNaC does not have
+    }
+}
+
 void append_vectors(std::vector<KernelVector>& vectors, Graph& graph, const FibreHessian& hessian, const Block& block,
                     const ZeroDecider& decider, const Order& order)
 {
@@ -91,8 +129,9 @@ void append_vectors(std::vector<KernelVector>& vectors, Graph& graph, const Fibr
     if (!minor) return;
     for (const std::size_t j : block) {
         if (std::ranges::find(*minor, j) != minor->end()) continue;
-        const std::vector<NodeId> k = kernel_entries(graph, hessian, block, *minor, j);
+        std::vector<NodeId> k = kernel_entries(graph, hessian, block, *minor, j);
         if (!is_in_kernel(graph, hessian, block, k, decider)) continue;
+        k = without_denominators(graph, k, order, decider);
         KernelVector vector;
         bool readable = true;
         for (std::size_t b = 0; b < block.size(); ++b) {

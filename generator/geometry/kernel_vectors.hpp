@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The kernel of a degenerate fibre Hessian W, a block of coupled coordinates at a time: for a nonzero principal minor
-/// det W_PP of the size of the rank and each j outside of P, k = e_j - (W_PP^-1 W_Pj)^i e_i.
+/// det W_PP of the size of the rank and each j outside of P, k = e_j - (W_PP^-1 W_Pj)^i e_i without its denominators.
 #pragma once
 
 #include "geometry/fibre_hessian.hpp"
@@ -17,8 +17,9 @@ namespace lagen {
 /// Components that are not zero, by fibre coordinate.
 using KernelVector = std::vector<std::pair<std::size_t, std::string>>;
 
-/// A basis of the kernel wherever the minors do not vanish; W k = 0 is proved of each vector that is listed. A vector
-/// is left out where that is not decided, and where a component is too long to be read. `setting` orders the names.
+/// A basis of the kernel wherever minors and denominators do not vanish; W k = 0 is proved of each vector that is
+/// listed. A vector is left out where that is not decided, and where a component is too long to be read. `setting`
+/// orders the names.
 [[nodiscard]] std::vector<KernelVector> kernel_vectors(Graph& graph, const FibreHessian& hessian,
                                                        const ZeroDecider& decider, const ProofSetting& setting);
 

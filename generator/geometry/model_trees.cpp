@@ -56,7 +56,9 @@ std::vector<Tree> phase_trees(const Model& model)
     if (!model.control) return trees;
     for (const ComponentEntry& entry : model.control->sigma) trees.push_back(entry.value);
     trees.push_back(model.control->cost);
-    for (const ControlBound& bound : model.control->bounds) trees.insert(trees.end(), {bound.lower, bound.upper});
+    for (const ControlBound& bound : model.control->bounds)
+        for (const Tree& end : {bound.lower, bound.upper})
+            if (end) trees.push_back(end);
     if (model.control->boundary && model.control->boundary->terminal_cost)
         trees.push_back(model.control->boundary->terminal_cost);
     return trees;

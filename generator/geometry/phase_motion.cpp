@@ -41,7 +41,7 @@ NodeId contraction(Graph& graph, const std::vector<NodeId>& mu, const std::vecto
 Replacements controls_on_extremals(Graph& graph, NodeId hamiltonian, const ControlNodes& control, std::string& obstacle)
 {
     const FibreHessian hessian = fibre_hessian(graph, hamiltonian, control.u);
-    if (control.bounded) {
+    if (control.bounded()) {
         obstacle = "the controls are bounded, so that they are no smooth functions of x and mu";
         return {};
     }
@@ -74,6 +74,17 @@ Replacements controls_on_extremals(Graph& graph, NodeId hamiltonian, const Contr
 
 } // namespace
 
+bool ControlNodes::bounded() const
+{
+    const auto given = [](const std::optional<NodeId>& bound) { return bound.has_value(); };
+    return std::ranges::any_of(lower, given) || std::ranges::any_of(upper, given);
+}
+
+NodeId control_hamiltonian(Graph& graph, const ControlNodes& control, const std::vector<NodeId>& mu)
+{
+    return graph.subtract(contraction(graph, mu, control.sigma), control.cost);
+}
+
 PhaseSystem hamilton_system(Graph& graph, const LoweredAlgebroid& algebroid, NodeId hamiltonian,
                             const std::vector<NodeId>& mu, const std::vector<NodeId>& forces,
                             std::optional<NodeId> time)
@@ -96,7 +107,7 @@ PhaseSystem pontryagin_system(Graph& graph, const LoweredAlgebroid& algebroid, c
     system.mu = mu;
     system.y = control.sigma;
     system.lagrangian = control.cost;
-    system.hamiltonian = graph.subtract(contraction(graph, mu, control.sigma), control.cost);
+    system.hamiltonian = control_hamiltonian(graph, control, mu);
     system.found = controls_on_extremals(graph, system.hamiltonian, control, system.obstacle);
     if (system.found.empty()) system.open = control.u;
     add_rates(graph, algebroid, system, std::vector<NodeId>(mu.size(), graph.constant(0)), time);

@@ -32,8 +32,13 @@ struct ControlNodes {
     std::vector<NodeId> u;     ///< inputs
     std::vector<NodeId> sigma; ///< shape (r)
     NodeId cost = 0;
-    bool bounded = false;
+    std::vector<std::optional<NodeId>> lower, upper; ///< bounds, of each control
+
+    [[nodiscard]] bool bounded() const;
 };
+
+/// H = mu_a sigma^a - cost
+[[nodiscard]] NodeId control_hamiltonian(Graph& graph, const ControlNodes& control, const std::vector<NodeId>& mu);
 
 /// Pontryagin's equations. Controls without bounds, in which dH/du is affine and d2H/du2 is regular, are solved for.
 [[nodiscard]] PhaseSystem pontryagin_system(Graph& graph, const LoweredAlgebroid& algebroid,

@@ -213,6 +213,12 @@ bool is_definite_for(Graph& graph, const FibreHessian& hessian, const ProofSetti
 
 } // namespace
 
+bool proves_definite(Graph& graph, const FibreHessian& hessian, const ProofSetting& setting, const ZeroDecider& decider)
+{
+    return proves_definite_by_squares(graph, hessian, decider) ||
+           show(graph, hessian, setting, decider, leading_minors(graph, hessian)).positive_definite;
+}
+
 Regularity decide_regularity(Graph& graph, const FibreHessian& hessian, const ProofSetting& setting,
                              const ZeroDecider& decider, const Replacements& defaults)
 {

@@ -13,4 +13,8 @@ namespace lagen {
                                            const ZeroDecider& decider,
                                            const std::vector<std::pair<NodeId, NodeId>>& defaults);
 
+/// Whether W is proved positive definite wherever it is defined.
+[[nodiscard]] bool proves_definite(Graph& graph, const FibreHessian& hessian, const ProofSetting& setting,
+                                   const ZeroDecider& decider);
+
 } // namespace lagen

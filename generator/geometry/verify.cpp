@@ -67,6 +67,7 @@ VerifiedAlgebroid verify(const Model& model, const std::vector<NamedTree>& extra
     claims.decide_regularity(verified);
     claims.decide_legendre(verified);
     claims.decide_invariants(verified, extra_invariants);
+    claims.decide_controls(verified);
     for (const Check& check : verified.checks) require_confirmed(check);
     verified.reevaluation = summary_of(verified, points);
     verified.verdict = verdict_of(verified);

@@ -29,15 +29,35 @@ enum class Verdict { valid, invalid, undecided };
 /// Of the fibre Hessian W = d2L/dy2.
 struct Regularity {
     enum class Kind { regular, generically_regular, degenerate, absent, undecided } kind = Kind::absent;
-    std::size_t rank = 0;              ///< generic rank, by a witness
-    bool positive_definite = false;    ///< proved on the whole domain
-    bool for_given_parameters = false; ///< `regular` and `positive_definite` rest on the parameter values of the file
-    bool of_hamiltonian = false;       ///< of d2H/dmu2, where the model has H and no L
-    std::string evidence;              ///< why `undecided`; may be empty
+    std::size_t rank = 0;               ///< generic rank, by a witness
+    bool positive_definite = false;     ///< proved on the whole domain
+    bool for_given_parameters = false;  ///< `regular` and `positive_definite` rest on the parameter values of the file
+    bool of_hamiltonian = false;        ///< of d2H/dmu2, where the model has H and no L
+    std::string evidence;               ///< why `undecided`; may be empty
+    std::string legendre_obstacle;      ///< why y -> dL/dy is not shown to be one-to-one; empty where it is
+    std::vector<Rational> newton_start; ///< a y where dL/dy is defined, if it is not at 0; else empty
     std::vector<std::vector<std::pair<std::string, std::string>>> singular_at; ///< known singular points
     std::vector<std::vector<std::pair<std::string, std::string>>>
         kernel; ///< where degenerate: vectors k with W k = 0, proved, as components by fibre coordinate
 };
+
+/// Of the controls of Pontryagin's equations.
+struct ControlMaximum {
+    enum class Kind {
+        absent,     ///< no control problem, or not asked
+        maximal,    ///< proved: dH/du = 0, or a bound, is the maximum of H
+        stationary, ///< no bounds: dH/du = 0 is solved, and is not proved to be a maximum
+        unsolved,   ///< dH/du = 0 does not determine the controls, or not the maximum between bounds
+        nonsmooth,  ///< there is no dH/du
+        refuted,    ///< dH/du = 0 is certainly no maximum
+    } kind = Kind::absent;
+    std::string reason; ///< "d2H/du2 < 0 was not proved"; empty where `maximal`
+    std::string hint;
+};
+
+/// What every text says of stationary controls.
+inline constexpr const char* stationary_controls =
+    "Stationary controls: dH/du = 0; that H is largest there is not proved.";
 
 struct VerifiedAlgebroid {
     Algebroid algebroid;
@@ -45,6 +65,7 @@ struct VerifiedAlgebroid {
     std::size_t trivial = 0; ///< residuals that are zero by structure: counted, not listed
     Verdict verdict = Verdict::undecided;
     Regularity regularity;
+    ControlMaximum maximum;
     std::string note; ///< e.g. "no regular point was found: ..."
     std::optional<Reevaluation>
         reevaluation; ///< of all residuals that were proved: the least points, the largest bound

@@ -28,9 +28,14 @@ void extend(Graph& graph, const ImplicitBlock& block, std::vector<Seeds>& direct
 ImplicitBlock implicit_block(Graph& graph, std::string name, std::string documentation, std::vector<NodeId> unknowns,
                              std::vector<NodeId> residuals, std::vector<NodeId> guess, MatrixStructure structure)
 {
-    ImplicitBlock block{
-        std::move(name), std::move(documentation), std::move(unknowns), std::move(residuals), {}, std::move(guess),
-        structure};
+    ImplicitBlock block{std::move(name),
+                        std::move(documentation),
+                        std::move(unknowns),
+                        std::move(residuals),
+                        {},
+                        std::move(guess),
+                        structure,
+                        {}};
     block.jacobian = joined_rows(jacobian(graph, block.residuals, block.unknowns));
     return block;
 }

@@ -1,12 +1,21 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Unknowns that equations define: z with F(z, s) = 0, solved by Newton's method inside a kernel. The unknowns are
+/// Unknowns that equations define: z with F(z, s) = 0, solved by Newton's method inside a kernel, between bounds where
+/// a block has a bracket. The unknowns are
 /// ordinary inputs of the graph; a block says what they mean. Its derivative is that of the implicit function,
 ///   dz = -F_z^-1 F_s ds.
 #pragma once
 
 #include "graph/graph.hpp"
 
+#include <optional>
+
 namespace lagen {
+
+/// Intervals for unknowns whose equations stand apart: F_i holds z_i alone and falls with it. A missing end is
+/// infinite.
+struct Bracket {
+    std::vector<std::optional<NodeId>> lower, upper; ///< shape (N), free of z
+};
 
 struct ImplicitBlock {
     std::string name;              ///< as in C++: "velocity"
@@ -16,6 +25,8 @@ struct ImplicitBlock {
     std::vector<NodeId> jacobian;  ///< dF/dz, shape (N, N), entry (i, j) at i * N + j
     std::vector<NodeId> guess;     ///< where Newton's method starts, free of z
     MatrixStructure structure = MatrixStructure::general;
+    /// Where it is there, z_i is the root of F_i in its interval, or the end next to it; there is no guess then.
+    std::optional<Bracket> bracket = {};
 };
 
 /// A block with its Jacobian, differentiated here.

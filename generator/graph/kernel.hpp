@@ -69,11 +69,13 @@ struct KernelModule {
     NodeId time = 0; ///< the input t
     std::vector<Quantity> parameters;
     std::vector<NodeId> parameter_defaults; ///< closed nodes without inputs, one a parameter
-    std::vector<Quantity> base;             ///< first lanes of State
-    std::vector<Quantity> fibre;            ///< the other lanes (fibre coordinates, or momenta)
-    std::string fibre_name = "Fibre";       ///< the struct of the second group: "Fibre" or "Momenta"
-    std::vector<Quantity> direction;        ///< inputs of a vector v beside the state, a lane each; may be empty
-    std::vector<ImplicitBlock> implicit;    ///< unknowns of the kernels, in the order in which they are solved
+    /// Conditions on the parameters alone, as text, with a node each that is positive where it holds.
+    std::vector<std::pair<std::string, NodeId>> parameter_conditions;
+    std::vector<Quantity> base;          ///< first lanes of State
+    std::vector<Quantity> fibre;         ///< the other lanes (fibre coordinates, or momenta)
+    std::string fibre_name = "Fibre";    ///< the struct of the second group: "Fibre" or "Momenta"
+    std::vector<Quantity> direction;     ///< inputs of a vector v beside the state, a lane each; may be empty
+    std::vector<ImplicitBlock> implicit; ///< unknowns of the kernels, in the order in which they are solved
     std::vector<Kernel> kernels;
 };
 

@@ -4,6 +4,7 @@
 #include "graph/differentiate.hpp"
 #include "graph/simplify.hpp"
 #include "kernels/formulation.hpp"
+#include "kernels/requested_kernels.hpp"
 #include "model/scene_form.hpp"
 
 #include <fmt/format.h>
@@ -13,30 +14,6 @@
 namespace lagen {
 
 namespace {
-
-const std::vector<std::string> kernel_names{
-    "rhs",         "jacobian",   "variational",        "mass_matrix",         "momentum", "velocity",    "controls",
-    "energy",      "power",      "hamiltonian",        "lagrangian",          "cost",     "constraints", "domain",
-    "observables", "invariants", "lagrangian_hessian", "hamiltonian_hessian", "events"};
-/// Those that are made only where they are asked for by name.
-const std::vector<std::string> on_request{"variational", "lagrangian_hessian", "hamiltonian_hessian"};
-
-bool is_among(const std::vector<std::string>& names, const std::string& name)
-{
-    return std::ranges::find(names, name) != names.end();
-}
-
-void refuse_unknown(const std::vector<std::string>& only)
-{
-    for (const std::string& name : only) {
-        if (is_among(kernel_names, name)) continue;
-        const std::string near = nearest_name(name, kernel_names);
-        std::string text = fmt::format("error: there is no kernel '{}'; there are", name);
-        for (const std::string& known : kernel_names) text += (known == kernel_names.front() ? " " : ", ") + known;
-        if (!near.empty()) text += fmt::format("\nhint: did you mean '{}'?", near);
-        throw Error(ExitCode::usage, text);
-    }
-}
 
 Formulation formulation(Graph& graph, const Model& model, const VerifiedAlgebroid& verified,
                         const KernelRequest& request, const FormulationParts& parts)
@@ -63,7 +40,7 @@ class ModuleBuilder {
         for (Kernel& kernel : form_.kernels)
             if (wants(kernel.name)) add(std::move(kernel));
         add_trees("constraints", model_base_constraints(), "Base constraints: each is 0 on M.");
-        if (wants("domain")) add_domain();
+        add_domain();
         add_trees("observables", observables(), "Observables of the model.");
         add_trees("invariants", named(model_.invariants), "Functions that are constant along solutions.");
         if (wants("events")) add_trees("events", events(), "Events: each happens where its value crosses 0.");
@@ -76,10 +53,7 @@ class ModuleBuilder {
   private:
     using NamedTrees = std::vector<std::pair<std::string, Tree>>;
 
-    [[nodiscard]] bool wants(const std::string& name) const
-    {
-        return request_.only.empty() ? !is_among(on_request, name) : is_among(request_.only, name);
-    }
+    [[nodiscard]] bool wants(const std::string& name) const { return is_requested(request_.only, name); }
 
     [[nodiscard]] FormulationParts parts() const
     {
@@ -220,7 +194,7 @@ class ModuleBuilder {
     }
 
     /// a < b as b - a, a > b as a - b, a != b as (a - b)^2: positive inside the domain. What holds of the parameters
-    /// alone cannot change along a run and is left out: a scene is refused where its parameters violate it.
+    /// alone cannot change along a run and is checked once.
     void add_domain()
     {
         std::vector<NodeId> values;
@@ -231,12 +205,17 @@ class ModuleBuilder {
             const NodeId a = lower_(tree->arguments[0]);
             const NodeId b = lower_(tree->arguments[1]);
             const bool less = tree->comparison == Comparison::less || tree->comparison == Comparison::less_equal;
-            if (depends_on_parameters_alone({a, b})) continue;
             const NodeId difference = less ? graph_->subtract(b, a) : graph_->subtract(a, b);
-            values.push_back(tree->comparison == Comparison::not_equal ? graph_->power(difference, 2) : difference);
+            const bool unequal = tree->comparison == Comparison::not_equal;
+            const NodeId value = unequal ? graph_->power(difference, 2) : difference;
+            if (depends_on_parameters_alone({a, b})) {
+                module_.parameter_conditions.emplace_back(to_text(tree), value);
+                continue;
+            }
+            values.push_back(value);
             names.push_back(to_text(tree));
         }
-        if (values.empty()) return;
+        if (values.empty() || !wants("domain")) return;
         add({"domain",
              KernelShape::vector,
              column("domain", values),
@@ -307,6 +286,10 @@ class ModuleBuilder {
         for (ImplicitBlock& block : module_.implicit) {
             std::vector<NodeId> divisors;
             block.guess = simplify(*graph_, block.guess, divisors);
+            if (block.bracket)
+                for (auto* ends : {&block.bracket->lower, &block.bracket->upper})
+                    for (std::optional<NodeId>& end : *ends)
+                        if (end) end = simplify(*graph_, std::vector<NodeId>{*end}, divisors).front();
             std::vector<NodeId> inner = block.residuals;
             inner.insert(inner.end(), block.jacobian.begin(), block.jacobian.end());
             inner = simplify(*graph_, inner, divisors);
@@ -371,7 +354,9 @@ Kernel scalar_kernel(std::string name, NodeId value, std::string documentation)
 KernelModule form_kernels(const Model& model, const VerifiedAlgebroid& verified, const KernelRequest& request)
 {
     refuse_unknown(request.only);
-    return ModuleBuilder(model, verified, request).build();
+    KernelModule module = ModuleBuilder(model, verified, request).build();
+    require_requested(module, model, verified, request);
+    return module;
 }
 
 } // namespace lagen

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// xdot^i = rho^i_a y^a,   mudot_a = -(rho_a(H) + mu_c C^c_ab y^b) + Q_a,   y^a = dH/dmu_a               [Martinez
 /// 2001] From L without forming H: y solves mu_a = dL/dy^a, and at that y dH/dx^i = -dL/dx^i, dH/dt = -dL/dt.
+#include "geometry/legendre_obstacle.hpp"
 #include "geometry/momentum_balance.hpp"
 #include "graph/differentiate.hpp"
 #include "graph/simplify.hpp"
@@ -57,8 +58,11 @@ HamiltonianNodes legendre(Graph& graph, const Model& model, const SystemNodes& s
     const std::vector<NodeId> zeros(r, graph.constant(0));
     Replacements velocities;
     if (depends_on_any(graph, W, lagrangian.y)) {
+        std::vector<NodeId> guess = zeros;
+        for (std::size_t a = 0; a < regularity.newton_start.size(); ++a)
+            guess[a] = graph.constant(regularity.newton_start[a]);
         nodes.implicit.push_back(implicit_block(graph, "velocity", "y with dL/dy^a = mu_a (the Legendre transform).",
-                                                lagrangian.y, residuals, zeros, structure));
+                                                lagrangian.y, residuals, guess, structure));
         nodes.y = lagrangian.y;
     } else {
         std::vector<NodeId> right = substitute(graph, residuals, replacements(lagrangian.y, zeros));
@@ -119,7 +123,10 @@ void add_kernels(Graph& graph, const HamiltonianNodes& hamiltonian, NodeId power
 Formulation hamilton_form(Graph& graph, const Model& model, const VerifiedAlgebroid& verified,
                           const FormulationParts& parts)
 {
-    if (!model.hamiltonian) require_regular_lagrangian(model, verified.regularity, "Hamiltonian");
+    if (!model.hamiltonian) {
+        require_regular_lagrangian(model, verified.regularity, "Hamiltonian");
+        require_legendre_transform(model, verified.regularity);
+    }
     const SystemNodes system = system_nodes(graph, model, verified.algebroid);
     HamiltonianNodes start;
     for (const Symbol& symbol : model.fibre.momenta) start.mu.push_back(graph.input(symbol.name));

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// H = mu_a sigma^a - cost,   xdot^i = rho^i_a sigma^a,   mudot_a = -(rho_a(H) + mu_c C^c_ab sigma^b)    [Martinez
-/// 2004] The controls solve dH/du = 0: linearly where that is affine in u, else by Newton's method. Bounds clip them
-/// where every control has a part of H of its own that is proved to be strictly concave: only then the clipped value
-/// maximises H.
+/// 2004] The controls solve dH/du = 0: linearly where that is affine in u, else by Newton's method. Between bounds each
+/// control has a part of H of its own that is strictly concave (geometry/control_maximum.hpp): the maximum is the root
+/// of dH/du, or the bound next to it.
+#include "geometry/control_maximum.hpp"
 #include "graph/differentiate.hpp"
 #include "graph/simplify.hpp"
 #include "kernels/formulation.hpp"
@@ -22,6 +23,7 @@ class PontryaginForm {
         : graph_(graph), model_(model), control_(*model.control), verified_(verified),
           system_(system_nodes(graph, model, verified.algebroid))
     {
+        require_maximum(model, verified.maximum);
         for (const Symbol& symbol : model.fibre.momenta) mu_.push_back(graph.input(symbol.name));
         for (const Symbol& symbol : control_.controls) u_.push_back(graph.input(symbol.name));
         Lowering lower(graph);
@@ -59,8 +61,10 @@ class PontryaginForm {
             "Pontryagin's equations for H = mu_a sigma^a - cost, ds = (xdot, mudot): xdot^i = rho^i_a "
             "sigma^a and",
             "mudot_a = -(rho_a(H) + mu_c C^c_ab sigma^b), with the controls that solve dH/du = 0" +
-                std::string(control_.bounds.empty() ? "." : ", clipped to their bounds."),
+                std::string(control_.bounds.empty() ? "." : ", or are at the bound next to that."),
             "s and ds may be the same object."};
+        if (verified_.maximum.kind != ControlMaximum::Kind::maximal)
+            form.documentation.insert(form.documentation.end() - 1, stationary_controls);
         bind_names(form);
         add_kernels(form);
         return form;
@@ -83,20 +87,24 @@ class PontryaginForm {
 
     void solve_controls()
     {
-        const std::size_t m = u_.size();
-        for (std::size_t k = 0; k < m; ++k) {
-            bool singular = true;
-            for (std::size_t l = 0; l < m; ++l) singular = singular && graph_.is_zero(curvature(k, l));
-            if (singular)
-                throw MathematicsError(fmt::format(
-                    "error: the Hamiltonian of model '{}' is affine in the control {}: dH/d{} = 0 does not determine "
-                    "it "
-                    "(a singular or bang-bang control)\nhint: give the cost a term in which {} is strictly convex",
-                    model_.name, name_of(k), name_of(k), name_of(k)));
+        const bool linear = !depends_on_any(graph_, curvature_, u_);
+        if (linear) {
+            solve_linearly();
+            clip();
+        } else if (control_.bounds.empty() && !stand_apart()) {
+            solve_by_newton();
+        } else {
+            solve_between_bounds();
         }
-        if (!control_.bounds.empty()) require_concave();
-        depends_on_any(graph_, curvature_, u_) ? solve_by_newton() : solve_linearly();
-        clip();
+    }
+
+    /// Whether each dH/du_k holds no other control and falls with its own: then no step can miss the root.
+    [[nodiscard]] bool stand_apart() const
+    {
+        for (std::size_t k = 0; k < u_.size(); ++k)
+            for (std::size_t l = 0; l < u_.size(); ++l)
+                if (k != l && !graph_.is_zero(curvature(k, l))) return false;
+        return verified_.maximum.kind == ControlMaximum::Kind::maximal;
     }
 
     void solve_linearly()
@@ -109,17 +117,47 @@ class PontryaginForm {
 
     void solve_by_newton()
     {
-        std::vector<NodeId> guess(u_.size(), graph_.constant(0));
-        Lowering lower(graph_);
-        for (const ControlBound& bound : control_.bounds)
-            if (bound.lower && bound.upper) {
-                const NodeId low = lower(bound.lower); // nodes are numbered in the order of these lines
-                const NodeId high = lower(bound.upper);
-                guess[bound.control] = graph_.divide(graph_.add(low, high), graph_.constant(2));
-            }
-        implicit_.push_back(implicit_block(graph_, "controls", "u with dH/du = 0.", u_, dH_du_, std::move(guess),
+        implicit_.push_back(implicit_block(graph_, "controls", "u with dH/du = 0.", u_, dH_du_,
+                                           std::vector<NodeId>(u_.size(), graph_.constant(0)),
                                            MatrixStructure::symmetric));
         solution_ = u_;
+    }
+
+    /// Each control by itself: dH/du_k falls with u_k and holds no other control.
+    void solve_between_bounds()
+    {
+        ImplicitBlock block = implicit_block(
+            graph_, "controls",
+            control_.bounds.empty() ? "u with dH/du = 0."
+                                    : "u with dH/du = 0, each between its bounds, or the bound next to it.",
+            u_, dH_du_, {}, MatrixStructure::symmetric);
+        Bracket& bracket = block.bracket.emplace();
+        bracket.lower.resize(u_.size());
+        bracket.upper.resize(u_.size());
+        solution_ = u_;
+        Lowering lower(graph_);
+        for (const ControlBound& bound : control_.bounds) {
+            const std::size_t k = bound.control;
+            NodeId& u = solution_[k];
+            if (bound.upper) {
+                const NodeId end = lower(bound.upper);
+                bracket.upper[k] = end;
+                u = graph_.select(graph_.apply(Op::greater_equal, slope_at(k, end), graph_.constant(0)), end, u);
+            }
+            if (bound.lower) {
+                const NodeId end = lower(bound.lower);
+                bracket.lower[k] = end;
+                u = graph_.select(graph_.apply(Op::less_equal, slope_at(k, end), graph_.constant(0)), end, u);
+            }
+        }
+        implicit_.push_back(std::move(block));
+    }
+
+    /// dH/du_k at u_k = value
+    [[nodiscard]] NodeId slope_at(std::size_t k, NodeId value)
+    {
+        const NodeId slope[] = {dH_du_[k]};
+        return substitute(graph_, slope, replacements({u_[k]}, {value})).front();
     }
 
     void clip()
@@ -130,34 +168,6 @@ class PontryaginForm {
             if (bound.lower) u = graph_.apply(Op::maximum, u, lower(bound.lower));
             if (bound.upper) u = graph_.apply(Op::minimum, u, lower(bound.upper));
         }
-    }
-
-    /// Separable: no mixed second derivatives; strictly concave: -d2H/du2 > 0 on the domain.
-    void require_concave()
-    {
-        const auto refuse = [&](const std::string& why) {
-            throw MathematicsError(fmt::format(
-                "error: the controls of model '{}' have bounds, which clip the solution of dH/du = 0 only where H is "
-                "separable and strictly concave in them: {}\nhint: without bounds dH/du = 0 is solved as it is",
-                model_.name, why));
-        };
-        for (std::size_t k = 0; k < u_.size(); ++k)
-            for (std::size_t l = 0; l < u_.size(); ++l)
-                if (k != l && !graph_.is_zero(curvature(k, l)))
-                    refuse(fmt::format("d2H/d{}d{} is not zero", name_of(k), name_of(l)));
-        ProofSetting setting;
-        setting.variables = system_.x;
-        setting.variables.insert(setting.variables.end(), u_.begin(), u_.end());
-        setting.variables.insert(setting.variables.end(), mu_.begin(), mu_.end());
-        setting.variables.push_back(system_.time);
-        setting.parameters = system_.parameters;
-        Lowering lower(graph_);
-        for (const Tree& tree : verified_.algebroid.constraints) setting.constraints.push_back(lower(tree));
-        for (const Tree& tree : verified_.algebroid.domain) setting.domain.push_back(lower(tree));
-        const ZeroDecider decider(graph_, setting);
-        for (std::size_t k = 0; k < u_.size(); ++k)
-            if (!decider.proves_positive(curvature(k, k)))
-                refuse(fmt::format("d2H/d{}2 < 0 was not proved", name_of(k)));
     }
 
     [[nodiscard]] const std::string& name_of(std::size_t k) const { return control_.controls[k].name; }
@@ -185,12 +195,14 @@ class PontryaginForm {
     void add_kernels(Formulation& form)
     {
         const std::vector<NodeId> values = at_controls({hamiltonian_, cost_, dH_dt_});
-        form.kernels.push_back({"controls",
-                                KernelShape::vector,
-                                column("u", solution_),
-                                {"The controls that maximise H."},
-                                form.controls,
-                                {}});
+        form.kernels.push_back(
+            {"controls",
+             KernelShape::vector,
+             column("u", solution_),
+             {verified_.maximum.kind == ControlMaximum::Kind::maximal ? "The controls that maximise H."
+                                                                      : stationary_controls},
+             form.controls,
+             {}});
         form.kernels.push_back(scalar_kernel("hamiltonian", values[0], "H = mu_a sigma^a - cost at these controls."));
         if (!graph_.is_zero(values[2]))
             form.kernels.push_back(scalar_kernel("power", values[2], "dH/dt along the motion."));

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <set>
 
 namespace lagen {
@@ -127,8 +128,9 @@ void require_bounds(const Model& model, const Scene& scene, const Values& parame
     for (const ControlBound& bound : model.control->bounds) {
         const std::string& name = model.control->controls[bound.control].name;
         const std::string what = fmt::format("a bound of '{}'", name);
-        const long double lower = finite(bound.lower, parameters, what, bound.where);
-        const long double upper = finite(bound.upper, parameters, what, bound.where);
+        constexpr long double infinity = std::numeric_limits<long double>::infinity();
+        const long double lower = bound.lower ? finite(bound.lower, parameters, what, bound.where) : -infinity;
+        const long double upper = bound.upper ? finite(bound.upper, parameters, what, bound.where) : infinity;
         if (lower < upper) continue;
         throw ModelError(
             fmt::format("in scene '{}' the bounds of '{}' are {:.6g} and {:.6g}, where the first must be the smaller",

@@ -174,7 +174,7 @@ struct ComponentEntry {
     SourceRange where; ///< of the key
 };
 
-/// lower <= u^control <= upper; a null bound is none.
+/// lower <= u^control <= upper; a null bound is none ("-inf", "inf"), and one of the two is there.
 struct ControlBound {
     std::size_t control;
     Tree lower, upper; ///< closed over parameters

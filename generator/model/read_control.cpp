@@ -35,11 +35,20 @@ std::pair<const TomlValue*, const TomlValue*> ends_of(const TomlEntry& entry, co
 /// Bounds over parameters are compared where a scene gives them values.
 void require_interval(const ControlBound& bound, const std::string& name, const SourceRange& where)
 {
+    if (!bound.lower || !bound.upper) return;
     if (!names_in(bound.lower).empty() || !names_in(bound.upper).empty()) return;
     if (evaluate(bound.lower, {}).value < evaluate(bound.upper, {}).value) return;
     throw ModelError(fmt::format("the bounds of the control '{}' are {} and {}, where the first must be the smaller",
                                  name, to_text(bound.lower), to_text(bound.upper)),
                      where);
+}
+
+/// "-inf" or "inf" for no bound, as text or as a number of TOML.
+bool is_open(const TomlValue& value, bool lower)
+{
+    const std::string& text = value.text.text;
+    if (value.kind != TomlKind::string && (value.kind != TomlKind::decimal || value.finite)) return false;
+    return lower ? text == "-inf" : text == "inf" || text == "+inf";
 }
 
 std::vector<ControlBound> read_bounds(const ModelReader& reader, const TomlEntry& block)
@@ -53,6 +62,7 @@ std::vector<ControlBound> read_bounds(const ModelReader& reader, const TomlEntry
         const std::string what = fmt::format("the bounds of '{}'", key.name);
         const auto ends = ends_of(entry, what);
         const auto values = [&](const TomlValue& value) {
+            if (is_open(value, &value == ends.first)) return std::vector<Tree>(key.indices.size());
             const Tree tree = read_array_expression(value, "a bound of '" + key.name + "'");
             return fit_values(reader.close_array(tree, {Role::parameter}, "a bound of '" + key.name + "'"), key.shape,
                               "a bound of '" + key.name + "'", value.where);
@@ -66,6 +76,7 @@ std::vector<ControlBound> read_bounds(const ModelReader& reader, const TomlEntry
                 throw ModelError(fmt::format("the bounds of '{}' are given twice", name), entry.where(),
                                  "keep one of them");
             }
+            if (!lower[k] && !upper[k]) continue; // no bounds at all
             out.push_back(ControlBound{key.indices[k], lower[k], upper[k], entry.where()});
             require_interval(out.back(), name, entry.value.where);
         }

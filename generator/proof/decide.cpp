@@ -307,8 +307,7 @@ Signs ZeroDecider::State::signs(NodeId value)
             NormalForm forms = normal_form(value, angles);
             const Fraction form = forms.of(value);
             if (forms.condition().empty()) known = both(known, forms.ring().signs(form));
-        } catch (const BudgetExhausted&) {
-            continue; // nothing learnt
+        } catch (const BudgetExhausted&) { // nothing learnt
         } catch (const VanishingDivisor&) {
             return {};
         }
@@ -355,7 +354,6 @@ const ProofBudget& ZeroDecider::budget() const
 {
     return state_->budget();
 }
-
 ZeroDecider::~ZeroDecider() = default;
 
 Decision ZeroDecider::decide(NodeId residual) const
@@ -371,6 +369,11 @@ Decision ZeroDecider::confirm(NodeId residual, const std::string& argument) cons
 bool ZeroDecider::proves_positive(NodeId value) const
 {
     return state_->signs(value).certainly_positive();
+}
+
+bool ZeroDecider::proves_nonnegative(NodeId value) const
+{
+    return state_->signs(value).certainly_nonnegative();
 }
 
 bool ZeroDecider::proves_nonzero(NodeId value) const

@@ -107,9 +107,10 @@ class ZeroDecider {
     /// at a regular point contains zero; `undecided` where no point tells. Throws InternalError where zero is excluded.
     [[nodiscard]] Decision confirm(NodeId residual, const std::string& argument) const;
 
-    /// Certainly positive / certainly nowhere zero on the whole domain, by exact algebra (used for definiteness and
-    /// for regularity "everywhere"); false means "not shown".
+    /// Certainly positive / nowhere negative / nowhere zero on the whole domain, by exact algebra (used for
+    /// definiteness and for regularity "everywhere"); false means "not shown".
     [[nodiscard]] bool proves_positive(NodeId value) const;
+    [[nodiscard]] bool proves_nonnegative(NodeId value) const;
     [[nodiscard]] bool proves_nonzero(NodeId value) const;
 
     /// A regular sample point (all of `variables` and `parameters`), or nothing where none was found.

@@ -26,9 +26,8 @@ TEST_CASE("every example model is proved")
         const std::string& regularity = list[k]["regularity"]["status"].text;
         const bool control = read_text(LAGEN_SOURCE_DIR "/models/" + example_models()[k] + ".toml").find("[control]") !=
                              std::string::npos; // no function whose Hessian would be asked about
-        const bool relativistic = example_models()[k] == "relativistic_oscillator"; // det W > 0 needs 1 > |v| there
         INFO(example_models()[k]);
-        CHECK(regularity == (control ? "absent" : relativistic ? "generically_regular" : "regular"));
+        CHECK(regularity == (control ? "absent" : "regular"));
     }
 }
 

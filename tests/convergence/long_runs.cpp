@@ -8,25 +8,12 @@
 
 #include <limits>
 
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define LAGEN_SANITIZED
-#endif
-#endif
-#if defined(__SANITIZE_ADDRESS__)
-#define LAGEN_SANITIZED
-#endif
-
 using namespace lagen;
 using Body = problems::RigidBody<double>;
 
 namespace {
 
-#ifdef LAGEN_SANITIZED
-constexpr std::size_t most_steps = 20'000;
-#else
 constexpr std::size_t most_steps = 1'000'000;
-#endif
 
 /// Casimir and energy of a state, computed with more digits than they are tested to.
 struct Kept {

@@ -30,6 +30,21 @@ struct Spiral {
     }
 };
 
+/// x'' = -x, z' = -z.
+struct Joined {
+    using Scalar = double;
+    using State = Eigen::Matrix<double, 3, 1>;
+    static constexpr int dimension = 3;
+
+    Status rhs(double, const State& s, State& ds) const noexcept
+    {
+        ds = State(s[1], -s[0], -s[2]);
+        return Status::ok;
+    }
+    static constexpr std::array<int, 3> jacobian_rows{0, 1, 2}, jacobian_columns{1, 0, 2};
+    void jacobian_values(double, const State&, std::array<double, 3>& values) const noexcept { values = {1, -1, -1}; }
+};
+
 /// |R(z)| by one step of length 1.
 template <class Method>
 double growth(double re, double im)
@@ -182,4 +197,45 @@ TEST_CASE("The dense output of Radau5 is of order 3")
         points.push_back({h, (run.states[0] - exact.state).norm()});
     }
     CHECK_THAT(support::measured_order(points, 1e-18L) - 1, near(3));
+}
+
+TEST_CASE("The error of Radau5 does not grow where the relative tolerance falls below the absolute one, zero included")
+{
+    using Pendulum = problems::Pendulum<double>;
+    const Pendulum::State start(1, 0);
+    const auto exact = integrate(Pendulum{}, start, {0.0, 10.0}, Dop853{.tolerance = 1e-14});
+    const auto error = [&](double relative, double absolute) {
+        const auto run = integrate(Pendulum{}, start, {0.0, 10.0}, Radau5{.relative = relative, .absolute = absolute});
+        CHECK(run.status() == Status::ok);
+        return (run.state - exact.state).norm();
+    };
+    for (const double absolute : {1e-4, 1e-6, 1e-8}) {
+        double before = error(absolute, absolute);
+        CHECK(before > 0.01 * absolute);
+        CHECK(before < 100 * absolute);
+        for (const double share : {1e-1, 1e-2, 1e-4, 1e-8, 1e-24, 1e-94, 1e-290, 0.0}) {
+            const double now = error(share * absolute, absolute);
+            CHECK(now > 0.01 * absolute);
+            CHECK(now <= 1.1 * before);
+            before = now;
+        }
+    }
+}
+
+TEST_CASE("Radau5 needs no absolute tolerance for a lane that begins at zero, or stays there")
+{
+    for (const double tolerance : {1e-4, 1e-7, 1e-10}) {
+        const auto check = [&](const Joined::State& start) {
+            const auto run = integrate(Joined{}, start, {0.0, 1.0}, Radau5{.relative = tolerance, .absolute = 0});
+            CHECK(run.status() == Status::ok);
+            const double c = std::cos(1.0), s = std::sin(1.0);
+            const Joined::State exact(c * start[0] + s * start[1], c * start[1] - s * start[0], 0);
+            CHECK((run.state - exact).norm() < 100 * tolerance);
+            CHECK(run.state[2] == 0);
+            CHECK(run.rejected < 10);
+        };
+        check(Joined::State(0, 1, 0));
+        check(Joined::State(1, 0, 0));
+        check(Joined::State(0, 1e-300, 0));
+    }
 }

@@ -17,6 +17,7 @@ KernelModule module_with_jacobian()
     Graph& g = *module.graph;
     const NodeId ratio = g.divide(module.parameters[2].input, module.parameters[1].input);
     Kernel kernel;
+    module.parameter_conditions = {{"l > 0", module.parameters[1].input}};
     kernel.name = "jacobian";
     kernel.shape = KernelShape::sparse;
     kernel.output = {"values", 2, 2, {{0, 1, g.constant(1)}}};
@@ -66,6 +67,15 @@ int main()
     std::printf("%g %g %g %g\n", jacobian(0, 0), jacobian(0, 1), jacobian(1, 0), jacobian(1, 1));
     pendulum.parameters.m = 0;
     std::printf("%s %s %s\n", lagen::to_text(pendulum.parameter_status()), Pendulum::parameter_names[1], Pendulum::state_names[0]);
+    pendulum.parameters.m = 1;
+    std::printf("%s", lagen::to_text(pendulum.parameter_status()));
+    pendulum.parameters.l = -4;
+    std::printf(" %s\n", lagen::to_text(pendulum.parameter_status()));
+    using Pack = lagen::Pack<double, 4>;
+    lagen::models::pendulum<Pack> lanes;
+    std::printf("%d", lagen::StatusOf<Pack>::all_good(lanes.parameter_status()));
+    lanes.parameters.l = Pack(-1);
+    std::printf(" %d\n", lagen::StatusOf<Pack>::all_good(lanes.parameter_status()));
     std::printf("%s %s %s\n", Pendulum::model_name, Pendulum::model_hash, Pendulum::tip_names[1]);
     lagen::models::product<double> product;
     std::printf("%g\n", product.f(0, product.state({.y = 2})));
@@ -91,6 +101,7 @@ TEST_CASE("a generated class has the members that its user types", "[emit][compi
         INFO(build.output);
         REQUIRE(build.status == 0);
         CHECK(run_shell("'" + where + "/main'").output == "ok 3 -0\nok 3 -0\n0 1 -0.5 0\nsingular_mass_matrix l th\n"
+                                                          "ok left_domain\n1 0\n"
                                                           "pendulum 0123456789abcdef tip y\n0\n");
     }
 }

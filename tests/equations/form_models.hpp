@@ -2,9 +2,9 @@
 /// Small models with forces, Hamiltonians and controls, as the tests of printed equations read them.
 #pragma once
 
+#include "equations/derive.hpp"
 #include "equations/hamilton.hpp"
 #include "equations/lagrange.hpp"
-#include "equations/pontryagin.hpp"
 #include "model/read_model.hpp"
 
 namespace lagen::written {
@@ -88,6 +88,7 @@ name = "unicycle"
 kap = "1/2"
 [base]
 coordinates = ["x", "y", "h"]
+domain = ["kap > 0"]
 [fibre]
 coordinates = ["y1", "y2", "y3"]
 momenta = ["mu1", "mu2", "mu3"]
@@ -174,7 +175,7 @@ inline EquationSet lagrange(const char* text)
 inline EquationSet pontryagin(const char* text)
 {
     const Model model = read(text);
-    return derive_pontryagin(model, build_algebroid(model));
+    return derive("pontryagin", model, verify(model));
 }
 
 } // namespace lagen::written

@@ -182,6 +182,23 @@ TEST_CASE("bounds cut the control, and there is no formula for the maximal Hamil
     CHECK_FALSE(has_block(written::pontryagin(written::convex), "optimal controls"));
 }
 
+TEST_CASE("controls of which no maximum is proved are called stationary, and a refuted maximum has no equations")
+{
+    const std::string start =
+        "name = \"swing\"\n[parameters]\nk = 1\n[base]\ncoordinates = [\"x\"]\n[fibre]\nmomenta = "
+        "[\"p\"]\n[algebroid]\nkind = \"tangent\"\n[control]\ncontrols = [\"u\"]\nsigma = { v_x = "
+        "\"u\" }\n";
+    const EquationSet set = written::pontryagin((start + "cost = \"k*u^2/2\"\n").c_str());
+    CHECK(block(set, "stationary controls") == "  u = p/k\n");
+    CHECK(formula(set, "stationary controls") == "u(x, μ) with ∂H/∂u^A = 0; that H is largest there is not proved");
+    CHECK_FALSE(has_block(set, "optimal controls"));
+    CHECK_FALSE(has_block(set, "maximal Hamiltonian"));
+    CHECK_THROWS_WITH(
+        written::pontryagin((start + "cost = \"-u^2/2\"\n").c_str()),
+        "error: the controls of model 'swing' are not solved for: H has no maximum in the control 'u': "
+        "d2H/du2 > 0\nhint: H = mu_a sigma^a - cost is maximised: a cost is to be convex in the controls");
+}
+
 TEST_CASE("brackets of functions print in LaTeX and JSON")
 {
     const EquationSet set = written::hamilton(written::rotor);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Pontryagin's equations as numbers: against reference extremals, and against the coordinate formula with derivatives
 /// of H by differences.
+#include "equations/derive.hpp"
 #include "equations/numbers.hpp"
-#include "equations/pontryagin.hpp"
 #include "expression/parse.hpp"
 #include "model/read_model.hpp"
 #include "support/reference_case.hpp"
@@ -76,7 +76,7 @@ TEST_CASE("the optimal controls of every reference problem are those of its extr
     for (const ReferenceCase& control : read_control_cases()) {
         INFO(control.name);
         const Model model = read_model_text(control.name + ".toml", model_text(control));
-        const EquationSet set = derive_pontryagin(model, build_algebroid(model));
+        const EquationSet set = derive("pontryagin", model, verify(model));
         for (const ReferenceSample& sample : control.samples) {
             const Values values = values_at(control, sample);
             Numbers number(values);
@@ -101,7 +101,7 @@ TEST_CASE("costates move by the coordinate formula with derivatives of H by diff
     for (const ReferenceCase& control : read_control_cases()) {
         INFO(control.name);
         const Model model = read_model_text(control.name + ".toml", model_text(control));
-        const EquationSet set = derive_pontryagin(model, build_algebroid(model));
+        const EquationSet set = derive("pontryagin", model, verify(model));
         for (const ReferenceSample& sample : control.samples) {
             const Values values = values_at(control, sample);
             Numbers number(values);

@@ -75,8 +75,6 @@ constexpr std::array guards{
 constexpr std::array without_model{
     "error: {} of model '{}' could not be derived: {}",
     "it could not be shown that the sections of the subbundle are linearly independent somewhere",
-    "no convergence in 100 iterations",
-    "the iterates are not finite",
 };
 
 /// Messages of a machine in trouble, or with paths of the machine in them.

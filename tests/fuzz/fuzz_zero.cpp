@@ -8,6 +8,7 @@
 #include "fuzz/harness.hpp"
 #include "fuzz/small_budget.hpp"
 #include "graph/differentiate.hpp"
+#include "graph/evaluate.hpp"
 #include "graph/lower.hpp"
 #include "proof/decide.hpp"
 #include "proof/enclosure.hpp"
@@ -129,6 +130,16 @@ std::optional<Point> exact_point(const Witness& witness)
     return point;
 }
 
+/// By rational arithmetic, which decides x < min(x, 2) too: of numbers that are equal no enclosure says so.
+bool is_exactly_not_zero(const Question& question, const Point& point)
+{
+    std::map<std::string, Rational> inputs;
+    for (std::size_t k = 0; k < 3; ++k) inputs.emplace(question.graph.input_name(question.variables[k]), point[k]);
+    const NodeId outputs[] = {question.residual};
+    const std::vector<Rational> values = evaluate_exactly(question.graph, outputs, inputs);
+    return !values.empty() && values[0] != 0;
+}
+
 void examine_refuted(const Question& question, const Decision& decision, const std::string& text)
 {
     require(!question.known_zero, "refuted, but zero by an identity: " + text);
@@ -142,7 +153,7 @@ void examine_refuted(const Question& question, const Decision& decision, const s
         for (const Rational& value : *point) left += value * value;
         require(left == 0, "a witness off the sphere: " + text);
     }
-    bool certain = false;
+    bool certain = is_exactly_not_zero(question, *point);
     for (slong precision = 777; precision < 30'000 && !certain; precision *= 3)
         certain = enclosure(question, question.residual, *point, precision).excludes_zero();
     require(certain, "a witness where zero is not excluded: " + text);

@@ -60,3 +60,18 @@ TEST_CASE("a square with a negative or a vanishing coefficient, and a product of
     CHECK_FALSE(definite("v1*v2 + v1^2 + v2^2", 2));
     CHECK_FALSE(definite("v1^2 + v2^4", 2));
 }
+
+TEST_CASE("functions of one variable with the right slopes are definite, and those of the wrong sign show nothing")
+{
+    // -m sqrt(f): W = m/(2 sqrt(f)) (-d2f) + m/(4 sqrt(f)^3) df df^T
+    CHECK(definite("-m1*sqrt(1 - v1^2 - v2^2)", 2));
+    CHECK(definite("-m1*sqrt(th1 - v1^2 - (v1 + th2*v2)^2/m2) - m2*sqrt(1 - v2^2)", 2));
+    CHECK(definite("m1*exp(v1 + v2) + m2*exp(v1 - v2)", 2) == false); // no row with one coordinate
+    CHECK(definite("m1*exp(v1 + v2) + m2*v1^2", 2));
+    CHECK(definite("(v1^2 + v2^2)^2 + m1*v1^2 + m2*v2^2", 2));
+    CHECK(definite("v1^4 + v2^2 + m1/(2 + v1^2)", 2) == false);
+    CHECK_FALSE(definite("m1*sqrt(1 - v1^2 - v2^2)", 2));
+    CHECK_FALSE(definite("v1^4 + v2^4", 2));
+    CHECK_FALSE(definite("v1^2 + v2^2 + v1^2*v2^2", 2));
+    CHECK_FALSE(definite("v1^2 + v2^2 - m1*v1^4", 2));
+}

@@ -3,14 +3,20 @@
 #include "geometry/checking.hpp"
 #include "geometry/random_algebroids.hpp"
 
+#include "support/sanitized.hpp"
+
 #include <catch2/catch.hpp>
 
 using namespace lagen;
 using namespace lagen::oracle;
 
+namespace {
+constexpr std::size_t trials = LAGEN_SANITIZED ? 60 : 500;
+}
+
 TEST_CASE("five hundred random algebroids in random frames are proved, each of them")
 {
-    for (std::size_t number = 0; number < 500; ++number) {
+    for (std::size_t number = 0; number < trials; ++number) {
         Dice dice(number);
         const RandomAlgebroid algebroid = random_algebroid(number, dice);
         REQUIRE(holds_at_points(algebroid, dice));
@@ -23,7 +29,7 @@ TEST_CASE("five hundred random algebroids in random frames are proved, each of t
 TEST_CASE("one changed entry in a random algebroid is refuted exactly where the oracle finds a violation")
 {
     std::size_t violated = 0;
-    for (std::size_t number = 0; number < 500; ++number) {
+    for (std::size_t number = 0; number < trials; ++number) {
         Dice dice(1000 + number);
         const RandomAlgebroid near_miss = mutated(random_algebroid(number, dice), dice);
         const bool valid = holds_at_points(near_miss, dice);

@@ -56,6 +56,7 @@ const std::string particle = R"toml(name = "particle"
 m = 2
 [base]
 coordinates = ["x"]
+domain = ["m > 0"]
 [algebroid]
 kind = "tangent"
 [lagrangian]
@@ -101,6 +102,49 @@ TEST_CASE("velocities that are no linear functions of the momenta are solved for
         // Cancellation in mu v - L: the energy loses what sqrt(1 - v^2) loses.
         CHECK(std::abs(values_of(module, "energy", point)[0] - energy) <= 1e-9 * energy);
     }
+}
+
+TEST_CASE("velocities of a convex Lagrangian have the momenta that were given", "[kernels]")
+{
+    // p = (u + 2 u^3 + 2 u v^2, v + 2 v^3 + 2 v u^2) + (sinh(u), 0)
+    const KernelModule module =
+        module_of("name = \"convex\"\n[base]\ncoordinates = [\"x\", \"y\"]\n[fibre]\n"
+                  "coordinates = [\"u\", \"v\"]\nmomenta = [\"p\", \"q\"]\n[algebroid]\nkind = "
+                  "\"tangent\"\n[lagrangian]\nL = \"(u^2 + v^2)/2 + (u^2 + v^2)^2/2 + cosh(u) - x*y\"\n",
+                  "hamilton");
+    REQUIRE(module.implicit.size() == 1);
+    CHECK(module.implicit[0].structure == MatrixStructure::positive_definite);
+    for (const auto& [u, v] : {std::pair{0.0, 0.0}, {0.5, -1.5}, {-3.0, 2.0}, {1e-6, 4.0}}) {
+        const double p = u + 2 * u * (u * u + v * v) + std::sinh(u), q = v + 2 * v * (u * u + v * v);
+        check_close(values_of(module, "velocity", {{"t", 0}, {"x", 0.5}, {"y", 2}, {"p", p}, {"q", q}}), {u, v});
+    }
+}
+
+TEST_CASE("velocities that are all positive are found from a positive one", "[kernels]")
+{
+    // p = log(v) + 1
+    const KernelModule module = module_of("name = \"entropy\"\n[base]\ncoordinates = [\"x\"]\n[algebroid]\nkind = "
+                                          "\"tangent\"\n[lagrangian]\nL = \"v_x*log(v_x) - x\"\n",
+                                          "hamilton");
+    for (const double p : {-4.0, 0.0, 1.0, 3.5, 9.0})
+        check_close(values_of(module, "velocity", {{"t", 0}, {"x", 0.5}, {"p_v_x", p}}), {std::exp(p - 1)});
+}
+
+TEST_CASE("a Lagrangian whose momenta do not fix the velocities has no Hamiltonian form", "[kernels]")
+{
+    const std::string wells = "name = \"wells\"\n[base]\ncoordinates = [\"x\"]\n[algebroid]\nkind = \"tangent\"\n"
+                              "[lagrangian]\nL = \"v_x^4/4 - v_x^2/2\"\n";
+    const std::string start = "error: the momenta dL/dy of model 'wells' are not shown to fix the velocities, as its "
+                              "Hamiltonian form needs: ";
+    const std::string end =
+        "\nhint: give [hamiltonian] H, or conditions in [base] domain under which d2L/dy2 is definite";
+    CHECK(refusal(wells, "hamilton") == start + "d2L/dy2 is not shown to be definite" + end);
+    CHECK(refusal(wells, "lagrange").empty());
+    CHECK(refusal(wells + "[hamiltonian]\nH = \"p_v_x^2/2\"\n", "hamilton").empty());
+    const std::string pole = "name = \"wells\"\n[base]\ncoordinates = [\"x\"]\n[algebroid]\nkind = \"tangent\"\n"
+                             "[lagrangian]\nL = \"1/v_x\"\n";
+    CHECK(refusal(pole, "hamilton") ==
+          start + "v_x is not shown to be nonzero, and L is smooth only where it is" + end);
 }
 
 TEST_CASE("compiled Newton iterations agree with the interpreter in four scalars", "[kernels][compile]")
@@ -171,20 +215,16 @@ TEST_CASE("forms that a model does not have are refused with the reason", "[kern
     CHECK(refusal(body, "pontryagin") == "error: model 'body' is no control problem; the Pontryagin form needs "
                                          "[control] with controls, sigma and cost");
     CHECK(refusal(control("controls = [\"u\"]\nsigma = { a = \"v\", b = \"u\" }\ncost = \"x^2\"\n"), "pontryagin") ==
-          "error: the Hamiltonian of model 'problem' is affine in the control u: dH/du = 0 does not determine it (a "
-          "singular or bang-bang control)\nhint: give the cost a term in which u is strictly convex");
-    CHECK(
-        refusal(control("controls = [\"u\", \"w\"]\nsigma = { a = \"u\", b = \"w\" }\ncost = \"u^2 + u*w + w^2\"\n"
-                        "bounds = { u = [0, 1] }\n"),
-                "pontryagin") ==
-        "error: the controls of model 'problem' have bounds, which clip the solution of dH/du = 0 only where H is "
-        "separable and strictly concave in them: d2H/dudw is not zero\nhint: without bounds dH/du = 0 is solved as it "
-        "is");
-    CHECK(
-        refusal(control("controls = [\"u\"]\nsigma = { a = \"v\", b = \"u\" }\ncost = \"x*u^2\"\n"
-                        "bounds = { u = [0, 1] }\n"),
-                "pontryagin") ==
-        "error: the controls of model 'problem' have bounds, which clip the solution of dH/du = 0 only where H is "
-        "separable and strictly concave in them: d2H/du2 < 0 was not proved\nhint: without bounds dH/du = 0 is solved "
-        "as it is");
+          "error: the controls of model 'problem' are not solved for: H is affine in the control u: dH/du = 0 does not "
+          "determine it (a singular or bang-bang control)\nhint: give the cost a term in which u is strictly convex");
+    const std::string bounded = "error: the controls of model 'problem' are not solved for: with bounds on controls H "
+                                "must be separable, smooth "
+                                "and strictly concave in them, or dH/du = 0 and the bounds do not give its maximum: ";
+    const std::string hint = "\nhint: without bounds dH/du = 0 is solved as it is";
+    CHECK(refusal(control("controls = [\"u\", \"w\"]\nsigma = { a = \"u\", b = \"w\" }\ncost = \"u^2 + u*w + w^2\"\n"
+                          "bounds = { u = [0, 1] }\n"),
+                  "pontryagin") == bounded + "d2H/dudw is not zero" + hint);
+    CHECK(refusal(control("controls = [\"u\"]\nsigma = { a = \"v\", b = \"u\" }\ncost = \"x*u^2\"\n"
+                          "bounds = { u = [0, 1] }\n"),
+                  "pontryagin") == bounded + "d2H/du2 < 0 was not proved for all admissible u" + hint);
 }

@@ -52,7 +52,8 @@ inline std::vector<double> values_of(const KernelModule& module, const std::stri
     return evaluate<double>(*module.graph, nodes_of(find_kernel(module, kernel)), inputs);
 }
 
-/// Every input between 0.5 and 1.5, seeded; smaller lanes where the right-hand side is not finite there.
+/// Every input between 0.5 and 1.5, seeded, with parameters in the domain; smaller lanes where the right-hand side is
+/// not finite there.
 inline Values random_point(const KernelModule& module, unsigned seed)
 {
     std::mt19937 random(seed);
@@ -63,6 +64,10 @@ inline Values random_point(const KernelModule& module, unsigned seed)
             point[module.graph->input_name(input)] = 0.5 + static_cast<double>(random()) / 4294967295.0;
         for (const auto* group : {&module.base, &module.fibre})
             for (const Quantity& lane : *group) point[lane.name] *= scale;
+        std::vector<NodeId> conditions;
+        for (const auto& [text, node] : module.parameter_conditions) conditions.push_back(node);
+        const std::vector<double> margins = evaluate<double>(*module.graph, conditions, point);
+        if (std::ranges::any_of(margins, [](double margin) { return margin <= 0; })) continue;
         bool finite = true;
         if (has_kernel(module, "rhs"))
             for (const double value : values_of(module, "rhs", point)) finite = finite && std::isfinite(value);

@@ -65,6 +65,42 @@ TEST_CASE("a kernel that does not exist is refused with the list of those that d
           "lagrangian_hessian, hamiltonian_hessian, events\nhint: did you mean 'energy'?");
 }
 
+TEST_CASE("a kernel that a form of the model does not have is refused with the list of those that it has", "[kernels]")
+{
+    const Model model = read_model_text("test.toml", oscillator);
+    const VerifiedAlgebroid verified = verify(model);
+    KernelRequest request;
+    request.only = {"rhs", "velocity"};
+    CHECK(message_of(model, verified, request) ==
+          "error: the lagrange form of model 'oscillator' has no kernel 'velocity'; it has rhs, mass_matrix, momentum, "
+          "energy, lagrangian, observables, events, jacobian, variational, lagrangian_hessian");
+    request.only = {"domain"};
+    request.form = "hamilton";
+    CHECK(message_of(model, verified, request) ==
+          "error: the hamilton form of model 'oscillator' has no kernel 'domain'; it has rhs, velocity, energy, "
+          "hamiltonian, lagrangian, observables, events, jacobian, variational, hamiltonian_hessian");
+    request.only = {"lagrangian_hessian"};
+    CHECK(message_of(model, verified, request).ends_with("variational, hamiltonian_hessian"));
+    request.only = {"velocity", "variational"};
+    CHECK(message_of(model, verified, request) == "nothing thrown");
+}
+
+TEST_CASE("conditions on parameters alone are no part of the domain kernel", "[kernels]")
+{
+    const KernelModule module = kernels_of(read_model_text(
+        "test.toml",
+        "name = \"bounded\"\n[parameters]\na = 1\nb = 3\n[base]\ncoordinates = [\"x\"]\ndomain = [\"a < b\", "
+        "\"x < b\", \"a != 0\"]\n[algebroid]\nkind = \"tangent\"\n[lagrangian]\nL = \"v_x^2/2\"\n"));
+    CHECK(find_kernel(module, "domain").entry_names == std::vector<std::string>{"x < b"});
+    REQUIRE(module.parameter_conditions.size() == 2);
+    std::vector<NodeId> nodes;
+    for (const auto& [text, node] : module.parameter_conditions) nodes.push_back(node);
+    CHECK(module.parameter_conditions[0].first == "a < b");
+    CHECK(module.parameter_conditions[1].first == "a != 0");
+    const std::map<std::string, double> point{{"a", -2}, {"b", 3}};
+    CHECK(evaluate<double>(*module.graph, nodes, point) == std::vector<double>{5, 4});
+}
+
 TEST_CASE("events of all scenes are distinct, those of one scene bear their own names", "[kernels]")
 {
     const Model model = read_model_text("test.toml", oscillator);

@@ -244,6 +244,21 @@ TEST_CASE("a product of files has the forces of each factor at its own sections"
     CHECK(to_text(both.dissipation) == "v_z^2");
 }
 
+TEST_CASE("a bound may be left open, as text or as a number of TOML")
+{
+    const std::string control =
+        "[control]\ncontrols = [\"u[1..2]\", \"w\", \"z\"]\nsigma = { v_x = \"w\" }\ncost = 1\n";
+    const Model model =
+        read(plane + control + "bounds = { u = [\"-inf\", [1, 2]], w = [-3, +inf], z = [-inf, \"inf\"] }\n");
+    const std::vector<lagen::ControlBound>& bounds = model.control->bounds;
+    REQUIRE(bounds.size() == 3); // z has none
+    CHECK_FALSE(bounds[1].lower);
+    CHECK(to_text(bounds[1].upper) == "2");
+    CHECK(bounds[2].control == 2);
+    CHECK(to_text(bounds[2].lower) == "-3");
+    CHECK_FALSE(bounds[2].upper);
+}
+
 TEST_CASE("bounds over parameters are compared at the values of a scene")
 {
     const Model model = read("[parameters]\nm = -1\n" + plane + control + "bounds = { u = [\"-m\", \"m\"] }\n" +

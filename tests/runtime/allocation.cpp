@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Nothing is allocated in a step: the number of allocations does not depend on the number of steps.
 /// Left out of sanitizer builds, which replace the same operators themselves.
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define LAGEN_SANITIZED
-#endif
-#endif
-#if !defined(__SANITIZE_ADDRESS__) && !defined(LAGEN_SANITIZED)
+#include "support/sanitized.hpp"
+#if !LAGEN_SANITIZED
 
 #include "lagen/lagen.hpp"
 #include "support/problems.hpp"

@@ -4,7 +4,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 using namespace lagen;
 
@@ -43,7 +45,62 @@ struct Growth {
     void jacobian_values(double, const State&, std::array<double, 1>& values) const noexcept { values = {rate}; }
 };
 
+/// x' = 1 or 2, or no value, by the digits of x: nothing that a step could resolve.
+struct Erratic {
+    using Scalar = double;
+    using State = Eigen::Matrix<double, 1, 1>;
+    static constexpr int dimension = 1;
+    bool fails = false;
+    Status rhs(double, const State& s, State& ds) const noexcept
+    {
+        std::uint64_t digits = std::bit_cast<std::uint64_t>(s[0]) * 0x9E3779B97F4A7C15u;
+        digits = (digits ^ (digits >> 29)) * 0xBF58476D1CE4E5B9u;
+        const bool odd = (digits >> 32) % 10 < 3;
+        ds[0] = odd && !fails ? 2 : 1;
+        return odd && fails ? Status::newton_diverged : Status::ok;
+    }
+};
+
+/// x' = -1 or 1, which changes 20000 times in 20000 pi.
+struct Switched {
+    using Scalar = double;
+    using State = Eigen::Matrix<double, 1, 1>;
+    static constexpr int dimension = 1;
+    Status rhs(double t, const State&, State& ds) const noexcept
+    {
+        ds[0] = std::sin(t) < 0 ? 1 : -1;
+        return Status::ok;
+    }
+};
+
 } // namespace
+
+TEST_CASE("A run whose rejected steps bring it nowhere ends with the reason of the last rejection")
+{
+    const auto check = [](const auto& model, const auto& method, Status reason) {
+        const auto run = integrate(model, Erratic::State(0.1), {0.0, 1.0}, method);
+        CHECK(run.status() == reason);
+        CHECK(run.rejected >= 10'000);
+        CHECK(run.rejected <= 20'000);
+        CHECK(run.t > 0);
+        CHECK(run.t < 1e-3);
+        CHECK(run.failed_at > run.t);
+        // Backwards too.
+        const auto back = integrate(model, Erratic::State(0.1), {1.0, 0.0}, method);
+        CHECK(back.status() == reason);
+        CHECK(back.t > 0.99);
+    };
+    check(Erratic{.fails = true}, Dop853{.tolerance = 1e-9}, Status::newton_diverged);
+    check(Erratic{.fails = false}, Dop853{.tolerance = 1e-12}, Status::step_too_small);
+}
+
+TEST_CASE("Ten thousand rejected steps that do bring a run on are no reason to end it")
+{
+    const auto run = integrate(Switched{}, Switched::State(0.0), {0.0, 20'000 * 3.14159265358979}, Dop853{});
+    CHECK(run.status() == Status::ok);
+    CHECK(run.rejected > 30'000);
+    CHECK(std::abs(run.state[0]) < 1e-3);
+}
 
 TEST_CASE("An infall that no step resolves ends as step_too_small, an overflow as non_finite, whatever the method")
 {

@@ -119,6 +119,15 @@ void write_algebroid(std::ostringstream& out, const ReferenceCase& reference)
     out << '\n';
 }
 
+/// The parameters of the control problems are inertias, weights and stiffnesses: H has a maximum where they are
+/// positive.
+void write_positive_parameters(std::ostringstream& out, const ReferenceCase& reference)
+{
+    std::vector<std::string> conditions;
+    for (const auto& [name, value] : reference.parameters) conditions.push_back(name + " > 0");
+    out << "domain = " << name_list(conditions) << '\n';
+}
+
 /// [control], where the case is a control problem.
 void write_control(std::ostringstream& out, const ReferenceCase& reference)
 {
@@ -165,6 +174,7 @@ std::string model_text(const ReferenceCase& reference)
     out << "name = \"" << reference.name << "\"\n\n[parameters]\n";
     for (const auto& [name, value] : reference.parameters) out << name << " = \"" << value << "\"\n";
     if (!reference.base.empty()) out << "\n[base]\ncoordinates = " << name_list(reference.base) << '\n';
+    if (!reference.base.empty() && !reference.controls.empty()) write_positive_parameters(out, reference);
     out << "\n[fibre]\ncoordinates = " << name_list(reference.fibre) << '\n';
     if (!reference.momenta.empty()) out << "momenta = " << name_list(reference.momenta) << '\n';
     out << '\n';

@@ -8,16 +8,77 @@
 
 namespace lagen {
 
+namespace detail {
+
+/// The name lists of M, where it has them: what asks a model for its events or observables asks for these.
+template <class M>
+struct EventNames {
+};
+template <class M>
+requires requires
+{
+    M::events_names;
+}
+struct EventNames<M> {
+    static constexpr auto events_names = M::events_names;
+};
+
+template <class M>
+struct InvariantNames {
+};
+template <class M>
+requires requires
+{
+    M::invariants_names;
+}
+struct InvariantNames<M> {
+    static constexpr auto invariants_names = M::invariants_names;
+};
+
+template <class M>
+struct ObservableNames {
+};
+template <class M>
+requires requires
+{
+    M::observables_names;
+}
+struct ObservableNames<M> {
+    static constexpr auto observables_names = M::observables_names;
+};
+
+template <class M>
+struct ParameterNames {
+};
+template <class M>
+requires requires
+{
+    M::parameter_names;
+}
+struct ParameterNames<M> {
+    static constexpr auto parameter_names = M::parameter_names;
+};
+
+} // namespace detail
+
 /// A right-hand side of dimension M::dimension * (1 + K): s, then K tangent vectors one after the other. M needs the
-/// kernel `variational` (`lagen generate --only rhs,variational`). Domain, events and energy stay those of M.
+/// kernel `variational` (`lagen generate --only rhs,variational`). Parameters, domain, events, energy and what else a
+/// run asks of a model are those of M at s. Its Jacobian would need second derivatives: it is left out, and implicit
+/// methods with it.
 template <class M, int K>
-struct WithTangents {
+struct WithTangents : detail::EventNames<M>,
+                      detail::InvariantNames<M>,
+                      detail::ObservableNames<M>,
+                      detail::ParameterNames<M> {
     using Scalar = typename M::Scalar;
     static constexpr int dimension = M::dimension * (1 + K);
     using State = Eigen::Matrix<Scalar, dimension, 1>;
     using Point = typename M::State;
 
-    M model;
+    M model{};
+
+    WithTangents() = default;
+    WithTangents(const M& base) : model(base) {}
 
     /// s with tangents V, shape (M::dimension, K).
     [[nodiscard]] static State state(const Point& s, const Eigen::Matrix<Scalar, M::dimension, K>& V) noexcept
@@ -27,6 +88,9 @@ struct WithTangents {
         for (int k = 0; k < K; ++k) all.template segment<M::dimension>(M::dimension * (1 + k)) = V.col(k);
         return all;
     }
+
+    /// s of a state.
+    [[nodiscard]] static Point point(const State& all) noexcept { return all.template head<M::dimension>(); }
 
     /// The tangents of a state, shape (M::dimension, K).
     [[nodiscard]] static Eigen::Matrix<Scalar, M::dimension, K> tangents(const State& all) noexcept
@@ -38,7 +102,7 @@ struct WithTangents {
 
     [[nodiscard]] status_t<Scalar> rhs(Scalar t, const State& all, State& derivative) const noexcept
     {
-        const Point s = all.template head<M::dimension>();
+        const Point s = point(all);
         Point ds;
         auto status = model.rhs(t, s, ds);
         derivative.template head<M::dimension>() = ds;
@@ -49,6 +113,51 @@ struct WithTangents {
             derivative.template segment<M::dimension>(M::dimension * (1 + k)) = dv;
         }
         return status;
+    }
+
+    [[nodiscard]] auto& parameter(std::size_t k) noexcept requires requires(M& m) { m.parameter(k); }
+    {
+        return model.parameter(k);
+    }
+    [[nodiscard]] auto parameter_status() const noexcept requires requires(const M& m) { m.parameter_status(); }
+    {
+        return model.parameter_status();
+    }
+    [[nodiscard]] auto domain(Scalar t, const State& all) const noexcept requires HasDomain<M>
+    {
+        return model.domain(t, point(all));
+    }
+    [[nodiscard]] auto events(Scalar t, const State& all) const noexcept requires HasEvents<M>
+    {
+        return model.events(t, point(all));
+    }
+    [[nodiscard]] Scalar energy(Scalar t, const State& all) const noexcept requires HasEnergy<M>
+    {
+        return model.energy(t, point(all));
+    }
+    [[nodiscard]] Scalar hamiltonian(Scalar t, const State& all) const noexcept requires HasHamiltonian<M>
+    {
+        return model.hamiltonian(t, point(all));
+    }
+    [[nodiscard]] auto constraints(Scalar t, const State& all) const noexcept requires HasConstraints<M>
+    {
+        return model.constraints(t, point(all));
+    }
+    [[nodiscard]] auto invariants(Scalar t, const State& all) const noexcept requires
+        requires(const M& m, const Point& s)
+    {
+        m.invariants(t, s);
+    }
+    {
+        return model.invariants(t, point(all));
+    }
+    [[nodiscard]] auto observables(Scalar t, const State& all) const noexcept requires
+        requires(const M& m, const Point& s)
+    {
+        m.observables(t, s);
+    }
+    {
+        return model.observables(t, point(all));
     }
 };
 

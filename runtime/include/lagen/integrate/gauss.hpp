@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
-/// Gauss' collocation methods with a fixed step, `lagen::Gauss6{.step = 0.01}`, and Radau IIA of order 5 with a fixed
-/// step. Gauss' methods are symplectic, symmetric and keep every quadratic invariant; Radau IIA damps what is stiff.
+/// Gauss' collocation methods with a fixed step, `lagen::Gauss6{.step = 0.01}`, and Radau IIA of orders 3 and 5 with
+/// a fixed step. Gauss' methods are symplectic, symmetric and keep every quadratic invariant; Radau IIA damps what is
+/// stiff.
 ///
 /// Every step solves its equations by Newton's method, with the Jacobian at the beginning of the step, until the
 /// increments are rounding errors: what is kept is kept to rounding, and rounding errors are all that is left to add
-/// up. A step whose iteration does not converge is tried once more with the Jacobian at an estimate of its middle, then
-/// fails with `newton_diverged`. Where the method is `compensated`, the rounding error of the sum s1 = s + .. enters
-/// the next step [Kahan 1965], so that errors grow as Brouwer's law says [Hairer, McLachlan, Razakarivony, BIT 48
-/// (2008) 231].
-/// A value inside a step is a shorter step of the same method, begun with this step's collocation polynomial: it has
-/// the full order. Should Newton's method fail there, it is the value of the polynomial (order: the number of stages).
+/// up. An iteration that converges slowly gets the Jacobian at an estimate of the step's middle; a step whose iteration
+/// does not converge is tried once more from there, then fails with `newton_diverged`. Where the method is
+/// `compensated`, the rounding error of the sum s1 = s + .. enters the next step [Kahan 1965], so that errors grow as
+/// Brouwer's law says [Hairer, McLachlan, Razakarivony, BIT 48 (2008) 231]. A value inside a step is a shorter step of
+/// the same method, begun with this step's collocation polynomial: it has the full order. Should Newton's method fail
+/// there, it is the value of the polynomial (order: the number of stages).
 #pragma once
 
 #include "lagen/integrate/stage_equations.hpp"
@@ -28,7 +29,8 @@ class CollocationStepper {
     static constexpr int order = Scheme::order;
     static constexpr int dense_order = Scheme::order;
     static constexpr std::size_t stages = Scheme::stages;
-    static constexpr int most_iterations = 50;
+    static constexpr int most_iterations = 100;
+    static constexpr int most_refreshments = 5; ///< of the Jacobian in a step
 
     template <class Method>
     explicit CollocationStepper(const Method& method) : compensated_(method.compensated)
@@ -43,6 +45,7 @@ class CollocationStepper {
         next_lost_ = lost_;
         scale_ = lost_;
         least_ = lost_;
+        rounds_ = lost_;
         for (State& stage : z_) stage = lost_;
         inner_ = z_;
         return Status::ok;
@@ -52,9 +55,12 @@ class CollocationStepper {
     {
         predict(h);
         h_ = h;
-        equations_.linearise(model, t, s);
-        Status status = equations_.factor(h) ? iterate(model, t, s, h, z_) : Status::newton_diverged;
-        if (status != Status::ok) status = try_again(model, t, s, h);
+        Status status = try_from(model, t, s, h, most_refreshments);
+        if (status != Status::ok) {
+            // Rarely, a Jacobian that stays as it is leads to stages that better ones lead away from.
+            for (State& stage : z_) stage.setZero();
+            status = try_from(model, t, s, h, 0);
+        }
         if (status != Status::ok) return status;
         for (Eigen::Index lane = 0; lane < s.size(); ++lane) {
             const Real increment = gain(z_, lane) - lost_[lane];
@@ -75,7 +81,7 @@ class CollocationStepper {
     {
         for (std::size_t i = 0; i < stages; ++i) along(Real(theta * equations_.method().c[i]), inner_[i]);
         const Real length = theta * h;
-        if (equations_.factor(length) && iterate(model, t, s, length, inner_) == Status::ok) {
+        if (equations_.factor(length) && iterate(model, t, s, length, inner_, most_refreshments) == Status::ok) {
             for (Eigen::Index lane = 0; lane < s.size(); ++lane)
                 out[lane] = s[lane] + (gain(inner_, lane) - lost_[lane]);
         } else {
@@ -92,6 +98,9 @@ class CollocationStepper {
   private:
     using Stages = std::array<State, stages>;
     static Real epsilon() noexcept { return std::numeric_limits<Real>::epsilon(); }
+    static Real rounding() noexcept { return Real(2) * epsilon(); }
+    /// A Jacobian with which increments fall by less is replaced.
+    static Real slow_rate() noexcept { return Real(0.5); }
     /// epsilon^(5/8), 1.6e-10 in double: increments that stop decreasing below this size are taken for rounding errors
     /// of a right-hand side that is not computed to the last place.
     static Real largest_noise() noexcept
@@ -135,9 +144,17 @@ class CollocationStepper {
         z_ = inner_;
     }
 
+    /// Newton's method from z_ with the Jacobian at the beginning of the step, then, where it fails, once more.
+    Status try_from(const M& model, const Real& t, const State& s, const Real& h, int refreshments) noexcept
+    {
+        equations_.linearise(model, t, s);
+        if (equations_.factor(h) && iterate(model, t, s, h, z_, refreshments) == Status::ok) return Status::ok;
+        return try_again(model, t, s, h, refreshments);
+    }
+
     /// One step of Newton's method from the state itself solves the linearised equations; the mean of its stages is an
     /// estimate of the middle of the step. Where that step does not exist, Euler's stages are taken.
-    Status try_again(const M& model, const Real& t, const State& s, const Real& h) noexcept
+    Status try_again(const M& model, const Real& t, const State& s, const Real& h, int refreshments) noexcept
     {
         const auto& method = equations_.method();
         for (State& stage : z_) stage.setZero();
@@ -150,39 +167,69 @@ class CollocationStepper {
         } else {
             for (std::size_t i = 0; i < stages; ++i) z_[i] = (h * method.c[i] / method.b[i]) * inner_[i];
         }
-        next_lost_ = s;
-        for (std::size_t i = 0; i < stages; ++i) next_lost_ += method.b[i] * z_[i];
-        equations_.linearise(model, t + h / Real(2), next_lost_);
-        return equations_.factor(h) ? iterate(model, t, s, h, z_) : Status::newton_diverged;
+        return linearise_middle(model, t, s, h, z_) ? iterate(model, t, s, h, z_, refreshments)
+                                                    : Status::newton_diverged;
     }
 
-    /// Newton's method from z until its increments are rounding errors: in every lane zero, or no longer decreasing.
-    /// (To stop at two units of the last place of Z instead saves a tenth of the calls and lets invariants drift: what
-    /// is left of Newton's method's error has a sign.) Increments that do not decrease while they are large have
-    /// diverged.
-    Status iterate(const M& model, const Real& t, const State& s, const Real& h, Stages& z) noexcept
+    /// Newton's method from z until the increments of every lane are rounding errors (see `move`). One that converges
+    /// slowly gets the Jacobian at an estimate of the middle of the step from where it is; increments that do not
+    /// decrease while they are large have diverged.
+    Status iterate(const M& model, const Real& t, const State& s, const Real& h, Stages& z, int refreshments) noexcept
     {
-        equations_.row_sizes(s, scale_);
-        for (Eigen::Index lane = 0; lane < s.size(); ++lane)
-            scale_[lane] = detail::magnitude(s[lane]) + detail::magnitude(h) * scale_[lane];
+        measure(s, h);
         const Real noise = largest_noise();
-        Real before = Real(0);
+        Real before = Real(0), least = Real(0);
+        int rounds = 0;      // since the largest increment reached a new minimum
+        bool judged = false; // the increments of two Jacobians are not compared
+        fast_ = true;
         for (int round = 0; round < most_iterations; ++round) {
             const Status status = equations_.evaluate(model, t, s, lost_, z);
             if (status != Status::ok) return status;
             equations_.solve();
-            bool done = true;
-            const Real size = move(z, round == 0, noise, done);
+            bool rests = true, wanders = true;
+            const Real size = move(z, round == 0, noise, rests, wanders);
             if (size - size != Real(0)) return equations_.runaway();
-            if (done && size <= noise) return Status::ok;
-            if (round > 0 && size >= before && size > noise) return Status::newton_diverged;
+            rounds = round == 0 || size < least ? 0 : rounds + 1;
+            if (rounds == 0) least = size;
+            if (rests || (wanders && rounds >= 2)) return Status::ok;
+            if (judged && size >= before && size > noise) return Status::newton_diverged;
+            if (judged && size > Real(4) * rounding()) fast_ = size <= slow_rate() * before;
+            const bool slow = judged && !fast_ && size > noise;
             before = size;
+            judged = !slow || refreshments <= 0;
+            if (!slow || refreshments-- <= 0) continue;
+            if (!linearise_middle(model, t, s, h, z)) return Status::newton_diverged;
+            measure(s, h);
         }
         return Status::newton_diverged;
     }
 
+    /// scale_ = |s| + |h J| |s|: what increments are rounding errors of, but for |Z|.
+    void measure(const State& s, const Real& h) noexcept
+    {
+        equations_.row_sizes(s, scale_);
+        for (Eigen::Index lane = 0; lane < s.size(); ++lane)
+            scale_[lane] = detail::magnitude(s[lane]) + detail::magnitude(h) * scale_[lane];
+    }
+
+    /// The Jacobian at s + sum_j b_j Z_j; false where it cannot be decomposed.
+    bool linearise_middle(const M& model, const Real& t, const State& s, const Real& h, const Stages& z) noexcept
+    {
+        next_lost_ = s; // free until the step has converged
+        for (std::size_t i = 0; i < stages; ++i) next_lost_ += equations_.method().b[i] * z[i];
+        equations_.linearise(model, t + h / Real(2), next_lost_);
+        return equations_.factor(h);
+    }
+
     /// z += increments; answers the largest one relative to what it is a rounding error of: |s| + |Z| + |h J| |s|.
-    Real move(Stages& z, bool first, const Real& noise, bool& done) noexcept
+    /// Of the increments of every lane (the largest of the stages):
+    ///   `rests` stays where they are zero, or a few units of the last place and fell by less than a quarter after a
+    ///     fast convergence. (To stop at two units instead saves a tenth of the calls and lets invariants drift: what
+    ///     is left of Newton's method's error has a sign.)
+    ///   `wanders` stays where they do, or are below `noise` and reached no new minimum for two rounds: after a slow
+    ///     convergence, or with a right-hand side that is not computed to the last place. An oscillation comes close to
+    ///     zero in one lane or another: the largest increment has to stand still as well.
+    Real move(Stages& z, bool first, const Real& noise, bool& rests, bool& wanders) noexcept
     {
         Real largest = Real(0), bad = Real(0);
         for (Eigen::Index lane = 0; lane < scale_.size(); ++lane) {
@@ -196,13 +243,12 @@ class CollocationStepper {
                 if (all > reach) reach = all;
             }
             const Real relative = step == Real(0) ? Real(0) : Real(step / (scale_[lane] + reach));
-            // An iteration that gains less than a quarter a time would not end within the rounds that it has.
-            if (first || Real(4) * step < Real(3) * least_[lane]) {
-                least_[lane] = step;
-                if (step != Real(0)) done = false;
-            } else if (relative <= noise) {
-                least_[lane] = Real(0); // at rest: nothing is smaller
-            }
+            const bool fell = first || Real(4) * step < Real(3) * least_[lane];
+            rounds_[lane] = first || step < least_[lane] ? Real(0) : Real(rounds_[lane] + Real(1));
+            if (first || step < least_[lane]) least_[lane] = step;
+            const bool small = step == Real(0) || (fast_ && !fell && relative <= rounding());
+            rests = rests && small;
+            wanders = wanders && (small || (rounds_[lane] >= Real(2) && relative <= noise));
             if (relative > largest) largest = relative;
         }
         return largest + bad; // a NaN where an increment is not finite
@@ -210,10 +256,11 @@ class CollocationStepper {
 
     detail::StageEquations<Scheme, M> equations_;
     Stages z_, inner_;
-    State lost_, next_lost_, scale_, least_;
+    State lost_, next_lost_, scale_, least_, rounds_;
     std::array<Real, stages> weights_{};
     Real h_ = Real(0), last_h_ = Real(0);
     bool compensated_;
+    bool fast_ = true; ///< the increments of this iteration fall well
 };
 
 /// A collocation method with a fixed positive `step`; `compensated` carries the rounding errors of the sums along.
@@ -230,6 +277,7 @@ using Gauss2 = CollocationMethod<detail::GaussScheme<1>>; ///< the implicit midp
 using Gauss4 = CollocationMethod<detail::GaussScheme<2>>;
 using Gauss6 = CollocationMethod<detail::GaussScheme<3>>;
 using Gauss8 = CollocationMethod<detail::GaussScheme<4>>;
-using Radau5Fixed = CollocationMethod<detail::RadauScheme>;
+using Radau3Fixed = CollocationMethod<detail::RadauScheme<2>>;
+using Radau5Fixed = CollocationMethod<detail::RadauScheme<3>>;
 
 } // namespace lagen

@@ -11,6 +11,7 @@
 #pragma once
 
 #include "lagen/integrate/control.hpp"
+#include "lagen/integrate/creeping.hpp"
 #include "lagen/integrate/watch_events.hpp"
 
 #include <algorithm>
@@ -213,17 +214,15 @@ class March {
         const Real error = status == Status::ok ? stepper_.error() : Real(0);
         if (status == Status::ok && error - error != Real(0)) status = Status::non_finite;
         if (status == Status::ok && error > Real(1)) {
-            ++run_.rejected;
             imprecise_ = true;
             h_ = lengths().after_rejected(size(h), error);
-            return size_verdict(Status::step_too_small, t1);
+            return rejection_verdict(Status::step_too_small, t1);
         }
         if (status == Status::ok) status = stepper_.finish(model_, t1, s1_);
         if (status != Status::ok) {
-            ++run_.rejected;
             if (failed_length_ == Real(0)) failed_length_ = h;
             h_ = lengths().after_failure(size(h));
-            return size_verdict(status, t1);
+            return rejection_verdict(status, t1);
         }
         retry_ = false;
         imprecise_ = false;
@@ -232,15 +231,23 @@ class March {
         return Status::ok;
     }
 
-    /// Is a step of this length within the rounding of time?
+    /// Counts a rejected step; `reason` where it ends the run.
+    Status rejection_verdict(Status reason, Real t1) noexcept
+    {
+        ++run_.rejected;
+        if (!creeping_.creeps(t_, span_.end - span_.start, run_.steps, run_.rejected)) return size_verdict(reason, t1);
+        run_.failed_at = t1;
+        return reason;
+    }
+
+    /// Within the rounding of time?
     bool is_lost_in_time(Real length) const noexcept
     {
         const Real scale = std::max<Real>(size(t_), epsilon() * size(span_.end - span_.start));
         return !(Real(0.1) * length > epsilon() * scale);
     }
 
-    /// `reason` where the next step would be lost in the rounding of time; a run into the domain's boundary is called
-    /// so.
+    /// `reason` where the next step would be lost in the rounding of time; left_domain in a run into the boundary.
     Status size_verdict(Status reason, Real t1) noexcept
     {
         if (!is_lost_in_time(h_)) return Status::ok;
@@ -249,7 +256,7 @@ class March {
             inner_ = s_ + failed_length_ * stepper_.derivative();
             if (reason != Status::step_too_small && domain_status(t1, inner_) != Status::ok) return Status::left_domain;
         }
-        // Shorter steps were finite and failed by their error: the tolerance cannot be met, whatever the last one met.
+        // Shorter steps were finite and failed by their error: the tolerance cannot be met.
         return reason == Status::non_finite && imprecise_ ? Status::step_too_small : reason;
     }
 
@@ -383,6 +390,7 @@ class March {
     Real lost_ = Real(0);
     Real h_ = Real(0);             ///< positive: the length that the method or the controller asks for
     Real failed_length_ = Real(0); ///< of the first of a series of steps that could not be evaluated
+    CreepingWatch<Real> creeping_{span_.start};
     std::size_t row_ = 0;
     bool forward_ = true;
     bool retry_ = false;

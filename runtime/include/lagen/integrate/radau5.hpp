@@ -4,8 +4,8 @@
 /// the collocation polynomial of the step before; Jacobian and decompositions kept while the iteration converges fast;
 /// the embedded formula of order 3, filtered through (1 - h lambda J)^-1 with the real eigenvalue lambda; Gustafsson's
 /// predictive control of the step. Dense output is the collocation polynomial, of order 3. Because the error estimated
-/// is of order h^4 and the method's of order h^6, a relative tolerance r asks the estimate for 0.1 r^(2/3), an absolute
-/// one for the same share of it.
+/// is of order h^4 and the method's of order h^6, a tolerance q asks the estimate for 0.1 q^(2/3): that is so of the
+/// larger one of the relative and the absolute tolerance, and the other one keeps its proportion to it.
 #pragma once
 
 #include "lagen/integrate/control.hpp"
@@ -87,7 +87,7 @@ class PredictiveControl {
 /// See integrate/march.hpp for what the march asks of a stepper.
 template <class M>
 class Radau5Stepper {
-    using Scheme = detail::RadauScheme;
+    using Scheme = detail::RadauScheme<3>;
 
   public:
     using Real = typename M::Scalar;
@@ -102,9 +102,9 @@ class Radau5Stepper {
     explicit Radau5Stepper(const Method& method) : control_(scaled(method.control())), lengths_(method.control())
     {
         using std::sqrt;
-        const double r = control_.relative_tolerance() > 0 ? control_.relative_tolerance() : 1e-6;
-        const Real relative = static_cast<Real>(r), coarse = sqrt(relative);
-        enough_ = std::max<Real>(Real(10) * epsilon() / relative, std::min<Real>(Real(0.03), coarse));
+        const double larger = std::max(control_.relative_tolerance(), control_.absolute_tolerance());
+        const Real tolerance = static_cast<Real>(larger), coarse = sqrt(tolerance);
+        enough_ = std::max<Real>(Real(10) * epsilon() / tolerance, std::min<Real>(Real(0.03), coarse));
     }
 
     Status begin(const M& model, Real t, const State& s) noexcept
@@ -194,13 +194,16 @@ class Radau5Stepper {
     static constexpr double fast = 0.001; ///< a rate of convergence at which Jacobian and decompositions are kept
     static Real epsilon() noexcept { return std::numeric_limits<Real>::epsilon(); }
 
-    /// The tolerances of the estimate: 0.1 r^(2/3) for a relative one r, the absolute one in proportion.
+    /// The tolerances of the estimate: those given, times 0.1 q^(-1/3) with the larger one, q. (In radau5.f q is the
+    /// relative one: a small one beside an absolute one would then loosen the latter, in the limit without a bound.)
     static StepControl scaled(StepControl control) noexcept
     {
         const double relative = control.relative_tolerance(), absolute = control.absolute_tolerance();
-        if (!(relative > 0)) return control;
-        control.relative = 0.1 * std::pow(relative, 2.0 / 3.0);
-        control.absolute = control.relative * (absolute / relative);
+        const double larger = std::max(relative, absolute);
+        if (!(larger > 0)) return control;
+        const double estimate = 0.1 * std::pow(larger, 2.0 / 3.0);
+        control.relative = estimate * (relative / larger);
+        control.absolute = estimate * (absolute / larger);
         return control;
     }
 
@@ -209,6 +212,21 @@ class Radau5Stepper {
         const Real rtol = static_cast<Real>(control_.relative_tolerance());
         const Real atol = static_cast<Real>(control_.absolute_tolerance());
         for (Eigen::Index lane = 0; lane < s.size(); ++lane) scale_[lane] = atol + rtol * detail::magnitude(s[lane]);
+    }
+
+    /// Without an absolute tolerance a lane at rest at 0 has no size but that of its stages.
+    void widen_scale() noexcept
+    {
+        if (control_.absolute_tolerance() > 0) return;
+        const Real rtol = static_cast<Real>(control_.relative_tolerance());
+        for (Eigen::Index lane = 0; lane < scale_.size(); ++lane) {
+            Real reach = std::numeric_limits<Real>::min(); // no scale is 0, whatever underflows
+            for (std::size_t i = 0; i < stages; ++i) {
+                const Real size = detail::magnitude(z_[i][lane]) + detail::magnitude(equations_.residuals[i][lane]);
+                reach = std::max<Real>(reach, rtol * size);
+            }
+            scale_[lane] = std::max<Real>(scale_[lane], reach);
+        }
     }
 
     /// Sum of the squares of e in units of the tolerances; where there is no error, a tolerance of zero is met.
@@ -281,6 +299,7 @@ class Radau5Stepper {
             const Status status = equations_.evaluate(model, t, s, none_, z_);
             if (status != Status::ok) return status;
             equations_.solve();
+            widen_scale();
             const Real size = sqrt(Real(equations_.squared_increments(scale_) / lanes));
             if (size - size != Real(0)) return equations_.runaway();
             if (iterations_ > 1 && iterations_ < Lengths::most_iterations) {

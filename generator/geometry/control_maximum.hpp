@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Do the controls of Pontryagin's equations maximise H = mu_a sigma^a(t, x, u) - cost(t, x, u)? Without bounds they
+/// solve dH/du = 0: a maximum where H is smooth and d2H/du2 < 0 for all u. With bounds lo <= u <= hi the maximum is the
+/// root of dH/du, or the bound next to it, where H is separable, and smooth and strictly concave on the interval.
+///                                                              [Pontryagin, Boltyanskii, Gamkrelidze, Mishchenko 1962]
+#pragma once
+
+#include "geometry/phase_motion.hpp"
+#include "geometry/verify.hpp"
+
+namespace lagen {
+
+/// What a decision about controls is made from.
+struct ControlQuestion {
+    const Model& model;
+    const ControlNodes& control;
+    const std::vector<NodeId>& mu; ///< inputs, shape (r)
+    std::vector<NodeId> parts;     ///< partial operations of sigma and cost as they are written (`partial_parts`)
+};
+
+/// Decides for all states of `setting`, all costates and all parameters; `setting` is that of the whole model.
+[[nodiscard]] ControlMaximum decide_maximum(Graph& graph, const ControlQuestion& question, const ProofSetting& setting,
+                                            const ProofBudget& budget);
+
+/// Throws MathematicsError where the controls cannot be solved for in such a way that H may be largest.
+void require_maximum(const Model& model, const ControlMaximum& maximum);
+
+} // namespace lagen

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "graph/solve_in_brackets.hpp"
+
+#include "graph/evaluate.hpp"
+
+#include "diagnostic.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lagen {
+
+namespace {
+
+constexpr int most_doublings = 128; ///< of an interval that grows towards an open end
+constexpr int most_bracket_steps = 1000;
+
+/// One unknown z with its falling function F(z).
+template <class Scalar>
+class BracketSolver {
+  public:
+    BracketSolver(const Graph& graph, const ImplicitBlock& block, std::size_t k, std::map<std::string, Scalar>& inputs)
+        : graph_(graph), block_(block), inputs_(inputs), k_(k), z_(inputs[graph.input_name(block.unknowns[k])])
+    {
+    }
+
+    void run()
+    {
+        const std::optional<Scalar> lower = end(block_.bracket->lower[k_]), upper = end(block_.bracket->upper[k_]);
+        if (lower && slope_at(*lower) <= 0) return; // at the lower end, where the unknown is now
+        if (upper && slope_at(*upper) >= 0) return;
+        const Scalar start = lower ? *lower : upper ? *upper : 0;
+        Scalar low = lower ? *lower : start, high = upper ? *upper : start;
+        const Scalar width = std::max(Scalar(1), std::abs(start));
+        if (!lower) grow(low, high, -width, 1);
+        if (!upper) grow(high, low, width, -1);
+        close_in(low, high);
+    }
+
+  private:
+    std::optional<Scalar> end(const std::optional<NodeId>& node) const
+    {
+        if (!node) return std::nullopt;
+        const NodeId outputs[] = {*node};
+        return evaluate<Scalar>(graph_, outputs, inputs_)[0];
+    }
+
+    Scalar slope_at(Scalar z)
+    {
+        z_ = z;
+        const NodeId outputs[] = {block_.residuals[k_]};
+        const Scalar value = evaluate<Scalar>(graph_, outputs, inputs_)[0];
+        if (std::isnan(value)) fail();
+        return value;
+    }
+
+    [[noreturn]] void fail() const
+    {
+        throw MathematicsError("error: no " + block_.name + " were found: " + block_.documentation);
+    }
+
+    /// Moves `moving` away by `step`, twice as far each time, until F has the sign that it must have there; `other`
+    /// follows, so that the root stays between the two.
+    void grow(Scalar& moving, Scalar& other, Scalar step, int sign)
+    {
+        for (int count = 0; count < most_doublings; ++count, step *= 2) {
+            if (slope_at(moving) * static_cast<Scalar>(sign) >= 0) return;
+            other = moving;
+            moving += step;
+        }
+        fail();
+    }
+
+    /// F(low) > 0 > F(high)
+    void close_in(Scalar low, Scalar high)
+    {
+        const Scalar epsilon = std::numeric_limits<Scalar>::epsilon();
+        const Scalar smallest = std::pow(epsilon, Scalar(4)) * (high - low);
+        Scalar z = low + (high - low) / 2, previous = high - low;
+        const NodeId outputs[] = {block_.residuals[k_], block_.jacobian[k_ * block_.unknowns.size() + k_]};
+        for (int count = 0; count < most_bracket_steps; ++count) {
+            z_ = z;
+            const std::vector<Scalar> values = evaluate<Scalar>(graph_, outputs, inputs_);
+            if (std::isnan(values[0])) fail();
+            if (values[0] == 0) return;
+            (values[0] > 0 ? low : high) = z;
+            Scalar next = z - values[0] / values[1];
+            // A step that leaves the interval, or is not half as long as the last one, is replaced by bisection.
+            const bool good = next >= low && next <= high && std::abs(next - z) <= previous / 2;
+            if (!good) next = low + (high - low) / 2;
+            previous = std::abs(next - z);
+            z = next;
+            const Scalar tight = 2 * epsilon * std::abs(z) + smallest;
+            if (previous <= tight || high - low <= tight) break;
+        }
+        z_ = z;
+    }
+
+    const Graph& graph_;
+    const ImplicitBlock& block_;
+    std::map<std::string, Scalar>& inputs_;
+    std::size_t k_;
+    Scalar& z_; ///< in inputs_
+};
+
+} // namespace
+
+template <class Scalar>
+void solve_in_brackets(const Graph& graph, const ImplicitBlock& block, std::map<std::string, Scalar>& inputs)
+{
+    // An equation holds its own unknown alone, but it may be written with others.
+    for (const NodeId unknown : block.unknowns) inputs[graph.input_name(unknown)] = 0;
+    for (std::size_t k = 0; k < block.unknowns.size(); ++k) BracketSolver<Scalar>(graph, block, k, inputs).run();
+}
+
+template void solve_in_brackets<double>(const Graph&, const ImplicitBlock&, std::map<std::string, double>&);
+template void solve_in_brackets<long double>(const Graph&, const ImplicitBlock&, std::map<std::string, long double>&);
+
+} // namespace lagen

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Which controls are proved to maximise H, which are certainly no maximum, and what is said of the others.
+#include "geometry/checking.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace lagen;
+using Kind = ControlMaximum::Kind;
+
+namespace {
+
+ControlMaximum maximum_of(const std::string& control)
+{
+    return verified_text("[parameters]\nk = 1\nc = 2\n[base]\ncoordinates = [\"x\", \"y\"]\ndomain = [\"c > 0\"]\n"
+                         "[fibre]\ncoordinates = [\"a\", \"b\"]\nmomenta = [\"p\", \"q\"]\n[algebroid]\nkind = "
+                         "\"tangent\"\n[control]\n" +
+                         control)
+        .maximum;
+}
+
+ControlMaximum of_one(const std::string& cost, const std::string& bounds = "")
+{
+    return maximum_of("controls = [\"u\"]\nsigma = { a = \"u\" }\ncost = \"" + cost + "\"\n" +
+                      (bounds.empty() ? "" : "bounds = { u = " + bounds + " }\n"));
+}
+
+ControlMaximum of_two(const std::string& cost, const std::string& bounds = "")
+{
+    return maximum_of("controls = [\"u\", \"w\"]\nsigma = { a = \"u\", b = \"w\" }\ncost = \"" + cost + "\"\n" +
+                      (bounds.empty() ? "" : "bounds = " + bounds + "\n"));
+}
+
+} // namespace
+
+TEST_CASE("a strictly concave and smooth Hamiltonian is proved to have its maximum", "[maximum]")
+{
+    for (const char* cost : {"u^2/2", "c*u^2/2 + k*u", "cosh(u)", "sqrt(1 + u^2)", "exp(u) - u", "u^4/4",
+                             "(2 + sin(x))*u^2", "u^2*abs(1 + x^2)", "atan2(x, 1)*u + u^2"}) {
+        INFO(cost);
+        CHECK(of_one(cost).kind == Kind::maximal);
+    }
+    CHECK(of_two("u^2 + u*w + w^2").kind == Kind::maximal);
+    CHECK(of_two("(1 + x^2)*u^2 + (u - w)^2").kind == Kind::maximal);
+}
+
+TEST_CASE("between bounds the interval counts, its ends included", "[maximum]")
+{
+    const std::vector<std::pair<const char*, const char*>> proved = {{"-log(cos(u))", "[-1.5, 1.5]"},
+                                                                     {"u^2/2 + 1/u^2", "[0.5, 20]"},
+                                                                     {"-log(1 - u^2)", "[-0.99, 0.99]"},
+                                                                     {"u^3", "[0.1, 2]"},
+                                                                     {"-sin(u)", "[0.1, \"pi/2\"]"},
+                                                                     {"u^2 + abs(u + 2)", "[-1, 1]"},
+                                                                     {"u^2", "[\"-c\", \"c\"]"},
+                                                                     {"u^3", "[\"c\", \"inf\"]"},
+                                                                     {"-sqrt(u)", "[1, inf]"}};
+    for (const auto& [cost, bounds] : proved) {
+        INFO(cost << " on " << bounds);
+        CHECK(of_one(cost, bounds).kind == Kind::maximal);
+    }
+    const std::string needed = "with bounds on controls H must be separable, smooth and strictly concave in them, or "
+                               "dH/du = 0 and the bounds do not give its maximum: ";
+    const std::vector<std::array<const char*, 3>> refused = {
+        {"u^3", "[0, 2]", "d2H/du2 < 0 was not proved for all admissible u"},
+        {"u^2/2 + 1/u^2", "[-1, 1]", "1/u^2 was not proved to be smooth for all admissible controls"},
+        {"-log(1 - u^2)", "[-1, 1]", "log(1 - u^2) was not proved to be smooth for all admissible controls"},
+        {"u^2 - log(1 + u)/8", "[-2, 1]", "log(1 + u) was not proved to be smooth for all admissible controls"},
+        {"k*u^2", "[-1, 1]", "d2H/du2 < 0 was not proved for all admissible u"},
+        {"-u^2", "[-1, 1]", "d2H/du2 < 0 was not proved for all admissible u"}};
+    for (const auto& [cost, bounds, why] : refused) {
+        INFO(cost << " on " << bounds);
+        const ControlMaximum maximum = of_one(cost, bounds);
+        CHECK(maximum.kind == Kind::unsolved);
+        CHECK(maximum.reason == needed + why);
+    }
+    CHECK(of_two("u^2 + u*w + w^2", "{ u = [-1, 1] }").reason == needed + "d2H/dudw is not zero");
+    CHECK(of_two("u^2 + w^2", "{ u = [-1, 1] }").kind == Kind::maximal);
+}
+
+TEST_CASE("a Hamiltonian that certainly has no maximum is refuted", "[maximum]")
+{
+    CHECK(of_one("-u^2/2 + x^2").reason == "H has no maximum in the control 'u': d2H/du2 > 0");
+    CHECK(of_one("-u^2/2 + x^2").kind == Kind::refuted);
+    CHECK(of_two("u^2 - w^2").reason == "H has no maximum in the control 'w': d2H/dw2 > 0");
+    CHECK(of_two("u*w").reason == "H has no maximum in the controls 'u' and 'w': d2H/du2 is indefinite");
+    CHECK(of_two("u*w").kind == Kind::refuted);
+    CHECK(of_two("u^2 + 3*u*w + w^2").kind == Kind::refuted);
+}
+
+TEST_CASE("where nothing is proved of a maximum the controls are stationary", "[maximum]")
+{
+    for (const char* cost : {"-cos(u)", "k*u^2", "u^4/4 - u^2/2", "u^3", "x*u^2"}) {
+        INFO(cost);
+        const ControlMaximum maximum = of_one(cost);
+        CHECK(maximum.kind == Kind::stationary);
+        CHECK(maximum.reason == "d2H/du2 < 0 was not proved for all u");
+    }
+    const ControlMaximum barrier = of_one("-log(1 - u^2)");
+    CHECK(barrier.kind == Kind::stationary);
+    CHECK(of_one("u^2/2 + 1/u^2").reason == "1/u^2 was not proved to be smooth for all controls");
+}
+
+TEST_CASE("kinks, affine and dependent controls are named", "[maximum]")
+{
+    CHECK(of_one("abs(u) + u^2/2").kind == Kind::nonsmooth);
+    CHECK(of_one("abs(u) + u^2/2").reason ==
+          "H is not smooth in the controls: it contains abs(u), where u was not proved to keep its sign");
+    CHECK(of_one("u^2/2 - abs(u)", "[-4, 1]").kind == Kind::nonsmooth);
+    CHECK(of_one("u^2 + atan2(x, u)").reason ==
+          "H is not smooth in the controls: it contains atan2(x, u), which was not proved to keep off its cut");
+    CHECK(of_one("x^2").reason == "H is affine in the control u: dH/du = 0 does not determine it (a singular or "
+                                  "bang-bang control)");
+    const ControlMaximum dependent = of_two("(u + w)^2");
+    CHECK(dependent.kind == Kind::unsolved);
+    CHECK(dependent.reason ==
+          "dH/du = 0 does not determine the controls: d2H/du2 has rank 1, and 2 controls need rank 2");
+    CHECK(of_two("(u + w)^4").kind == Kind::unsolved);
+}

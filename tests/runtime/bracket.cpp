@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Roots between bounds: ends, open intervals, functions on which Newton's method alone goes astray, packs.
+#include <lagen/bracket.hpp>
+#include <lagen/ensemble/pack.hpp>
+
+#include "support/tolerances.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+using namespace lagen;
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+template <class S>
+struct Found {
+    S z;
+    status_t<S> status;
+};
+
+/// The root of one falling function.
+template <class S, class F, class D>
+Found<S> root_of(S lower, S upper, const F& f, const D& slope)
+{
+    std::array<S, 1> z{};
+    const auto status =
+        bracket(z, std::array<S, 1>{lower}, std::array<S, 1>{upper},
+                [&](const std::array<S, 1>& at, std::array<S, 1>& value, std::array<S, 1>& derivative) noexcept {
+                    value[0] = f(at[0]);
+                    derivative[0] = slope(at[0]);
+                });
+    return {z[0], status};
+}
+
+Found<double> root_of_tangent(double target, double lower, double upper)
+{
+    return root_of(
+        lower, upper, [&](double u) { return target - std::tan(u); },
+        [](double u) { return -1 - std::tan(u) * std::tan(u); });
+}
+
+Found<double> root_of_exponential(double target, double lower, double upper)
+{
+    return root_of(
+        lower, upper, [&](double u) { return target - std::exp(u); }, [](double u) { return -std::exp(u); });
+}
+
+} // namespace
+
+TEST_CASE("a root inside its interval is found to round-off", "[bracket]")
+{
+    for (const double target : {-13.0, -4.0, -0.5, 1e-9, 0.7, 4.0, 14.0}) {
+        INFO(target);
+        const Found<double> found = root_of_tangent(target, -1.5, 1.5);
+        CHECK(found.status == Status::ok);
+        CHECK(std::abs(found.z - std::atan(target)) <= tolerance::roundoff(8) * std::abs(std::atan(target)));
+    }
+    // Newton's steps from the middle of [-10, 10] lead far away: u/sqrt(1 + u^2) is flat.
+    for (const double target : {0.999, -0.99, 0.3}) {
+        const Found<double> found = root_of(
+            -10.0, 100.0, [&](double u) { return target - u / std::sqrt(1 + u * u); },
+            [](double u) { return -std::pow(1 + u * u, -1.5); });
+        const double exact = target / std::sqrt((1 - target) * (1 + target));
+        CHECK(std::abs(found.z - exact) <= 1e-12 * std::abs(exact)); // of the condition 1/(1 - target^2)
+    }
+    CHECK(root_of_tangent(0, -1.25, 1.5).z == Approx(0).margin(1e-30));
+}
+
+TEST_CASE("without a root the end next to it is taken", "[bracket]")
+{
+    CHECK(root_of_tangent(20, -1.5, 1.5).z == 1.5);
+    CHECK(root_of_tangent(-20, -1.5, 1.5).z == -1.5);
+    CHECK(root_of_exponential(-1, -1, 1).z == -1);
+    CHECK(root_of_exponential(-1, -1, infinite).z == -1);
+    CHECK(root_of_exponential(100, -infinite, 1).z == 1);
+}
+
+TEST_CASE("an open interval is searched outwards, and has a status where there is no root", "[bracket]")
+{
+    CHECK(root_of_exponential(1e9, -1, infinite).z == Approx(std::log(1e9)).epsilon(tolerance::roundoff(8)));
+    CHECK(root_of_exponential(1e-9, -infinite, 1).z == Approx(std::log(1e-9)).epsilon(tolerance::roundoff(8)));
+    for (const double target : {1e-6, 0.5, 1e6})
+        CHECK(root_of_exponential(target, -infinite, infinite).z ==
+              Approx(std::log(target)).epsilon(tolerance::roundoff(16)));
+    const Found<double> none = root_of(
+        0.0, infinite, [](double u) { return 1 + std::exp(-u); }, [](double u) { return -std::exp(-u); });
+    CHECK(none.status == Status::newton_diverged);
+    CHECK(std::isnan(none.z));
+    const Found<double> undefined = root_of(
+        -1.0, 1.0, [](double u) { return std::log(u); }, [](double u) { return 1 / u; });
+    CHECK(undefined.status == Status::newton_diverged);
+    CHECK(std::isnan(undefined.z));
+}
+
+TEST_CASE("lanes of a pack and other scalars find what double finds", "[bracket]")
+{
+    using Lanes = Pack<double, 4>;
+    const std::array<double, 4> targets{-5, 0.25, 2, 40};
+    const Lanes target(targets);
+    const auto cubic = [](auto t, auto lower, auto upper) {
+        using S = decltype(t);
+        return root_of(
+            lower, upper, [t](const S& u) { return t - u - u * u * u; },
+            [](const S& u) { return S(-1) - S(3) * u * u; });
+    };
+    const Found<Lanes> lanes = cubic(target, Lanes(-1), Lanes(infinite));
+    for (std::size_t k = 0; k < targets.size(); ++k) {
+        INFO(targets[k]);
+        const double one = cubic(targets[k], -1.0, infinite).z;
+        CHECK(lanes.z.lanes[k] == Approx(one).epsilon(tolerance::roundoff(4)));
+        CHECK((one == -1 || std::abs(one + one * one * one - targets[k]) <= tolerance::roundoff(16) * targets[k]));
+        const float single = cubic(static_cast<float>(targets[k]), -1.0F, std::numeric_limits<float>::infinity()).z;
+        CHECK(single == Approx(one).epsilon(1e-6));
+        const long double large = cubic(static_cast<long double>(targets[k]), -1.0L, 100.0L).z;
+        CHECK(static_cast<double>(large) == Approx(one).epsilon(tolerance::roundoff(4)));
+    }
+    CHECK(cubic(-5.0, -1.0, infinite).z == -1);
+}
