@@ -119,12 +119,19 @@ void write_algebroid(std::ostringstream& out, const ReferenceCase& reference)
     out << '\n';
 }
 
-/// The parameters of the control problems are inertias, weights and stiffnesses: H has a maximum where they are
+bool is_relativistic(const ReferenceCase& reference)
+{
+    return reference.name.find("relativistic") != std::string::npos;
+}
+
+/// Inertias, weights, the speed of light: H has a maximum in the controls, or L a Legendre transform, where they are
 /// positive.
 void write_positive_parameters(std::ostringstream& out, const ReferenceCase& reference)
 {
     std::vector<std::string> conditions;
-    for (const auto& [name, value] : reference.parameters) conditions.push_back(name + " > 0");
+    for (const auto& [name, value] : reference.parameters)
+        if (value.find_first_of("123456789") != std::string::npos && value.find('-') == std::string::npos)
+            conditions.push_back(name + " > 0");
     out << "domain = " << name_list(conditions) << '\n';
 }
 
@@ -174,7 +181,8 @@ std::string model_text(const ReferenceCase& reference)
     out << "name = \"" << reference.name << "\"\n\n[parameters]\n";
     for (const auto& [name, value] : reference.parameters) out << name << " = \"" << value << "\"\n";
     if (!reference.base.empty()) out << "\n[base]\ncoordinates = " << name_list(reference.base) << '\n';
-    if (!reference.base.empty() && !reference.controls.empty()) write_positive_parameters(out, reference);
+    if (!reference.base.empty() && (!reference.controls.empty() || is_relativistic(reference)))
+        write_positive_parameters(out, reference);
     out << "\n[fibre]\ncoordinates = " << name_list(reference.fibre) << '\n';
     if (!reference.momenta.empty()) out << "momenta = " << name_list(reference.momenta) << '\n';
     out << '\n';
