@@ -2,6 +2,7 @@
 /// The march: statuses, times, rows, counts, observers.
 #include "lagen/lagen.hpp"
 #include "support/problems.hpp"
+#include "support/sanitized.hpp"
 #include "support/tolerances.hpp"
 
 #include <catch2/catch.hpp>
@@ -290,9 +291,11 @@ TEST_CASE("Every method runs in float, double and long double, each to its own a
         CHECK(static_cast<double>((run.state - Model::exact(S(0.2), S(3))).norm()) < accuracy);
     };
     const auto all = [&](const auto& method, double accuracy) {
-        check(0.0f, method, accuracy + 1e-4);
         check(0.0, method, accuracy);
+#if !LAGEN_SANITIZED // it takes minutes to compile these with sanitizers
+        check(0.0f, method, accuracy + 1e-4);
         check(0.0L, method, accuracy);
+#endif
     };
     all(Euler{.step = 1e-3}, 2e-2);
     all(Midpoint{.step = 1e-2}, 1e-3);
