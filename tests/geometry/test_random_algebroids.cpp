@@ -38,5 +38,5 @@ TEST_CASE("one changed entry in a random algebroid is refuted exactly where the 
         CHECK(verified_text(text).verdict == (valid ? Verdict::valid : Verdict::invalid));
         violated += valid ? 0 : 1;
     }
-    CHECK(violated > 400);
+    CHECK(violated > 4 * trials / 5);
 }
