@@ -2,6 +2,7 @@
 #   lagen_room(NAME DEPENDS rooms... LIBRARIES libs...)   one static library a folder of generator/
 #   lagen_test_room(NAME LIBRARIES libs...                one test executable a folder of tests/
 #     [SEPARATE]         its files are never united
+#     [TEMPLATES]        its files instantiate the runtime, which is compiled with some optimisation
 #     [UNSANITIZED]      left out of builds with sanitizers: its tests compile programs of their own, or look at digits
 #     [APART tag])       its tests of that tag are a test by themselves, NAME_tag
 #   lagen_fuzz_target(NAME LIBRARIES libs... SOURCES files... CORPUS places... LONGEST bytes RUNS n)  one of tests/fuzz
@@ -33,7 +34,7 @@ endif()
 # of another file's constant, so that -Wshadow is left to the builds that are not united and to scripts/tidy.
 function(lagen_unite target)
   if(LAGEN_UNITY)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
   endif()
 endfunction()
 
@@ -54,7 +55,7 @@ function(lagen_room name)
 endfunction()
 
 function(lagen_test_room name)
-  cmake_parse_arguments(PARSE_ARGV 1 ROOM "SEPARATE;UNSANITIZED" "APART" "LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 1 ROOM "SEPARATE;TEMPLATES;UNSANITIZED" "APART" "LIBRARIES")
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
   if(NOT sources OR (ROOM_UNSANITIZED AND LAGEN_SANITIZE))
     return()
@@ -62,9 +63,13 @@ function(lagen_test_room name)
   add_executable(test_${name} ${sources} $<TARGET_OBJECTS:catch_main>)
   if(NOT ROOM_SEPARATE)
     lagen_unite(test_${name})
+  endif()
+  # Tests are compiled for longer than they run; what computes for long is what they test. Only the templates of Eigen
+  # and of the runtime are compiled with them, whose loops are too slow without any optimisation.
+  if(ROOM_TEMPLATES AND NOT LAGEN_SANITIZE)
+    target_compile_options(test_${name} PRIVATE -O1)
   else()
-    # Templates of Eigen and of the runtime, many times over: these files are compiled for longer than they run.
-    target_compile_options(test_${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+    target_compile_options(test_${name} PRIVATE -O0)
   endif()
   target_include_directories(test_${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
   target_compile_definitions(test_${name} PRIVATE LAGEN_SOURCE_DIR="${PROJECT_SOURCE_DIR}" LAGEN_BINARY_DIR="${PROJECT_BINARY_DIR}")

@@ -4,6 +4,7 @@
 #include "diagnostic.hpp"
 #include "graph/evaluate.hpp"
 #include "graph/solve_unknowns.hpp"
+#include "kernels/lagrangian.hpp"
 
 #include <fmt/core.h>
 
@@ -62,11 +63,9 @@ std::vector<long double> invert(const CheckedModel& checked, const Inversion& in
         residuals.push_back(graph.subtract(entry.node, wanted));
     }
     for (const Quantity& lane : module.fibre) unknowns.push_back(lane.input);
-    std::vector<NodeId> guess(unknowns.size(), graph.constant(0));
-    const std::vector<Rational>& start = checked.verified.regularity.newton_start;
-    for (std::size_t a = 0; a < start.size(); ++a) guess[a] = graph.constant(start[a]);
     const ImplicitBlock block =
-        implicit_block(graph, inversion.wanted, "", unknowns, residuals, guess, MatrixStructure::symmetric);
+        implicit_block(graph, inversion.wanted, "", unknowns, residuals,
+                       newton_guess(graph, checked.verified.regularity, unknowns.size()), MatrixStructure::symmetric);
     try {
         solve_unknowns<long double>(graph, {&block, 1}, inputs);
     } catch (const MathematicsError&) {

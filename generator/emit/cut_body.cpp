@@ -94,7 +94,7 @@ class Cutter {
             result.push_back(steps_[k]);
             for (const NodeId id : effects_[k].defines) {
                 known.insert(id);
-                if (last_[id] >= end && last_[id] > k) result.push_back({BodyStep::Kind::keep, id, new_place(id)});
+                if (last_[id] >= end) result.push_back({BodyStep::Kind::keep, id, new_place(id)});
             }
         }
         release(end);

@@ -201,11 +201,6 @@ Pressure pressure_of(const Graph& graph, const BodyPlan& plan, const std::vector
 
 } // namespace
 
-std::size_t most_live(const Graph& graph, const BodyPlan& plan, const std::vector<BodyStep>& steps)
-{
-    return pressure_of(graph, plan, steps).most;
-}
-
 std::vector<BodyStep> order_body(const Graph& graph, const BodyPlan& plan, const BodyRoots& roots)
 {
     const auto walked = [&](const std::vector<std::size_t>& order, const std::vector<std::uint32_t>* registers) {
@@ -223,13 +218,14 @@ std::vector<BodyStep> order_body(const Graph& graph, const BodyPlan& plan, const
     std::vector<std::vector<std::size_t>> orders = roots.arrangements;
     orders.insert(orders.begin(), given);
     for (std::size_t k = orders.size(); k-- > 0;) orders.emplace_back(orders[k].rbegin(), orders[k].rend());
-    for (const std::vector<std::size_t>& order : orders)
-        for (const std::vector<std::uint32_t>* wish :
-             {static_cast<const std::vector<std::uint32_t>*>(nullptr), &registers}) {
-            std::vector<BodyStep> steps = walked(order, wish);
-            const Pressure found = pressure_of(graph, plan, steps);
-            if (found.is_below(best_pressure)) best = std::move(steps), best_pressure = found;
-        }
+    const auto consider = [&](std::vector<BodyStep> steps) {
+        const Pressure found = pressure_of(graph, plan, steps);
+        if (found.is_below(best_pressure)) best = std::move(steps), best_pressure = found;
+    };
+    for (const std::vector<std::size_t>& order : orders) {
+        if (&order != &orders.front()) consider(walked(order, nullptr));
+        consider(walked(order, &registers));
+    }
     return best;
 }
 

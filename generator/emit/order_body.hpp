@@ -39,7 +39,4 @@ struct BodyRoots {
 /// Steps of the kinds define, check and store.
 [[nodiscard]] std::vector<BodyStep> order_body(const Graph& graph, const BodyPlan& plan, const BodyRoots& roots);
 
-/// The most values, inputs aside, that are known at one time and needed later.
-[[nodiscard]] std::size_t most_live(const Graph& graph, const BodyPlan& plan, const std::vector<BodyStep>& steps);
-
 } // namespace lagen

@@ -41,18 +41,15 @@ class BodyPrinter {
 
     Body print()
     {
-        std::vector<NodeId> checked;
-        for (const NodeId pivot : request_.pivots)
-            if (is_checked(pivot) && graph_.op(pivot) != Op::factor) checked.push_back(pivot);
         std::vector<NodeId> roots(request_.outputs.begin(), request_.outputs.end());
         for (const NodeId pivot : request_.pivots)
             if (is_checked(pivot)) roots.push_back(pivot); // a factorisation is checked where it stands
         plan_ = plan_body(graph_, roots);
         name_inputs();
-        steps_ =
+        const std::vector<BodyStep> steps =
             order_body(graph_, plan_,
                        {request_.outputs, std::span(roots).subspan(request_.outputs.size()), request_.arrangements});
-        CutBody cut = cut_body(graph_, plan_, steps_, request_.longest_part);
+        const CutBody cut = cut_body(graph_, plan_, steps, request_.longest_part);
         body_.workspace = cut.workspace;
         for (const std::vector<BodyStep>& part : cut.parts) {
             body_.parts.emplace_back();
@@ -262,7 +259,6 @@ class BodyPrinter {
     std::string prefix_;
     std::vector<bool> moves_;
     BodyPlan plan_;
-    std::vector<BodyStep> steps_;
     Body body_;
     std::map<NodeId, PrintedFactor> factors_;
     std::size_t terms_ = 0;
@@ -270,16 +266,6 @@ class BodyPrinter {
 };
 
 } // namespace
-
-std::vector<bool> depends_on(const Graph& graph, std::span<const NodeId> inputs)
-{
-    std::vector<bool> depends(graph.size(), false);
-    for (const NodeId id : inputs) depends[id] = true;
-    for (NodeId id = 0; id < graph.size(); ++id)
-        for (const NodeId operand : graph.operands(id))
-            if (depends[operand]) depends[id] = true;
-    return depends;
-}
 
 Body print_body(const BodyRequest& request)
 {

@@ -68,7 +68,4 @@ struct BodyRequest {
 
 [[nodiscard]] Body print_body(const BodyRequest& request);
 
-/// For every node of the graph: does it depend on one of `inputs`?
-[[nodiscard]] std::vector<bool> depends_on(const Graph& graph, std::span<const NodeId> inputs);
-
 } // namespace lagen

@@ -92,6 +92,26 @@ std::unique_ptr<EquationsOfMotion> Claims::equations_of_motion()
     return std::make_unique<LagrangeMotion>(graph_, lowered_, hessian_ ? &*hessian_ : nullptr, forces_, time_);
 }
 
+/// Along the motions: what is claimed of them may be undefined at points of theirs.
+Continuity& Claims::continuity()
+{
+    if (!continuity_) {
+        ProofSetting setting = setting_;
+        setting.defined.clear();
+        for (const NodeId entry : lowered_.entries())
+            if (!graph_.is_constant(entry)) setting.defined.push_back(entry);
+        append_mechanics(setting.defined);
+        // Motions are where the momenta and the matrix of their equations are defined.
+        for (const std::optional<FibreHessian>* each : {&hessian_, &hamiltonian_hessian_}) {
+            if (!*each) continue;
+            for (const std::vector<NodeId>* nodes : {&(*each)->momenta, &(*each)->hessian})
+                setting.defined.insert(setting.defined.end(), nodes->begin(), nodes->end());
+        }
+        continuity_ = std::make_unique<Continuity>(graph_, setting, judge_->decider().budget());
+    }
+    return *continuity_;
+}
+
 void Claims::make_setting()
 {
     setting_.variables = lowered_.x;

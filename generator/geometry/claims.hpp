@@ -5,6 +5,7 @@
 
 #include "geometry/fibre_hessian.hpp"
 #include "geometry/judge.hpp"
+#include "geometry/jumps.hpp"
 #include "geometry/phase_motion.hpp"
 #include "geometry/repair_search.hpp"
 #include "geometry/structure_equations.hpp"
@@ -34,6 +35,7 @@ class Claims {
     void lower_mechanics();
     void append_mechanics(std::vector<NodeId>& nodes) const;
     [[nodiscard]] std::unique_ptr<EquationsOfMotion> equations_of_motion();
+    [[nodiscard]] Continuity& continuity();
     void make_setting();
     void require_triangular_constraints();
     void refuse_zero_divisors(const ProofBudget& budget);
@@ -60,6 +62,7 @@ class Claims {
     std::unique_ptr<BaseGradient> partial_;
     ProofSetting setting_;
     std::unique_ptr<Judge> judge_;
+    std::unique_ptr<Continuity> continuity_; ///< made when it is needed
     std::string note_;
 };
 

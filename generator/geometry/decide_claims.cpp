@@ -3,7 +3,6 @@
 #include "geometry/claims.hpp"
 #include "geometry/construction.hpp"
 #include "geometry/control_maximum.hpp"
-#include "geometry/jumps.hpp"
 #include "graph/differentiate.hpp"
 #include "proof/partial_parts.hpp"
 
@@ -83,7 +82,7 @@ void Claims::decide_structure(VerifiedAlgebroid& verified)
         if (check.name == "tangency" || check.name == "casimir") {
             const std::vector<NodeId>& functions =
                 check.name == "casimir" ? functions_.casimirs : functions_.constraints;
-            respect_jumps(check.decision, graph_, functions.at(list.residuals[k].indices.back()), judge_->decider());
+            continuity().respect_jumps(check.decision, functions.at(list.residuals[k].indices.back()));
         }
         check.hint = hints[k];
         check.reevaluation = judge_->reevaluate(list.residuals[k].value);
@@ -113,7 +112,7 @@ void Claims::decide_invariants(VerifiedAlgebroid& verified, const std::vector<Na
                 setting.defined.push_back(motion->in_states(part));
             Judge judge(graph_, setting, accessory(), points_, judge_->decider().budget());
             check.decision = judge.decide(*rate.value);
-            respect_jumps(check.decision, graph_, motion->in_states(f), judge.decider());
+            continuity().respect_jumps(check.decision, motion->in_states(f));
             check.reevaluation = judge.reevaluate(*rate.value);
             if (rate.for_every_control && check.decision.status == ProofStatus::refuted) {
                 check.decision = Decision{};

@@ -1,16 +1,66 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Functions that jump although their derivatives do not show it: atan2(v, u) across v = 0, u < 0. A function whose
-/// rate vanishes is constant along a motion only where it does not jump.
+/// Functions that jump although their derivatives do not show it: atan2(v, u) across v = 0, u < 0, abs(x)/x across
+/// x = 0, atan(1/x). A function whose rate vanishes is constant along a motion only where it does not jump.
+///
+/// How a function of the state goes along a motion is followed from node to node:
+/// - analytic, or continuous with kinks: it does not jump;
+/// - a quotient of analytic functions p/q: p = c q before a zero of q, hence behind it, since both are analytic; and
+///   likewise with logarithms of analytic functions in p and q;
+/// - the sum of such a quotient and something continuous: what is bounded at a pole is removable there;
+/// - everything else that may meet a zero of a divisor, the pole of a tangent or a cut is said to jump.
+/// A function may leave the set where it is defined for a while, as sqrt(x) does: nothing is said of its value after.
 #pragma once
 
 #include "proof/decide.hpp"
 
+#include <map>
+#include <set>
+
 namespace lagen {
 
-/// What jumps in `f`, and where, unless it is shown that the domain keeps off the cut; empty: nothing.
-[[nodiscard]] std::string jump_of(const Graph& graph, NodeId f, const ZeroDecider& decider);
+class Continuity {
+  public:
+    /// `setting.defined`: what the equations of motion are made of, and nothing else: it is defined all along a motion,
+    /// so that its divisors do not vanish there.
+    Continuity(Graph& graph, const ProofSetting& setting, const ProofBudget& budget);
 
-/// A proof that rests on the derivatives of `f` becomes `undecided` where f jumps.
-void respect_jumps(Decision& decision, const Graph& graph, NodeId f, const ZeroDecider& decider);
+    /// What jumps in `f`, and where, unless it is shown that no motion meets it; empty: nothing.
+    [[nodiscard]] std::string jump_of(NodeId f);
+
+    /// A proof that rests on the derivatives of `f` becomes `undecided` where f jumps.
+    void respect_jumps(Decision& decision, NodeId f);
+
+  private:
+    enum class Course { analytic, continuous, quotient, sum, jumps };
+    struct Along {
+        Course course = Course::analytic;
+        NodeId hole = 0;  ///< of quotients and sums: what may vanish
+        std::string jump; ///< of what jumps
+    };
+
+    [[nodiscard]] const Along& along(NodeId f);
+    [[nodiscard]] Along step(NodeId node);
+    [[nodiscard]] Along add(NodeId node) const;
+    [[nodiscard]] Along multiply(const Along& a, const Along& b, NodeId node) const;
+    [[nodiscard]] Along reciprocal(NodeId divisor, NodeId node);
+    [[nodiscard]] Along smooth_function(NodeId node) const;
+    [[nodiscard]] Along kinked(NodeId node, bool smooth) const;
+    [[nodiscard]] Along logarithm(NodeId node) const;
+    [[nodiscard]] Along angle(NodeId node);
+    [[nodiscard]] Along solution(NodeId node);
+    [[nodiscard]] Along jumping(NodeId node, NodeId hole) const;
+
+    void collect_divisors(const std::vector<NodeId>& roots);
+    void require_nonzero(NodeId divisor);
+    [[nodiscard]] bool is_smooth(NodeId node);
+    [[nodiscard]] bool nonzero(NodeId f) const;
+    [[nodiscard]] bool positive(NodeId f) const;
+
+    Graph& graph_;
+    ZeroDecider decider_;
+    std::set<NodeId> divisors_; ///< nonzero all along a motion
+    bool analytic_motion_ = true;
+    std::map<NodeId, Along> along_;
+};
 
 } // namespace lagen

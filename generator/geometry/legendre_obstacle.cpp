@@ -4,6 +4,7 @@
 
 #include "geometry/definite_squares.hpp"
 #include "geometry/regularity.hpp"
+#include "geometry/smoothness.hpp"
 #include "graph/differentiate.hpp"
 #include "graph/evaluate.hpp"
 #include "graph/lower.hpp"
@@ -14,27 +15,19 @@
 #include <cmath>
 #include <map>
 #include <memory>
-#include <set>
 
 namespace lagen {
 namespace {
 
 constexpr std::size_t longest_condition = 100; ///< characters of a condition in a message
 
-/// The nodes of `root` that depend on one of `inputs`, operands first.
+/// The operations of `root` that depend on one of `inputs`, operands first.
 std::vector<NodeId> dependents(const Graph& graph, NodeId root, const std::vector<NodeId>& inputs)
 {
-    std::vector<NodeId> result;
-    std::set<NodeId> found(inputs.begin(), inputs.end());
+    const std::vector<bool> depends = depends_on(graph, inputs);
     const NodeId roots[] = {root};
-    for (const NodeId node : reachable(graph, roots)) {
-        const auto operands = graph.operands(node);
-        const bool depends =
-            std::any_of(operands.begin(), operands.end(), [&](NodeId operand) { return found.count(operand) > 0; });
-        if (!depends) continue;
-        found.insert(node);
-        result.push_back(node);
-    }
+    std::vector<NodeId> result = reachable(graph, roots);
+    std::erase_if(result, [&](NodeId node) { return !depends[node] || graph.op(node) == Op::input; });
     return result;
 }
 
@@ -70,8 +63,8 @@ class SmoothSet {
   private:
     [[nodiscard]] bool depends_on_y(NodeId node) const
     {
-        return std::find(hessian_.y.begin(), hessian_.y.end(), node) != hessian_.y.end() ||
-               !dependents(graph_, node, hessian_.y).empty();
+        const NodeId nodes[] = {node};
+        return depends_on_any(graph_, nodes, hessian_.y);
     }
 
     [[nodiscard]] bool is_plain_root(NodeId node) const
@@ -89,22 +82,11 @@ class SmoothSet {
 
     void require_smooth(NodeId node)
     {
-        const std::vector<NodeId> operands(graph_.operands(node).begin(), graph_.operands(node).end());
         switch (graph_.op(node)) {
-        case Op::divide: return require_nonzero(operands[1]);
-        case Op::abs:
-        case Op::sign: return require_nonzero(operands[0]);
-        case Op::tan: return require_nonzero(graph_.apply(Op::cos, operands[0]));
-        case Op::power:
-            if (static_cast<std::int32_t>(graph_.payload(node)) < 0) require_nonzero(operands[0]);
-            return;
-        case Op::log: return require_logarithm(node, operands[0]);
-        case Op::sqrt:
-        case Op::real_power: return require_positive(operands[0]);
-        case Op::asin:
-        case Op::acos: return require_positive(graph_.subtract(graph_.constant(1), graph_.power(operands[0], 2)));
+        case Op::log: return require_logarithm(node, graph_.operands(node)[0]);
         case Op::atan2: // its cut, and slopes that do not see it
-            if (!decider().proves_positive(operands[1])) obstacle_ = not_shown(operands[1], "positive");
+            if (const NodeId u = graph_.operands(node)[1]; !decider().proves_positive(u))
+                obstacle_ = not_shown(u, "positive");
             return;
         case Op::minimum:
         case Op::maximum:
@@ -119,8 +101,11 @@ class SmoothSet {
             obstacle_ =
                 std::string(function_) + " contains the solution of a linear system whose matrix is not constant";
             return;
-        default: return; // smooth everywhere
+        default: break;
         }
+        const SmoothWhere where = smooth_where(graph_, node);
+        if (where.condition == SmoothWhere::Condition::nonzero) require_nonzero(where.function);
+        if (where.condition == SmoothWhere::Condition::positive) require_positive(where.function);
     }
 
     void require_nonzero(NodeId f)

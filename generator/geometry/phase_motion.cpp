@@ -11,12 +11,6 @@ namespace {
 
 using Replacements = std::vector<std::pair<NodeId, NodeId>>;
 
-bool depends_on(const Graph& graph, std::span<const NodeId> nodes, const std::vector<NodeId>& inputs)
-{
-    const std::vector<NodeId> needed = reachable(graph, nodes);
-    return std::ranges::any_of(needed, [&](NodeId id) { return std::ranges::find(inputs, id) != inputs.end(); });
-}
-
 /// The rates that follow from H, y and Q, where H may contain controls: they are held fixed, since dH/du vanishes.
 void add_rates(Graph& graph, const LoweredAlgebroid& algebroid, PhaseSystem& system, const std::vector<NodeId>& forces,
                std::optional<NodeId> time)
@@ -45,7 +39,7 @@ Replacements controls_on_extremals(Graph& graph, NodeId hamiltonian, const Contr
         obstacle = "the controls are bounded, so that they are no smooth functions of x and mu";
         return {};
     }
-    if (depends_on(graph, hessian.hessian, control.u)) {
+    if (depends_on_any(graph, hessian.hessian, control.u)) {
         obstacle = "dH/du is not affine in the controls, which are not solved for then";
         return {};
     }
@@ -151,7 +145,7 @@ NodeId PhaseMotion::in_states(NodeId f)
 bool PhaseMotion::has_open_control(NodeId f) const
 {
     const NodeId nodes[] = {f};
-    return depends_on(graph_, nodes, system_.open);
+    return depends_on_any(graph_, nodes, system_.open);
 }
 
 Rate PhaseMotion::rate(NodeId f)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "geometry/smooth_controls.hpp"
 
+#include "geometry/smoothness.hpp"
 #include "proof/enclosure.hpp"
 
 #include <algorithm>
@@ -140,22 +141,11 @@ std::string ControlProofs::kink_in(const std::vector<NodeId>& roots)
                    " was not proved to keep its sign";
         };
         std::string found;
-        switch (graph_.op(node)) {
-        case Op::abs:
-        case Op::sign: found = unless(operands[0]); break;
-        case Op::minimum:
-        case Op::maximum:
-        case Op::less:
-        case Op::less_equal:
-        case Op::greater:
-        case Op::greater_equal:
-        case Op::equal:
-        case Op::not_equal: found = unless(graph_.subtract(operands[0], operands[1])); break;
-        case Op::atan2: // jumps across v = 0, w < 0
+        if (has_kink(graph_.op(node))) {
+            found = unless(smooth_where(graph_, node).function);
+        } else if (graph_.op(node) == Op::atan2) { // jumps across v = 0, w < 0
             if (depends_on_controls(node) && !positive(operands[1]) && !nonzero(operands[0]))
                 found = to_text(graph_, node, 60) + ", which was not proved to keep off its cut";
-            break;
-        default: break;
         }
         if (!found.empty()) return found;
     }
@@ -165,20 +155,12 @@ std::string ControlProofs::kink_in(const std::vector<NodeId>& roots)
 /// Whether the operation is defined, with all its derivatives, for all admissible controls.
 bool ControlProofs::is_smooth(NodeId node)
 {
-    const std::vector<NodeId> operands(graph_.operands(node).begin(), graph_.operands(node).end());
-    const auto moves = [&](std::size_t k) { return depends_on_controls(operands[k]); };
-    switch (graph_.op(node)) {
-    case Op::divide: return !moves(1) || nonzero(operands[1]);
-    case Op::power: return !moves(0) || nonzero(operands[0]);
-    case Op::sqrt:
-    case Op::log: return !moves(0) || positive(operands[0]);
-    case Op::real_power: return (!moves(0) && !moves(1)) || positive(operands[0]);
-    case Op::tan: return !moves(0) || nonzero(graph_.apply(Op::cos, operands[0]));
-    case Op::asin:
-    case Op::acos: return !moves(0) || positive(graph_.subtract(graph_.constant(1), graph_.power(operands[0], 2)));
-    case Op::factor: return !depends_on_controls(node);
-    default: return true; // of a solution the factorisation tells
-    }
+    if (graph_.op(node) == Op::factor) return !depends_on_controls(node);
+    const SmoothWhere where = smooth_where(graph_, node);
+    const bool moves = graph_.op(node) == Op::real_power ? depends_on_controls(node) // the exponent may
+                                                         : depends_on_controls(where.function);
+    if (where.condition == SmoothWhere::Condition::none || !moves) return true; // of a solution the factorisation tells
+    return where.condition == SmoothWhere::Condition::positive ? positive(where.function) : nonzero(where.function);
 }
 
 std::string ControlProofs::partial_in(const std::vector<NodeId>& roots)

@@ -129,4 +129,20 @@ std::vector<NodeId> reachable(const Graph& graph, std::span<const NodeId> roots)
     return result;
 }
 
+std::vector<bool> depends_on(const Graph& graph, std::span<const NodeId> inputs)
+{
+    std::vector<bool> depends(graph.size(), false);
+    for (const NodeId id : inputs) depends[id] = true;
+    for (NodeId id = 0; id < graph.size(); ++id)
+        for (const NodeId operand : graph.operands(id))
+            if (depends[operand]) depends[id] = true;
+    return depends;
+}
+
+bool depends_on_any(const Graph& graph, std::span<const NodeId> nodes, std::span<const NodeId> inputs)
+{
+    const std::vector<NodeId> below = reachable(graph, nodes);
+    return std::ranges::any_of(inputs, [&](NodeId input) { return std::ranges::binary_search(below, input); });
+}
+
 } // namespace lagen

@@ -141,6 +141,12 @@ class Graph {
 /// The nodes that `roots` depend on, themselves included, in ascending (topological) order.
 [[nodiscard]] std::vector<NodeId> reachable(const Graph& graph, std::span<const NodeId> roots);
 
+/// For every node of the graph: is it one of `inputs`, or does it depend on one?
+[[nodiscard]] std::vector<bool> depends_on(const Graph& graph, std::span<const NodeId> inputs);
+
+/// Is one of `nodes` one of `inputs`, or does one depend on one?
+[[nodiscard]] bool depends_on_any(const Graph& graph, std::span<const NodeId> nodes, std::span<const NodeId> inputs);
+
 /// The node as a readable text, for tests and messages; shared parts are written out, cut at `limit` characters with
 /// "...".
 [[nodiscard]] std::string to_text(const Graph& graph, NodeId id, std::size_t limit = 400);

@@ -187,10 +187,10 @@ class ModuleBuilder {
 
     [[nodiscard]] bool depends_on_parameters_alone(std::initializer_list<NodeId> nodes) const
     {
-        const std::vector<NodeId> below = reachable(*graph_, std::vector<NodeId>(nodes));
-        const auto moves = [&](const Quantity& lane) { return std::ranges::find(below, lane.input) != below.end(); };
-        return !std::ranges::any_of(module_.base, moves) && !std::ranges::any_of(module_.fibre, moves) &&
-               std::ranges::find(below, module_.time) == below.end();
+        std::vector<NodeId> moving = {module_.time};
+        for (const std::vector<Quantity>* lanes : {&module_.base, &module_.fibre})
+            for (const Quantity& lane : *lanes) moving.push_back(lane.input);
+        return !depends_on_any(*graph_, std::vector<NodeId>(nodes), moving);
     }
 
     /// a < b as b - a, a > b as a - b, a != b as (a - b)^2: positive inside the domain. What holds of the parameters

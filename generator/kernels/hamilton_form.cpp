@@ -58,11 +58,9 @@ HamiltonianNodes legendre(Graph& graph, const Model& model, const SystemNodes& s
     const std::vector<NodeId> zeros(r, graph.constant(0));
     Replacements velocities;
     if (depends_on_any(graph, W, lagrangian.y)) {
-        std::vector<NodeId> guess = zeros;
-        for (std::size_t a = 0; a < regularity.newton_start.size(); ++a)
-            guess[a] = graph.constant(regularity.newton_start[a]);
         nodes.implicit.push_back(implicit_block(graph, "velocity", "y with dL/dy^a = mu_a (the Legendre transform).",
-                                                lagrangian.y, residuals, guess, structure));
+                                                lagrangian.y, residuals, newton_guess(graph, regularity, r),
+                                                structure));
         nodes.y = lagrangian.y;
     } else {
         std::vector<NodeId> right = substitute(graph, residuals, replacements(lagrangian.y, zeros));

@@ -45,6 +45,14 @@ MatrixStructure mass_structure(const Regularity& regularity)
                                                                             : MatrixStructure::symmetric;
 }
 
+std::vector<NodeId> newton_guess(Graph& graph, const Regularity& regularity, std::size_t count)
+{
+    std::vector<NodeId> guess(count, graph.constant(0));
+    for (std::size_t a = 0; a < regularity.newton_start.size(); ++a)
+        guess[a] = graph.constant(regularity.newton_start[a]);
+    return guess;
+}
+
 void require_regular_lagrangian(const Model& model, const Regularity& regularity, const char* form)
 {
     if (!model.lagrangian)

@@ -90,12 +90,6 @@ Slopes slopes_of(Graph& graph, NodeId f, const std::vector<NodeId>& lanes, const
     return {{df.begin(), first_x}, {first_x, df.end() - 1}, df.back()};
 }
 
-bool depends_on_any(const Graph& graph, const std::vector<NodeId>& nodes, const std::vector<NodeId>& inputs)
-{
-    const std::vector<NodeId> below = reachable(graph, nodes);
-    return std::ranges::any_of(inputs, [&](NodeId input) { return std::ranges::binary_search(below, input); });
-}
-
 std::vector<std::pair<NodeId, NodeId>> replacements(const std::vector<NodeId>& inputs, const std::vector<NodeId>& nodes)
 {
     std::vector<std::pair<NodeId, NodeId>> result;

@@ -43,10 +43,6 @@ struct Slopes {
 };
 [[nodiscard]] Slopes slopes_of(Graph& graph, NodeId f, const std::vector<NodeId>& lanes, const SystemNodes& system);
 
-/// Does one of `nodes` depend on one of `inputs`?
-[[nodiscard]] bool depends_on_any(const Graph& graph, const std::vector<NodeId>& nodes,
-                                  const std::vector<NodeId>& inputs);
-
 /// Pairs for `substitute`.
 [[nodiscard]] std::vector<std::pair<NodeId, NodeId>> replacements(const std::vector<NodeId>& inputs,
                                                                   const std::vector<NodeId>& nodes);

@@ -9,7 +9,7 @@
 
 using namespace lagen::testing;
 
-TEST_CASE("the equations of every model are the same text in fresh processes, in each format", "[fresh_processes]")
+TEST_CASE("the equations of every model are the same text in fresh processes, in each format", "[long]")
 {
     for (const std::string& name : example_models()) {
         for (const std::string format : {"text", "latex", "json"}) {

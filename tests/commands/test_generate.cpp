@@ -29,7 +29,7 @@ constexpr int generations = 20;
 } // namespace
 
 TEST_CASE("twenty fresh processes (five for a long header) write the same bytes, from any folder and by any path",
-          "[fresh_processes]")
+          "[long]")
 {
     const std::string elsewhere = fresh_folder();
     for (const std::string& name : example_models()) {
@@ -52,7 +52,7 @@ TEST_CASE("twenty fresh processes (five for a long header) write the same bytes,
     }
 }
 
-TEST_CASE("generated/ is what the models give today", "[fresh_processes]")
+TEST_CASE("generated/ is what the models give today", "[long]")
 {
     for (const std::string& name : example_models()) {
         const std::string path = LAGEN_SOURCE_DIR "/generated/" + name + ".hpp";

@@ -51,7 +51,7 @@ constexpr double pluto_at_200000[] = {36.5669506988226043798, -13.76768440125962
 
 } // namespace
 
-TEST_CASE("the Pleiades end where the literature has them, at all 28 published values")
+TEST_CASE("the Pleiades end where the literature has them, at all 28 published values", "[long]")
 {
     const json::Value value = run_families({"pleiades.toml", "--at", "3"});
     REQUIRE(value["columns"].size() == 29);
@@ -62,7 +62,7 @@ TEST_CASE("the Pleiades end where the literature has them, at all 28 published v
     CHECK(value["invariants"].keys == Columns{"energy", "momentum[1]", "momentum[2]", "angular_momentum"});
 }
 
-TEST_CASE("Jupiter and Pluto are where quadruple precision has them after 200000 days")
+TEST_CASE("Jupiter and Pluto are where quadruple precision has them after 200000 days", "[long]")
 {
     const json::Value value = run_families({"outer_solar_system.toml", "--at", "200000"});
     REQUIRE(value["columns"].size() == 37);

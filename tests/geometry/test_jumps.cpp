@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// atan2(v, u) jumps by 2*pi across v = 0, u < 0, which its derivatives do not show: what contains it is no proved
-/// invariant, Casimir or constraint unless the domain keeps off the cut.
+/// atan2(v, u) jumps by 2*pi across v = 0, u < 0, and abs(x)/x across x = 0, which their derivatives do not show: what
+/// contains them is no proved invariant, Casimir or constraint unless the domain keeps off.
 #include "geometry/claim_statuses.hpp"
 
 #include <catch2/catch.hpp>
@@ -28,6 +28,14 @@ std::string jumping_plane(const std::string& potential, const std::string& base 
 }
 
 const std::string jump = "its rate vanishes, but atan2(y, x) jumps by 2*pi where y changes its sign and x < 0";
+
+/// A particle on the line with the potential U.
+std::string on_line(const std::string& potential, const std::string& base = "")
+{
+    return "[base]\ncoordinates = [\"x\"]\n" + base +
+           "[fibre]\ncoordinates = [\"v\"]\n[algebroid]\nkind = \"tangent\"\n[lagrangian]\nL = \"v^2/2 - (" +
+           potential + ")\"\n";
+}
 
 /// The statuses of the checks of this name, in their order.
 std::string status_of(const VerifiedAlgebroid& verified, const std::string& name)
@@ -130,4 +138,59 @@ TEST_CASE("atan2 jumps along Hamilton's equations as along Lagrange's")
     CHECK(statuses(free, {"atan2(q, p)", "atan2(v, u)", "atan2(v, p) + x"}) == "undecided undecided refuted");
     CHECK(first_obstacle(free, {"atan2(v, u)"}) ==
           "its rate vanishes, but atan2(q, p) jumps by 2*pi where q changes its sign and p < 0");
+}
+
+TEST_CASE("what is constant on both sides of a hole only is not conserved")
+{
+    // x = t of the free particle: each of these has another value at t = -1 than at t = 1.
+    const std::pair<const char*, const char*> claims[] = {
+        {"abs(x)/x", "abs(x)/x may jump where x vanishes"},
+        {"sqrt(x^2)/x", "sqrt(x^2)/x may jump where x vanishes"},
+        {"x/sqrt(x^2)", "x/sqrt(x^2) may jump where sqrt(x^2) vanishes"},
+        {"x^3*abs(x)^(-3)", "abs(x)^-3 may jump where abs(x) vanishes"},
+        {"atan(1/x) + atan(x)", "atan(1/x) may jump where x vanishes"},
+        {"tanh(x^(-1))*0 + atan(x^(-3)) + atan(x^3)", "atan(x^-3) may jump where x vanishes"},
+        {"x*exp(-log(x^2)/2)", "exp(-log(x^2)/2) may jump where x^2 vanishes"},
+        {"atan(1/log(x^2)) + atan(log(x^2))", "atan(1/log(x^2)) may jump where log(x^2) vanishes"},
+        {"x - atan(tan(x))", "atan(tan(x)) may jump where cos(x) vanishes"},
+        {"(v*abs(x)/x)^2*abs(x)/x", "v*abs(x)/x may jump where x vanishes"},
+    };
+    for (const auto& [claim, jumps] : claims) {
+        CAPTURE(claim);
+        CHECK(statuses(on_line("0"), {claim}) == "undecided");
+        CHECK(first_obstacle(on_line("0"), {claim}) == std::string("its rate vanishes, but ") + jumps);
+        CHECK(statuses(on_line("0", "domain = [\"x > 0\", \"x < 1\"]\n"), {claim}) == "proved");
+    }
+}
+
+TEST_CASE("the same constant goes on behind the poles of a quotient of analytic functions")
+{
+    CHECK(statuses(on_line("0"), {"(v*x^2 + v^2*x)/(x^2 + v*x)", "v*sin(x)*x^(-2)*x^2/sin(x)", "tan(x)*cos(x)/sin(x)*v",
+                                  "sqrt(x^2) - abs(x) + x^2*v/(x*x + 0*v) - 1/x + v/(v*x)",
+                                  "v*(abs(x) - sqrt(x^2) + tan(x) - sin(x)/cos(x))", "(exp(x) - 1)*v/(exp(x) - 1)"}) ==
+          "proved proved proved proved proved proved");
+    CHECK(statuses(on_line("0"), {"log(x^2) - 2*log(-x) + v*x/x^2*x", "v*log(x)/log(x)",
+                                  "v + abs(x) - sqrt(x^2) + log(x^4)/log(x^2)"}) == "proved proved proved");
+    // Behind a kink the motion is another one.
+    CHECK(statuses(on_line("abs(x)"), {"energy", "energy*x*(x + v)/(x^2 + x*v)"}) == "proved undecided");
+    CHECK(first_obstacle(on_line("abs(x)"), {"energy + v/(x + v) - v*(x + v)^(-1)"}) ==
+          "its rate vanishes, but v/(x + v) may jump where x + v vanishes");
+}
+
+TEST_CASE("no motion meets the zeros of what L, rho and C divide by")
+{
+    const std::string kepler = jumping_plane("-1/sqrt(x^2 + y^2)");
+    const std::string eccentricity = "v_y*(x*v_y - y*v_x) - x/sqrt(x^2 + y^2)";
+    CHECK(statuses(kepler, {eccentricity, "atan(1/(x^2 + y^2)) + atan(x^2 + y^2) + energy"}) == "proved proved");
+    const std::string spring = jumping_plane("(x^2 + y^2)/2");
+    CHECK(statuses(spring, {"energy + atan(1/(x^2 + y^2)) + atan(x^2 + y^2)"}) == "undecided");
+}
+
+TEST_CASE("Casimirs and constraints have no holes either")
+{
+    const std::string casimir = "casimirs = { side = \"x*abs(y)/(abs(y)*x) + abs(x)/x\" }\n";
+    CHECK(status_of(verified_text(turning(casimir)), "casimir") == "undecided");
+    CHECK(first_obstacle(turning(casimir), {}) == "its rate vanishes, but abs(x)/x may jump where x vanishes");
+    CHECK(status_of(verified_text(turning("casimirs = { side = \"log(x^2) - 2*log(abs(x))\" }\n")), "casimir") ==
+          "undecided");
 }

@@ -28,7 +28,9 @@ TEST_CASE("the compiled kernels of every model agree with the interpreter in fou
 
 TEST_CASE("the header of a model is the same in a second generation", "[kernels]")
 {
+    std::size_t number = 0;
     for (const std::string& file : model_files()) {
+        if (LAGEN_SANITIZED && ++number % 4 != 0) continue;
         const std::string first = print_header(kernels_of_file(file).front());
         CHECK(first.find("class ") != std::string::npos);
         CHECK(first == print_header(kernels_of(read_model(file))));

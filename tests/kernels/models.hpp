@@ -8,6 +8,7 @@
 #include "kernels/form_kernels.hpp"
 #include "model/read_model.hpp"
 #include "model/scene_form.hpp"
+#include "support/sanitized.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -76,11 +77,14 @@ inline Values random_point(const KernelModule& module, unsigned seed)
 }
 
 /// The files of models/, sorted.
+/// With sanitizers without the largest: many bodies take the same way as two.
 inline std::set<std::string> model_files()
 {
+    const std::set<std::string> largest = {"chain", "outer_solar_system", "pleiades"};
     std::set<std::string> files;
     for (const auto& entry : std::filesystem::directory_iterator(std::string(LAGEN_SOURCE_DIR) + "/models"))
-        if (entry.path().extension() == ".toml") files.insert(entry.path().string());
+        if (entry.path().extension() == ".toml" && !(LAGEN_SANITIZED && largest.contains(entry.path().stem().string())))
+            files.insert(entry.path().string());
     return files;
 }
 

@@ -3,6 +3,7 @@
 ///   LAGEN_PROPERTY_MODELS  number of trials (each: one valid model, one near miss), and prints the tables
 ///   LAGEN_PROPERTY_FIRST   number of the first trial
 ///   LAGEN_PROPERTY_FOLDER  where failures and undecided models are written
+#include "support/sanitized.hpp"
 #include "trial.hpp"
 
 #include <catch2/catch.hpp>
@@ -31,7 +32,7 @@ void write(const std::vector<Failure>& failures, const std::string& folder)
 TEST_CASE("no verdict on a random algebroid or on a near miss of it is wrong, and hardly any is undecided")
 {
     const std::size_t first = std::stoul(setting("LAGEN_PROPERTY_FIRST", "0"));
-    const std::size_t number = std::stoul(setting("LAGEN_PROPERTY_MODELS", "400"));
+    const std::size_t number = std::stoul(setting("LAGEN_PROPERTY_MODELS", LAGEN_SANITIZED ? "150" : "400"));
     const std::string folder = setting("LAGEN_PROPERTY_FOLDER", "");
     Trials trials;
     for (std::size_t k = 0; k < number; ++k) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// What a run that cannot go on says: a step below the rounding of time, a state that is no number.
 #include "lagen/lagen.hpp"
+#include "support/sanitized.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -96,9 +97,10 @@ TEST_CASE("A run whose rejected steps bring it nowhere ends with the reason of t
 
 TEST_CASE("Ten thousand rejected steps that do bring a run on are no reason to end it")
 {
-    const auto run = integrate(Switched{}, Switched::State(0.0), {0.0, 20'000 * 3.14159265358979}, Dop853{});
+    constexpr int turns = LAGEN_SANITIZED ? 2'000 : 20'000;
+    const auto run = integrate(Switched{}, Switched::State(0.0), {0.0, turns * 3.14159265358979}, Dop853{});
     CHECK(run.status() == Status::ok);
-    CHECK(run.rejected > 30'000);
+    CHECK(run.rejected > turns * 3 / 2);
     CHECK(std::abs(run.state[0]) < 1e-3);
 }
 

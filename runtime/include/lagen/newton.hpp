@@ -238,8 +238,7 @@ class NewtonIteration {
 ///           (the componentwise backward error of the linearised equations [Oettli, Prager 1964]), or
 ///         - the undamped step changes every unknown by a rounding error, |dz_k| <= 4 epsilon |z_k|, or
 ///         - |F_i| <= sqrt(epsilon) sum_j |dF_i/dz_j| |z_j| in every row, and undamped steps have not got shorter, for
-///         any
-///           unknown, newton_patience times: F is not computed to its last places, and only that error is left.
+///           any unknown, newton_patience times: F is not computed to its last places, and only that error is left.
 ///         A step that has to be damped is never the last one, and steps that still get shorter are made.
 template <class S, std::size_t N, class Function>
 [[nodiscard]] status_t<S> newton(std::array<S, N>& z, const Function& function) noexcept
