@@ -16,6 +16,12 @@ namespace lagen {
 
 using Rational = mpq_class; ///< always canonical
 
+/// The length of numerator and denominator together, in bits.
+[[nodiscard]] inline std::size_t bits_of(const Rational& value)
+{
+    return mpz_sizeinbase(value.get_num_mpz_t(), 2) + mpz_sizeinbase(value.get_den_mpz_t(), 2);
+}
+
 /// Functions built into the language. `minimum`, `maximum`, `sign` and `select` (spelled min max sign if) are not
 /// smooth: legal in forces, observables and events only.
 enum class Function {

@@ -14,7 +14,7 @@ namespace {
 
 using Kind = ControlMaximum::Kind;
 
-constexpr std::size_t most_minors = 100; ///< that are looked at for a wrong sign
+constexpr std::size_t most_pairs = 100; ///< that are looked at for a wrong sign
 
 class MaximumDecision {
   public:
@@ -123,7 +123,7 @@ class MaximumDecision {
         std::size_t minors = 0;
         for (std::size_t k = 0; k < count(); ++k)
             for (std::size_t l = k + 1; l < count(); ++l) {
-                if (graph_.is_zero(curvature(k, l)) || ++minors > most_minors) continue;
+                if (graph_.is_zero(curvature(k, l)) || ++minors > most_pairs) continue;
                 const NodeId minor = graph_.subtract(graph_.power(curvature(k, l), 2),
                                                      graph_.multiply(curvature(k, k), curvature(l, l)));
                 if (decider.proves_positive(minor))

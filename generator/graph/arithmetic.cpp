@@ -11,14 +11,10 @@ namespace {
 /// Constants are folded up to this size; beyond it the operation stays (x = x * x in a loop doubles the digits).
 constexpr std::size_t folded_bits = std::size_t{1} << 16U;
 
-std::size_t bits(const Rational& value)
-{
-    return mpz_sizeinbase(value.get_num_mpz_t(), 2) + mpz_sizeinbase(value.get_den_mpz_t(), 2);
-}
-
 bool foldable(const Graph& graph, NodeId a, NodeId b)
 {
-    return graph.is_constant(a) && graph.is_constant(b) && bits(graph.value(a)) + bits(graph.value(b)) <= folded_bits;
+    return graph.is_constant(a) && graph.is_constant(b) &&
+           bits_of(graph.value(a)) + bits_of(graph.value(b)) <= folded_bits;
 }
 
 bool is_negative(const Graph& graph, NodeId id)
@@ -121,7 +117,8 @@ NodeId Graph::power(NodeId a, int exponent)
         throw MathematicsError("division by zero: 0^" + std::to_string(exponent) + ", a base other than 0 is required");
     const auto magnitude = static_cast<std::size_t>(exponent < 0 ? -std::int64_t{exponent} : std::int64_t{exponent});
     if (is_zero(a) || is_one(a)) return a;
-    if (is_constant(a) && bits(value(a)) <= folded_bits / magnitude) return constant(exact_power(value(a), exponent));
+    if (is_constant(a) && bits_of(value(a)) <= folded_bits / magnitude)
+        return constant(exact_power(value(a), exponent));
     if (ops_[a] == Op::negate) {
         const NodeId positive = power(operands(a)[0], exponent);
         return exponent % 2 == 0 ? positive : negate(positive);

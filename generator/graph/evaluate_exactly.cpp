@@ -10,14 +10,9 @@ namespace lagen {
 namespace {
 
 /// Larger numbers than this are no answer either: repeated squaring doubles the digits with every node.
-constexpr std::size_t largest_bits = std::size_t{1} << 20U;
+constexpr std::size_t most_bits = std::size_t{1} << 20U;
 
 using Exact = std::optional<Rational>;
-
-std::size_t bits(const Rational& value)
-{
-    return mpz_sizeinbase(value.get_num_mpz_t(), 2) + mpz_sizeinbase(value.get_den_mpz_t(), 2);
-}
 
 Exact quotient(const Rational& a, const Rational& b)
 {
@@ -28,7 +23,7 @@ Exact quotient(const Rational& a, const Rational& b)
 Exact integer_power(const Rational& a, std::int64_t n)
 {
     const auto magnitude = static_cast<std::size_t>(n < 0 ? -n : n);
-    if (bits(a) > largest_bits / magnitude && a != 0 && abs(a) != 1) return std::nullopt;
+    if (bits_of(a) > most_bits / magnitude && a != 0 && abs(a) != 1) return std::nullopt;
     Rational result;
     mpz_pow_ui(result.get_num_mpz_t(), a.get_num_mpz_t(), magnitude);
     mpz_pow_ui(result.get_den_mpz_t(), a.get_den_mpz_t(), magnitude);
@@ -110,7 +105,7 @@ class ExactInterpreter {
         case Op::component: result = solutions_.at(graph_.operands(id)[0])[graph_.payload(id)]; break;
         default: result = apply(graph_.op(id), x, graph_.payload(id));
         }
-        if (!result || bits(*result) > largest_bits) return false;
+        if (!result || bits_of(*result) > most_bits) return false;
         values_[id] = std::move(*result);
         return true;
     }

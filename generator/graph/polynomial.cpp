@@ -87,7 +87,7 @@ Rational rational_content(const Polynomial& a)
 Rational rational_power(const Rational& value, int n)
 {
     const auto magnitude = static_cast<unsigned long>(std::abs(n));
-    const std::size_t bits = mpz_sizeinbase(value.get_num_mpz_t(), 2) + mpz_sizeinbase(value.get_den_mpz_t(), 2);
+    const std::size_t bits = bits_of(value);
     if (value == 1) return value;
     if (bits * magnitude > largest_bits) throw FormRefused{};
     Rational result;

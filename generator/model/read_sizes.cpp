@@ -37,7 +37,7 @@ class SizeArithmetic {
         std::vector<Rational> args;
         for (const Tree& argument : node.arguments) args.push_back((*this)(*argument));
         Rational value = combine(node, args);
-        const std::size_t bits = mpz_sizeinbase(value.get_num_mpz_t(), 2) + mpz_sizeinbase(value.get_den_mpz_t(), 2);
+        const std::size_t bits = bits_of(value);
         if (bits > most_bits) refuse(size_, fmt::format("passes through a number of {} bits", bits), node.where);
         return value;
     }

@@ -36,11 +36,6 @@ mpq_class rational_root(const mpq_class& v, unsigned k, bool above)
     return result;
 }
 
-std::size_t bits(const mpq_class& q)
-{
-    return mpz_sizeinbase(q.get_num_mpz_t(), 2) + mpz_sizeinbase(q.get_den_mpz_t(), 2);
-}
-
 /// The values of g where g^k lies at or above `bound`, k odd; or below an upper bound of either parity.
 std::optional<Range> root_range(const End& low, const End& high, unsigned k)
 {
@@ -97,7 +92,7 @@ void Ring::bound_by(const SignFact& fact)
         if (rest.high.infinite) continue;
         mpq_class bound = -rest.high.value / mpq_class(term.coefficient);
         bound.canonicalize();
-        if (bits(bound) > longest_bound) continue;
+        if (bits_of(bound) > longest_bound) continue;
         const End end{false, bound, rest.high.open || !fact.signs.zero};
         const bool positive = term.coefficient > 0;
         const auto range = root_range(positive ? end : End{}, positive ? End{} : end, term.monomial.exponent(0));

@@ -9,16 +9,11 @@ namespace {
 
 constexpr std::size_t longest_number = 20'000; ///< bits
 
-std::size_t bits(const Rational& q)
-{
-    return mpz_sizeinbase(q.get_num_mpz_t(), 2) + mpz_sizeinbase(q.get_den_mpz_t(), 2);
-}
-
 bool exact_power(const Rational& base, std::int32_t exponent, Rational& result)
 {
     const auto magnitude = static_cast<unsigned long>(std::abs(static_cast<long>(exponent)));
     if (exponent < 0 && sgn(base) == 0) return false;
-    if (bits(base) * magnitude > 4 * longest_number) return false;
+    if (bits_of(base) * magnitude > 4 * longest_number) return false;
     mpz_class above, below;
     mpz_pow_ui(above.get_mpz_t(), base.get_num_mpz_t(), magnitude);
     mpz_pow_ui(below.get_mpz_t(), base.get_den_mpz_t(), magnitude);
@@ -58,7 +53,7 @@ std::optional<std::vector<Rational>> Evaluation::exactly(const ExactInputs& inpu
             const auto at = inputs.find(node);
             if (at == inputs.end()) return std::nullopt;
             values[k] = at->second;
-        } else if (!exact_node(node, values, values[k]) || bits(values[k]) > longest_number) {
+        } else if (!exact_node(node, values, values[k]) || bits_of(values[k]) > longest_number) {
             return std::nullopt;
         }
     }

@@ -13,7 +13,7 @@ using namespace lagen;
 namespace {
 
 /// A block of the text without its title: one equation a line.
-std::string block(const EquationSet& set, const std::string& title)
+std::string text_of_block(const EquationSet& set, const std::string& title)
 {
     const std::string text = print_text(set) + "\n";
     const std::size_t begin = text.find("\n" + title + ":");
@@ -72,38 +72,38 @@ TEST_CASE("the heavy top's Hamiltonian form is that of the textbook, with its Po
 TEST_CASE("a Hamiltonian of the model's own is taken as it is, with its dependence on time in the balance")
 {
     const EquationSet set = written::hamilton(written::rotor);
-    CHECK(block(set, "Hamiltonian") == "  H = M1²/(2 I1) + M2²/(2 I2) + M3²/(2 I3) + M3 cos(t)\n");
-    CHECK(block(set, "velocities") == "  w1 = M1/I1\n  w2 = M2/I2\n  w3 = M3/I3 + cos(t)\n");
-    CHECK(block(set, "equations of motion") == "  Ṁ1 = M2 (M3/I3 + cos(t) - M3/I2)\n"
-                                               "  Ṁ2 = M1 (M3/I1 - M3/I3 - cos(t))\n"
-                                               "  Ṁ3 = M1 M2/I2 - M1 M2/I1\n");
+    CHECK(text_of_block(set, "Hamiltonian") == "  H = M1²/(2 I1) + M2²/(2 I2) + M3²/(2 I3) + M3 cos(t)\n");
+    CHECK(text_of_block(set, "velocities") == "  w1 = M1/I1\n  w2 = M2/I2\n  w3 = M3/I3 + cos(t)\n");
+    CHECK(text_of_block(set, "equations of motion") == "  Ṁ1 = M2 (M3/I3 + cos(t) - M3/I2)\n"
+                                                       "  Ṁ2 = M1 (M3/I1 - M3/I3 - cos(t))\n"
+                                                       "  Ṁ3 = M1 M2/I2 - M1 M2/I1\n");
     CHECK(formula(set, "energy balance") == "Ḣ = ∂H/∂t");
-    CHECK(block(set, "energy balance") == "  Ḣ = -M3 sin(t)\n");
+    CHECK(text_of_block(set, "energy balance") == "  Ḣ = -M3 sin(t)\n");
     CHECK_FALSE(has_block(set, "kinematics"));
 }
 
 TEST_CASE("coupled velocities have a formula, and the equations of motion are written in them")
 {
     const EquationSet set = written::hamilton(written::double_pendulum);
-    CHECK(block(set, "velocities") == "  u = (p_v cos(a - b) - p_u)/(cos²(a - b) - 2)\n"
-                                      "  v = (p_u cos(a - b) - 2 p_v)/(cos²(a - b) - 2)\n");
+    CHECK(text_of_block(set, "velocities") == "  u = (p_v cos(a - b) - p_u)/(cos²(a - b) - 2)\n"
+                                              "  v = (p_u cos(a - b) - 2 p_v)/(cos²(a - b) - 2)\n");
     CHECK(formula(set, "kinematics") == "ẋ^i = ρ^i_a y^a");
-    CHECK(block(set, "kinematics") == "  ȧ = u\n  ḃ = v\n");
+    CHECK(text_of_block(set, "kinematics") == "  ȧ = u\n  ḃ = v\n");
     CHECK(formula(set, "equations of motion") == "μ̇_a = ρ_a(L) - μ_c C^c_ab y^b");
-    CHECK(block(set, "equations of motion") == "  ṗ_u = -u v sin(a - b) - 2 sin(a)\n"
-                                               "  ṗ_v = u v sin(a - b) - sin(b)\n");
+    CHECK(text_of_block(set, "equations of motion") == "  ṗ_u = -u v sin(a - b) - 2 sin(a)\n"
+                                                       "  ṗ_v = u v sin(a - b) - sin(b)\n");
 }
 
 TEST_CASE("a Lagrangian that is not quadratic leaves the velocities implicit")
 {
     const EquationSet set = written::hamilton(written::relativistic);
     CHECK(formula(set, "velocities") == "y(x, μ) solves μ_a = ∂L/∂y^a");
-    CHECK(block(set, "velocities") == "  p_v = v/√(1 - v²)\n");
-    CHECK(block(set, "Hamiltonian (the Legendre transform of L, at the velocities below)") ==
+    CHECK(text_of_block(set, "velocities") == "  p_v = v/√(1 - v²)\n");
+    CHECK(text_of_block(set, "Hamiltonian (the Legendre transform of L, at the velocities below)") ==
           "  H = x²/2 - x sin(t) + v p_v + √(1 - v²)\n");
-    CHECK(block(set, "equations of motion") == "  ṗ_v = sin(t) - x\n");
+    CHECK(text_of_block(set, "equations of motion") == "  ṗ_v = sin(t) - x\n");
     CHECK(formula(set, "energy balance") == "Ḣ = -∂L/∂t");
-    CHECK(block(set, "energy balance") == "  Ḣ = -x cos(t)\n");
+    CHECK(text_of_block(set, "energy balance") == "  Ḣ = -x cos(t)\n");
 }
 
 TEST_CASE("forces stand in both forms, rough ones as they are written, and work in the balance of energy")
@@ -115,10 +115,11 @@ TEST_CASE("forces stand in both forms, rough ones as they are written, and work 
     CHECK(motion.groups[1].label == "Q_a");
     CHECK(to_text(motion.groups[1].value) == "-m*v^3 - c*max(v^2, 1)*sign(v)");
     CHECK(formula(lagrange, "energy balance") == "Ė = Q_a y^a - ∂L/∂t");
-    CHECK(block(lagrange, "energy balance") == "  Ė = x sin(t) - m v⁴ - c v max(v², 1) sign(v)\n");
+    CHECK(text_of_block(lagrange, "energy balance") == "  Ė = x sin(t) - m v⁴ - c v max(v², 1) sign(v)\n");
     const EquationSet hamilton = written::hamilton(written::slide);
     CHECK(formula(hamilton, "equations of motion") == "μ̇_a = -ρ_a(H) - μ_c C^c_ab ∂H/∂μ_b + Q_a");
-    CHECK(block(hamilton, "equations of motion") == "  ṗ_v = cos(t) - p_v³/m² - c max((p_v/m)², 1) sign(p_v/m)\n");
+    CHECK(text_of_block(hamilton, "equations of motion") ==
+          "  ṗ_v = cos(t) - p_v³/m² - c max((p_v/m)², 1) sign(p_v/m)\n");
     CHECK(formula(hamilton, "energy balance") == "Ḣ = ∂H/∂t + Q_a y^a");
 }
 
@@ -166,18 +167,18 @@ TEST_CASE("the unicycle's extremals have controls, a maximal Hamiltonian and the
 TEST_CASE("controls that have no formula are left to their condition")
 {
     const EquationSet set = written::pontryagin(written::quartic);
-    CHECK(block(set, "condition for the controls") == "  0 = p - u³\n");
+    CHECK(text_of_block(set, "condition for the controls") == "  0 = p - u³\n");
     CHECK_FALSE(has_block(set, "optimal controls"));
     CHECK_FALSE(has_block(set, "maximal Hamiltonian"));
-    CHECK(block(set, "equations of motion") == "  ṗ = 2 t x + p\n");
-    CHECK(block(set, "energy balance") == "  Ḣ = -x²\n");
+    CHECK(text_of_block(set, "equations of motion") == "  ṗ = 2 t x + p\n");
+    CHECK(text_of_block(set, "energy balance") == "  Ḣ = -x²\n");
 }
 
 TEST_CASE("bounds cut the control, and there is no formula for the maximal Hamiltonian")
 {
     const EquationSet set = written::pontryagin(written::bounded);
     CHECK(formula(set, "condition for the controls") == "0 = ∂H/∂u^A, or u^A at a bound where H is largest");
-    CHECK(block(set, "optimal controls") == "  u = min(max(q, -top), top)\n  w = p/2\n");
+    CHECK(text_of_block(set, "optimal controls") == "  u = min(max(q, -top), top)\n  w = p/2\n");
     CHECK_FALSE(has_block(set, "maximal Hamiltonian"));
     CHECK_FALSE(has_block(written::pontryagin(written::convex), "optimal controls"));
 }
@@ -189,7 +190,7 @@ TEST_CASE("controls of which no maximum is proved are called stationary, and a r
         "[\"p\"]\n[algebroid]\nkind = \"tangent\"\n[control]\ncontrols = [\"u\"]\nsigma = { v_x = "
         "\"u\" }\n";
     const EquationSet set = written::pontryagin((start + "cost = \"k*u^2/2\"\n").c_str());
-    CHECK(block(set, "stationary controls") == "  u = p/k\n");
+    CHECK(text_of_block(set, "stationary controls") == "  u = p/k\n");
     CHECK(formula(set, "stationary controls") == "u(x, μ) with ∂H/∂u^A = 0; that H is largest there is not proved");
     CHECK_FALSE(has_block(set, "optimal controls"));
     CHECK_FALSE(has_block(set, "maximal Hamiltonian"));
@@ -212,7 +213,8 @@ TEST_CASE("a degenerate Lagrangian shows the kernel of W, and has no Hamiltonian
 {
     const Model model = written::read(written::degenerate);
     const VerifiedAlgebroid verified = verify(model);
-    CHECK(block(derive("lagrange", model, verified), "L is degenerate: kernel of W") == "  k_v_x = -1\n  k_v_y = 1\n");
+    CHECK(text_of_block(derive("lagrange", model, verified), "L is degenerate: kernel of W") ==
+          "  k_v_x = -1\n  k_v_y = 1\n");
     CHECK_THROWS_WITH(
         derive("hamilton", model, verified),
         "error: the Lagrangian of model 'degenerate' is degenerate: its momenta p_a = dL/dy^a have rank 1 "

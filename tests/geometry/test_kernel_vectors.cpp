@@ -10,7 +10,7 @@ using Kernel = std::vector<std::vector<std::pair<std::string, std::string>>>;
 
 namespace {
 
-Regularity regularity(const std::string& lagrangian)
+Regularity regularity_in_space(const std::string& lagrangian)
 {
     return verified_text("[parameters]\nm = 2\n[base]\ncoordinates = [\"x\", \"y\", \"z\"]\n[fibre]\ncoordinates = "
                          "[\"u\", \"v\", \"w\"]\n[algebroid]\nkind = \"tangent\"\n[lagrangian]\nL = \"" +
@@ -22,7 +22,7 @@ Regularity regularity(const std::string& lagrangian)
 
 TEST_CASE("a coordinate without kinetic energy is a kernel vector")
 {
-    const Regularity result = regularity("m*(u^2 + v^2)/2 + x*w");
+    const Regularity result = regularity_in_space("m*(u^2 + v^2)/2 + x*w");
     CHECK(result.kind == Regularity::Kind::degenerate);
     CHECK(result.rank == 2);
     CHECK(result.kernel == Kernel{{{"w", "1"}}});
@@ -30,41 +30,42 @@ TEST_CASE("a coordinate without kinetic energy is a kernel vector")
 
 TEST_CASE("a square of one combination has a plane of constant kernel vectors")
 {
-    CHECK(regularity("(u + 2*v - w)^2").kernel == Kernel{{{"u", "-2"}, {"v", "1"}}, {{"u", "1"}, {"w", "1"}}});
+    CHECK(regularity_in_space("(u + 2*v - w)^2").kernel == Kernel{{{"u", "-2"}, {"v", "1"}}, {{"u", "1"}, {"w", "1"}}});
 }
 
 TEST_CASE("kernel vectors with parameters and functions of the base are expressions")
 {
-    CHECK(regularity("(u + m*v)^2 + w^2").kernel == Kernel{{{"u", "-m"}, {"v", "1"}}});
-    CHECK(regularity("(u*cos(x) - v*sin(y))^2/2 + w^2").kernel == Kernel{{{"u", "sin(y)"}, {"v", "cos(x)"}}});
+    CHECK(regularity_in_space("(u + m*v)^2 + w^2").kernel == Kernel{{{"u", "-m"}, {"v", "1"}}});
+    CHECK(regularity_in_space("(u*cos(x) - v*sin(y))^2/2 + w^2").kernel == Kernel{{{"u", "sin(y)"}, {"v", "cos(x)"}}});
 }
 
 TEST_CASE("a matrix that is singular only by an identity has its kernel proved")
 {
     // W = [[1, s, 0], [s, s^2 + c^2 - 1 + s^2 - s^2 + ..]]: det = 0 by sin^2 + cos^2 = 1
-    CHECK(regularity("u^2/2 + sin(x)*u*v + (1 - cos(x)^2)*v^2/2 + w^2").kernel ==
+    CHECK(regularity_in_space("u^2/2 + sin(x)*u*v + (1 - cos(x)^2)*v^2/2 + w^2").kernel ==
           Kernel{{{"u", "-sin(x)"}, {"v", "1"}}});
 }
 
 TEST_CASE("a Lagrangian of degree one has kernel along its velocity")
 {
     // L = sqrt(u^2 + v^2): W (u, v) = 0
-    const Regularity result = regularity("sqrt(u^2 + v^2) + w^2");
+    const Regularity result = regularity_in_space("sqrt(u^2 + v^2) + w^2");
     CHECK(result.rank == 2);
     CHECK(result.kernel == Kernel{{{"u", "u"}, {"v", "v"}}});
 }
 
 TEST_CASE("kernel vectors have no denominators: they are defined wherever the Lagrangian is")
 {
-    CHECK(regularity("(x*u + m*v)^2 + w^2").kernel == Kernel{{{"u", "-m"}, {"v", "x"}}});
-    CHECK(regularity("sqrt(u^2 + v^2 + w^2)").kernel == Kernel{{{"u", "u"}, {"v", "v"}, {"w", "w"}}});
-    CHECK(regularity("(x*u + y*v + z*w)^2").kernel == Kernel{{{"u", "-y"}, {"v", "x"}}, {{"u", "-z"}, {"w", "x"}}});
+    CHECK(regularity_in_space("(x*u + m*v)^2 + w^2").kernel == Kernel{{{"u", "-m"}, {"v", "x"}}});
+    CHECK(regularity_in_space("sqrt(u^2 + v^2 + w^2)").kernel == Kernel{{{"u", "u"}, {"v", "v"}, {"w", "w"}}});
+    CHECK(regularity_in_space("(x*u + y*v + z*w)^2").kernel ==
+          Kernel{{{"u", "-y"}, {"v", "x"}}, {{"u", "-z"}, {"w", "x"}}});
 }
 
 TEST_CASE("a regular Lagrangian has no kernel")
 {
-    CHECK(regularity("u^2 + v^2 + w^2").kernel.empty());
-    CHECK(regularity("u^2 + x*v^2 + w^2").kernel.empty());
+    CHECK(regularity_in_space("u^2 + v^2 + w^2").kernel.empty());
+    CHECK(regularity_in_space("u^2 + x*v^2 + w^2").kernel.empty());
 }
 
 TEST_CASE("the null space of a rational matrix has one vector a free column")

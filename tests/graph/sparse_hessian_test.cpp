@@ -15,12 +15,12 @@ using namespace lagen;
 
 namespace {
 
-enum class Angles { absolute, relative };
+enum class Measured { absolute, relative };
 
 /// The kinetic energy of a chain of n masses: L = sum_k m_k (dx_k^2 + dy_k^2) / 2 with sums dx_k, dy_k along the chain;
 /// and W z = b with right sides b_1, b_2, ... .
 struct Chain {
-    Chain(Graph& graph, std::size_t n, Angles angles)
+    Chain(Graph& graph, std::size_t n, Measured angles)
     {
         const NodeId zero = graph.constant(0);
         NodeId angle = zero, rate = zero, dx = zero, dy = zero, twice = zero;
@@ -29,8 +29,8 @@ struct Chain {
             y.push_back(graph.input("y" + index));
             right.push_back(graph.input("b" + index));
             const NodeId a = graph.input("a" + index);
-            angle = angles == Angles::relative ? graph.add(angle, a) : a;
-            rate = angles == Angles::relative ? graph.add(rate, y.back()) : y.back();
+            angle = angles == Measured::relative ? graph.add(angle, a) : a;
+            rate = angles == Measured::relative ? graph.add(rate, y.back()) : y.back();
             const NodeId length = graph.input("l" + index);
             dx = graph.add(dx, graph.multiply(graph.multiply(length, graph.apply(Op::cos, angle)), rate));
             dy = graph.add(dy, graph.multiply(graph.multiply(length, graph.apply(Op::sin, angle)), rate));
@@ -91,7 +91,7 @@ double weight(const Graph& graph, const std::vector<NodeId>& nodes)
 TEST_CASE("a chain of n links has n products of terms a coordinate, whatever the length of its sums")
 {
     Graph graph;
-    const Chain chain(graph, 4, Angles::absolute);
+    const Chain chain(graph, 4, Measured::absolute);
     const auto hessian = read_hessian(graph, chain.lagrangian, chain.y);
     REQUIRE(hessian.has_value());
     CHECK(hessian->order == 4);
@@ -156,7 +156,7 @@ TEST_CASE("the elimination solves the system that the matrix stands for, exactly
 
 TEST_CASE("a chain solved through its terms keeps the digits of the dense factorisation")
 {
-    for (const Angles angles : {Angles::absolute, Angles::relative})
+    for (const Measured angles : {Measured::absolute, Measured::relative})
         for (const std::size_t n : {std::size_t{2}, std::size_t{5}, std::size_t{16}}) {
             Graph graph;
             const Chain chain(graph, n, angles);
@@ -169,7 +169,7 @@ TEST_CASE("a chain solved through its terms keeps the digits of the dense factor
                 worst_sparse = std::max(worst_sparse, error(graph, sparse, chain.dense, seed));
                 worst_dense = std::max(worst_dense, error(graph, chain.dense, chain.dense, seed));
             }
-            INFO("n = " << n << ", " << (angles == Angles::relative ? "relative" : "absolute") << ": " << worst_sparse
+            INFO("n = " << n << ", " << (angles == Measured::relative ? "relative" : "absolute") << ": " << worst_sparse
                         << ", dense " << worst_dense);
             CHECK(worst_sparse < 10 * std::max(worst_dense, 1e-15));
         }
@@ -177,7 +177,7 @@ TEST_CASE("a chain solved through its terms keeps the digits of the dense factor
 
 TEST_CASE("the operations of a long chain grow linearly once its Hessian is remembered")
 {
-    for (const Angles angles : {Angles::absolute, Angles::relative}) {
+    for (const Measured angles : {Measured::absolute, Measured::relative}) {
         std::vector<double> weights;
         for (const std::size_t n : {std::size_t{16}, std::size_t{32}, std::size_t{64}}) {
             Graph graph;
@@ -202,10 +202,10 @@ TEST_CASE("without a remembered Hessian, and where the factorisation is lighter,
         return std::ranges::any_of(below, [&](NodeId id) { return graph.op(id) == Op::solve; });
     };
     Graph unknown;
-    const Chain chain(unknown, 16, Angles::absolute);
+    const Chain chain(unknown, 16, Measured::absolute);
     CHECK(has_solve(unknown, simplify(unknown, chain.dense)));
     Graph small;
-    const Chain pair(small, 2, Angles::absolute);
+    const Chain pair(small, 2, Measured::absolute);
     small.remember_hessian(pair.W, pair.y, pair.lagrangian);
     CHECK(has_solve(small, simplify(small, pair.dense)));
 }
@@ -213,7 +213,7 @@ TEST_CASE("without a remembered Hessian, and where the factorisation is lighter,
 TEST_CASE("derivatives of a solution are solved through the same terms")
 {
     Graph graph;
-    const Chain chain(graph, 12, Angles::absolute);
+    const Chain chain(graph, 12, Measured::absolute);
     graph.remember_hessian(chain.W, chain.y, chain.lagrangian);
     const std::pair<NodeId, NodeId> seed[] = {{graph.input("a3"), graph.constant(1)}};
     const std::vector<NodeId> tangent = directional(graph, chain.dense, seed);
