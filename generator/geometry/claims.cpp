@@ -92,24 +92,41 @@ std::unique_ptr<EquationsOfMotion> Claims::equations_of_motion()
     return std::make_unique<LagrangeMotion>(graph_, lowered_, hessian_ ? &*hessian_ : nullptr, forces_, time_);
 }
 
-/// Along the motions: what is claimed of them may be undefined at points of theirs.
-Continuity& Claims::continuity()
+/// Where nothing else is defined than these nodes: what is claimed to be constant may be undefined at points of a
+/// motion.
+ProofSetting Claims::setting_of(std::vector<NodeId> defined) const
 {
-    if (!continuity_) {
-        ProofSetting setting = setting_;
-        setting.defined.clear();
-        for (const NodeId entry : lowered_.entries())
-            if (!graph_.is_constant(entry)) setting.defined.push_back(entry);
-        append_mechanics(setting.defined);
-        // Motions are where the momenta and the matrix of their equations are defined.
-        for (const std::optional<FibreHessian>* each : {&hessian_, &hamiltonian_hessian_}) {
-            if (!*each) continue;
-            for (const std::vector<NodeId>* nodes : {&(*each)->momenta, &(*each)->hessian})
-                setting.defined.insert(setting.defined.end(), nodes->begin(), nodes->end());
-        }
-        continuity_ = std::make_unique<Continuity>(graph_, setting, judge_->decider().budget());
+    ProofSetting setting = setting_;
+    std::erase_if(defined, [&](NodeId node) { return graph_.is_constant(node); });
+    setting.defined = std::move(defined);
+    return setting;
+}
+
+Continuity Claims::along_anchor()
+{
+    return {graph_, setting_of(lowered_.entries()), judge_->decider().budget(), {}};
+}
+
+/// What the equations of the model's default form are made of, as it is written.
+Continuity Claims::along_motions(EquationsOfMotion& motion)
+{
+    std::vector<NodeId> defined = lowered_.entries();
+    if (control_) {
+        defined.insert(defined.end(), control_->sigma.begin(), control_->sigma.end());
+        defined.push_back(control_->cost);
+    } else {
+        if (hessian_ || hamiltonian_hessian_)
+            defined.push_back(hessian_ ? hessian_->lagrangian : hamiltonian_hessian_->lagrangian);
+        for (const ComponentEntry& force : model_.forces) defined.push_back((*lower_)(force.value));
+        if (model_.dissipation) defined.push_back((*lower_)(model_.dissipation));
     }
-    return *continuity_;
+    const auto conserved = [this, &motion](NodeId f) {
+        const Rate rate = motion.rate(f);
+        return rate.value && judge_->decider().decide(*rate.value).status == ProofStatus::proved;
+    };
+    Continuity continuity(graph_, setting_of(std::move(defined)), judge_->decider().budget(), conserved);
+    if (hessian_ && !control_) continuity.divisors().keep_momenta_finite(hessian_->lagrangian, lowered_.y);
+    return continuity;
 }
 
 void Claims::make_setting()

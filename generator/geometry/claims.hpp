@@ -35,7 +35,9 @@ class Claims {
     void lower_mechanics();
     void append_mechanics(std::vector<NodeId>& nodes) const;
     [[nodiscard]] std::unique_ptr<EquationsOfMotion> equations_of_motion();
-    [[nodiscard]] Continuity& continuity();
+    [[nodiscard]] ProofSetting setting_of(std::vector<NodeId> defined) const;
+    [[nodiscard]] Continuity along_anchor();
+    [[nodiscard]] Continuity along_motions(EquationsOfMotion& motion);
     void make_setting();
     void require_triangular_constraints();
     void refuse_zero_divisors(const ProofBudget& budget);
@@ -62,7 +64,6 @@ class Claims {
     std::unique_ptr<BaseGradient> partial_;
     ProofSetting setting_;
     std::unique_ptr<Judge> judge_;
-    std::unique_ptr<Continuity> continuity_; ///< made when it is needed
     std::string note_;
 };
 

@@ -75,6 +75,7 @@ void Claims::decide_structure(VerifiedAlgebroid& verified)
     decide_by_construction(list);
     RepairSearch search(graph_, *partial_, *judge_, algebroid_, lowered_, functions_, editable());
     const std::vector<std::string> hints = search.hints(list);
+    Continuity continuity = along_anchor();
     for (std::size_t k = 0; k < list.residuals.size(); ++k) {
         Check check = check_of(list.residuals[k]);
         check.decision = judge_->decide(list.residuals[k].value);
@@ -82,7 +83,7 @@ void Claims::decide_structure(VerifiedAlgebroid& verified)
         if (check.name == "tangency" || check.name == "casimir") {
             const std::vector<NodeId>& functions =
                 check.name == "casimir" ? functions_.casimirs : functions_.constraints;
-            continuity().respect_jumps(check.decision, functions.at(list.residuals[k].indices.back()));
+            continuity.respect_jumps(check.decision, functions.at(list.residuals[k].indices.back()));
         }
         check.hint = hints[k];
         check.reevaluation = judge_->reevaluate(list.residuals[k].value);
@@ -93,6 +94,7 @@ void Claims::decide_structure(VerifiedAlgebroid& verified)
 void Claims::decide_invariants(VerifiedAlgebroid& verified, const std::vector<NamedTree>& extra)
 {
     const std::unique_ptr<EquationsOfMotion> motion = equations_of_motion();
+    Continuity continuity = along_motions(*motion);
     Binding binding = motion->names(model_);
     binding.insert(binding_.begin(), binding_.end());
     Lowering lower(graph_, binding);
@@ -112,7 +114,7 @@ void Claims::decide_invariants(VerifiedAlgebroid& verified, const std::vector<Na
                 setting.defined.push_back(motion->in_states(part));
             Judge judge(graph_, setting, accessory(), points_, judge_->decider().budget());
             check.decision = judge.decide(*rate.value);
-            continuity().respect_jumps(check.decision, motion->in_states(f));
+            continuity.respect_jumps(check.decision, motion->in_states(f));
             check.reevaluation = judge.reevaluate(*rate.value);
             if (rate.for_every_control && check.decision.status == ProofStatus::refuted) {
                 check.decision = Decision{};

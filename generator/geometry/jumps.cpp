@@ -6,69 +6,27 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace lagen {
 
-Continuity::Continuity(Graph& graph, const ProofSetting& setting, const ProofBudget& budget)
-    : graph_(graph), decider_(graph, setting, budget)
+Continuity::Continuity(Graph& graph, const ProofSetting& setting, const ProofBudget& budget, Conserved conserved)
+    : graph_(graph), motion_(setting.defined), divisors_(graph, setting, budget), conserved_(std::move(conserved))
 {
-    collect_divisors(setting.defined);
-    for (const NodeId node : setting.defined) {
+    variables_.insert(setting.variables.begin(), setting.variables.end());
+}
+
+/// Where the motion has kinks, quotients are not taken to be safe.
+void Continuity::classify_motion()
+{
+    const Conserved conserved = std::exchange(conserved_, {}); // of claims
+    for (const NodeId node : motion_) {
         const Course course = along(node).course;
         analytic_motion_ = analytic_motion_ && (course == Course::analytic || course == Course::quotient);
     }
-    along_.clear(); // where the motion has kinks, quotients are no longer safe
-}
-
-/// The divisors of what is defined all along a motion; what stands in one branch only says nothing.
-void Continuity::collect_divisors(const std::vector<NodeId>& roots)
-{
-    std::set<NodeId> certain(roots.begin(), roots.end());
-    const std::vector<NodeId> needed = reachable(graph_, roots);
-    for (std::size_t k = needed.size(); k-- > 0;) {
-        const NodeId node = needed[k];
-        if (!certain.contains(node)) continue;
-        const auto operands = graph_.operands(node);
-        const bool branches = graph_.op(node) == Op::select;
-        certain.insert(operands.begin(), branches ? operands.begin() + 1 : operands.end());
-        if (graph_.op(node) == Op::divide) require_nonzero(operands[1]);
-        if (graph_.op(node) == Op::log) require_nonzero(operands[0]);
-        if (graph_.op(node) == Op::power && static_cast<std::int32_t>(graph_.payload(node)) < 0)
-            require_nonzero(operands[0]);
-    }
-}
-
-void Continuity::require_nonzero(NodeId divisor)
-{
-    if (!divisors_.insert(divisor).second) return;
-    const Op op = graph_.op(divisor);
-    const bool vanishes_with_operands =
-        op == Op::multiply || op == Op::negate || op == Op::power || op == Op::sqrt || op == Op::abs || op == Op::sign;
-    if (op == Op::divide)
-        require_nonzero(graph_.operands(divisor)[0]);
-    else if (vanishes_with_operands)
-        for (const NodeId operand :
-             std::vector<NodeId>(graph_.operands(divisor).begin(), graph_.operands(divisor).end()))
-            require_nonzero(operand);
-}
-
-bool Continuity::nonzero(NodeId f) const
-{
-    if (divisors_.contains(f)) return true;
-    switch (graph_.op(f)) {
-    case Op::multiply: return nonzero(graph_.operands(f)[0]) && nonzero(graph_.operands(f)[1]);
-    case Op::divide:
-    case Op::negate:
-    case Op::power:
-    case Op::sqrt:
-    case Op::abs: return nonzero(graph_.operands(f)[0]);
-    default: return decider_.proves_nonzero(f);
-    }
-}
-
-bool Continuity::positive(NodeId f) const
-{
-    return decider_.proves_positive(f) || (divisors_.contains(f) && decider_.proves_nonnegative(f));
+    conserved_ = conserved;
+    motion_.clear();
+    along_.clear();
 }
 
 /// Except at zeros of divisors and of cosines, which are poles and no kinks.
@@ -78,13 +36,14 @@ bool Continuity::is_smooth(NodeId node)
     if (op == Op::divide || op == Op::power || op == Op::tan) return true;
     const SmoothWhere where = smooth_where(graph_, node);
     if (where.condition == SmoothWhere::Condition::none) return true;
-    return where.condition == SmoothWhere::Condition::positive ? positive(where.function) : nonzero(where.function);
+    return where.condition == SmoothWhere::Condition::positive ? divisors_.positive(where.function)
+                                                               : divisors_.nonzero(where.function);
 }
 
 Continuity::Along Continuity::jumping(NodeId node, NodeId hole) const
 {
     return {Course::jumps, hole,
-            fmt::format("{} may jump where {} vanishes", to_text(graph_, node, 80), to_text(graph_, hole, 60))};
+            fmt::format("{} may jump where {} vanishes", to_text(graph_, node, 80), to_text(graph_, hole, 60)), false};
 }
 
 Continuity::Along Continuity::add(NodeId node) const
@@ -96,7 +55,7 @@ Continuity::Along Continuity::add(NodeId node) const
         const bool mixes = (result.course == Course::continuous && term.course == Course::quotient) ||
                            (result.course == Course::quotient && term.course == Course::continuous);
         const NodeId hole = term.course > Course::continuous ? term.hole : result.hole;
-        result = {mixes ? Course::sum : std::max(result.course, term.course), hole, {}};
+        result = {mixes ? Course::sum : std::max(result.course, term.course), hole, {}, false};
     }
     return result;
 }
@@ -112,14 +71,13 @@ Continuity::Along Continuity::multiply(const Along& a, const Along& b, NodeId no
     return remains ? more : jumping(node, more.hole);
 }
 
-Continuity::Along Continuity::reciprocal(NodeId divisor, NodeId node)
+Continuity::Along Continuity::reciprocal(NodeId divisor, const Along& below, NodeId node)
 {
-    const Along below = along_.at(divisor);
     if (below.course == Course::jumps) return below;
-    if (below.course <= Course::continuous && nonzero(divisor)) return below;
+    if (below.course <= Course::continuous && divisors_.nonzero(divisor)) return below;
     const bool is_quotient = below.course == Course::analytic || below.course == Course::quotient;
     if (!is_quotient || !analytic_motion_) return jumping(node, divisor);
-    return {Course::quotient, divisor, {}};
+    return {Course::quotient, divisor, {}, false};
 }
 
 /// Of what is analytic on the whole line.
@@ -148,21 +106,27 @@ Continuity::Along Continuity::kinked(NodeId node, bool smooth) const
 /// both sides or on none.
 Continuity::Along Continuity::logarithm(NodeId node) const
 {
-    const NodeId g = graph_.operands(node)[0];
+    NodeId g = graph_.operands(node)[0]; // log|g| and log(sqrt(g)) are halves of log(g^2) and log(g)
+    while (graph_.op(g) == Op::abs || graph_.op(g) == Op::sqrt) g = graph_.operands(g)[0];
     const Along& inner = along_.at(g);
     if (inner.course == Course::jumps) return inner;
     if (inner.course != Course::analytic || !analytic_motion_) return jumping(node, g);
-    return {Course::quotient, g, {}};
+    return {Course::quotient, g, {}, false};
 }
 
 Continuity::Along Continuity::angle(NodeId node)
 {
     const NodeId v = graph_.operands(node)[0];
     const NodeId u = graph_.operands(node)[1];
-    if (nonzero(v) || positive(u)) return smooth_function(node);
+    if (divisors_.nonzero(v) || divisors_.positive(u)) return smooth_function(node);
+    const std::string text = to_text(graph_, node, 80);
+    const std::string sine = to_text(graph_, v, 60);
+    const std::string cosine = to_text(graph_, u, 60);
     return {Course::jumps, v,
-            fmt::format("{} jumps by 2*pi where {} changes its sign and {} < 0", to_text(graph_, node, 80),
-                        to_text(graph_, v, 60), to_text(graph_, u, 60))};
+            divisors_.nonnegative(u)
+                ? fmt::format("{} may jump where {} and {} vanish", text, sine, cosine)
+                : fmt::format("{} jumps by 2*pi where {} changes its sign and {} < 0", text, sine, cosine),
+            false};
 }
 
 /// Entries of A^-1 b: quotients with the determinant of A.
@@ -178,11 +142,29 @@ Continuity::Along Continuity::solution(NodeId node)
     const bool regular = static_cast<MatrixStructure>(graph_.payload(node)) == MatrixStructure::positive_definite;
     if (op == Op::solve || regular) return result;
     if (result.course != Course::analytic || !analytic_motion_)
-        return {Course::jumps, node, "the solution of linear equations may jump where their determinant vanishes"};
-    return {Course::quotient, node, {}};
+        return {Course::jumps, node, "the solution of linear equations may jump where their determinant vanishes",
+                false};
+    return {Course::quotient, node, {}, false};
 }
 
 Continuity::Along Continuity::step(NodeId node)
+{
+    const Along constant{Course::analytic, 0, {}, true};
+    const std::vector<NodeId> operands(graph_.operands(node).begin(), graph_.operands(node).end());
+    if (operands.empty()) return variables_.contains(node) ? Along{} : constant;
+    if (std::ranges::all_of(operands, [&](NodeId operand) { return along_.at(operand).constant; })) return constant;
+    Along result = operation(node);
+    if (result.course != Course::jumps || !conserved_) return result;
+    // Of constants of the motion everything is one; proofs of that are asked for where it matters.
+    const bool is_constant = std::ranges::all_of(operands, [&](NodeId operand) {
+        Along& inner = along_.at(operand);
+        if (!inner.constant && inner.course != Course::jumps) inner.constant = conserved_(operand);
+        return inner.constant;
+    });
+    return is_constant ? constant : result;
+}
+
+Continuity::Along Continuity::operation(NodeId node)
 {
     const std::vector<NodeId> operands(graph_.operands(node).begin(), graph_.operands(node).end());
     const bool smooth = is_smooth(node);
@@ -194,10 +176,12 @@ Continuity::Along Continuity::step(NodeId node)
     case Op::subtract:
     case Op::negate: return add(node);
     case Op::multiply: return multiply(along_.at(operands[0]), along_.at(operands[1]), node);
-    case Op::divide: return multiply(along_.at(operands[0]), reciprocal(operands[1], node), node);
+    case Op::divide:
+        return multiply(along_.at(operands[0]), reciprocal(operands[1], along_.at(operands[1]), node), node);
     case Op::power: {
-        const Along base = static_cast<std::int32_t>(graph_.payload(node)) < 0 ? reciprocal(operands[0], node)
-                                                                               : along_.at(operands[0]);
+        const Along& inner = along_.at(operands[0]);
+        const bool falls = static_cast<std::int32_t>(graph_.payload(node)) < 0;
+        const Along base = falls ? reciprocal(operands[0], inner, node) : inner;
         return multiply(base, base, node);
     }
     case Op::sin:
@@ -209,13 +193,14 @@ Continuity::Along Continuity::step(NodeId node)
     case Op::exp:
     case Op::stumpff: return smooth_function(node);
     case Op::tan: {
-        const NodeId below = graph_.apply(Op::cos, operands[0]);
-        along_[below] = smooth_function(node);
-        return multiply(along_.at(operands[0]), reciprocal(below, node), node);
+        const Along cosine = smooth_function(node);
+        return multiply(cosine, reciprocal(graph_.apply(Op::cos, operands[0]), cosine, node), node);
     }
     case Op::log: return smooth ? smooth_function(node) : logarithm(node);
     case Op::real_power: {
-        const bool rises = graph_.is_constant(operands[1]) && sgn(graph_.value(operands[1])) > 0;
+        const bool rises = graph_.is_constant(operands[1])
+                               ? sgn(graph_.value(operands[1])) > 0
+                               : divisors_.is_defined(node) && !divisors_.moves(operands[1]);
         return smooth || rises ? kinked(node, smooth) : jumping(node, operands[0]);
     }
     case Op::sqrt:
@@ -233,7 +218,7 @@ Continuity::Along Continuity::step(NodeId node)
     case Op::equal:
     case Op::not_equal: return smooth ? smooth_function(node) : jumping(node, smooth_where(graph_, node).function);
     case Op::select: {
-        const Along condition = along_.at(operands[0]);
+        const Along& condition = along_.at(operands[0]);
         return condition.course == Course::jumps ? condition : add(node);
     }
     case Op::factor:
@@ -253,6 +238,7 @@ const Continuity::Along& Continuity::along(NodeId f)
 
 std::string Continuity::jump_of(NodeId f)
 {
+    if (!motion_.empty()) classify_motion();
     return along(f).jump;
 }
 

@@ -8,11 +8,13 @@
 ///   likewise with logarithms of analytic functions in p and q;
 /// - the sum of such a quotient and something continuous: what is bounded at a pole is removable there;
 /// - everything else that may meet a zero of a divisor, the pole of a tangent or a cut is said to jump.
-/// A function may leave the set where it is defined for a while, as sqrt(x) does: nothing is said of its value after.
+/// Functions of constants of the motion are constants, and what depends on parameters alone is one. A function may
+/// leave the set where it is defined for a while, as sqrt(x) does: nothing is said of its value after.
 #pragma once
 
-#include "proof/decide.hpp"
+#include "geometry/motion_divisors.hpp"
 
+#include <functional>
 #include <map>
 #include <set>
 
@@ -20,9 +22,15 @@ namespace lagen {
 
 class Continuity {
   public:
+    /// Is the rate of a node proved to vanish? May be empty.
+    using Conserved = std::function<bool(NodeId)>;
+
     /// `setting.defined`: what the equations of motion are made of, and nothing else: it is defined all along a motion,
     /// so that its divisors do not vanish there.
-    Continuity(Graph& graph, const ProofSetting& setting, const ProofBudget& budget);
+    Continuity(Graph& graph, const ProofSetting& setting, const ProofBudget& budget, Conserved conserved);
+
+    /// What is known to be nonzero along motions, to which more may be added before the first question.
+    [[nodiscard]] MotionDivisors& divisors() { return divisors_; }
 
     /// What jumps in `f`, and where, unless it is shown that no motion meets it; empty: nothing.
     [[nodiscard]] std::string jump_of(NodeId f);
@@ -34,15 +42,18 @@ class Continuity {
     enum class Course { analytic, continuous, quotient, sum, jumps };
     struct Along {
         Course course = Course::analytic;
-        NodeId hole = 0;  ///< of quotients and sums: what may vanish
-        std::string jump; ///< of what jumps
+        NodeId hole = 0;       ///< of quotients and sums: what may vanish
+        std::string jump;      ///< of what jumps
+        bool constant = false; ///< along every motion
     };
 
     [[nodiscard]] const Along& along(NodeId f);
     [[nodiscard]] Along step(NodeId node);
+    [[nodiscard]] Along operation(NodeId node);
+    void classify_motion();
     [[nodiscard]] Along add(NodeId node) const;
     [[nodiscard]] Along multiply(const Along& a, const Along& b, NodeId node) const;
-    [[nodiscard]] Along reciprocal(NodeId divisor, NodeId node);
+    [[nodiscard]] Along reciprocal(NodeId divisor, const Along& below, NodeId node);
     [[nodiscard]] Along smooth_function(NodeId node) const;
     [[nodiscard]] Along kinked(NodeId node, bool smooth) const;
     [[nodiscard]] Along logarithm(NodeId node) const;
@@ -50,15 +61,13 @@ class Continuity {
     [[nodiscard]] Along solution(NodeId node);
     [[nodiscard]] Along jumping(NodeId node, NodeId hole) const;
 
-    void collect_divisors(const std::vector<NodeId>& roots);
-    void require_nonzero(NodeId divisor);
     [[nodiscard]] bool is_smooth(NodeId node);
-    [[nodiscard]] bool nonzero(NodeId f) const;
-    [[nodiscard]] bool positive(NodeId f) const;
 
     Graph& graph_;
-    ZeroDecider decider_;
-    std::set<NodeId> divisors_; ///< nonzero all along a motion
+    std::set<NodeId> variables_;
+    std::vector<NodeId> motion_; ///< what it is made of, until it is classified
+    MotionDivisors divisors_;
+    Conserved conserved_;
     bool analytic_motion_ = true;
     std::map<NodeId, Along> along_;
 };

@@ -34,9 +34,9 @@ std::vector<NonnegativeOperand> nonnegative_operands(const Graph& graph, const s
         if (op != Op::log && op != Op::sqrt && op != Op::real_power) continue;
         bool positive = op == Op::log;
         if (op == Op::real_power) {
-            const bool constant = graph.is_constant(operands[1]);
-            if (constant && graph.value(operands[1]).get_den() == 1) continue;
-            positive = !constant || sgn(graph.value(operands[1])) < 0;
+            // x^n with a parameter n is defined for negative x too where n is an integer.
+            if (!graph.is_constant(operands[1]) || graph.value(operands[1]).get_den() == 1) continue;
+            positive = sgn(graph.value(operands[1])) < 0;
         }
         if (is_simple(graph, operands[0])) found.push_back({operands[0], positive});
     }
