@@ -203,12 +203,23 @@ std::string picture_of(const Table& table, const std::vector<Panel>& panels, con
     return content_of_file(picture);
 }
 
+bool is_picture(const std::string& path)
+{
+    const std::string extension = extension_of(path);
+    return extension == ".svg" || extension == ".png" || extension == ".pdf";
+}
+
 } // namespace
+
+void require_no_picture(const std::string& path)
+{
+    if (is_picture(path))
+        throw UsageError(fmt::format("lagen run: --output writes the rows as CSV; a picture is `--plot {}`", path));
+}
 
 void require_plot_format(const std::string& path)
 {
-    const std::string extension = extension_of(path);
-    if (extension != ".svg" && extension != ".png" && extension != ".pdf")
+    if (!is_picture(path))
         throw UsageError(
             fmt::format("lagen run: --plot needs a file that ends in .svg, .png or .pdf, found '{}'", path));
     if (find_program("gnuplot").empty())

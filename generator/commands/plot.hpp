@@ -19,6 +19,9 @@ struct Panel {
 void plot_table(const Table& table, const std::vector<Panel>& panels, const std::string& title, const std::string& path,
                 const std::string& time_unit = "");
 
+/// Throws UsageError where rows are to be written to a file that is called a picture.
+void require_no_picture(const std::string& path);
+
 /// Throws UsageError unless the extension is one that plot_table knows: said before a long run, not after it.
 void require_plot_format(const std::string& path);
 

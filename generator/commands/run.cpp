@@ -159,6 +159,7 @@ ExitCode run_run(Arguments arguments)
     const bool as_json = options.choice("format", {"text", "json"}) == "json";
     if (options.has("form")) (void)options.choice("form", form_names());
     if (options.has("plot")) require_plot_format(options.get("plot"));
+    if (options.has("output")) require_no_picture(options.get("output"));
 
     const CheckedModel checked =
         load(model_path(options.positional()[0]), options.settings(), options.has("unchecked"));

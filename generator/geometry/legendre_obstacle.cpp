@@ -235,7 +235,8 @@ void require_legendre_transform(const Model& model, const Regularity& regularity
     throw MathematicsError(fmt::format(
         "error: the momenta dL/dy of model '{}' are not shown to fix the velocities, as its Hamiltonian form "
         "needs: {}\n"
-        "hint: give [hamiltonian] H, or conditions in [base] domain under which d2L/dy2 is definite",
+        "hint: give [hamiltonian] H, or conditions on x and parameters in [base] domain under which d2L/dy2 is "
+        "definite",
         model.name, regularity.legendre_obstacle));
 }
 

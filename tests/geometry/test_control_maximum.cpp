@@ -85,6 +85,8 @@ TEST_CASE("a Hamiltonian that certainly has no maximum is refuted", "[maximum]")
     CHECK(of_two("u*w").reason == "H has no maximum in the controls 'u' and 'w': d2H/du2 is indefinite");
     CHECK(of_two("u*w").kind == Kind::refuted);
     CHECK(of_two("u^2 + 3*u*w + w^2").kind == Kind::refuted);
+    // H = mu u - sqrt(1 - u^2) has its maximum at an end of the interval where it is defined.
+    CHECK(of_one("sqrt(1 - u^2)").kind == Kind::stationary);
 }
 
 TEST_CASE("where nothing is proved of a maximum the controls are stationary", "[maximum]")

@@ -136,8 +136,8 @@ TEST_CASE("a Lagrangian whose momenta do not fix the velocities has no Hamiltoni
                               "[lagrangian]\nL = \"v_x^4/4 - v_x^2/2\"\n";
     const std::string start = "error: the momenta dL/dy of model 'wells' are not shown to fix the velocities, as its "
                               "Hamiltonian form needs: ";
-    const std::string end =
-        "\nhint: give [hamiltonian] H, or conditions in [base] domain under which d2L/dy2 is definite";
+    const std::string end = "\nhint: give [hamiltonian] H, or conditions on x and parameters in [base] domain under "
+                            "which d2L/dy2 is definite";
     CHECK(refusal(wells, "hamilton") == start + "d2L/dy2 is not shown to be definite" + end);
     CHECK(refusal(wells, "lagrange").empty());
     CHECK(refusal(wells + "[hamiltonian]\nH = \"p_v_x^2/2\"\n", "hamilton").empty());

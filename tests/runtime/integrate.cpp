@@ -219,6 +219,11 @@ TEST_CASE("max_steps, a cancellation flag and a signal flag end a run")
     CHECK(many.status() == Status::too_many_steps);
     CHECK(many.steps == 7);
     CHECK_THAT(many.t, Catch::WithinAbs(0.07, 1e-15));
+    CHECK(many.failed_at == many.t);
+    const auto fewer = integrate(Pendulum{}, start, {0.0, 10.0}, Dop853{}, {.max_steps = 7});
+    CHECK(fewer.status() == Status::too_many_steps);
+    CHECK(fewer.t > 0);
+    CHECK(fewer.failed_at == fewer.t);
     const std::atomic<bool> cancel = true;
     CHECK(integrate(Pendulum{}, start, {0.0, 1.0}, Dop853{}, {.cancel = &cancel}).status() == Status::interrupted);
     const volatile std::sig_atomic_t signal = 1;

@@ -147,6 +147,7 @@ class March {
 
     Status interruption()
     {
+        run_.failed_at = t_;
         const std::size_t tried = run_.steps + run_.rejected;
         if (options_.cancel != nullptr && options_.cancel->load(std::memory_order_relaxed)) return Status::interrupted;
         if (options_.signal != nullptr && *options_.signal != 0) return Status::interrupted;
@@ -183,10 +184,7 @@ class March {
     {
         const auto [h, last] = next_length();
         if constexpr (Stepper::adaptive)
-            if (!last && is_lost_in_time(h_)) {
-                run_.failed_at = t_;
-                return Status::step_too_small;
-            }
+            if (!last && is_lost_in_time(h_)) return Status::step_too_small;
         // Compensated sum of the times [Kahan 1965].
         const Real increment = h - lost_;
         const Real t1 = last ? span_.end : t_ + increment;
