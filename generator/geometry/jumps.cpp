@@ -13,7 +13,6 @@ namespace lagen {
 Continuity::Continuity(Graph& graph, const ProofSetting& setting, const ProofBudget& budget, Conserved conserved)
     : graph_(graph), motion_(setting.defined), divisors_(graph, setting, budget), conserved_(std::move(conserved))
 {
-    variables_.insert(setting.variables.begin(), setting.variables.end());
 }
 
 /// Where the motion has kinks, quotients are not taken to be safe.
@@ -37,7 +36,7 @@ bool Continuity::is_smooth(NodeId node)
     const SmoothWhere where = smooth_where(graph_, node);
     if (where.condition == SmoothWhere::Condition::none) return true;
     return where.condition == SmoothWhere::Condition::positive ? divisors_.positive(where.function)
-                                                               : divisors_.nonzero(where.function);
+                                                               : divisors_.keeps_nonzero(where.function);
 }
 
 Continuity::Along Continuity::jumping(NodeId node, NodeId hole) const
@@ -74,7 +73,7 @@ Continuity::Along Continuity::multiply(const Along& a, const Along& b, NodeId no
 Continuity::Along Continuity::reciprocal(NodeId divisor, const Along& below, NodeId node)
 {
     if (below.course == Course::jumps) return below;
-    if (below.course <= Course::continuous && divisors_.nonzero(divisor)) return below;
+    if (below.course <= Course::continuous && divisors_.keeps_nonzero(divisor)) return below;
     const bool is_quotient = below.course == Course::analytic || below.course == Course::quotient;
     if (!is_quotient || !analytic_motion_) return jumping(node, divisor);
     return {Course::quotient, divisor, {}, false};
@@ -151,7 +150,7 @@ Continuity::Along Continuity::step(NodeId node)
 {
     const Along constant{Course::analytic, 0, {}, true};
     const std::vector<NodeId> operands(graph_.operands(node).begin(), graph_.operands(node).end());
-    if (operands.empty()) return variables_.contains(node) ? Along{} : constant;
+    if (operands.empty()) return divisors_.moves(node) ? Along{} : constant;
     if (std::ranges::all_of(operands, [&](NodeId operand) { return along_.at(operand).constant; })) return constant;
     Along result = operation(node);
     if (result.course != Course::jumps || !conserved_) return result;

@@ -16,7 +16,6 @@
 
 #include <functional>
 #include <map>
-#include <set>
 
 namespace lagen {
 
@@ -64,7 +63,6 @@ class Continuity {
     [[nodiscard]] bool is_smooth(NodeId node);
 
     Graph& graph_;
-    std::set<NodeId> variables_;
     std::vector<NodeId> motion_; ///< what it is made of, until it is classified
     MotionDivisors divisors_;
     Conserved conserved_;

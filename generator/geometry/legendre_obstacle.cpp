@@ -82,20 +82,16 @@ class SmoothSet {
 
     void require_smooth(NodeId node)
     {
+        if (compares(graph_.op(node))) {
+            obstacle_ = std::string(function_) + " is not smooth";
+            return;
+        }
         switch (graph_.op(node)) {
         case Op::log: return require_logarithm(node, graph_.operands(node)[0]);
         case Op::atan2: // its cut, and slopes that do not see it
             if (const NodeId u = graph_.operands(node)[1]; !decider().proves_positive(u))
                 obstacle_ = not_shown(u, "positive");
             return;
-        case Op::minimum:
-        case Op::maximum:
-        case Op::less:
-        case Op::less_equal:
-        case Op::greater:
-        case Op::greater_equal:
-        case Op::equal:
-        case Op::not_equal:
         case Op::select: obstacle_ = std::string(function_) + " is not smooth"; return;
         case Op::factor:
             obstacle_ =

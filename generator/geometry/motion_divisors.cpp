@@ -17,14 +17,11 @@ MotionDivisors::MotionDivisors(Graph& graph, const ProofSetting& setting, const 
 /// The divisors of what is defined all along a motion; what stands in one branch only says nothing.
 void MotionDivisors::collect(const std::vector<NodeId>& motion)
 {
-    certain_.insert(motion.begin(), motion.end());
-    const std::vector<NodeId> needed = reachable(graph_, motion);
-    for (std::size_t k = needed.size(); k-- > 0;) {
-        const NodeId node = needed[k];
-        if (!certain_.contains(node)) continue;
+    const std::vector<NodeId> needed = certainly_needed(graph_, motion);
+    certain_.insert(needed.begin(), needed.end());
+    for (const NodeId node : needed) {
         const std::vector<NodeId> operands(graph_.operands(node).begin(), graph_.operands(node).end());
         const Op op = graph_.op(node);
-        certain_.insert(operands.begin(), op == Op::select ? operands.begin() + 1 : operands.end());
         if (op == Op::divide) require_nonzero(operands[1]);
         if (op == Op::log) require_nonzero(operands[0]);
         if (op == Op::power && static_cast<std::int32_t>(graph_.payload(node)) < 0) require_nonzero(operands[0]);
@@ -53,7 +50,8 @@ std::vector<NodeId> MotionDivisors::linear_roots(NodeId lagrangian, const std::v
             break;
         case Op::multiply:
             for (const std::size_t k : {0U, 1U})
-                if (!depends_on_y(operands[k]) && nonzero(operands[k])) terms.push_back(operands[1 - k]);
+                if (!depends_on_y(operands[k]) && decider_->proves_nonzero(operands[k]))
+                    terms.push_back(operands[1 - k]);
             break;
         case Op::sqrt: roots.push_back(term); break;
         default: break;
@@ -107,15 +105,12 @@ void MotionDivisors::require_nonzero(NodeId divisor)
     if (op == Op::divide)
         require_nonzero(graph_.operands(divisor)[0]);
     else if (vanishes_with_operands)
-        for (const NodeId operand :
-             std::vector<NodeId>(graph_.operands(divisor).begin(), graph_.operands(divisor).end()))
-            require_nonzero(operand);
+        for (const NodeId operand : graph_.operands(divisor)) require_nonzero(operand);
 }
 
-/// What does not move is zero for the whole motion, and then a divisor nowhere, or never.
 bool MotionDivisors::nonzero(NodeId f) const
 {
-    if (divisors_.contains(f) || !moves(f)) return true;
+    if (divisors_.contains(f)) return true;
     const auto operands = graph_.operands(f);
     switch (graph_.op(f)) {
     case Op::multiply:

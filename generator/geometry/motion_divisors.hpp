@@ -25,6 +25,8 @@ class MotionDivisors {
     [[nodiscard]] bool positive(NodeId f) const;
     [[nodiscard]] bool nonnegative(NodeId f) const { return decider_->proves_nonnegative(f); }
     [[nodiscard]] bool is_defined(NodeId f) const { return certain_.contains(f); }
+    /// Does not become zero: what does not move is zero for the whole motion or never.
+    [[nodiscard]] bool keeps_nonzero(NodeId f) const { return !moves(f) || nonzero(f); }
     /// Does it depend on anything but parameters?
     [[nodiscard]] bool moves(NodeId f) const;
 

@@ -7,6 +7,7 @@ SmoothWhere smooth_where(Graph& graph, NodeId node)
 {
     using enum SmoothWhere::Condition;
     const std::vector<NodeId> operands(graph.operands(node).begin(), graph.operands(node).end());
+    if (compares(graph.op(node))) return {nonzero, graph.subtract(operands[0], operands[1])};
     switch (graph.op(node)) {
     case Op::divide: return {nonzero, operands[1]};
     case Op::power:
@@ -14,14 +15,6 @@ SmoothWhere smooth_where(Graph& graph, NodeId node)
         return {nonzero, operands[0]};
     case Op::abs:
     case Op::sign: return {nonzero, operands[0]};
-    case Op::minimum:
-    case Op::maximum:
-    case Op::less:
-    case Op::less_equal:
-    case Op::greater:
-    case Op::greater_equal:
-    case Op::equal:
-    case Op::not_equal: return {nonzero, graph.subtract(operands[0], operands[1])};
     case Op::tan: return {nonzero, graph.apply(Op::cos, operands[0])};
     case Op::sqrt:
     case Op::log:
@@ -32,11 +25,9 @@ SmoothWhere smooth_where(Graph& graph, NodeId node)
     }
 }
 
-bool has_kink(Op op)
+bool compares(Op op)
 {
     switch (op) {
-    case Op::abs:
-    case Op::sign:
     case Op::minimum:
     case Op::maximum:
     case Op::less:
@@ -47,6 +38,11 @@ bool has_kink(Op op)
     case Op::not_equal: return true;
     default: return false;
     }
+}
+
+bool has_kink(Op op)
+{
+    return op == Op::abs || op == Op::sign || compares(op);
 }
 
 } // namespace lagen

@@ -16,7 +16,10 @@ struct SmoothWhere {
 /// cut is no such set, select, and factorisations.
 [[nodiscard]] SmoothWhere smooth_where(Graph& graph, NodeId node);
 
-/// abs, sign, min, max and comparisons: defined everywhere, smooth where `smooth_where` says.
+/// min, max and comparisons.
+[[nodiscard]] bool compares(Op op);
+
+/// Those, abs and sign: defined everywhere, smooth where `smooth_where` says.
 [[nodiscard]] bool has_kink(Op op);
 
 } // namespace lagen

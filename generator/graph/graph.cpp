@@ -129,6 +129,21 @@ std::vector<NodeId> reachable(const Graph& graph, std::span<const NodeId> roots)
     return result;
 }
 
+std::vector<NodeId> certainly_needed(const Graph& graph, std::span<const NodeId> roots)
+{
+    std::vector<bool> certain(graph.size(), false);
+    for (const NodeId root : roots) certain[root] = true;
+    std::vector<NodeId> result = reachable(graph, roots);
+    for (std::size_t k = result.size(); k-- > 0;) {
+        if (!certain[result[k]]) continue;
+        const auto operands = graph.operands(result[k]);
+        for (const NodeId operand : graph.op(result[k]) == Op::select ? operands.first(1) : operands)
+            certain[operand] = true;
+    }
+    std::erase_if(result, [&](NodeId node) { return !certain[node]; });
+    return result;
+}
+
 std::vector<bool> depends_on(const Graph& graph, std::span<const NodeId> inputs)
 {
     std::vector<bool> depends(graph.size(), false);

@@ -141,6 +141,9 @@ class Graph {
 /// The nodes that `roots` depend on, themselves included, in ascending (topological) order.
 [[nodiscard]] std::vector<NodeId> reachable(const Graph& graph, std::span<const NodeId> roots);
 
+/// Those of them that are evaluated whichever branches of `select` are taken, in ascending order.
+[[nodiscard]] std::vector<NodeId> certainly_needed(const Graph& graph, std::span<const NodeId> roots);
+
 /// For every node of the graph: is it one of `inputs`, or does it depend on one?
 [[nodiscard]] std::vector<bool> depends_on(const Graph& graph, std::span<const NodeId> inputs);
 

@@ -2,8 +2,6 @@
 /// What the definedness of roots and logarithms says about the signs of their operands.
 #include "proof/normal_form.hpp"
 
-#include <set>
-
 namespace lagen::proof {
 
 namespace {
@@ -22,14 +20,10 @@ bool is_simple(const Graph& graph, NodeId operand)
 std::vector<NonnegativeOperand> nonnegative_operands(const Graph& graph, const std::vector<NodeId>& roots)
 {
     std::vector<NonnegativeOperand> found;
-    const std::vector<NodeId> needed = reachable(graph, roots);
-    std::set<NodeId> certain(roots.begin(), roots.end());
+    const std::vector<NodeId> needed = certainly_needed(graph, roots);
     for (std::size_t k = needed.size(); k-- > 0;) {
         const NodeId node = needed[k];
-        if (certain.count(node) == 0) continue;
         const auto operands = graph.operands(node);
-        for (std::size_t j = 0; j < operands.size(); ++j)
-            if (graph.op(node) != Op::select || j == 0) certain.insert(operands[j]);
         const Op op = graph.op(node);
         if (op != Op::log && op != Op::sqrt && op != Op::real_power) continue;
         bool positive = op == Op::log;

@@ -189,6 +189,9 @@ TEST_CASE("what is constant on both sides of a hole only is not conserved")
         CHECK(first_obstacle(on_line("0"), {claim}) == std::string("its rate vanishes, but ") + jumps);
         CHECK(statuses(on_line("0", "domain = [\"x > 0\", \"x < 1\"]\n"), {claim}) == "proved");
     }
+    // v does not move, but may be zero; so may the factor of a root in L.
+    CHECK(statuses(on_line("0"), {"atan2(0, x)", "atan2(1, x) + atan(x)"}) == "undecided proved");
+    CHECK(statuses("[parameters]\nc = 1\n" + on_line("x^2/2 - c*sqrt(1 - v^2)"), {"energy"}) == "undecided");
     CHECK(first_obstacle(on_line("0"), {"atan2(x, x^2) - atan(1/x)"}) ==
           "its rate vanishes, but atan2(x, x^2) may jump where x and x^2 vanish");
     CHECK(statuses(jumping_plane("0", "domain = [\"x*y > 0\"]\n"), {"abs(x*y)/(x*y)"}) == "proved");
