@@ -109,12 +109,13 @@ class double_integrator_pontryagin {
 
     /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
     /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
-    /// left_domain unless u_max > 0.
+    /// left_domain unless -u_max < u_max, u_max > 0.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
         auto status = StatusOf<S>::good();
         const S u_max = parameters.u_max;
         StatusOf<S>::fail(status, !(u_max > S(0)), Status::left_domain);
+        StatusOf<S>::fail(status, !(S(2) * u_max > S(0)), Status::left_domain);
         return status;
     }
 

@@ -50,7 +50,8 @@ std::set<std::string> class_scope_names(const KernelModule& module, const std::s
     }
     if (!module.direction.empty()) names.insert({"v", "dv"});
     if (!module.implicit.empty())
-        names.insert({"z", "newton", "bracket", "lower", "upper", "unknowns", "residual", "derivative"});
+        names.insert({"z", "newton", "bracket", "lower", "upper", "unknowns", "residual", "derivative", "size",
+                      "inside", "require_positive"});
     for (const ImplicitBlock& block : module.implicit) {
         names.insert("solve_" + block.name);
         names.insert("solved_" + block.name);

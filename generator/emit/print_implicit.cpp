@@ -52,6 +52,9 @@ class ImplicitPrinter {
         std::vector<NodeId> inner = block.residuals;
         for (std::size_t k = 0; k < block.jacobian.size(); ++k)
             if (!block.bracket || k % (size_ + 1) == 0) inner.push_back(block.jacobian[k]);
+        if (!block.bracket)
+            for (const auto* more : {&block.sizes, &block.inside})
+                inner.insert(inner.end(), more->begin(), more->end());
         start_ = body_of(start);
         iteration_ = body_of(inner);
     }
@@ -112,16 +115,22 @@ class ImplicitPrinter {
     {
         const std::size_t derivatives = block_.bracket ? size_ : size_ * size_;
         out_.line(fmt::format("return {}(z, {}[&](const std::array<S, {}>& unknowns, std::array<S, {}>& residual, "
-                              "std::array<S, {}>& derivative) noexcept {{",
+                              "std::array<S, {}>& derivative{}) noexcept {{",
                               block_.bracket ? "bracket" : "newton", block_.bracket ? "lower, upper, " : "", size_,
-                              size_, derivatives));
+                              size_, derivatives,
+                              block_.bracket ? "" : fmt::format(", std::array<S, {}>& size", size_)));
         out_.indent(1);
+        const std::size_t conditions = block_.bracket ? 0 : block_.inside.size();
+        if (conditions > 0) out_.line(fmt::format("std::array<S, {}> inside;", conditions));
         load_own_unknowns(out_, iteration_, names_, block_);
-        const std::size_t size = size_;
-        print_lines(out_, iteration_, storing_to(module_, names_, [size](std::size_t k, const std::string& value) {
-                        return k < size ? fmt::format("residual[{}] = {};", k, value)
-                                        : fmt::format("derivative[{}] = {};", k - size, value);
+        const std::pair<const char*, std::size_t> arrays[] = {
+            {"residual", size_}, {"derivative", derivatives}, {"size", size_}, {"inside", conditions}};
+        print_lines(out_, iteration_, storing_to(module_, names_, [&arrays](std::size_t k, const std::string& value) {
+                        const auto* array = arrays;
+                        for (; k >= array->second; ++array) k -= array->second;
+                        return fmt::format("{}[{}] = {};", array->first, k, value);
                     }));
+        if (conditions > 0) out_.line("require_positive(inside, residual);");
         out_.indent(-1);
         out_.line("});");
     }
@@ -132,7 +141,7 @@ class ImplicitPrinter {
     const ImplicitBlock& block_;
     std::size_t size_;
     Body start_;     ///< the guess, or the ends of the bracket
-    Body iteration_; ///< residuals, then the Jacobian, of a bracket its diagonal
+    Body iteration_; ///< residuals, then the Jacobian, sizes and conditions; of a bracket the Jacobian's diagonal alone
 };
 
 } // namespace

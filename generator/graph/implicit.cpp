@@ -3,6 +3,9 @@
 
 #include "graph/differentiate.hpp"
 
+#include <algorithm>
+#include <map>
+
 namespace lagen {
 
 namespace {
@@ -34,10 +37,60 @@ ImplicitBlock implicit_block(Graph& graph, std::string name, std::string documen
                         std::move(residuals),
                         {},
                         std::move(guess),
+                        {},
+                        {},
                         structure,
                         {}};
     block.jacobian = joined_rows(jacobian(graph, block.residuals, block.unknowns));
+    block.sizes = term_sizes(graph, block.residuals);
     return block;
+}
+
+std::vector<NodeId> term_sizes(Graph& graph, std::span<const NodeId> residuals)
+{
+    std::map<NodeId, NodeId> sizes; // of what holds sums; |f| of the others
+    const auto size = [&](NodeId node) { return sizes.contains(node) ? sizes[node] : graph.apply(Op::abs, node); };
+    for (const NodeId node : reachable(graph, residuals)) {
+        const std::vector<NodeId> operands(graph.operands(node).begin(), graph.operands(node).end());
+        const Op op = graph.op(node);
+        if (op == Op::add || op == Op::subtract) {
+            sizes[node] = graph.add(size(operands[0]), size(operands[1]));
+            continue;
+        }
+        if (std::ranges::none_of(operands, [&](NodeId operand) { return sizes.contains(operand); })) continue;
+        // The relative errors of operands, times what they are worth in the result.
+        switch (op) {
+        case Op::negate: sizes[node] = size(operands[0]); break;
+        case Op::multiply: sizes[node] = graph.multiply(size(operands[0]), size(operands[1])); break;
+        case Op::divide:
+            sizes[node] =
+                graph.divide(graph.multiply(size(operands[0]), size(operands[1])), graph.power(operands[1], 2));
+            break;
+        case Op::sqrt: sizes[node] = graph.divide(size(operands[0]), node); break;
+        case Op::power:
+        case Op::real_power:
+            sizes[node] = graph.apply(Op::abs, graph.multiply(node, graph.divide(size(operands[0]), operands[0])));
+            break;
+        default: break;
+        }
+    }
+    std::vector<NodeId> result;
+    for (const NodeId residual : residuals) result.push_back(size(residual));
+    return result;
+}
+
+std::vector<NodeId> positive_operands(const Graph& graph, NodeId function, std::span<const NodeId> unknowns)
+{
+    const std::vector<bool> depends = depends_on(graph, unknowns);
+    std::vector<NodeId> result;
+    const NodeId roots[] = {function};
+    for (const NodeId node : certainly_needed(graph, roots)) {
+        const Op op = graph.op(node);
+        if (op != Op::sqrt && op != Op::log && op != Op::real_power) continue;
+        const NodeId operand = graph.operands(node)[0];
+        if (depends[operand] && std::ranges::count(result, operand) == 0) result.push_back(operand);
+    }
+    return result;
 }
 
 Seeds seeds_through(Graph& graph, std::span<const ImplicitBlock> blocks, Seeds seeds)

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Unknowns that equations define: z with F(z, s) = 0, solved by Newton's method inside a kernel, between bounds where
-/// a block has a bracket. The unknowns are
-/// ordinary inputs of the graph; a block says what they mean. Its derivative is that of the implicit function,
-///   dz = -F_z^-1 F_s ds.
+/// a block has a bracket. The unknowns are ordinary inputs of the graph; a block says what they mean. Its derivative is
+/// that of the implicit function,   dz = -F_z^-1 F_s ds.
 #pragma once
 
 #include "graph/graph.hpp"
@@ -24,15 +23,27 @@ struct ImplicitBlock {
     std::vector<NodeId> residuals; ///< F, shape (N); may use the unknowns of earlier blocks
     std::vector<NodeId> jacobian;  ///< dF/dz, shape (N, N), entry (i, j) at i * N + j
     std::vector<NodeId> guess;     ///< where Newton's method starts, free of z
+    std::vector<NodeId> sizes;     ///< what rounding in F is measured by, shape (N): `term_sizes` of F
+    std::vector<NodeId> inside;    ///< functions of z that are positive at a solution; elsewhere F may be another's
     MatrixStructure structure = MatrixStructure::general;
     /// Where it is there, z_i is the root of F_i in its interval, or the end next to it; there is no guess then.
     std::optional<Bracket> bracket = {};
 };
 
-/// A block with its Jacobian, differentiated here.
+/// A block with its Jacobian, differentiated here, and its sizes; `inside` is empty.
 [[nodiscard]] ImplicitBlock implicit_block(Graph& graph, std::string name, std::string documentation,
                                            std::vector<NodeId> unknowns, std::vector<NodeId> residuals,
                                            std::vector<NodeId> guess, MatrixStructure structure);
+
+/// For each F_i, as it is written, the sum of the absolute values of its terms, |a| + |b| for a - b, carried through
+/// products, quotients, roots and powers: whatever cancels, rounding errors of F_i are epsilon times that (to first
+/// order, a factor for each function on the way).
+[[nodiscard]] std::vector<NodeId> term_sizes(Graph& graph, std::span<const NodeId> residuals);
+
+/// What must be positive for `function` to be smooth at z: operands of roots, logarithms and real powers that depend on
+/// the unknowns. In its slopes they may have cancelled.
+[[nodiscard]] std::vector<NodeId> positive_operands(const Graph& graph, NodeId function,
+                                                    std::span<const NodeId> unknowns);
 
 /// The tangents of all unknowns along `seeds` (pairs input node, its tangent), behind the seeds: what `directional`
 /// needs to differentiate through the blocks.

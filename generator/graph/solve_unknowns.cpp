@@ -17,6 +17,7 @@ namespace {
 
 constexpr int most_steps = 200;
 constexpr int most_halvings = 40;
+constexpr int most_reductions = 300, first_reductions = 10; ///< where F or dF/dz is not finite
 constexpr int patience = 3;
 
 /// Newton's method as in the runtime's newton.hpp, with the same verdict: converged where every row is a rounding error
@@ -36,7 +37,7 @@ class UnknownSolver {
     void run()
     {
         set(z_);
-        residual_ = evaluate<Scalar>(graph_, block_.residuals, inputs_);
+        residual_ = residual();
         for (int count = 0; count < most_steps; ++count) {
             const Values jacobian = evaluate<Scalar>(graph_, block_.jacobian, inputs_);
             judge_rows(jacobian);
@@ -70,6 +71,15 @@ class UnknownSolver {
         for (std::size_t i = 0; i < z.size(); ++i) inputs_[graph_.input_name(block_.unknowns[i])] = z[i];
     }
 
+    /// F at the unknowns in inputs_; NaN where no solution can be.
+    Values residual()
+    {
+        Values values = evaluate<Scalar>(graph_, block_.residuals, inputs_);
+        for (const Scalar condition : evaluate<Scalar>(graph_, block_.inside, inputs_))
+            if (!(condition > 0)) values[0] = std::numeric_limits<Scalar>::quiet_NaN();
+        return values;
+    }
+
     /// The largest entry; infinite where one is not finite.
     static Scalar size_of(const Values& values)
     {
@@ -80,17 +90,19 @@ class UnknownSolver {
         return largest;
     }
 
-    /// |F_i| against sum_j |dF_i/dz_j| |z_j|: rounding errors of it, or small against it.
+    /// |F_i| against sum_j |dF_i/dz_j| |z_j| and the terms of F_i: rounding errors of them, or small against them.
     void judge_rows(const Values& jacobian)
     {
         done_ = close_ = true;
+        const Values sizes = evaluate<Scalar>(graph_, block_.sizes, inputs_);
         for (std::size_t i = 0; i < z_.size(); ++i) {
             Scalar terms = 0;
             for (std::size_t j = 0; j < z_.size(); ++j) terms += std::abs(jacobian[i * z_.size() + j] * z_[j]);
             const Scalar size = std::abs(residual_[i]);
             if (size == 0) continue;
-            done_ = done_ && std::isfinite(terms) && size <= 4 * epsilon * terms;
-            close_ = close_ && std::isfinite(terms) && size <= std::sqrt(epsilon) * terms;
+            const bool finite = std::isfinite(terms) && std::isfinite(sizes[i]);
+            done_ = done_ && finite && size <= 4 * epsilon * std::max(terms, sizes[i]);
+            close_ = close_ && finite && size <= std::max(std::sqrt(epsilon) * terms, 256 * epsilon * sizes[i]);
         }
     }
 
@@ -108,7 +120,7 @@ class UnknownSolver {
         trial_ = z_;
         for (std::size_t i = 0; i < z_.size(); ++i) trial_[i] -= damping * step_[i];
         set(trial_);
-        next_residual_ = evaluate<Scalar>(graph_, block_.residuals, inputs_);
+        next_residual_ = residual();
         next_ = substitute(matrix_, next_residual_);
         next_length_ = size_of(next_);
     }
@@ -119,10 +131,14 @@ class UnknownSolver {
     {
         const Scalar tolerable = 16 * std::max(length_, before_);
         Scalar damping = 1;
-        for (int halving = 0; halving <= most_halvings; ++halving, damping /= 2) {
+        for (int count = 0, halvings = 0; count <= most_reductions && halvings <= most_halvings; ++count) {
             try_at(damping);
-            if (next_length_ <= (1 - damping / 4) * length_ + epsilon * size_of(trial_)) return true;
-            if (halving == 0 && (done_ || (close_ && next_length_ <= tolerable))) return true;
+            const bool finite = std::isfinite(next_length_) &&
+                                std::isfinite(size_of(evaluate<Scalar>(graph_, block_.jacobian, inputs_)));
+            if (finite && next_length_ <= (1 - damping / 4) * length_ + epsilon * size_of(trial_)) return true;
+            if (count == 0 && (done_ || (finite && close_ && next_length_ <= tolerable))) return true;
+            halvings += finite ? 1 : 0;
+            damping /= finite || count < first_reductions ? 2 : 16;
         }
         if (close_) try_at(1);
         return close_ && std::isfinite(next_length_);

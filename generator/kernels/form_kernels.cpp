@@ -83,6 +83,7 @@ class ModuleBuilder {
             module_.fibre.push_back(quantity(form_.lane_names[a], form_.lanes[a]));
         module_.fibre_name = form_.lane_group;
         module_.implicit = form_.implicit;
+        module_.parameter_conditions = form_.parameter_conditions;
         module_.parameter_defaults = defaults();
     }
 
@@ -291,11 +292,13 @@ class ModuleBuilder {
                     for (std::optional<NodeId>& end : *ends)
                         if (end) end = simplify(*graph_, std::vector<NodeId>{*end}, divisors).front();
             std::vector<NodeId> inner = block.residuals;
-            inner.insert(inner.end(), block.jacobian.begin(), block.jacobian.end());
+            for (const auto* more : {&block.jacobian, &block.inside})
+                inner.insert(inner.end(), more->begin(), more->end());
             inner = simplify(*graph_, inner, divisors);
-            const auto split = inner.begin() + static_cast<std::ptrdiff_t>(block.residuals.size());
-            block.residuals.assign(inner.begin(), split);
-            block.jacobian.assign(split, inner.end());
+            auto from = inner.begin();
+            for (auto* part : {&block.residuals, &block.jacobian, &block.inside})
+                for (NodeId& node : *part) node = *from++;
+            block.sizes = term_sizes(*graph_, block.residuals);
         }
     }
 

@@ -26,6 +26,8 @@ struct Formulation {
     std::vector<ImplicitBlock> implicit;
     std::vector<Kernel> kernels;       ///< of this form alone, in order; empty outputs are left out
     std::vector<std::string> controls; ///< their names, pontryagin
+    /// As in KernelModule: what this form asks of the parameters, beside the domain.
+    std::vector<std::pair<std::string, NodeId>> parameter_conditions;
     Binding binding;
 };
 

@@ -61,6 +61,7 @@ HamiltonianNodes legendre(Graph& graph, const Model& model, const SystemNodes& s
         nodes.implicit.push_back(implicit_block(graph, "velocity", "y with dL/dy^a = mu_a (the Legendre transform).",
                                                 lagrangian.y, residuals, newton_guess(graph, regularity, r),
                                                 structure));
+        nodes.implicit.back().inside = positive_operands(graph, lagrangian.value, lagrangian.y);
         nodes.y = lagrangian.y;
     } else {
         std::vector<NodeId> right = substitute(graph, residuals, replacements(lagrangian.y, zeros));

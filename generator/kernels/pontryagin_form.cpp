@@ -49,6 +49,7 @@ class PontryaginForm {
         form.implicit = implicit_;
         form.pivots = pivots_;
         for (const Symbol& symbol : control_.controls) form.controls.push_back(symbol.name);
+        require_intervals(form);
         const std::vector<NodeId> sigma = at_controls(sigma_);
         if (parts.motion) {
             form.derivative = base_velocity(graph_, system_, sigma);
@@ -120,6 +121,7 @@ class PontryaginForm {
         implicit_.push_back(implicit_block(graph_, "controls", "u with dH/du = 0.", u_, dH_du_,
                                            std::vector<NodeId>(u_.size(), graph_.constant(0)),
                                            MatrixStructure::symmetric));
+        implicit_.back().inside = positive_operands(graph_, hamiltonian_, u_);
         solution_ = u_;
     }
 
@@ -167,6 +169,27 @@ class PontryaginForm {
             NodeId& u = solution_[bound.control];
             if (bound.lower) u = graph_.apply(Op::maximum, u, lower(bound.lower));
             if (bound.upper) u = graph_.apply(Op::minimum, u, lower(bound.upper));
+        }
+    }
+
+    /// Bounds over parameters: numbers, the lower below the upper. Those of numbers alone are checked where they are
+    /// read.
+    void require_intervals(Formulation& form)
+    {
+        Lowering lower(graph_);
+        const auto is_number = [](const Tree& end) { return names_in(end).empty(); };
+        for (const ControlBound& bound : control_.bounds) {
+            if (bound.lower && bound.upper) {
+                if (is_number(bound.lower) && is_number(bound.upper)) continue;
+                form.parameter_conditions.emplace_back(
+                    fmt::format("{} < {}", to_text(bound.lower), to_text(bound.upper)),
+                    graph_.subtract(lower(bound.upper), lower(bound.lower)));
+                continue;
+            }
+            const Tree& end = bound.lower ? bound.lower : bound.upper;
+            if (!is_number(end))
+                form.parameter_conditions.emplace_back(to_text(end) + " is a number",
+                                                       graph_.add(graph_.power(lower(end), 2), graph_.constant(1)));
         }
     }
 

@@ -121,6 +121,36 @@ TEST_CASE("separate controls are bounded each by itself", "[kernels]")
     }
 }
 
+TEST_CASE("bounds over parameters are conditions of parameter_status()", "[kernels]")
+{
+    const auto conditions = [](const std::string& cost, const std::string& bounds) {
+        const std::string text = line_problem(cost, bounds);
+        const std::size_t at = text.find("[base]");
+        return kernels_of_text(text.substr(0, at) + "[parameters]\nlo = -1\nhi = 2\n" + text.substr(at));
+    };
+    const auto value = [](const KernelModule& module, double lo, double hi) {
+        const NodeId node[] = {module.parameter_conditions.at(0).second};
+        return evaluate<double>(*module.graph, node, {{"lo", lo}, {"hi", hi}})[0];
+    };
+    const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
+    for (const char* cost : {"u^2/2", "cosh(u)"}) {
+        const KernelModule both = conditions(cost, "[\"lo\", \"hi\"]");
+        REQUIRE(both.parameter_conditions.size() == 1);
+        CHECK(both.parameter_conditions[0].first == "lo < hi");
+        CHECK(value(both, -1, 2) > 0);
+        CHECK(value(both, -infinity, 2) > 0);
+        CHECK_FALSE(value(both, 2, 2) > 0);
+        CHECK_FALSE(value(both, 3, 2) > 0);
+        CHECK_FALSE(value(both, nan, 2) > 0);
+        const KernelModule one = conditions(cost, "[\"lo\", \"inf\"]");
+        REQUIRE(one.parameter_conditions.size() == 1);
+        CHECK(one.parameter_conditions[0].first == "lo is a number");
+        CHECK(value(one, -1, 0) > 0);
+        CHECK_FALSE(value(one, nan, 0) > 0);
+        CHECK(conditions(cost, "[-1, 2]").parameter_conditions.empty());
+    }
+}
+
 TEST_CASE("derivatives through bounded controls are those of the root inside, and none at a bound", "[kernels]")
 {
     KernelRequest request;

@@ -130,6 +130,48 @@ TEST_CASE("velocities that are all positive are found from a positive one", "[ke
         check_close(values_of(module, "velocity", {{"t", 0}, {"x", 0.5}, {"p_v_x", p}}), {std::exp(p - 1)});
 }
 
+/// Of a particle on the line with this L and these lines of the base.
+KernelModule on_line(const std::string& lagrangian, const std::string& domain = "")
+{
+    return module_of("name = \"line\"\n[parameters]\nn = -1\n[base]\ncoordinates = [\"x\"]\n" + domain +
+                         "[algebroid]\nkind = \"tangent\"\n[lagrangian]\nL = \"" + lagrangian + "\"\n",
+                     "hamilton");
+}
+
+double velocity_on_line(const KernelModule& module, double p)
+{
+    return values_of(module, "velocity", {{"t", 0}, {"n", -1}, {"x", 0}, {"p_v_x", p}})[0];
+}
+
+TEST_CASE("velocities lie where L is defined, also where its roots cancel in dL/dy", "[kernels]")
+{
+    // p = (1 - v)^-2 and (1 - v)^-2, which v = 1.5 and v = 2 solve too; p = -3 (1 - v)^2
+    CHECK(velocity_on_line(on_line("(1 - v_x)^(-3/2)*sqrt(1 - v_x)"), 4) == 0.5);
+    CHECK(velocity_on_line(on_line("(1 - v_x)^n", "domain = [\"n < 0\"]\n"), 4) == 0.5);
+    CHECK(std::abs(velocity_on_line(on_line("sqrt(1 - v_x)*(1 - v_x)^(5/2)"), -3.0 / 4) - 0.5) <= 1e-16);
+    CHECK_THROWS_WITH(velocity_on_line(on_line("(1 - v_x)^(-3/2)*sqrt(1 - v_x)"), -1),
+                      "error: Newton's method finds no velocity: y with dL/dy^a = mu_a (the Legendre transform).");
+}
+
+TEST_CASE("velocities are found where terms of dL/dy cancel, overflow, or have no slope at their end", "[kernels]")
+{
+    const KernelModule exponential = on_line("exp(v_x) - v_x"); // p = exp(v) - 1
+    for (const double p : {1e-4, 1e-8, 1e-10, 1e-13, 1e-16})
+        CHECK(std::abs(velocity_on_line(exponential, p) - p) <= p * p + 3e-16);
+    for (const double p : {1e15, 1e100, 1e300})
+        CHECK(std::abs(velocity_on_line(exponential, p) / std::log(p) - 1) <= 1e-15);
+    // In a frame that moves with half the speed of light, and with nearly that speed.
+    for (const double u : {0.5, 0.9999}) {
+        const KernelModule frame = on_line("-sqrt(1 - (v_x + " + std::to_string(u) + ")^2)");
+        for (const double v : {0.0, 1e-12, -1e-9, 1e-6}) {
+            const double gamma = 1 / std::sqrt(1 - (u + v) * (u + v));
+            CHECK(std::abs(velocity_on_line(frame, (u + v) * gamma) - v) <= 1e-15);
+        }
+    }
+    const KernelModule arc = on_line("v_x*asin(v_x) + sqrt(1 - v_x^2)"); // p = asin(v)
+    for (const double p : {-1.5, 1e-20, 1.0, 1.57}) CHECK(std::abs(velocity_on_line(arc, p) - std::sin(p)) <= 4e-16);
+}
+
 TEST_CASE("a Lagrangian whose momenta do not fix the velocities has no Hamiltonian form", "[kernels]")
 {
     const std::string wells = "name = \"wells\"\n[base]\ncoordinates = [\"x\"]\n[algebroid]\nkind = \"tangent\"\n"
@@ -159,6 +201,16 @@ TEST_CASE("compiled Newton iterations agree with the interpreter in four scalars
         control("controls = [\"u\"]\nsigma = { a = \"v\", b = \"u\" }\ncost = \"exp(u) - u + x^2/2\"\n"), "pontryagin");
     REQUIRE(steering.implicit.size() == 1);
     cases.push_back({steering, {{{"t", 0}, {"x", 1}, {"v", 2}, {"px", 0.5}, {"pv", 3}}}});
+    const std::pair<const char*, std::vector<double>> lines[] = {{"(1 - v_x)^(-3/2)*sqrt(1 - v_x)", {0.25, 4}},
+                                                                 {"exp(v_x) - v_x", {1e15, -0.5, 3}},
+                                                                 {"v_x*asin(v_x) + sqrt(1 - v_x^2)", {1, -1.5}}};
+    for (std::size_t k = 0; k < std::size(lines); ++k) {
+        KernelModule module = on_line(lines[k].first);
+        module.name += std::to_string(k);
+        cases.push_back({module, {}});
+        for (const double p : lines[k].second)
+            cases.back().points.push_back({{"t", 0}, {"n", -1}, {"x", 0}, {"p_v_x", p}});
+    }
     compare_compiled("newton", "g++", cases, 200);
     if (run_shell("clang++ --version").status == 0) compare_compiled("newton", "clang++", cases, 200);
 }

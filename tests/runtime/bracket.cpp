@@ -95,6 +95,17 @@ TEST_CASE("an open interval is searched outwards, and has a status where there i
     CHECK(std::isnan(undefined.z));
 }
 
+TEST_CASE("ends that cross or are not numbers have a status", "[bracket]")
+{
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const auto& [lower, upper] : {std::pair{1.0, -1.0}, {nan, 1.0}, {-1.0, nan}, {-infinite, nan}}) {
+        const Found<double> found = root_of_tangent(0.5, lower, upper);
+        CHECK(found.status == Status::newton_diverged);
+        CHECK(std::isnan(found.z));
+    }
+    CHECK(root_of_tangent(0.5, 1, 1).z == 1);
+}
+
 TEST_CASE("lanes of a pack and other scalars find what double finds", "[bracket]")
 {
     using Lanes = Pack<double, 4>;

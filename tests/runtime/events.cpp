@@ -127,6 +127,24 @@ TEST_CASE("A start on an event is not a crossing")
     CHECK(run.events.empty());
 }
 
+TEST_CASE("A gap where an event's function is not a number hides no crossing")
+{
+    // -1 until t = 1.1, 1 from t = 2.3 on; a gap to begin with hides nothing either
+    const auto gap = [](double t, const Line::State&) {
+        return t < 1.1 ? -1.0 : t < 2.3 ? std::numeric_limits<double>::quiet_NaN() : 1.0;
+    };
+    const auto late = [](double t, const Line::State&) { return std::sqrt(t - 0.5) - 1; };
+    const std::array<EventRequest<double, Line::State>, 2> requests{
+        {{.direction = Crossing::rising, .when = gap}, {.when = late}}};
+    const auto run = integrate(Line{}, Line::State(0), {0.0, 4.0}, Rk4{.step = 0.25}, {.events = requests});
+    CHECK(run.status() == Status::ok);
+    REQUIRE(run.events.size() == 2);
+    CHECK(run.events[0].request == 1);
+    CHECK_THAT(run.events[0].t, Catch::WithinAbs(1.5, 1e-12));
+    CHECK(run.events[1].request == 0);
+    CHECK_THAT(run.events[1].t, Catch::WithinAbs(2.3, 1e-12));
+}
+
 TEST_CASE("Events of one instant are all reported, in the order of the requests, also where one of them stops the run")
 {
     const auto half = [](double, const State& s) { return s[0] - 0.5; };

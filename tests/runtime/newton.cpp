@@ -141,6 +141,49 @@ TEST_CASE("An equation without a root, or with none that can be represented, div
     CHECK(newton(z, Relativistic<double>{1e12, 0}) == Status::newton_diverged);
 }
 
+TEST_CASE("Rounding errors of terms that cancel are measured by those terms, where they are given")
+{
+    const auto solve = [](double p, bool sized, Status expected) {
+        std::array<double, 1> z{0};
+        const auto function = [p](const auto& x, auto& F, auto& dF) noexcept {
+            F = {std::exp(x[0]) - 1 - p};
+            dF = {std::exp(x[0])};
+        };
+        CHECK((sized ? newton(z,
+                              [&](const std::array<double, 1>& x, std::array<double, 1>& F, std::array<double, 1>& dF,
+                                  std::array<double, 1>& size) noexcept {
+                                  function(x, F, dF);
+                                  size = {std::exp(x[0]) + 1 + p};
+                              })
+                     : newton(z, function)) == expected);
+        return z[0];
+    };
+    for (const double p : {1e-10, 1e-12, 1e-15}) {
+        CHECK(std::isnan(solve(p, false, Status::newton_diverged)));
+        CHECK(std::abs(solve(p, true, Status::ok) - p) <= tolerance::roundoff(1));
+    }
+    // Terms do not make a root of what has none.
+    std::array<double, 1> z{0};
+    CHECK(newton(z, [](const std::array<double, 1>& x, std::array<double, 1>& F, std::array<double, 1>& dF,
+                       std::array<double, 1>& size) noexcept {
+              F = {(x[0] - 1) * (x[0] - 1) + 1e-9};
+              dF = {2 * (x[0] - 1)};
+              size = {4};
+          }) == Status::newton_diverged);
+}
+
+TEST_CASE("Steps are shortened until F and its derivative are finite")
+{
+    for (const double p : {1e15, 1e100, 1e300})
+        CHECK(std::abs(root([p](double v, double& F, double& dF) { F = std::exp(v) - 1 - p, dF = std::exp(v); },
+                            Status::ok) /
+                           std::log(p) -
+                       1) <= tolerance::roundoff(1));
+    const double arc =
+        root([](double v, double& F, double& dF) { F = std::asin(v) - 1, dF = 1 / std::sqrt(1 - v * v); }, Status::ok);
+    CHECK(std::abs(arc - std::sin(1.0)) <= tolerance::roundoff(1));
+}
+
 TEST_CASE("A residual of exactly zero is a root, also where its derivative is singular")
 {
     CHECK(root([](double z, double& F, double& dF) { F = z * z * z, dF = 3 * z * z; }, Status::ok) == 0);

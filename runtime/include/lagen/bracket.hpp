@@ -26,19 +26,6 @@ template <class S>
     return below | above;
 }
 
-// Of masks, a bool or one a lane; both operands are computed.
-template <class Mask>
-[[nodiscard]] Mask both(const Mask& a, const Mask& b) noexcept
-{
-    return a & b;
-}
-
-template <class Mask>
-[[nodiscard]] Mask either(const Mask& a, const Mask& b) noexcept
-{
-    return a | b;
-}
-
 /// What `bracket` knows of its unknowns, each in its interval [low, high].
 template <class S, std::size_t N, class Function>
 class Brackets {
@@ -57,6 +44,7 @@ class Brackets {
     {
         const S infinity(std::numeric_limits<Real>::infinity());
         for (std::size_t i = 0; i < N; ++i) {
+            failed_ = either<Mask>(failed_, !(lower[i] <= upper[i]));
             const Mask has_lower = lower[i] > -infinity;
             const Mask has_upper = upper[i] < infinity;
             low_[i] = select(has_lower, lower[i], select(has_upper, upper[i], S(0)));
@@ -166,7 +154,10 @@ class Brackets {
 /// @param lower, upper the intervals; -infinity and infinity are open ends, towards which an interval is searched up to
 ///        2^128 times the larger of 1 and the other end
 /// @param function function(z, residual, derivative): F_i(z_i) and dF_i/dz_i, N entries each
-/// @return newton_diverged, a lane, where a value is not a number or an open interval has no root: then z is NaN
+/// @return newton_diverged, a lane, where a value or an end is not a number, ends cross, or an open interval has no
+/// root:
+///         then z is NaN. Else z is within 2 epsilon |z| + epsilon^4 (upper_i - lower_i), of an open interval the part
+///         searched, of where the computed function changes its sign.
 template <class S, std::size_t N, class Function>
 [[nodiscard]] status_t<S> bracket(std::array<S, N>& z, const std::array<S, N>& lower, const std::array<S, N>& upper,
                                   const Function& function) noexcept

@@ -13,14 +13,26 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <type_traits>
 
 namespace lagen {
 
 /// Most Newton steps (to creep up to a root beside a singularity takes one for every halving of the distance), most
-/// halvings of one of them, and how often undamped ones get no shorter where nothing but round-off is left.
+/// halvings of one of them where F and dF/dz are finite, most reductions of it where they are not (halvings too at
+/// first, then to a sixteenth), and how often undamped ones get no shorter where nothing but round-off is left.
 constexpr int newton_steps = 200;
 constexpr int newton_halvings = 40;
+constexpr int newton_reductions = 300;
+constexpr int newton_first_reductions = 10;
 constexpr int newton_patience = 3;
+
+/// NaN in the residual where a condition is not positive: no solution is there.
+template <class S, std::size_t M, std::size_t N>
+void require_positive(const std::array<S, M>& conditions, std::array<S, N>& residual) noexcept
+{
+    for (const S& condition : conditions)
+        residual[0] = select(condition > S(0), residual[0], S(std::numeric_limits<real_t<S>>::quiet_NaN()));
+}
 
 namespace detail {
 
@@ -33,6 +45,19 @@ template <class Mask>
 [[nodiscard]] bool none(const Mask& mask) noexcept
 {
     return !any(mask);
+}
+
+// Of masks, a bool or one a lane; both operands are computed.
+template <class Mask>
+[[nodiscard]] Mask both(const Mask& a, const Mask& b) noexcept
+{
+    return a & b;
+}
+
+template <class Mask>
+[[nodiscard]] Mask either(const Mask& a, const Mask& b) noexcept
+{
+    return a | b;
 }
 
 /// The largest |x_i|; NaN where one of them is NaN.
@@ -106,7 +131,7 @@ class NewtonIteration {
     /// Where it has converged.
     [[nodiscard]] Mask run() noexcept
     {
-        function_(z_, residual_, jacobian_);
+        evaluate(z_, residual_);
         for (int count = 0; count < newton_steps && !none(active_); ++count) {
             judge_rows();
             const Mask regular = !lu_.factor(jacobian_);
@@ -127,8 +152,17 @@ class NewtonIteration {
     static constexpr Real epsilon = std::numeric_limits<Real>::epsilon();
     static constexpr Real largest = std::numeric_limits<Real>::max();
 
-    /// |F_i| against sum_j |dF_i/dz_j| |z_j|, row by row: `done_` where every row is a rounding error of its own terms
-    /// [Oettli, Prager 1964], `close_` where it is small against them.
+    void evaluate(const std::array<S, N>& at, std::array<S, N>& residual) noexcept
+    {
+        if constexpr (std::is_invocable_v<const Function&, const std::array<S, N>&, std::array<S, N>&,
+                                          std::array<S, N * N>&, std::array<S, N>&>)
+            function_(at, residual, jacobian_, size_);
+        else
+            function_(at, residual, jacobian_);
+    }
+
+    /// |F_i| against sum_j |dF_i/dz_j| |z_j| and the terms of F_i, row by row: `done_` where every row is a rounding
+    /// error of them [Oettli, Prager 1964], `close_` where it is small against them.
     void judge_rows() noexcept
     {
         using std::abs;
@@ -138,10 +172,13 @@ class NewtonIteration {
             S terms(0);
             for (std::size_t j = 0; j < N; ++j) terms += abs(jacobian_[i * N + j]) * abs(z_[j]);
             const S size = abs(residual_[i]);
-            const Mask finite = terms <= S(largest);
             const Mask zero = size <= S(0);
-            done_ = done_ & (zero | (finite & (size <= S(tight()) * terms)));
-            close_ = close_ & (zero | (finite & (size <= S(sqrt(epsilon)) * terms)));
+            const Mask finite = both<Mask>(terms <= S(largest), size_[i] <= S(largest));
+            const Mask done = either<Mask>(size <= S(tight()) * terms, size <= S(tight()) * size_[i]);
+            const Mask close =
+                either<Mask>(size <= S(sqrt(epsilon)) * terms, size <= S(Real(256) * epsilon) * size_[i]);
+            done_ = done_ & (zero | (finite & done));
+            close_ = close_ & (zero | (finite & close));
         }
     }
 
@@ -160,37 +197,40 @@ class NewtonIteration {
     void try_at(Mask where, const S& damping) noexcept
     {
         for (std::size_t k = 0; k < N; ++k) trial_[k] = select(where, z_[k] - damping * step_[k], trial_[k]);
-        function_(trial_, next_residual_, jacobian_);
+        evaluate(trial_, next_residual_);
         next_ = lu_.solve(next_residual_);
         next_length_ = largest_of(next_);
     }
 
-    /// Finds the longest damped step that shortens the next one. Near a root an undamped step need not: there one that
-    /// is not much worse than the last ones, or that no damped one is better than, is taken; it may be round-off
-    /// that compares them.
+    /// Finds a damped step that shortens the next one, at a point where F and dF/dz are finite. Near a root an undamped
+    /// step need not: there one that is not much worse than the last ones, or that no damped one is better than, is
+    /// taken; it may be round-off that compares them.
     void search() noexcept
     {
         damping_ = S(1);
         trial_ = z_;
-        Mask searching = active_;
+        Mask searching = active_, found = S(1) < S(0);
+        S halvings(0);
         const S tolerable = S(16) * select(length_ <= before_, before_, length_);
-        for (int halving = 0; halving <= newton_halvings && !none(searching); ++halving) {
+        for (int count = 0; count <= newton_reductions && !none(searching); ++count) {
             try_at(searching, damping_);
             const S bound = (S(1) - S(Real(0.25)) * damping_) * length_ + S(epsilon) * largest_of(trial_);
-            Mask good = next_length_ <= bound;
-            if (halving == 0) good = good | done_ | (close_ & (next_length_ <= tolerable));
-            const Mask worse = !good;
-            searching = searching & worse;
-            damping_ = select(searching, S(Real(0.5)) * damping_, damping_);
+            const Mask finite = both<Mask>(next_length_ <= S(largest), largest_of(jacobian_) <= S(largest));
+            Mask good = finite & (next_length_ <= bound);
+            if (count == 0) good = good | done_ | (finite & close_ & (next_length_ <= tolerable));
+            found = found | (searching & good);
+            halvings = halvings + select(finite, S(1), S(0));
+            searching = both<Mask>(searching & !good, halvings <= S(newton_halvings));
+            const S share = select(finite, S(Real(0.5)), S(Real(count < newton_first_reductions ? 0.5 : 0.0625)));
+            damping_ = select(searching, share * damping_, damping_);
         }
-        const Mask forced = searching & close_;
+        const Mask unsuccessful = !found;
+        const Mask forced = active_ & close_ & unsuccessful;
         if (!none(forced)) {
             damping_ = select(forced, S(1), damping_);
             try_at(forced, damping_);
-            const Mask bad = !(close_ & (next_length_ <= S(largest)));
-            searching = searching & bad;
+            found = found | both<Mask>(forced, next_length_ <= S(largest));
         }
-        const Mask found = !searching;
         active_ = active_ & found;
     }
 
@@ -222,6 +262,7 @@ class NewtonIteration {
     const Function& function_;
     std::array<S, N> residual_{}, step_{}, trial_{}, next_residual_{}, next_{};
     std::array<S, N * N> jacobian_{};
+    std::array<S, N> size_{};
     PivotedLu<S, static_cast<int>(N)> lu_;
     Stagnation<S, N> stagnation_;
     S length_ = S(0), before_ = S(0), next_length_ = S(0), damping_ = S(1);
@@ -232,13 +273,15 @@ class NewtonIteration {
 } // namespace detail
 
 /// Solves F(z) = 0 from the guess in `z`.
-/// @param function function(z, residual, jacobian): F (N entries) and dF/dz (N * N entries by rows) at z
+/// @param function function(z, residual, jacobian): F (N entries) and dF/dz (N * N entries by rows) at z; or
+///        function(z, residual, jacobian, size), with the sum of the absolute values of the terms of each F_i
 /// @return newton_diverged, a lane, where no z was found to round-off: then z is NaN. Convergence is declared where
-///         - every row is a rounding error of its own terms, |F_i| <= 4 epsilon sum_j |dF_i/dz_j| |z_j|, zero included
-///           (the componentwise backward error of the linearised equations [Oettli, Prager 1964]), or
+///         - every row is a rounding error of its own terms, |F_i| <= 4 epsilon sum_j |dF_i/dz_j| |z_j| or 4 epsilon
+///           size_i, zero included (the componentwise backward error [Oettli, Prager 1964]), or
 ///         - the undamped step changes every unknown by a rounding error, |dz_k| <= 4 epsilon |z_k|, or
-///         - |F_i| <= sqrt(epsilon) sum_j |dF_i/dz_j| |z_j| in every row, and undamped steps have not got shorter, for
-///           any unknown, newton_patience times: F is not computed to its last places, and only that error is left.
+///         - |F_i| <= sqrt(epsilon) sum_j |dF_i/dz_j| |z_j| or 256 epsilon size_i in every row, and undamped steps have
+///           not got shorter, for any unknown, newton_patience times: F is not computed to its last places, and only
+///           that error is left.
 ///         A step that has to be damped is never the last one, and steps that still get shorter are made.
 template <class S, std::size_t N, class Function>
 [[nodiscard]] status_t<S> newton(std::array<S, N>& z, const Function& function) noexcept

@@ -16,7 +16,7 @@ struct Bracket {
 
 /// The crossing of `value` between a (value ga) and b (value gb of the other sign, or zero): the Illinois variant of
 /// regula falsi [Dowell and Jarratt 1971], every third trial a bisection, so that the bracket shrinks at least by 2 in
-/// three trials.
+/// three trials. A value that is not a number has not crossed.
 template <class Real, class Function>
 Bracket<Real> locate_crossing(Real a, Real ga, Real b, Real gb, Real width, const Function& value) noexcept
 {
@@ -32,7 +32,7 @@ Bracket<Real> locate_crossing(Real a, Real ga, Real b, Real gb, Real width, cons
         }
         if (!(x > a && x < b)) break;
         const Real g = value(x);
-        const bool crossed = rising ? !(g < Real(0)) : !(g > Real(0));
+        const bool crossed = rising ? g >= Real(0) : g <= Real(0);
         if (crossed) {
             b = x;
             gb = g;

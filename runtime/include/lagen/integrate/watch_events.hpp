@@ -49,7 +49,7 @@ class EventWatch {
 
     /// Crossings in (0, last] of a step, in order; those after a stop are left out. `at(theta)` answers the time and
     /// the state inside the step; `pieces` parts of the step are looked at one by one, so that two crossings in one
-    /// step can be told.
+    /// step can be told. Where a function is not a number its last sign stands, so that no gap hides a crossing.
     template <class At>
     const std::vector<Crossed>& look(Real last, int pieces, Real width, const At& at)
     {
@@ -60,6 +60,8 @@ class EventWatch {
             const Real end = piece == pieces ? last : last * Real(piece) / Real(pieces);
             const auto [t, s] = at(end);
             evaluate(t, *s, after_);
+            for (std::size_t r = 0; r < requests_.size(); ++r)
+                if (!(after_[r] <= Real(0)) && !(after_[r] >= Real(0))) after_[r] = before_[r];
             const std::size_t found = crossed_.size();
             for (std::size_t r = 0; r < requests_.size(); ++r) {
                 if (!crosses(r)) continue;
