@@ -102,7 +102,7 @@ class UnknownSolver {
             if (size == 0) continue;
             const bool finite = std::isfinite(terms) && std::isfinite(sizes[i]);
             done_ = done_ && finite && size <= 4 * epsilon * std::max(terms, sizes[i]);
-            close_ = close_ && finite && size <= std::max(std::sqrt(epsilon) * terms, 256 * epsilon * sizes[i]);
+            close_ = close_ && finite && size <= std::max(std::sqrt(epsilon) * terms, 16 * epsilon * sizes[i]);
         }
     }
 

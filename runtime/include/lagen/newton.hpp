@@ -176,7 +176,7 @@ class NewtonIteration {
             const Mask finite = both<Mask>(terms <= S(largest), size_[i] <= S(largest));
             const Mask done = either<Mask>(size <= S(tight()) * terms, size <= S(tight()) * size_[i]);
             const Mask close =
-                either<Mask>(size <= S(sqrt(epsilon)) * terms, size <= S(Real(256) * epsilon) * size_[i]);
+                either<Mask>(size <= S(sqrt(epsilon)) * terms, size <= S(Real(16) * epsilon) * size_[i]);
             done_ = done_ & (zero | (finite & done));
             close_ = close_ & (zero | (finite & close));
         }
@@ -279,7 +279,7 @@ class NewtonIteration {
 ///         - every row is a rounding error of its own terms, |F_i| <= 4 epsilon sum_j |dF_i/dz_j| |z_j| or 4 epsilon
 ///           size_i, zero included (the componentwise backward error [Oettli, Prager 1964]), or
 ///         - the undamped step changes every unknown by a rounding error, |dz_k| <= 4 epsilon |z_k|, or
-///         - |F_i| <= sqrt(epsilon) sum_j |dF_i/dz_j| |z_j| or 256 epsilon size_i in every row, and undamped steps have
+///         - |F_i| <= sqrt(epsilon) sum_j |dF_i/dz_j| |z_j| or 16 epsilon size_i in every row, and undamped steps have
 ///           not got shorter, for any unknown, newton_patience times: F is not computed to its last places, and only
 ///           that error is left.
 ///         A step that has to be damped is never the last one, and steps that still get shorter are made.
