@@ -129,6 +129,19 @@ std::string failures_text(const VerifiedAlgebroid& verified, ProofStatus status)
     return text;
 }
 
+/// "5 points, 60 digits: every proved residual is at most 3e-71"
+std::string confirmed_text(const VerifiedAlgebroid& verified, const Reevaluation& reevaluation)
+{
+    std::size_t count = 0;
+    for (const Check& check : verified.checks)
+        if (check.decision.status == ProofStatus::proved && check.reevaluation) ++count;
+    if (count == 0) return "nothing: no proved equation has terms";
+    if (reevaluation.points == 0) return "a proved residual has a finite value at none of the points that were tried";
+    const std::string where = fmt::format("{} points, {} digits", reevaluation.points, reevaluation_digits);
+    if (reevaluation.bound == 0) return fmt::format("{}: all proved residuals are exactly 0", where);
+    return fmt::format("{}: every proved residual is at most {:.0e}", where, reevaluation.bound);
+}
+
 /// "3e-71"
 std::string largest_text(const Reevaluation& reevaluation)
 {
@@ -192,8 +205,7 @@ std::string report_text(const std::string& model, const VerifiedAlgebroid& verif
         text += fmt::format("  {:<16}{}\n", kind, counts_text(counts_of(verified, kind)));
     text += regularity_text(verified.regularity);
     if (const auto& again = verified.reevaluation)
-        text += fmt::format("  {:<16}{} points, {} digits: every proved residual is at most {}\n", "re-evaluated",
-                            again->points, reevaluation_digits, largest_text(*again));
+        text += fmt::format("  {:<16}{}\n", "re-evaluated", confirmed_text(verified, *again));
     if (!verified.note.empty()) text += fmt::format("  note: {}\n", verified.note);
     return text + failures_text(verified, ProofStatus::refuted) + failures_text(verified, ProofStatus::undecided);
 }

@@ -80,6 +80,13 @@ TEST_CASE("--verify evaluates every residual again and says so in text and JSON"
     CHECK(text.out.find("\n  re-evaluated    5 points, 60 digits: every proved residual is at most ") !=
           std::string::npos);
     CHECK(call({"check", "heavy_top.toml"}).out.find("re-evaluated") == std::string::npos);
+    const auto said = [](const std::string& model) {
+        const std::string out = call({"check", model, "--verify"}).out;
+        const std::size_t begin = out.find("  re-evaluated");
+        return begin == std::string::npos ? out : out.substr(begin, out.find('\n', begin) - begin);
+    };
+    CHECK(said("heisenberg.toml") == "  re-evaluated    5 points, 60 digits: all proved residuals are exactly 0");
+    CHECK(said("pendulum.toml") == "  re-evaluated    nothing: no proved equation has terms");
     CHECK(call({"check", "refuted.toml", "--verify"}).code == 1);
 }
 
