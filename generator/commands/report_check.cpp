@@ -160,6 +160,10 @@ std::string regularity_text(const Regularity& regularity)
     for (const Point& vector : regularity.kernel)
         text += fmt::format("  {:<16}kernel vector {}\n", "", point_text(vector));
     if (!regularity.evidence.empty()) text += fmt::format("  {:<16}{}\n", "", regularity.evidence);
+    std::string equations;
+    for (const std::string& factor : regularity.singular_where)
+        equations += fmt::format("{}{} = 0", equations.empty() ? "" : " or ", factor);
+    if (!equations.empty()) text += fmt::format("  {:<16}singular where {}\n", "", equations);
     for (const Point& point : regularity.singular_at)
         text += fmt::format("  {:<16}singular at {}\n", "", point_text(point));
     return text;
@@ -229,6 +233,8 @@ void report_json(JsonWriter& json, const std::string& model, const VerifiedAlgeb
     }
     json.key("singular_at").begin_array();
     for (const Point& point : regularity.singular_at) point_json(json, point);
+    json.end_array().key("singular_where").begin_array();
+    for (const std::string& factor : regularity.singular_where) json.value(factor);
     json.end_array().end_object();
     verified_json(json, verified.reevaluation);
     if (!verified.note.empty()) json.key("note").value(verified.note);

@@ -126,6 +126,20 @@ TEST_CASE("a degenerate Lagrangian leaves the verdict as it is")
     CHECK_FALSE(regular["regularity"].has("kernel"));
 }
 
+TEST_CASE("a Lagrangian that is regular at some points only says where it is singular")
+{
+    const Outcome outcome = call({"check", "gimbal.toml"});
+    CHECK(outcome.code == 0);
+    CHECK(outcome.out ==
+          "gimbal: valid\n  2 equations zero by structure\n  regularity      generically_regular, rank 2\n"
+          "                  singular where cos(theta) = 0\n");
+    const json::Value singular = json::parse(call({"check", "gimbal.toml", "--format", "json"}).out);
+    CHECK(singular["regularity"]["singular_where"].texts() == std::vector<std::string>{"cos(theta)"});
+    CHECK(singular["regularity"]["singular_at"].size() == 0);
+    const json::Value regular = json::parse(call({"check", "pendulum.toml", "--format", "json"}).out);
+    CHECK(regular["regularity"]["singular_where"].size() == 0);
+}
+
 TEST_CASE("over several models the exit code is 3 before 1 before 2 before 0, and each is reported")
 {
     const auto code = [](const std::vector<std::string>& models) {
