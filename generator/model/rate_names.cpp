@@ -5,7 +5,6 @@
 #include "model/families.hpp"
 
 #include <algorithm>
-#include <array>
 #include <fmt/format.h>
 
 namespace lagen {
@@ -36,45 +35,51 @@ std::vector<Tree> trees_of(const std::vector<Symbol>& symbols)
     return out;
 }
 
-/// The y of the block that is the rate of its k-th coordinate; null where there is none.
-Tree component(const std::vector<Tree>& y, std::size_t k)
+/// y[k] for the coordinate places[k].
+void place_rates(std::vector<Tree>& rates, const std::vector<std::size_t>& places, const std::vector<Tree>& y)
 {
-    return k < y.size() ? y[k] : nullptr;
+    for (std::size_t k = 0; k < std::min(places.size(), y.size()); ++k) rates[places[k]] = y[k];
 }
 
-/// rho^i_a y^a for coordinate i of the model; null where the block does not say it in so many words.
-Tree rate_of(const Model& model, const AlgebroidBlock& block, const std::vector<Tree>& y, std::size_t i)
+std::vector<Tree> anchored_rates(const AlgebroidBlock& block, const std::vector<Tree>& y, std::size_t count)
 {
-    const auto place = [i](const std::vector<std::size_t>& list) {
-        return static_cast<std::size_t>(std::ranges::find(list, i) - list.begin());
-    };
+    std::vector<std::vector<Tree>> terms(count);
+    for (const AnchorEntry& entry : block.anchor)
+        if (entry.section < y.size()) terms[entry.coordinate].push_back(product_of(entry.value, y[entry.section]));
+    std::vector<Tree> rates(count);
+    for (std::size_t i = 0; i < count; ++i)
+        if (!terms[i].empty()) rates[i] = terms[i].size() == 1 ? terms[i][0] : add(terms[i]);
+    return rates;
+}
+
+/// rho^i_a y^a, one a coordinate of the model; null where the block does not say it in so many words.
+std::vector<Tree> rates_of(const Model& model, const AlgebroidBlock& block, const std::vector<Tree>& y)
+{
+    std::vector<Tree> rates(model.base.coordinates.size());
     switch (block.kind) {
-    case AlgebroidKind::tangent: return component(y, place(block.over));
-    case AlgebroidKind::atiyah:
-        return place(block.base) < block.base.size() ? component(y, place(block.base)) : nullptr;
+    case AlgebroidKind::tangent: place_rates(rates, block.over, y); break;
+    case AlgebroidKind::atiyah: place_rates(rates, block.base, y); break;
     case AlgebroidKind::subbundle:
-        return place(block.base) < block.base.size() ? name("v_" + model.base.coordinates[i].name) : nullptr;
-    case AlgebroidKind::frame: return rate_of(model, block.of[0], trees_of(block.of[0].fibre), i);
+        for (const std::size_t i : block.base) rates[i] = name("v_" + model.base.coordinates[i].name);
+        break;
+    case AlgebroidKind::frame: return rates_of(model, block.of[0], trees_of(block.of[0].fibre));
     case AlgebroidKind::product: {
         auto first = y.begin();
         for (const AlgebroidBlock& factor : block.of) {
-            if (static_cast<std::size_t>(y.end() - first) < factor.fibre.size()) return nullptr; // has no names here
+            if (static_cast<std::size_t>(y.end() - first) < factor.fibre.size()) break; // they have no names here
             const auto next = first + static_cast<std::ptrdiff_t>(factor.fibre.size());
-            if (Tree rate = rate_of(model, factor, {first, next}, i)) return rate;
+            const std::vector<Tree> more = rates_of(model, factor, {first, next});
+            for (std::size_t i = 0; i < rates.size(); ++i)
+                if (more[i]) rates[i] = more[i];
             first = next;
         }
-        return nullptr;
+        break;
     }
     case AlgebroidKind::general:
-    case AlgebroidKind::action: {
-        std::vector<Tree> terms;
-        for (const AnchorEntry& entry : block.anchor)
-            if (entry.coordinate == i && entry.section < y.size())
-                terms.push_back(product_of(entry.value, y[entry.section]));
-        return terms.empty() ? nullptr : terms.size() == 1 ? terms[0] : add(terms);
+    case AlgebroidKind::action: return anchored_rates(block, y, rates.size());
+    default: break;
     }
-    default: return nullptr;
-    }
+    return rates;
 }
 
 /// The one name that the rates of a coordinate, or of a family in its order, are; empty where they are none.
@@ -95,15 +100,21 @@ std::string momentum_of(const Model& model, const Tree& rate, const Shape& shape
     return shape.rank == Rank::scalar ? momentum : family_name(momentum);
 }
 
+std::string hint_of(const CoordinateRate& rate)
+{
+    return rate.is_name ? fmt::format("did you mean '{}'?", rate.rate)
+                        : fmt::format("by the anchor the rate of '{}' is {}", rate.coordinate, rate.rate);
+}
+
 } // namespace
 
 std::vector<CoordinateRate> coordinate_rates(const Model& model)
 {
     std::vector<CoordinateRate> out;
+    const std::vector<Tree> all = rates_of(model, model.algebroid, trees_of(model.algebroid.fibre));
     for (const SymbolGroup& group : group_symbols(model.base.coordinates)) {
-        std::vector<Tree> rates;
-        for (std::size_t k = 0; k < group.shape.size(); ++k)
-            rates.push_back(rate_of(model, model.algebroid, trees_of(model.algebroid.fibre), group.first + k));
+        const auto first = all.begin() + static_cast<std::ptrdiff_t>(group.first);
+        const std::vector<Tree> rates(first, first + static_cast<std::ptrdiff_t>(group.shape.size()));
         if (std::ranges::find(rates, nullptr) != rates.end()) continue;
         CoordinateRate rate{group.name, common_name(rates, group.shape), true, {}};
         if (!rate.rate.empty()) {
@@ -120,9 +131,7 @@ std::vector<CoordinateRate> coordinate_rates(const Model& model)
 std::string hint_for_rate(const std::string& name, const std::vector<CoordinateRate>& rates)
 {
     for (const CoordinateRate& each : rates)
-        if (is_among(rate_spellings(each.coordinate), name))
-            return each.is_name ? fmt::format("did you mean '{}'?", each.rate)
-                                : fmt::format("by the anchor the rate of '{}' is {}", each.coordinate, each.rate);
+        if (is_among(rate_spellings(each.coordinate), name)) return hint_of(each);
     return {};
 }
 
@@ -141,11 +150,10 @@ std::string hint_for_momentum(const std::string& name, const std::vector<Coordin
 void explain_rates(Scope& scope, const std::vector<CoordinateRate>& rates)
 {
     for (const CoordinateRate& each : rates) {
-        for (const std::string& spelling : rate_spellings(each.coordinate))
-            scope.explain(spelling, hint_for_rate(spelling, rates));
+        for (const std::string& spelling : rate_spellings(each.coordinate)) scope.explain(spelling, hint_of(each));
         if (each.momentum.empty()) continue;
         for (const std::string& spelling : momentum_spellings(each.coordinate))
-            scope.explain(spelling, hint_for_momentum(spelling, rates));
+            scope.explain(spelling, fmt::format("did you mean '{}'?", each.momentum));
     }
 }
 

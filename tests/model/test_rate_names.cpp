@@ -91,3 +91,17 @@ TEST_CASE("in H a definition of momenta is known, and one of velocities is not")
     CHECK(hint_of_model(model + "[hamiltonian]\nH = \"kinetci\"\n") == "did you mean 'kinetic'?");
     CHECK(hint_of_model(model + "[hamiltonian]\nH = \"speedi\"\n") == "known names are x, p_v_x, kinetic, t");
 }
+
+TEST_CASE("subbundles answer with the ambient velocity, frames with the coordinates of the inner frame")
+{
+    const std::string base = "[base]\ncoordinates = [\"x\", \"y\"]\n";
+    CHECK(hint_of_model(base +
+                        "[fibre]\ncoordinates = [\"u\"]\n[algebroid]\nkind = \"subbundle\"\n"
+                        "spanned_by = { u = { x = \"cos(y)\", y = \"1\" } }\n" +
+                        with_lagrangian("xdot^2/2")) == "did you mean 'v_x'?");
+    CHECK(hint_of_model(base +
+                        "[fibre]\ncoordinates = [\"a\", \"b\"]\n[algebroid]\nkind = \"frame\"\n"
+                        "sections = { a = { r = \"1\" }, b = { s = \"x\" } }\n[algebroid.of]\n"
+                        "kind = \"tangent\"\nfibre = [\"r\", \"s\"]\n" +
+                        with_lagrangian("ydot^2/2")) == "did you mean 's'?");
+}
