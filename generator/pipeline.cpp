@@ -97,7 +97,8 @@ std::string shell_word(std::string text)
     return quoted + "'";
 }
 
-/// With every option that changes the header; the model by its name alone, so that the bytes are the same everywhere.
+/// With every option that changes the header; files by their names alone, so that the bytes are the same in every
+/// folder. `name` is that of the header where the request has none.
 std::string regenerate_command(const CheckedModel& checked, const GenerateRequest& request,
                                const std::string& kernels_form, const std::string& name)
 {
@@ -110,7 +111,8 @@ std::string regenerate_command(const CheckedModel& checked, const GenerateReques
     if (kernels_form != default_form(checked.model)) command += " --form " + kernels_form;
     if (!only.empty()) command += " --only " + shell_word(only);
     if (checked.unchecked && checked.verified.verdict == Verdict::invalid) command += " --unchecked";
-    return fmt::format("{} -o {}.hpp", command, name);
+    const std::string output = std::filesystem::path(request.output).filename().string();
+    return fmt::format("{} -o {}", command, shell_word(output.empty() ? name + ".hpp" : output));
 }
 
 /// A scene's program is told every parameter: defaults and hash in its header would make a new program of each change
@@ -158,7 +160,7 @@ Generated generate(const CheckedModel& checked, const GenerateRequest& request)
     kernels.only = request.only;
     kernels.scene = request.scene;
     Generated generated;
-    if (request.report) kernels.report = &generated.report;
+    if (request.report) kernels.reports = &generated.reports;
     generated.module = form_kernels(model, checked.verified, kernels);
     KernelModule& module = generated.module;
     module.hash = hash_of(checked);

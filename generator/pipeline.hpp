@@ -29,7 +29,8 @@ struct CheckedModel {
 struct GenerateRequest {
     std::string form;              ///< empty: default_form(model)
     std::vector<std::string> only; ///< kernels; empty: all
-    bool report = false;           ///< what simplification tried, as text
+    std::string output;            ///< the file that the header is for; empty: one that bears the model's name
+    bool report = false;           ///< what simplification tried
     const Scene* scene = nullptr;  ///< for `run`: this scene's events and observed expressions, defaults and hash 0
 };
 
@@ -37,7 +38,7 @@ struct GenerateRequest {
 struct Generated {
     KernelModule module;
     std::string header;
-    std::string report; ///< where it was asked for
+    std::vector<KernelReport> reports; ///< where they were asked for
 };
 [[nodiscard]] Generated generate(const CheckedModel& checked, const GenerateRequest& request);
 

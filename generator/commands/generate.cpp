@@ -3,32 +3,47 @@
 #include "commands/command.hpp"
 #include "commands/options.hpp"
 #include "commands/places.hpp"
+#include "commands/report_operations.hpp"
 #include "commands/write_file.hpp"
 #include "emit/json.hpp"
+#include "kernels/requested_kernels.hpp"
 #include "model/scene_form.hpp"
 #include "pipeline.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 namespace lagen {
 
 namespace {
 
-const CommandSyntax generate_syntax{
-    "generate",
-    "MODEL",
-    "Writes the C++ header of a model: right-hand side, mass matrix, energy, momentum, "
-    "constraints, observables, events.",
-    {{"output,o", "FILE", "the header; standard output without it"},
-     {"form", "FORM",
-      "lagrange, hamilton or pontryagin; without it pontryagin for a control problem, lagrange where "
-      "there is L, else hamilton"},
-     {"only", "KERNELS", "these kernels alone, e.g. rhs,energy"},
-     {"report", nullptr, "operations before and after each pass and the costliest terms, on standard error"},
-     {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
-     {"unchecked", nullptr, "go on although the model is refuted; the header says so"},
-     {"format,f", "FORMAT", "text (the header) or json (what it holds, and the header)", "text"},
-     {"depfile", "FILE", "write a dependency file for make or ninja (needs --output)"}}};
+CommandSyntax generate_syntax(const std::string& only)
+{
+    return {"generate",
+            "MODEL",
+            "Writes the C++ header of a model: right-hand side, mass matrix, energy, momentum, "
+            "constraints, observables, events.",
+            {{"output,o", "FILE", "the header; standard output without it"},
+             {"form", "FORM",
+              "lagrange, hamilton or pontryagin; without it pontryagin for a control problem, lagrange where "
+              "there is L, else hamilton"},
+             {"only", "KERNELS", only.c_str()},
+             {"report", "WHAT",
+              "on standard error: summary, the operations of each kernel before and after the passes that changed them "
+              "and its "
+              "costliest terms; full, every form that was tried",
+              nullptr, "summary"},
+             {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
+             {"unchecked", nullptr, "go on although the model is refuted; the header says so"},
+             {"format,f", "FORMAT", "text (the header) or json (what it holds, and the header)", "text"},
+             {"depfile", "FILE", "write a dependency file for make or ninja (needs --output)"}}};
+}
+
+/// What `--only` may name.
+std::string help_for_only()
+{
+    return fmt::format("these kernels alone, e.g. rhs,energy; there are {} (a model has some of them)",
+                       fmt::join(kernel_names(), ", "));
+}
 
 /// A path as make and ninja read it in a dependency file.
 std::string escaped(const std::string& path)
@@ -64,21 +79,24 @@ std::string module_json(const Generated& generated)
 
 ExitCode run_generate(Arguments arguments)
 {
-    const Options options(generate_syntax, arguments);
+    const std::string only = help_for_only();
+    const Options options(generate_syntax(only), arguments);
     if (options.help()) return ExitCode::done;
     const bool as_json = options.choice("format", {"text", "json"}) == "json";
     if (options.has("form")) (void)options.choice("form", form_names());
+    const bool full_report = options.has("report") && options.choice("report", {"summary", "full"}) == "full";
     if (options.has("depfile") && !options.has("output")) throw UsageError("lagen generate: --depfile needs --output");
     const std::string model = model_path(options.positional()[0]);
     const CheckedModel checked = load(model, options.settings(), options.has("unchecked"));
     for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
     GenerateRequest request;
+    if (options.get("output") != "-") request.output = options.get("output");
     request.report = options.has("report");
     request.form = options.get("form");
     request.only = split_list(options.get("only"));
     const std::string output = options.has("output") ? options.get("output") : "-";
     const Generated generated = generate(checked, request);
-    if (request.report) write_standard_error(generated.report);
+    if (request.report) write_standard_error(operations_text(generated.reports, full_report));
     write_file(output, as_json ? module_json(generated) : generated.header);
     if (options.has("depfile")) {
         std::string inputs = escaped(model);

@@ -129,6 +129,19 @@ std::string failures_text(const VerifiedAlgebroid& verified, ProofStatus status)
     return text;
 }
 
+/// "5 points, 60 digits: every proved residual is at most 3e-71"
+std::string confirmed_text(const VerifiedAlgebroid& verified, const Reevaluation& reevaluation)
+{
+    std::size_t count = 0;
+    for (const Check& check : verified.checks)
+        if (check.decision.status == ProofStatus::proved && check.reevaluation) ++count;
+    if (count == 0) return "nothing: no proved equation has terms";
+    if (reevaluation.points == 0) return "a proved residual has a finite value at none of the points that were tried";
+    const std::string where = fmt::format("{} points, {} digits", reevaluation.points, reevaluation_digits);
+    if (reevaluation.bound == 0) return fmt::format("{}: all proved residuals are exactly 0", where);
+    return fmt::format("{}: every proved residual is at most {:.0e}", where, reevaluation.bound);
+}
+
 /// "3e-71"
 std::string largest_text(const Reevaluation& reevaluation)
 {
@@ -147,6 +160,10 @@ std::string regularity_text(const Regularity& regularity)
     for (const Point& vector : regularity.kernel)
         text += fmt::format("  {:<16}kernel vector {}\n", "", point_text(vector));
     if (!regularity.evidence.empty()) text += fmt::format("  {:<16}{}\n", "", regularity.evidence);
+    std::string equations;
+    for (const std::string& factor : regularity.singular_where)
+        equations += fmt::format("{}{} = 0", equations.empty() ? "" : " or ", factor);
+    if (!equations.empty()) text += fmt::format("  {:<16}singular where {}\n", "", equations);
     for (const Point& point : regularity.singular_at)
         text += fmt::format("  {:<16}singular at {}\n", "", point_text(point));
     return text;
@@ -192,8 +209,7 @@ std::string report_text(const std::string& model, const VerifiedAlgebroid& verif
         text += fmt::format("  {:<16}{}\n", kind, counts_text(counts_of(verified, kind)));
     text += regularity_text(verified.regularity);
     if (const auto& again = verified.reevaluation)
-        text += fmt::format("  {:<16}{} points, {} digits: every proved residual is at most {}\n", "re-evaluated",
-                            again->points, reevaluation_digits, largest_text(*again));
+        text += fmt::format("  {:<16}{}\n", "re-evaluated", confirmed_text(verified, *again));
     if (!verified.note.empty()) text += fmt::format("  note: {}\n", verified.note);
     return text + failures_text(verified, ProofStatus::refuted) + failures_text(verified, ProofStatus::undecided);
 }
@@ -217,6 +233,8 @@ void report_json(JsonWriter& json, const std::string& model, const VerifiedAlgeb
     }
     json.key("singular_at").begin_array();
     for (const Point& point : regularity.singular_at) point_json(json, point);
+    json.end_array().key("singular_where").begin_array();
+    for (const std::string& factor : regularity.singular_where) json.value(factor);
     json.end_array().end_object();
     verified_json(json, verified.reevaluation);
     if (!verified.note.empty()) json.key("note").value(verified.note);

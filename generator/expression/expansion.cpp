@@ -190,7 +190,7 @@ void Expansion::Closing::refuse_explained(const TreeNode& node) const
     std::string hint;
     if (explained != scope_.explanations_.end()) hint = explained->second;
     if (hint.empty() && !entry.empty()) hint = fmt::format("did you mean '{}'?", entry);
-    if (!hint.empty()) throw ModelError(fmt::format("unknown symbol {}", quote(node.name)), node.where, hint);
+    if (!hint.empty()) throw UnknownSymbol(node.name, node.where, hint, true);
 }
 
 void Expansion::Closing::unknown(const TreeNode& node, const OpenBody& body, bool as_function) const
@@ -198,15 +198,15 @@ void Expansion::Closing::unknown(const TreeNode& node, const OpenBody& body, boo
     if (!as_function && is_function_name(node.name))
         throw ModelError(fmt::format("the function {} stands without arguments", quote(node.name)), node.where,
                          fmt::format("arguments stand in parentheses: {}(..)", node.name));
-    if (!as_function) refuse_explained(node);
     std::vector<std::string> known;
-    if (!as_function)
+    if (!as_function) {
+        refuse_explained(node);
         for (const BoundName& entry : body.bound) known.push_back(*entry.name);
-    if (!as_function)
         for (const std::string& name : scope_.value_names()) known.push_back(name);
+        throw UnknownSymbol(node.name, node.where, hint_for_symbol(node.name, known));
+    }
     for (const Definition& definition : scope_.definitions_)
-        if (definition.parameters.empty() != as_function) known.push_back(definition.name);
-    if (!as_function) throw UnknownSymbol(node.name, node.where, hint_for_symbol(node.name, known));
+        if (!definition.parameters.empty()) known.push_back(definition.name);
     throw ModelError(fmt::format("unknown function {}", quote(node.name)), node.where,
                      hint_for_function(node.name, known));
 }

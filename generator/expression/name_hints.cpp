@@ -26,6 +26,9 @@ constexpr std::array foreign_symbols{
     Foreign{"e", "the exponential function is written exp(x)"},
 };
 
+/// What the model may use under a name of its own, where it may.
+constexpr std::array quantities{std::pair{"E", "energy"}, std::pair{"H", "hamiltonian"}, std::pair{"L", "lagrangian"}};
+
 constexpr std::array foreign_functions{
     Foreign{"ln", "the natural logarithm is written log(x)"},
     Foreign{"log10", "log is the natural logarithm: log(x)/log(10)"},
@@ -47,10 +50,10 @@ constexpr std::array foreign_functions{
     Foreign{"coth", "this is written cosh(x)/sinh(x)"},
 };
 
-/// "heading a, b, c", cut after ten names.
+/// "heading a, b, c", cut after twenty names.
 std::string listing(const char* heading, const std::vector<std::string>& known)
 {
-    constexpr std::size_t most = 10;
+    constexpr std::size_t most = 20;
     const std::vector<std::string> shown(known.begin(),
                                          known.begin() + static_cast<std::ptrdiff_t>(std::min(most, known.size())));
     return fmt::format("{}{}{}", heading, fmt::join(shown, ", "), known.size() > most ? ", ..." : "");
@@ -64,6 +67,9 @@ std::string hint_for_symbol(const std::string& name, const std::vector<std::stri
     if (!nearest.empty()) return fmt::format("did you mean '{}'?", nearest);
     for (const Foreign& entry : foreign_symbols)
         if (entry.name == name) return entry.hint;
+    for (const auto& [letter, quantity] : quantities)
+        if (name == letter && std::ranges::find(known, quantity) != known.end())
+            return fmt::format("did you mean '{}'?", quantity);
     return known.empty() ? fmt::format("sizes are declared first: [sizes] {} = 3", name)
                          : listing("known names are ", known);
 }

@@ -178,9 +178,11 @@ void Parser::refuse_missing_operator() const
     const std::string_view word = lexer_.text(token_);
     const bool logical = word == "and" || word == "or" || word == "not";
     fail_here(fmt::format("missing operator between {} and {}", quote(lexer_.text(previous_)), here()),
-              logical ? fmt::format("there is no {}: conditions stand alone, as in domain = [\"a < b\", \"b < c\"]",
-                                    quote(word))
-                      : "a product is written with '*', for instance 2*x");
+              logical
+                  ? fmt::format(
+                        "there is no {}: each condition is an entry of its own, as in domain = [\"a < b\", \"b < c\"]",
+                        quote(word))
+                  : "a product is written with '*', for instance 2*x");
 }
 
 Tree parse_expression(const Excerpt& text, const ParseLimits& limits)

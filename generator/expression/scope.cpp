@@ -40,8 +40,9 @@ std::optional<EntryIndices> indices_of(std::string_view name)
 
 } // namespace
 
-UnknownSymbol::UnknownSymbol(std::string name, const SourceRange& where, const std::string& hint)
-    : ModelError(fmt::format("unknown symbol {}", quote(name)), where, hint), name_(std::move(name))
+UnknownSymbol::UnknownSymbol(std::string name, const SourceRange& where, const std::string& hint, bool explained)
+    : ModelError(fmt::format("unknown symbol {}", quote(name)), where, hint), name_(std::move(name)),
+      explained_(explained)
 {
 }
 
@@ -73,6 +74,7 @@ void Scope::declare(const std::string& symbol, const SourceRange& where)
     require_new(symbol, where);
     symbol_index_.emplace(symbol, symbols_.size());
     symbols_.push_back({symbol, where});
+    order_.push_back(symbol);
     expansion_.reset();
 }
 
@@ -82,6 +84,7 @@ void Scope::declare_family(const std::string& name, const Shape& shape, const So
     require_new(name, where);
     family_index_.emplace(name, families_.size());
     families_.push_back({name, shape, where});
+    order_.push_back(name);
     expansion_.reset();
 }
 
@@ -90,12 +93,18 @@ void Scope::declare_size(const std::string& name, long value, const SourceRange&
     require_new(name, where);
     size_index_.emplace(name, sizes_.size());
     sizes_.push_back({name, value, where});
+    order_.push_back(name);
     expansion_.reset();
 }
 
 void Scope::explain(const std::string& name, const std::string& hint)
 {
     explanations_[name] = hint;
+}
+
+void Scope::list_last(const std::string& name)
+{
+    last_.insert(name);
 }
 
 void Scope::define(Definition definition)
@@ -149,10 +158,11 @@ std::optional<long> Scope::find_size(const std::string& name) const
 
 std::vector<std::string> Scope::value_names() const
 {
-    std::vector<std::string> names;
-    for (const Symbol& symbol : symbols_) names.push_back(symbol.name);
-    for (const FamilyOfSymbols& family : families_) names.push_back(family.name);
-    for (const DeclaredSize& size : sizes_) names.push_back(size.name);
+    std::vector<std::string> names = order_;
+    for (const Definition& definition : definitions_)
+        if (definition.parameters.empty()) names.push_back(definition.name);
+    std::stable_partition(names.begin(), names.end(),
+                          [this](const std::string& name) { return !last_.contains(name); });
     return names;
 }
 

@@ -8,6 +8,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 
 namespace lagen {
 
@@ -24,11 +25,14 @@ struct Definition {
 /// What closing throws for a symbol that is not declared, so that a caller that accepts fewer names can hint at those.
 class UnknownSymbol : public ModelError {
   public:
-    UnknownSymbol(std::string name, const SourceRange& where, const std::string& hint);
+    UnknownSymbol(std::string name, const SourceRange& where, const std::string& hint, bool explained = false);
     [[nodiscard]] const std::string& name() const noexcept { return name_; }
+    /// The hint is of this very name, no list of others.
+    [[nodiscard]] bool is_explained() const noexcept { return explained_; }
 
   private:
     std::string name_;
+    bool explained_;
 };
 
 /// The symbols and definitions that an expression may use. Definitions may stand in any order.
@@ -43,6 +47,8 @@ class Scope {
     void declare_size(const std::string& name, long value, const SourceRange& where);
     /// The hint where `name`, which is not declared here, is used all the same: what it is elsewhere.
     void explain(const std::string& name, const std::string& hint);
+    /// Hints list `name`, a symbol, family or size, behind all others.
+    void list_last(const std::string& name);
 
     /// A declared symbol or entry of a family.
     [[nodiscard]] bool has_symbol(const std::string& name) const;
@@ -91,7 +97,8 @@ class Scope {
     };
     /// A symbol, an entry, a family or a size.
     [[nodiscard]] bool has_name(const std::string& name) const;
-    /// Symbols, families and sizes in order of declaration.
+    /// Symbols, families, sizes and definitions without parameters in order of declaration; those that are to be listed
+    /// last behind the others.
     [[nodiscard]] std::vector<std::string> value_names() const;
     /// "w[1]" for w1 and w_1 where there is such an entry; empty where there is none.
     [[nodiscard]] std::string entry_meant(const std::string& name) const;
@@ -108,6 +115,8 @@ class Scope {
     std::map<std::string, std::size_t> size_index_;
     std::map<std::string, std::size_t> definition_index_;
     std::map<std::string, std::string> explanations_;
+    std::vector<std::string> order_; ///< of declaration: symbols, families and sizes
+    std::set<std::string> last_;     ///< those that hints list last
     /// What has been expanded so far. It depends on the names above alone, so that copies may share it; a scope drops
     /// its hold on it when a name joins.
     mutable std::shared_ptr<Expansion> expansion_;

@@ -4,14 +4,30 @@
 #include "geometry/named_algebra.hpp"
 #include "model/table_reader.hpp"
 
+#include <algorithm>
+
 namespace lagen {
 namespace {
+
+/// The Lie algebra that was meant by "SO(5)", "so5" or "R3", or nearly by another name; empty where none is near.
+std::string algebra_meant(std::string name)
+{
+    const std::size_t letters = std::min(name.find_first_of("0123456789"), name.size());
+    const std::string digits = name.substr(letters);
+    const std::string space = name.substr(0, letters) + "^" + digits;
+    const std::string wanted = name;
+    for (char& c : name)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    for (const std::string& candidate : {name, name.substr(0, letters) + "(" + digits + ")", space})
+        if (named_algebra(candidate)) return candidate;
+    return nearest_name(wanted, named_algebra_names());
+}
 
 std::vector<StructureValue> named_constants(const AlgebroidBlock& block, std::size_t first, std::size_t rank)
 {
     const std::optional<NamedAlgebra> algebra = named_algebra(block.algebra);
     if (!algebra) {
-        const std::string near = nearest_name(block.algebra, named_algebra_names());
+        const std::string near = algebra_meant(block.algebra);
         throw ModelError("there is no Lie algebra called \"" + block.algebra + "\" of rank at most " +
                              std::to_string(named_algebra_rank_limit),
                          block.algebra_where,

@@ -4,6 +4,7 @@
 #include "geometry/definite_squares.hpp"
 #include "geometry/kernel_vectors.hpp"
 #include "geometry/rational_matrix.hpp"
+#include "geometry/singular_factors.hpp"
 #include "geometry/singular_points.hpp"
 #include "graph/differentiate.hpp"
 #include "graph/evaluate.hpp"
@@ -177,6 +178,18 @@ std::vector<NodeId> determinants_of(const std::vector<std::vector<NodeId>>& mino
     return determinants;
 }
 
+/// Points and equations of a W that was not proved to be regular everywhere. `minors` for all parameters, `valued` and
+/// `there` for the values of the file.
+void describe_singular(Regularity& result, Graph& graph, const ProofSetting& setting, const ZeroDecider& valued,
+                       const ProofSetting& there, const Replacements& defaults,
+                       const std::vector<std::vector<NodeId>>& minors)
+{
+    const std::vector<NodeId> determinants = determinants_of(minors);
+    result.singular_at = singular_points(graph, there, valued.budget(), substitute(graph, determinants, defaults));
+    if (determinants.size() == minors.size())
+        result.singular_where = singular_factors(graph, setting, valued, defaults, determinants);
+}
+
 /// Adds the blocks' ranks; false where one of them is not known.
 bool add_ranks(Graph& graph, const FibreHessian& hessian, const ZeroDecider& decider, Regularity& result)
 {
@@ -251,7 +264,7 @@ Regularity decide_regularity(Graph& graph, const FibreHessian& hessian, const Pr
         return result;
     }
     result.kind = Regularity::Kind::generically_regular;
-    std::vector<std::vector<NodeId>> minors = leading_minors(graph, hessian);
+    const std::vector<std::vector<NodeId>> minors = leading_minors(graph, hessian);
     const Shown shown = show(graph, hessian, setting, decider, minors);
     if (shown.regular && shown.positive_definite) {
         result.kind = Regularity::Kind::regular;
@@ -262,24 +275,23 @@ Regularity decide_regularity(Graph& graph, const FibreHessian& hessian, const Pr
         if (shown.regular)
             result.kind = Regularity::Kind::regular;
         else
-            result.singular_at = singular_points(graph, setting, decider.budget(), determinants_of(minors));
+            describe_singular(result, graph, setting, decider, setting, defaults, minors);
         return result;
     }
     try {
         const ProofSetting there = replaced(graph, setting, defaults);
         FibreHessian at_defaults = hessian;
         at_defaults.hessian = substitute(graph, hessian.hessian, defaults);
-        minors = leading_minors(graph, at_defaults);
         const ZeroDecider valued(graph, there, decider.budget());
         const Shown given = is_definite_for(graph, hessian, setting, decider.budget(), defaults)
                                 ? Shown{}
-                                : show(graph, at_defaults, there, valued, minors);
+                                : show(graph, at_defaults, there, valued, leading_minors(graph, at_defaults));
         result.for_given_parameters = given.positive_definite || (given.regular && !shown.regular);
         result.positive_definite = given.positive_definite;
         if (given.regular || shown.regular)
             result.kind = Regularity::Kind::regular;
         else
-            result.singular_at = singular_points(graph, there, decider.budget(), determinants_of(minors));
+            describe_singular(result, graph, setting, valued, there, defaults, minors);
     } catch (const Error&) {
         // The values of the file make something undefined: the claim for all parameters stands alone.
         if (shown.regular) result.kind = Regularity::Kind::regular;

@@ -2,7 +2,6 @@
 #include "kernels/form_kernels.hpp"
 
 #include "graph/differentiate.hpp"
-#include "graph/simplify.hpp"
 #include "kernels/formulation.hpp"
 #include "kernels/requested_kernels.hpp"
 #include "model/scene_form.hpp"
@@ -117,8 +116,8 @@ class ModuleBuilder {
         outputs.insert(outputs.end(), kernel.pivots.begin(), kernel.pivots.end());
         std::vector<NodeId> divisors;
         SimplifyReport report;
-        outputs = simplify(*graph_, outputs, divisors, request_.report != nullptr ? &report : nullptr);
-        if (request_.report != nullptr) *request_.report += to_text(report, kernel.name);
+        outputs = simplify(*graph_, outputs, divisors, request_.reports != nullptr ? &report : nullptr);
+        if (request_.reports != nullptr) request_.reports->push_back({kernel.name, std::move(report)});
         for (std::size_t k = 0; k < kernel.output.entries.size(); ++k) kernel.output.entries[k].node = outputs[k];
         for (std::size_t k = 0; k < kernel.pivots.size(); ++k)
             kernel.pivots[k] = outputs[kernel.output.entries.size() + k];

@@ -11,14 +11,21 @@
 
 #include "geometry/verify.hpp"
 #include "graph/kernel.hpp"
+#include "graph/simplify.hpp"
 
 namespace lagen {
+
+/// What the simplification of one kernel tried.
+struct KernelReport {
+    std::string kernel;
+    SimplifyReport report;
+};
 
 struct KernelRequest {
     std::string form;              ///< empty: default_form(model)
     std::vector<std::string> only; ///< kernel names wanted; empty: all but the variational equations and Hessians
     const Scene* scene = nullptr;  ///< events and observed expressions of this scene only; null: events of every scene
-    std::string* report = nullptr; ///< receives what the simplification of each kernel tried, as text
+    std::vector<KernelReport>* reports = nullptr; ///< receives one a kernel, in their order
 };
 
 /// Throws MathematicsError where the model has no such form.

@@ -9,10 +9,6 @@ namespace lagen {
 
 namespace {
 
-const std::vector<std::string> kernel_names{
-    "rhs",         "jacobian",   "variational",        "mass_matrix",         "momentum", "velocity",    "controls",
-    "energy",      "power",      "hamiltonian",        "lagrangian",          "cost",     "constraints", "domain",
-    "observables", "invariants", "lagrangian_hessian", "hamiltonian_hessian", "events"};
 /// Those that are made only where they are asked for by name.
 const std::vector<std::string> on_request{"variational", "lagrangian_hessian", "hamiltonian_hessian"};
 
@@ -30,6 +26,15 @@ bool is_among(const std::vector<std::string>& names, const std::string& name)
 
 } // namespace
 
+const std::vector<std::string>& kernel_names()
+{
+    static const std::vector<std::string> names{
+        "rhs",         "jacobian",   "variational",        "mass_matrix",         "momentum", "velocity",    "controls",
+        "energy",      "power",      "hamiltonian",        "lagrangian",          "cost",     "constraints", "domain",
+        "observables", "invariants", "lagrangian_hessian", "hamiltonian_hessian", "events"};
+    return names;
+}
+
 bool is_requested(const std::vector<std::string>& only, const std::string& name)
 {
     return only.empty() ? !is_among(on_request, name) : is_among(only, name);
@@ -38,8 +43,8 @@ bool is_requested(const std::vector<std::string>& only, const std::string& name)
 void refuse_unknown(const std::vector<std::string>& only)
 {
     for (const std::string& name : only)
-        if (!is_among(kernel_names, name))
-            refuse(fmt::format("there is no kernel '{}'; there are", name), name, kernel_names);
+        if (!is_among(kernel_names(), name))
+            refuse(fmt::format("there is no kernel '{}'; there are", name), name, kernel_names());
 }
 
 void require_requested(const KernelModule& module, const Model& model, const VerifiedAlgebroid& verified,

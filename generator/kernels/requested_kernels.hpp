@@ -6,6 +6,9 @@
 
 namespace lagen {
 
+/// Every kernel that some form of some model has.
+[[nodiscard]] const std::vector<std::string>& kernel_names();
+
 /// Whether `only` asks for the kernel `name`; an empty list asks for all but the variational equations and Hessians.
 [[nodiscard]] bool is_requested(const std::vector<std::string>& only, const std::string& name);
 

@@ -49,26 +49,65 @@ void require_roles(const std::vector<Tree>& closed, const Names& names, std::ini
                      bad->where.file ? bad->where : where, "allowed here: " + allowed);
 }
 
-/// An expression over parameters, or over the base too, hints at those alone.
-[[noreturn]] void refuse_unknown(const UnknownSymbol& error, const Names& names, std::initializer_list<Role> roles)
+bool admits(std::initializer_list<Role> roles, Role role)
+{
+    return std::find(roles.begin(), roles.end(), role) != roles.end();
+}
+
+/// The names that an expression over `roles` may use: coordinates, controls and momenta, definitions over those, then
+/// parameters and sizes.
+std::vector<std::string> names_over(const ModelReader& reader, const Scope& scope, std::initializer_list<Role> roles)
 {
     std::vector<std::string> known;
-    for (const Role role : roles) {
-        if (role == Role::fibre) throw error;
-        const std::vector<std::string> of_role = names.of(role);
+    const auto append = [&](Role role) {
+        const std::vector<std::string> of_role = reader.names.of(role);
         known.insert(known.end(), of_role.begin(), of_role.end());
+    };
+    for (const Role role : roles)
+        if (role != Role::parameter && role != Role::time) append(role);
+    for (const Definition& definition : reader.model.definitions) {
+        if (!definition.parameters.empty()) continue;
+        try {
+            const ArrayValue value = scope.close_array(name(definition.name));
+            if (first_forbidden(value.entries, reader.names, roles) == nullptr) known.push_back(definition.name);
+        } catch (const ModelError&) { // over names that are not legal here, or itself wrong
+        }
     }
-    if (known.empty()) throw error;
-    throw ModelError(error.diagnostic().message, error.diagnostic().where, hint_for_symbol(error.name(), known));
+    if (admits(roles, Role::time)) known.emplace_back("t");
+    if (admits(roles, Role::parameter)) append(Role::parameter);
+    append(Role::size);
+    return known;
+}
+
+/// What was meant, by the names that are legal here alone.
+[[noreturn]] void refuse_unknown(const UnknownSymbol& error, const ModelReader& reader, const Scope& scope,
+                                 std::initializer_list<Role> roles)
+{
+    if (error.is_explained()) throw error;
+    const auto refuse = [&error](const std::string& hint) {
+        throw ModelError(error.diagnostic().message, error.diagnostic().where, hint);
+    };
+    const bool velocities = admits(roles, Role::fibre);
+    const std::string meant = velocities                      ? hint_for_rate(error.name(), reader.rates)
+                              : admits(roles, Role::momentum) ? hint_for_momentum(error.name(), reader.rates)
+                                                              : "";
+    if (!meant.empty()) refuse(meant);
+    if (velocities) throw error; // its hint lists all that may stand there
+    const std::vector<std::string> known = names_over(reader, scope, roles);
+    if (!known.empty()) refuse(hint_for_symbol(error.name(), known));
+    const std::string& of_all = error.diagnostic().hint;
+    if (of_all.starts_with("known names") || of_all.starts_with("did you mean"))
+        refuse("parameters alone may stand here, and the model has none");
+    throw error;
 }
 
 template <class Close>
-auto closed_over(const Names& names, std::initializer_list<Role> roles, Close close)
+auto closed_over(const ModelReader& reader, const Scope& scope, std::initializer_list<Role> roles, Close close)
 {
     try {
         return close();
     } catch (const UnknownSymbol& error) {
-        refuse_unknown(error, names, roles);
+        refuse_unknown(error, reader, scope, roles);
     }
 }
 
@@ -77,7 +116,7 @@ auto closed_over(const Names& names, std::initializer_list<Role> roles, Close cl
 Tree ModelReader::close_in(const Scope& scope, const Tree& tree, std::initializer_list<Role> roles,
                            const std::string& what) const
 {
-    return closed_over(names, roles, [&] {
+    return closed_over(*this, scope, roles, [&] {
         Tree closed = scope.close(tree);
         require_roles({closed}, names, roles, tree->where, what);
         return closed;
@@ -87,7 +126,7 @@ Tree ModelReader::close_in(const Scope& scope, const Tree& tree, std::initialize
 ArrayValue ModelReader::close_array_in(const Scope& scope, const Tree& tree, std::initializer_list<Role> roles,
                                        const std::string& what, bool nonsmooth) const
 {
-    return closed_over(names, roles, [&] {
+    return closed_over(*this, scope, roles, [&] {
         ArrayValue closed = scope.close_array(tree, nonsmooth);
         require_roles(closed.entries, names, roles, tree->where, what);
         return closed;

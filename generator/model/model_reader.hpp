@@ -5,6 +5,7 @@
 
 #include "model/model.hpp"
 #include "model/names.hpp"
+#include "model/rate_names.hpp"
 #include "model/read_model.hpp"
 #include "model/toml_document.hpp"
 
@@ -55,6 +56,7 @@ struct ModelReader {
     MechanicsBlocks mechanics;
     Tree lagrangian, hamiltonian, dissipation;    ///< as parsed; null where absent
     std::vector<ComponentEntry> inherited_forces; ///< of included files, over the model's names
+    std::vector<CoordinateRate> rates;            ///< once the entries of the algebroid are read
     Scope mechanical;                             ///< the model's scope with momenta and controls
     Scope observer; ///< the model's scope with momenta, observables, invariants and built-in quantities
 

@@ -49,11 +49,16 @@ void apply(ModelReader& reader, const std::vector<Symbol>& symbols, const Settin
     const std::vector<std::string> sizes = reader.names.of(Role::size);
     known.insert(known.end(), sizes.begin(), sizes.end());
     if (entry != nullptr && entry->role == Role::size) return; // read_sizes has seen it
-    const std::string what = entry != nullptr
-                                 ? fmt::format("'{}' is {}, not a parameter", setting.name, role_text(entry->role))
-                                 : fmt::format("the model has no parameter '{}' to set", setting.name);
+    const std::string what =
+        entry != nullptr
+            ? fmt::format("'{}' is {}, not a parameter", setting.name, role_text(entry->role))
+            : fmt::format("the model has no parameter{} '{}' to set", sizes.empty() ? "" : " or size", setting.name);
+    const std::string size = nearest_name(setting.name, sizes);
+    const std::string hint = !size.empty() && nearest_name(setting.name, known) == size
+                                 ? fmt::format("did you mean the size '{}'?", size)
+                                 : hint_for(setting.name, known, sizes.empty() ? "parameters" : "parameters and sizes");
     throw ModelError(what, whole_text("<--set>", setting.name + "=" + setting.value.text).range(0, setting.name.size()),
-                     hint_for(setting.name, known, sizes.empty() ? "parameters" : "parameters and sizes"));
+                     hint);
 }
 
 /// Strings of the list `key` of [base].

@@ -105,6 +105,14 @@ void explain_observed(Scope& scope, const Model& model)
     scope.explain("hamiltonian", "the Hamiltonian stands in observables, invariants and events only");
 }
 
+/// Who misses a name of a state has parameters enough before the eyes.
+void list_parameters_last(Scope& scope, const Model& model)
+{
+    scope.list_last("t");
+    for (const std::string& parameter : declared_names(parameter_symbols(model))) scope.list_last(parameter);
+    for (const Size& size : model.sizes) scope.list_last(size.name);
+}
+
 /// The fibre of a prolongation is X_a and V_a, or X_a and P_a: the other letter is a slip.
 void explain_prolongation(Scope& scope, const AlgebroidBlock& block)
 {
@@ -132,6 +140,7 @@ void build_scopes(ModelReader& reader)
     Model& model = reader.model;
     Scope& scope = model.scope;
     scope.declare("t", {});
+    list_parameters_last(scope, model);
     add_to_scope(scope, model, parameter_symbols(model), FamilyRole::parameter);
     add_to_scope(scope, model, model.base.coordinates, FamilyRole::base);
     add_to_scope(scope, model, model.fibre.coordinates, FamilyRole::fibre);
@@ -140,6 +149,7 @@ void build_scopes(ModelReader& reader)
     explain_observed(scope, model);
     read_algebroid(reader);
     explain_prolongation(scope, model.algebroid);
+    reader.rates = coordinate_rates(model);
 
     std::set<std::string> used(reader.names.order().begin(), reader.names.order().end());
     std::vector<std::string> extra;
@@ -152,6 +162,7 @@ void build_scopes(ModelReader& reader)
     add_to_scope(reader.mechanical, model, model.fibre.momenta, FamilyRole::momentum);
     if (model.control) add_to_scope(reader.mechanical, model, model.control->controls, FamilyRole::control);
     reader.observer = reader.mechanical.with(extra);
+    explain_rates(reader.observer, reader.rates);
     if (lagrangian && reader.lagrangian) {
         reader.observer.define(Definition{"lagrangian", {}, reader.lagrangian, model.lagrangian_where});
     }

@@ -80,6 +80,13 @@ TEST_CASE("--verify evaluates every residual again and says so in text and JSON"
     CHECK(text.out.find("\n  re-evaluated    5 points, 60 digits: every proved residual is at most ") !=
           std::string::npos);
     CHECK(call({"check", "heavy_top.toml"}).out.find("re-evaluated") == std::string::npos);
+    const auto said = [](const std::string& model) {
+        const std::string out = call({"check", model, "--verify"}).out;
+        const std::size_t begin = out.find("  re-evaluated");
+        return begin == std::string::npos ? out : out.substr(begin, out.find('\n', begin) - begin);
+    };
+    CHECK(said("heisenberg.toml") == "  re-evaluated    5 points, 60 digits: all proved residuals are exactly 0");
+    CHECK(said("pendulum.toml") == "  re-evaluated    nothing: no proved equation has terms");
     CHECK(call({"check", "refuted.toml", "--verify"}).code == 1);
 }
 
@@ -117,6 +124,20 @@ TEST_CASE("a degenerate Lagrangian leaves the verdict as it is")
     CHECK(value["regularity"]["kernel"][0]["v"].text == "1");
     const json::Value regular = json::parse(call({"check", "pendulum.toml", "--format", "json"}).out);
     CHECK_FALSE(regular["regularity"].has("kernel"));
+}
+
+TEST_CASE("a Lagrangian that is regular at some points only says where it is singular")
+{
+    const Outcome outcome = call({"check", "gimbal.toml"});
+    CHECK(outcome.code == 0);
+    CHECK(outcome.out ==
+          "gimbal: valid\n  2 equations zero by structure\n  regularity      generically_regular, rank 2\n"
+          "                  singular where cos(theta) = 0\n");
+    const json::Value singular = json::parse(call({"check", "gimbal.toml", "--format", "json"}).out);
+    CHECK(singular["regularity"]["singular_where"].texts() == std::vector<std::string>{"cos(theta)"});
+    CHECK(singular["regularity"]["singular_at"].size() == 0);
+    const json::Value regular = json::parse(call({"check", "pendulum.toml", "--format", "json"}).out);
+    CHECK(regular["regularity"]["singular_where"].size() == 0);
 }
 
 TEST_CASE("over several models the exit code is 3 before 1 before 2 before 0, and each is reported")

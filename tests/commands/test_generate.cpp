@@ -84,6 +84,20 @@ TEST_CASE("the hash and the command in the banner follow what the command line c
           changed);
 }
 
+TEST_CASE("the command in the banner names the header as it was asked for, without its folder")
+{
+    const std::string folder = fresh_folder();
+    const auto command = [&](const std::string& output) {
+        REQUIRE(call({"generate", models_folder() + "/pendulum.toml", "-o", output}, {.folder = folder}).code == 0);
+        return line_of(read_text(output.starts_with('/') ? output : folder + "/" + output), 4);
+    };
+    CHECK(command("swing.hpp") == "///   lagen generate pendulum.toml -o swing.hpp");
+    CHECK(command(folder + "/swing.hpp") == "///   lagen generate pendulum.toml -o swing.hpp");
+    CHECK(command("./my head\n.h") == "///   lagen generate pendulum.toml -o 'my head .h'");
+    CHECK(line_of(call({"generate", "pendulum.toml", "-o", "-"}).out, 4) ==
+          "///   lagen generate pendulum.toml -o pendulum.hpp");
+}
+
 TEST_CASE("no setting can leave the comment that repeats it")
 {
     const Outcome outcome = call({"generate", "pendulum.toml", "--set", "g=1\n+2"});
@@ -135,9 +149,10 @@ TEST_CASE("an output that is a link stays a link and its file gets the header")
     const std::string folder = fresh_folder();
     std::filesystem::create_directory(folder + "/real");
     write_text(folder + "/real/top.hpp", "old\n");
-    std::filesystem::create_symlink("real/top.hpp", folder + "/top.hpp");
-    REQUIRE(call({"generate", models_folder() + "/heavy_top.toml", "-o", "top.hpp"}, {.folder = folder}).code == 0);
-    CHECK(std::filesystem::is_symlink(folder + "/top.hpp"));
+    std::filesystem::create_symlink("real/top.hpp", folder + "/heavy_top.hpp");
+    REQUIRE(call({"generate", models_folder() + "/heavy_top.toml", "-o", "heavy_top.hpp"}, {.folder = folder}).code ==
+            0);
+    CHECK(std::filesystem::is_symlink(folder + "/heavy_top.hpp"));
     CHECK(read_text(folder + "/real/top.hpp") == call({"generate", "heavy_top.toml"}).out);
     CHECK(names_in(folder + "/real") == std::vector<std::string>{"top.hpp"});
 }
@@ -192,4 +207,23 @@ TEST_CASE("an unknown kernel is answered with the nearest one")
     const Outcome outcome = call({"generate", "pendulum.toml", "--only", "rsh"});
     CHECK(outcome.code == 4);
     CHECK_THAT(outcome.err, Catch::EndsWith("hint: did you mean 'rhs'?\n"));
+}
+
+TEST_CASE("the help of generate lists the kernels, and one that the form does not have is answered with its own")
+{
+    std::string help = call({"generate", "--help"}).out;
+    help.erase(std::unique(help.begin(), help.end(), [](char a, char b) { return a == ' ' && b == ' '; }), help.end());
+    std::ranges::replace(help, '\n', ' ');
+    help.erase(std::unique(help.begin(), help.end(), [](char a, char b) { return a == ' ' && b == ' '; }), help.end());
+    CHECK(
+        help.find("these kernels alone, e.g. rhs,energy; there are rhs, jacobian, variational, mass_matrix, momentum, "
+                  "velocity, controls, energy, power, hamiltonian, lagrangian, cost, constraints, domain, "
+                  "observables, invariants, lagrangian_hessian, hamiltonian_hessian, events (a model has some of "
+                  "them)") != std::string::npos);
+    const Outcome outcome = call({"generate", "pendulum.toml", "--only", "rhs,controls"});
+    CHECK(outcome.code == 4);
+    CHECK(outcome.out.empty());
+    CHECK(outcome.err ==
+          "error: the lagrange form of model 'pendulum' has no kernel 'controls'; it has rhs, mass_matrix, momentum, "
+          "energy, lagrangian, observables, events, jacobian, variational, lagrangian_hessian\n");
 }

@@ -114,6 +114,25 @@ TEST_CASE("an unknown symbol gets the nearest name")
     CHECK_THAT(closed(scope_of({}), "x"), Catch::EndsWith("hint: sizes are declared first: [sizes] x = 3"));
 }
 
+TEST_CASE("what is to be listed last stands behind all others in a hint, which is cut after twenty names")
+{
+    Scope scope = scope_of({"m", "x"}, {definition("T", "x")});
+    scope.declare_family("w", {lagen::Rank::vector, 2, 1}, {});
+    scope.list_last("m");
+    CHECK_THAT(closed(scope, "zeta"), Catch::EndsWith("hint: known names are x, w, T, m"));
+    std::vector<std::string> many;
+    for (int k = 10; k < 31; ++k) many.push_back("a" + std::to_string(k));
+    CHECK_THAT(closed(scope_of(many), "zeta"), Catch::EndsWith(", a28, a29, ..."));
+}
+
+TEST_CASE("energy, Hamiltonian and Lagrangian are known by their letters where they are known")
+{
+    CHECK_THAT(closed(scope_of({"x", "energy"}), "E"), Catch::EndsWith("hint: did you mean 'energy'?"));
+    CHECK_THAT(closed(scope_of({"x", "energy", "hamiltonian"}), "H"), Catch::EndsWith("did you mean 'hamiltonian'?"));
+    CHECK_THAT(closed(scope_of({"x", "lagrangian"}), "L"), Catch::EndsWith("hint: did you mean 'lagrangian'?"));
+    CHECK_THAT(closed(scope_of({"x"}), "E"), Catch::EndsWith("hint: known names are x"));
+}
+
 TEST_CASE("an unknown name that reads like an entry of a family gets that entry, before the nearest name")
 {
     Scope scope = scope_of({"I1", "x2"});

@@ -55,6 +55,22 @@ TEST_CASE("a rank that drops on a line is generic, and the line is met")
     CHECK_FALSE(result.positive_definite);
     REQUIRE(result.singular_at.size() == 1);
     CHECK(result.singular_at[0][0] == std::pair<std::string, std::string>("x", "0"));
+    CHECK(result.singular_where == std::vector<std::string>{"sin(x)"});
+}
+
+TEST_CASE("where a matrix is singular is told by the factors of its determinant that may vanish")
+{
+    using Texts = std::vector<std::string>;
+    CHECK(regularity("m*(u^2 + l^2*cos(x)^2*v^2)/2", "m = 2\nl = 3\n").singular_where == Texts{"cos(x)"});
+    CHECK(regularity("(u^2 + cos(x)^2*(y^2 + 1)*y^4*v^2)/2").singular_where == Texts{"y", "cos(x)"});
+    CHECK(regularity("(u^2 + v^2)/2 + x*u*v").singular_where == Texts{"1 - x^2"});
+    CHECK(regularity("(cos(x)*u + y*v)^2/2 + (sin(x)*u)^2").singular_where == Texts{"y", "sin(x)"});
+    // With a denominator, and where the matrix depends on the velocities.
+    CHECK(regularity("(u^2 + x/(y^2 + 1)*v^2)/2").singular_where == Texts{"x"});
+    CHECK(regularity("u^2 + v^4").singular_where == Texts{"v"});
+    // Everywhere regular, degenerate, or not known for every block: nothing is told.
+    CHECK(regularity("u^2 + v^2").singular_where.empty());
+    CHECK(regularity("u^2").singular_where.empty());
 }
 
 TEST_CASE("a matrix that is regular on all of R^n is definite where it is at the origin")
@@ -169,5 +185,6 @@ TEST_CASE("a large mass matrix that depends on the state is regular where it is 
 {
     const Regularity result = chain_of_ten("(1 + y0^2)", "1");
     CHECK(result.kind == Kind::generically_regular);
+    CHECK(result.singular_where.empty());
     CHECK(result.rank == 10);
 }

@@ -193,7 +193,7 @@ TEST_CASE("a setting that fits nothing says so")
         "the value set for parameter 'm' is a vector of 2, where a vector of 3 is required | one number stands for all "
         "entries");
     CHECK(error_with({setting("m[4]", "1")}) ==
-          "the model has no parameter 'm[4]' to set | known parameters and sizes: m, mass, c, W, I, n, pairs");
+          "the model has no parameter or size 'm[4]' to set | known parameters and sizes: m, mass, c, W, I, n, pairs");
     CHECK(error_with({setting("x[1]", "1")}) ==
           "'x[1]' is a base coordinate, not a parameter | known parameters and sizes: m, mass, c, W, I, n, pairs");
     CHECK(error_with({setting("n", "mass")}) == "the size 'n' uses 'mass', which is no size | known sizes: n, pairs");
