@@ -63,9 +63,9 @@ std::vector<long double> invert(const CheckedModel& checked, const Inversion& in
         residuals.push_back(graph.subtract(entry.node, wanted));
     }
     for (const Quantity& lane : module.fibre) unknowns.push_back(lane.input);
-    ImplicitBlock block =
-        implicit_block(graph, inversion.wanted, "", unknowns, residuals,
-                       newton_guess(graph, checked.verified.regularity, unknowns.size()), MatrixStructure::symmetric);
+    ImplicitBlock block = implicit_block(graph, inversion.wanted, "", unknowns, residuals,
+                                         newton_guess(graph, checked.verified.regularity.newton_start, unknowns.size()),
+                                         MatrixStructure::symmetric);
     const Model& model = checked.model;
     const NodeId inverted = Lowering(graph)(model.lagrangian ? model.lagrangian : model.hamiltonian);
     block.inside = positive_operands(graph, inverted, unknowns);

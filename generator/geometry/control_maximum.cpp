@@ -2,6 +2,7 @@
 #include "geometry/control_maximum.hpp"
 
 #include "geometry/definite_squares.hpp"
+#include "geometry/legendre_obstacle.hpp"
 #include "geometry/regularity.hpp"
 #include "geometry/smooth_controls.hpp"
 
@@ -101,8 +102,10 @@ class MaximumDecision {
         if (regularity.positive_definite || proves_semidefinite_by_squares(graph_, hessian_, proofs_.decider())) {
             const std::string part = proofs_.partial_in(parts_);
             if (part.empty()) return {Kind::maximal, {}, {}};
+            if (ControlMaximum inside = inside_part(); inside.kind == Kind::maximal) return inside;
             return {Kind::stationary, fmt::format("{} was not proved to be smooth for all controls", part), {}};
         }
+        if (ControlMaximum inside = inside_part(); inside.kind == Kind::maximal) return inside;
         // Where H ends its maximum may be at the end.
         if (proofs_.partial_in(parts_).empty())
             if (ControlMaximum refuted = refutation(); refuted.kind == Kind::refuted) return refuted;
@@ -110,6 +113,13 @@ class MaximumDecision {
             Kind::stationary,
             fmt::format("d2H/du2 < 0 was not proved for all {}", count() == 1 ? name_of(0) : std::string("controls")),
             {}};
+    }
+
+    /// Costs with a barrier, -log(1 - u^2): H is defined on a convex set of controls, and strictly concave there.
+    [[nodiscard]] ControlMaximum inside_part()
+    {
+        const auto start = strictly_convex_start(graph_, hessian_, proofs_.setting(), budget_);
+        return start ? ControlMaximum{Kind::maximal, {}, {}, true, *start} : ControlMaximum{};
     }
 
     /// At a maximum d2H/du2 has no positive diagonal entry and no negative 2 x 2 minor. Here everything in the model is

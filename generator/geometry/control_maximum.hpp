@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Do the controls of Pontryagin's equations maximise H = mu_a sigma^a(t, x, u) - cost(t, x, u)? Without bounds they
-/// solve dH/du = 0: a maximum where H is smooth and d2H/du2 < 0 for all u. With bounds lo <= u <= hi the maximum is the
+/// solve dH/du = 0: a maximum where H is smooth and d2H/du2 < 0 for all u, or on the convex set of u where alone it is
+/// defined. With bounds lo <= u <= hi the maximum is the
 /// root of dH/du, or the bound next to it, where H is separable, and smooth and strictly concave on the interval.
 ///                                                              [Pontryagin, Boltyanskii, Gamkrelidze, Mishchenko 1962]
 #pragma once

@@ -225,6 +225,15 @@ void decide_legendre_transform(Graph& graph, const FibreHessian& hessian, const 
                                                  : " is not shown to be definite");
 }
 
+std::optional<std::vector<Rational>> strictly_convex_start(Graph& graph, const FibreHessian& hessian,
+                                                           const ProofSetting& setting, const ProofBudget& budget)
+{
+    SmoothSet smooth(graph, hessian, setting, budget, "F");
+    if (!smooth.obstacle().empty() || !proves_definite(graph, hessian, smooth.setting(), smooth.decider()))
+        return std::nullopt;
+    return newton_start(graph, hessian, smooth.decider());
+}
+
 void require_legendre_transform(const Model& model, const Regularity& regularity)
 {
     if (regularity.legendre_obstacle.empty()) return;

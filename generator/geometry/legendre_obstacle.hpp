@@ -16,6 +16,12 @@ namespace lagen {
 void decide_legendre_transform(Graph& graph, const FibreHessian& hessian, const ProofSetting& setting,
                                const ProofBudget& budget, Regularity& regularity);
 
+/// Where F is smooth with d2F/dy2 > 0 on the convex set of y where alone it is defined (and so has no minimum but where
+/// dF/dy = 0): a y of that set, for Newton's method to start from, empty for 0. Nothing where that is not shown.
+[[nodiscard]] std::optional<std::vector<Rational>> strictly_convex_start(Graph& graph, const FibreHessian& hessian,
+                                                                         const ProofSetting& setting,
+                                                                         const ProofBudget& budget);
+
 /// Throws MathematicsError where the velocities of an L are not shown to be functions of the momenta.
 void require_legendre_transform(const Model& model, const Regularity& regularity);
 

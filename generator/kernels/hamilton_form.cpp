@@ -59,8 +59,8 @@ HamiltonianNodes legendre(Graph& graph, const Model& model, const SystemNodes& s
     Replacements velocities;
     if (depends_on_any(graph, W, lagrangian.y)) {
         nodes.implicit.push_back(implicit_block(graph, "velocity", "y with dL/dy^a = mu_a (the Legendre transform).",
-                                                lagrangian.y, residuals, newton_guess(graph, regularity, r),
-                                                structure));
+                                                lagrangian.y, residuals,
+                                                newton_guess(graph, regularity.newton_start, r), structure));
         nodes.implicit.back().inside = positive_operands(graph, lagrangian.value, lagrangian.y);
         nodes.y = lagrangian.y;
     } else {

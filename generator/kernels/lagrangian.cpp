@@ -45,11 +45,10 @@ MatrixStructure mass_structure(const Regularity& regularity)
                                                                             : MatrixStructure::symmetric;
 }
 
-std::vector<NodeId> newton_guess(Graph& graph, const Regularity& regularity, std::size_t count)
+std::vector<NodeId> newton_guess(Graph& graph, const std::vector<Rational>& start, std::size_t count)
 {
     std::vector<NodeId> guess(count, graph.constant(0));
-    for (std::size_t a = 0; a < regularity.newton_start.size(); ++a)
-        guess[a] = graph.constant(regularity.newton_start[a]);
+    for (std::size_t k = 0; k < start.size(); ++k) guess[k] = graph.constant(start[k]);
     return guess;
 }
 

@@ -24,8 +24,8 @@ struct LagrangianNodes {
 /// header whose parameters may be changed.)
 [[nodiscard]] MatrixStructure mass_structure(const Regularity& regularity);
 
-/// `count` fibre coordinates where a Newton iteration on dL/dy starts.
-[[nodiscard]] std::vector<NodeId> newton_guess(Graph& graph, const Regularity& regularity, std::size_t count);
+/// `count` unknowns where a Newton iteration starts: 0 where `start` is empty.
+[[nodiscard]] std::vector<NodeId> newton_guess(Graph& graph, const std::vector<Rational>& start, std::size_t count);
 
 /// Throws MathematicsError, which names `form`, where there is no L or it is degenerate.
 void require_regular_lagrangian(const Model& model, const Regularity& regularity, const char* form);

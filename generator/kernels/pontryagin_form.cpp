@@ -7,6 +7,7 @@
 #include "graph/differentiate.hpp"
 #include "graph/simplify.hpp"
 #include "kernels/formulation.hpp"
+#include "kernels/lagrangian.hpp"
 #include "kernels/system.hpp"
 
 #include <fmt/format.h>
@@ -105,7 +106,7 @@ class PontryaginForm {
         for (std::size_t k = 0; k < u_.size(); ++k)
             for (std::size_t l = 0; l < u_.size(); ++l)
                 if (k != l && !graph_.is_zero(curvature(k, l))) return false;
-        return verified_.maximum.kind == ControlMaximum::Kind::maximal;
+        return verified_.maximum.kind == ControlMaximum::Kind::maximal && !verified_.maximum.on_part;
     }
 
     void solve_linearly()
@@ -119,7 +120,7 @@ class PontryaginForm {
     void solve_by_newton()
     {
         implicit_.push_back(implicit_block(graph_, "controls", "u with dH/du = 0.", u_, dH_du_,
-                                           std::vector<NodeId>(u_.size(), graph_.constant(0)),
+                                           newton_guess(graph_, verified_.maximum.newton_start, u_.size()),
                                            MatrixStructure::symmetric));
         implicit_.back().inside = positive_operands(graph_, hamiltonian_, u_);
         solution_ = u_;

@@ -97,9 +97,28 @@ TEST_CASE("where nothing is proved of a maximum the controls are stationary", "[
         CHECK(maximum.kind == Kind::stationary);
         CHECK(maximum.reason == "d2H/du2 < 0 was not proved for all u");
     }
-    const ControlMaximum barrier = of_one("-log(1 - u^2)");
-    CHECK(barrier.kind == Kind::stationary);
     CHECK(of_one("u^2/2 + 1/u^2").reason == "1/u^2 was not proved to be smooth for all controls");
+}
+
+TEST_CASE("a cost that is defined and strictly convex on a convex set of controls has its maximum there", "[maximum]")
+{
+    for (const char* cost : {"-log(1 - u^2)", "-sqrt(1 - u^2)", "u^2/2 - log(1 + u) - log(2 - u)", "(1 - u)^(-3/2)"}) {
+        INFO(cost);
+        const ControlMaximum maximum = of_one(cost);
+        CHECK(maximum.kind == Kind::maximal);
+        CHECK(maximum.on_part);
+        CHECK(maximum.newton_start.empty());
+    }
+    const ControlMaximum entropy = of_one("u*log(u)");
+    CHECK(entropy.kind == Kind::maximal);
+    REQUIRE(entropy.newton_start.size() == 1);
+    CHECK(entropy.newton_start[0] > 0);
+    CHECK_FALSE(of_one("exp(u)").on_part);
+    // Two intervals; a set that is not convex; convex, not strictly; the maximum at an end.
+    for (const char* cost : {"-log(u^2 - 1)", "-log(u^2)", "1/sqrt(u^2 - 1)", "sqrt(1 - u)"})
+        CHECK(of_one(cost).kind == Kind::stationary);
+    CHECK(of_two("-log(1 - u - w)").kind != Kind::maximal);
+    CHECK(of_two("-log(1 - u^2 - w^2)").on_part);
 }
 
 TEST_CASE("kinks, affine and dependent controls are named", "[maximum]")

@@ -103,6 +103,23 @@ TEST_CASE("a concave Hamiltonian without bounds has its control found where Newt
     CHECK_THROWS_WITH(control_of(flat, 1.5), "error: no controls were found: u with dH/du = 0.");
 }
 
+TEST_CASE("a cost with a barrier has its control found inside", "[kernels]")
+{
+    const KernelModule barrier = kernels_of_text(line_problem("-log(1 - u^2)", ""));
+    REQUIRE(barrier.implicit.size() == 1);
+    CHECK_FALSE(barrier.implicit[0].bracket);
+    CHECK(find_kernel(barrier, "controls").documentation == std::vector<std::string>{"The controls that maximise H."});
+    const KernelModule entropy = kernels_of_text(line_problem("u*log(u)", ""));
+    for (const double p : {-1e6, -3.0, 1e-9, 0.5, 40.0, 1e8}) {
+        INFO(p);
+        CHECK(control_of(barrier, p) == Approx(p / (1 + std::hypot(1, p))).epsilon(tolerance::roundoff(8)));
+        if (std::abs(p) < 100)
+            CHECK(control_of(entropy, p) == Approx(std::exp(p - 1)).epsilon(tolerance::roundoff(64)));
+    }
+    CHECK_THROWS_WITH(control_of(kernels_of_text(line_problem("-sqrt(1 - u)", "")), -1),
+                      "error: no controls were found: u with dH/du = 0.");
+}
+
 TEST_CASE("separate controls are bounded each by itself", "[kernels]")
 {
     const KernelModule module = kernels_of_text(

@@ -175,8 +175,7 @@ class NewtonIteration {
             const Mask zero = size <= S(0);
             const Mask finite = both<Mask>(terms <= S(largest), size_[i] <= S(largest));
             const Mask done = either<Mask>(size <= S(tight()) * terms, size <= S(tight()) * size_[i]);
-            const Mask close =
-                either<Mask>(size <= S(sqrt(epsilon)) * terms, size <= S(Real(16) * epsilon) * size_[i]);
+            const Mask close = either<Mask>(size <= S(sqrt(epsilon)) * terms, size <= S(Real(16) * epsilon) * size_[i]);
             done_ = done_ & (zero | (finite & done));
             close_ = close_ & (zero | (finite & close));
         }
