@@ -147,9 +147,9 @@ class spherical_pendulum_tilted {
         const S w2 = y * b;
         ds[2] = -(x * a + w2);
         const S w3 = z * z;
-        const S w4 = x * x + w3;
+        const S w4 = w3 + x * x;
         const S w5 = x * y;
-        const S w6 = w3 + y * y;
+        const S w6 = y * y + w3;
         const S det0 = w4 * w6 - w5 * w5;
         StatusOf<S>::fail(status, abs(det0) <= singular_tolerance<S>(2) * (abs(w4 * w6) + abs(w5 * w5)),
                 Status::singular_mass_matrix);
@@ -173,11 +173,11 @@ class spherical_pendulum_tilted {
         const S z = s[2];
         const S w0 = z * z;
         const S m = parameters.m;
-        result(0, 0) = m * (x * x + w0);
+        result(0, 0) = m * (w0 + x * x);
         const S w1 = m * x * y;
         result(0, 1) = w1;
         result(1, 0) = w1;
-        result(1, 1) = m * (w0 + y * y);
+        result(1, 1) = m * (y * y + w0);
         return result;
     }
 
@@ -273,9 +273,9 @@ class spherical_pendulum_tilted {
         values[6] = -x;
         values[7] = -y;
         const S w0 = z * z;
-        const S w1 = x * x + w0;
+        const S w1 = w0 + x * x;
         const S w2 = x * y;
-        const S w3 = w0 + y * y;
+        const S w3 = y * y + w0;
         const S det0 = w1 * w3 - w2 * w2;
         const S inv_det0 = S(1) / det0;
         const S w4 = z * b;

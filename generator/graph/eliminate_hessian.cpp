@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Elimination along the definitions of a sparse Hessian, in scalar operations.
-#include "graph/sparse_hessian.hpp"
+#include "graph/eliminate_pair.hpp"
 
 #include <algorithm>
 #include <map>
@@ -34,30 +34,27 @@ class Eliminator {
     {
         const std::size_t limit = graph_.size() + largest_elimination;
         for (std::size_t left = hessian_.order; left > 0; --left) {
-            const std::size_t next = choose();
-            std::vector<std::size_t> multiples;
-            for (const std::size_t term : holders_[next]) { // users first
+            const std::size_t chosen = choose();
+            const std::size_t next = exchange(chosen);
+            std::vector<std::size_t> terms;
+            for (const std::size_t term : holders_[chosen]) { // users first
                 if (gone_[term]) continue;
                 gone_[term] = true;
-                const Terms& terms = hessian_.definitions[term];
-                result_.steps.push_back({term, terms, 0});
-                if (terms.size() == 1 && terms[0].first == next)
-                    multiples.push_back(term);
-                else
-                    put_in(term);
+                result_.steps.push_back({term, hessian_.definitions[term], 0});
+                terms.push_back(term);
             }
             gone_[next] = true;
-            put_in_multiples(multiples, next);
-            const auto pivot = rows_[next].find(next);
-            if (pivot == rows_[next].end() || graph_.size() > limit) return {};
-            const NodeId value = pivot->second;
-            result_.steps.push_back({next, multipliers(next, value), value});
+            const auto heads = heads_of(terms, next);
+            const bool regular =
+                heads ? eliminate_through_heads(*heads, terms, next) : eliminate_through_rows(terms, next);
+            if (!regular || graph_.size() > limit) return {};
         }
         return std::move(result_);
     }
 
   private:
-    using Row = std::map<std::size_t, NodeId>;
+    using Row = LinearForm::Sum;
+    using Pair = std::pair<std::size_t, std::size_t>;
 
     /// By variable: the terms that depend on it, in descending order.
     void find_holders()
@@ -86,6 +83,161 @@ class Eliminator {
             fewest = hidden;
         }
         return best;
+    }
+
+    /// Where `y` stands in one term u = alpha y + .. alone, and its factor is a number, u takes its place and y becomes
+    /// a term, (u - ..) / alpha: joint angles become angles. Answers the variable to be eliminated.
+    std::size_t exchange(std::size_t y)
+    {
+        const auto is_squared = [&](const auto& entry) { return concerns(entry.first, {}, y); };
+        if (!rows_[y].empty() || std::ranges::any_of(squares_, is_squared)) return y;
+        std::size_t user = y;
+        for (const std::size_t term : holders_[y]) {
+            if (gone_[term]) continue;
+            const Terms& terms = hessian_.definitions[term];
+            if (std::ranges::find(terms, y, &Terms::value_type::first) == terms.end()) continue;
+            if (user != y) return y;
+            user = term;
+        }
+        if (user == y || hessian_.definitions[user].size() < 2) return y;
+        NodeId factor = graph_.constant(0);
+        for (const auto& [operand, coefficient] : hessian_.definitions[user])
+            if (operand == y) factor = graph_.add(factor, coefficient);
+        if (!graph_.is_constant(factor) || graph_.is_zero(factor)) return y;
+        const NodeId inverse = graph_.divide(graph_.constant(1), factor);
+        Terms terms{{user, inverse}};
+        for (const auto& [operand, coefficient] : hessian_.definitions[user])
+            if (operand != y) terms.emplace_back(operand, graph_.negate(graph_.multiply(coefficient, inverse)));
+        result_.steps.push_back({y, std::move(terms), 0});
+        result_.is_term[y] = true;
+        result_.is_term[user] = false;
+        gone_[y] = gone_[user] = true;
+        return user;
+    }
+
+    /// `terms` (users first) put in, then `y` eliminated; false where its pivot is the constant 0.
+    bool eliminate_through_rows(const std::vector<std::size_t>& terms, std::size_t y)
+    {
+        write_squares(terms, y);
+        std::vector<std::size_t> multiples;
+        for (const std::size_t term : terms) {
+            const Terms& definition = hessian_.definitions[term];
+            if (definition.size() == 1 && definition[0].first == y)
+                multiples.push_back(term);
+            else
+                put_in(term);
+        }
+        put_in_multiples(multiples, y);
+        const auto pivot = rows_[y].find(y);
+        if (pivot == rows_[y].end()) return false;
+        const NodeId value = pivot->second;
+        result_.steps.push_back({y, multipliers(y, value), value});
+        return true;
+    }
+
+    /// The squares of `y` and of `terms`, multiplied out.
+    void write_squares(const std::vector<std::size_t>& terms, std::size_t y)
+    {
+        std::erase_if(squares_, [&](const auto& entry) {
+            if (!concerns(entry.first, terms, y)) return false;
+            write({{entry.first.first, entry.second.first}, {entry.first.second, entry.second.second}}, entry.second);
+            return true;
+        });
+    }
+
+    static bool concerns(const Pair& pair, const std::vector<std::size_t>& terms, std::size_t y)
+    {
+        const auto is_one = [&](std::size_t k) { return k == y || std::ranges::find(terms, k) != terms.end(); };
+        return is_one(pair.first) || is_one(pair.second);
+    }
+
+    /// The square of sum form_j v_j, multiplied out.
+    void write(const Row& form, const WeightedSquare& square)
+    {
+        for (auto j = form.begin(); j != form.end(); ++j)
+            for (auto k = j; k != form.end(); ++k)
+                add(j->first, k->first, weigh(graph_, square, graph_.multiply(j->second, k->second)));
+    }
+
+    /// `y` acts through `heads` alone (see heads_of()), one or two of `terms`: m (g + e y)^2 leaves nothing behind, two
+    /// terms leave a square (graph/eliminate_pair.hpp). False where the pivot is the constant 0.
+    bool eliminate_through_heads(const std::vector<std::size_t>& heads, const std::vector<std::size_t>& terms,
+                                 std::size_t y)
+    {
+        const auto forms = forms_of(graph_, hessian_, terms, y);
+        if (heads.size() == 2) return eliminate_pair(heads[0], heads[1], forms.at(heads[0]), forms.at(heads[1]), y);
+        const LinearForm& form = forms.at(heads[0]);
+        const NodeId push = graph_.multiply(form.slope, entry(heads[0], heads[0]));
+        static_cast<void>(take_row(heads[0]));
+        const NodeId pivot = graph_.multiply(form.slope, push);
+        if (graph_.is_zero(pivot)) return false;
+        finish(y, pivot, {{&form, push}});
+        return true;
+    }
+
+    /// Those of `terms` that stand in products, ascending; nothing where they are more than two, or where another
+    /// variable than these enters the products.
+    [[nodiscard]] std::optional<std::vector<std::size_t>> heads_of(const std::vector<std::size_t>& terms, std::size_t y)
+    {
+        std::vector<std::size_t> heads;
+        for (const std::size_t term : terms)
+            if (!rows_[term].empty()) heads.insert(heads.begin(), term);
+        if (!rows_[y].empty() || heads.empty() || heads.size() > 2) return {};
+        for (const std::size_t head : heads)
+            for (const auto& [other, value] : rows_[head])
+                if (other != heads.front() && other != heads.back()) return {};
+        for (const auto& [pair, square] : squares_)
+            if (pair != Pair{heads.front(), heads.back()} && concerns(pair, terms, y)) return {};
+        return heads;
+    }
+
+    /// u = one, w = two.
+    bool eliminate_pair(std::size_t u, std::size_t w, const LinearForm& one, const LinearForm& two, std::size_t y)
+    {
+        std::optional<WeightedSquare> square;
+        if (const auto found = squares_.find({u, w}); found != squares_.end()) {
+            square = found->second;
+            squares_.erase(found);
+        }
+        const PairMatrix matrix{entry(u, u), entry(u, w), entry(w, w), square};
+        static_cast<void>(take_row(u));
+        static_cast<void>(take_row(w));
+        const PairPivot pivot = pivot_of(graph_, matrix, one.slope, two.slope);
+        if (graph_.is_zero(pivot.value)) return false;
+        const NodeId reciprocal = finish(y, pivot.value, {{&one, pivot.pushes[0]}, {&two, pivot.pushes[1]}});
+        leave({pivot.determinant, reciprocal, two.slope, graph_.negate(one.slope)}, one.rest, two.rest);
+        return true;
+    }
+
+    /// The step of `y`; the multiplier of a variable is the sum of its coefficients times the pushes, over the pivot.
+    NodeId finish(std::size_t y, NodeId pivot, const std::vector<std::pair<const LinearForm*, NodeId>>& pushes)
+    {
+        Row row;
+        for (const auto& [form, push] : pushes)
+            for (const auto& [variable, coefficient] : form->rest)
+                add_to(graph_, row, variable, graph_.multiply(coefficient, push));
+        const NodeId reciprocal = graph_.divide(graph_.constant(1), pivot);
+        Terms terms;
+        for (const auto& [variable, value] : row) terms.emplace_back(variable, graph_.multiply(value, reciprocal));
+        result_.steps.push_back({y, std::move(terms), pivot});
+        return reciprocal;
+    }
+
+    /// The square of first g_1 + second g_2: kept where these are two variables, else multiplied out.
+    void leave(WeightedSquare square, const Row& one, const Row& two)
+    {
+        if (graph_.is_zero(square.numerator)) return;
+        Row form;
+        for (const auto& [rest, factor] : {std::pair{&one, square.first}, std::pair{&two, square.second}})
+            for (const auto& [variable, coefficient] : *rest)
+                add_to(graph_, form, variable, graph_.multiply(coefficient, factor));
+        if (form.size() == 2) {
+            const auto& [first, second] = std::pair{*form.begin(), *form.rbegin()};
+            square.first = first.second;
+            square.second = second.second;
+            if (squares_.try_emplace({first.first, second.first}, square).second) return;
+        }
+        write(form, square);
     }
 
     void add(std::size_t i, std::size_t j, NodeId value)
@@ -150,13 +302,11 @@ class Eliminator {
             for (const std::size_t w : multiples) half = graph_.add(half, graph_.multiply(factor(w), entry(u, w)));
             diagonal = graph_.add(diagonal, graph_.multiply(factor(u), graph_.add(own, half)));
         }
-        std::map<std::size_t, NodeId> column;
+        Row column;
         for (const std::size_t u : multiples)
             for (const auto& [j, value] : rows_[u]) {
                 if (j == y || std::ranges::find(multiples, j) != multiples.end()) continue;
-                const NodeId product = graph_.multiply(factor(u), value);
-                const auto [place, fresh] = column.try_emplace(j, product);
-                if (!fresh) place->second = graph_.add(place->second, product);
+                add_to(graph_, column, j, graph_.multiply(factor(u), value));
             }
         for (const std::size_t u : multiples) static_cast<void>(take_row(u));
         for (const auto& [j, value] : column) add(j, y, value);
@@ -191,6 +341,7 @@ class Eliminator {
     std::vector<Row> rows_; ///< H, both triangles
     std::vector<std::vector<std::size_t>> holders_;
     std::vector<bool> gone_;
+    std::map<std::pair<std::size_t, std::size_t>, WeightedSquare> squares_; ///< H is `rows_` and these
     Elimination result_;
 };
 
@@ -199,33 +350,6 @@ class Eliminator {
 std::optional<Elimination> eliminate(Graph& graph, const SparseHessian& hessian)
 {
     return Eliminator(graph, hessian).run();
-}
-
-std::vector<NodeId> solve_by(Graph& graph, const Elimination& elimination, std::span<const NodeId> right)
-{
-    if (right.size() != elimination.order) throw InternalError("solve_by() wants one entry of b for every variable");
-    std::vector<NodeId> force(elimination.is_term.size(), graph.constant(0));
-    std::copy(right.begin(), right.end(), force.begin());
-    for (const Elimination::Step& step : elimination.steps)
-        for (const auto& [variable, factor] : step.terms) {
-            const NodeId product = graph.multiply(factor, force[step.variable]);
-            force[variable] = elimination.is_term[step.variable] ? graph.add(force[variable], product)
-                                                                 : graph.subtract(force[variable], product);
-        }
-    std::vector<NodeId> z(elimination.is_term.size(), graph.constant(0));
-    for (std::size_t k = elimination.steps.size(); k-- > 0;) {
-        const Elimination::Step& step = elimination.steps[k];
-        const bool term = elimination.is_term[step.variable];
-        NodeId value = graph.constant(0);
-        if (!term) value = graph.multiply(force[step.variable], graph.divide(graph.constant(1), step.pivot));
-        for (const auto& [variable, factor] : step.terms) {
-            const NodeId product = graph.multiply(factor, z[variable]);
-            value = term ? graph.add(value, product) : graph.subtract(value, product);
-        }
-        z[step.variable] = value;
-    }
-    z.resize(elimination.order);
-    return z;
 }
 
 } // namespace lagen

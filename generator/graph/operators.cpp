@@ -5,6 +5,7 @@
 
 #include "expression/evaluate_stumpff.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -299,7 +300,8 @@ double operation_weight(const Graph& graph, NodeId node)
     if (op == Op::factor) {
         const double n = std::sqrt(static_cast<double>(graph.operands(node).size()));
         const bool general = graph.payload(node) == static_cast<std::uint32_t>(MatrixStructure::general);
-        return n * n * n / (general ? 3 : 6) + operator_of(Op::divide).weight * n;
+        const double waits = std::max(0.0, n - 3); // a pivot waits for the one before; orders up to 3 are closed forms
+        return n * n * n / (general ? 3 : 6) + operator_of(Op::divide).weight * (n + waits);
     }
     if (op == Op::solve) {
         const auto n = static_cast<double>(graph.operands(node).size() - 1);

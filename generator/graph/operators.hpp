@@ -44,8 +44,8 @@ struct Operator {
 /// All records, in the order of the enumeration.
 [[nodiscard]] std::span<const Operator> operator_table();
 
-/// The weight of one node: the table's, times the multiplications of a power chain, and n^3/6 + 6 n for a
-/// factorisation of order n (general: n^3/3 + 6 n), 2 n^2 for a solve.
+/// The weight of one node: the table's, times the multiplications of a power chain, and n^3/6 + 6 n + 6 (n - 3) for a
+/// factorisation of order n (general: n^3/3 + ..; the last term where n > 3), 2 n^2 for a solve.
 [[nodiscard]] double operation_weight(const Graph& graph, NodeId node);
 
 /// Multiplications of x^n by shared squares, n > 0: floor(log2 n) + ones(n) - 1.

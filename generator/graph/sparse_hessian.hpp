@@ -44,7 +44,7 @@ struct Elimination {
         NodeId pivot = 0;           ///< of an eliminated variable; positive where the matrix is positive definite
     };
     std::size_t order = 0;
-    std::vector<bool> is_term; ///< by variable
+    std::vector<bool> is_term; ///< by variable: put in for its definition, not eliminated
     std::vector<Step> steps;
 };
 

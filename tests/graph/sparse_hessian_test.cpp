@@ -154,6 +154,157 @@ TEST_CASE("the elimination solves the system that the matrix stands for, exactly
     }
 }
 
+namespace {
+
+/// W z - b, with W from the derivatives of the quadratic function, for z from its elimination; then z.
+std::vector<NodeId> residuals_and_solution(Graph& graph, NodeId lagrangian, const std::vector<NodeId>& y)
+{
+    std::vector<NodeId> right;
+    for (std::size_t a = 0; a < y.size(); ++a) right.push_back(graph.input("b" + std::to_string(a + 1)));
+    const auto hessian = read_hessian(graph, lagrangian, y);
+    REQUIRE(hessian.has_value());
+    const auto elimination = eliminate(graph, *hessian);
+    REQUIRE(elimination.has_value());
+    const std::vector<NodeId> z = solve_by(graph, *elimination, right);
+    const std::vector<NodeId> momenta = gradient(graph, lagrangian, y);
+    std::vector<std::pair<NodeId, NodeId>> seeds;
+    for (std::size_t b = 0; b < y.size(); ++b) seeds.emplace_back(y[b], z[b]);
+    std::vector<NodeId> result = directional(graph, momenta, seeds);
+    for (std::size_t a = 0; a < y.size(); ++a) result[a] = graph.subtract(result[a], right[a]);
+    result.insert(result.end(), z.begin(), z.end());
+    return result;
+}
+
+/// The residuals vanish at rational points, the solution does not.
+void check_solution(Graph& graph, NodeId lagrangian, const std::vector<NodeId>& y)
+{
+    const std::vector<NodeId> nodes = residuals_and_solution(graph, lagrangian, y);
+    for (int seed = 1; seed <= 3; ++seed) {
+        std::map<std::string, Rational> at;
+        for (std::size_t k = 0; k < graph.inputs().size(); ++k) {
+            const std::string& name = graph.input_name(graph.inputs()[k]);
+            const int number = static_cast<int>(k);
+            at[name] = 0;
+            if (name[0] != 'y') at[name] = Rational(2 + (7 * number + 3 * seed) % 11) / Rational(1 + (5 * number) % 7);
+        }
+        const std::vector<Rational> values = evaluate_exactly(graph, nodes, at);
+        for (std::size_t a = 0; a < y.size(); ++a) {
+            INFO("seed " << seed << ", variable " << a);
+            CHECK(values[a] == 0);
+            CHECK(values[y.size() + a] != 0);
+        }
+    }
+}
+
+std::vector<NodeId> numbered(Graph& graph, const std::string& name, std::size_t count)
+{
+    std::vector<NodeId> nodes;
+    for (std::size_t k = 0; k < count; ++k) nodes.push_back(graph.input(name + std::to_string(k + 1)));
+    return nodes;
+}
+
+/// c u^2 for every term, and u v for the first two.
+NodeId sum_of_products(Graph& graph, const std::vector<NodeId>& terms)
+{
+    NodeId sum = graph.multiply(terms[0], terms[1]);
+    for (std::size_t k = 0; k < terms.size(); ++k) {
+        const NodeId weight = graph.add(graph.input("m" + std::to_string(k + 1)), graph.constant(40));
+        sum = graph.add(sum, graph.multiply(weight, graph.power(terms[k], 2)));
+    }
+    return sum;
+}
+
+} // namespace
+
+TEST_CASE("variables that act through one term, two or three are eliminated exactly")
+{
+    Graph graph;
+    const std::vector<NodeId> y = numbered(graph, "y", 5);
+    const std::vector<NodeId> c = numbered(graph, "c", 9);
+    const auto times = [&](std::size_t k, std::size_t a) { return graph.multiply(c[k], y[a]); };
+    SECTION("a tree: two arms leave a square each at the same two terms")
+    {
+        const NodeId u = times(0, 0);
+        const NodeId v = times(1, 0);
+        std::vector<NodeId> terms{u, v};
+        for (std::size_t arm = 1; arm < 5; ++arm) {
+            terms.push_back(graph.add(u, times(2 * arm - 1, arm)));
+            terms.push_back(graph.add(v, times(2 * arm, arm)));
+        }
+        check_solution(graph, sum_of_products(graph, terms), y);
+    }
+    SECTION("a chain, with a third term in the middle")
+    {
+        std::vector<NodeId> terms{times(0, 0), times(1, 0)};
+        for (std::size_t a = 1; a < 5; ++a) {
+            terms.push_back(graph.add(terms[terms.size() - (a == 3 ? 3 : 2)], times(a, a)));
+            terms.push_back(graph.add(terms[terms.size() - 2], times(a + 4, a)));
+            if (a == 2) terms.push_back(graph.add(terms.back(), times(3, 4)));
+        }
+        check_solution(graph, sum_of_products(graph, terms), y);
+    }
+    SECTION("two terms that touch each other, and more than two variables in what they leave")
+    {
+        const NodeId u = graph.add(graph.add(times(0, 0), times(1, 1)), times(2, 2));
+        const NodeId v = graph.add(graph.add(times(3, 0), times(4, 1)), times(5, 3));
+        std::vector<NodeId> terms{u, v};
+        for (std::size_t a = 1; a < 5; ++a) terms.push_back(graph.subtract(times(a, a), y[a - 1]));
+        check_solution(graph, sum_of_products(graph, terms), y);
+    }
+    SECTION("joint angles, one of them counted backwards and twice")
+    {
+        NodeId rate = y[0];
+        NodeId u = times(0, 0);
+        NodeId v = times(1, 0);
+        std::vector<NodeId> terms{u, v};
+        for (std::size_t a = 1; a < 5; ++a) {
+            const NodeId joint = a == 2 ? graph.multiply(graph.constant(-2), y[a]) : y[a];
+            rate = graph.add(rate, joint);
+            terms.push_back(u = graph.add(u, graph.multiply(c[a], rate)));
+            terms.push_back(v = graph.add(v, graph.multiply(c[a + 4], rate)));
+        }
+        check_solution(graph, sum_of_products(graph, terms), y);
+    }
+}
+
+TEST_CASE("light masses above a heavy one do not cost the pivots of a chain their digits")
+{
+    // Each elimination as M - M e e^T M / d would leave the light mass as the difference of heavy ones.
+    Graph graph;
+    const Chain chain(graph, 6, Measured::absolute);
+    const auto elimination = eliminate(graph, *read_hessian(graph, chain.lagrangian, chain.y));
+    REQUIRE(elimination.has_value());
+    std::vector<NodeId> pivots;
+    for (const Elimination::Step& step : elimination->steps)
+        if (!elimination->is_term[step.variable]) pivots.push_back(step.pivot);
+    REQUIRE(pivots.size() == 6);
+    for (unsigned seed = 1; seed <= 5; ++seed) {
+        auto at = point<long double>(graph, seed);
+        at["m6"] = 1e9L;
+        std::map<std::string, double> rounded;
+        for (auto& [name, value] : at) value = rounded[name] = static_cast<double>(value);
+        const auto exact = evaluate<long double>(graph, pivots, at);
+        const auto found = evaluate<double>(graph, pivots, rounded);
+        for (std::size_t k = 0; k < pivots.size(); ++k) {
+            INFO("seed " << seed << ", pivot " << k);
+            CHECK(std::abs(static_cast<double>(exact[k]) - found[k]) < 1e-12 * std::abs(found[k]));
+        }
+    }
+}
+
+TEST_CASE("a chain in joint angles is solved at the cost of angles and their differences")
+{
+    std::vector<double> weights;
+    for (const Measured angles : {Measured::absolute, Measured::relative}) {
+        Graph graph;
+        const Chain chain(graph, 16, angles);
+        const auto elimination = eliminate(graph, *read_hessian(graph, chain.lagrangian, chain.y));
+        REQUIRE(elimination.has_value());
+        weights.push_back(weight(graph, solve_by(graph, *elimination, chain.right)));
+    }
+    CHECK(weights[1] < weights[0] + 4 * 16); // the sums of angles, two differences a joint
+}
+
 TEST_CASE("a chain solved through its terms keeps the digits of the dense factorisation")
 {
     for (const Measured angles : {Measured::absolute, Measured::relative})
