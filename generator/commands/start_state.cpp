@@ -63,12 +63,13 @@ std::vector<long double> invert(const CheckedModel& checked, const Inversion& in
         residuals.push_back(graph.subtract(entry.node, wanted));
     }
     for (const Quantity& lane : module.fibre) unknowns.push_back(lane.input);
-    ImplicitBlock block = implicit_block(graph, inversion.wanted, "", unknowns, residuals,
-                                         newton_guess(graph, checked.verified.regularity.newton_start, unknowns.size()),
-                                         MatrixStructure::symmetric);
     const Model& model = checked.model;
-    const NodeId inverted = Lowering(graph)(model.lagrangian ? model.lagrangian : model.hamiltonian);
-    block.inside = positive_operands(graph, inverted, unknowns);
+    const NodeId function = Lowering(graph)(model.lagrangian ? model.lagrangian : model.hamiltonian);
+    const std::vector<NodeId> inside = positive_operands(graph, function, unknowns);
+    ImplicitBlock block = implicit_block(
+        graph, inversion.wanted, "", unknowns, residuals,
+        guess_inside(graph, inside, unknowns, checked.verified.regularity.newton_start), MatrixStructure::symmetric);
+    block.inside = inside;
     try {
         solve_unknowns<long double>(graph, {&block, 1}, inputs);
     } catch (const MathematicsError&) {

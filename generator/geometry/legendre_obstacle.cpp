@@ -7,6 +7,7 @@
 #include "geometry/smoothness.hpp"
 #include "graph/differentiate.hpp"
 #include "graph/evaluate.hpp"
+#include "graph/implicit.hpp"
 #include "graph/lower.hpp"
 
 #include <fmt/format.h>
@@ -87,7 +88,6 @@ class SmoothSet {
             return;
         }
         switch (graph_.op(node)) {
-        case Op::log: return require_logarithm(node, graph_.operands(node)[0]);
         case Op::atan2: // its cut, and slopes that do not see it
             if (const NodeId u = graph_.operands(node)[1]; !decider().proves_positive(u))
                 obstacle_ = not_shown(u, "positive");
@@ -119,18 +119,6 @@ class SmoothSet {
             return;
         }
         obstacle_ = not_shown(f, "positive");
-    }
-
-    /// The slope 1/f of a logarithm goes on where f < 0, so that a solution could lie there, unless a logarithm is
-    /// left.
-    void require_logarithm(NodeId node, NodeId f)
-    {
-        if (!depends_on_y(f) || decider().proves_positive(f)) return;
-        const std::vector<NodeId> needed = reachable(graph_, hessian_.momenta);
-        if (std::find(needed.begin(), needed.end(), node) == needed.end())
-            obstacle_ = not_shown(f, "positive");
-        else
-            require_positive(f);
     }
 
     [[nodiscard]] bool is_concave(NodeId f)
@@ -178,7 +166,8 @@ double number_in(const std::string& text)
     return text.find_first_not_of("-0123456789/") == std::string::npos ? Rational(text).get_d() : std::stod(text);
 }
 
-/// Fibre coordinates of a sample point where L, momenta or W are not defined at 0, as for L = v log(v); else empty.
+/// Fibre coordinates of a sample point where L, momenta or W are not defined or smooth at 0, as for L = v log(v); else
+/// empty.
 std::vector<Rational> newton_start(const Graph& graph, const FibreHessian& hessian, const ZeroDecider& decider)
 {
     const auto point = decider.sample_point();
@@ -195,7 +184,10 @@ std::vector<Rational> newton_start(const Graph& graph, const FibreHessian& hessi
     nodes.push_back(hessian.lagrangian);
     nodes.insert(nodes.end(), hessian.hessian.begin(), hessian.hessian.end());
     const std::vector<double> at_zero = evaluate<double>(graph, nodes, inputs);
-    const bool is_defined = std::all_of(at_zero.begin(), at_zero.end(), [](double x) { return std::isfinite(x); });
+    const std::vector<double> conditions =
+        evaluate<double>(graph, positive_operands(graph, hessian.lagrangian, hessian.y), inputs);
+    const bool is_defined = std::ranges::all_of(at_zero, [](double x) { return std::isfinite(x); }) &&
+                            std::ranges::all_of(conditions, [](double x) { return x > 0; });
     return is_defined ? std::vector<Rational>{} : start;
 }
 

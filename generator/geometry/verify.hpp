@@ -55,8 +55,8 @@ struct ControlMaximum {
     } kind = Kind::absent;
     std::string reason; ///< "d2H/du2 < 0 was not proved"; empty where `maximal`
     std::string hint;
-    bool on_part = false;               ///< `maximal`, where H is defined on a convex set of controls alone
-    std::vector<Rational> newton_start; ///< u in that set, if 0 is not; else empty
+    bool on_part = false;                    ///< `maximal`, where H is defined on a convex set of controls alone
+    std::vector<Rational> newton_start = {}; ///< u in that set, if 0 is not; else empty
 };
 
 /// What every text says of stationary controls.

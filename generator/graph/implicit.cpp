@@ -4,13 +4,12 @@
 #include "graph/differentiate.hpp"
 
 #include <algorithm>
-#include <map>
 
 namespace lagen {
 
 namespace {
 
-using Seeds = std::vector<std::pair<NodeId, NodeId>>;
+using Seeds = std::vector<std::pair<NodeId, NodeId>>; ///< inputs, each with a node for it
 
 /// The tangents of the unknowns of one block along several lists of seeds, which are extended by them.
 void extend(Graph& graph, const ImplicitBlock& block, std::vector<Seeds>& directions)
@@ -42,41 +41,8 @@ ImplicitBlock implicit_block(Graph& graph, std::string name, std::string documen
                         structure,
                         {}};
     block.jacobian = joined_rows(jacobian(graph, block.residuals, block.unknowns));
-    block.sizes = term_sizes(graph, block.residuals);
+    block.sizes = rounding_sizes(graph, block.residuals);
     return block;
-}
-
-std::vector<NodeId> term_sizes(Graph& graph, std::span<const NodeId> residuals)
-{
-    std::map<NodeId, NodeId> sizes; // of what holds sums; |f| of the others
-    const auto size = [&](NodeId node) { return sizes.contains(node) ? sizes[node] : graph.apply(Op::abs, node); };
-    for (const NodeId node : reachable(graph, residuals)) {
-        const std::vector<NodeId> operands(graph.operands(node).begin(), graph.operands(node).end());
-        const Op op = graph.op(node);
-        if (op == Op::add || op == Op::subtract) {
-            sizes[node] = graph.add(size(operands[0]), size(operands[1]));
-            continue;
-        }
-        if (std::ranges::none_of(operands, [&](NodeId operand) { return sizes.contains(operand); })) continue;
-        // The relative errors of operands, times what they are worth in the result.
-        switch (op) {
-        case Op::negate: sizes[node] = size(operands[0]); break;
-        case Op::multiply: sizes[node] = graph.multiply(size(operands[0]), size(operands[1])); break;
-        case Op::divide:
-            sizes[node] =
-                graph.divide(graph.multiply(size(operands[0]), size(operands[1])), graph.power(operands[1], 2));
-            break;
-        case Op::sqrt: sizes[node] = graph.divide(size(operands[0]), node); break;
-        case Op::power:
-        case Op::real_power:
-            sizes[node] = graph.apply(Op::abs, graph.multiply(node, graph.divide(size(operands[0]), operands[0])));
-            break;
-        default: break;
-        }
-    }
-    std::vector<NodeId> result;
-    for (const NodeId residual : residuals) result.push_back(size(residual));
-    return result;
 }
 
 std::vector<NodeId> positive_operands(const Graph& graph, NodeId function, std::span<const NodeId> unknowns)
@@ -91,6 +57,46 @@ std::vector<NodeId> positive_operands(const Graph& graph, NodeId function, std::
         if (depends[operand] && std::ranges::count(result, operand) == 0) result.push_back(operand);
     }
     return result;
+}
+
+std::vector<NodeId> guess_inside(Graph& graph, std::span<const NodeId> inside, std::span<const NodeId> unknowns,
+                                 std::span<const Rational> start)
+{
+    const NodeId zero = graph.constant(0);
+    std::vector<NodeId> guess(unknowns.size(), zero);
+    for (std::size_t k = 0; k < start.size(); ++k) guess[k] = graph.constant(start[k]);
+    if (inside.size() != 1) return guess;
+    std::vector<std::size_t> places; // of the unknowns of f
+    std::vector<NodeId> z;
+    Seeds zeros;
+    for (std::size_t k = 0; k < unknowns.size(); ++k)
+        if (depends_on(graph, unknowns.subspan(k, 1))[inside[0]]) {
+            places.push_back(k);
+            z.push_back(unknowns[k]);
+            zeros.emplace_back(unknowns[k], zero);
+        }
+    const std::vector<NodeId> gradient = joined_rows(jacobian(graph, inside, z));
+    const std::vector<NodeId> curvature = joined_rows(jacobian(graph, gradient, z));
+    if (depends_on_any(graph, curvature, z)) return guess;
+    std::vector<NodeId> at_zero = gradient;
+    at_zero.push_back(inside[0]);
+    at_zero = substitute(graph, at_zero, zeros);
+    const NodeId value = at_zero.back();
+    at_zero.pop_back();
+    const auto vanishes = [&](NodeId node) { return graph.is_zero(node); };
+    std::vector<NodeId> centre;
+    if (std::ranges::all_of(curvature, vanishes)) { // affine: a z + b = 1
+        NodeId square = zero;
+        for (const NodeId a : at_zero) square = graph.add(square, graph.power(a, 2));
+        const NodeId share = graph.divide(graph.subtract(graph.constant(1), value), square);
+        for (const NodeId a : at_zero) centre.push_back(graph.multiply(a, share));
+    } else {
+        if (std::ranges::all_of(at_zero, vanishes)) return guess; // largest at 0
+        for (NodeId& entry : at_zero) entry = graph.negate(entry);
+        centre = graph.solve(curvature, at_zero, MatrixStructure::symmetric);
+    }
+    for (std::size_t k = 0; k < places.size(); ++k) guess[places[k]] = centre[k];
+    return guess;
 }
 
 Seeds seeds_through(Graph& graph, std::span<const ImplicitBlock> blocks, Seeds seeds)

@@ -23,7 +23,7 @@ struct ImplicitBlock {
     std::vector<NodeId> residuals; ///< F, shape (N); may use the unknowns of earlier blocks
     std::vector<NodeId> jacobian;  ///< dF/dz, shape (N, N), entry (i, j) at i * N + j
     std::vector<NodeId> guess;     ///< where Newton's method starts, free of z
-    std::vector<NodeId> sizes;     ///< what rounding in F is measured by, shape (N): `term_sizes` of F
+    std::vector<NodeId> sizes;     ///< rounding errors of F in units of epsilon, shape (N)
     std::vector<NodeId> inside;    ///< functions of z that are positive at a solution; elsewhere F may be another's
     MatrixStructure structure = MatrixStructure::general;
     /// Where it is there, z_i is the root of F_i in its interval, or the end next to it; there is no guess then.
@@ -35,15 +35,20 @@ struct ImplicitBlock {
                                            std::vector<NodeId> unknowns, std::vector<NodeId> residuals,
                                            std::vector<NodeId> guess, MatrixStructure structure);
 
-/// For each F_i, as it is written, the sum of the absolute values of its terms, |a| + |b| for a - b, carried through
-/// products, quotients, roots and powers: whatever cancels, rounding errors of F_i are epsilon times that (to first
-/// order, a factor for each function on the way).
-[[nodiscard]] std::vector<NodeId> term_sizes(Graph& graph, std::span<const NodeId> residuals);
+/// The rounding error of each F_i as it is written, in units of epsilon, to first order: |f| for each operation,
+/// carried on by the slopes of those behind it. Inputs and constants have none; operations without a slope pass on the
+/// sum.
+[[nodiscard]] std::vector<NodeId> rounding_sizes(Graph& graph, std::span<const NodeId> residuals);
 
 /// What must be positive for `function` to be smooth at z: operands of roots, logarithms and real powers that depend on
 /// the unknowns. In its slopes they may have cancelled.
 [[nodiscard]] std::vector<NodeId> positive_operands(const Graph& graph, NodeId function,
                                                     std::span<const NodeId> unknowns);
+
+/// Where Newton's method starts: with one condition f that is quadratic in the unknowns where f is largest, with one
+/// that is affine where f = 1, else at the constants `start`, 0 where that is empty.
+[[nodiscard]] std::vector<NodeId> guess_inside(Graph& graph, std::span<const NodeId> inside,
+                                               std::span<const NodeId> unknowns, std::span<const Rational> start);
 
 /// The tangents of all unknowns along `seeds` (pairs input node, its tangent), behind the seeds: what `directional`
 /// needs to differentiate through the blocks.

@@ -72,12 +72,22 @@ class BracketSolver {
         fail();
     }
 
+    /// Half-way; in the exponent where the ends have one sign and are far apart, and 0 where they have two.
+    static Scalar middle(Scalar low, Scalar high)
+    {
+        if (low < 0 && high > 0) return 0;
+        const Scalar small = std::min(std::abs(low), std::abs(high)), large = std::max(std::abs(low), std::abs(high));
+        const Scalar base = std::max(small, std::numeric_limits<Scalar>::min());
+        if (large <= 4 * base) return low / 2 + high / 2;
+        return std::copysign(std::sqrt(base) * std::sqrt(large), high > 0 ? Scalar(1) : Scalar(-1));
+    }
+
     /// F(low) > 0 > F(high)
     void close_in(Scalar low, Scalar high)
     {
         const Scalar epsilon = std::numeric_limits<Scalar>::epsilon();
-        const Scalar smallest = std::pow(epsilon, Scalar(4)) * (high - low);
-        Scalar z = low + (high - low) / 2, previous = high - low;
+        const Scalar least = std::numeric_limits<Scalar>::min();
+        Scalar z = middle(low, high), previous = high - low;
         const NodeId outputs[] = {block_.residuals[k_], block_.jacobian[k_ * block_.unknowns.size() + k_]};
         for (int count = 0; count < most_bracket_steps; ++count) {
             z_ = z;
@@ -87,11 +97,12 @@ class BracketSolver {
             (values[0] > 0 ? low : high) = z;
             Scalar next = z - values[0] / values[1];
             // A step that leaves the interval, or is not half as long as the last one, is replaced by bisection.
-            const bool good = next >= low && next <= high && std::abs(next - z) <= previous / 2;
-            if (!good) next = low + (high - low) / 2;
+            const bool good =
+                std::isfinite(values[1]) && next >= low && next <= high && std::abs(next - z) <= previous / 2;
+            if (!good) next = middle(low, high);
             previous = std::abs(next - z);
             z = next;
-            const Scalar tight = 2 * epsilon * std::abs(z) + smallest;
+            const Scalar tight = 2 * epsilon * std::abs(z) + least;
             if (previous <= tight || high - low <= tight) break;
         }
         z_ = z;

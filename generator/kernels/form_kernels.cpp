@@ -297,7 +297,7 @@ class ModuleBuilder {
             auto from = inner.begin();
             for (auto* part : {&block.residuals, &block.jacobian, &block.inside})
                 for (NodeId& node : *part) node = *from++;
-            block.sizes = term_sizes(*graph_, block.residuals);
+            block.sizes = rounding_sizes(*graph_, block.residuals);
         }
     }
 

@@ -58,10 +58,11 @@ HamiltonianNodes legendre(Graph& graph, const Model& model, const SystemNodes& s
     const std::vector<NodeId> zeros(r, graph.constant(0));
     Replacements velocities;
     if (depends_on_any(graph, W, lagrangian.y)) {
-        nodes.implicit.push_back(implicit_block(graph, "velocity", "y with dL/dy^a = mu_a (the Legendre transform).",
-                                                lagrangian.y, residuals,
-                                                newton_guess(graph, regularity.newton_start, r), structure));
-        nodes.implicit.back().inside = positive_operands(graph, lagrangian.value, lagrangian.y);
+        const std::vector<NodeId> inside = positive_operands(graph, lagrangian.value, lagrangian.y);
+        nodes.implicit.push_back(
+            implicit_block(graph, "velocity", "y with dL/dy^a = mu_a (the Legendre transform).", lagrangian.y,
+                           residuals, guess_inside(graph, inside, lagrangian.y, regularity.newton_start), structure));
+        nodes.implicit.back().inside = inside;
         nodes.y = lagrangian.y;
     } else {
         std::vector<NodeId> right = substitute(graph, residuals, replacements(lagrangian.y, zeros));

@@ -45,13 +45,6 @@ MatrixStructure mass_structure(const Regularity& regularity)
                                                                             : MatrixStructure::symmetric;
 }
 
-std::vector<NodeId> newton_guess(Graph& graph, const std::vector<Rational>& start, std::size_t count)
-{
-    std::vector<NodeId> guess(count, graph.constant(0));
-    for (std::size_t k = 0; k < start.size(); ++k) guess[k] = graph.constant(start[k]);
-    return guess;
-}
-
 void require_regular_lagrangian(const Model& model, const Regularity& regularity, const char* form)
 {
     if (!model.lagrangian)

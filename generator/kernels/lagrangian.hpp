@@ -24,9 +24,6 @@ struct LagrangianNodes {
 /// header whose parameters may be changed.)
 [[nodiscard]] MatrixStructure mass_structure(const Regularity& regularity);
 
-/// `count` unknowns where a Newton iteration starts: 0 where `start` is empty.
-[[nodiscard]] std::vector<NodeId> newton_guess(Graph& graph, const std::vector<Rational>& start, std::size_t count);
-
 /// Throws MathematicsError, which names `form`, where there is no L or it is degenerate.
 void require_regular_lagrangian(const Model& model, const Regularity& regularity, const char* form);
 

@@ -7,7 +7,6 @@
 #include "graph/differentiate.hpp"
 #include "graph/simplify.hpp"
 #include "kernels/formulation.hpp"
-#include "kernels/lagrangian.hpp"
 #include "kernels/system.hpp"
 
 #include <fmt/format.h>
@@ -119,10 +118,11 @@ class PontryaginForm {
 
     void solve_by_newton()
     {
+        const std::vector<NodeId> inside = positive_operands(graph_, hamiltonian_, u_);
         implicit_.push_back(implicit_block(graph_, "controls", "u with dH/du = 0.", u_, dH_du_,
-                                           newton_guess(graph_, verified_.maximum.newton_start, u_.size()),
+                                           guess_inside(graph_, inside, u_, verified_.maximum.newton_start),
                                            MatrixStructure::symmetric));
-        implicit_.back().inside = positive_operands(graph_, hamiltonian_, u_);
+        implicit_.back().inside = inside;
         solution_ = u_;
     }
 
@@ -173,8 +173,8 @@ class PontryaginForm {
         }
     }
 
-    /// Bounds over parameters: numbers, the lower below the upper. Those of numbers alone are checked where they are
-    /// read.
+    /// Bounds over parameters: the lower below the upper, a single one finite. Those of numbers alone are checked where
+    /// they are read.
     void require_intervals(Formulation& form)
     {
         Lowering lower(graph_);
@@ -189,8 +189,10 @@ class PontryaginForm {
             }
             const Tree& end = bound.lower ? bound.lower : bound.upper;
             if (!is_number(end))
-                form.parameter_conditions.emplace_back(to_text(end) + " is a number",
-                                                       graph_.add(graph_.power(lower(end), 2), graph_.constant(1)));
+                form.parameter_conditions.emplace_back(
+                    to_text(end) + " is finite",
+                    graph_.divide(graph_.constant(1),
+                                  graph_.add(graph_.constant(1), graph_.apply(Op::abs, lower(end)))));
         }
     }
 

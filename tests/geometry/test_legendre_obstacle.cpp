@@ -81,9 +81,14 @@ TEST_CASE("a definite matrix on a set that is not convex is not enough")
     CHECK(obstacle_of("u^2 + v^2 + atan2(u, v)") == "v is not shown to be positive, and L is smooth only where it is");
     CHECK(obstacle_of("u^2 + v^2 + atan2(u, x)/9") ==
           "x is not shown to be positive, and L is smooth only where it is");
-    // p = -1/u is defined for u < 0 too, L is not.
-    CHECK(obstacle_of("-log(u) + v^2") == "u is not shown to be positive, and L is smooth only where it is");
     CHECK(obstacle_of("tan(u) + v^2") == "cos(u) is not shown to be nonzero, and L is smooth only where it is");
+}
+
+TEST_CASE("a concave argument of a logarithm is a condition, also where the momenta go on beyond it")
+{
+    for (const char* lagrangian : {"-log(u) + v^2", "-log(1 - u) + v^2", "-log(1 - u^2 - v^2) + u^2/2"})
+        CHECK(obstacle_of(lagrangian).empty());
+    CHECK(obstacle_of("-log(u^2) + v^2") == "u^2 is not shown to be positive, and L is smooth only where it is");
 }
 
 TEST_CASE("a root keeps a divisor away from zero")

@@ -95,6 +95,33 @@ TEST_CASE("an open interval is searched outwards, and has a status where there i
     CHECK(std::isnan(undefined.z));
 }
 
+TEST_CASE("an interval may be as wide as its scalar, and a root as small", "[bracket]")
+{
+    const auto quartic = [](auto p, auto lower, auto upper) { // of u^4/4 + u^2/2: p = u^3 + u
+        using S = decltype(p);
+        return root_of(
+            lower, upper, [p](const S& u) { return p - u * u * u - u; },
+            [](const S& u) { return S(-1) - S(3) * u * u; });
+    };
+    constexpr double most = std::numeric_limits<double>::max();
+    for (const auto& [lower, upper] : {std::pair{-1e70, 2e70}, {-1e100, 2e100}, {-most, most}, {-3.0, 1e200}}) {
+        CHECK(quartic(2.0, lower, upper).z == 1);
+        CHECK(quartic(0.0, lower, upper).z == 0);
+        CHECK(quartic(-10.0, -most, upper).z == -2);
+        CHECK(quartic(1e-200, lower, upper).z == 1e-200);
+    }
+    CHECK(quartic(2.0f, -1e30f, 2e30f).z == 1);
+    const Found<double> power = root_of(
+        -1.0, 2.0, [](double u) { return 4e-240 - 4 * u * u * u; }, [](double u) { return -12 * u * u; });
+    CHECK(power.z == Approx(1e-80).epsilon(tolerance::roundoff(8)));
+    // A slope without bound is no step of length 0.
+    const Found<double> root = root_of(
+        0.0, 1e9, [](double u) { return 3 - std::sqrt(u); },
+        [](double u) { return u == 0 ? -infinite : -0.5 / std::sqrt(u); });
+    CHECK(root.z == Approx(9).epsilon(tolerance::roundoff(8)));
+    CHECK(root_of_tangent(0.5, infinite, infinite).status == Status::newton_diverged);
+}
+
 TEST_CASE("ends that cross or are not numbers have a status", "[bracket]")
 {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();

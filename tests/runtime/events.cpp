@@ -145,6 +145,36 @@ TEST_CASE("A gap where an event's function is not a number hides no crossing")
     CHECK_THAT(run.events[1].t, Catch::WithinAbs(2.3, 1e-12));
 }
 
+TEST_CASE("A crossing before a gap is found where it is, with steps of any length")
+{
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    using When = EventRequest<double, Line::State>;
+    const auto root = [](double t, const Line::State&) { return std::sqrt(1 - t) - 0.3; };      // 0.91
+    const auto logarithm = [](double t, const Line::State&) { return std::log(1.05 - t) + 1; }; // 0.682..
+    const auto step = [](double t, const Line::State&) { return t < 1.1 ? -1.0 : t < 1.2 || t > 1.4 ? 1.0 : nan; };
+    const auto twice = [](double t, const Line::State&) {
+        return t < 1.05 ? -1.0 : t < 1.3 ? 1.0 : t < 1.6 ? nan : -1.0;
+    };
+    const std::array<When, 4> requests{{{.when = root}, {.when = logarithm}, {.when = step}, {.when = twice}}};
+    for (const double h : {0.125, 0.25, 0.5}) {
+        INFO(h);
+        const auto run = integrate(Line{}, Line::State(0), {0.0, 2.0}, Rk4{.step = h}, {.events = requests});
+        std::array<std::vector<double>, 4> found;
+        for (const auto& event : run.events) found[event.request].push_back(event.t);
+        CHECK_THAT(found[0], Catch::Approx(std::vector{0.91}).margin(1e-12));
+        CHECK_THAT(found[1], Catch::Approx(std::vector{1.05 - std::exp(-1.0)}).margin(1e-12));
+        CHECK_THAT(found[2], Catch::Approx(std::vector{1.1}).margin(1e-12));
+        CHECK_THAT(found[3], Catch::Approx(std::vector{1.05, 1.6}).margin(1e-12));
+    }
+    for (const double h : {1.0, 2.0}) {
+        const auto run =
+            integrate(Line{}, Line::State(0), {0.0, 2.0}, Rk4{.step = h}, {.events = std::span(requests).first(3)});
+        REQUIRE(run.events.size() == 3);
+        CHECK_THAT(run.events[1].t, Catch::WithinAbs(0.91, 1e-12));
+        CHECK_THAT(run.events[2].t, Catch::WithinAbs(1.1, 1e-12));
+    }
+}
+
 TEST_CASE("Events of one instant are all reported, in the order of the requests, also where one of them stops the run")
 {
     const auto half = [](double, const State& s) { return s[0] - 0.5; };

@@ -45,6 +45,7 @@ class Brackets {
         const S infinity(std::numeric_limits<Real>::infinity());
         for (std::size_t i = 0; i < N; ++i) {
             failed_ = either<Mask>(failed_, !(lower[i] <= upper[i]));
+            failed_ = either<Mask>(failed_, !both<Mask>(lower[i]<infinity, upper[i]> - infinity));
             const Mask has_lower = lower[i] > -infinity;
             const Mask has_upper = upper[i] < infinity;
             low_[i] = select(has_lower, lower[i], select(has_upper, upper[i], S(0)));
@@ -95,12 +96,12 @@ class Brackets {
     void close_in() noexcept
     {
         using std::abs;
-        const Real epsilon = std::numeric_limits<Real>::epsilon();
-        Unknowns last{}, smallest{};
+        const Real epsilon = std::numeric_limits<Real>::epsilon(), least = std::numeric_limits<Real>::min();
+        const S most(std::numeric_limits<Real>::max());
+        Unknowns last{};
         for (std::size_t i = 0; i < N; ++i) {
             last[i] = high_[i] - low_[i];
-            smallest[i] = S(epsilon * epsilon * epsilon * epsilon) * last[i];
-            z_[i] = select(done_[i], z_[i], low_[i] + S(Real(0.5)) * last[i]);
+            z_[i] = select(done_[i], z_[i], middle(low_[i], high_[i]));
         }
         for (int count = 0; count < bracket_steps && !all_done(); ++count) {
             function_(z_, residual_, derivative_);
@@ -112,20 +113,34 @@ class Brackets {
                 // A step that leaves the interval, or is not half as long as the last one, is replaced by bisection.
                 const S newton = z_[i] - f / derivative_[i];
                 const Mask inside = both<Mask>(newton >= low_[i], newton <= high_[i]);
-                const Mask good = both<Mask>(inside, S(2) * abs(newton - z_[i]) <= last[i]);
-                const S next = select(good, newton, low_[i] + S(Real(0.5)) * (high_[i] - low_[i]));
+                const Mask shorter = both<Mask>(abs(derivative_[i]) <= most, S(2) * abs(newton - z_[i]) <= last[i]);
+                const S next = select(both<Mask>(inside, shorter), newton, middle(low_[i], high_[i]));
                 done_[i] = either<Mask>(done_[i], both<Mask>(f >= S(0), f <= S(0)));
                 last[i] = abs(next - z_[i]);
                 z_[i] = select(done_[i], z_[i], next);
-                const S tight = S(Real(2) * epsilon) * abs(z_[i]) + smallest[i];
+                const S tight = S(Real(2) * epsilon) * abs(z_[i]) + S(least);
                 done_[i] = either<Mask>(done_[i], either<Mask>(last[i] <= tight, high_[i] - low_[i] <= tight));
             }
         }
+        for (const Mask& done : done_) failed_ = either<Mask>(failed_, !done);
     }
 
     [[nodiscard]] const Mask& failed() const noexcept { return failed_; }
 
   private:
+    /// Half-way; in the exponent where the ends have one sign and are far apart, and 0 where they have two.
+    [[nodiscard]] static S middle(const S& low, const S& high) noexcept
+    {
+        using std::abs;
+        using std::sqrt;
+        const S a = abs(low), b = abs(high), least(std::numeric_limits<Real>::min());
+        const S small = select(a < b, a, b), large = select(a < b, b, a), base = select(small < least, least, small);
+        const S mean = sqrt(base) * sqrt(large);
+        const S half = S(Real(0.5)) * low + S(Real(0.5)) * high;
+        const S between = select(large > S(4) * base, select(high > S(0), mean, -mean), half);
+        return select(both<Mask>(low<S(0), high> S(0)), S(0), between);
+    }
+
     [[nodiscard]] static bool any_of(const std::array<Mask, N>& masks) noexcept
     {
         Mask some = masks[0];
@@ -156,8 +171,8 @@ class Brackets {
 /// @param function function(z, residual, derivative): F_i(z_i) and dF_i/dz_i, N entries each
 /// @return newton_diverged, a lane, where a value or an end is not a number, ends cross, or an open interval has no
 /// root:
-///         then z is NaN. Else z is within 2 epsilon |z| + epsilon^4 (upper_i - lower_i), of an open interval the part
-///         searched, of where the computed function changes its sign.
+///         then z is NaN. Else z is within 2 epsilon |z| of where the computed function changes its sign (or within the
+///         smallest normal number)
 template <class S, std::size_t N, class Function>
 [[nodiscard]] status_t<S> bracket(std::array<S, N>& z, const std::array<S, N>& lower, const std::array<S, N>& upper,
                                   const Function& function) noexcept

@@ -14,9 +14,27 @@ struct Bracket {
     Real after;
 };
 
+template <class Real>
+[[nodiscard]] bool is_defined(const Real& value) noexcept
+{
+    return value <= Real(0) || value >= Real(0);
+}
+
+/// The last theta, to `width`, before a gap that begins between a and b, where `value` is not a number.
+template <class Real, class Function>
+Real end_of_defined(Real a, Real b, Real width, const Function& value) noexcept
+{
+    while (b - a > width) {
+        const Real middle = (a + b) / Real(2);
+        if (!(middle > a && middle < b)) break;
+        (is_defined(value(middle)) ? a : b) = middle;
+    }
+    return a;
+}
+
 /// The crossing of `value` between a (value ga) and b (value gb of the other sign, or zero): the Illinois variant of
 /// regula falsi [Dowell and Jarratt 1971], every third trial a bisection, so that the bracket shrinks at least by 2 in
-/// three trials. A value that is not a number has not crossed.
+/// three trials. Where a trial is not a number the crossing is looked for before that gap, else behind it.
 template <class Real, class Function>
 Bracket<Real> locate_crossing(Real a, Real ga, Real b, Real gb, Real width, const Function& value) noexcept
 {
@@ -31,7 +49,15 @@ Bracket<Real> locate_crossing(Real a, Real ga, Real b, Real gb, Real width, cons
             if (secant > a && secant < b) x = std::clamp<Real>(secant, a + least, b - least);
         }
         if (!(x > a && x < b)) break;
-        const Real g = value(x);
+        Real g = value(x);
+        if (!is_defined(g)) {
+            const Real end = end_of_defined(a, x, width, value);
+            const Real at_end = value(end);
+            if (rising ? at_end >= Real(0) : at_end <= Real(0)) {
+                x = end;
+                g = at_end;
+            }
+        }
         const bool crossed = rising ? g >= Real(0) : g <= Real(0);
         if (crossed) {
             b = x;

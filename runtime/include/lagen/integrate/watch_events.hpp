@@ -49,7 +49,7 @@ class EventWatch {
 
     /// Crossings in (0, last] of a step, in order; those after a stop are left out. `at(theta)` answers the time and
     /// the state inside the step; `pieces` parts of the step are looked at one by one, so that two crossings in one
-    /// step can be told. Where a function is not a number its last sign stands, so that no gap hides a crossing.
+    /// step can be told. Where a function is not a number its last value stands, so that no gap hides a crossing.
     template <class At>
     const std::vector<Crossed>& look(Real last, int pieces, Real width, const At& at)
     {
@@ -60,16 +60,16 @@ class EventWatch {
             const Real end = piece == pieces ? last : last * Real(piece) / Real(pieces);
             const auto [t, s] = at(end);
             evaluate(t, *s, after_);
-            for (std::size_t r = 0; r < requests_.size(); ++r)
-                if (!(after_[r] <= Real(0)) && !(after_[r] >= Real(0))) after_[r] = before_[r];
             const std::size_t found = crossed_.size();
             for (std::size_t r = 0; r < requests_.size(); ++r) {
-                if (!crosses(r)) continue;
                 const auto value = [&](Real theta) {
                     const auto [time, state] = at(theta);
                     return evaluate_one(r, time, *state);
                 };
-                crossed_.push_back({locate_crossing(begin, before_[r], end, after_[r], width, value).after, r, false});
+                const Real known = is_defined(after_[r]) ? end : last_defined(r, begin, end, width, value);
+                if (!crosses(r)) continue;
+                crossed_.push_back(
+                    {locate_crossing(begin, before_[r], known, after_[r], width, value).after, r, false});
             }
             stopped = order_and_count(found);
             before_.swap(after_);
@@ -79,6 +79,16 @@ class EventWatch {
     }
 
   private:
+    /// Of a piece that ends in a gap: the last theta where the function is a number, whose value is taken for the end.
+    template <class Function>
+    Real last_defined(std::size_t r, Real begin, Real end, Real width, const Function& value)
+    {
+        const Real last = is_defined(value(begin)) ? end_of_defined(begin, end, width, value) : begin;
+        const Real at_last = last > begin ? value(last) : before_[r];
+        after_[r] = is_defined(at_last) ? at_last : before_[r];
+        return last;
+    }
+
     [[nodiscard]] bool crosses(std::size_t r) const noexcept
     {
         const bool rising = before_[r] < Real(0) && after_[r] >= Real(0);
