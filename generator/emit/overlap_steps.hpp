@@ -9,7 +9,7 @@
 namespace lagen {
 
 /// The same steps (of the kinds define, check and store), each after those that it reads; as they were where that
-/// would save less than a tenth of the time that a model of a processor takes for them.
+/// would save less than a twentieth of the time that a model of a processor takes for them.
 [[nodiscard]] std::vector<BodyStep> overlap_steps(const Graph& graph, const BodyPlan& plan,
                                                   std::vector<BodyStep> steps);
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The right-hand side of a chain of n pendulums: the generated one beside two written by hand, in one run.
-///   tridiagonal   absolute angles: the tensions of the rods solve a tridiagonal system, O(n)
+///   tridiagonal   absolute angles: the tensions of the rods solve a tridiagonal system, O(n); with the sines and
+///   cosines of
+///                 the runtime, all angles at once, and with those of libm
 ///   dense         absolute angles: L D L^T of the n x n mass matrix, loops of fixed length
 /// Compiled by scripts/chain-table with -D HEADER="\"FILE\"", -D CLASS=NAME and -D RELATIVE=0 or 1 (relative angles:
 /// the hand-written ones sum the angles and subtract the accelerations). Every call depends on the result of the one
-/// before. Prints, as words in a line: ns a call, median of 5 rounds, of the generated, the tridiagonal and the dense
-/// one; the largest difference of the accelerations, relative to the largest of them, between generated and
-/// tridiagonal.
+/// before. Prints, as words in a line: ns a call, median of 5 rounds, of the generated, the tridiagonal, the dense and
+/// the tridiagonal one with libm; the largest difference of the accelerations, relative to the largest of them, between
+/// generated and tridiagonal.
 #include HEADER
 
 #include "lagen/sincos.hpp"
@@ -64,15 +66,26 @@ lagen::SinesCosines<double, n> sines_cosines(const Vector& a)
     return lagen::sincos<double, n>(a);
 }
 
+lagen::SinesCosines<double, n> libm_sines_cosines(const Vector& a)
+{
+    lagen::SinesCosines<double, n> result;
+    for (int k = 0; k < n; ++k) {
+        result.sines[k] = std::sin(a[k]);
+        result.cosines[k] = std::cos(a[k]);
+    }
+    return result;
+}
+
 /// T_k (1/m_k + 1/m_(k-1)) - T_(k-1) cos(a_k - a_(k-1)) / m_(k-1) - T_(k+1) cos(a_(k+1) - a_k) / m_k = l_k w_k^2, plus
 /// g cos a_1 in the first row; then l_k a_k'' = T_(k+1) sin(a_(k+1) - a_k) / m_k - T_(k-1) sin(a_k - a_(k-1)) /
 /// m_(k-1).
+template <lagen::SinesCosines<double, n> (&sines)(const Vector&)>
 struct Tridiagonal : Chain {
     void rhs(const State& s, State& ds) const
     {
         Vector a, w, d, f, off, side, inverse, T, result;
         absolute(s, a, w);
-        const auto [sin_a, cos_a] = sines_cosines(a);
+        const auto [sin_a, cos_a] = sines(a);
         for (int k = 0; k < n; ++k) inverse[k] = 1 / m[k];
         for (int k = 0; k + 1 < n; ++k) {
             off[k] = -(cos_a[k + 1] * cos_a[k] + sin_a[k + 1] * sin_a[k]) * inverse[k];
@@ -140,7 +153,8 @@ struct Dense : Chain {
 {
     (void)model.rhs(0, s, ds);
 }
-[[gnu::noinline]] void call(const Tridiagonal& model, const State& s, State& ds)
+template <lagen::SinesCosines<double, n> (&sines)(const Vector&)>
+[[gnu::noinline]] void call(const Tridiagonal<sines>& model, const State& s, State& ds)
 {
     model.rhs(s, ds);
 }
@@ -186,18 +200,21 @@ double median(std::array<double, 5> times)
 int main()
 {
     const Generated generated;
-    const Tridiagonal tridiagonal;
+    const Tridiagonal<sines_cosines> tridiagonal;
+    const Tridiagonal<libm_sines_cosines> with_libm;
     const Dense dense;
     State one, two;
     call(generated, start(), one);
     call(tridiagonal, start(), two);
     const double difference = (one - two).cwiseAbs().maxCoeff() / two.cwiseAbs().maxCoeff();
-    std::array<double, 5> times[3];
+    std::array<double, 5> times[4];
     const long calls = 400'000 / n;
     for (std::size_t round = 0; round < 5; ++round) {
         times[0][round] = time_of(generated, calls);
         times[1][round] = time_of(tridiagonal, calls);
         times[2][round] = time_of(dense, calls);
+        times[3][round] = time_of(with_libm, calls);
     }
-    std::printf("%.1f %.1f %.1f %.1e\n", median(times[0]), median(times[1]), median(times[2]), difference);
+    std::printf("%.1f %.1f %.1f %.1f %.1e\n", median(times[0]), median(times[1]), median(times[2]), median(times[3]),
+                difference);
 }
