@@ -5,6 +5,7 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
 #include <cstdlib>
 
 namespace lagen {
@@ -82,12 +83,19 @@ std::string report_text(const RunOutcome& outcome)
                             counted(outcome.decompositions, "factorisation"));
     for (const EventReport& event : outcome.events)
         text += fmt::format("  event {} at t = {}\n", event.name, brief(event.time, 15));
-    for (const Drift& drift : outcome.invariants)
+    const bool has_started = outcome.steps != "0" || outcome.status == "ok" || outcome.status == "stopped_by_event";
+    for (const Drift& drift : outcome.invariants) {
+        if (!has_started) continue;
+        if (!std::isfinite(std::strtod(drift.initial.c_str(), nullptr))) {
+            text += fmt::format("  {}: no finite number at the start\n", drift.name);
+            continue;
+        }
         text += fmt::format("  {}: {} at the start, largest drift {}{}\n", drift.name, brief(drift.initial, 9),
                             brief(drift.max_drift, 3),
                             outcome.energy_changes && (drift.name == "energy" || drift.name == "hamiltonian")
                                 ? " (not conserved: forces or explicit time)"
                                 : "");
+    }
     return text;
 }
 

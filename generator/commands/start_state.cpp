@@ -8,6 +8,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace lagen {
 
 namespace {
@@ -93,7 +96,13 @@ std::vector<long double> momenta_of(const CheckedModel& checked, const SceneValu
         return invert(checked, {"hamilton", "velocity", "fibre coordinates", "momenta"}, values.fibre, inputs);
     const KernelModule module = module_of(checked, "lagrange", "momentum");
     for (const auto& [name, value] : values.fibre) inputs[name] = value;
-    return values.fibre.empty() ? std::vector<long double>{} : dense(module, kernel_named(module, "momentum"), inputs);
+    if (values.fibre.empty()) return {};
+    std::vector<long double> momenta = dense(module, kernel_named(module, "momentum"), inputs);
+    if (!std::ranges::all_of(momenta, [](long double mu) { return std::isfinite(mu); }))
+        throw MathematicsError(
+            "error: the momenta dL/dy of the start are no finite numbers\nhint: L is not defined, or "
+            "not smooth, at the initial values");
+    return momenta;
 }
 
 } // namespace

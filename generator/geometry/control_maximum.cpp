@@ -15,6 +15,7 @@ namespace {
 
 using Kind = ControlMaximum::Kind;
 
+constexpr const char* cost_hint = "H = mu_a sigma^a - cost is maximised: a cost is to be convex in the controls";
 constexpr std::size_t most_pairs = 100; ///< that are looked at for a wrong sign
 
 class MaximumDecision {
@@ -109,6 +110,9 @@ class MaximumDecision {
         // Where H ends its maximum may be at the end.
         if (proofs_.partial_in(parts_).empty())
             if (ControlMaximum refuted = refutation(); refuted.kind == Kind::refuted) return refuted;
+        const FibreHessian opposite = fibre_hessian(graph_, hamiltonian_, question_.control.u);
+        if (strictly_convex_start(graph_, opposite, proofs_.setting(), budget_))
+            return {Kind::refuted, "dH/du = 0 is where H is least: d2H/du2 > 0 wherever H is defined", cost_hint};
         return {
             Kind::stationary,
             fmt::format("d2H/du2 < 0 was not proved for all {}", count() == 1 ? name_of(0) : std::string("controls")),
@@ -127,11 +131,11 @@ class MaximumDecision {
     [[nodiscard]] ControlMaximum refutation()
     {
         const ZeroDecider decider(graph_, setting_, budget_);
-        const std::string hint = "H = mu_a sigma^a - cost is maximised: a cost is to be convex in the controls";
         for (std::size_t k = 0; k < count(); ++k)
             if (decider.proves_positive(graph_.negate(curvature(k, k))))
                 return {Kind::refuted,
-                        fmt::format("H has no maximum in the control '{}': {} > 0", name_of(k), second(k, k)), hint};
+                        fmt::format("H has no maximum in the control '{}': {} > 0", name_of(k), second(k, k)),
+                        cost_hint};
         std::size_t minors = 0;
         for (std::size_t k = 0; k < count(); ++k)
             for (std::size_t l = k + 1; l < count(); ++l) {
@@ -142,7 +146,7 @@ class MaximumDecision {
                     return {Kind::refuted,
                             fmt::format("H has no maximum in the controls '{}' and '{}': d2H/du2 is indefinite",
                                         name_of(k), name_of(l)),
-                            hint};
+                            cost_hint};
             }
         return {};
     }

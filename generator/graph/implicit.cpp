@@ -59,46 +59,6 @@ std::vector<NodeId> positive_operands(const Graph& graph, NodeId function, std::
     return result;
 }
 
-std::vector<NodeId> guess_inside(Graph& graph, std::span<const NodeId> inside, std::span<const NodeId> unknowns,
-                                 std::span<const Rational> start)
-{
-    const NodeId zero = graph.constant(0);
-    std::vector<NodeId> guess(unknowns.size(), zero);
-    for (std::size_t k = 0; k < start.size(); ++k) guess[k] = graph.constant(start[k]);
-    if (inside.size() != 1) return guess;
-    std::vector<std::size_t> places; // of the unknowns of f
-    std::vector<NodeId> z;
-    Seeds zeros;
-    for (std::size_t k = 0; k < unknowns.size(); ++k)
-        if (depends_on(graph, unknowns.subspan(k, 1))[inside[0]]) {
-            places.push_back(k);
-            z.push_back(unknowns[k]);
-            zeros.emplace_back(unknowns[k], zero);
-        }
-    const std::vector<NodeId> gradient = joined_rows(jacobian(graph, inside, z));
-    const std::vector<NodeId> curvature = joined_rows(jacobian(graph, gradient, z));
-    if (depends_on_any(graph, curvature, z)) return guess;
-    std::vector<NodeId> at_zero = gradient;
-    at_zero.push_back(inside[0]);
-    at_zero = substitute(graph, at_zero, zeros);
-    const NodeId value = at_zero.back();
-    at_zero.pop_back();
-    const auto vanishes = [&](NodeId node) { return graph.is_zero(node); };
-    std::vector<NodeId> centre;
-    if (std::ranges::all_of(curvature, vanishes)) { // affine: a z + b = 1
-        NodeId square = zero;
-        for (const NodeId a : at_zero) square = graph.add(square, graph.power(a, 2));
-        const NodeId share = graph.divide(graph.subtract(graph.constant(1), value), square);
-        for (const NodeId a : at_zero) centre.push_back(graph.multiply(a, share));
-    } else {
-        if (std::ranges::all_of(at_zero, vanishes)) return guess; // largest at 0
-        for (NodeId& entry : at_zero) entry = graph.negate(entry);
-        centre = graph.solve(curvature, at_zero, MatrixStructure::symmetric);
-    }
-    for (std::size_t k = 0; k < places.size(); ++k) guess[places[k]] = centre[k];
-    return guess;
-}
-
 Seeds seeds_through(Graph& graph, std::span<const ImplicitBlock> blocks, Seeds seeds)
 {
     std::vector<Seeds> directions{std::move(seeds)};

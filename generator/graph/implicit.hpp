@@ -45,8 +45,9 @@ struct ImplicitBlock {
 [[nodiscard]] std::vector<NodeId> positive_operands(const Graph& graph, NodeId function,
                                                     std::span<const NodeId> unknowns);
 
-/// Where Newton's method starts: with one condition f that is quadratic in the unknowns where f is largest, with one
-/// that is affine where f = 1, else at the constants `start`, 0 where that is empty.
+/// Where Newton's method starts. The unknowns of a condition f > 0 that shares none with others: 0 where f > 0 there,
+/// else where f is largest, if it is quadratic, or 1, if it is affine. An unknown between affine conditions: the middle
+/// of its interval. The others: the constants `start`, 0 where that is empty.
 [[nodiscard]] std::vector<NodeId> guess_inside(Graph& graph, std::span<const NodeId> inside,
                                                std::span<const NodeId> unknowns, std::span<const Rational> start);
 

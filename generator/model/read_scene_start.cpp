@@ -114,9 +114,12 @@ Missing missing_of(const std::vector<Symbol>& symbols, const std::set<std::strin
         const std::vector<std::string> more = reader.names.of(role);
         known.insert(known.end(), more.begin(), more.end());
     }
+    std::string hint = reader.model.control ? "" : hint_for_rate(entry.name(), reader.rates);
+    if (hint.empty()) hint = hint_for_momentum(entry.name(), reader.rates);
+    if (hint.empty()) hint = hint_for(entry.name(), known, "coordinates");
     throw ModelError(fmt::format("scene '{}' gives an initial value to '{}', which is no coordinate of the model",
                                  scene.name, entry.name()),
-                     entry.where(), hint_for(entry.name(), known, "coordinates"));
+                     entry.where(), hint);
 }
 
 } // namespace

@@ -86,7 +86,10 @@ TEST_CASE("a Hamiltonian that certainly has no maximum is refuted", "[maximum]")
     CHECK(of_two("u*w").kind == Kind::refuted);
     CHECK(of_two("u^2 + 3*u*w + w^2").kind == Kind::refuted);
     // H = mu u - sqrt(1 - u^2) has its maximum at an end of the interval where it is defined.
-    CHECK(of_one("sqrt(1 - u^2)").kind == Kind::stationary);
+    for (const char* cost : {"sqrt(1 - u^2)", "log(1 - u^2)"}) {
+        CHECK(of_one(cost).kind == Kind::refuted);
+        CHECK(of_one(cost).reason == "dH/du = 0 is where H is least: d2H/du2 > 0 wherever H is defined");
+    }
 }
 
 TEST_CASE("where nothing is proved of a maximum the controls are stationary", "[maximum]")
@@ -114,8 +117,8 @@ TEST_CASE("a cost that is defined and strictly convex on a convex set of control
     REQUIRE(entropy.newton_start.size() == 1);
     CHECK(entropy.newton_start[0] > 0);
     CHECK_FALSE(of_one("exp(u)").on_part);
-    // Two intervals; a set that is not convex; convex, not strictly; the maximum at an end.
-    for (const char* cost : {"-log(u^2 - 1)", "-log(u^2)", "1/sqrt(u^2 - 1)", "sqrt(1 - u)"})
+    // Two intervals, and a cost that is neither convex nor concave.
+    for (const char* cost : {"-log(u^2 - 1)", "-log(u^2)", "1/sqrt(u^2 - 1)", "sqrt(1 - u) + u^2"})
         CHECK(of_one(cost).kind == Kind::stationary);
     CHECK(of_two("-log(1 - u - w)").kind != Kind::maximal);
     CHECK(of_two("-log(1 - u^2 - w^2)").on_part);

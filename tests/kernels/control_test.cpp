@@ -120,6 +120,29 @@ TEST_CASE("a cost with a barrier has its control found inside", "[kernels]")
                       "error: Newton's method finds no controls: u with dH/du = 0.");
 }
 
+TEST_CASE("barriers that move with the state have their control found inside at every state", "[kernels]")
+{
+    const auto at = [](const KernelModule& module, double x, double p) {
+        return values_of(module, "controls", {{"t", 0}, {"x", x}, {"p", p}})[0];
+    };
+    const auto problem = [](const std::string& cost) {
+        return kernels_of_text("name = \"moving\"\n[base]\ncoordinates = [\"x\"]\n[fibre]\ncoordinates = [\"v\"]\n"
+                               "momenta = [\"p\"]\n[algebroid]\nkind = \"tangent\"\n[control]\ncontrols = [\"u\"]\n"
+                               "sigma = { v = \"u\" }\ncost = \"" +
+                               cost + "\"\n");
+    };
+    const KernelModule between = problem("-log(u - x) - log(x + 1 - u)");
+    const KernelModule vanishing = problem("u^2/2 + u^4 - log(2 + x*u)");
+    const KernelModule quadratic = problem("u^2/2 - sqrt(1 - (x*u - 1/2)^2)");
+    for (const double x : {0.0, 0.3, -3.0, 100.0}) {
+        CHECK(at(between, x, 0) == Approx(x + 0.5).epsilon(1e-12).margin(1e-12));
+        const double u = at(between, x, 3);
+        CHECK(1 / (u - x) - 1 / (x + 1 - u) + 3 == Approx(0).margin(1e-9));
+    }
+    for (const double x : {0.0, 1e-60, 1e-6}) CHECK(at(vanishing, x, 1) == Approx(0.5).epsilon(1e-5));
+    CHECK(at(quadratic, 0, -3) == Approx(-3).epsilon(1e-12));
+}
+
 TEST_CASE("separate controls are bounded each by itself", "[kernels]")
 {
     const KernelModule module = kernels_of_text(
