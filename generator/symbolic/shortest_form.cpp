@@ -9,9 +9,10 @@
 namespace lagen {
 namespace {
 
-constexpr double term_limit = 2000;      ///< of an expanded sum
-constexpr std::size_t factor_terms = 40; ///< of a polynomial handed to GiNaC::factor
-constexpr int factor_degree = 16;        ///< its total degree, summed over its symbols
+constexpr double term_limit = 2000;        ///< of an expanded sum
+constexpr std::size_t factor_terms = 40;   ///< of a polynomial handed to GiNaC::factor
+constexpr int factor_degree = 16;          ///< its total degree, summed over its symbols
+constexpr std::size_t factor_symbols = 10; ///< with more, unlucky points of GiNaC's own dice take it minutes
 constexpr std::size_t parenthesis_cost = 2;
 
 /// A bound of the number of terms after expansion.
@@ -90,7 +91,7 @@ bool may_factor(const GiNaC::ex& polynomial)
     for (auto node = polynomial.preorder_begin(); node != polynomial.preorder_end(); ++node)
         if (GiNaC::is_a<GiNaC::symbol>(*node)) symbols.insert(*node);
     for (const GiNaC::ex& symbol : symbols) degree += polynomial.degree(symbol);
-    return degree <= factor_degree;
+    return degree <= factor_degree && symbols.size() <= factor_symbols;
 }
 
 /// GiNaC::factor leaves sums inside its factors in groups of its own choice; expanded, each factor is unique up to
