@@ -68,11 +68,8 @@ std::vector<long double> invert(const CheckedModel& checked, const Inversion& in
     for (const Quantity& lane : module.fibre) unknowns.push_back(lane.input);
     const Model& model = checked.model;
     const NodeId function = Lowering(graph)(model.lagrangian ? model.lagrangian : model.hamiltonian);
-    const std::vector<NodeId> inside = positive_operands(graph, function, unknowns);
-    ImplicitBlock block = implicit_block(
-        graph, inversion.wanted, "", unknowns, residuals,
-        guess_inside(graph, inside, unknowns, checked.verified.regularity.newton_start), MatrixStructure::symmetric);
-    block.inside = inside;
+    const ImplicitBlock block = gradient_block(graph, inversion.wanted, "", unknowns, residuals, function,
+                                               checked.verified.regularity.newton_start);
     try {
         solve_unknowns<long double>(graph, {&block, 1}, inputs);
     } catch (const MathematicsError&) {

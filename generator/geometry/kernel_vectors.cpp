@@ -3,9 +3,9 @@
 
 #include "expression/parse.hpp"
 #include "geometry/rational_matrix.hpp"
+#include "geometry/reduced_fraction.hpp"
 #include "graph/lower.hpp"
 #include "proof/print_fraction.hpp"
-#include "symbolic/shortest_form.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -20,15 +20,6 @@ constexpr std::size_t longest_component = 200;
 /// Normal forms that take long are not worth a text.
 constexpr std::size_t longest_input = 2000;
 
-/// The names of inputs, in the order in which a person writes them.
-Order order_of(const Graph& graph, const ProofSetting& setting)
-{
-    Order order;
-    for (const NodeId input : setting.parameters) order.parameters.push_back(graph.input_name(input));
-    for (const NodeId input : setting.variables) order.variables.push_back(graph.input_name(input));
-    return order;
-}
-
 /// The node as it was built, or its normal form where that is shorter.
 Tree shorter_tree(const Graph& graph, NodeId node, const Decision& decision)
 {
@@ -38,19 +29,6 @@ Tree shorter_tree(const Graph& graph, NodeId node, const Decision& decision)
         return parse_expression(whole_text("<normal form>", decision.residual));
     } catch (const Error&) {
         return tree; // a name that cannot be read back
-    }
-}
-
-/// The reduced fraction where it is proved to be the same; empty where it is not, or takes too long.
-std::string reduced_text(Graph& graph, NodeId node, const Tree& tree, const Order& order, const ZeroDecider& decider)
-{
-    try {
-        SymbolTable symbols;
-        const Tree reduced = shortest_form(to_ginac(tree, symbols).normal(), symbols, order);
-        const NodeId difference = graph.subtract(Lowering(graph)(reduced), node);
-        return decider.decide(difference).status == ProofStatus::proved ? to_text(reduced) : "";
-    } catch (const std::exception&) {
-        return ""; // a function that GiNaC does not have, or a pole where it evaluates
     }
 }
 
@@ -64,7 +42,7 @@ std::string text_of(Graph& graph, NodeId node, const Decision& decision, const O
         if (!other.empty() && other.size() <= text.size()) text = std::move(other);
     };
     if (proof::is_whole(decision.residual)) offer(decision.residual);
-    offer(reduced_text(graph, node, tree, order, decider));
+    if (const auto reduced = reduced_fraction(graph, node, tree, order, decider)) offer(to_text(*reduced));
     return text.size() <= longest_component ? text : "";
 }
 
@@ -184,7 +162,7 @@ std::optional<Block> nonzero_principal_minor(Graph& graph, const FibreHessian& h
 std::vector<KernelVector> kernel_vectors(Graph& graph, const FibreHessian& hessian, const ZeroDecider& decider,
                                          const ProofSetting& setting)
 {
-    const Order order = order_of(graph, setting);
+    const Order order = writing_order(graph, setting);
     std::vector<KernelVector> vectors;
     for (const Block& block : hessian.blocks)
         if (!append_constant_vectors(vectors, graph, hessian, block) && block.size() <= determinant_limit)

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Determinants reduced and factored by GiNaC, which is believed only where the zero decision confirms it.
 #include "geometry/singular_factors.hpp"
 
+#include "geometry/reduced_fraction.hpp"
 #include "graph/differentiate.hpp"
 #include "graph/lower.hpp"
-#include "symbolic/shortest_form.hpp"
 
 #include <algorithm>
 
@@ -14,29 +13,6 @@ namespace {
 /// Determinants that are longer take their time, and have no short factors.
 constexpr std::size_t longest_determinant = 800;
 constexpr std::size_t longest_factor = 80;
-
-/// The names of inputs, parameters before variables.
-Order order_in(const Graph& graph, const ProofSetting& setting)
-{
-    Order order;
-    for (const NodeId input : setting.parameters) order.parameters.push_back(graph.input_name(input));
-    for (const NodeId input : setting.variables) order.variables.push_back(graph.input_name(input));
-    return order;
-}
-
-/// The reduced fraction where it is proved to be the same, else the determinant as it is.
-Tree reduced_determinant(Graph& graph, NodeId determinant, const Order& order, const ZeroDecider& decider)
-{
-    const Tree tree = to_tree(graph, determinant);
-    try {
-        SymbolTable symbols;
-        const Tree reduced = shortest_form(to_ginac(tree, symbols).normal(), symbols, order);
-        const NodeId difference = graph.subtract(Lowering(graph)(reduced), determinant);
-        return decider.decide(difference).status == ProofStatus::proved ? reduced : tree;
-    } catch (const std::exception&) {
-        return tree; // a function that GiNaC does not have, or a pole where it evaluates
-    }
-}
 
 bool is_negative(const TreeNode& exponent)
 {
@@ -72,13 +48,14 @@ std::vector<std::string> singular_factors(Graph& graph, const ProofSetting& sett
                                           const std::vector<std::pair<NodeId, NodeId>>& defaults,
                                           const std::vector<NodeId>& determinants)
 {
-    const Order order = order_in(graph, setting);
+    const Order order = writing_order(graph, setting);
     const ZeroDecider decider(graph, setting, valued.budget());
     std::vector<std::string> texts;
     for (const NodeId determinant : determinants) {
         if (to_text(graph, determinant, longest_determinant).size() > longest_determinant) return {};
         std::vector<Tree> factors;
-        append_factors(factors, reduced_determinant(graph, determinant, order, decider));
+        const Tree tree = to_tree(graph, determinant);
+        append_factors(factors, reduced_fraction(graph, determinant, tree, order, decider).value_or(tree));
         for (const Tree& factor : factors) {
             const std::vector<NodeId> node = {Lowering(graph)(factor)};
             if (valued.proves_nonzero(substitute(graph, node, defaults)[0])) continue;

@@ -59,6 +59,17 @@ std::vector<NodeId> positive_operands(const Graph& graph, NodeId function, std::
     return result;
 }
 
+ImplicitBlock gradient_block(Graph& graph, std::string name, std::string documentation, std::vector<NodeId> unknowns,
+                             std::vector<NodeId> residuals, NodeId function, std::span<const Rational> start)
+{
+    std::vector<NodeId> inside = positive_operands(graph, function, unknowns);
+    std::vector<NodeId> guess = guess_inside(graph, inside, unknowns, start);
+    ImplicitBlock block = implicit_block(graph, std::move(name), std::move(documentation), std::move(unknowns),
+                                         std::move(residuals), std::move(guess), MatrixStructure::symmetric);
+    block.inside = std::move(inside);
+    return block;
+}
+
 Seeds seeds_through(Graph& graph, std::span<const ImplicitBlock> blocks, Seeds seeds)
 {
     std::vector<Seeds> directions{std::move(seeds)};

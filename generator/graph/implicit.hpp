@@ -51,6 +51,11 @@ struct ImplicitBlock {
 [[nodiscard]] std::vector<NodeId> guess_inside(Graph& graph, std::span<const NodeId> inside,
                                                std::span<const NodeId> unknowns, std::span<const Rational> start);
 
+/// A block whose equations hold slopes of `function` in the unknowns: kept where that is smooth, and started there.
+[[nodiscard]] ImplicitBlock gradient_block(Graph& graph, std::string name, std::string documentation,
+                                           std::vector<NodeId> unknowns, std::vector<NodeId> residuals, NodeId function,
+                                           std::span<const Rational> start);
+
 /// The tangents of all unknowns along `seeds` (pairs input node, its tangent), behind the seeds: what `directional`
 /// needs to differentiate through the blocks.
 [[nodiscard]] std::vector<std::pair<NodeId, NodeId>> seeds_through(Graph& graph, std::span<const ImplicitBlock> blocks,

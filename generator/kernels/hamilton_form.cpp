@@ -58,11 +58,9 @@ HamiltonianNodes legendre(Graph& graph, const Model& model, const SystemNodes& s
     const std::vector<NodeId> zeros(r, graph.constant(0));
     Replacements velocities;
     if (depends_on_any(graph, W, lagrangian.y)) {
-        const std::vector<NodeId> inside = positive_operands(graph, lagrangian.value, lagrangian.y);
-        nodes.implicit.push_back(
-            implicit_block(graph, "velocity", "y with dL/dy^a = mu_a (the Legendre transform).", lagrangian.y,
-                           residuals, guess_inside(graph, inside, lagrangian.y, regularity.newton_start), structure));
-        nodes.implicit.back().inside = inside;
+        nodes.implicit.push_back(gradient_block(graph, "velocity", "y with dL/dy^a = mu_a (the Legendre transform).",
+                                                lagrangian.y, residuals, lagrangian.value, regularity.newton_start));
+        nodes.implicit.back().structure = structure;
         nodes.y = lagrangian.y;
     } else {
         std::vector<NodeId> right = substitute(graph, residuals, replacements(lagrangian.y, zeros));

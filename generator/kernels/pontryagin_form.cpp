@@ -118,11 +118,8 @@ class PontryaginForm {
 
     void solve_by_newton()
     {
-        const std::vector<NodeId> inside = positive_operands(graph_, hamiltonian_, u_);
-        implicit_.push_back(implicit_block(graph_, "controls", "u with dH/du = 0.", u_, dH_du_,
-                                           guess_inside(graph_, inside, u_, verified_.maximum.newton_start),
-                                           MatrixStructure::symmetric));
-        implicit_.back().inside = inside;
+        implicit_.push_back(gradient_block(graph_, "controls", "u with dH/du = 0.", u_, dH_du_, hamiltonian_,
+                                           verified_.maximum.newton_start));
         solution_ = u_;
     }
 

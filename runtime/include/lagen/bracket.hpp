@@ -18,14 +18,6 @@ constexpr int bracket_steps = 1000;
 
 namespace detail {
 
-template <class S>
-[[nodiscard]] typename StatusOf<S>::mask is_number(const S& value) noexcept
-{
-    using Mask = typename StatusOf<S>::mask;
-    const Mask below = value <= S(0), above = value >= S(0);
-    return below | above;
-}
-
 /// What `bracket` knows of its unknowns, each in its interval [low, high].
 template <class S, std::size_t N, class Function>
 class Brackets {

@@ -46,6 +46,19 @@ template <class Scalar>
     return where ? yes : no;
 }
 
+namespace detail {
+
+/// False for NaN, a lane.
+template <class Scalar>
+[[nodiscard]] constexpr typename StatusOf<Scalar>::mask is_number(const Scalar& value) noexcept
+{
+    using Mask = typename StatusOf<Scalar>::mask;
+    const Mask below = value <= Scalar(0), above = value >= Scalar(0);
+    return below | above;
+}
+
+} // namespace detail
+
 /// The type of times and steps: the scalar itself, or the type of one lane of a pack.
 template <class Scalar>
 struct RealOf {

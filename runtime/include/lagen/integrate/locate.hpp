@@ -2,6 +2,8 @@
 /// Roots and boundaries inside a step, on the step's own variable theta in [0, 1].
 #pragma once
 
+#include "lagen/kernel.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -14,22 +16,23 @@ struct Bracket {
     Real after;
 };
 
-template <class Real>
-[[nodiscard]] bool is_defined(const Real& value) noexcept
+/// The boundary between a, where `inside` holds, and b, where it does not.
+template <class Real, class Predicate>
+Bracket<Real> locate_boundary(Real a, Real b, Real width, const Predicate& inside) noexcept
 {
-    return value <= Real(0) || value >= Real(0);
+    while (b - a > width) {
+        const Real middle = (a + b) / Real(2);
+        if (!(middle > a && middle < b)) break;
+        (inside(middle) ? a : b) = middle;
+    }
+    return {a, b};
 }
 
 /// The last theta, to `width`, before a gap that begins between a and b, where `value` is not a number.
 template <class Real, class Function>
 Real end_of_defined(Real a, Real b, Real width, const Function& value) noexcept
 {
-    while (b - a > width) {
-        const Real middle = (a + b) / Real(2);
-        if (!(middle > a && middle < b)) break;
-        (is_defined(value(middle)) ? a : b) = middle;
-    }
-    return a;
+    return locate_boundary(a, b, width, [&](Real x) { return is_number(value(x)); }).before;
 }
 
 /// The crossing of `value` between a (value ga) and b (value gb of the other sign, or zero): the Illinois variant of
@@ -50,7 +53,7 @@ Bracket<Real> locate_crossing(Real a, Real ga, Real b, Real gb, Real width, cons
         }
         if (!(x > a && x < b)) break;
         Real g = value(x);
-        if (!is_defined(g)) {
+        if (!is_number(g)) {
             const Real end = end_of_defined(a, x, width, value);
             const Real at_end = value(end);
             if (rising ? at_end >= Real(0) : at_end <= Real(0)) {
@@ -72,19 +75,6 @@ Bracket<Real> locate_crossing(Real a, Real ga, Real b, Real gb, Real width, cons
         }
     }
     return {a, b};
-}
-
-/// The boundary between theta = 0, where `inside` holds, and 1, where it does not.
-template <class Real, class Predicate>
-Bracket<Real> locate_boundary(Real width, const Predicate& inside) noexcept
-{
-    Bracket<Real> bracket{Real(0), Real(1)};
-    while (bracket.after - bracket.before > width) {
-        const Real middle = (bracket.before + bracket.after) / Real(2);
-        if (!(middle > bracket.before && middle < bracket.after)) break;
-        (inside(middle) ? bracket.before : bracket.after) = middle;
-    }
-    return bracket;
 }
 
 } // namespace lagen::detail

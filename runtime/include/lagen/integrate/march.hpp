@@ -279,7 +279,7 @@ class March {
         const auto at = [&](Real x) { return inside(x, h, t1); };
         if constexpr (HasDomain<M> && !is_pack<Scalar>) {
             if (domain_status(t1, s1_) != Status::ok) {
-                const auto edge = locate_boundary(theta_width(h), [&](Real x) {
+                const auto edge = locate_boundary(Real(0), Real(1), theta_width(h), [&](Real x) {
                     const auto [t, s] = at(x);
                     return domain_status(t, *s) == Status::ok;
                 });

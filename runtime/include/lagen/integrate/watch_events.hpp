@@ -66,7 +66,7 @@ class EventWatch {
                     const auto [time, state] = at(theta);
                     return evaluate_one(r, time, *state);
                 };
-                const Real known = is_defined(after_[r]) ? end : last_defined(r, begin, end, width, value);
+                const Real known = is_number(after_[r]) ? end : last_defined(r, begin, end, width, value);
                 if (!crosses(r)) continue;
                 crossed_.push_back(
                     {locate_crossing(begin, before_[r], known, after_[r], width, value).after, r, false});
@@ -83,9 +83,9 @@ class EventWatch {
     template <class Function>
     Real last_defined(std::size_t r, Real begin, Real end, Real width, const Function& value)
     {
-        const Real last = is_defined(value(begin)) ? end_of_defined(begin, end, width, value) : begin;
+        const Real last = is_number(value(begin)) ? end_of_defined(begin, end, width, value) : begin;
         const Real at_last = last > begin ? value(last) : before_[r];
-        after_[r] = is_defined(at_last) ? at_last : before_[r];
+        after_[r] = is_number(at_last) ? at_last : before_[r];
         return last;
     }
 
