@@ -278,6 +278,18 @@ InternalError::InternalError(const std::string& text)
 {
 }
 
+namespace {
+
+/// The only name that begins with `unknown`, if it is more than two characters.
+std::string continuation_of(std::string_view unknown, std::span<const std::string> known)
+{
+    const auto begins = [&](const std::string& name) { return name.starts_with(unknown); };
+    if (unknown.size() < 3 || std::ranges::count_if(known, begins) != 1) return "";
+    return *std::ranges::find_if(known, begins);
+}
+
+} // namespace
+
 std::string nearest_name(std::string_view unknown, std::span<const std::string> known)
 {
     if (unknown.size() > longest_name) return "";
@@ -296,7 +308,7 @@ std::string nearest_name(std::string_view unknown, std::span<const std::string> 
         best = &name;
         best_distance = distance;
     }
-    return best ? *best : "";
+    return best ? *best : continuation_of(unknown, known);
 }
 
 } // namespace lagen

@@ -9,6 +9,7 @@
 #include <fmt/core.h>
 
 #include <array>
+#include <utility>
 
 namespace lagen {
 
@@ -39,6 +40,18 @@ constexpr std::array entries{
     MethodEntry{"yoshida6", "Yoshida6", "6", false, true, "Yoshida 1990, solution A, kick-drift-kick"},
 };
 
+/// What other programs and books call a method, in small letters.
+constexpr std::array<std::pair<const char*, const char*>, 10> names_elsewhere{{{"rk45", "dopri5"},
+                                                                               {"ode45", "dopri5"},
+                                                                               {"runge_kutta", "rk4"},
+                                                                               {"radau", "radau5"},
+                                                                               {"ode15s", "radau5"},
+                                                                               {"bdf", "radau5"},
+                                                                               {"implicit_midpoint", "gauss2"},
+                                                                               {"leapfrog", "leapfrog_kdk"},
+                                                                               {"verlet", "leapfrog_kdk"},
+                                                                               {"velocity_verlet", "leapfrog_kdk"}}};
+
 const CommandSyntax methods_syntax{
     "methods", "", "Lists the integrators.", {{"format,f", "FORMAT", "text or json", "text"}}};
 
@@ -66,6 +79,18 @@ const MethodEntry* find_method(const std::string& name)
     for (const MethodEntry& entry : entries)
         if (name == entry.name) return &entry;
     return nullptr;
+}
+
+std::string nearest_method(const std::string& name)
+{
+    std::string small = name;
+    for (char& letter : small) {
+        if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+        if (letter == '-') letter = '_';
+    }
+    for (const auto& [other, ours] : names_elsewhere)
+        if (small == other) return ours;
+    return nearest_name(small, method_names());
 }
 
 std::span<const std::string> method_names()

@@ -18,6 +18,8 @@ struct MethodEntry {
 
 [[nodiscard]] std::span<const MethodEntry> method_table();
 [[nodiscard]] const MethodEntry* find_method(const std::string& name); ///< nullptr where there is none
+/// The method that was meant: one of a name like it, or what other programs call so; empty where there is none.
+[[nodiscard]] std::string nearest_method(const std::string& name);
 /// Every method name, in the order of the table.
 [[nodiscard]] std::span<const std::string> method_names();
 

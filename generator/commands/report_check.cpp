@@ -24,11 +24,17 @@ const char* kind_text(Regularity::Kind kind)
 
 using Point = std::vector<std::pair<std::string, std::string>>;
 
-std::string point_text(const Point& point)
+std::string values_text(const Point& values, const char* prefix)
 {
     std::string text;
-    for (const auto& [name, value] : point) text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", name, value);
-    return text.empty() ? "every point" : text;
+    for (const auto& [name, value] : values)
+        text += fmt::format("{}{}{} = {}", text.empty() ? "" : ", ", prefix, name, value);
+    return text;
+}
+
+std::string point_text(const Point& point)
+{
+    return point.empty() ? "every point" : values_text(point, "");
 }
 
 std::string indices_text(const Check& check)
@@ -158,7 +164,7 @@ std::string regularity_text(const Regularity& regularity)
     if (regularity.kind == Regularity::Kind::degenerate && !regularity.of_hamiltonian)
         text += fmt::format("  {:<16}`generate` and `run` refuse a degenerate Lagrangian\n", "");
     for (const Point& vector : regularity.kernel)
-        text += fmt::format("  {:<16}kernel vector {}\n", "", point_text(vector));
+        text += fmt::format("  {:<16}kernel vector {}\n", "", values_text(vector, "k_"));
     if (!regularity.evidence.empty()) text += fmt::format("  {:<16}{}\n", "", regularity.evidence);
     std::string equations;
     for (const std::string& factor : regularity.singular_where)

@@ -51,7 +51,7 @@ const MethodEntry& method_of(const Options& options, const Scene& scene)
     const std::string name = scene.method.empty() ? standard_method : scene.method;
     const MethodEntry* method = find_method(name);
     if (method == nullptr) {
-        const std::string nearest = nearest_name(name, method_names());
+        const std::string nearest = nearest_method(name);
         const std::string hint =
             nearest.empty() ? "`lagen methods` lists them" : fmt::format("did you mean '{}'?", nearest);
         if (options.has("method"))

@@ -52,9 +52,8 @@ class ImplicitPrinter {
         std::vector<NodeId> inner = block.residuals;
         for (std::size_t k = 0; k < block.jacobian.size(); ++k)
             if (!block.bracket || k % (size_ + 1) == 0) inner.push_back(block.jacobian[k]);
-        if (!block.bracket)
-            for (const auto* more : {&block.sizes, &block.inside})
-                inner.insert(inner.end(), more->begin(), more->end());
+        inner.insert(inner.end(), block.sizes.begin(), block.sizes.end());
+        if (!block.bracket) inner.insert(inner.end(), block.inside.begin(), block.inside.end());
         start_ = body_of(start);
         iteration_ = body_of(inner);
     }
@@ -114,11 +113,10 @@ class ImplicitPrinter {
     void print_iteration()
     {
         const std::size_t derivatives = block_.bracket ? size_ : size_ * size_;
-        out_.line(fmt::format("return {}(z, {}[&](const std::array<S, {}>& unknowns, std::array<S, {}>& residual, "
-                              "std::array<S, {}>& derivative{}) noexcept {{",
+        out_.line(fmt::format("return {0}(z, {1}[&](const std::array<S, {2}>& unknowns, std::array<S, {2}>& residual, "
+                              "std::array<S, {3}>& derivative, std::array<S, {2}>& size) noexcept {{",
                               block_.bracket ? "bracket" : "newton", block_.bracket ? "lower, upper, " : "", size_,
-                              size_, derivatives,
-                              block_.bracket ? "" : fmt::format(", std::array<S, {}>& size", size_)));
+                              derivatives));
         out_.indent(1);
         const std::size_t conditions = block_.bracket ? 0 : block_.inside.size();
         if (conditions > 0) out_.line(fmt::format("std::array<S, {}> inside;", conditions));
@@ -141,7 +139,8 @@ class ImplicitPrinter {
     const ImplicitBlock& block_;
     std::size_t size_;
     Body start_;     ///< the guess, or the ends of the bracket
-    Body iteration_; ///< residuals, then the Jacobian, sizes and conditions; of a bracket the Jacobian's diagonal alone
+    Body iteration_; ///< residuals, then the Jacobian, sizes and conditions; of a bracket the Jacobian's diagonal, no
+                     ///< conditions
 };
 
 } // namespace

@@ -105,6 +105,9 @@ NodeId Graph::divide(NodeId a, NodeId b)
     if (is_negative(*this, a)) return negate(divide(constant(Rational(-value(a))), b));
     if (ops_[a] == Op::negate) return negate(divide(operands(a)[0], b));
     if (ops_[b] == Op::negate) return negate(divide(a, operands(b)[0]));
+    // Both overflow where their quotient does not.
+    if (ops_[a] == Op::sinh && ops_[b] == Op::cosh && operands(a)[0] == operands(b)[0])
+        return apply(Op::tanh, operands(a)[0]);
     const NodeId pair[] = {a, b};
     return intern(Op::divide, pair, 0);
 }

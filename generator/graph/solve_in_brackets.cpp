@@ -20,6 +20,9 @@ constexpr int most_bracket_steps = 1000;
 template <class Scalar>
 class BracketSolver {
   public:
+    static constexpr Scalar infinite = std::numeric_limits<Scalar>::infinity();
+    static constexpr Scalar most = std::numeric_limits<Scalar>::max();
+
     BracketSolver(const Graph& graph, const ImplicitBlock& block, std::size_t k, std::map<std::string, Scalar>& inputs)
         : graph_(graph), block_(block), inputs_(inputs), k_(k), z_(inputs[graph.input_name(block.unknowns[k])])
     {
@@ -28,13 +31,14 @@ class BracketSolver {
     void run()
     {
         const std::optional<Scalar> lower = end(block_.bracket->lower[k_]), upper = end(block_.bracket->upper[k_]);
-        if (lower && slope_at(*lower) <= 0) return; // at the lower end, where the unknown is now
-        if (upper && slope_at(*upper) >= 0) return;
-        const Scalar start = lower ? *lower : upper ? *upper : 0;
-        Scalar low = lower ? *lower : start, high = upper ? *upper : start;
-        const Scalar width = std::max(Scalar(1), std::abs(start));
-        if (!lower) grow(low, high, -width, 1);
-        if (!upper) grow(high, low, width, -1);
+        const std::optional<Sample> at_lower = known_at(lower), at_upper = lower == upper ? at_lower : known_at(upper);
+        if (at_lower && at_lower->slope <= 0) return take(*lower);
+        if (at_upper && at_upper->slope >= 0) return take(*upper);
+        const Scalar nearest = std::min(std::max(Scalar(0), lower.value_or(0)), upper.value_or(infinite));
+        const Scalar start = at_lower ? *lower : at_upper ? *upper : nearest;
+        Scalar low = start, high = at_upper ? *upper : start;
+        if (!at_lower && !grow(low, high, lower.value_or(-infinite), 1)) return;
+        if (!at_upper && !grow(high, low, upper.value_or(infinite), -1)) return;
         close_in(low, high);
     }
 
@@ -46,28 +50,47 @@ class BracketSolver {
         return evaluate<Scalar>(graph_, outputs, inputs_)[0];
     }
 
-    Scalar slope_at(Scalar z)
+    /// F at a place; its sign is not known where terms have overflowed and F has not.
+    struct Sample {
+        Scalar slope;
+        bool known;
+    };
+
+    Sample sample(Scalar z)
     {
-        z_ = z;
-        const NodeId outputs[] = {block_.residuals[k_]};
-        const Scalar value = evaluate<Scalar>(graph_, outputs, inputs_)[0];
-        if (std::isnan(value)) fail();
-        return value;
+        take(z);
+        const NodeId outputs[] = {block_.residuals[k_], block_.sizes[k_]};
+        const std::vector<Scalar> values = evaluate<Scalar>(graph_, outputs, inputs_);
+        return {values[0], !std::isnan(values[0]) && (std::isfinite(values[1]) || std::isinf(values[0]))};
     }
+
+    std::optional<Sample> known_at(const std::optional<Scalar>& end)
+    {
+        if (!end || std::isinf(*end)) return std::nullopt;
+        const Sample there = sample(*end);
+        return there.known ? std::optional<Sample>(there) : std::nullopt;
+    }
+
+    void take(Scalar z) { z_ = z; }
 
     [[noreturn]] void fail() const
     {
         throw MathematicsError("error: no " + block_.name + " were found: " + block_.documentation);
     }
 
-    /// Moves `moving` away by `step`, twice as far each time, until F has the sign that it must have there; `other`
-    /// follows, so that the root stays between the two.
-    void grow(Scalar& moving, Scalar& other, Scalar step, int sign)
+    /// Moves `moving` towards `end`, twice as far each time, until F has the sign that it must have there; `other`
+    /// follows, so that the root stays between the two. False where the end itself is the solution.
+    bool grow(Scalar& moving, Scalar& other, Scalar end, int sign)
     {
+        Scalar step = std::max(Scalar(1), std::abs(moving));
         for (int count = 0; count < most_doublings; ++count, step *= 2) {
-            if (slope_at(moving) * static_cast<Scalar>(sign) >= 0) return;
-            other = moving;
-            moving += step;
+            const Sample here = sample(moving);
+            if (std::isnan(here.slope)) fail();
+            const bool at_end = std::isfinite(end) && moving == end;
+            if ((here.known || at_end) && here.slope * static_cast<Scalar>(sign) >= 0) return true;
+            if (at_end) return false;
+            if (here.known) other = moving;
+            moving = sign > 0 ? std::max({moving - step, end, -most}) : std::min({moving + step, end, most});
         }
         fail();
     }

@@ -142,22 +142,15 @@ class PontryaginForm {
             if (bound.upper) {
                 const NodeId end = lower(bound.upper);
                 bracket.upper[k] = end;
-                u = graph_.select(graph_.apply(Op::greater_equal, slope_at(k, end), graph_.constant(0)), end, u);
+                u = graph_.select(graph_.apply(Op::greater_equal, u_[k], end), end, u);
             }
             if (bound.lower) {
                 const NodeId end = lower(bound.lower);
                 bracket.lower[k] = end;
-                u = graph_.select(graph_.apply(Op::less_equal, slope_at(k, end), graph_.constant(0)), end, u);
+                u = graph_.select(graph_.apply(Op::less_equal, u_[k], end), end, u);
             }
         }
         implicit_.push_back(std::move(block));
-    }
-
-    /// dH/du_k at u_k = value
-    [[nodiscard]] NodeId slope_at(std::size_t k, NodeId value)
-    {
-        const NodeId slope[] = {dH_du_[k]};
-        return substitute(graph_, slope, replacements({u_[k]}, {value})).front();
     }
 
     void clip()

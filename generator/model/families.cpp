@@ -112,7 +112,18 @@ ResolvedKey require_key(const std::vector<Symbol>& symbols, const Excerpt& key, 
     if (auto found = resolve_key(symbols, scope != nullptr ? entry_key(key, *scope) : key.text))
         return *std::move(found);
     throw ModelError(fmt::format("{} names '{}', which is no {}", owner, key.text, noun), key.range(0, key.text.size()),
-                     hint_for(key.text, declared_names(symbols), fmt::format("{}s", noun).c_str()));
+                     hint_for_key(symbols, key.text, fmt::format("{}s", noun).c_str()));
+}
+
+std::string hint_for_key(const std::vector<Symbol>& symbols, const std::string& key, const char* noun)
+{
+    const std::string family = family_name(key);
+    const std::optional<ResolvedKey> known = family == key ? std::nullopt : resolve_key(symbols, family);
+    if (!known) return hint_for(key, declared_names(symbols), noun);
+    const Shape& shape = known->shape;
+    if (shape.rank == Rank::scalar) return fmt::format("'{}' has no entries", family);
+    return fmt::format("the entries of '{}' are {} to {}", family, entry_name(family, shape, 0),
+                       entry_name(family, shape, shape.size() - 1));
 }
 
 std::string family_name(const std::string& name)

@@ -23,6 +23,10 @@ struct ResolvedKey {
 [[nodiscard]] ResolvedKey require_key(const std::vector<Symbol>& symbols, const Excerpt& key, const std::string& owner,
                                       const char* noun, const Scope* scope = nullptr);
 
+/// What to write instead of a key that names none of `symbols`: the entries of its family, a name like it, or some of
+/// the names there are.
+[[nodiscard]] std::string hint_for_key(const std::vector<Symbol>& symbols, const std::string& key, const char* noun);
+
 /// The family of an entry: "x" of "x[3]", "W" of "W[1,2]"; any other name itself.
 [[nodiscard]] std::string family_name(const std::string& name);
 

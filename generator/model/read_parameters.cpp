@@ -56,6 +56,8 @@ void apply(ModelReader& reader, const std::vector<Symbol>& symbols, const Settin
     const std::string size = nearest_name(setting.name, sizes);
     const std::string hint = !size.empty() && nearest_name(setting.name, known) == size
                                  ? fmt::format("did you mean the size '{}'?", size)
+                             : resolve_key(symbols, family_name(setting.name))
+                                 ? hint_for_key(symbols, setting.name, "parameters")
                                  : hint_for(setting.name, known, sizes.empty() ? "parameters" : "parameters and sizes");
     throw ModelError(what, whole_text("<--set>", setting.name + "=" + setting.value.text).range(0, setting.name.size()),
                      hint);

@@ -117,7 +117,7 @@ TEST_CASE("a degenerate Lagrangian leaves the verdict as it is")
     const Outcome outcome = call({"check", "degenerate.toml"});
     CHECK(outcome.code == 0);
     CHECK(outcome.out == "degenerate: valid\n  regularity      degenerate, rank 0\n                  `generate` and "
-                         "`run` refuse a degenerate Lagrangian\n                  kernel vector v = 1\n");
+                         "`run` refuse a degenerate Lagrangian\n                  kernel vector k_v = 1\n");
     const json::Value value = json::parse(call({"check", "degenerate.toml", "--format", "json"}).out);
     REQUIRE(value["regularity"]["kernel"].size() == 1);
     CHECK(value["regularity"]["kernel"][0].keys == std::vector<std::string>{"v"});

@@ -91,6 +91,19 @@ TEST_CASE("a bounded control is where H is largest between its bounds", "[kernel
     CHECK(control_of(kernels_of_text(line_problem("sqrt(1 + u^2)", "[-1, 1]")), 2) == 1);
 }
 
+TEST_CASE("bounds may lie where the Hamiltonian cannot be computed", "[kernels]")
+{
+    for (const char* bounds : {"[-1000, 1000]", "[-1e200, 1e200]", "[0, \"inf\"]"})
+        CHECK(control_of(kernels_of_text(line_problem("log(cosh(u))", bounds)), 0.5) ==
+              Approx(std::atanh(0.5)).epsilon(tolerance::roundoff(8)));
+    const KernelModule flat = kernels_of_text(line_problem("sqrt(1 + u^2)", "[-1e200, 1e200]"));
+    for (const double p : {0.0, -0.6, 0.96})
+        CHECK(control_of(flat, p) == Approx(p / std::sqrt(1 - p * p)).epsilon(tolerance::roundoff(64)));
+    CHECK_THROWS_WITH(control_of(flat, 1.5),
+                      "error: no controls were found: u with dH/du = 0, each between its bounds, or the bound next to "
+                      "it.");
+}
+
 TEST_CASE("a concave Hamiltonian without bounds has its control found where Newton's steps from 0 have none",
           "[kernels]")
 {
@@ -220,13 +233,17 @@ TEST_CASE("compiled brackets agree with the interpreter in four scalars", "[kern
     KernelRequest request;
     request.only = {"rhs", "controls", "hamiltonian", "jacobian"};
     std::vector<CompiledCase> cases;
-    for (const auto& [cost, bounds] :
-         {std::pair{"-log(cos(u)) + x^2/2", "[-1.5, 1.5]"}, std::pair{"exp(u) + x^2/2", "[-1, \"inf\"]"}}) {
+    struct Case {
+        const char *cost, *bounds;
+        std::vector<double> costates;
+    };
+    for (const Case& each : {Case{"-log(cos(u)) + x^2/2", "[-1.5, 1.5]", {-4, 0.5, 2}},
+                             Case{"exp(u) + x^2/2", "[-1, \"inf\"]", {-4, 0.5, 2}},
+                             Case{"log(cosh(u)) + x^2/2", "[-1000, 1000]", {-0.9, 0, 0.5}}}) {
+        const std::string name = "line" + std::to_string(cases.size());
         cases.push_back(
-            {kernels_of(read_model_text("test.toml", line_problem(cost, bounds, "line" + std::to_string(cases.size()))),
-                        request),
-             {}});
-        for (const double p : {-4.0, 0.5, 2.0}) cases.back().points.push_back({{"t", 0}, {"x", 0.5}, {"p", p}});
+            {kernels_of(read_model_text("test.toml", line_problem(each.cost, each.bounds, name)), request), {}});
+        for (const double p : each.costates) cases.back().points.push_back({{"t", 0}, {"x", 0.5}, {"p", p}});
     }
     compare_compiled("bracket", "g++", cases, 200);
     if (run_shell("clang++ --version").status == 0) compare_compiled("bracket", "clang++", cases, 200);

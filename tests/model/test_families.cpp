@@ -193,7 +193,10 @@ TEST_CASE("a setting that fits nothing says so")
         "the value set for parameter 'm' is a vector of 2, where a vector of 3 is required | one number stands for all "
         "entries");
     CHECK(error_with({setting("m[4]", "1")}) ==
-          "the model has no parameter or size 'm[4]' to set | known parameters and sizes: m, mass, c, W, I, n, pairs");
+          "the model has no parameter or size 'm[4]' to set | the entries of 'm' are m[1] to m[3]");
+    CHECK(error_with({setting("W[9,1]", "1")}).find("the entries of 'W' are W[1,1] to W[") != std::string::npos);
+    CHECK(error_with({setting("mass[1]", "1")}) ==
+          "the model has no parameter or size 'mass[1]' to set | 'mass' has no entries");
     CHECK(error_with({setting("x[1]", "1")}) ==
           "'x[1]' is a base coordinate, not a parameter | known parameters and sizes: m, mass, c, W, I, n, pairs");
     CHECK(error_with({setting("n", "mass")}) == "the size 'n' uses 'mass', which is no size | known sizes: n, pairs");

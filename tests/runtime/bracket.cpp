@@ -90,7 +90,7 @@ TEST_CASE("an open interval is searched outwards, and has a status where there i
     CHECK(none.status == Status::newton_diverged);
     CHECK(std::isnan(none.z));
     const Found<double> undefined = root_of(
-        -1.0, 1.0, [](double u) { return std::log(u); }, [](double u) { return 1 / u; });
+        -1.0, 1.0, [](double u) { return std::sqrt(u - 2); }, [](double u) { return 0.5 / std::sqrt(u - 2); });
     CHECK(undefined.status == Status::newton_diverged);
     CHECK(std::isnan(undefined.z));
 }
@@ -120,6 +120,51 @@ TEST_CASE("an interval may be as wide as its scalar, and a root as small", "[bra
         [](double u) { return u == 0 ? -infinite : -0.5 / std::sqrt(u); });
     CHECK(root.z == Approx(9).epsilon(tolerance::roundoff(8)));
     CHECK(root_of_tangent(0.5, infinite, infinite).status == Status::newton_diverged);
+}
+
+TEST_CASE("an end where terms overflow is not believed", "[bracket]")
+{
+    const auto flat = [](auto target, auto lower, auto upper) { // p = u/sqrt(1 + u^2), which is computed as 0 far away
+        using S = decltype(target);
+        std::array<S, 1> z{};
+        const auto status = bracket(z, std::array<S, 1>{lower}, std::array<S, 1>{upper},
+                                    [&](const std::array<S, 1>& at, std::array<S, 1>& value,
+                                        std::array<S, 1>& derivative, std::array<S, 1>& size) noexcept {
+                                        using std::abs;
+                                        using std::sqrt;
+                                        const S root = sqrt(S(1) + at[0] * at[0]);
+                                        value[0] = target - at[0] / root;
+                                        derivative[0] = S(-1) / (root * root * root);
+                                        size[0] = S(2) * root * abs(at[0]) / (root * root) + abs(value[0]);
+                                    });
+        return Found<S>{z[0], status};
+    };
+    for (const double end : {1e100, 1e160, 1e300, std::numeric_limits<double>::max(), infinite})
+        for (const double other : {-1e155, -1e30, -infinite, -3.0})
+            for (const double target : {0.0, 0.6, -0.8}) {
+                INFO(other << " " << end << " " << target);
+                const Found<double> found = flat(target, other, end);
+                CHECK(found.status == Status::ok);
+                CHECK(found.z == Approx(target / std::sqrt(1 - target * target)).margin(1e-30).epsilon(1e-13));
+            }
+    CHECK(flat(0.6F, -1e30F, 1e25F).z == Approx(0.75).epsilon(1e-5));
+    CHECK(flat(2.0, -1.0, 1e150).z == 1e150); // F is positive up to the end
+    CHECK(flat(-2.0, -1e150, 1e200).z == -1e150);
+    CHECK(flat(2.0, -1.0, 1e200).status == Status::newton_diverged); // nothing is known of F there
+    using Lanes = Pack<double, 4>;
+    const Found<Lanes> lanes = flat(Lanes(std::array<double, 4>{0.6, -0.8, 2, 0}), Lanes(-1e160),
+                                    Lanes(std::array<double, 4>{1e160, 10, 1e100, infinite}));
+    CHECK(lanes.z.lanes[0] == Approx(0.75).epsilon(1e-13));
+    CHECK(lanes.z.lanes[1] == Approx(-4.0 / 3).epsilon(1e-13));
+    CHECK(lanes.z.lanes[2] == 1e100);
+    CHECK(lanes.z.lanes[3] == 0);
+    // log(cosh(u)), whose slope is inf/inf far away
+    const Found<double> ratio = root_of(
+        -1000.0, 2000.0, [](double u) { return 0.5 - std::sinh(u) / std::cosh(u); },
+        [](double u) { return -1 / (std::cosh(u) * std::cosh(u)); });
+    CHECK(ratio.z == Approx(std::atanh(0.5)).epsilon(1e-13));
+    CHECK(root_of_exponential(1e300, 1e250, infinite).z == 1e250); // beyond the root
+    CHECK(root_of_exponential(1e300, -1e250, infinite).z == Approx(std::log(1e300)).epsilon(1e-15));
 }
 
 TEST_CASE("ends that cross or are not numbers have a status", "[bracket]")

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <type_traits>
 
 namespace lagen {
 
@@ -31,54 +32,66 @@ class Brackets {
         for (Mask& done : done_) done = S(1) < S(0);
     }
 
-    /// Unknowns whose function has no other sign than that of an end are at that end.
+    /// Unknowns whose function has no other sign than that of an end are at that end. An end at which the function
+    /// cannot be computed is open: the interval grows towards it from the other one, or from where it is nearest to 0.
     void settle_at_ends(const Unknowns& lower, const Unknowns& upper) noexcept
     {
         const S infinity(std::numeric_limits<Real>::infinity());
         for (std::size_t i = 0; i < N; ++i) {
             failed_ = either<Mask>(failed_, !(lower[i] <= upper[i]));
             failed_ = either<Mask>(failed_, !both<Mask>(lower[i]<infinity, upper[i]> - infinity));
-            const Mask has_lower = lower[i] > -infinity;
-            const Mask has_upper = upper[i] < infinity;
-            low_[i] = select(has_lower, lower[i], select(has_upper, upper[i], S(0)));
-            high_[i] = select(has_upper, upper[i], select(has_lower, lower[i], S(0)));
-            z_[i] = low_[i];
+            const S above = select(lower[i] > S(0), lower[i], S(0));
+            low_[i] = high_[i] = select(above < upper[i], above, upper[i]); // nearest to 0
+            z_[i] = select(lower[i] > -infinity, lower[i], high_[i]);
         }
-        function_(z_, residual_, derivative_);
+        evaluate();
         for (std::size_t i = 0; i < N; ++i) {
-            done_[i] = both<Mask>(lower[i] > -infinity, residual_[i] <= S(0));
-            failed_ = either<Mask>(failed_, !is_number(residual_[i]));
+            open_low_[i] = !both<Mask>(lower[i] > -infinity, is_known(i));
+            done_[i] = both<Mask>(!open_low_[i], residual_[i] <= S(0));
+            low_[i] = select(open_low_[i], low_[i], lower[i]);
+            z_[i] = select(done_[i], z_[i], select(upper[i] < infinity, upper[i], high_[i]));
         }
-        for (std::size_t i = 0; i < N; ++i) z_[i] = select(done_[i], z_[i], high_[i]);
-        function_(z_, residual_, derivative_);
+        evaluate();
         for (std::size_t i = 0; i < N; ++i) {
-            done_[i] = either<Mask>(done_[i], both<Mask>(upper[i] < infinity, residual_[i] >= S(0)));
-            failed_ = either<Mask>(failed_, !is_number(residual_[i]));
+            open_high_[i] = !both<Mask>(upper[i] < infinity, is_known(i));
+            const Mask at_upper = both<Mask>(!open_high_[i], residual_[i] >= S(0));
+            done_[i] = either<Mask>(done_[i], at_upper);
+            // An open end starts from the other one.
+            high_[i] = select(open_high_[i], select(open_low_[i], high_[i], low_[i]), upper[i]);
+            low_[i] = select(open_low_[i], high_[i], low_[i]);
         }
     }
 
-    /// Moves low ends down (sign 1) or high ends up (sign -1) until the function has that sign there.
+    /// Moves low ends down (sign 1) or high ends up (sign -1) until the function has that sign there; the end itself is
+    /// the solution where it has not.
     void grow(const Unknowns& ends, Real sign) noexcept
     {
         using std::abs;
-        const S infinity(std::numeric_limits<Real>::infinity());
+        const S most(std::numeric_limits<Real>::max());
         Unknowns& moving = sign > Real(0) ? low_ : high_;
         Unknowns& other = sign > Real(0) ? high_ : low_;
         Unknowns width{};
-        std::array<Mask, N> open{};
+        std::array<Mask, N> open = sign > Real(0) ? open_low_ : open_high_;
         for (std::size_t i = 0; i < N; ++i) {
-            open[i] = !either<Mask>(done_[i], abs(ends[i]) < infinity);
+            open[i] = both<Mask>(open[i], !done_[i]);
             width[i] = select(abs(moving[i]) < S(1), S(1), abs(moving[i]));
         }
         for (int count = 0; count < bracket_doublings && any_of(open); ++count) {
             for (std::size_t i = 0; i < N; ++i) z_[i] = select(open[i], moving[i], z_[i]);
-            function_(z_, residual_, derivative_);
+            evaluate();
             for (std::size_t i = 0; i < N; ++i) {
+                const Mask at_end = both<Mask>(abs(ends[i]) <= most, !(S(sign) * moving[i] > S(sign) * ends[i]));
                 failed_ = either<Mask>(failed_, both<Mask>(open[i], !is_number(residual_[i])));
-                const Mask beyond = S(sign) * residual_[i] >= S(0);
-                open[i] = both<Mask>(open[i], !either<Mask>(beyond, failed_));
-                other[i] = select(open[i], moving[i], other[i]);
-                moving[i] = select(open[i], moving[i] - S(sign) * width[i], moving[i]);
+                const Mask usable = either<Mask>(is_known(i), at_end);
+                const Mask beyond = both<Mask>(usable, S(sign) * residual_[i] >= S(0));
+                const Mask ended = both<Mask>(both<Mask>(open[i], at_end), !beyond);
+                done_[i] = either<Mask>(done_[i], ended);
+                open[i] = both<Mask>(open[i], !either<Mask>(either<Mask>(beyond, failed_), ended));
+                other[i] = select(both<Mask>(open[i], usable), moving[i], other[i]);
+                const S next = moving[i] - S(sign) * width[i];
+                const S limit = select(abs(ends[i]) <= most, ends[i], S(-sign) * most);
+                const S within = select(S(sign) * next > S(sign) * limit, next, limit);
+                moving[i] = select(open[i], within, moving[i]);
                 width[i] = S(2) * width[i];
             }
         }
@@ -96,7 +109,7 @@ class Brackets {
             z_[i] = select(done_[i], z_[i], middle(low_[i], high_[i]));
         }
         for (int count = 0; count < bracket_steps && !all_done(); ++count) {
-            function_(z_, residual_, derivative_);
+            evaluate();
             for (std::size_t i = 0; i < N; ++i) {
                 const S f = residual_[i];
                 failed_ = either<Mask>(failed_, !is_number(f));
@@ -120,6 +133,23 @@ class Brackets {
     [[nodiscard]] const Mask& failed() const noexcept { return failed_; }
 
   private:
+    void evaluate() noexcept
+    {
+        if constexpr (std::is_invocable_v<const Function&, const Unknowns&, Unknowns&, Unknowns&, Unknowns&>)
+            function_(z_, residual_, derivative_, size_);
+        else
+            function_(z_, residual_, derivative_);
+    }
+
+    /// Whether F_i has the sign that was computed: its terms have not overflowed, or it has itself.
+    [[nodiscard]] Mask is_known(std::size_t i) const noexcept
+    {
+        using std::abs;
+        const S most(std::numeric_limits<Real>::max());
+        const Mask infinite = abs(residual_[i]) > most;
+        return both<Mask>(is_number(residual_[i]), either<Mask>(size_[i] <= most, infinite));
+    }
+
     /// Half-way; in the exponent where the ends have one sign and are far apart, and 0 where they have two.
     [[nodiscard]] static S middle(const S& low, const S& high) noexcept
     {
@@ -149,8 +179,8 @@ class Brackets {
 
     Unknowns& z_;
     const Function& function_;
-    Unknowns low_{}, high_{}, residual_{}, derivative_{};
-    std::array<Mask, N> done_{};
+    Unknowns low_{}, high_{}, residual_{}, derivative_{}, size_{};
+    std::array<Mask, N> done_{}, open_low_{}, open_high_{};
     Mask failed_ = S(1) < S(0);
 };
 
@@ -159,12 +189,13 @@ class Brackets {
 /// Solves F_i(z_i) = 0 in lower_i <= z_i <= upper_i for functions that fall with their argument: the root, or the end
 /// next to it where there is none.
 /// @param lower, upper the intervals; -infinity and infinity are open ends, towards which an interval is searched up to
-///        2^128 times the larger of 1 and the other end
-/// @param function function(z, residual, derivative): F_i(z_i) and dF_i/dz_i, N entries each
+///        2^128 times the larger of 1 and the other end, and so are ends at which F_i cannot be computed
+/// @param function function(z, residual, derivative): F_i(z_i) and dF_i/dz_i, N entries each; or function(z, residual,
+///        derivative, size), with the rounding error of each F_i in units of epsilon: where that is not finite terms of
+///        F_i have overflowed, and its sign is not believed
 /// @return newton_diverged, a lane, where a value or an end is not a number, ends cross, or an open interval has no
-/// root:
-///         then z is NaN. Else z is within 2 epsilon |z| of where the computed function changes its sign (or within the
-///         smallest normal number)
+///         root: then z is NaN. Else z is within 2 epsilon |z| of where the computed function changes its sign (or
+///         within the smallest normal number)
 template <class S, std::size_t N, class Function>
 [[nodiscard]] status_t<S> bracket(std::array<S, N>& z, const std::array<S, N>& lower, const std::array<S, N>& upper,
                                   const Function& function) noexcept
