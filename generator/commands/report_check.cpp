@@ -170,6 +170,8 @@ std::string regularity_text(const Regularity& regularity)
     for (const std::string& factor : regularity.singular_where)
         equations += fmt::format("{}{} = 0", equations.empty() ? "" : " or ", factor);
     if (!equations.empty()) text += fmt::format("  {:<16}singular where {}\n", "", equations);
+    if (regularity.singular_everywhere)
+        text += fmt::format("  {:<16}singular everywhere for the parameter values of the file\n", "");
     for (const Point& point : regularity.singular_at)
         text += fmt::format("  {:<16}singular at {}\n", "", point_text(point));
     return text;
@@ -237,6 +239,7 @@ void report_json(JsonWriter& json, const std::string& model, const VerifiedAlgeb
         for (const Point& vector : regularity.kernel) point_json(json, vector);
         json.end_array();
     }
+    json.key("singular_everywhere").value(regularity.singular_everywhere);
     json.key("singular_at").begin_array();
     for (const Point& point : regularity.singular_at) point_json(json, point);
     json.end_array().key("singular_where").begin_array();

@@ -185,7 +185,10 @@ void describe_singular(Regularity& result, Graph& graph, const ProofSetting& set
                        const std::vector<std::vector<NodeId>>& minors)
 {
     const std::vector<NodeId> determinants = determinants_of(minors);
-    result.singular_at = singular_points(graph, there, valued.budget(), substitute(graph, determinants, defaults));
+    const std::vector<NodeId> values = substitute(graph, determinants, defaults);
+    result.singular_everywhere =
+        std::ranges::any_of(values, [&](NodeId value) { return valued.decide(value).status == ProofStatus::proved; });
+    if (!result.singular_everywhere) result.singular_at = singular_points(graph, there, valued.budget(), values);
     if (determinants.size() == minors.size())
         result.singular_where = singular_factors(graph, setting, valued, defaults, determinants);
 }

@@ -36,6 +36,7 @@ struct Regularity {
     std::string evidence;               ///< why `undecided`; may be empty
     std::string legendre_obstacle;      ///< why y -> dL/dy is not shown to be one-to-one; empty where it is
     std::vector<Rational> newton_start; ///< a y where dL/dy is defined, if it is not at 0; else empty
+    bool singular_everywhere = false;   ///< generically_regular, but det W = 0 for the parameter values of the file
     std::vector<std::vector<std::pair<std::string, std::string>>> singular_at; ///< known singular points
     std::vector<std::string> singular_where; ///< where L is defined W is singular where one of these vanishes, for the
                                              ///< parameter values of the file; empty where that is not known

@@ -47,6 +47,17 @@ TEST_CASE("a mass without a sign is positive by its value, with a domain for all
     CHECK_FALSE(declared.for_given_parameters);
 }
 
+TEST_CASE("a mass matrix that is singular for the values of the file alone says so")
+{
+    const Regularity absent = regularity("(m*u^2 + v^2)/2", "m = 0\n");
+    CHECK(absent.kind == Kind::generically_regular);
+    CHECK(absent.singular_everywhere);
+    CHECK(absent.singular_at.empty());
+    CHECK(absent.singular_where == std::vector<std::string>{"m"});
+    CHECK(regularity("(u^2 + v^2)/2 + m*u*v*(sin(x)^2 + cos(x)^2)", "m = 1\n").singular_everywhere);
+    CHECK_FALSE(regularity("(m*x^2*u^2 + v^2)/2", "m = 1\n").singular_everywhere);
+}
+
 TEST_CASE("a rank that drops on a line is generic, and the line is met")
 {
     const Regularity result = regularity("(u^2 + sin(x)^2*v^2)/2");
