@@ -3,9 +3,9 @@
 ///   {"model", "title", "form", "blocks": [{"title", "formula", "equations":
 ///     [{"left": {"kind": "time_derivative" | "symbol" | "zero" | "bracket", "symbol", "other",
 ///                "mass": [{"symbol", "value"}]},
-///       "right": "...", "groups": [{"label", "value"}]}]}]}
+///       "relation": "at_least" | "at_most", "right": "...", "groups": [{"label", "value"}]}]}]}
 /// `symbol` is left out of kind "zero", `mass` where the left side has no mass matrix; `other` is of kind "bracket",
-/// {symbol, other}.
+/// {symbol, other}; `relation` is left out of equations.
 #include "emit/json.hpp"
 #include "emit/print_equations.hpp"
 #include "emit/print_equations_terms.hpp"
@@ -46,6 +46,8 @@ void write_equation(JsonWriter& json, const Equation& equation)
 {
     json.begin_object();
     write_left(json, equation);
+    if (equation.relation != Relation::equal)
+        json.key("relation").value(equation.relation == Relation::at_least ? "at_least" : "at_most");
     json.key("right").value(right_text(equation));
     json.key("groups").begin_array();
     for (const TermGroup& group : equation.groups)

@@ -253,6 +253,11 @@ std::string left_side(const Equation& equation, const LatexNames& names)
     return text;
 }
 
+const char* relation_latex(Relation relation)
+{
+    return relation == Relation::equal ? " &= " : relation == Relation::at_least ? " &\\geq " : " &\\leq ";
+}
+
 void print_block(std::string& text, const EquationBlock& block, const LatexNames& names)
 {
     text += "\\paragraph{" + escape_latex(block.title) + "} $" + block.latex_formula + "$\n\\begin{align*}\n";
@@ -266,7 +271,7 @@ void print_block(std::string& text, const EquationBlock& block, const LatexNames
         for (const SignedTree& term : right_side_terms(equation))
             terms.emplace_back(term.negative, LatexWriter(names).write(term.tree, LatexHold::product));
         if (terms.empty()) terms.emplace_back(false, "0");
-        text += "  " + left_side(equation, names) + " &= ";
+        text += "  " + left_side(equation, names) + relation_latex(equation.relation);
         const std::vector<std::string> lines = wrap_terms(terms, margin, margin + indent, line_width, typeset_width);
         for (std::size_t k = 0; k < lines.size(); ++k) text += (k == 0 ? "" : " \\\\\n  &\\quad ") + lines[k];
         text += e + 1 < block.equations.size() ? " \\\\\n" : "\n";

@@ -183,6 +183,11 @@ std::string left_side(const Equation& equation)
     return text;
 }
 
+const char* relation_text(Relation relation)
+{
+    return relation == Relation::equal ? " = " : relation == Relation::at_least ? " ≥ " : " ≤ ";
+}
+
 void print_block(std::string& text, const EquationBlock& block)
 {
     const bool fits = columns_of(block.title) + 3 + columns_of(block.formula) <= page_width;
@@ -193,7 +198,8 @@ void print_block(std::string& text, const EquationBlock& block)
     for (const Equation& equation : block.equations) {
         const std::string left = left_side(equation);
         const std::size_t columns = columns_of(left);
-        text += "  " + std::string(columns < widest ? widest - columns : 0, ' ') + left + " = ";
+        text +=
+            "  " + std::string(columns < widest ? widest - columns : 0, ' ') + left + relation_text(equation.relation);
         std::vector<std::pair<bool, std::string>> terms;
         for (const SignedTree& term : right_side_terms(equation))
             terms.emplace_back(term.negative, TextWriter().write(term.tree, TextHold::quotient));

@@ -31,6 +31,7 @@ class PontryaginDerivation {
         if (EquationBlock labels = symbolic_.casimirs(); !labels.equations.empty()) set.blocks.push_back(labels);
         set.blocks.push_back(section());
         set.blocks.push_back(condition());
+        if (!optimal_ && !control_.bounds.empty()) set.blocks.push_back(bounds());
         if (optimal_) {
             set.blocks.push_back(optimal_controls());
             if (maximal_ && control_.bounds.empty()) set.blocks.push_back(maximal_hamiltonian());
@@ -64,17 +65,18 @@ class PontryaginDerivation {
         GiNaC::exmap none;
         for (const GiNaC::ex& control : u) none[control] = 0;
         SquareMatrix second{u.size(), {}};
-        Sum right;
+        Sum first, right;
         for (const GiNaC::ex& control : u) {
-            const GiNaC::ex first = derivative(hamiltonian_, control);
-            right.push_back(-first.subs(none, GiNaC::subs_options::no_pattern));
+            first.push_back(derivative(hamiltonian_, control));
             for (const GiNaC::ex& other : u) {
-                GiNaC::ex entry = derivative(first, other);
+                GiNaC::ex entry = derivative(first.back(), other);
                 if (expanded_length(entry)) entry = entry.expand();
                 if (std::any_of(u.begin(), u.end(), [&](const GiNaC::ex& symbol) { return entry.has(symbol); })) return;
                 second.entries.push_back(entry);
             }
         }
+        // Affine in u, and so defined at 0.
+        for (const GiNaC::ex& slope : first) right.push_back(-slope.subs(none, GiNaC::subs_options::no_pattern));
         if (!u.empty())
             optimal_ = solve_in_blocks(second, right, [&](const GiNaC::ex& e) { return symbolic_.simpler(e); });
     }
@@ -105,6 +107,24 @@ class PontryaginDerivation {
         }
         for (const GiNaC::ex& control : symbolic_.controls())
             block.equations.push_back(symbolic_.equation(LeftSide::zero, "", {derivative(hamiltonian_, control)}));
+        return block;
+    }
+
+    /// Where there is no formula for the controls to cut.
+    [[nodiscard]] EquationBlock bounds() const
+    {
+        EquationBlock block{
+            "bounds of the controls", "u^A_min ≤ u^A ≤ u^A_max", R"(u^A_{\min} \leq u^A \leq u^A_{\max})", {}};
+        const auto append = [&](const ControlBound& bound, const Tree& end, Relation relation) {
+            if (!end) return;
+            Equation next{LeftSide::symbol, control_name(bound.control), {}, {{"", end}}};
+            next.relation = relation;
+            block.equations.push_back(std::move(next));
+        };
+        for (const ControlBound& bound : control_.bounds) {
+            append(bound, bound.lower, Relation::at_least);
+            append(bound, bound.upper, Relation::at_most);
+        }
         return block;
     }
 

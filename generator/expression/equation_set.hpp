@@ -14,6 +14,9 @@ enum class LeftSide {
     bracket,         ///< {symbol, other}
 };
 
+/// How the left side stands to the right one.
+enum class Relation { equal, at_least, at_most };
+
 /// A group of terms of a right-hand side that belongs together in the formula it came from, for instance
 /// rho_a(L) or -p_c C^c_ab y^b. `label` is a short UTF-8 name of the group; may be empty.
 struct TermGroup {
@@ -21,13 +24,15 @@ struct TermGroup {
     Tree value;
 };
 
-/// left = sum of groups. With `mass` entries the left side is sum_b mass[b].value * d(mass[b].label)/dt instead.
+/// left = sum of groups, or an inequality. With `mass` entries the left side is sum_b mass[b].value *
+/// d(mass[b].label)/dt instead.
 struct Equation {
     LeftSide left = LeftSide::time_derivative;
     std::string symbol;
     std::vector<TermGroup> mass;   ///< W_ab ydot^b: label = y^b, value = W_ab (zero entries left out)
     std::vector<TermGroup> groups; ///< empty: the right side is 0
     std::string other = {};        ///< of a bracket: its second function
+    Relation relation = Relation::equal;
 };
 
 /// One titled block, e.g. "momenta" or "equations of motion (acceleration form)", with its formula in UTF-8.

@@ -132,7 +132,7 @@ AtomId Algebra::atom(Op op, std::uint32_t payload, std::vector<Polynomial> opera
     const AtomId id = it->second;
     if (inserted) {
         atoms_.push_back(std::move(key));
-        if (op == Op::sqrt) learn_root(id);
+        if (op == Op::sqrt || op == Op::abs) learn_root(id);
     }
     return id;
 }
@@ -149,7 +149,7 @@ void Algebra::learn_root(AtomId root)
     if (argument.empty()) return;
     const Term square = as_term(argument);
     if (square.monomial.size() == 1 && square.monomial[0].exponent == 1)
-        roots_.push_back({square.monomial[0].atom, root, square.coefficient});
+        roots_.push_back({square.monomial[0].atom, root, square.coefficient, atoms_[root].op == Op::abs});
 }
 
 void Algebra::normalise_root(Term& term, const Root& root) const
@@ -157,13 +157,13 @@ void Algebra::normalise_root(Term& term, const Root& root) const
     const int s = exponent_of(term.monomial, root.root);
     const int q = exponent_of(term.monomial, root.base);
     if (s == 0) return;
-    const int half = 2 * q + s;
-    const int new_q = half / 2; // towards 0
-    const int new_s = half % 2;
+    const int base_degree = root.absolute ? 2 : 1; // of w^2
+    const int degree = 2 * q + base_degree * s;
+    const int new_s = !root.absolute ? degree % 2 : s % 2 == 0 ? 0 : degree > 0 ? 1 : -1;
+    const int squares = (s - new_s) / 2; // of w that turn into powers of base
+    const int new_q = q + base_degree * squares;
     if (new_q == q && new_s == s) return;
-    // w^2 = c base, so that (s - new_s) / 2 squares of w turn into powers of c base.
-    const int squares = (s - new_s) / 2;
-    term.coefficient *= rational_power(root.coefficient, squares);
+    term.coefficient *= rational_power(root.coefficient, base_degree * squares);
     std::erase_if(term.monomial, [&](const Factor& f) { return f.atom == root.root || f.atom == root.base; });
     if (new_q != 0) term.monomial.push_back({root.base, new_q});
     if (new_s != 0) term.monomial.push_back({root.root, new_s});

@@ -73,11 +73,12 @@ class Algebra {
     [[nodiscard]] Term extract_content(Polynomial& a) const;
 
   private:
-    /// w = sqrt(c * base) makes base^q w^s unique: |s| <= 1, q and s of one sign.
+    /// w = sqrt(c * base) or |c * base| makes base^q w^s unique: |s| <= 1, q and s of one sign, but for base / |base|.
     struct Root {
         AtomId base = 0;
         AtomId root = 0;
         Rational coefficient;
+        bool absolute = false;
     };
 
     struct KeyLess {

@@ -174,13 +174,31 @@ TEST_CASE("controls that have no formula are left to their condition")
     CHECK(text_of_block(set, "energy balance") == "  Ḣ = -x²\n");
 }
 
+TEST_CASE("conditions for the controls may be undefined at u = 0")
+{
+    const std::string start =
+        "name = \"positive\"\n[parameters]\na = 1\n[base]\ncoordinates = [\"x\"]\n[fibre]\nmomenta = "
+        "[\"p\"]\n[algebroid]\nkind = \"tangent\"\n[control]\ncontrols = [\"u\"]\nsigma = { v_x = "
+        "\"u - x\" }\ncost = ";
+    for (const auto& [cost, condition] :
+         {std::pair{"\"u*log(u) - u + x^2/4\"", "p - log(u)"}, std::pair{"\"u - log(u)\"", "p + 1/u - 1"},
+          std::pair{"\"u - sqrt(u)\"", "p + 1/(2 √u) - 1"}, std::pair{"\"u + 1/u\"", "p + 1/u² - 1"}}) {
+        const EquationSet set = written::pontryagin((start + cost + "\n").c_str());
+        CHECK(text_of_block(set, "condition for the controls") == "  0 = " + std::string(condition) + "\n");
+        CHECK_FALSE(has_block(set, "optimal controls"));
+    }
+}
+
 TEST_CASE("bounds cut the control, and there is no formula for the maximal Hamiltonian")
 {
     const EquationSet set = written::pontryagin(written::bounded);
     CHECK(formula(set, "condition for the controls") == "0 = ∂H/∂u^A, or u^A at a bound where H is largest");
     CHECK(text_of_block(set, "optimal controls") == "  u = min(max(q, -top), top)\n  w = p/2\n");
     CHECK_FALSE(has_block(set, "maximal Hamiltonian"));
-    CHECK_FALSE(has_block(written::pontryagin(written::convex), "optimal controls"));
+    const EquationSet convex = written::pontryagin(written::convex);
+    CHECK_FALSE(has_block(convex, "optimal controls"));
+    CHECK(text_of_block(convex, "bounds of the controls") == "  u ≥ -1\n  u ≤ 1\n");
+    CHECK_FALSE(has_block(set, "bounds of the controls"));
 }
 
 TEST_CASE("controls of which no maximum is proved are called stationary, and a refuted maximum has no equations")

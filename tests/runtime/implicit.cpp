@@ -282,6 +282,39 @@ TEST_CASE("Rows do not disturb an implicit run, and have the order of the method
     check(Radau5{.tolerance = 1e-10}, 1e-8);
 }
 
+TEST_CASE("Rows and events leave every step as it is, also where Newton's method is slow")
+{
+    std::vector<double> at;
+    for (int k = 1; k < 400; ++k) at.push_back(0.025 * k);
+    const auto check = [&at](const auto& method, const Pendulum::State& s) {
+        const std::array<EventRequest<double, Pendulum::State>, 1> often{
+            {{.when = [](double, const Pendulum::State& x) { return std::sin(x[0]) - 0.3; }}}};
+        const auto plain = integrate(Pendulum{}, s, {0.0, 10.0}, method);
+        const auto rows = integrate(Pendulum{}, s, {0.0, 10.0}, method, {.at = at});
+        const auto events = integrate(Pendulum{}, s, {0.0, 10.0}, method, {.events = often});
+        for (const auto& run : {rows, events}) {
+            CHECK(run.status() == plain.status());
+            CHECK(run.steps == plain.steps);
+            CHECK(run.state == plain.state);
+        }
+    };
+    for (const Pendulum::State& s : {Pendulum::State(1, 0), Pendulum::State(0.4, 2.5), Pendulum::State(-2, 4)})
+        for (const double step : {0.5, 1.1, 1.7}) {
+            INFO(s.transpose() << " " << step);
+            check(Gauss2{.step = step}, s);
+            check(Gauss4{.step = step}, s);
+            check(Gauss6{.step = step}, s);
+            check(Gauss8{.step = step}, s);
+            check(Radau3Fixed{.step = step}, s);
+            check(Radau5Fixed{.step = step}, s);
+            check(Rk4{.step = step, .compensated = true}, s);
+            check(Yoshida6{.step = step}, s);
+            check(Dop853{.tolerance = step / 100}, s);
+            check(Tsit5{.tolerance = step / 100}, s);
+            check(Radau5{.tolerance = step / 100}, s);
+        }
+}
+
 TEST_CASE("A lane that rests, or rests but for dust, does not keep Newton's method from ending")
 {
     for (const double dust : {0.0, 1e-40, 1e-310}) {

@@ -43,6 +43,7 @@ class CollocationStepper {
         equations_.begin(s);
         lost_ = State::Zero(s.size());
         next_lost_ = lost_;
+        middle_ = lost_;
         scale_ = lost_;
         least_ = lost_;
         rounds_ = lost_;
@@ -136,10 +137,10 @@ class CollocationStepper {
     void predict(const Real& h) noexcept
     {
         if (last_h_ == Real(0)) return;
-        along(Real(1), next_lost_); // free until the step has converged
+        along(Real(1), middle_);
         for (std::size_t i = 0; i < stages; ++i) {
             along(Real(Real(1) + h / last_h_ * equations_.method().c[i]), inner_[i]);
-            inner_[i] -= next_lost_;
+            inner_[i] -= middle_;
         }
         z_ = inner_;
     }
@@ -215,9 +216,9 @@ class CollocationStepper {
     /// The Jacobian at s + sum_j b_j Z_j; false where it cannot be decomposed.
     bool linearise_middle(const M& model, const Real& t, const State& s, const Real& h, const Stages& z) noexcept
     {
-        next_lost_ = s; // free until the step has converged
-        for (std::size_t i = 0; i < stages; ++i) next_lost_ += equations_.method().b[i] * z[i];
-        equations_.linearise(model, t + h / Real(2), next_lost_);
+        middle_ = s;
+        for (std::size_t i = 0; i < stages; ++i) middle_ += equations_.method().b[i] * z[i];
+        equations_.linearise(model, t + h / Real(2), middle_);
         return equations_.factor(h);
     }
 
@@ -256,7 +257,8 @@ class CollocationStepper {
 
     detail::StageEquations<Scheme, M> equations_;
     Stages z_, inner_;
-    State lost_, next_lost_, scale_, least_, rounds_;
+    State lost_, next_lost_; ///< of the sum, before and behind a step that converged; values inside it leave them alone
+    State middle_, scale_, least_, rounds_;
     std::array<Real, stages> weights_{};
     Real h_ = Real(0), last_h_ = Real(0);
     bool compensated_;
