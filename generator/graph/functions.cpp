@@ -67,6 +67,7 @@ NodeId Graph::apply(Op op, NodeId a)
         if (const auto known = exact_value(op, value(a))) return constant(*known);
     if (op == Op::abs && (ops_[a] == Op::abs || ops_[a] == Op::sqrt)) return a;
     if (op == Op::abs && ops_[a] == Op::negate) return apply(op, operands(a)[0]);
+    if (op == Op::sqrt && ops_[a] == Op::power && payloads_[a] == 2) return apply(Op::abs, operands(a)[0]);
     const NodeId only[] = {a};
     return intern(op, only, 0);
 }

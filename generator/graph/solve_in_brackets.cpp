@@ -123,10 +123,15 @@ class BracketSolver {
             const bool good =
                 std::isfinite(values[1]) && next >= low && next <= high && std::abs(next - z) <= previous / 2;
             if (!good) next = middle(low, high);
+            const Scalar tight = epsilon * std::abs(z) + least;
+            if (high - low <= 2 * tight) break;
+            // A step of rounding errors goes a little further, so that the root comes to lie between two places; a
+            // second one is replaced by bisection.
+            if (std::abs(next - z) <= tight)
+                next = previous <= 2 * tight ? middle(low, high)
+                                             : std::clamp(values[0] > 0 ? z + tight : z - tight, low, high);
             previous = std::abs(next - z);
             z = next;
-            const Scalar tight = 2 * epsilon * std::abs(z) + least;
-            if (previous <= tight || high - low <= tight) break;
         }
         z_ = z;
     }

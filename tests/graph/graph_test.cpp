@@ -47,6 +47,7 @@ TEST_CASE("local rules fold what is certain and nothing else")
     CHECK(g.multiply(g.negate(x), y) == g.negate(g.multiply(x, y)));
     CHECK(g.add(x, g.negate(y)) == g.subtract(x, y));
     CHECK(g.power(g.negate(x), 3) == g.negate(g.power(x, 3)));
+    CHECK(g.apply(Op::sqrt, g.power(x, 2)) == g.apply(Op::abs, x));
     CHECK(g.divide(g.apply(Op::sinh, x), g.apply(Op::cosh, x)) == g.apply(Op::tanh, x));
     CHECK(g.power(g.power(x, 2), -3) == g.power(x, -6));
     CHECK(g.power(g.apply(Op::sqrt, x), 4) == g.power(x, 2));

@@ -122,6 +122,26 @@ TEST_CASE("an interval may be as wide as its scalar, and a root as small", "[bra
     CHECK(root_of_tangent(0.5, infinite, infinite).status == Status::newton_diverged);
 }
 
+TEST_CASE("a short step is no root where the function has not changed its sign", "[bracket]")
+{
+    // 0 = dH/du of (u - 1.2)^2/2 + sqrt((u - 1)^2 + w^2)/10: at 1, where it is 0.2, the slope is -0.1/w.
+    for (const double width : {1e-10, 1e-15, 1e-17, 1e-30}) {
+        const Found<double> found = root_of(
+            0.5, 1.5, [&](double u) { return 1.2 - u - 0.1 * (u - 1) / std::sqrt((u - 1) * (u - 1) + width * width); },
+            [&](double u) {
+                const double root = std::sqrt((u - 1) * (u - 1) + width * width);
+                return -1 - 0.1 * (width / root) * (width / root) / root;
+            });
+        INFO(width);
+        CHECK(found.status == Status::ok);
+        CHECK(found.z == Approx(1.1).epsilon(tolerance::roundoff(8)));
+    }
+    // A jump: the place where the sign changes.
+    const Found<double> jump = root_of(
+        -1.0, 3.0, [](double u) { return u < 0.7 ? 1.0 : -1.0; }, [](double) { return -1e20; });
+    CHECK(jump.z == Approx(0.7).epsilon(tolerance::roundoff(4)));
+}
+
 TEST_CASE("an end where terms overflow is not believed", "[bracket]")
 {
     const auto flat = [](auto target, auto lower, auto upper) { // p = u/sqrt(1 + u^2), which is computed as 0 far away

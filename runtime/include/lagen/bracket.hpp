@@ -119,12 +119,18 @@ class Brackets {
                 const S newton = z_[i] - f / derivative_[i];
                 const Mask inside = both<Mask>(newton >= low_[i], newton <= high_[i]);
                 const Mask shorter = both<Mask>(abs(derivative_[i]) <= most, S(2) * abs(newton - z_[i]) <= last[i]);
-                const S next = select(both<Mask>(inside, shorter), newton, middle(low_[i], high_[i]));
+                S next = select(both<Mask>(inside, shorter), newton, middle(low_[i], high_[i]));
                 done_[i] = either<Mask>(done_[i], both<Mask>(f >= S(0), f <= S(0)));
+                const S tight = S(epsilon) * abs(z_[i]) + S(least);
+                done_[i] = either<Mask>(done_[i], high_[i] - low_[i] <= S(2) * tight);
+                // A step of rounding errors goes a little further, so that the root comes to lie between two places; a
+                // second one is replaced by bisection.
+                const S beyond = select(f > S(0), z_[i] + tight, z_[i] - tight);
+                const S kept = select(beyond > low_[i], select(beyond < high_[i], beyond, high_[i]), low_[i]);
+                const S further = select(last[i] <= S(2) * tight, middle(low_[i], high_[i]), kept);
+                next = select(abs(next - z_[i]) <= tight, further, next);
                 last[i] = abs(next - z_[i]);
                 z_[i] = select(done_[i], z_[i], next);
-                const S tight = S(Real(2) * epsilon) * abs(z_[i]) + S(least);
-                done_[i] = either<Mask>(done_[i], either<Mask>(last[i] <= tight, high_[i] - low_[i] <= tight));
             }
         }
         for (const Mask& done : done_) failed_ = either<Mask>(failed_, !done);
