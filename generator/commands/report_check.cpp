@@ -157,8 +157,11 @@ std::string largest_text(const Reevaluation& reevaluation)
 std::string regularity_text(const Regularity& regularity)
 {
     if (regularity.kind == Regularity::Kind::absent) return "";
-    std::string text = fmt::format("  {:<16}{}, rank {}{}{}\n", "regularity", kind_text(regularity.kind),
-                                   regularity.rank, regularity.positive_definite ? ", positive definite" : "",
+    // Of a W that is not decided the rank is not known either.
+    const std::string rank =
+        regularity.kind == Regularity::Kind::undecided ? "" : fmt::format(", rank {}", regularity.rank);
+    std::string text = fmt::format("  {:<16}{}{}{}{}\n", "regularity", kind_text(regularity.kind), rank,
+                                   regularity.positive_definite ? ", positive definite" : "",
                                    regularity.for_given_parameters ? " (for the parameter values of the file)" : "");
     if (regularity.of_hamiltonian) text += fmt::format("  {:<16}of d2H/dmu2: the model has no Lagrangian\n", "");
     if (regularity.kind == Regularity::Kind::degenerate && !regularity.of_hamiltonian)
@@ -230,7 +233,9 @@ void report_json(JsonWriter& json, const std::string& model, const VerifiedAlgeb
     json.end_array();
     const Regularity& regularity = verified.regularity;
     json.key("regularity").begin_object().key("status").value(kind_text(regularity.kind));
-    json.key("rank").value(regularity.rank).key("positive_definite").value(regularity.positive_definite);
+    json.key("rank");
+    regularity.kind == Regularity::Kind::undecided ? json.null() : json.value(regularity.rank);
+    json.key("positive_definite").value(regularity.positive_definite);
     json.key("for_given_parameters").value(regularity.for_given_parameters);
     if (!regularity.evidence.empty()) json.key("evidence").value(regularity.evidence);
     if (regularity.of_hamiltonian) json.key("of").value("d2H/dmu2");

@@ -168,7 +168,7 @@ double number_in(const std::string& text)
 
 /// Fibre coordinates of a sample point where L, momenta or W are not defined or smooth at 0, as for L = v log(v); else
 /// empty.
-std::vector<Rational> newton_start(const Graph& graph, const FibreHessian& hessian, const ZeroDecider& decider)
+std::vector<Rational> newton_start(Graph& graph, const FibreHessian& hessian, const ZeroDecider& decider)
 {
     const auto point = decider.sample_point();
     if (!point) return {};

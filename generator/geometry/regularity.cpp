@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Rank, regularity and definiteness of W, block by block.
 #include "geometry/regularity.hpp"
+#include "geometry/almost_everywhere.hpp"
 #include "geometry/definite_squares.hpp"
 #include "geometry/kernel_vectors.hpp"
 #include "geometry/rational_matrix.hpp"
@@ -227,6 +228,60 @@ bool is_definite_for(Graph& graph, const FibreHessian& hessian, const ProofSetti
     }
 }
 
+/// Whether W, which is regular at one point, is so at almost all.
+bool is_regular_almost_everywhere(Graph& graph, const FibreHessian& hessian, const ProofSetting& setting,
+                                  const ZeroDecider& decider)
+{
+    return std::ranges::all_of(hessian.blocks, [&](const Block& block) {
+        if (block.size() <= determinant_limit)
+            return is_nonzero_almost_everywhere(graph, minor_determinant(graph, hessian, block, block), setting,
+                                                decider);
+        std::vector<NodeId> entries;
+        for (const std::size_t a : block)
+            for (const std::size_t b : block) entries.push_back(hessian.W(a, b));
+        return are_analytic(graph, entries, setting, decider);
+    });
+}
+
+/// Of a W of full generic rank: where it is regular, and whether definite.
+void decide_everywhere(Regularity& result, Graph& graph, const FibreHessian& hessian, const ProofSetting& setting,
+                       const ZeroDecider& decider, const Replacements& defaults)
+{
+    result.kind = Regularity::Kind::generically_regular;
+    const std::vector<std::vector<NodeId>> minors = leading_minors(graph, hessian);
+    const Shown shown = show(graph, hessian, setting, decider, minors);
+    if (shown.regular && shown.positive_definite) {
+        result.kind = Regularity::Kind::regular;
+        result.positive_definite = true;
+        return;
+    }
+    if (defaults.empty()) {
+        if (shown.regular)
+            result.kind = Regularity::Kind::regular;
+        else
+            describe_singular(result, graph, setting, decider, setting, defaults, minors);
+        return;
+    }
+    try {
+        const ProofSetting there = replaced(graph, setting, defaults);
+        FibreHessian at_defaults = hessian;
+        at_defaults.hessian = substitute(graph, hessian.hessian, defaults);
+        const ZeroDecider valued(graph, there, decider.budget());
+        const Shown given = is_definite_for(graph, hessian, setting, decider.budget(), defaults)
+                                ? Shown{}
+                                : show(graph, at_defaults, there, valued, leading_minors(graph, at_defaults));
+        result.for_given_parameters = given.positive_definite || (given.regular && !shown.regular);
+        result.positive_definite = given.positive_definite;
+        if (given.regular || shown.regular)
+            result.kind = Regularity::Kind::regular;
+        else
+            describe_singular(result, graph, setting, valued, there, defaults, minors);
+    } catch (const Error&) {
+        // The values of the file make something undefined: the claim for all parameters stands alone.
+        if (shown.regular) result.kind = Regularity::Kind::regular;
+    }
+}
+
 } // namespace
 
 bool proves_definite(Graph& graph, const FibreHessian& hessian, const ProofSetting& setting, const ZeroDecider& decider)
@@ -266,38 +321,12 @@ Regularity decide_regularity(Graph& graph, const FibreHessian& hessian, const Pr
         }
         return result;
     }
-    result.kind = Regularity::Kind::generically_regular;
-    const std::vector<std::vector<NodeId>> minors = leading_minors(graph, hessian);
-    const Shown shown = show(graph, hessian, setting, decider, minors);
-    if (shown.regular && shown.positive_definite) {
-        result.kind = Regularity::Kind::regular;
-        result.positive_definite = true;
-        return result;
-    }
-    if (defaults.empty()) {
-        if (shown.regular)
-            result.kind = Regularity::Kind::regular;
-        else
-            describe_singular(result, graph, setting, decider, setting, defaults, minors);
-        return result;
-    }
-    try {
-        const ProofSetting there = replaced(graph, setting, defaults);
-        FibreHessian at_defaults = hessian;
-        at_defaults.hessian = substitute(graph, hessian.hessian, defaults);
-        const ZeroDecider valued(graph, there, decider.budget());
-        const Shown given = is_definite_for(graph, hessian, setting, decider.budget(), defaults)
-                                ? Shown{}
-                                : show(graph, at_defaults, there, valued, leading_minors(graph, at_defaults));
-        result.for_given_parameters = given.positive_definite || (given.regular && !shown.regular);
-        result.positive_definite = given.positive_definite;
-        if (given.regular || shown.regular)
-            result.kind = Regularity::Kind::regular;
-        else
-            describe_singular(result, graph, setting, valued, there, defaults, minors);
-    } catch (const Error&) {
-        // The values of the file make something undefined: the claim for all parameters stands alone.
-        if (shown.regular) result.kind = Regularity::Kind::regular;
+    decide_everywhere(result, graph, hessian, setting, decider, defaults);
+    if (result.kind == Regularity::Kind::generically_regular &&
+        !is_regular_almost_everywhere(graph, hessian, setting, decider)) {
+        result.kind = Regularity::Kind::undecided;
+        result.evidence = "each block of W is regular at a point; that all are so almost everywhere is not shown";
+        result.singular_where.clear();
     }
     return result;
 }

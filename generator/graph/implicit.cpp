@@ -45,16 +45,19 @@ ImplicitBlock implicit_block(Graph& graph, std::string name, std::string documen
     return block;
 }
 
-std::vector<NodeId> positive_operands(const Graph& graph, NodeId function, std::span<const NodeId> unknowns)
+std::vector<NodeId> positive_operands(Graph& graph, NodeId function, std::span<const NodeId> unknowns)
 {
     const std::vector<bool> depends = depends_on(graph, unknowns);
     std::vector<NodeId> result;
     const NodeId roots[] = {function};
     for (const NodeId node : certainly_needed(graph, roots)) {
         const Op op = graph.op(node);
-        if (op != Op::sqrt && op != Op::log && op != Op::real_power) continue;
+        const bool inverse = op == Op::asin || op == Op::acos;
+        if (op != Op::sqrt && op != Op::log && op != Op::real_power && !inverse) continue;
         const NodeId operand = graph.operands(node)[0];
-        if (depends[operand] && std::ranges::count(result, operand) == 0) result.push_back(operand);
+        if (!depends[operand]) continue;
+        const NodeId positive = inverse ? graph.subtract(graph.constant(1), graph.power(operand, 2)) : operand;
+        if (std::ranges::count(result, positive) == 0) result.push_back(positive);
     }
     return result;
 }

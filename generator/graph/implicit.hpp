@@ -41,9 +41,8 @@ struct ImplicitBlock {
 [[nodiscard]] std::vector<NodeId> rounding_sizes(Graph& graph, std::span<const NodeId> residuals);
 
 /// What must be positive for `function` to be smooth at z: operands of roots, logarithms and real powers that depend on
-/// the unknowns. In its slopes they may have cancelled.
-[[nodiscard]] std::vector<NodeId> positive_operands(const Graph& graph, NodeId function,
-                                                    std::span<const NodeId> unknowns);
+/// the unknowns, and 1 - a^2 of asin(a) and acos(a). In its slopes they may have cancelled.
+[[nodiscard]] std::vector<NodeId> positive_operands(Graph& graph, NodeId function, std::span<const NodeId> unknowns);
 
 /// Where Newton's method starts. The unknowns of a condition f > 0 that shares none with others: 0 where f > 0 there,
 /// else where f is largest, if it is quadratic, or 1, if it is affine. An unknown between affine conditions: the middle

@@ -147,23 +147,41 @@ class UnknownSolver {
             const bool falls = next_length <= length * Scalar(0.75) && !is_within(step, epsilon);
             const bool progressed = largest_entry(substitute(start_.matrix, at_.residual)) <= most / 100 &&
                                     length <= std::sqrt(epsilon) * largest_entry(at_.z);
-            const bool is_rounding = is_within(step, 4 * epsilon) || rows_within(4, 4 * epsilon) ||
-                                     (progressed && rows_within(16, std::sqrt(epsilon)));
+            const bool is_rounding =
+                is_within(step, 4 * epsilon) || rows_are_rounding() || (progressed && rows_are_noise());
             if (next_length <= length) at_ = std::move(next);
             if (!falls) return is_rounding;
         }
         return false;
     }
 
-    /// |F_i| <= `share` sum_j |dF_i/dz_j| |z_j| or `epsilons` epsilons of the size of its terms, in every row.
-    bool rows_within(Scalar epsilons, Scalar share) const
+    /// sum_j |dF_i/dz_j| |z_j|
+    Scalar terms_of(std::size_t i) const
     {
         const std::size_t n = at_.z.size();
-        for (std::size_t i = 0; i < n; ++i) {
-            Scalar terms = 0;
-            for (std::size_t j = 0; j < n; ++j) terms += std::abs(at_.jacobian[i * n + j] * at_.z[j]);
-            const Scalar size = std::isfinite(at_.sizes[i]) ? at_.sizes[i] : 0;
-            if (!(std::abs(at_.residual[i]) <= std::max(share * terms, epsilons * epsilon * size))) return false;
+        Scalar terms = 0;
+        for (std::size_t j = 0; j < n; ++j) terms += std::abs(at_.jacobian[i * n + j] * at_.z[j]);
+        return terms;
+    }
+
+    /// The size of the rounding errors of F_i in units of epsilon; 0 where it is not finite.
+    Scalar size_of(std::size_t i) const { return std::isfinite(at_.sizes[i]) ? at_.sizes[i] : 0; }
+
+    /// |F_i| <= 4 epsilons of its terms, or of their rounding errors, in every row.
+    bool rows_are_rounding() const
+    {
+        for (std::size_t i = 0; i < at_.z.size(); ++i)
+            if (!(std::abs(at_.residual[i]) <= 4 * epsilon * std::max(terms_of(i), size_of(i)))) return false;
+        return true;
+    }
+
+    /// |F_i| <= 16 epsilons of the size of its rounding errors; where that is not known sqrt(epsilon) of its terms.
+    bool rows_are_noise() const
+    {
+        for (std::size_t i = 0; i < at_.z.size(); ++i) {
+            const Scalar size = size_of(i);
+            const Scalar noise = size > 0 ? 16 * epsilon * size : std::sqrt(epsilon) * terms_of(i);
+            if (!(std::abs(at_.residual[i]) <= noise)) return false;
         }
         return true;
     }

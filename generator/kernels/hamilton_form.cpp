@@ -57,7 +57,8 @@ HamiltonianNodes legendre(Graph& graph, const Model& model, const SystemNodes& s
     for (std::size_t a = 0; a < r; ++a) residuals[a] = graph.subtract(lagrangian.momentum[a], nodes.mu[a]);
     const std::vector<NodeId> zeros(r, graph.constant(0));
     Replacements velocities;
-    if (depends_on_any(graph, W, lagrangian.y)) {
+    // Of a momentum that is affine in y the root may lie where L is not defined: what must be positive has cancelled.
+    if (depends_on_any(graph, W, lagrangian.y) || !positive_operands(graph, lagrangian.value, lagrangian.y).empty()) {
         nodes.implicit.push_back(gradient_block(graph, "velocity", "y with dL/dy^a = mu_a (the Legendre transform).",
                                                 lagrangian.y, residuals, lagrangian.value, regularity.newton_start));
         nodes.implicit.back().structure = structure;

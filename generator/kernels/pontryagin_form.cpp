@@ -88,7 +88,9 @@ class PontryaginForm {
 
     void solve_controls()
     {
-        const bool linear = !depends_on_any(graph_, curvature_, u_);
+        // Where what must be positive has cancelled in dH/du, its root may lie where H is not defined.
+        const bool linear = !depends_on_any(graph_, curvature_, u_) &&
+                            (!control_.bounds.empty() || positive_operands(graph_, hamiltonian_, u_).empty());
         if (linear) {
             solve_linearly();
             clip();

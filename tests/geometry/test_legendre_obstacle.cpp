@@ -74,8 +74,7 @@ TEST_CASE("a definite matrix on a set that is not convex is not enough")
     CHECK(obstacle_of("1/(1 - u^2) + v^2") == "1 - u^2 is not shown to be nonzero, and L is smooth only where it is");
     // p = u - 5 sign(u)
     CHECK(obstacle_of("u^2/2 - 5*abs(u) + v^2") == "u is not shown to be nonzero, and L is smooth only where it is");
-    CHECK(obstacle_of("u^2/2 - 5*sqrt(u^2) + v^2") ==
-          "u^2 is not shown to be positive, and L is smooth only where it is");
+    CHECK(obstacle_of("u^2/2 - 5*sqrt(u^2) + v^2") == "u is not shown to be nonzero, and L is smooth only where it is");
     CHECK(obstacle_of("u^2 + v^2 + sqrt(u^2 + v^2)") ==
           "u^2 + v^2 is not shown to be positive, and L is smooth only where it is");
     CHECK(obstacle_of("u^2 + v^2 + atan2(u, v)") == "v is not shown to be positive, and L is smooth only where it is");

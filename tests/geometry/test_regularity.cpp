@@ -47,6 +47,30 @@ TEST_CASE("a mass without a sign is positive by its value, with a domain for all
     CHECK_FALSE(declared.for_given_parameters);
 }
 
+TEST_CASE("a witness stands for almost all points of analytic functions alone")
+{
+    // Zero on a half line, or everywhere: the two factors are nonzero on different sides.
+    for (const char* L : {"(abs(x) + x)*u^2/2 + (abs(x) - x)*v^2/2", "(abs(x) + x)*u^2/2 + v^2/2",
+                          "(sqrt(x^2) + x)*u^2/2 + v^2/2", "(acos(cos(x)) - x)*u^2/2 + v^2/2",
+                          "(atan(1/x) + atan(x) - pi/2)*u^2/2 + v^2/2", "sqrt(sqrt(x^4) + x^2)*u^2 + v^2"}) {
+        INFO(L);
+        const Regularity result = regularity(L);
+        CHECK(result.kind == Kind::undecided);
+        CHECK(result.evidence ==
+              "each block of W is regular at a point; that all are so almost everywhere is not shown");
+    }
+    for (const char* L : {"abs(x)*u^2/2 + v^2/2", "(sqrt(1 + x^2) - 1)*u^2 + v^2", "x*sqrt(1 - u^2 - v^2)",
+                          "x*atan(x)*u^2 + v^2", "(log(1 + x^2) + x)*u^2 + v^2", "tan(x)*u^2 + v^2/x",
+                          "sqrt(x)*u^2 + sqrt(y)*v^2", "(sqrt(x) - sqrt(y))*u^2 + v^2"}) {
+        INFO(L);
+        CHECK(regularity(L).kind == Kind::generically_regular);
+    }
+    CHECK(regularity("log(x)*u^2 + v^2").kind == Kind::generically_regular);
+    CHECK(regularity("log(x^2 - 1)*u^2 + v^2").kind == Kind::undecided);
+    CHECK(regularity("log(x)*u^2 + v^2", "", "domain = [\"x > 0\"]\n").kind == Kind::generically_regular);
+    CHECK(regularity("log(x^2)*u^2 + v^2", "", "domain = [\"x != 0\"]\n").kind == Kind::undecided);
+}
+
 TEST_CASE("a mass matrix that is singular for the values of the file alone says so")
 {
     const Regularity absent = regularity("(m*u^2 + v^2)/2", "m = 0\n");

@@ -116,6 +116,16 @@ TEST_CASE("a concave Hamiltonian without bounds has its control found where Newt
     CHECK_THROWS_WITH(control_of(flat, 1.5), "error: no controls were found: u with dH/du = 0.");
 }
 
+TEST_CASE("a control is where H is defined, also where what must be positive cancels in dH/du", "[kernels]")
+{
+    const KernelModule roots = kernels_of_text(line_problem("(1 - u)^(3/2)*(1 - u)^(1/2)", ""));
+    CHECK(control_of(roots, -3) == Approx(-0.5).epsilon(tolerance::roundoff(8)));
+    CHECK_THROWS_WITH(control_of(roots, 3), "error: Newton's method finds no controls: u with dH/du = 0.");
+    const KernelModule angles = kernels_of_text(line_problem("u^2/2 + acos(u) + asin(u)", ""));
+    CHECK(control_of(angles, 0.75) == Approx(0.75).epsilon(tolerance::roundoff(8)));
+    CHECK_THROWS_WITH(control_of(angles, 3), "error: Newton's method finds no controls: u with dH/du = 0.");
+}
+
 TEST_CASE("a cost with a barrier has its control found inside", "[kernels]")
 {
     const KernelModule barrier = kernels_of_text(line_problem("-log(1 - u^2)", ""));

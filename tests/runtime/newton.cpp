@@ -246,6 +246,29 @@ TEST_CASE("An equation that is not computed to its last places is solved to what
         }
 }
 
+TEST_CASE("Steps that go to and fro across a narrow bend are no rounding errors")
+{
+    // p = z + A (z - 1)/sqrt((z - 1)^2 + e^2) bends within e of 1 by 2 A, a hundred millionth.
+    const double A = 5e-9, e = 1e-12;
+    for (const double p : {1.0, 1 + 3e-10, 1 + 2e-9, 1 - 4e-9, 1.1}) {
+        INFO(p);
+        std::array<double, 1> z{0};
+        CHECK(newton(z, [=](const std::array<double, 1>& x, std::array<double, 1>& F, std::array<double, 1>& dF,
+                            std::array<double, 1>& size) noexcept {
+                  const double away = x[0] - 1, root = std::sqrt(away * away + e * e);
+                  F = {x[0] - p + A * away / root};
+                  dF = {1 + A * (e / root) * (e / root) / root};
+                  size = {std::abs(x[0]) + 2 * std::abs(x[0] - p) + 8 * A};
+              }) == Status::ok);
+        double low = 0, high = 2;
+        for (int k = 0; k < 100; ++k) {
+            const double middle = (low + high) / 2, away = middle - 1;
+            (middle - p + A * away / std::sqrt(away * away + e * e) < 0 ? low : high) = middle;
+        }
+        CHECK(std::abs(z[0] - low) <= tolerance::roundoff(4));
+    }
+}
+
 TEST_CASE("What is easy takes as many evaluations as Newton's method has steps, and one")
 {
     CHECK(relativistic<double>(0.1L, 1).calls <= 6);

@@ -50,9 +50,9 @@ template <class S, std::size_t N, class Function>
 ///         - every row is a rounding error of its own terms, |F_i| <= 4 epsilon sum_j |dF_i/dz_j| |z_j| or 4 epsilon
 ///           size_i, zero included (the componentwise backward error [Oettli, Prager 1964]), or
 ///         - the step changes every unknown by a rounding error, |dz_k| <= 4 epsilon |z_k|, or
-///         - F is not computed to its last places, and only that error is left: |F_i| <= 16 epsilon size_i or
-///           sqrt(epsilon) sum_j |dF_i/dz_j| |z_j| in every row, a hundredth of F at the guess or less (in the metric
-///           of the Jacobian there), and a step of sqrt(epsilon) |z| or less.
+///         - F is not computed to its last places, and only that error is left: |F_i| <= 16 epsilon size_i in every row
+///           (sqrt(epsilon) sum_j |dF_i/dz_j| |z_j| where no size is answered), a hundredth of F at the guess or less
+///           (in the metric of the Jacobian there), and a step of sqrt(epsilon) |z| or less.
 template <class S, std::size_t N, class Function>
 [[nodiscard]] status_t<S> newton(std::array<S, N>& z, const Function& function) noexcept
 {

@@ -77,12 +77,13 @@ class DampedNewton {
             S terms(0);
             for (std::size_t j = 0; j < N; ++j) terms += abs(here_.jacobian[i * N + j]) * abs(z_[j]);
             terms = select(terms <= S(largest), terms, S(0));
-            const S sizes = select(here_.size[i] <= S(largest), here_.size[i], S(0));
+            const Mask measured = both<Mask>(here_.size[i] > S(0), here_.size[i] <= S(largest));
+            const S sizes = select(measured, here_.size[i], S(0));
             const S f = abs(here_.residual[i]);
             const S rounding = S(tight()) * select(terms <= sizes, sizes, terms);
-            const S near = S(sqrt(epsilon)) * terms, noise = S(Real(16) * epsilon) * sizes;
+            const S noise = select(measured, S(Real(16) * epsilon) * sizes, S(sqrt(epsilon)) * terms);
             rounding_ = rounding_ & (f <= rounding);
-            close_ = close_ & (f <= select(near <= noise, noise, near));
+            close_ = close_ & (f <= noise);
         }
         zero_ = largest_of(here_.residual) <= S(0);
         progressed_ = largest_of(first_.solve(here_.residual)) <= S(Real(0.01)) * most_;
