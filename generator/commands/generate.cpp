@@ -94,6 +94,8 @@ ExitCode run_generate(Arguments arguments)
     request.report = options.has("report");
     request.form = options.get("form");
     request.only = split_list(options.get("only"));
+    if (options.has("only") && request.only.empty())
+        throw UsageError("lagen generate: --only names no kernel (see lagen generate --help)");
     const std::string output = options.has("output") ? options.get("output") : "-";
     const Generated generated = generate(checked, request);
     if (request.report) write_standard_error(operations_text(generated.reports, full_report));

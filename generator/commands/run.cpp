@@ -34,7 +34,9 @@ const CommandSyntax run_syntax{
      {"step", "H", "step of a fixed-step method"},
      {"tolerance", "TOL", "relative and absolute tolerance of an adaptive method; without it the scene's, else 1e-10"},
      {"t-end", "T", "end of the run, backwards where it lies before the start; without it the scene's duration"},
-     {"at", "T1,T2,..", "rows at exactly these times; without --t-end the run goes on to the last of them"},
+     {"at", "T1,T2,..",
+      "rows at exactly these times; without --t-end the run ends with the scene's duration or the last of them, "
+      "whichever is later"},
      {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
      {"output,o", "FILE", "the rows as CSV"},
      {"plot", "FILE", "a picture (.svg, .png, .pdf)"},
@@ -174,6 +176,8 @@ ExitCode run_run(Arguments arguments)
                         method.name, model.name));
     if (method.adaptive && options.has("step"))
         write_standard_error(fmt::format("warning: --step is not used: {} chooses its steps itself\n", method.name));
+    if (!method.adaptive && options.has("tolerance"))
+        write_standard_error(fmt::format("warning: --tolerance is not used: the steps of {} are fixed\n", method.name));
     const SceneValues values = evaluate_scene(model, scene);
     GenerateRequest request;
     request.form = form;

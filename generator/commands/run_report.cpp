@@ -37,6 +37,17 @@ std::string row_text(std::string_view line)
     return list_text(fields(line), [](std::string_view field) { return number_text(field); });
 }
 
+/// Of a run that did not leave its start.
+const char* start_hint(const std::string& status)
+{
+    if (status == "non_finite")
+        return "hint: the right-hand side is no finite number at the start: the model is not defined there, or "
+               "overflows\n";
+    if (status == "singular_mass_matrix")
+        return "hint: the mass matrix has no inverse at the start: `lagen check` says where it has none\n";
+    return "";
+}
+
 } // namespace
 
 std::string report_json(const RunOutcome& outcome)
@@ -84,8 +95,8 @@ std::string report_text(const RunOutcome& outcome)
     for (const EventReport& event : outcome.events)
         text += fmt::format("  event {} at t = {}\n", event.name, brief(event.time, 15));
     const bool has_started = outcome.steps != "0" || outcome.status == "ok" || outcome.status == "stopped_by_event";
+    if (!has_started) return text + start_hint(outcome.status);
     for (const Drift& drift : outcome.invariants) {
-        if (!has_started) continue;
         if (!std::isfinite(std::strtod(drift.initial.c_str(), nullptr))) {
             text += fmt::format("  {}: no finite number at the start\n", drift.name);
             continue;

@@ -24,6 +24,9 @@ constexpr std::array foreign_symbols{
     Foreign{"PI", "the constant is written pi"},
     Foreign{"M_PI", "the constant is written pi"},
     Foreign{"e", "the exponential function is written exp(x)"},
+    Foreign{"inf", "infinity is no number: the open end of a control's bounds is \"-inf\" below and \"inf\" above"},
+    Foreign{"infinity",
+            "infinity is no number: the open end of a control's bounds is \"-inf\" below and \"inf\" above"},
 };
 
 /// What the model may use under a name of its own, where it may.
@@ -48,6 +51,9 @@ constexpr std::array foreign_functions{
     Foreign{"skew", "the skew matrix of a vector is written hat(x)"},
     Foreign{"inv", "an inverse is written inverse(A)"},
     Foreign{"coth", "this is written cosh(x)/sinh(x)"},
+    Foreign{"asinh", "this is written log(x + sqrt(x^2 + 1))"},
+    Foreign{"acosh", "this is written log(x + sqrt(x^2 - 1))"},
+    Foreign{"atanh", "this is written log((1 + x)/(1 - x))/2"},
 };
 
 /// "heading a, b, c", cut after twenty names.

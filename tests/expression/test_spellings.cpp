@@ -68,6 +68,11 @@ TEST_CASE("every name of another language is answered with this language's own")
         {"csc(w)", "this is written 1/sin(x)"},
         {"cot(w)", "this is written cos(x)/sin(x)"},
         {"coth(w)", "this is written cosh(x)/sinh(x)"},
+        {"asinh(w)", "this is written log(x + sqrt(x^2 + 1))"},
+        {"acosh(w)", "this is written log(x + sqrt(x^2 - 1))"},
+        {"atanh(w)", "this is written log((1 + x)/(1 - x))/2"},
+        {"inf", "infinity is no number: the open end of a control's bounds is \"-inf\" below and \"inf\" above"},
+        {"infinity", "infinity is no number: the open end of a control's bounds is \"-inf\" below and \"inf\" above"},
     };
     Scope scope;
     scope.declare("w", {});
