@@ -192,6 +192,10 @@ TEST_CASE("--method, --step and --tolerance win over the scene")
     const Outcome unused = call({"run", "oscillator.toml", "--step", "1", "--at", "1"});
     CHECK(unused.code == 0);
     CHECK_THAT(unused.err, Catch::StartsWith("warning: --step is not used: dop853 chooses its steps itself\n"));
+    const Outcome fixed =
+        call({"run", "oscillator.toml", "--method", "rk4", "--step", "1", "--tolerance", "1e-3", "--at", "1"});
+    CHECK(fixed.code == 0);
+    CHECK_THAT(fixed.err, Catch::StartsWith("warning: --tolerance is not used: the steps of rk4 are fixed\n"));
 }
 
 TEST_CASE("the energy of a Lagrangian that depends on t is reported as not conserved")
