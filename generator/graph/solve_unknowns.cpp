@@ -128,7 +128,9 @@ class UnknownSolver {
         const Scalar slack = epsilon * largest_entry(end.z);
         if (!(largest_entry(substitute(middle.matrix, rest)) <= largest_entry(second) / 4 + slack)) return false;
         const Scalar most = largest_entry(substitute(start_.matrix, start_.residual));
-        if (!(largest_entry(substitute(start_.matrix, rest)) <= part * most / 4)) return false;
+        // Near the path, or half as far from it as before.
+        const Scalar before = largest_entry(substitute(start_.matrix, off_path(at_, 1 - target + part)));
+        if (!(largest_entry(substitute(start_.matrix, rest)) <= std::max(part * most / 4, before / 2))) return false;
         at_ = std::move(end);
         return true;
     }

@@ -6,6 +6,7 @@
 #include "../support/tolerances.hpp"
 
 #include <cmath>
+#include <random>
 
 using namespace lagen;
 using namespace lagen::testing;
@@ -219,6 +220,32 @@ TEST_CASE("the velocity of a particle in a moving frame is found in every direct
         values_of(quadratic, "velocity", {{"t", 0}, {"x", 0}, {"y", 0}, {"p_v_x", 100}, {"p_v_y", 300}});
     CHECK(std::abs(v[0] - 0.31533) <= 5e-6);
     CHECK(std::abs(v[1] - 0.94898) <= 5e-6);
+}
+
+TEST_CASE("the velocity of a particle in a frame near the speed of light is found in every direction", "[kernels]")
+{
+    // From y = 0, where the speed is 0.92: beside a singularity that lies in the way of half the directions.
+    KernelRequest request;
+    request.form = "hamilton";
+    const KernelModule frame =
+        kernels_of(read_model_text("test.toml",
+                                   "name = \"frame\"\n[base]\ncoordinates = [\"x\", \"y\", \"z\"]\n[algebroid]\nkind = "
+                                   "\"tangent\"\n[lagrangian]\nL = "
+                                   "\"-1.3*sqrt(1 - (v_x + 0.6)^2 - (v_y - 0.7)^2 - v_z^2)\"\n"),
+                   request);
+    std::mt19937 dice(8);
+    std::normal_distribution<double> normal;
+    for (int k = 0; k < 300; ++k) {
+        const double size = std::pow(10, -3 + 6 * (k % 10) / 9.0);
+        const double p = size * normal(dice), q = size * normal(dice), r = size * normal(dice);
+        INFO(p << " " << q << " " << r);
+        const std::vector<double> v = values_of(
+            frame, "velocity", {{"t", 0}, {"x", 0}, {"y", 0}, {"z", 0}, {"p_v_x", p}, {"p_v_y", q}, {"p_v_z", r}});
+        const double energy = std::sqrt(1.3 * 1.3 + p * p + q * q + r * r);
+        CHECK(std::abs(v[0] - (p / energy - 0.6)) <= 1e-14);
+        CHECK(std::abs(v[1] - (q / energy + 0.7)) <= 1e-14);
+        CHECK(std::abs(v[2] - r / energy) <= 1e-14);
+    }
 }
 
 TEST_CASE("a Lagrangian whose momenta do not fix the velocities has no Hamiltonian form", "[kernels]")

@@ -209,6 +209,33 @@ TEST_CASE("Beside the speed of light, in a frame that moves, every direction is 
     for (const long double size : {1.0L, 1e4L}) check(0.0L, size);
 }
 
+TEST_CASE("Where the guess is near the speed of light every direction is found")
+{
+    // (p, q, r) = 1.3 gamma V with V = z + (0.6, -0.7, 0), from z = 0
+    std::mt19937 dice(8);
+    std::normal_distribution<double> normal;
+    for (int k = 0; k < 2000; ++k) {
+        const double all = std::pow(10, -4 + 8 * (k % 100) / 99.0);
+        const std::array<double, 3> p{all * normal(dice), all * normal(dice), all * normal(dice)}, w{0.6, -0.7, 0};
+        std::array<double, 3> z{};
+        const Status status = newton(z, [&](const std::array<double, 3>& at, std::array<double, 3>& F,
+                                            std::array<double, 9>& dF, std::array<double, 3>& size) noexcept {
+            const std::array<double, 3> V{at[0] + w[0], at[1] + w[1], at[2] + w[2]};
+            const double root = std::sqrt(1 - V[0] * V[0] - V[1] * V[1] - V[2] * V[2]), mass = 1.3 / root;
+            for (std::size_t i = 0; i < 3; ++i) {
+                F[i] = mass * V[i] - p[i];
+                size[i] = std::abs(mass * V[i]) * (4 + 8 / (root * root)) + std::abs(F[i]);
+                for (std::size_t j = 0; j < 3; ++j)
+                    dF[3 * i + j] = mass * ((i == j ? 1 : 0) + V[i] * V[j] / (root * root));
+            }
+        });
+        INFO(p[0] << " " << p[1] << " " << p[2]);
+        CHECK(status == Status::ok);
+        const double energy = std::sqrt(1.69 + p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+        for (std::size_t i = 0; i < 3; ++i) CHECK(std::abs(z[i] - (p[i] / energy - w[i])) <= 1e-14);
+    }
+}
+
 TEST_CASE("Sizes that are far too large cost the last places, and make no root of the guess")
 {
     for (const double p : {9.0, 30.0, 40.0}) {

@@ -81,7 +81,9 @@ class NewtonPath {
         const Mask again =
             largest_of(second_.solve(rest)) <=
             S(Real(0.25)) * largest_of(second_step) + S(std::numeric_limits<Real>::epsilon()) * largest_of(trial_);
-        const Mask near = largest_of(first_.solve(rest)) <= S(Real(0.25)) * part * most_;
+        // Into a tube about the path that is as wide as the part is long, or half as far from the path as before.
+        const S off = largest_of(first_.solve(rest)), off_here = largest_of(first_.solve(off_path(here_, s - part)));
+        const Mask near = either<Mask>(off <= S(Real(0.25)) * part * most_, off <= S(Real(0.5)) * off_here);
         return shorter & !singular & there_.is_finite() & again & near;
     }
 
