@@ -11,31 +11,6 @@ namespace {
 
 constexpr std::size_t most_roots = 3;
 
-/// Single-valued in the complex plane, where it is defined.
-bool is_single_valued(Op op)
-{
-    switch (op) {
-    case Op::constant:
-    case Op::pi:
-    case Op::input:
-    case Op::add:
-    case Op::subtract:
-    case Op::multiply:
-    case Op::divide:
-    case Op::negate:
-    case Op::power:
-    case Op::sin:
-    case Op::cos:
-    case Op::tan:
-    case Op::sinh:
-    case Op::cosh:
-    case Op::tanh:
-    case Op::exp:
-    case Op::stumpff: return true;
-    default: return false;
-    }
-}
-
 bool is_root(Op op)
 {
     return op == Op::sqrt || op == Op::abs;
@@ -58,7 +33,7 @@ class AlmostEverywhere {
             const Op op = graph_.op(node);
             if (is_root(op))
                 roots.push_back(node);
-            else if (!is_single_valued(op) && !(is_convex() && is_analytic(node)))
+            else if (!is_meromorphic(op) && !(is_convex() && is_analytic(node)))
                 return false;
         }
         if (roots.size() > most_roots) return false;
@@ -74,7 +49,7 @@ class AlmostEverywhere {
     bool all_analytic(const std::vector<NodeId>& functions)
     {
         return std::ranges::all_of(reachable(graph_, functions), [&](NodeId node) {
-            return is_single_valued(graph_.op(node)) || (is_convex() && is_analytic(node));
+            return is_meromorphic(graph_.op(node)) || (is_convex() && is_analytic(node));
         });
     }
 
@@ -140,7 +115,7 @@ class AlmostEverywhere {
                    on_domain_.proves_positive(graph_.subtract(graph_.constant(1), graph_.power(operands[0], 2)));
         case Op::atan: return true;
         case Op::tan: return false;
-        default: return is_single_valued(graph_.op(node));
+        default: return is_meromorphic(graph_.op(node));
         }
     }
 
@@ -151,6 +126,30 @@ class AlmostEverywhere {
 };
 
 } // namespace
+
+bool is_meromorphic(Op op)
+{
+    switch (op) {
+    case Op::constant:
+    case Op::pi:
+    case Op::input:
+    case Op::add:
+    case Op::subtract:
+    case Op::multiply:
+    case Op::divide:
+    case Op::negate:
+    case Op::power:
+    case Op::sin:
+    case Op::cos:
+    case Op::tan:
+    case Op::sinh:
+    case Op::cosh:
+    case Op::tanh:
+    case Op::exp:
+    case Op::stumpff: return true;
+    default: return false;
+    }
+}
 
 bool is_nonzero_almost_everywhere(Graph& graph, NodeId f, const ProofSetting& setting, const ZeroDecider& decider)
 {

@@ -8,6 +8,9 @@
 
 namespace lagen {
 
+/// Operations that are single-valued and analytic in the complex plane, but for poles.
+[[nodiscard]] bool is_meromorphic(Op op);
+
 /// Whether f is proved to be nonzero on a set whose complement has no inner points. Sums, products, quotients, powers
 /// and functions that are single-valued in the complex plane are analytic off the zeros of their divisors, which do not
 /// cut a complex neighbourhood in two. Of at most three roots and absolute values the product of f over all signs is

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The construction gone through again, from the innermost blocks out.
 #include "geometry/construction.hpp"
+
+#include "geometry/almost_everywhere.hpp"
 #include "geometry/build_workspace.hpp"
 #include "geometry/structure_equations.hpp"
 
@@ -9,31 +11,6 @@
 
 namespace lagen {
 namespace {
-
-/// Meromorphic operations of meromorphic operands.
-bool is_meromorphic(Op op)
-{
-    switch (op) {
-    case Op::constant:
-    case Op::pi:
-    case Op::input:
-    case Op::add:
-    case Op::subtract:
-    case Op::multiply:
-    case Op::divide:
-    case Op::negate:
-    case Op::power:
-    case Op::sin:
-    case Op::cos:
-    case Op::tan:
-    case Op::sinh:
-    case Op::cosh:
-    case Op::tanh:
-    case Op::exp:
-    case Op::stumpff: return true;
-    default: return false;
-    }
-}
 
 bool is_comparison(Op op)
 {

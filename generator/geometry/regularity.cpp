@@ -120,24 +120,11 @@ Shown show_by_minors(const ZeroDecider& decider, const std::vector<std::vector<N
 bool is_total(const Graph& graph, NodeId node)
 {
     switch (graph.op(node)) {
-    case Op::constant:
-    case Op::pi:
-    case Op::input:
-    case Op::add:
-    case Op::subtract:
-    case Op::multiply:
-    case Op::negate:
-    case Op::sin:
-    case Op::cos:
-    case Op::atan:
-    case Op::sinh:
-    case Op::cosh:
-    case Op::tanh:
-    case Op::exp:
-    case Op::stumpff: return true;
+    case Op::atan: return true;
+    case Op::tan: return false;
     case Op::power: return static_cast<std::int32_t>(graph.payload(node)) >= 0;
     case Op::divide: return graph.is_constant(graph.operands(node)[1]);
-    default: return false;
+    default: return is_meromorphic(graph.op(node));
     }
 }
 

@@ -225,14 +225,10 @@ TEST_CASE("the velocity of a particle in a moving frame is found in every direct
 TEST_CASE("the velocity of a particle in a frame near the speed of light is found in every direction", "[kernels]")
 {
     // From y = 0, where the speed is 0.92: beside a singularity that lies in the way of half the directions.
-    KernelRequest request;
-    request.form = "hamilton";
     const KernelModule frame =
-        kernels_of(read_model_text("test.toml",
-                                   "name = \"frame\"\n[base]\ncoordinates = [\"x\", \"y\", \"z\"]\n[algebroid]\nkind = "
-                                   "\"tangent\"\n[lagrangian]\nL = "
-                                   "\"-1.3*sqrt(1 - (v_x + 0.6)^2 - (v_y - 0.7)^2 - v_z^2)\"\n"),
-                   request);
+        module_of("name = \"frame\"\n[base]\ncoordinates = [\"x\", \"y\", \"z\"]\n[algebroid]\nkind = "
+                  "\"tangent\"\n[lagrangian]\nL = \"-1.3*sqrt(1 - (v_x + 0.6)^2 - (v_y - 0.7)^2 - v_z^2)\"\n",
+                  "hamilton");
     std::mt19937 dice(8);
     std::normal_distribution<double> normal;
     for (int k = 0; k < 300; ++k) {
