@@ -166,9 +166,14 @@ Fraction Elementary::root(const Fraction& argument, unsigned degree)
                                    : roots_.end();
             tower != roots_.end() && base[0].monomial.exponent(0) == 1 &&
             tower->second.degree * degree <= highest_degree) {
-            // (r^(1/p))^(e/q) = r^(e/(p q)), r >= 0
+            // w^(e/q) of a root w = r^(1/p) >= 0: whole powers of w, and of r^(1/(p q)) in lowest terms
             const Root inner = tower->second;
-            result = ring_.times(result, ring_.power(root_generator(inner.radicand, inner.degree * degree), exponent));
+            const int powers = floor_divide(exponent, q), left = exponent - powers * q, shared = std::gcd(left, q);
+            result = ring_.times(result, ring_.power(ring_.of(base), powers));
+            const auto reduced = static_cast<unsigned>(q / shared);
+            if (left > 0)
+                result = ring_.times(
+                    result, ring_.power(root_generator(inner.radicand, inner.degree * reduced), left / shared));
             continue;
         }
         int whole = floor_divide(exponent, q);

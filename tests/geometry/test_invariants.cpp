@@ -159,6 +159,8 @@ TEST_CASE("a Lagrangian that is not quadratic has its own mass matrix in each in
     const std::string relativistic = plane("-sqrt(1 - u^2 - v^2) - x^2/2");
     CHECK(statuses(relativistic, {"energy", "v/sqrt(1 - u^2 - v^2)", "1/sqrt(1 - u^2 - v^2) + x^2/2",
                                   "1/sqrt(1 - u^2 - v^2) - x^2/2", "v"}) == "proved proved proved refuted refuted");
+    CHECK(statuses(relativistic, {"sqrt(1 + p_u^2 + p_v^2) + x^2/2", "sqrt(1 + p_u^2 + p_v^2) - x^2/2"}) ==
+          "proved refuted");
     // W = diag(x, 1) is singular at x = 0: x u^2 is conserved wherever the accelerations exist.
     CHECK(statuses(plane("(x*u^2 + v^2)/2"), {"x*u^2", "x*u", "v"}) == "proved refuted proved");
     CHECK(statuses(plane("exp(k*t)*(u^2 - x^2)/2 + v^2/2"), {"p_u", "v", "energy"}) == "refuted proved refuted");

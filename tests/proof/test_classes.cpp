@@ -76,6 +76,8 @@ TEST_CASE("nested roots, powers of roots and roots of squares are proved")
                              "(x^2 + y^2)^(3/2)/(x^2 + y^2) - sqrt(x^2 + y^2)",
                              "(8*x)^(1/3) - 2*x^(1/3)",
                              "x^(1/3)*x^(1/6) - sqrt(x)",
+                             "sqrt(1/sqrt(x^2 + y^2)^2) - 1/sqrt(x^2 + y^2)",
+                             "(sqrt(x^2 + y^2)^4)^(1/6) - (x^2 + y^2)^(1/3)",
                              "(x^3)^(1/3) - x",
                              "(x^6)^(1/3) - x^2",
                              "(x^2)^(1/4) - sqrt(abs(x))",
