@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "geometry/almost_everywhere.hpp"
 
+#include "geometry/rational_matrix.hpp"
 #include "graph/differentiate.hpp"
 #include "graph/substitute.hpp"
 
@@ -28,6 +29,7 @@ class AlmostEverywhere {
     {
         const NodeId only[] = {f};
         const std::vector<NodeId> nodes = reachable(graph_, only);
+        if (!stands_on_irreducible(only)) return false;
         std::vector<NodeId> roots;
         for (const NodeId node : nodes) {
             const Op op = graph_.op(node);
@@ -48,9 +50,9 @@ class AlmostEverywhere {
 
     bool all_analytic(const std::vector<NodeId>& functions)
     {
-        return std::ranges::all_of(reachable(graph_, functions), [&](NodeId node) {
-            return is_meromorphic(graph_.op(node)) || (is_convex() && is_analytic(node));
-        });
+        return stands_on_irreducible(functions) && std::ranges::all_of(reachable(graph_, functions), [&](NodeId node) {
+                   return is_meromorphic(graph_.op(node)) || (is_convex() && is_analytic(node));
+               });
     }
 
   private:
@@ -59,6 +61,48 @@ class AlmostEverywhere {
     {
         setting.defined.clear();
         return setting;
+    }
+
+    /// The functions do not depend on what is constrained, or the constraints are level sets c + x^T A x / 2 = 0, A
+    /// regular and c not zero, of two variables or more each, of its own: smooth and irreducible over the complex
+    /// numbers. (x^2 = 1 or x y = 0 fall into parts.)
+    bool stands_on_irreducible(std::span<const NodeId> functions)
+    {
+        std::vector<NodeId> constrained;
+        bool irreducible = true;
+        for (const NodeId constraint : setting_.constraints) {
+            const NodeId only[] = {constraint};
+            const std::vector<NodeId> all = jacobian(graph_, only, setting_.variables).front();
+            std::vector<NodeId> x, slopes;
+            for (std::size_t k = 0; k < all.size(); ++k) {
+                if (graph_.is_zero(all[k])) continue;
+                irreducible = irreducible && std::ranges::find(constrained, setting_.variables[k]) == constrained.end();
+                x.push_back(setting_.variables[k]);
+                slopes.push_back(all[k]);
+            }
+            constrained.insert(constrained.end(), x.begin(), x.end());
+            irreducible = irreducible && is_regular_quadric(constraint, x, slopes);
+        }
+        return irreducible || !depends_on_any(graph_, functions, constrained);
+    }
+
+    bool is_regular_quadric(NodeId constraint, const std::vector<NodeId>& x, const std::vector<NodeId>& slopes)
+    {
+        std::vector<Rational> A;
+        for (const NodeId entry : joined_rows(jacobian(graph_, slopes, x))) {
+            if (!graph_.is_constant(entry)) return false;
+            A.push_back(graph_.value(entry));
+        }
+        std::vector<std::pair<NodeId, NodeId>> origin;
+        for (const NodeId variable : x) origin.emplace_back(variable, graph_.constant(0));
+        std::vector<NodeId> there = slopes;
+        there.push_back(constraint);
+        there = substitute(graph_, there, origin);
+        const NodeId level = there.back();
+        there.pop_back();
+        return x.size() >= 2 && rank_of(A, x.size()) == x.size() &&
+               std::ranges::all_of(there, [&](NodeId slope) { return graph_.is_zero(slope); }) &&
+               on_domain_.proves_nonzero(level);
     }
 
     /// f with the roots whose bit is set negated.
@@ -84,11 +128,12 @@ class AlmostEverywhere {
     /// The domain is given by affine inequalities alone.
     bool is_convex()
     {
-        return setting_.constraints.empty() && std::ranges::all_of(setting_.domain, [&](NodeId condition) {
-                   const std::vector<NodeId> sides(graph_.operands(condition).begin(),
-                                                   graph_.operands(condition).end());
-                   return graph_.op(condition) != Op::not_equal && is_affine(graph_.subtract(sides[0], sides[1]));
-               });
+        const auto is_half_space = [&](NodeId condition) {
+            if (graph_.is_constant(condition)) return true; // for the parameter values of the file
+            const std::vector<NodeId> sides(graph_.operands(condition).begin(), graph_.operands(condition).end());
+            return graph_.op(condition) != Op::not_equal && is_affine(graph_.subtract(sides[0], sides[1]));
+        };
+        return setting_.constraints.empty() && std::ranges::all_of(setting_.domain, is_half_space);
     }
 
     /// On the whole domain, or its part where affine operands are positive, which is convex too.

@@ -230,6 +230,22 @@ bool is_regular_almost_everywhere(Graph& graph, const FibreHessian& hessian, con
     });
 }
 
+/// The same where the parameters have the values of the file; true where these make something undefined.
+bool is_regular_for(Graph& graph, const FibreHessian& hessian, const ProofSetting& setting, const ProofBudget& budget,
+                    const Replacements& defaults)
+{
+    if (defaults.empty()) return true;
+    try {
+        const ProofSetting there = replaced(graph, setting, defaults);
+        FibreHessian at_defaults = hessian;
+        at_defaults.hessian = substitute(graph, hessian.hessian, defaults);
+        const ZeroDecider valued(graph, there, budget);
+        return is_regular_almost_everywhere(graph, at_defaults, there, valued);
+    } catch (const Error&) {
+        return true;
+    }
+}
+
 /// Of a W of full generic rank: where it is regular, and whether definite.
 void decide_everywhere(Regularity& result, Graph& graph, const FibreHessian& hessian, const ProofSetting& setting,
                        const ZeroDecider& decider, const Replacements& defaults)
@@ -309,12 +325,18 @@ Regularity decide_regularity(Graph& graph, const FibreHessian& hessian, const Pr
         return result;
     }
     decide_everywhere(result, graph, hessian, setting, decider, defaults);
-    if (result.kind == Regularity::Kind::generically_regular &&
-        !is_regular_almost_everywhere(graph, hessian, setting, decider)) {
+    if (result.kind != Regularity::Kind::generically_regular) return result;
+    const auto withdraw = [&](const char* where) {
         result.kind = Regularity::Kind::undecided;
-        result.evidence = "each block of W is regular at a point; that all are so almost everywhere is not shown";
+        result.evidence =
+            std::string("each block of W is regular at a point; that all are so almost everywhere is not shown") +
+            where;
         result.singular_where.clear();
-    }
+    };
+    if (!is_regular_almost_everywhere(graph, hessian, setting, decider))
+        withdraw("");
+    else if (!result.singular_everywhere && !is_regular_for(graph, hessian, setting, decider.budget(), defaults))
+        withdraw(" for the parameter values of the file");
     return result;
 }
 

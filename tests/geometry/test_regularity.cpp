@@ -71,6 +71,29 @@ TEST_CASE("a witness stands for almost all points of analytic functions alone")
     CHECK(regularity("log(x^2)*u^2 + v^2", "", "domain = [\"x != 0\"]\n").kind == Kind::undecided);
 }
 
+TEST_CASE("a witness on one part of the constraint set does not stand for the others")
+{
+    const auto constrained = [](const char* L, const char* constraint) {
+        return regularity(L, "", std::string("constraints = [\"") + constraint + "\"]\n").kind;
+    };
+    for (const char* parts : {"x^2 - 1", "x*y", "x^2 - y^2", "(x - 1)*y - 1", "x^2 - y^3"}) {
+        INFO(parts);
+        CHECK(constrained("(x - 1)*u^2/2 + v^2/2", parts) == Kind::undecided);
+        CHECK(constrained("u*u^2 + v^2", parts) == Kind::generically_regular);
+    }
+    for (const char* quadric : {"x^2 + y^2 - 1", "x^2 - 2*y^2 - 3"}) {
+        INFO(quadric);
+        CHECK(constrained("(x - 1)*u^2/2 + v^2/2", quadric) == Kind::generically_regular);
+    }
+    // Regular for almost all a, and for none of the points x < 0 with the value of the file.
+    const Regularity given = regularity("(a*x + abs(x))*u^2/2 + v^2/2", "a = 1\n");
+    CHECK(given.kind == Kind::undecided);
+    CHECK(given.evidence ==
+          "each block of W is regular at a point; that all are so almost everywhere is not shown for the "
+          "parameter values of the file");
+    CHECK(regularity("(a*x + abs(x))*u^2/2 + v^2/2", "a = 2\n").kind == Kind::generically_regular);
+}
+
 TEST_CASE("a mass matrix that is singular for the values of the file alone says so")
 {
     const Regularity absent = regularity("(m*u^2 + v^2)/2", "m = 0\n");
