@@ -18,15 +18,17 @@ struct Foreign {
     const char* hint;
 };
 
+constexpr const char* infinity_hint =
+    "infinity is no number: the open end of a control's bounds is \"-inf\" below and \"inf\" above";
+
 constexpr std::array foreign_symbols{
     Foreign{"π", "the constant is written pi"},
     Foreign{"Pi", "the constant is written pi"},
     Foreign{"PI", "the constant is written pi"},
     Foreign{"M_PI", "the constant is written pi"},
     Foreign{"e", "the exponential function is written exp(x)"},
-    Foreign{"inf", "infinity is no number: the open end of a control's bounds is \"-inf\" below and \"inf\" above"},
-    Foreign{"infinity",
-            "infinity is no number: the open end of a control's bounds is \"-inf\" below and \"inf\" above"},
+    Foreign{"inf", infinity_hint},
+    Foreign{"infinity", infinity_hint},
 };
 
 /// What the model may use under a name of its own, where it may.

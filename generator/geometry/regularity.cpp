@@ -198,18 +198,31 @@ bool add_ranks(Graph& graph, const FibreHessian& hessian, const ZeroDecider& dec
     return true;
 }
 
+/// W, and what holds, where the parameters have the values of the file. Throws where these make something undefined.
+struct AtDefaults {
+    ProofSetting setting;
+    FibreHessian hessian;
+    ZeroDecider decider;
+
+    AtDefaults(Graph& graph, const FibreHessian& general, const ProofSetting& all, const ProofBudget& budget,
+               const Replacements& defaults)
+        : setting(replaced(graph, all, defaults)), hessian(general), decider(graph, setting, budget)
+    {
+        const NodeId lagrangian[] = {general.lagrangian};
+        hessian.lagrangian = substitute(graph, lagrangian, defaults)[0];
+        hessian.hessian = substitute(graph, general.hessian, defaults);
+    }
+};
+
 /// Definite by squares where the parameters have the values of the file.
 bool is_definite_for(Graph& graph, const FibreHessian& hessian, const ProofSetting& setting, const ProofBudget& budget,
                      const Replacements& defaults)
 {
     if (defaults.empty()) return false;
     try {
-        const ProofSetting there = replaced(graph, setting, defaults);
-        FibreHessian at_defaults = hessian;
-        const NodeId lagrangian[] = {hessian.lagrangian};
-        at_defaults.lagrangian = substitute(graph, lagrangian, defaults)[0];
-        const ZeroDecider decider(graph, there, budget);
-        return proves_definite_by_squares(graph, at_defaults, decider) && decider.sample_point().has_value();
+        const AtDefaults there(graph, hessian, setting, budget, defaults);
+        return proves_definite_by_squares(graph, there.hessian, there.decider) &&
+               there.decider.sample_point().has_value();
     } catch (const Error&) {
         return false; // the values of the file make something undefined
     }
@@ -236,11 +249,8 @@ bool is_regular_for(Graph& graph, const FibreHessian& hessian, const ProofSettin
 {
     if (defaults.empty()) return true;
     try {
-        const ProofSetting there = replaced(graph, setting, defaults);
-        FibreHessian at_defaults = hessian;
-        at_defaults.hessian = substitute(graph, hessian.hessian, defaults);
-        const ZeroDecider valued(graph, there, budget);
-        return is_regular_almost_everywhere(graph, at_defaults, there, valued);
+        const AtDefaults there(graph, hessian, setting, budget, defaults);
+        return is_regular_almost_everywhere(graph, there.hessian, there.setting, there.decider);
     } catch (const Error&) {
         return true;
     }
@@ -266,19 +276,17 @@ void decide_everywhere(Regularity& result, Graph& graph, const FibreHessian& hes
         return;
     }
     try {
-        const ProofSetting there = replaced(graph, setting, defaults);
-        FibreHessian at_defaults = hessian;
-        at_defaults.hessian = substitute(graph, hessian.hessian, defaults);
-        const ZeroDecider valued(graph, there, decider.budget());
-        const Shown given = is_definite_for(graph, hessian, setting, decider.budget(), defaults)
-                                ? Shown{}
-                                : show(graph, at_defaults, there, valued, leading_minors(graph, at_defaults));
+        const AtDefaults there(graph, hessian, setting, decider.budget(), defaults);
+        const Shown given =
+            is_definite_for(graph, hessian, setting, decider.budget(), defaults)
+                ? Shown{}
+                : show(graph, there.hessian, there.setting, there.decider, leading_minors(graph, there.hessian));
         result.for_given_parameters = given.positive_definite || (given.regular && !shown.regular);
         result.positive_definite = given.positive_definite;
         if (given.regular || shown.regular)
             result.kind = Regularity::Kind::regular;
         else
-            describe_singular(result, graph, setting, valued, there, defaults, minors);
+            describe_singular(result, graph, setting, there.decider, there.setting, defaults, minors);
     } catch (const Error&) {
         // The values of the file make something undefined: the claim for all parameters stands alone.
         if (shown.regular) result.kind = Regularity::Kind::regular;

@@ -31,9 +31,9 @@ class BracketSolver {
     void run()
     {
         const std::optional<Scalar> lower = end(block_.bracket->lower[k_]), upper = end(block_.bracket->upper[k_]);
-        const std::optional<Sample> at_lower = known_at(lower), at_upper = lower == upper ? at_lower : known_at(upper);
-        if (at_lower && at_lower->slope <= 0) return take(*lower);
-        if (at_upper && at_upper->slope >= 0) return take(*upper);
+        const std::optional<Scalar> at_lower = known_at(lower), at_upper = lower == upper ? at_lower : known_at(upper);
+        if (at_lower && *at_lower <= 0) return take(*lower);
+        if (at_upper && *at_upper >= 0) return take(*upper);
         const Scalar nearest = std::min(std::max(Scalar(0), lower.value_or(0)), upper.value_or(infinite));
         const Scalar start = at_lower ? *lower : at_upper ? *upper : nearest;
         Scalar low = start, high = at_upper ? *upper : start;
@@ -64,11 +64,12 @@ class BracketSolver {
         return {values[0], !std::isnan(values[0]) && (std::isfinite(values[1]) || std::isinf(values[0]))};
     }
 
-    std::optional<Sample> known_at(const std::optional<Scalar>& end)
+    /// F at an end that is finite, where it is known.
+    std::optional<Scalar> known_at(const std::optional<Scalar>& end)
     {
         if (!end || std::isinf(*end)) return std::nullopt;
         const Sample there = sample(*end);
-        return there.known ? std::optional<Sample>(there) : std::nullopt;
+        return there.known ? std::optional<Scalar>(there.slope) : std::nullopt;
     }
 
     void take(Scalar z) { z_ = z; }

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <type_traits>
 
 namespace lagen {
 
@@ -139,13 +138,7 @@ class Brackets {
     [[nodiscard]] const Mask& failed() const noexcept { return failed_; }
 
   private:
-    void evaluate() noexcept
-    {
-        if constexpr (std::is_invocable_v<const Function&, const Unknowns&, Unknowns&, Unknowns&, Unknowns&>)
-            function_(z_, residual_, derivative_, size_);
-        else
-            function_(z_, residual_, derivative_);
-    }
+    void evaluate() noexcept { call_with_sizes(function_, z_, residual_, derivative_, size_); }
 
     /// Whether F_i has the sign that was computed: its terms have not overflowed, or it has itself.
     [[nodiscard]] Mask is_known(std::size_t i) const noexcept

@@ -49,6 +49,18 @@ template <class S, std::size_t N>
     return largest;
 }
 
+/// F and its derivatives at z; the sizes of its terms where the function answers them, else they stay.
+template <class S, std::size_t N, std::size_t M, class Function>
+void call_with_sizes(const Function& function, const std::array<S, N>& z, std::array<S, N>& residual,
+                     std::array<S, M>& derivative, std::array<S, N>& size) noexcept
+{
+    if constexpr (std::is_invocable_v<const Function&, const std::array<S, N>&, std::array<S, N>&, std::array<S, M>&,
+                                      std::array<S, N>&>)
+        function(z, residual, derivative, size);
+    else
+        function(z, residual, derivative);
+}
+
 /// F, its Jacobian and the sizes of its terms, 0 where the function does not answer them.
 template <class S, std::size_t N>
 struct NewtonValues {
@@ -58,11 +70,7 @@ struct NewtonValues {
     template <class Function>
     void evaluate(const Function& function, const std::array<S, N>& z) noexcept
     {
-        if constexpr (std::is_invocable_v<const Function&, const std::array<S, N>&, std::array<S, N>&,
-                                          std::array<S, N * N>&, std::array<S, N>&>)
-            function(z, residual, jacobian, size);
-        else
-            function(z, residual, jacobian);
+        call_with_sizes(function, z, residual, jacobian, size);
     }
 
     /// Those of `other` where the mask holds.
