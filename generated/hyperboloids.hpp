@@ -157,7 +157,7 @@ class hyperboloids {
         const S w6 = z * z;
         const S w7 = w1 + S(2) * w2;
         const S w8 = c * x + (w5 + m * ((w2 * (w6 + S(3) * w2) + w1 * (w6 + S(3) * w7)) * (b * b) - w3 * (a * a)));
-        ds[4] = (w5 - z * w8) / (m * (w1 * (w7 + w6) + w2 * (w2 + w6)));
+        ds[4] = (w5 - z * w8) / (m * (w1 * (w6 + w7) + w2 * (w2 + w6)));
         return StatusOf<S>::good();
     }
 
@@ -278,7 +278,7 @@ class hyperboloids {
         const S w3 = x * x;
         const S w4 = w3 + S(2) * w1;
         const S w5 = w1 * (w2 + S(3) * w1) + w3 * (w2 + S(3) * w4);
-        const S w6 = w4 + w2;
+        const S w6 = w2 + w4;
         const S m = parameters.m;
         const S k = parameters.k;
         const S c = parameters.c;

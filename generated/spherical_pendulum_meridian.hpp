@@ -146,7 +146,7 @@ class spherical_pendulum_meridian {
         const S w4 = w3 * a;
         ds[3] = -S(2) * w4 * w0 / w3;
         const S w5 = z * z;
-        const S w6 = w1 * (w1 + S(2) * w2 + w5) + w2 * (w2 + w5);
+        const S w6 = w1 * (w5 + (w1 + S(2) * w2)) + w2 * (w2 + w5);
         const S g = parameters.g;
         ds[4] = (g * w3 + z * (a * w4 - w6 * (b * b))) / w6;
         return StatusOf<S>::good();
@@ -193,11 +193,11 @@ class spherical_pendulum_meridian {
         const S a = s[3];
         const S b = s[4];
         const S w0 = x * x;
-        const S w1 = y * y;
-        const S w2 = z * z;
+        const S w1 = z * z;
+        const S w2 = y * y;
         const S m = parameters.m;
         const S g = parameters.g;
-        const S w3 = (w0 * (w0 + S(2) * w1 + w2) + w1 * (w1 + w2)) * (b * b) + ((w0 + w1) * (a * a) + S(2) * g * z);
+        const S w3 = (w0 * (w1 + (w0 + S(2) * w2)) + w2 * (w2 + w1)) * (b * b) + ((w0 + w2) * (a * a) + S(2) * g * z);
         return S(0.5) * m * w3;
     }
 
@@ -210,11 +210,11 @@ class spherical_pendulum_meridian {
         const S a = s[3];
         const S b = s[4];
         const S w0 = x * x;
-        const S w1 = y * y;
-        const S w2 = z * z;
+        const S w1 = z * z;
+        const S w2 = y * y;
         const S m = parameters.m;
         const S g = parameters.g;
-        const S w3 = (w0 * (w0 + S(2) * w1 + w2) + w1 * (w1 + w2)) * (b * b) + (w0 + w1) * (a * a) - S(2) * g * z;
+        const S w3 = (w0 * (w1 + (w0 + S(2) * w2)) + w2 * (w2 + w1)) * (b * b) + (w0 + w2) * (a * a) - S(2) * g * z;
         return S(0.5) * m * w3;
     }
 
@@ -261,12 +261,12 @@ class spherical_pendulum_meridian {
         values[6] = w0;
         values[8] = x;
         const S w1 = x * x;
-        const S w2 = y * y;
-        const S w3 = w1 + S(2) * w2;
-        const S w4 = z * z;
-        const S w5 = w1 * (w3 + w4) + w2 * (w2 + w4);
+        const S w2 = z * z;
+        const S w3 = y * y;
+        const S w4 = w1 + S(2) * w3;
+        const S w5 = w1 * (w2 + w4) + w3 * (w3 + w2);
         values[22] = -S(2) * w5 * w0 / w5;
-        const S w6 = w1 + w2;
+        const S w6 = w1 + w3;
         values[5] = a;
         const S w7 = w6 * a;
         const S w8 = S(2) * z;
@@ -278,12 +278,12 @@ class spherical_pendulum_meridian {
         const S w12 = (g * w6 + z * (a * w7 - w5 * w11)) / w5;
         const S w13 = y * b;
         values[7] = w13;
-        const S w14 = w1 * (w10 - w8 * w12 - (w3 + S(3) * w4) * w11) - w2 * (w13 * w13 + z * (S(3) * b * w0 + S(2) *
+        const S w14 = w1 * (w10 - w8 * w12 - (w4 + S(3) * w2) * w11) - w3 * (w13 * w13 + z * (S(3) * b * w0 + S(2) *
                 w12) - w10);
         values[20] = w14 / w5;
         const S w15 = S(2) * y;
         const S w16 = S(2) * w6;
-        const S w17 = g - z * ((w16 + w4) * w11 + z * w12 - w10) - w16 * w12;
+        const S w17 = g - z * ((w2 + w16) * w11 + z * w12 - w10) - w16 * w12;
         values[19] = w15 * w17 / w5;
         const S w18 = S(2) * x;
         values[18] = w18 * w17 / w5;

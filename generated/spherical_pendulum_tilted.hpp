@@ -147,7 +147,7 @@ class spherical_pendulum_tilted {
         const S w2 = y * b;
         ds[2] = -(x * a + w2);
         const S w3 = z * z;
-        const S w4 = w3 + x * x;
+        const S w4 = x * x + w3;
         const S w5 = x * y;
         const S w6 = y * y + w3;
         const S det0 = w4 * w6 - w5 * w5;
@@ -173,7 +173,7 @@ class spherical_pendulum_tilted {
         const S z = s[2];
         const S w0 = z * z;
         const S m = parameters.m;
-        result(0, 0) = m * (w0 + x * x);
+        result(0, 0) = m * (x * x + w0);
         const S w1 = m * x * y;
         result(0, 1) = w1;
         result(1, 0) = w1;
@@ -273,7 +273,7 @@ class spherical_pendulum_tilted {
         values[6] = -x;
         values[7] = -y;
         const S w0 = z * z;
-        const S w1 = w0 + x * x;
+        const S w1 = x * x + w0;
         const S w2 = x * y;
         const S w3 = y * y + w0;
         const S det0 = w1 * w3 - w2 * w2;

@@ -307,7 +307,7 @@ class wong {
         const S w17 = x * w8 * w7 - b * (S(1) + x * w5);
         values[12] = -w17 * u;
         const S w18 = a - w5;
-        const S w19 = b * b * x + w18;
+        const S w19 = w18 + b * b * x;
         values[11] = w19 * u;
         const S w20 = S(2) * q3;
         const S w21 = b * w6;

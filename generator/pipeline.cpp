@@ -4,10 +4,10 @@
 #include "content_hash.hpp"
 #include "emit/print_equations.hpp"
 #include "emit/print_header.hpp"
-#include "geometry/control_maximum.hpp"
 #include "graph/lower.hpp"
 #include "graph/simplify.hpp"
 #include "model/scene_form.hpp"
+#include "verify/control_maximum.hpp"
 
 #include <fmt/core.h>
 
@@ -39,23 +39,21 @@ std::vector<std::string> lines_of(const std::string& text)
 /// Terms of L or H, multiplied out: equations made of more take longer than all kernels, and nobody reads them.
 constexpr std::size_t most_readable_terms = 1'500;
 
-bool is_readable(const Model& model)
+bool is_readable(const System& system)
 {
-    Graph graph;
-    Lowering lower(graph);
-    return std::ranges::all_of(std::vector{model.lagrangian, model.hamiltonian}, [&](const Tree& tree) {
-        return !tree || expanded_terms(graph, lower(tree), most_readable_terms) < most_readable_terms;
+    return std::ranges::all_of(std::vector{system.lagrangian, system.hamiltonian}, [&](std::optional<NodeId> function) {
+        return !function || expanded_terms(system.graph, *function, most_readable_terms) < most_readable_terms;
     });
 }
 
 /// For the head of the header; equations that are too long for a person do not keep a machine from its kernels.
 std::vector<std::string> readable_equations(const CheckedModel& checked, const std::string& form)
 {
-    if (!is_readable(checked.model))
+    if (!is_readable(checked.system))
         return {fmt::format("The equations are too long to be written out here: lagen derive {} prints them.",
                             std::filesystem::path(checked.model.file->name).filename().string())};
     try {
-        return lines_of(print_text(derive(form, checked.model, checked.verified)));
+        return lines_of(print_text(derive(form, checked.model, checked.system, checked.report)));
     } catch (const MathematicsError& error) {
         std::string reason = lines_of(error.what()).front();
         if (reason.starts_with("error: ")) reason.erase(0, 7);
@@ -65,7 +63,7 @@ std::vector<std::string> readable_equations(const CheckedModel& checked, const s
 
 /// The first check with this status, as "anchor (w1, w2, g3), residual 2*g3"; of the maximum of H more is said
 /// elsewhere.
-std::string first_with(const VerifiedAlgebroid& verified, ProofStatus status)
+std::string first_with(const Report& verified, ProofStatus status)
 {
     for (const Check& check : verified.checks)
         if (check.decision.status == status && check.name != "maximum")
@@ -110,7 +108,7 @@ std::string regenerate_command(const CheckedModel& checked, const GenerateReques
     for (const std::string& kernel : request.only) only += (only.empty() ? "" : ",") + kernel;
     if (kernels_form != default_form(checked.model)) command += " --form " + kernels_form;
     if (!only.empty()) command += " --only " + shell_word(only);
-    if (checked.unchecked && checked.verified.verdict == Verdict::invalid) command += " --unchecked";
+    if (checked.unchecked && checked.report.verdict == Verdict::invalid) command += " --unchecked";
     const std::string output = std::filesystem::path(request.output).filename().string();
     return fmt::format("{} -o {}", command, shell_word(output.empty() ? name + ".hpp" : output));
 }
@@ -131,11 +129,12 @@ CheckedModel load(const std::string& path, const std::vector<Setting>& settings,
     checked.model = read_model(path, settings);
     checked.settings = settings;
     checked.unchecked = unchecked;
-    checked.verified = verify(checked.model);
-    const VerifiedAlgebroid& verified = checked.verified;
+    checked.system = elaborate(checked.model);
+    checked.report = verify(checked.system);
+    const Report& verified = checked.report;
     if (verified.verdict == Verdict::invalid) {
         const std::string what = first_with(verified, ProofStatus::refuted);
-        if (!unchecked && what.empty()) require_maximum(checked.model, verified.maximum);
+        if (!unchecked && what.empty()) require_maximum(checked.model.name, verified.maximum);
         if (!unchecked) {
             throw MathematicsError(fmt::format(
                 "error: model '{}' is refuted: {}\nhint: see `lagen check {}`; --unchecked goes on all the same",
@@ -161,7 +160,7 @@ Generated generate(const CheckedModel& checked, const GenerateRequest& request)
     kernels.scene = request.scene;
     Generated generated;
     if (request.report) kernels.reports = &generated.reports;
-    generated.module = form_kernels(model, checked.verified, kernels);
+    generated.module = form_kernels(model, checked.system, checked.report, kernels);
     KernelModule& module = generated.module;
     module.hash = hash_of(checked);
     module.regenerate = regenerate_command(checked, request, kernels.form,

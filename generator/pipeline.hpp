@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The whole story in one place; pipeline.cpp is the only file besides the commands that knows every stage.
 ///
-///   model file --read_model--> Model --verify--> VerifiedAlgebroid
-///                                     --derive--> EquationSet --print_text/latex/json--> what a person reads
-///                                     --form_kernels-----> KernelModule --print_header--> header --> runtime
+///   model file --read_model--> Model --elaborate--> System --verify--> Report (--advise--> with hints)
+///                                     --derive------> EquationSet --print_text/latex/json--> what a person reads
+///                                     --form_kernels--> KernelModule --print_header--> header --> runtime
 #pragma once
 
+#include "elaborate/elaborate.hpp"
 #include "equations/derive.hpp"
-#include "geometry/verify.hpp"
 #include "graph/kernel.hpp"
 #include "kernels/form_kernels.hpp"
 #include "model/read_model.hpp"
+#include "verify/verify.hpp"
 
 namespace lagen {
 
 /// A model with its verdict, as every command but `check` needs it.
 struct CheckedModel {
     Model model;
-    VerifiedAlgebroid verified;
+    System system;
+    Report report;
     std::vector<std::string> warnings; ///< undecided, or refuted but asked to go on
     std::vector<Setting> settings;     ///< what the command line changed
     bool unchecked = false;            ///< a refuted model was to go on

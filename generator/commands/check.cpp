@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// `lagen check`: decides every claim of the models named.
+#include "advice/advise.hpp"
 #include "commands/command.hpp"
 #include "commands/options.hpp"
 #include "commands/places.hpp"
 #include "commands/report_check.hpp"
 #include "commands/write_file.hpp"
+#include "elaborate/elaborate.hpp"
 #include "expression/parse.hpp"
 
 #include <fmt/core.h>
@@ -54,7 +56,9 @@ ExitCode check_one(const std::string& path, const Options& options, std::string&
     try {
         const Model model = read_model(model_path(path), options.settings());
         const std::size_t points = options.has("verify") ? reevaluation_points : 0;
-        const VerifiedAlgebroid verified = verify(model, extra_invariants(options, model), points);
+        const System system = elaborate(model);
+        Report verified = verify(system, extra_invariants(options, model), points);
+        advise(system, verified);
         if (verified.maximum.kind == ControlMaximum::Kind::stationary)
             write_standard_error(fmt::format("warning: {}\n", stationary_controls));
         if (json != nullptr) {

@@ -45,7 +45,7 @@ std::string indices_text(const Check& check)
 }
 
 /// The names of checks in order of first appearance.
-std::vector<std::string> kinds_of(const VerifiedAlgebroid& verified)
+std::vector<std::string> kinds_of(const Report& verified)
 {
     std::vector<std::string> kinds;
     for (const Check& check : verified.checks) {
@@ -57,7 +57,7 @@ std::vector<std::string> kinds_of(const VerifiedAlgebroid& verified)
 }
 
 /// How many checks of a kind (of every kind: "") have each status.
-std::array<std::size_t, 3> counts_of(const VerifiedAlgebroid& verified, const std::string& kind)
+std::array<std::size_t, 3> counts_of(const Report& verified, const std::string& kind)
 {
     std::array<std::size_t, 3> counts{};
     for (const Check& check : verified.checks)
@@ -76,7 +76,7 @@ std::string counts_text(const std::array<std::size_t, 3>& counts)
 }
 
 /// "24 equations zero by structure, 12 proved"
-std::string summary_text(const VerifiedAlgebroid& verified)
+std::string summary_text(const Report& verified)
 {
     const std::string counts = counts_text(counts_of(verified, ""));
     const std::string trivial = verified.trivial == 0 ? ""
@@ -87,6 +87,14 @@ std::string summary_text(const VerifiedAlgebroid& verified)
 }
 
 /// What should vanish, in sections by name; empty for kinds whose name says it.
+/// "a,b" of (A, a, b); "value" of a function.
+std::string component_of(const Check& check)
+{
+    std::string text;
+    for (std::size_t k = 1; k < check.indices.size(); ++k) text += (k == 1 ? "" : ",") + check.indices[k];
+    return text.empty() ? "value" : text;
+}
+
 std::string equation_text(const Check& check)
 {
     const std::vector<std::string>& k = check.indices;
@@ -100,6 +108,9 @@ std::string equation_text(const Check& check)
     if (check.name == "tangency" && k.size() == 2)
         return fmt::format("rho({}) of the constraint {}, on the constraints", k[0], k[1]);
     if (check.name == "casimir" && k.size() == 2) return fmt::format("rho({}) of {}", k[0], k[1]);
+    if (check.name == "closed" && !k.empty()) return fmt::format("component {} of d({})", component_of(check), k[0]);
+    if (check.name == "equals" && !k.empty())
+        return fmt::format("component {} of {} less what it is said to equal", component_of(check), k[0]);
     if (check.name == "legendre") return "H at mu = dL/dy less y dL/dy - L";
     if (check.name == "maximum") return "H = mu_a sigma^a - cost is largest at the controls of Pontryagin's equations";
     if (check.name == "invariant" && k.size() == 1)
@@ -121,7 +132,7 @@ std::string failure_text(const Check& check, bool with_hint)
 }
 
 /// Checks with a status, a hint only where it first occurs.
-std::string failures_text(const VerifiedAlgebroid& verified, ProofStatus status)
+std::string failures_text(const Report& verified, ProofStatus status)
 {
     constexpr std::size_t most = 20;
     std::string text;
@@ -136,7 +147,7 @@ std::string failures_text(const VerifiedAlgebroid& verified, ProofStatus status)
 }
 
 /// "5 points, 60 digits: every proved residual is at most 3e-71"
-std::string confirmed_text(const VerifiedAlgebroid& verified, const Reevaluation& reevaluation)
+std::string confirmed_text(const Report& verified, const Reevaluation& reevaluation)
 {
     std::size_t count = 0;
     for (const Check& check : verified.checks)
@@ -180,6 +191,12 @@ std::string regularity_text(const Regularity& regularity)
     return text;
 }
 
+const char* closed_text(ProofStatus closed)
+{
+    if (closed == ProofStatus::undecided) return "not decided whether closed";
+    return closed == ProofStatus::proved ? "closed" : "not closed";
+}
+
 void point_json(JsonWriter& json, const Point& point)
 {
     json.begin_object();
@@ -213,11 +230,13 @@ void check_json(JsonWriter& json, const Check& check)
 
 } // namespace
 
-std::string report_text(const std::string& model, const VerifiedAlgebroid& verified)
+std::string report_text(const std::string& model, const Report& verified)
 {
     std::string text = fmt::format("{}: {}\n{}", model, to_text(verified.verdict), summary_text(verified));
     for (const std::string& kind : kinds_of(verified))
         text += fmt::format("  {:<16}{}\n", kind, counts_text(counts_of(verified, kind)));
+    for (const FormReport& form : verified.forms)
+        text += fmt::format("  {:<16}degree {}, {}\n", "form " + form.name, form.degree, closed_text(form.closed));
     text += regularity_text(verified.regularity);
     if (const auto& again = verified.reevaluation)
         text += fmt::format("  {:<16}{}\n", "re-evaluated", confirmed_text(verified, *again));
@@ -225,12 +244,25 @@ std::string report_text(const std::string& model, const VerifiedAlgebroid& verif
     return text + failures_text(verified, ProofStatus::refuted) + failures_text(verified, ProofStatus::undecided);
 }
 
-void report_json(JsonWriter& json, const std::string& model, const VerifiedAlgebroid& verified)
+void report_json(JsonWriter& json, const std::string& model, const Report& verified)
 {
     json.begin_object().key("model").value(model).key("verdict").value(to_text(verified.verdict));
     json.key("trivial").value(verified.trivial).key("checks").begin_array();
     for (const Check& check : verified.checks) check_json(json, check);
     json.end_array();
+    if (!verified.forms.empty()) {
+        json.key("forms").begin_array();
+        for (const FormReport& form : verified.forms)
+            json.begin_object()
+                .key("name")
+                .value(form.name)
+                .key("degree")
+                .value(form.degree)
+                .key("closed")
+                .value(to_text(form.closed))
+                .end_object();
+        json.end_array();
+    }
     const Regularity& regularity = verified.regularity;
     json.key("regularity").begin_object().key("status").value(kind_text(regularity.kind));
     json.key("rank");

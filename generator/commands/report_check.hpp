@@ -3,15 +3,15 @@
 #pragma once
 
 #include "emit/json.hpp"
-#include "geometry/verify.hpp"
+#include "verify/verify.hpp"
 
 namespace lagen {
 
 /// Text: verdict, counts in all and a kind of check, regularity, re-evaluation; then what is not proved (the first 20
 /// of each status) with its residual, witness and value, or evidence, and each hint once.
-[[nodiscard]] std::string report_text(const std::string& model, const VerifiedAlgebroid& verified);
+[[nodiscard]] std::string report_text(const std::string& model, const Report& verified);
 
 /// {"model", "verdict", "trivial", "checks": [...], "regularity": {...}} into `json`.
-void report_json(JsonWriter& json, const std::string& model, const VerifiedAlgebroid& verified);
+void report_json(JsonWriter& json, const std::string& model, const Report& verified);
 
 } // namespace lagen

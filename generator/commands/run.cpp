@@ -128,7 +128,7 @@ std::string unit_of(const Model& model, const std::string& name)
     return "";
 }
 
-std::vector<Panel> panels_of(const std::vector<Column>& columns, const Model& model, const char* lanes)
+std::vector<Panel> panels_of(const std::vector<TableColumn>& columns, const Model& model, const char* lanes)
 {
     const std::size_t base_lanes = model.base.coordinates.size();
     std::vector<Panel> panels{{"base coordinates", {}}, {lanes, {}}, {"controls", {}}, {"observables", {}}};
@@ -194,7 +194,7 @@ ExitCode run_run(Arguments arguments)
     outcome.method = method.name;
     outcome.energy_changes = has_kernel(generated.module, "power");
     outcome.table.columns = {"t"};
-    for (const Column& column : input.columns) outcome.table.columns.push_back(column.name);
+    for (const TableColumn& column : input.columns) outcome.table.columns.push_back(column.name);
     integrate_scene(compiled.program, input, outcome);
     if (options.has("output")) write_file(options.get("output"), to_csv(outcome.table));
     if (options.has("plot"))

@@ -44,10 +44,10 @@ std::string events_of(const std::vector<Event>& events)
     return text;
 }
 
-std::string columns_text(const std::vector<Column>& columns)
+std::string columns_text(const std::vector<TableColumn>& columns)
 {
     std::string text;
-    for (const Column& column : columns)
+    for (const TableColumn& column : columns)
         text += fmt::format("{}{}{}", text.empty() ? "" : ",", column.state ? 's' : 'o', column.index);
     return text.empty() ? "-" : text;
 }
@@ -79,7 +79,7 @@ void read_line(const std::string& key, const std::string& value, RunOutcome& out
 }
 
 /// The column of an entry of the module's observables.
-Column observable(const KernelModule& module, const std::string& name)
+TableColumn observable(const KernelModule& module, const std::string& name)
 {
     const std::vector<std::string>& names = kernel_named(module, "observables").entry_names;
     const auto entry = std::ranges::find(names, name);
@@ -97,12 +97,12 @@ std::string program_text(const std::string& name, const MethodEntry& method)
         cpp_names({name})[0], method.type);
 }
 
-std::vector<Column> columns_of(const KernelModule& module, const Scene& scene)
+std::vector<TableColumn> columns_of(const KernelModule& module, const Scene& scene)
 {
     std::vector<std::string> states;
     for (const std::vector<Quantity>* group : {&module.base, &module.fibre})
         for (const Quantity& quantity : *group) states.push_back(quantity.name);
-    std::vector<Column> columns;
+    std::vector<TableColumn> columns;
     if (!scene.observe) {
         for (std::size_t k = 0; k < states.size(); ++k) columns.push_back({states[k], true, k});
         if (has_kernel(module, "controls"))

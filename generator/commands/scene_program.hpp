@@ -4,8 +4,8 @@
 
 #include "commands/methods.hpp"
 #include "commands/run_report.hpp"
-#include "commands/sample_times.hpp"
 #include "graph/kernel.hpp"
+#include "scene/sample_times.hpp"
 
 namespace lagen {
 
@@ -13,14 +13,14 @@ namespace lagen {
 [[nodiscard]] std::string program_text(const std::string& name, const MethodEntry& method);
 
 /// A column of the table: a state lane or an entry of the observables.
-struct Column {
+struct TableColumn {
     std::string name;
     bool state = true;
     std::size_t index = 0;
 };
 
 /// `t` apart, what the scene observes: all states, or exactly its `observe` list, found in the module's observables.
-[[nodiscard]] std::vector<Column> columns_of(const KernelModule& module, const Scene& scene);
+[[nodiscard]] std::vector<TableColumn> columns_of(const KernelModule& module, const Scene& scene);
 
 /// Everything that the program is told.
 struct ProgramInput {
@@ -30,7 +30,7 @@ struct ProgramInput {
     std::optional<long double> step, relative, absolute;
     std::string at_file; ///< path of the file with the times
     const std::vector<Event>* events = nullptr;
-    std::vector<Column> columns;
+    std::vector<TableColumn> columns;
     std::string report_file;
 };
 

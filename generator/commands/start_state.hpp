@@ -2,8 +2,8 @@
 /// Where a run starts, in the lanes of the generated state.
 #pragma once
 
-#include "model/evaluate_scene.hpp"
 #include "pipeline.hpp"
+#include "scene/evaluate_scene.hpp"
 
 namespace lagen {
 

@@ -2,7 +2,7 @@
 /// An EquationSet for people and programs.
 #pragma once
 
-#include "expression/equation_set.hpp"
+#include "notation/equation_set.hpp"
 
 namespace lagen {
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Equations as JSON. Expressions are texts of the expression language:
 ///   {"model", "title", "form", "blocks": [{"title", "formula", "equations":
-///     [{"left": {"kind": "time_derivative" | "symbol" | "zero" | "bracket", "symbol", "other",
+///     [{"left": {"kind": "time_derivative" | "symbol" | "zero" | "bracket" | "differential" | "form", "symbol",
+///     "other",
 ///                "mass": [{"symbol", "value"}]},
 ///       "relation": "at_least" | "at_most", "right": "...", "groups": [{"label", "value"}]}]}]}
 /// `symbol` is left out of kind "zero", `mass` where the left side has no mass matrix; `other` is of kind "bracket",
-/// {symbol, other}; `relation` is left out of equations.
+/// {symbol, other}; `relation` is left out of equations. Of kinds "differential", d symbol, and "form", d e^symbol, the
+/// right side is the sum of value e^{basis[0]} ^ e^{basis[1]} .. of the groups, each {"label", "value", "basis"}.
 #include "emit/json.hpp"
 #include "emit/print_equations.hpp"
 #include "emit/print_equations_terms.hpp"
@@ -30,6 +32,8 @@ void write_left(JsonWriter& json, const Equation& equation)
     case LeftSide::symbol: json.key("kind").value("symbol"); break;
     case LeftSide::zero: json.key("kind").value("zero"); break;
     case LeftSide::bracket: json.key("kind").value("bracket"); break;
+    case LeftSide::differential: json.key("kind").value("differential"); break;
+    case LeftSide::form: json.key("kind").value("form"); break;
     }
     if (equation.left != LeftSide::zero) json.key("symbol").value(equation.symbol);
     if (equation.left == LeftSide::bracket) json.key("other").value(equation.other);
@@ -48,10 +52,18 @@ void write_equation(JsonWriter& json, const Equation& equation)
     write_left(json, equation);
     if (equation.relation != Relation::equal)
         json.key("relation").value(equation.relation == Relation::at_least ? "at_least" : "at_most");
-    json.key("right").value(right_text(equation));
+    const bool of_forms = equation.left == LeftSide::differential || equation.left == LeftSide::form;
+    if (!of_forms) json.key("right").value(right_text(equation));
     json.key("groups").begin_array();
-    for (const TermGroup& group : equation.groups)
-        json.begin_object().key("label").value(group.label).key("value").value(to_text(group.value)).end_object();
+    for (const TermGroup& group : equation.groups) {
+        json.begin_object().key("label").value(group.label).key("value").value(to_text(group.value));
+        if (!group.basis.empty()) {
+            json.key("basis").begin_array();
+            for (const std::string& name : group.basis) json.value(name);
+            json.end_array();
+        }
+        json.end_object();
+    }
     json.end_array().end_object();
 }
 

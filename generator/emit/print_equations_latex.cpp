@@ -239,6 +239,8 @@ std::string left_side(const Equation& equation, const LatexNames& names)
 {
     if (equation.left == LeftSide::zero) return "0";
     if (equation.left == LeftSide::symbol) return names.symbol(equation.symbol);
+    if (equation.left == LeftSide::differential) return "d" + names.symbol(equation.symbol);
+    if (equation.left == LeftSide::form) return "de^{" + names.symbol(equation.symbol) + "}";
     if (equation.left == LeftSide::bracket)
         return "\\{" + names.symbol(equation.symbol) + ", " + names.symbol(equation.other) + "\\}";
     if (equation.mass.empty()) return names.dotted(equation.symbol);
@@ -246,9 +248,8 @@ std::string left_side(const Equation& equation, const LatexNames& names)
     for (const TermGroup& entry : equation.mass) {
         const SignedTree mass = without_sign(entry.value);
         text += text.empty() ? (mass.negative ? "-" : "") : (mass.negative ? " - " : " + ");
-        const bool one = mass.tree->kind == TreeKind::number && mass.tree->number == 1;
-        text +=
-            (one ? "" : LatexWriter(names).write(mass.tree, LatexHold::product) + "\\, ") + names.dotted(entry.label);
+        text += (is_one(mass.tree) ? "" : LatexWriter(names).write(mass.tree, LatexHold::product) + "\\, ") +
+                names.dotted(entry.label);
     }
     return text;
 }
@@ -256,6 +257,15 @@ std::string left_side(const Equation& equation, const LatexNames& names)
 const char* relation_latex(Relation relation)
 {
     return relation == Relation::equal ? " &= " : relation == Relation::at_least ? " &\\geq " : " &\\leq ";
+}
+
+std::string latex_of_term(const SignedTree& term, const LatexNames& names)
+{
+    if (term.basis.empty()) return LatexWriter(names).write(term.tree, LatexHold::product);
+    std::string wedge;
+    for (const std::string& name : term.basis)
+        wedge += (wedge.empty() ? "e^{" : " \\wedge e^{") + names.symbol(name) + "}";
+    return (is_one(term.tree) ? "" : LatexWriter(names).write(term.tree, LatexHold::product) + "\\, ") + wedge;
 }
 
 void print_block(std::string& text, const EquationBlock& block, const LatexNames& names)
@@ -269,7 +279,7 @@ void print_block(std::string& text, const EquationBlock& block, const LatexNames
         const Equation& equation = block.equations[e];
         std::vector<std::pair<bool, std::string>> terms;
         for (const SignedTree& term : right_side_terms(equation))
-            terms.emplace_back(term.negative, LatexWriter(names).write(term.tree, LatexHold::product));
+            terms.emplace_back(term.negative, latex_of_term(term, names));
         if (terms.empty()) terms.emplace_back(false, "0");
         text += "  " + left_side(equation, names) + relation_latex(equation.relation);
         const std::vector<std::string> lines = wrap_terms(terms, margin, margin + indent, line_width, typeset_width);

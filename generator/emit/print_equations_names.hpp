@@ -3,7 +3,7 @@
 /// digits and what follows '_' as subscripts, several letters in one \mathit.
 #pragma once
 
-#include "expression/equation_set.hpp"
+#include "notation/equation_set.hpp"
 
 #include <map>
 

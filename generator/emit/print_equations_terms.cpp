@@ -13,6 +13,11 @@ SignedTree without_sign(const Tree& tree)
     return {false, tree};
 }
 
+bool is_one(const Tree& tree)
+{
+    return tree->kind == TreeKind::number && tree->number == 1;
+}
+
 bool raised_by_name(const Tree& tree)
 {
     if (tree->kind != TreeKind::power || tree->arguments[0]->kind != TreeKind::call) return false;
@@ -33,6 +38,11 @@ std::vector<SignedTree> right_side_terms(const Equation& equation)
 {
     std::vector<SignedTree> terms;
     for (const TermGroup& group : equation.groups) {
+        if (!group.basis.empty()) {
+            terms.push_back(without_sign(group.value));
+            terms.back().basis = group.basis;
+            continue;
+        }
         if (group.value->kind != TreeKind::add) {
             terms.push_back(without_sign(group.value));
             continue;

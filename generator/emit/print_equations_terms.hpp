@@ -2,7 +2,7 @@
 /// What the printers of equations share: the right side as signed terms, and lines of them.
 #pragma once
 
-#include "expression/equation_set.hpp"
+#include "notation/equation_set.hpp"
 
 #include <utility>
 
@@ -11,10 +11,14 @@ namespace lagen {
 struct SignedTree {
     bool negative = false;
     Tree tree;
+    std::vector<std::string> basis = {}; ///< of a wedge product of basis forms behind it
 };
 
 /// All groups as one list of terms in their order, except that a positive term leads where there is one.
 [[nodiscard]] std::vector<SignedTree> right_side_terms(const Equation& equation);
+
+/// Whether the tree is the number 1, which is not written before a basis form or an unknown.
+[[nodiscard]] bool is_one(const Tree& tree);
 
 /// A coefficient of the left side without its sign.
 [[nodiscard]] SignedTree without_sign(const Tree& tree);

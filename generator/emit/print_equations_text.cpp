@@ -171,14 +171,15 @@ std::string left_side(const Equation& equation)
 {
     if (equation.left == LeftSide::zero) return "0";
     if (equation.left == LeftSide::symbol) return equation.symbol;
+    if (equation.left == LeftSide::differential) return "d" + equation.symbol;
+    if (equation.left == LeftSide::form) return "de^" + equation.symbol;
     if (equation.left == LeftSide::bracket) return "{" + equation.symbol + ", " + equation.other + "}";
     if (equation.mass.empty()) return dotted(equation.symbol);
     std::string text;
     for (const TermGroup& entry : equation.mass) {
         const SignedTree mass = without_sign(entry.value);
         text += text.empty() ? (mass.negative ? "-" : "") : (mass.negative ? " - " : " + ");
-        const bool one = mass.tree->kind == TreeKind::number && mass.tree->number == 1;
-        text += (one ? "" : TextWriter().write(mass.tree, TextHold::product) + " ") + dotted(entry.label);
+        text += (is_one(mass.tree) ? "" : TextWriter().write(mass.tree, TextHold::product) + " ") + dotted(entry.label);
     }
     return text;
 }
@@ -186,6 +187,14 @@ std::string left_side(const Equation& equation)
 const char* relation_text(Relation relation)
 {
     return relation == Relation::equal ? " = " : relation == Relation::at_least ? " ≥ " : " ≤ ";
+}
+
+std::string text_of_term(const SignedTree& term)
+{
+    if (term.basis.empty()) return TextWriter().write(term.tree, TextHold::quotient);
+    std::string wedge;
+    for (const std::string& name : term.basis) wedge += (wedge.empty() ? "e^" : "∧e^") + name;
+    return (is_one(term.tree) ? "" : TextWriter().write(term.tree, TextHold::product) + " ") + wedge;
 }
 
 void print_block(std::string& text, const EquationBlock& block)
@@ -201,8 +210,7 @@ void print_block(std::string& text, const EquationBlock& block)
         text +=
             "  " + std::string(columns < widest ? widest - columns : 0, ' ') + left + relation_text(equation.relation);
         std::vector<std::pair<bool, std::string>> terms;
-        for (const SignedTree& term : right_side_terms(equation))
-            terms.emplace_back(term.negative, TextWriter().write(term.tree, TextHold::quotient));
+        for (const SignedTree& term : right_side_terms(equation)) terms.emplace_back(term.negative, text_of_term(term));
         if (terms.empty()) terms.emplace_back(false, "0");
         const std::size_t margin = widest + 5;
         const std::vector<std::string> lines =

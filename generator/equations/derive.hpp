@@ -2,12 +2,17 @@
 /// The equations of a model in one of its forms.
 #pragma once
 
-#include "expression/equation_set.hpp"
-#include "geometry/verify.hpp"
+#include "model/model.hpp"
+#include "notation/equation_set.hpp"
+#include "verify/verify.hpp"
 
 namespace lagen {
 
-/// `form` is one of form_names(). Throws MathematicsError where the model has no equations of that form.
-[[nodiscard]] EquationSet derive(const std::string& form, const Model& model, const VerifiedAlgebroid& verified);
+/// What `derive` can print: form_names(), and "exterior".
+[[nodiscard]] std::vector<std::string> derivation_names();
+
+/// `form` is one of derivation_names(). Throws MathematicsError where the model has no equations of that form.
+[[nodiscard]] EquationSet derive(const std::string& form, const Model& model, const System& system,
+                                 const Report& report);
 
 } // namespace lagen

@@ -2,7 +2,7 @@
 #include "equations/hamilton.hpp"
 
 #include "equations/legendre.hpp"
-#include "geometry/legendre_obstacle.hpp"
+#include "verify/legendre_obstacle.hpp"
 
 namespace lagen {
 namespace {
@@ -34,7 +34,7 @@ EquationBlock poisson_brackets(const SymbolicModel& symbolic)
 
 class HamiltonDerivation {
   public:
-    HamiltonDerivation(const Model& model, const Algebroid& algebroid)
+    HamiltonDerivation(const Model& model, const WrittenAlgebroid& algebroid)
         : symbolic_(model, algebroid, {model.hamiltonian ? model.hamiltonian : model.lagrangian, model.dissipation})
     {
         if (model.hamiltonian)
@@ -182,7 +182,7 @@ class HamiltonDerivation {
 
 } // namespace
 
-EquationSet derive_hamilton(const Model& model, const Algebroid& algebroid, const Regularity& regularity)
+EquationSet derive_hamilton(const Model& model, const WrittenAlgebroid& algebroid, const Regularity& regularity)
 {
     if (!model.hamiltonian && !model.lagrangian)
         throw MathematicsError(
@@ -194,7 +194,7 @@ EquationSet derive_hamilton(const Model& model, const Algebroid& algebroid, cons
                                "' is degenerate: its momenta p_a = dL/dy^a have rank " +
                                std::to_string(regularity.rank) + " of " + std::to_string(algebroid.r()) +
                                ", so that it has no Hamiltonian form; Hamilton's equations need [hamiltonian] H");
-    if (!model.hamiltonian) require_legendre_transform(model, regularity);
+    if (!model.hamiltonian) require_legendre_transform(model.name, regularity);
     return derived(model, "Hamilton's equations", [&] { return HamiltonDerivation(model, algebroid).derive(); });
 }
 

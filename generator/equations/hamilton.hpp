@@ -7,15 +7,16 @@
 /// that falls into small blocks, else left implicit, with y(x, mu) from mu_a = dL/dy^a, rho_a(H) = -rho_a(L) at that y.
 #pragma once
 
-#include "expression/equation_set.hpp"
-#include "geometry/verify.hpp"
+#include "model/model.hpp"
+#include "notation/equation_set.hpp"
+#include "verify/verify.hpp"
 
 namespace lagen {
 
 /// Blocks: Hamiltonian, labels of the leaves where there are any, velocities, kinematics, equations of motion, energy
 /// balance where it is not zero, Poisson brackets. Throws MathematicsError where the model has neither H nor L, and
 /// where it has no H and `regularity` says that L is degenerate or its momenta are not shown to fix the velocities.
-[[nodiscard]] EquationSet derive_hamilton(const Model& model, const Algebroid& algebroid,
+[[nodiscard]] EquationSet derive_hamilton(const Model& model, const WrittenAlgebroid& algebroid,
                                           const Regularity& regularity = {});
 
 } // namespace lagen

@@ -11,7 +11,7 @@ namespace {
 
 class LagrangeDerivation {
   public:
-    LagrangeDerivation(const Model& model, const Algebroid& algebroid)
+    LagrangeDerivation(const Model& model, const WrittenAlgebroid& algebroid)
         : symbolic_(model, algebroid, {model.lagrangian, model.dissipation}),
           lagrangian_(symbolic_.lower(model.lagrangian)), forces_(symbolic_.forces(symbolic_.y()))
     {
@@ -155,7 +155,7 @@ class LagrangeDerivation {
 
 } // namespace
 
-EquationSet derive_lagrange(const Model& model, const Algebroid& algebroid, const Regularity& regularity)
+EquationSet derive_lagrange(const Model& model, const WrittenAlgebroid& algebroid, const Regularity& regularity)
 {
     if (!model.lagrangian)
         throw MathematicsError("error: model '" + model.name +

@@ -5,15 +5,16 @@
 ///   Q_a = forces_a - dR/dy^a,   E_L = y^a p_a - L,   dE_L/dt = Q_a y^a - dL/dt                   [Martinez 2001]
 #pragma once
 
-#include "expression/equation_set.hpp"
-#include "geometry/verify.hpp"
+#include "model/model.hpp"
+#include "notation/equation_set.hpp"
+#include "verify/verify.hpp"
 
 namespace lagen {
 
 /// Blocks: kinematics, labels of the leaves where there are any, momenta, equations of motion (momentum form),
 /// (acceleration form), energy, energy balance where it is not zero; where L is degenerate, the kernel of W as far
 /// as `regularity` has it. Throws MathematicsError where the model has no Lagrangian.
-[[nodiscard]] EquationSet derive_lagrange(const Model& model, const Algebroid& algebroid,
+[[nodiscard]] EquationSet derive_lagrange(const Model& model, const WrittenAlgebroid& algebroid,
                                           const Regularity& regularity = {});
 
 } // namespace lagen

@@ -3,7 +3,7 @@
 
 #include "equations/linear_equations.hpp"
 #include "equations/symbolic_model.hpp"
-#include "geometry/control_maximum.hpp"
+#include "verify/control_maximum.hpp"
 
 #include <algorithm>
 
@@ -12,7 +12,7 @@ namespace {
 
 class PontryaginDerivation {
   public:
-    PontryaginDerivation(const Model& model, const Algebroid& algebroid, const ControlMaximum& maximum)
+    PontryaginDerivation(const Model& model, const WrittenAlgebroid& algebroid, const ControlMaximum& maximum)
         : control_(*model.control), maximal_(maximum.kind == ControlMaximum::Kind::maximal),
           symbolic_(model, algebroid, functions_of(*model.control)), sigma_(symbolic_.r(), 0)
     {
@@ -189,13 +189,13 @@ class PontryaginDerivation {
 
 } // namespace
 
-EquationSet derive_pontryagin(const Model& model, const Algebroid& algebroid, const ControlMaximum& maximum)
+EquationSet derive_pontryagin(const Model& model, const WrittenAlgebroid& algebroid, const ControlMaximum& maximum)
 {
     if (!model.control)
         throw MathematicsError("error: model '" + model.name +
                                "' has no controls; Pontryagin's equations need [control] controls, sigma and cost");
     if (maximum.kind == ControlMaximum::Kind::refuted || maximum.kind == ControlMaximum::Kind::nonsmooth)
-        require_maximum(model, maximum);
+        require_maximum(model.name, maximum);
     return derived(model, "Pontryagin's equations",
                    [&] { return PontryaginDerivation(model, algebroid, maximum).derive(); });
 }

@@ -5,8 +5,9 @@
 ///                                                                                            [Martinez 2004]
 #pragma once
 
-#include "expression/equation_set.hpp"
-#include "geometry/verify.hpp"
+#include "model/model.hpp"
+#include "notation/equation_set.hpp"
+#include "verify/verify.hpp"
 
 namespace lagen {
 
@@ -14,7 +15,7 @@ namespace lagen {
 /// where dH/du is affine in u with a regular matrix optimal controls and maximal Hamiltonian (stationary controls alone
 /// where `maximum` is not proved), kinematics, equations of motion, energy balance where it is not zero. Throws
 /// MathematicsError where the model has no controls, and where H has no maximum or no dH/du.
-[[nodiscard]] EquationSet derive_pontryagin(const Model& model, const Algebroid& algebroid,
+[[nodiscard]] EquationSet derive_pontryagin(const Model& model, const WrittenAlgebroid& algebroid,
                                             const ControlMaximum& maximum);
 
 } // namespace lagen

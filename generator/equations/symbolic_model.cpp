@@ -32,7 +32,7 @@ GiNaC::ex derivative(const GiNaC::ex& f, const GiNaC::ex& symbol)
     return f.diff(GiNaC::ex_to<GiNaC::symbol>(symbol));
 }
 
-SymbolicModel::SymbolicModel(const Model& model, const Algebroid& algebroid, const std::vector<Tree>& functions)
+SymbolicModel::SymbolicModel(const Model& model, const WrittenAlgebroid& algebroid, const std::vector<Tree>& functions)
     : model_(model), algebroid_(algebroid)
 {
     for (const Parameter& parameter : model.parameters) order_.parameters.push_back(parameter.symbol.name);

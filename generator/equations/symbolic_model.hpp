@@ -4,8 +4,9 @@
 #pragma once
 
 #include "equations/label_casimirs.hpp"
-#include "expression/equation_set.hpp"
-#include "geometry/algebroid.hpp"
+#include "mechanics/written_algebroid.hpp"
+#include "model/model.hpp"
+#include "notation/equation_set.hpp"
 #include "symbolic/shortest_form.hpp"
 
 #include <functional>
@@ -30,10 +31,10 @@ class SymbolicModel {
   public:
     /// `functions`: what equations are derived from (L, H, a running cost; null ones are none). Casimirs that they use
     /// by name stay names where rho_a(f) = 0 is plain to see: the labels of leaves are constants.
-    SymbolicModel(const Model& model, const Algebroid& algebroid, const std::vector<Tree>& functions);
+    SymbolicModel(const Model& model, const WrittenAlgebroid& algebroid, const std::vector<Tree>& functions);
 
     [[nodiscard]] const Model& model() const { return model_; }
-    [[nodiscard]] const Algebroid& algebroid() const { return algebroid_; }
+    [[nodiscard]] const WrittenAlgebroid& algebroid() const { return algebroid_; }
     [[nodiscard]] std::size_t n() const { return x_.size(); }
     [[nodiscard]] std::size_t r() const { return y_.size(); }
     [[nodiscard]] const Sum& x() const { return x_; }
@@ -86,7 +87,7 @@ class SymbolicModel {
     [[nodiscard]] GiNaC::ex lower_rough(const Tree& tree);
 
     const Model& model_;
-    const Algebroid& algebroid_;
+    const WrittenAlgebroid& algebroid_;
     SymbolTable symbols_;
     Order order_;
     Sum x_, y_, mu_, controls_;

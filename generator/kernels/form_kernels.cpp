@@ -14,21 +14,21 @@ namespace lagen {
 
 namespace {
 
-Formulation formulation(Graph& graph, const Model& model, const VerifiedAlgebroid& verified,
+Formulation formulation(Graph& graph, const Model& model, const System& system, const Report& report,
                         const KernelRequest& request, const FormulationParts& parts)
 {
     const std::string form = request.form.empty() ? default_form(model) : request.form;
-    if (form == "hamilton") return hamilton_form(graph, model, verified, parts);
-    if (form == "pontryagin") return pontryagin_form(graph, model, verified, parts);
-    return lagrange_form(graph, model, verified, parts);
+    if (form == "hamilton") return hamilton_form(graph, system, report, parts);
+    if (form == "pontryagin") return pontryagin_form(graph, model, system, report, parts);
+    return lagrange_form(graph, system, report, parts);
 }
 
 /// Kernels of one module, each simplified on its own and left out where nobody asked for it or it would be empty.
 class ModuleBuilder {
   public:
-    ModuleBuilder(const Model& model, const VerifiedAlgebroid& verified, const KernelRequest& request)
-        : model_(model), verified_(verified), request_(request), graph_(std::make_shared<Graph>()),
-          form_(formulation(*graph_, model, verified, request, parts())), lower_(*graph_, form_.binding)
+    ModuleBuilder(const Model& model, const System& system, const Report& report, const KernelRequest& request)
+        : model_(model), system_(system), request_(request), graph_(std::make_shared<Graph>(system.graph)),
+          form_(formulation(*graph_, model, system, report, request, parts())), lower_(*graph_, form_.binding)
     {
     }
 
@@ -79,33 +79,16 @@ class ModuleBuilder {
         for (std::size_t i = 0; i < form_.x.size(); ++i)
             module_.base.push_back(quantity(model_.base.coordinates[i], form_.x[i]));
         for (std::size_t a = 0; a < form_.lanes.size(); ++a)
-            module_.fibre.push_back(quantity(form_.lane_names[a], form_.lanes[a]));
+            module_.fibre.push_back(quantity(lane_symbol(a), form_.lanes[a]));
         module_.fibre_name = form_.lane_group;
         module_.implicit = form_.implicit;
         module_.parameter_conditions = form_.parameter_conditions;
-        module_.parameter_defaults = defaults();
+        for (const auto& [parameter, value] : system_.parameter_values) module_.parameter_defaults.push_back(value);
     }
 
-    /// Every default lowered after those that it uses; the model has made sure that there is no cycle.
-    std::vector<NodeId> defaults()
+    [[nodiscard]] const Symbol& lane_symbol(std::size_t a) const
     {
-        const std::size_t count = model_.parameters.size();
-        Binding known;
-        std::vector<NodeId> result(count);
-        for (std::size_t done = 0; done < count;) {
-            const std::size_t before = done;
-            for (std::size_t k = 0; k < count; ++k) {
-                const Parameter& parameter = model_.parameters[k];
-                const std::vector<std::string> uses = names_in(parameter.value);
-                const bool ready =
-                    std::ranges::all_of(uses, [&](const std::string& use) { return known.contains(use); });
-                if (known.contains(parameter.symbol.name) || !ready) continue;
-                known[parameter.symbol.name] = result[k] = Lowering(*graph_, known)(parameter.value);
-                ++done;
-            }
-            if (done == before) throw InternalError("parameters that depend on each other in a cycle");
-        }
-        return result;
+        return (form_.lanes == system_.mu ? model_.fibre.momenta : model_.fibre.coordinates)[a];
     }
 
     /// Adds a kernel with its entries and pivots simplified together.
@@ -155,7 +138,7 @@ class ModuleBuilder {
     [[nodiscard]] NamedTrees model_base_constraints() const
     {
         NamedTrees trees;
-        for (const Tree& tree : verified_.algebroid.constraints) trees.emplace_back(to_text(tree), tree);
+        for (const Tree& tree : model_.base.constraints) trees.emplace_back(to_text(tree), tree);
         return trees;
     }
 
@@ -199,7 +182,7 @@ class ModuleBuilder {
     {
         std::vector<NodeId> values;
         std::vector<std::string> names;
-        for (const Tree& tree : verified_.algebroid.domain) {
+        for (const Tree& tree : model_.base.domain) {
             if (tree->kind != TreeKind::compare)
                 throw InternalError("a domain that is no comparison: " + to_text(tree));
             const NodeId a = lower_(tree->arguments[0]);
@@ -302,7 +285,7 @@ class ModuleBuilder {
     }
 
     const Model& model_;
-    const VerifiedAlgebroid& verified_;
+    const System& system_;
     const KernelRequest& request_;
     std::shared_ptr<Graph> graph_;
     Formulation form_;
@@ -312,52 +295,11 @@ class ModuleBuilder {
 
 } // namespace
 
-KernelOutput column(std::string name, const std::vector<NodeId>& values)
-{
-    KernelOutput output{std::move(name), values.size(), 1, {}};
-    for (std::size_t k = 0; k < values.size(); ++k) output.entries.push_back({k, 0, values[k]});
-    return output;
-}
-
-KernelOutput matrix(const Graph& graph, std::string name, std::size_t rows, std::size_t columns,
-                    const std::vector<NodeId>& values)
-{
-    KernelOutput output{std::move(name), rows, columns, {}};
-    for (std::size_t k = 0; k < values.size(); ++k)
-        if (!graph.is_zero(values[k])) output.entries.push_back({k / columns, k % columns, values[k]});
-    return output;
-}
-
-std::vector<NodeId> state_of(const Formulation& form)
-{
-    std::vector<NodeId> lanes = form.x;
-    lanes.insert(lanes.end(), form.lanes.begin(), form.lanes.end());
-    return lanes;
-}
-
-Kernel hessian_kernel(Graph& graph, std::string name, const std::vector<NodeId>& first, const Formulation& form,
-                      const std::string& formula)
-{
-    const std::vector<NodeId> state = state_of(form);
-    const std::vector<NodeId> hessian = joined_rows(jacobian_through(graph, first, state, form.implicit));
-    return {std::move(name),
-            KernelShape::matrix,
-            matrix(graph, "H", state.size(), state.size(), hessian),
-            {formula + " over the lanes of the state, symmetric."},
-            {},
-            {}};
-}
-
-Kernel scalar_kernel(std::string name, NodeId value, std::string documentation)
-{
-    return {std::move(name), KernelShape::scalar, column("value", {value}), {std::move(documentation)}, {}, {}};
-}
-
-KernelModule form_kernels(const Model& model, const VerifiedAlgebroid& verified, const KernelRequest& request)
+KernelModule form_kernels(const Model& model, const System& system, const Report& report, const KernelRequest& request)
 {
     refuse_unknown(request.only);
-    KernelModule module = ModuleBuilder(model, verified, request).build();
-    require_requested(module, model, verified, request);
+    KernelModule module = ModuleBuilder(model, system, report, request).build();
+    require_requested(module, model, system, report, request);
     return module;
 }
 

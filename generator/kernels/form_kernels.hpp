@@ -9,9 +9,10 @@
 ///   of pontryagin: controls, hamiltonian, power, cost
 #pragma once
 
-#include "geometry/verify.hpp"
 #include "graph/kernel.hpp"
 #include "graph/simplify.hpp"
+#include "model/model.hpp"
+#include "verify/verify.hpp"
 
 namespace lagen {
 
@@ -29,7 +30,7 @@ struct KernelRequest {
 };
 
 /// Throws MathematicsError where the model has no such form.
-[[nodiscard]] KernelModule form_kernels(const Model& model, const VerifiedAlgebroid& verified,
+[[nodiscard]] KernelModule form_kernels(const Model& model, const System& system, const Report& report,
                                         const KernelRequest& request = {});
 
 } // namespace lagen

@@ -6,9 +6,10 @@
 ///   pontryagin  state (x, mu):  the same with H = mu_a sigma^a - cost where u maximises it          [Martinez 2004]
 #pragma once
 
-#include "geometry/verify.hpp"
 #include "graph/kernel.hpp"
 #include "graph/lower.hpp"
+#include "model/model.hpp"
+#include "verify/verify.hpp"
 
 namespace lagen {
 
@@ -18,7 +19,6 @@ struct Formulation {
     std::vector<NodeId> parameters;
     std::vector<NodeId> x;                  ///< x^i, shape (n)
     std::vector<NodeId> lanes;              ///< the other lanes of the state, shape (r)
-    std::vector<Symbol> lane_names;         ///< of `lanes`
     std::string lane_group;                 ///< the struct of them: "Fibre" or "Momenta"
     std::vector<NodeId> derivative;         ///< of x, then of the lanes; empty unless asked for
     std::vector<NodeId> pivots;             ///< 1 x 1 blocks of what is solved for the derivative
@@ -37,14 +37,28 @@ struct FormulationParts {
     bool hessians = false;
 };
 
-/// Throw MathematicsError where the model has no such form: no L, no H, no control problem; a degenerate L; a
-/// Hamiltonian that the controls do not maximise in a way that can be solved for.
-[[nodiscard]] Formulation lagrange_form(Graph& graph, const Model& model, const VerifiedAlgebroid& verified,
+/// Throw MathematicsError where the system has no such form: no L, no H, no control problem; a degenerate L; a
+/// Hamiltonian that the controls do not maximise in a way that can be solved for. `graph`: a copy of the system's.
+[[nodiscard]] Formulation lagrange_form(Graph& graph, const System& system, const Report& report,
                                         const FormulationParts& parts);
-[[nodiscard]] Formulation hamilton_form(Graph& graph, const Model& model, const VerifiedAlgebroid& verified,
+[[nodiscard]] Formulation hamilton_form(Graph& graph, const System& system, const Report& report,
                                         const FormulationParts& parts);
-[[nodiscard]] Formulation pontryagin_form(Graph& graph, const Model& model, const VerifiedAlgebroid& verified,
+[[nodiscard]] Formulation pontryagin_form(Graph& graph, const Model& model, const System& system, const Report& report,
                                           const FormulationParts& parts);
+
+/// A form without motion, names and kernels: what all of them share. `lanes`: y, mu, ..
+[[nodiscard]] Formulation empty_form(const System& system, std::string form, std::vector<NodeId> lanes,
+                                     std::string lane_group);
+/// Binds t, parameters and base coordinates, which win over what is bound already.
+void bind_system(const System& system, Formulation& form);
+
+/// What is known of W for every value of the parameters. (What holds for the file's values alone says nothing of a
+/// header whose parameters may be changed.)
+[[nodiscard]] MatrixStructure mass_structure(const Regularity& regularity);
+/// Throws MathematicsError, which names `form`, where there is no L or it is degenerate.
+void require_regular_lagrangian(const System& system, const Regularity& regularity, const char* form);
+/// Entries of an r x r matrix that are alone in their row and column and no constants: divisors of a solve.
+[[nodiscard]] std::vector<NodeId> single_blocks(const Graph& graph, const std::vector<NodeId>& W, std::size_t r);
 
 /// A column of all entries.
 [[nodiscard]] KernelOutput column(std::string name, const std::vector<NodeId>& values);

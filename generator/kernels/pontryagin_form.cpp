@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// H = mu_a sigma^a - cost,   xdot^i = rho^i_a sigma^a,   mudot_a = -(rho_a(H) + mu_c C^c_ab sigma^b)    [Martinez
 /// 2004] The controls solve dH/du = 0: linearly where that is affine in u, else by Newton's method. Between bounds each
-/// control has a part of H of its own that is strictly concave (geometry/control_maximum.hpp): the maximum is the root
+/// control has a part of H of its own that is strictly concave (verify/control_maximum.hpp): the maximum is the root
 /// of dH/du, or the bound next to it.
-#include "geometry/control_maximum.hpp"
 #include "graph/differentiate.hpp"
 #include "graph/simplify.hpp"
 #include "kernels/formulation.hpp"
-#include "kernels/system.hpp"
+#include "mechanics/phase_motion.hpp"
+#include "verify/control_maximum.hpp"
 
 #include <fmt/format.h>
 
@@ -19,43 +19,32 @@ namespace {
 
 class PontryaginForm {
   public:
-    PontryaginForm(Graph& graph, const Model& model, const VerifiedAlgebroid& verified)
-        : graph_(graph), model_(model), control_(*model.control), verified_(verified),
-          system_(system_nodes(graph, model, verified.algebroid))
+    PontryaginForm(Graph& graph, const Model& model, const System& system, const Report& verified)
+        : graph_(graph), model_(model), control_(*model.control), verified_(verified), system_(system), mu_(system.mu),
+          u_(system.control->u), sigma_(system.control->sigma), cost_(system.control->cost)
     {
-        require_maximum(model, verified.maximum);
-        for (const Symbol& symbol : model.fibre.momenta) mu_.push_back(graph.input(symbol.name));
-        for (const Symbol& symbol : control_.controls) u_.push_back(graph.input(symbol.name));
-        Lowering lower(graph);
-        sigma_.assign(system_.r, graph.constant(0));
-        for (const ComponentEntry& entry : control_.sigma)
-            sigma_[entry.section] = graph.add(sigma_[entry.section], lower(entry.value));
-        cost_ = lower(control_.cost);
-        hamiltonian_ = graph.subtract(contraction(graph, mu_, sigma_), cost_);
+        require_maximum(system.name, verified.maximum);
+        hamiltonian_ = control_hamiltonian(graph, *system.control, mu_);
         differentiate();
         solve_controls();
     }
 
     Formulation build(const FormulationParts& parts)
     {
-        Formulation form;
-        form.form = "pontryagin";
-        form.time = system_.time;
-        form.parameters = system_.parameters;
-        form.x = system_.x;
-        form.lanes = mu_;
-        form.lane_names = model_.fibre.momenta;
-        form.lane_group = "Momenta";
+        Formulation form = empty_form(system_, "pontryagin", mu_, "Momenta");
         form.implicit = implicit_;
         form.pivots = pivots_;
         for (const Symbol& symbol : control_.controls) form.controls.push_back(symbol.name);
         require_intervals(form);
         const std::vector<NodeId> sigma = at_controls(sigma_);
         if (parts.motion) {
-            form.derivative = base_velocity(graph_, system_, sigma);
-            std::vector<NodeId> rate = along_anchor(graph_, system_, at_controls(dH_dx_));
-            for (NodeId& entry : rate) entry = graph_.negate(entry);
-            subtract_brackets(graph_, system_, mu_, sigma, rate);
+            form.derivative = base_velocity(graph_, system_.algebroid, sigma);
+            MomentumBalance balance;
+            for (const NodeId slope : at_controls(dH_dx_)) balance.df_dx.push_back(graph_.negate(slope));
+            balance.p = mu_;
+            balance.y = sigma;
+            balance.forces = std::vector<NodeId>(mu_.size(), graph_.constant(0));
+            const std::vector<NodeId> rate = momentum_rates(graph_, system_.algebroid, balance);
             form.derivative.insert(form.derivative.end(), rate.begin(), rate.end());
         }
         form.documentation = {
@@ -74,10 +63,12 @@ class PontryaginForm {
   private:
     void differentiate()
     {
-        Slopes slopes = slopes_of(graph_, hamiltonian_, u_, system_);
-        dH_du_ = std::move(slopes.lanes);
-        dH_dx_ = std::move(slopes.x);
-        dH_dt_ = slopes.t;
+        dH_du_ = gradient(graph_, hamiltonian_, u_);
+        std::vector<NodeId> variables = system_.algebroid.x;
+        variables.push_back(system_.time);
+        dH_dx_ = gradient(graph_, hamiltonian_, variables);
+        dH_dt_ = dH_dx_.back();
+        dH_dx_.pop_back();
         std::vector<NodeId> curvature = joined_rows(jacobian(graph_, dH_du_, u_));
         for (NodeId& entry : curvature) entry = graph_.negate(entry); // positive where H is concave
         std::vector<NodeId> divisors;
@@ -207,7 +198,7 @@ class PontryaginForm {
             form.binding[model_.fibre.momenta[a].name] = mu_[a];
         }
         for (std::size_t k = 0; k < u_.size(); ++k) form.binding[name_of(k)] = solution_[k];
-        for (const auto& [name, node] : system_names(model_, system_)) form.binding[name] = node;
+        bind_system(system_, form);
     }
 
     void add_kernels(Formulation& form)
@@ -230,8 +221,8 @@ class PontryaginForm {
     Graph& graph_;
     const Model& model_;
     const Control& control_;
-    const VerifiedAlgebroid& verified_;
-    SystemNodes system_;
+    const Report& verified_;
+    const System& system_;
     std::vector<NodeId> mu_, u_, sigma_;
     NodeId cost_ = 0, hamiltonian_ = 0, dH_dt_ = 0;
     std::vector<NodeId> dH_du_, dH_dx_, curvature_;
@@ -242,14 +233,14 @@ class PontryaginForm {
 
 } // namespace
 
-Formulation pontryagin_form(Graph& graph, const Model& model, const VerifiedAlgebroid& verified,
+Formulation pontryagin_form(Graph& graph, const Model& model, const System& system, const Report& report,
                             const FormulationParts& parts)
 {
     if (!model.control)
         throw MathematicsError(fmt::format("error: model '{}' is no control problem; the Pontryagin form needs "
                                            "[control] with controls, sigma and cost",
                                            model.name));
-    return PontryaginForm(graph, model, verified).build(parts);
+    return PontryaginForm(graph, model, system, report).build(parts);
 }
 
 } // namespace lagen

@@ -47,7 +47,7 @@ void refuse_unknown(const std::vector<std::string>& only)
             refuse(fmt::format("there is no kernel '{}'; there are", name), name, kernel_names());
 }
 
-void require_requested(const KernelModule& module, const Model& model, const VerifiedAlgebroid& verified,
+void require_requested(const KernelModule& module, const Model& model, const System& system, const Report& report,
                        const KernelRequest& request)
 {
     for (const std::string& name : request.only) {
@@ -56,7 +56,7 @@ void require_requested(const KernelModule& module, const Model& model, const Ver
         every.form = module.form;
         every.scene = request.scene;
         std::vector<std::string> names;
-        for (const Kernel& kernel : form_kernels(model, verified, every).kernels) names.push_back(kernel.name);
+        for (const Kernel& kernel : form_kernels(model, system, report, every).kernels) names.push_back(kernel.name);
         names.emplace_back("variational");
         if (module.form == "lagrange") names.emplace_back("lagrangian_hessian");
         if (module.form == "hamilton") names.emplace_back("hamiltonian_hessian");

@@ -17,7 +17,7 @@ void refuse_unknown(const std::vector<std::string>& only);
 
 /// Throws a usage Error with the kernels of this form of the model where `module` lacks one that was asked for: it
 /// belongs to another form, or the model has nothing of its kind.
-void require_requested(const KernelModule& module, const Model& model, const VerifiedAlgebroid& verified,
+void require_requested(const KernelModule& module, const Model& model, const System& system, const Report& report,
                        const KernelRequest& request);
 
 } // namespace lagen

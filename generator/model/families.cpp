@@ -172,4 +172,20 @@ std::vector<Tree> fit_values(const ArrayValue& value, const Shape& wanted, const
                      wanted.rank == Rank::scalar ? scalar_hint : "one number stands for all entries");
 }
 
+std::vector<Excerpt> sides_of(const Excerpt& key)
+{
+    std::vector<Excerpt> out;
+    std::size_t begin = 0;
+    int depth = 0;
+    for (std::size_t k = 0; k <= key.text.size(); ++k) {
+        const char c = k < key.text.size() ? key.text[k] : ',';
+        if (c == '[') ++depth;
+        if (c == ']') --depth;
+        if (c != ',' || (depth > 0 && k < key.text.size())) continue;
+        out.push_back(trimmed(key, begin, k));
+        begin = k + 1;
+    }
+    return out;
+}
+
 } // namespace lagen

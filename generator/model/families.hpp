@@ -23,6 +23,9 @@ struct ResolvedKey {
 [[nodiscard]] ResolvedKey require_key(const std::vector<Symbol>& symbols, const Excerpt& key, const std::string& owner,
                                       const char* noun, const Scope* scope = nullptr);
 
+/// The names of a key "a,b" or "a, b, c". Commas inside W[1,2] do not separate.
+[[nodiscard]] std::vector<Excerpt> sides_of(const Excerpt& key);
+
 /// What to write instead of a key that names none of `symbols`: the entries of its family, a name like it, or some of
 /// the names there are.
 [[nodiscard]] std::string hint_for_key(const std::vector<Symbol>& symbols, const std::string& key, const char* noun);

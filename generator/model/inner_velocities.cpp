@@ -12,7 +12,7 @@ namespace lagen {
 
 namespace {
 
-Tree sum_of(const std::vector<Tree>& terms)
+Tree sum_of_velocities(const std::vector<Tree>& terms)
 {
     if (terms.empty()) return number(0);
     return terms.size() == 1 ? terms[0] : add(terms);
@@ -21,7 +21,7 @@ Tree sum_of(const std::vector<Tree>& terms)
 std::vector<Tree> sums_of(const std::vector<std::vector<Tree>>& terms)
 {
     std::vector<Tree> out;
-    for (const std::vector<Tree>& each : terms) out.push_back(sum_of(each));
+    for (const std::vector<Tree>& each : terms) out.push_back(sum_of_velocities(each));
     return out;
 }
 

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "expression/scope.hpp"
-#include "expression/tree.hpp"
+#include "expression/symbol.hpp"
 
 #include <map>
 #include <optional>
@@ -15,15 +15,6 @@
 #include <vector>
 
 namespace lagen {
-
-/// A declared symbol. `text`, `unit` and `latex` come from [about] and may be empty.
-struct Symbol {
-    std::string name;
-    SourceRange where;
-    std::string text;
-    std::string unit;
-    std::string latex;
-};
 
 /// `n = 8` of [sizes], or its value from the command line.
 struct Size {
@@ -41,13 +32,6 @@ struct Family {
     Shape shape;
     std::size_t first;
     SourceRange where;
-};
-
-/// A name with a closed tree: an observable, an invariant, a Casimir, an initial value.
-struct NamedTree {
-    std::string name;
-    Tree value;
-    SourceRange where; ///< of the name
 };
 
 struct Parameter {
@@ -200,6 +184,40 @@ struct Control {
     SourceRange where;
 };
 
+/// A component of an E-form, value e^{indices[0]} ^ e^{indices[1]} ^ ..; of a form of degree 0 the function itself.
+struct FormComponent {
+    std::vector<std::size_t> indices; ///< of fibre coordinates, all different
+    Tree value;                       ///< closed over base coordinates and parameters
+};
+
+/// An expression in forms: what `equals` of [forms] says.
+struct FormExpression {
+    enum class Kind {
+        form,         ///< the form number `form` of the model
+        function,     ///< a form of degree 0
+        sum,          ///< of all parts
+        negative,     ///< of the one part
+        wedge,        ///< of all parts; with functions their product
+        differential, ///< d of the one part
+        contraction,  ///< i(section, part)
+    } kind = Kind::function;
+    std::size_t form = 0;
+    Tree function;             ///< closed over base coordinates and parameters
+    std::vector<Tree> section; ///< its components, one a fibre coordinate
+    std::vector<FormExpression> parts;
+    std::size_t degree = 0;
+};
+
+/// An entry of [forms], with what is claimed of it.
+struct NamedForm {
+    std::string name;
+    SourceRange where; ///< of the name
+    std::size_t degree = 0;
+    std::vector<FormComponent> components;
+    bool closed = false;                  ///< claimed: d of it is zero
+    std::optional<FormExpression> equals; ///< claimed
+};
+
 struct Model {
     std::string name; ///< a C++ identifier
     SourceRange name_where;
@@ -223,6 +241,7 @@ struct Model {
     std::optional<Control> control;
     std::vector<NamedTree> observables;
     std::vector<NamedTree> invariants;
+    std::vector<NamedForm> forms;
     std::vector<Symbol> notes; ///< [about] of definitions, Casimirs, observables, invariants and t
     std::vector<Scene> scenes; ///< in the order of the file
 

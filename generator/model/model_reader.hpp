@@ -113,6 +113,8 @@ void declare_fibre(ModelReader& reader, const TomlEntry* block);
 void declare_definitions(ModelReader& reader, const TomlEntry* block);
 void declare_control(ModelReader& reader);
 void declare_quantities(ModelReader& reader, const TomlEntry* observables, const TomlEntry* invariants);
+/// The names of [forms].
+void declare_forms(ModelReader& reader, const TomlEntry* block);
 /// L, H and R, parsed.
 void declare_mechanics(ModelReader& reader);
 void build_scopes(ModelReader& reader);
@@ -127,6 +129,7 @@ void read_mechanics(ModelReader& reader);
 void read_control(ModelReader& reader);
 [[nodiscard]] ControlBoundary read_boundary(const ModelReader& reader, const TomlEntry& block);
 void read_quantities(ModelReader& reader);
+void read_forms(ModelReader& reader, const TomlEntry* block);
 void read_about(ModelReader& reader, const TomlEntry* block);
 void read_scenes(ModelReader& reader, const TomlEntry* block, const std::vector<Setting>& settings);
 void read_scene_events(const ModelReader& reader, Scene& scene, const TomlEntry& block);

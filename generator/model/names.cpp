@@ -23,6 +23,7 @@ const char* role_text(Role role)
     case Role::definition: return "a definition";
     case Role::casimir: return "a Casimir";
     case Role::observable: return "an observable";
+    case Role::form: return "an E-form";
     case Role::velocity: return "an inner velocity";
     case Role::built_in: return "a built-in quantity";
     }

@@ -23,6 +23,7 @@ enum class Role {
     velocity,
     casimir,
     observable,
+    form,
     built_in
 };
 

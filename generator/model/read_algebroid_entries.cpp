@@ -144,23 +144,6 @@ std::size_t section_index(const AlgebroidBlock& block, const Excerpt& key, const
     return found.indices[0];
 }
 
-/// The two sides of a key "a,b". Commas inside W[1,2] do not separate.
-std::vector<Excerpt> sides_of(const Excerpt& key)
-{
-    std::vector<Excerpt> out;
-    std::size_t begin = 0;
-    int depth = 0;
-    for (std::size_t k = 0; k <= key.text.size(); ++k) {
-        const char c = k < key.text.size() ? key.text[k] : ',';
-        if (c == '[') ++depth;
-        if (c == ']') --depth;
-        if (c != ',' || (depth > 0 && k < key.text.size())) continue;
-        out.push_back(trimmed(key, begin, k));
-        begin = k + 1;
-    }
-    return out;
-}
-
 void read_bracket(const ModelReader& reader, AlgebroidBlock& block, const TomlEntry& entry, const std::string& title)
 {
     const TableReader table(entry.value, title);

@@ -13,7 +13,7 @@ namespace lagen {
 namespace {
 
 constexpr std::initializer_list<const char*> later_blocks = {
-    "groupoid", "discrete", "hamilton_jacobi", "forms", "morphism", "compose",
+    "groupoid", "discrete", "hamilton_jacobi", "morphism", "compose",
 };
 
 } // namespace
@@ -54,6 +54,7 @@ Model read_model_text(const std::string& name, std::string text, const std::vect
     reader.mechanics.control = top.take("control");
     const TomlEntry* observables = top.take("observables");
     const TomlEntry* invariants = top.take("invariants");
+    const TomlEntry* forms = top.take("forms");
     const TomlEntry* about = top.take("about");
     const TomlEntry* scenes = top.take("scene");
     top.finish();
@@ -68,6 +69,7 @@ Model read_model_text(const std::string& name, std::string text, const std::vect
     declare_definitions(reader, definitions);
     declare_quantities(reader, observables, invariants);
     declare_mechanics(reader);
+    declare_forms(reader, forms);
     build_scopes(reader);
 
     read_parameters(reader, parameters, settings);
@@ -75,6 +77,7 @@ Model read_model_text(const std::string& name, std::string text, const std::vect
     read_mechanics(reader);
     read_control(reader);
     read_quantities(reader);
+    read_forms(reader, forms);
     read_about(reader, about);
     read_scenes(reader, scenes, settings);
     reader.model.observer = std::move(reader.observer);

@@ -2,10 +2,11 @@
 /// Small models with forces, Hamiltonians and controls, as the tests of printed equations read them.
 #pragma once
 
-#include "equations/derive.hpp"
+#include "elaborate/build_algebroid.hpp"
 #include "equations/hamilton.hpp"
 #include "equations/lagrange.hpp"
 #include "model/read_model.hpp"
+#include "support/model_equations.hpp"
 
 namespace lagen::written {
 

@@ -2,9 +2,9 @@
 /// Derived equations as numbers.
 #pragma once
 
-#include "expression/equation_set.hpp"
 #include "graph/evaluate.hpp"
 #include "graph/lower.hpp"
+#include "notation/equation_set.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Hamilton's and Pontryagin's equations, forces and energy balances, character by character.
 #include "emit/print_equations.hpp"
-#include "equations/derive.hpp"
 #include "equations/form_models.hpp"
 #include "equations/numbers.hpp"
 #include "equations/written_models.hpp"
+#include "support/model_equations.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -230,7 +230,7 @@ TEST_CASE("brackets of functions print in LaTeX and JSON")
 TEST_CASE("a degenerate Lagrangian shows the kernel of W, and has no Hamiltonian form")
 {
     const Model model = written::read(written::degenerate);
-    const VerifiedAlgebroid verified = verify(model);
+    const ModelReport verified = verify(model);
     CHECK(text_of_block(derive("lagrange", model, verified), "L is degenerate: kernel of W") ==
           "  k_v_x = -1\n  k_v_y = 1\n");
     CHECK_THROWS_WITH(

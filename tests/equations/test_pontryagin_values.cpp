@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Pontryagin's equations as numbers: against reference extremals, and against the coordinate formula with derivatives
 /// of H by differences.
-#include "equations/derive.hpp"
 #include "equations/numbers.hpp"
 #include "expression/parse.hpp"
 #include "model/read_model.hpp"
+#include "support/model_equations.hpp"
 #include "support/reference_case.hpp"
 #include "support/tolerances.hpp"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Lagrange's equations of textbook models, character by character, and the same in every process.
+#include "elaborate/build_algebroid.hpp"
 #include "emit/print_equations.hpp"
 #include "equations/written_models.hpp"
 

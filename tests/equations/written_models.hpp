@@ -2,6 +2,7 @@
 /// Five textbook models, as the tests of printed equations read them.
 #pragma once
 
+#include "elaborate/build_algebroid.hpp"
 #include "equations/lagrange.hpp"
 #include "model/read_model.hpp"
 

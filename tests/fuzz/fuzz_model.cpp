@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Bytes as a model file: read; where it reads, its scenes are evaluated, it is verified and its equations are derived.
 /// A model with many sections or large expressions is read only: deciding it may take its time.
-#include "equations/derive.hpp"
 #include "fuzz/harness.hpp"
 #include "fuzz/small_budget.hpp"
-#include "geometry/verify.hpp"
-#include "model/evaluate_scene.hpp"
 #include "model/read_model.hpp"
 #include "model/scene_form.hpp"
+#include "scene/evaluate_scene.hpp"
+#include "support/model_equations.hpp"
+#include "support/stages.hpp"
 
 using namespace lagen;
 using fuzz::accepted;
@@ -71,7 +71,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const Model model = read_model_text("fuzz.toml", text);
         for (const Scene& scene : model.scenes) accepted([&] { static_cast<void>(evaluate_scene(model, scene)); });
         if (!is_small(model)) return;
-        const VerifiedAlgebroid verified = verify(model, {}, 2, small_budget);
+        const ModelReport verified = verify(model, {}, 2, small_budget);
         for (const Check& check : verified.checks) require_confirmed(check);
         if (written_mechanics(model) > longest_mechanics) return;
         for (const std::string& form : form_names())

@@ -5,9 +5,9 @@
 #include "graph/differentiate.hpp"
 #include "graph/evaluate.hpp"
 #include "graph/solve_unknowns.hpp"
-#include "kernels/form_kernels.hpp"
 #include "model/read_model.hpp"
 #include "model/scene_form.hpp"
+#include "support/model_kernels.hpp"
 #include "support/sanitized.hpp"
 
 #include <catch2/catch.hpp>
@@ -95,7 +95,7 @@ inline const std::vector<KernelModule>& kernels_of_file(const std::string& file)
     const auto found = modules.find(file);
     if (found != modules.end()) return found->second;
     const Model model = read_model(file);
-    const VerifiedAlgebroid verified = verify(model);
+    const ModelReport verified = verify(model);
     std::vector<KernelModule> all;
     for (const std::string& form : forms_of(model)) {
         KernelRequest request;

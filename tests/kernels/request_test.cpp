@@ -30,7 +30,7 @@ zero = { when = "x - 1" }
 same = { when = "v_x" }
 )";
 
-std::string message_of(const Model& model, const VerifiedAlgebroid& verified, const KernelRequest& request)
+std::string message_of(const Model& model, const Report& verified, const KernelRequest& request)
 {
     try {
         static_cast<void>(form_kernels(model, verified, request));
@@ -68,7 +68,7 @@ TEST_CASE("a kernel that does not exist is refused with the list of those that d
 TEST_CASE("a kernel that a form of the model does not have is refused with the list of those that it has", "[kernels]")
 {
     const Model model = read_model_text("test.toml", oscillator);
-    const VerifiedAlgebroid verified = verify(model);
+    const ModelReport verified = verify(model);
     KernelRequest request;
     request.only = {"rhs", "velocity"};
     CHECK(message_of(model, verified, request) ==
@@ -123,7 +123,7 @@ TEST_CASE("what a scene observes beyond lanes and observables joins the observab
 TEST_CASE("a model without a Lagrangian or with a degenerate one has no kernels", "[kernels]")
 {
     Model model = read_model_text("test.toml", oscillator);
-    VerifiedAlgebroid verified = verify(model);
+    ModelReport verified = verify(model);
     verified.regularity.kind = Regularity::Kind::degenerate;
     verified.regularity.rank = 0;
     CHECK(message_of(model, verified, {}) ==

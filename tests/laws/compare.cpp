@@ -2,7 +2,7 @@
 /// Both sides in balls at one point.
 #include "compare.hpp"
 
-#include "geometry/lowered_algebroid.hpp"
+#include "elaborate/build_algebroid.hpp"
 #include "proof/enclosure.hpp"
 
 namespace lagen::laws {
@@ -22,26 +22,26 @@ struct Pairs {
     }
 };
 
-Pairs pairs_of(Graph& graph, const Algebroid& built, const LocalAlgebroid& expected)
+Pairs pairs_of(Graph& graph, const WrittenAlgebroid& built, const LocalAlgebroid& expected)
 {
     Lowering lower(graph);
-    const LoweredAlgebroid lowered = lower_algebroid(graph, lower, built);
+    const Algebroid lowered = lower_algebroid(graph, lower, built);
     Pairs pairs;
     for (std::size_t a = 0; a < expected.r(); ++a) {
         for (std::size_t i = 0; i < expected.n(); ++i)
             pairs.add("rho(" + expected.base[i] + ", " + expected.fibre[a] + ")",
-                      LoweredAlgebroid::entry(graph, lowered.anchor[a], i), expected.anchor(i, a));
+                      Algebroid::entry(graph, lowered.anchor[a], i), expected.anchor(i, a));
         for (std::size_t b = a + 1; b < expected.r(); ++b)
             for (std::size_t c = 0; c < expected.r(); ++c)
                 pairs.add("C(" + expected.fibre[c] + ", " + expected.fibre[a] + ", " + expected.fibre[b] + ")",
-                          LoweredAlgebroid::entry(graph, lowered.C(a, b), c), expected.bracket(c, a, b));
+                          Algebroid::entry(graph, lowered.C(a, b), c), expected.bracket(c, a, b));
     }
     return pairs;
 }
 
 } // namespace
 
-std::string difference_from(const Algebroid& built, const LocalAlgebroid& expected, Dice& dice)
+std::string difference_from(const WrittenAlgebroid& built, const LocalAlgebroid& expected, Dice& dice)
 {
     if (built.r() != expected.r() || built.n() != expected.n()) return "rank or dimension differ";
     const std::optional<Point> point = random_point(expected, dice);

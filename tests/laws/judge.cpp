@@ -77,7 +77,7 @@ Answer answer_of(const std::string& text)
     Answer answer;
     const std::clock_t begin = std::clock();
     try {
-        const VerifiedAlgebroid verified = verify(read_model_text("random.toml", "name = \"random\"\n" + text));
+        const ModelReport verified = verify(read_model_text("random.toml", "name = \"random\"\n" + text));
         answer.verdict = to_text(verified.verdict);
         for (const Check& check : verified.checks) {
             if (check.decision.status == ProofStatus::refuted) answer.refuted.push_back(check);

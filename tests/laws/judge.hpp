@@ -2,8 +2,8 @@
 /// What `verify` says of a model text, and whether that is so.
 #pragma once
 
-#include "geometry/verify.hpp"
 #include "oracle.hpp"
+#include "support/stages.hpp"
 
 namespace lagen::laws {
 
@@ -12,7 +12,7 @@ struct Answer {
     std::string reason;      ///< of undecided: the first evidence, numbers taken out
     double milliseconds = 0; ///< processor time of reading and verifying
     std::vector<Check> refuted;
-    Algebroid algebroid; ///< as lagen built it
+    WrittenAlgebroid algebroid; ///< as lagen built it
 };
 
 /// Reads and verifies the text.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Every mistake of tests/errors gets its exact text, and the mistakes that no file can hold get theirs here.
-#include "model/evaluate_scene.hpp"
 #include "model/read_model.hpp"
+#include "scene/evaluate_scene.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Scenes in numbers, against values computed by hand.
-#include "model/evaluate_scene.hpp"
 #include "model/evaluate_tree.hpp"
-#include "model/project_start.hpp"
 #include "model/read_model.hpp"
+#include "scene/evaluate_scene.hpp"
+#include "scene/project_start.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Sizes and families: one key declares, fills or observes many symbols, and the record holds them one by one.
 #include "expression/parse.hpp"
-#include "model/evaluate_scene.hpp"
 #include "model/families.hpp"
 #include "model/read_model.hpp"
+#include "scene/evaluate_scene.hpp"
 
 #include <catch2/catch.hpp>
 

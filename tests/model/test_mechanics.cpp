@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Hamiltonians, forces, dissipation and control problems: what a file says is what the record holds.
 #include "expression/parse.hpp"
-#include "model/evaluate_scene.hpp"
 #include "model/read_model.hpp"
 #include "model/scene_form.hpp"
+#include "scene/evaluate_scene.hpp"
 
 #include <catch2/catch.hpp>
 #include <filesystem>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The models of the house: they read, every scene starts on its constraints and in its domain, everything has a unit.
-#include "model/evaluate_scene.hpp"
 #include "model/read_model.hpp"
+#include "scene/evaluate_scene.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

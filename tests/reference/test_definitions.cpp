@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The algebroids of the reference definitions: verdicts, and what is said of those that are wrong.
-#include "geometry/checking.hpp"
 #include "support/reference_case.hpp"
+#include "verify/checking.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -28,7 +28,7 @@ TEST_CASE("the reference definitions that are wrong have these hints")
     std::size_t wrong = 0;
     for (const ReferenceDefinition& definition : read_reference_definitions()) {
         INFO(definition.algebroid.name);
-        const VerifiedAlgebroid verified = verify(read_model_text("test.toml", model_text(definition.algebroid)));
+        const ModelReport verified = verify(read_model_text("test.toml", model_text(definition.algebroid)));
         CHECK(verified.verdict == (definition.valid ? Verdict::valid : Verdict::invalid));
         if (definition.valid) {
             CHECK(hints_of(verified).empty());

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// End to end against data that share no code with lagen: model text -> verified algebroid -> kernels -> interpreter.
-#include "geometry/verify.hpp"
 #include "graph/evaluate.hpp"
 #include "graph/solve_unknowns.hpp"
-#include "kernels/form_kernels.hpp"
 #include "model/read_model.hpp"
+#include "support/model_kernels.hpp"
 #include "support/reference_case.hpp"
+#include "support/stages.hpp"
 #include "support/tolerances.hpp"
 
 #include <catch2/catch.hpp>
@@ -82,7 +82,7 @@ TEST_CASE("derivatives, momenta and energy agree with the reference at every poi
     for (const ReferenceCase& reference : read_reference_cases()) {
         INFO(reference.name);
         const Model model = read_model_text(reference.name + ".toml", model_text(reference));
-        const VerifiedAlgebroid verified = verify(model);
+        const ModelReport verified = verify(model);
         CHECK(std::string(to_text(verified.verdict)) == "valid");
         const KernelModule module = form_kernels(model, verified);
         const double in_double = largest_error<double>(module, reference);
@@ -142,7 +142,7 @@ TEST_CASE("the controls of Pontryagin's form agree with every sample of every re
     for (const ReferenceCase& reference : cases) {
         INFO(reference.name);
         const Model model = read_model_text(reference.name + ".toml", model_text(reference));
-        const VerifiedAlgebroid verified = verify(model);
+        const ModelReport verified = verify(model);
         CHECK(verified.verdict == Verdict::valid);
         const KernelModule module = form_kernels(model, verified, {});
         CHECK(module.form == "pontryagin");
@@ -158,7 +158,7 @@ TEST_CASE("every reference definition gets the verdict that it deserves, by the 
     for (const ReferenceDefinition& definition : read_reference_definitions()) {
         INFO(definition.algebroid.name);
         const Model model = read_model_text(definition.algebroid.name + ".toml", model_text(definition.algebroid));
-        const VerifiedAlgebroid verified = verify(model);
+        const ModelReport verified = verify(model);
         CHECK(std::string(to_text(verified.verdict)) == (definition.valid ? "valid" : "invalid"));
         for (const std::string& name : definition.failing)
             CHECK(std::any_of(verified.checks.begin(), verified.checks.end(), [&](const Check& check) {

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "advice/advise.hpp"
+
+#include "advice/repair_search.hpp"
+#include "verify/proof_setting.hpp"
+
+#include <algorithm>
+
+namespace lagen {
+
+void advise(const System& system, Report& report, const ProofBudget& budget)
+{
+    if (system.written.algebroid.r() != system.r()) return;
+    if (std::ranges::none_of(report.checks,
+                             [](const Check& check) { return check.decision.status == ProofStatus::refuted; }))
+        return;
+    Graph graph = system.graph;
+    BaseGradient partial(graph, system.algebroid.x);
+    const ResidualList list = structure_equations(partial, system.algebroid, system.functions);
+    // The checks of the report begin with these equations, in their order.
+    if (report.checks.size() < list.residuals.size()) throw InternalError("a report of another system");
+    Judge judge(graph, proof_setting(system), accessory_inputs(system), 0, budget);
+    for (std::size_t k = 0; k < list.residuals.size(); ++k)
+        judge.remember(list.residuals[k].value, report.checks[k].decision);
+    RepairSearch search(graph, partial, judge, system.written.algebroid, system.algebroid, system.functions,
+                        system.editable);
+    const std::vector<std::string> hints = search.hints(list);
+    for (std::size_t k = 0; k < hints.size(); ++k) report.checks[k].hint = hints[k];
+}
+
+} // namespace lagen

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "algebroid/form.hpp"
+
+#include "algebroid/terms.hpp"
+#include "graph/differentiate.hpp"
+
+#include <algorithm>
+
+namespace lagen {
+namespace {
+
+/// A component of a product of basis forms in any order: sorted, with its sign; 0 where an index stands twice.
+struct SortedIndex {
+    FormIndex index;
+    int sign = 1;
+};
+
+SortedIndex sorted(FormIndex index)
+{
+    int sign = 1;
+    for (std::size_t k = 1; k < index.size(); ++k)
+        for (std::size_t l = k; l > 0 && index[l - 1] >= index[l]; --l) {
+            if (index[l - 1] == index[l]) return {{}, 0};
+            std::swap(index[l - 1], index[l]);
+            sign = -sign;
+        }
+    return {std::move(index), sign};
+}
+
+class Components {
+  public:
+    Components(Graph& graph, std::size_t degree) : graph_(graph), degree_(degree) {}
+
+    /// + value e^{i1} ^ e^{i2} ^ ..
+    void add(FormIndex index, NodeId value)
+    {
+        if (graph_.is_zero(value)) return;
+        auto [ascending, sign] = sorted(std::move(index));
+        if (sign != 0) terms_.add(ascending, sign > 0 ? value : graph_.negate(value));
+    }
+
+    [[nodiscard]] ExteriorForm form() const { return {degree_, terms_.sums(graph_)}; }
+
+  private:
+    Graph& graph_;
+    std::size_t degree_;
+    Terms<FormIndex> terms_;
+};
+
+FormIndex joined(const FormIndex& a, const FormIndex& b)
+{
+    FormIndex result = a;
+    result.insert(result.end(), b.begin(), b.end());
+    return result;
+}
+
+/// The columns of d e^c = -C^c_ab e^a ^ e^b, a < b, by c.
+std::vector<std::vector<std::pair<FormIndex, NodeId>>> basis_differentials(Graph& graph, const Algebroid& algebroid)
+{
+    std::vector<std::vector<std::pair<FormIndex, NodeId>>> result(algebroid.r());
+    for (std::size_t a = 0; a < algebroid.r(); ++a)
+        for (std::size_t b = a + 1; b < algebroid.r(); ++b)
+            for (const ColumnEntry& C : algebroid.C(a, b)) result[C.index].push_back({{a, b}, graph.negate(C.value)});
+    return result;
+}
+
+} // namespace
+
+ExteriorForm function_form(NodeId f)
+{
+    return {0, {{{}, f}}};
+}
+
+ExteriorForm basis_form(Graph& graph, std::size_t a)
+{
+    return {1, {{{a}, graph.constant(1)}}};
+}
+
+ExteriorForm sum(Graph& graph, const ExteriorForm& v, const ExteriorForm& w)
+{
+    if (v.degree != w.degree) throw InternalError("a sum of forms of different degrees");
+    Components components(graph, v.degree);
+    for (const ExteriorForm* form : {&v, &w})
+        for (const auto& [index, value] : form->components) components.add(index, value);
+    return components.form();
+}
+
+ExteriorForm product(Graph& graph, NodeId f, const ExteriorForm& w)
+{
+    Components components(graph, w.degree);
+    for (const auto& [index, value] : w.components) components.add(index, graph.multiply(f, value));
+    return components.form();
+}
+
+ExteriorForm wedge(Graph& graph, const ExteriorForm& v, const ExteriorForm& w)
+{
+    Components components(graph, v.degree + w.degree);
+    for (const auto& [a, left] : v.components)
+        for (const auto& [b, right] : w.components) components.add(joined(a, b), graph.multiply(left, right));
+    return components.form();
+}
+
+ExteriorForm contraction(Graph& graph, const Section& s, const ExteriorForm& w)
+{
+    Components components(graph, w.degree == 0 ? 0 : w.degree - 1);
+    for (const auto& [index, value] : w.components)
+        for (std::size_t k = 0; k < index.size(); ++k) {
+            const NodeId component = Algebroid::entry(graph, s, index[k]);
+            FormIndex rest = index;
+            rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(k));
+            const NodeId term = graph.multiply(component, value);
+            components.add(std::move(rest), k % 2 == 0 ? term : graph.negate(term));
+        }
+    return components.form();
+}
+
+ExteriorForm differential(BaseGradient& partial, const Algebroid& algebroid, const ExteriorForm& w)
+{
+    Graph& graph = partial.graph();
+    const auto de = basis_differentials(graph, algebroid);
+    Components components(graph, w.degree + 1);
+    std::vector<NodeId> derivative;
+    for (const auto& [index, value] : w.components) {
+        for (std::size_t a = 0; a < algebroid.r(); ++a) {
+            derivative.clear();
+            partial.append_along(derivative, algebroid.anchor[a], value);
+            for (const NodeId term : derivative) components.add(joined({a}, index), term);
+        }
+        // w e^{a1} ^ .. ^ d e^{ak} ^ ..: d e^{ak} has degree 2 and is moved to the front, past k forms.
+        for (std::size_t k = 0; k < index.size(); ++k) {
+            FormIndex rest = index;
+            rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(k));
+            for (const auto& [pair, coefficient] : de[index[k]]) {
+                const NodeId term = graph.multiply(value, coefficient);
+                components.add(joined(pair, rest), k % 2 == 0 ? term : graph.negate(term));
+            }
+        }
+    }
+    return components.form();
+}
+
+ExteriorForm lie_derivative(BaseGradient& partial, const Algebroid& algebroid, const Section& s, const ExteriorForm& w)
+{
+    Graph& graph = partial.graph();
+    const ExteriorForm inner = contraction(graph, s, differential(partial, algebroid, w));
+    if (w.degree == 0) return inner;
+    return sum(graph, differential(partial, algebroid, contraction(graph, s, w)), inner);
+}
+
+ExteriorForm pull_back(Graph& graph, const BundleMap& map, const ExteriorForm& w)
+{
+    // Phi^* e^a = Phi^a_b e^b
+    std::map<std::size_t, ExteriorForm> basis;
+    for (std::size_t b = 0; b < map.fibre.size(); ++b)
+        for (const ColumnEntry& entry : map.fibre[b]) {
+            ExteriorForm& form = basis[entry.index];
+            form.degree = 1;
+            form.components[{b}] = entry.value;
+        }
+    ExteriorForm result{w.degree, {}};
+    for (const auto& [index, value] : w.components) {
+        const NodeId at[] = {value};
+        ExteriorForm term = function_form(substitute(graph, at, map.base)[0]);
+        for (const std::size_t a : index) term = wedge(graph, term, basis.contains(a) ? basis[a] : ExteriorForm{1, {}});
+        result = sum(graph, result, term);
+    }
+    return result;
+}
+
+} // namespace lagen

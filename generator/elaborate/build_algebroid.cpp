@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// The algebroid block of a model as sparse anchor and structure functions.
+#include "elaborate/build_algebroid.hpp"
+
+#include "algebroid/named_algebra.hpp"
+#include "elaborate/build_workspace.hpp"
+#include "model/table_reader.hpp"
+
+#include <algorithm>
+
+namespace lagen {
+namespace {
+
+/// The Lie algebra that was meant by "SO(5)", "so5" or "R3", or nearly by another name; empty where none is near.
+std::string algebra_meant(std::string name)
+{
+    const std::size_t letters = std::min(name.find_first_of("0123456789"), name.size());
+    const std::string digits = name.substr(letters);
+    const std::string space = name.substr(0, letters) + "^" + digits;
+    const std::string wanted = name;
+    for (char& c : name)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    for (const std::string& candidate : {name, name.substr(0, letters) + "(" + digits + ")", space})
+        if (named_algebra(candidate)) return candidate;
+    return nearest_name(wanted, named_algebra_names());
+}
+
+std::vector<StructureValue> named_constants(const AlgebroidBlock& block, std::size_t first, std::size_t rank)
+{
+    const std::optional<NamedAlgebra> algebra = named_algebra(block.algebra);
+    if (!algebra) {
+        const std::string near = algebra_meant(block.algebra);
+        throw ModelError("there is no Lie algebra called \"" + block.algebra + "\" of rank at most " +
+                             std::to_string(named_algebra_rank_limit),
+                         block.algebra_where,
+                         (near.empty() ? std::string() : "did you mean \"" + near + "\"? ") + "known are " +
+                             comma_list(named_algebra_names()) + ", the last three with any number, and sums A + B");
+    }
+    if (algebra->basis.size() != rank) {
+        const bool atiyah = block.kind == AlgebroidKind::atiyah;
+        throw ModelError("the Lie algebra " + algebra->name + " has rank " + std::to_string(algebra->basis.size()) +
+                             ", where the number of" + (atiyah ? " vertical" : "") + " fibre coordinates is " +
+                             std::to_string(rank),
+                         block.algebra_where, "give [fibre] one coordinate for each basis element");
+    }
+    std::vector<StructureValue> constants;
+    for (const StructureConstant& entry : algebra->constants)
+        constants.push_back({entry.c + first, entry.a + first, entry.b + first,
+                             number(entry.value, block.algebra_where), block.algebra_where});
+    return constants;
+}
+
+/// rho(e_a) = d/dx^{over[a]}
+BlockParts build_tangent(const AlgebroidBlock& block)
+{
+    if (block.over.size() != block.fibre.size())
+        throw ModelError("the tangent algebroid has " + std::to_string(block.over.size()) +
+                             " moving base coordinates, but the fibre has " + std::to_string(block.fibre.size()),
+                         block.where, "give [fibre] one coordinate for each base coordinate that moves");
+    BlockParts parts;
+    for (std::size_t a = 0; a < block.over.size(); ++a)
+        parts.rho.push_back({block.over[a], a, number(1, block.where), block.where});
+    return parts;
+}
+
+/// Sections of the factors one after another; sections of different factors commute.
+BlockParts build_product(BuildWorkspace& work, const AlgebroidBlock& block)
+{
+    BlockParts parts;
+    std::size_t first = 0;
+    for (const AlgebroidBlock& factor : block.of) {
+        const BlockParts inner = build_block(work, factor);
+        for (AnchorValue entry : inner.rho) {
+            entry.a += first;
+            parts.rho.push_back(std::move(entry));
+        }
+        for (const StructureValue& entry : inner.C)
+            parts.C.push_back({entry.c + first, entry.a + first, entry.b + first, entry.value, entry.where});
+        first += factor.fibre.size();
+    }
+    return parts;
+}
+
+} // namespace
+
+std::vector<StructureValue> structure_constants(const AlgebroidBlock& block, std::size_t first, std::size_t rank)
+{
+    if (!block.algebra.empty()) return named_constants(block, first, rank);
+    std::vector<StructureValue> constants;
+    for (const BracketEntry& entry : block.bracket)
+        constants.push_back({entry.c, entry.a, entry.b, entry.value, entry.where});
+    return constants;
+}
+
+BlockParts build_given(const AlgebroidBlock& block)
+{
+    BlockParts parts;
+    for (const AnchorEntry& entry : block.anchor)
+        parts.rho.push_back({entry.coordinate, entry.section, entry.value, entry.where});
+    parts.C = structure_constants(block, 0, block.fibre.size());
+    return parts;
+}
+
+BlockParts build_block(BuildWorkspace& work, const AlgebroidBlock& block)
+{
+    switch (block.kind) {
+    case AlgebroidKind::tangent: return build_tangent(block);
+    case AlgebroidKind::action: return build_action(work, block);
+    case AlgebroidKind::subbundle: return build_subbundle(work, block);
+    case AlgebroidKind::atiyah: return build_atiyah(work, block);
+    case AlgebroidKind::frame: return build_frame(work, block, build_block(work, block.of.at(0)));
+    case AlgebroidKind::prolongation: return build_prolongation(block, build_block(work, block.of.at(0)));
+    case AlgebroidKind::product: return build_product(work, block);
+    default: return build_given(block);
+    }
+}
+
+WrittenAlgebroid build_algebroid(const Model& model)
+{
+    AlgebroidBlock block = model.algebroid;
+    block.fibre = model.fibre.coordinates;
+    BuildWorkspace work(model);
+    BlockParts parts = build_block(work, block);
+    WrittenAlgebroid algebroid;
+    algebroid.base = model.base.coordinates;
+    algebroid.fibre = model.fibre.coordinates;
+    for (const Parameter& parameter : model.parameters) algebroid.parameters.push_back(parameter.symbol.name);
+    algebroid.rho = std::move(parts.rho);
+    algebroid.C = std::move(parts.C);
+    algebroid.constraints = model.base.constraints;
+    algebroid.domain = model.base.domain;
+    return algebroid;
+}
+
+Algebroid lower_algebroid(Graph& graph, Lowering& lower, const WrittenAlgebroid& written)
+{
+    std::vector<NodeId> x, y;
+    for (const Symbol& symbol : written.base) x.push_back(graph.input(symbol.name));
+    AlgebroidBuilder builder(graph, std::move(x), written.r());
+    for (const AnchorValue& entry : written.rho) builder.add_anchor(entry.i, entry.a, lower(entry.value));
+    for (const StructureValue& entry : written.C) builder.add_bracket(entry.c, entry.a, entry.b, lower(entry.value));
+    for (const Symbol& symbol : written.fibre) y.push_back(graph.input(symbol.name));
+    return builder.finish(std::move(y));
+}
+
+} // namespace lagen

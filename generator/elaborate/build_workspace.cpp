@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Formulas of the kinds of algebroid on one graph, and their readable form.
+#include "elaborate/build_workspace.hpp"
+
+#include "expression/parse.hpp"
+#include "proof/print_fraction.hpp"
+#include "proof/triangular.hpp"
+#include "symbolic/shortest_form.hpp"
+
+#include <algorithm>
+
+namespace lagen {
+namespace {
+
+constexpr std::size_t normal_terms = 400;
+constexpr std::size_t normal_products = 20'000;
+constexpr std::size_t normal_length = 4000;   ///< of a normal form that is considered
+constexpr std::size_t rewritten_length = 600; ///< of a form that GiNaC looks for a shorter one of
+constexpr std::size_t parenthesis_cost = 2;
+
+std::size_t cost_of(const Tree& tree)
+{
+    const std::string text = to_text(tree);
+    return text.size() + parenthesis_cost * static_cast<std::size_t>(std::count(text.begin(), text.end(), '('));
+}
+
+/// x[3], and pi where the model declares it, as the symbol that it stands for. (The number is acos(-1) then.)
+Tree with_entries_as_names(const Tree& tree, bool declares_pi)
+{
+    if (tree->kind == TreeKind::pi && declares_pi) return name("pi", tree->where);
+    if (tree->kind == TreeKind::index) return name(to_text(tree), tree->where);
+    if (tree->arguments.empty()) return tree;
+    auto node = std::make_shared<TreeNode>(*tree);
+    node->where = {};
+    for (Tree& argument : node->arguments) argument = with_entries_as_names(argument, declares_pi);
+    return node;
+}
+
+} // namespace
+
+BuildWorkspace::BuildWorkspace(const Model& model)
+    : model_(model), lower_(graph_), x_([&] {
+          std::vector<NodeId> x;
+          for (const Symbol& symbol : model.base.coordinates) x.push_back(graph_.input(symbol.name));
+          return x;
+      }()),
+      partial_(graph_, x_)
+{
+    setting_.variables = x_;
+    for (const Parameter& parameter : model.parameters) {
+        setting_.parameters.push_back(graph_.input(parameter.symbol.name));
+        order_.parameters.push_back(parameter.symbol.name);
+    }
+    for (const Symbol& symbol : model.base.coordinates) order_.variables.push_back(symbol.name);
+    for (const Tree& tree : model.base.domain) setting_.domain.push_back(lower_(tree));
+    for (const Tree& tree : model.base.constraints) setting_.constraints.push_back(lower_(tree));
+    try {
+        solved_ = proof::triangular_constraints(graph_, setting_);
+    } catch (const MathematicsError&) {
+        setting_.constraints.clear();
+    }
+}
+
+Algebroid BuildWorkspace::lowered(const AlgebroidBlock& block, const BlockParts& parts)
+{
+    WrittenAlgebroid algebroid;
+    algebroid.base = model_.base.coordinates;
+    algebroid.fibre = block.fibre;
+    algebroid.rho = parts.rho;
+    algebroid.C = parts.C;
+    return lower_algebroid(graph_, lower_, algebroid);
+}
+
+/// The normal form as a tree; null where it costs too much or holds on a part of the domain only.
+Tree BuildWorkspace::normal_tree(NodeId node, bool& zero)
+{
+    try {
+        proof::NormalForm forms(graph_, setting_, solved_, node, {}, {normal_terms, normal_products});
+        const proof::Fraction form = forms.of(node);
+        if (!forms.condition().empty()) return nullptr;
+        zero = form.is_zero();
+        const std::string text = proof::to_text(forms.ring(), forms.readable(form), 2 * normal_length);
+        if (text.size() > normal_length || !proof::is_whole(text)) return nullptr;
+        return with_entries_as_names(parse_expression(whole_text("<normal form>", text)),
+                                     model_.scope.has_symbol("pi"));
+    } catch (const proof::BudgetExhausted&) {
+        return nullptr;
+    } catch (const proof::VanishingDivisor&) {
+        return nullptr;
+    }
+}
+
+Tree BuildWorkspace::readable(NodeId node)
+{
+    if (graph_.is_zero(node)) return nullptr;
+    const auto known = readable_.find(node);
+    if (known != readable_.end()) return known->second;
+    bool zero = false;
+    const Tree normal = normal_tree(node, zero);
+    const Tree built = to_tree(graph_, node);
+    Tree& best = readable_[node];
+    if (zero) return best;
+    best = built;
+    std::size_t cost = cost_of(built);
+    const auto offer = [&](const Tree& tree) {
+        const std::size_t other = cost_of(tree);
+        if (other >= cost) return;
+        best = tree;
+        cost = other;
+    };
+    if (normal != nullptr) offer(normal);
+    for (const Tree& tree : {normal, built}) {
+        if (tree == nullptr || cost_of(tree) > rewritten_length) continue;
+        try {
+            offer(shortest_form(to_ginac(tree, symbols_), symbols_, order_));
+        } catch (const MathematicsError&) {
+            continue; // the other forms stand
+        }
+    }
+    return best;
+}
+
+void BuildWorkspace::append_structure(BlockParts& parts, std::size_t c, std::size_t a, std::size_t b, NodeId value,
+                                      const SourceRange& where)
+{
+    if (Tree tree = readable(value)) parts.C.push_back({c, a, b, std::move(tree), where});
+}
+
+void BuildWorkspace::append_anchor(BlockParts& parts, std::size_t i, std::size_t a, NodeId value,
+                                   const SourceRange& where)
+{
+    if (Tree tree = readable(value)) parts.rho.push_back({i, a, std::move(tree), where});
+}
+
+Decision BuildWorkspace::decide(NodeId function) const
+{
+    return ZeroDecider(graph_, setting_).decide(function);
+}
+
+} // namespace lagen

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// What the kinds of algebroid are built with: one graph for all formulas, the setting in which residuals vanish, and
+/// the way back to trees that a person can read.
+#pragma once
+
+#include "algebroid/section.hpp"
+#include "elaborate/build_algebroid.hpp"
+#include "graph/determinant.hpp"
+#include "proof/decide.hpp"
+#include "proof/normal_form.hpp"
+#include "symbolic/ginac_door.hpp"
+
+#include <memory>
+#include <optional>
+
+namespace lagen {
+
+/// Anchor and structure functions of a block: sections by their number in it, base coordinates by the model's.
+struct BlockParts {
+    std::vector<AnchorValue> rho;
+    std::vector<StructureValue> C;
+};
+
+class BuildWorkspace {
+  public:
+    explicit BuildWorkspace(const Model& model);
+    BuildWorkspace(const BuildWorkspace&) = delete;
+    BuildWorkspace& operator=(const BuildWorkspace&) = delete;
+
+    [[nodiscard]] const Model& model() const { return model_; }
+    [[nodiscard]] Graph& graph() { return graph_; }
+    NodeId lower(const Tree& tree) { return lower_(tree); }
+    [[nodiscard]] NodeId coordinate(std::size_t i) const { return x_.at(i); }
+    /// df/dx^i for all base coordinates where it is not zero by structure.
+    const Column& partials(NodeId f) { return partial_.of(f); }
+    /// rho_a(f) for the anchor column of a section.
+    NodeId along(const VectorField& anchor, NodeId f) { return partial_.along(anchor, f); }
+    [[nodiscard]] BaseGradient& gradients() { return partial_; }
+    /// The parts on the graph; the order of a pair that they leave out is the negative.
+    [[nodiscard]] Algebroid lowered(const AlgebroidBlock& block, const BlockParts& parts);
+
+    /// The shortest of several exact rewritings of the node, by the base constraints too; nothing where it is zero
+    /// wherever it is defined. Expressions beyond a budget come back as they were built.
+    [[nodiscard]] Tree readable(NodeId node);
+    /// Appends C^c_ab unless it is zero.
+    void append_structure(BlockParts& parts, std::size_t c, std::size_t a, std::size_t b, NodeId value,
+                          const SourceRange& where);
+    void append_anchor(BlockParts& parts, std::size_t i, std::size_t a, NodeId value, const SourceRange& where);
+
+    /// Variables, parameters, domain and (triangular) constraints of the base.
+    [[nodiscard]] const ProofSetting& setting() const { return setting_; }
+    /// Decides whether a function on the base is zero; `refuted` means that it is not zero at some point. The base
+    /// constraints that are not triangular are ignored here (the checks refuse them).
+    [[nodiscard]] Decision decide(NodeId function) const;
+
+  private:
+    const Model& model_;
+    Graph graph_;
+    Lowering lower_;
+    std::vector<NodeId> x_;
+    BaseGradient partial_;
+    ProofSetting setting_;
+    std::vector<proof::SolvedConstraint> solved_;
+    SymbolTable symbols_;
+    Order order_;
+    std::map<NodeId, Tree> readable_;
+
+    [[nodiscard]] Tree normal_tree(NodeId node, bool& zero);
+};
+
+/// rho and C of a block and everything inside it. Throws ModelError.
+[[nodiscard]] BlockParts build_block(BuildWorkspace& work, const AlgebroidBlock& block);
+
+// By kind.
+[[nodiscard]] BlockParts build_given(const AlgebroidBlock& block);
+[[nodiscard]] BlockParts build_action(BuildWorkspace& work, const AlgebroidBlock& block);
+[[nodiscard]] BlockParts build_subbundle(BuildWorkspace& work, const AlgebroidBlock& block);
+[[nodiscard]] BlockParts build_atiyah(BuildWorkspace& work, const AlgebroidBlock& block);
+[[nodiscard]] BlockParts build_frame(BuildWorkspace& work, const AlgebroidBlock& block, const BlockParts& inner);
+[[nodiscard]] BlockParts build_prolongation(const AlgebroidBlock& block, const BlockParts& inner);
+
+/// A frame e'_a = A_a^b e_b on the graph, before its entries are made readable.
+struct FrameFormulas {
+    std::vector<Column> anchor;                             ///< anchor[a]: rho'^i_a = A_a^b rho^i_b
+    std::vector<std::pair<std::size_t, std::size_t>> pairs; ///< (a, b), a < b; all of them where `both_orders`
+    std::vector<std::vector<NodeId>> bracket;               ///< bracket[k][c]: C'^c_ab of pairs[k]
+    std::vector<NodeId> transposed;                         ///< transposed[d * r + c] = A_c^d
+    bool both_orders = false;                               ///< the inner block lists a pair in both orders
+};
+[[nodiscard]] FrameFormulas frame_formulas(BuildWorkspace& work, const AlgebroidBlock& block, const BlockParts& inner);
+
+/// Structure constants of `algebra` or `bracket`, sections counted from `first`. Throws ModelError where the algebra is
+/// unknown or has not `rank` basis elements.
+[[nodiscard]] std::vector<StructureValue> structure_constants(const AlgebroidBlock& block, std::size_t first,
+                                                              std::size_t rank);
+
+/// Rows and columns of a matrix with m*m entries that nonzero entries connect.
+struct CoupledBlock {
+    std::vector<std::size_t> rows, columns;
+};
+[[nodiscard]] std::vector<CoupledBlock> coupled_blocks(const Graph& graph, const std::vector<NodeId>& matrix,
+                                                       std::size_t m);
+/// z with M z = b for each b of `right`; M has m*m entries by rows and is invertible. Uncoupled unknowns are solved for
+/// each for themselves, small blocks by Cramer's rule, larger ones as components of a solve.
+[[nodiscard]] std::vector<std::vector<NodeId>> solve_exactly(Graph& graph, const std::vector<NodeId>& matrix,
+                                                             std::size_t m,
+                                                             const std::vector<std::vector<NodeId>>& right);
+/// The largest block that is solved by determinants.
+inline constexpr std::size_t written_determinant_limit = 5;
+
+} // namespace lagen

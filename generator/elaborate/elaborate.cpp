@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "elaborate/elaborate.hpp"
+
+#include "elaborate/build_algebroid.hpp"
+#include "elaborate/construction.hpp"
+#include "elaborate/lower_forms.hpp"
+#include "elaborate/model_trees.hpp"
+#include "graph/differentiate.hpp"
+#include "proof/partial_parts.hpp"
+
+#include <algorithm>
+#include <set>
+
+namespace lagen {
+namespace {
+
+class Elaboration {
+  public:
+    explicit Elaboration(const Model& model) : model_(model), graph_(system_.graph), lower_(graph_) {}
+
+    System run()
+    {
+        system_.name = model_.name;
+        system_.written = written(model_);
+        declare_inputs();
+        lower_structure();
+        lower_mechanics();
+        if (model_.control) lower_control();
+        lower_base();
+        describe_algebroid();
+        find_partial_parts();
+        give_parameter_values();
+        if (!model_.forms.empty()) system_.forms = lower_forms(system_, lower_, model_.forms);
+        return std::move(system_);
+    }
+
+  private:
+    [[nodiscard]] static Written written(const Model& model)
+    {
+        Written result;
+        result.algebroid = build_algebroid(model);
+        result.invariants = model.invariants;
+        result.phase = phase_trees(model);
+        result.all = all_trees(model, result.algebroid);
+        return result;
+    }
+
+    void declare_inputs()
+    {
+        const std::vector<std::string> declared = symbol_names(model_);
+        const bool free = std::ranges::find(declared, "t") == declared.end();
+        system_.time = graph_.input(free ? "t" : "time, which this model cannot name");
+        for (const Parameter& parameter : model_.parameters)
+            system_.parameters.push_back(graph_.input(parameter.symbol.name));
+        for (const Symbol& symbol : model_.base.coordinates) x_.push_back(graph_.input(symbol.name));
+    }
+
+    void lower_structure()
+    {
+        system_.algebroid = lower_algebroid(graph_, lower_, system_.written.algebroid);
+        for (const Symbol& symbol : model_.fibre.momenta) system_.mu.push_back(graph_.input(symbol.name));
+    }
+
+    void lower_mechanics()
+    {
+        if (model_.lagrangian) system_.lagrangian = lower_(model_.lagrangian);
+        if (model_.hamiltonian) system_.hamiltonian = lower_(model_.hamiltonian);
+        if (model_.forces.empty() && !model_.dissipation) return;
+        system_.forces.assign(system_.r(), graph_.constant(0));
+        for (const ComponentEntry& entry : model_.forces) {
+            NodeId& Q = system_.forces[entry.section];
+            system_.force_parts.push_back(lower_(entry.value));
+            Q = graph_.add(Q, system_.force_parts.back());
+        }
+        if (!model_.dissipation) return;
+        system_.force_parts.push_back(lower_(model_.dissipation));
+        const std::vector<NodeId> dR_dy = gradient(graph_, system_.force_parts.back(), system_.algebroid.y);
+        for (std::size_t a = 0; a < system_.r(); ++a) system_.forces[a] = graph_.subtract(system_.forces[a], dR_dy[a]);
+    }
+
+    void lower_control()
+    {
+        ControlProblem& control = system_.control.emplace();
+        for (const Symbol& symbol : model_.control->controls) control.u.push_back(graph_.input(symbol.name));
+        control.sigma.assign(system_.r(), graph_.constant(0));
+        for (const ComponentEntry& entry : model_.control->sigma) {
+            control.sigma[entry.section] = graph_.add(control.sigma[entry.section], lower_(entry.value));
+            append_parts(control.parts, entry.value);
+        }
+        control.cost = lower_(model_.control->cost);
+        append_parts(control.parts, model_.control->cost);
+        control.lower.resize(control.u.size());
+        control.upper.resize(control.u.size());
+        for (const ControlBound& bound : model_.control->bounds) {
+            if (bound.lower) control.lower[bound.control] = lower_(bound.lower);
+            if (bound.upper) control.upper[bound.control] = lower_(bound.upper);
+        }
+    }
+
+    void lower_base()
+    {
+        for (const Tree& tree : model_.base.constraints) {
+            system_.functions.constraints.push_back(lower_(tree));
+            system_.constraint_texts.push_back(to_text(tree));
+        }
+        for (const NamedTree& casimir : model_.base.casimirs) {
+            system_.functions.casimirs.push_back(lower_(casimir.value));
+            system_.casimir_names.push_back(casimir.name);
+        }
+        for (const Tree& tree : model_.base.domain) system_.domain.push_back(lower_(tree));
+    }
+
+    /// Entries that are computed (of a frame, of a named algebra) are no places to mend.
+    void describe_algebroid()
+    {
+        const AlgebroidBlock& block = model_.algebroid;
+        const bool action = block.kind == AlgebroidKind::action;
+        const bool given = block.kind == AlgebroidKind::general || block.kind == AlgebroidKind::lie_algebra || action;
+        system_.editable.anchor = (block.kind == AlgebroidKind::general || action) && block.representation.empty();
+        system_.editable.bracket = given && block.algebra.empty();
+        system_.editable.constant_bracket = block.kind != AlgebroidKind::general;
+        system_.is_distribution = block.kind == AlgebroidKind::subbundle;
+        system_.construction = construction_of(model_, system_.written.algebroid);
+    }
+
+    void append_parts(std::vector<NodeId>& parts, const Tree& tree)
+    {
+        const std::vector<NodeId> more = lagen::partial_parts(graph_, lower_, tree);
+        parts.insert(parts.end(), more.begin(), more.end());
+    }
+
+    void find_partial_parts()
+    {
+        for (const Tree& tree : structure_trees(model_, system_.written.algebroid))
+            append_parts(system_.partial_parts, tree);
+    }
+
+    /// Every value lowered after those that it uses; the model has made sure that there is no cycle.
+    void give_parameter_values()
+    {
+        Binding known;
+        while (known.size() < model_.parameters.size()) {
+            const std::size_t before = known.size();
+            for (const Parameter& parameter : model_.parameters) {
+                const std::vector<std::string> uses = names_in(parameter.value);
+                const bool ready =
+                    std::ranges::all_of(uses, [&](const std::string& use) { return known.contains(use); });
+                if (!ready || known.contains(parameter.symbol.name)) continue;
+                known[parameter.symbol.name] = Lowering(graph_, known)(parameter.value);
+            }
+            if (known.size() == before) throw InternalError("parameters that depend on each other in a cycle");
+        }
+        for (const NodeId parameter : system_.parameters)
+            system_.parameter_values.emplace_back(parameter, known.at(graph_.input_name(parameter)));
+    }
+
+    const Model& model_;
+    System system_;
+    Graph& graph_;
+    Lowering lower_;
+    std::vector<NodeId> x_;
+};
+
+} // namespace
+
+System elaborate(const Model& model)
+{
+    return Elaboration(model).run();
+}
+
+} // namespace lagen

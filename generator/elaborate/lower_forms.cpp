@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "elaborate/lower_forms.hpp"
+
+#include "proof/partial_parts.hpp"
+
+namespace lagen {
+
+namespace {
+
+class FormLowering {
+  public:
+    FormLowering(System& system, Lowering& lower)
+        : graph_(system.graph), algebroid_(system.algebroid), lower_(lower), partial_(system.graph, system.algebroid.x)
+    {
+    }
+
+    std::vector<FormClaim> run(const std::vector<NamedForm>& forms)
+    {
+        std::vector<FormClaim> claims;
+        for (const NamedForm& named : forms) {
+            FormClaim& claim = claims.emplace_back();
+            claim.name = named.name;
+            claim.closed = named.closed;
+            claim.form = value_of(named, claim.partial_parts);
+            forms_.push_back(claim.form);
+        }
+        for (std::size_t k = 0; k < forms.size(); ++k)
+            if (forms[k].equals) claims[k].equals = value_of(*forms[k].equals);
+        return claims;
+    }
+
+  private:
+    ExteriorForm value_of(const NamedForm& named, std::vector<NodeId>& parts)
+    {
+        ExteriorForm form{named.degree, {}};
+        for (const FormComponent& component : named.components) {
+            ExteriorForm term = function_form(lower_(component.value));
+            for (const std::size_t a : component.indices) term = wedge(graph_, term, basis_form(graph_, a));
+            form = sum(graph_, form, term);
+            const std::vector<NodeId> more = partial_parts(graph_, lower_, component.value);
+            parts.insert(parts.end(), more.begin(), more.end());
+        }
+        return form;
+    }
+
+    ExteriorForm value_of(const FormExpression& expression)
+    {
+        std::vector<ExteriorForm> parts;
+        for (const FormExpression& part : expression.parts) parts.push_back(value_of(part));
+        switch (expression.kind) {
+        case FormExpression::Kind::form: return forms_[expression.form];
+        case FormExpression::Kind::function: return function_form(lower_(expression.function));
+        case FormExpression::Kind::negative: return product(graph_, graph_.constant(-1), parts[0]);
+        case FormExpression::Kind::differential: return differential(partial_, algebroid_, parts[0]);
+        case FormExpression::Kind::contraction: return contraction(graph_, section_of(expression), parts[0]);
+        case FormExpression::Kind::sum:
+        case FormExpression::Kind::wedge: break;
+        }
+        ExteriorForm result = parts[0];
+        for (std::size_t k = 1; k < parts.size(); ++k)
+            result = expression.kind == FormExpression::Kind::sum ? sum(graph_, result, parts[k])
+                                                                  : wedge(graph_, result, parts[k]);
+        return result;
+    }
+
+    Section section_of(const FormExpression& expression)
+    {
+        Section section;
+        for (std::size_t a = 0; a < expression.section.size(); ++a)
+            if (const NodeId value = lower_(expression.section[a]); !graph_.is_zero(value))
+                section.push_back({a, value});
+        return section;
+    }
+
+    Graph& graph_;
+    const Algebroid& algebroid_;
+    Lowering& lower_;
+    BaseGradient partial_;
+    std::vector<ExteriorForm> forms_;
+};
+
+} // namespace
+
+std::vector<FormClaim> lower_forms(System& system, Lowering& lower, const std::vector<NamedForm>& forms)
+{
+    return FormLowering(system, lower).run(forms);
+}
+
+} // namespace lagen

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "kernels/formulation.hpp"
+
+#include "graph/differentiate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace lagen {
+
+Formulation empty_form(const System& system, std::string form, std::vector<NodeId> lanes, std::string lane_group)
+{
+    Formulation result;
+    result.form = std::move(form);
+    result.time = system.time;
+    result.parameters = system.parameters;
+    result.x = system.algebroid.x;
+    result.lanes = std::move(lanes);
+    result.lane_group = std::move(lane_group);
+    return result;
+}
+
+void bind_system(const System& system, Formulation& form)
+{
+    form.binding["t"] = system.time;
+    for (const std::vector<NodeId>* inputs : {&system.parameters, &system.algebroid.x})
+        for (const NodeId input : *inputs) form.binding[system.graph.input_name(input)] = input;
+}
+
+MatrixStructure mass_structure(const Regularity& regularity)
+{
+    return regularity.positive_definite && !regularity.for_given_parameters ? MatrixStructure::positive_definite
+                                                                            : MatrixStructure::symmetric;
+}
+
+void require_regular_lagrangian(const System& system, const Regularity& regularity, const char* form)
+{
+    if (!system.lagrangian)
+        throw MathematicsError(fmt::format("error: model '{}' has no Lagrangian; the {} form needs [lagrangian] L{}",
+                                           system.name, form,
+                                           form == std::string("Hamiltonian") ? " or [hamiltonian] H" : ""));
+    if (regularity.kind == Regularity::Kind::degenerate)
+        throw MathematicsError(fmt::format(
+            "error: the Lagrangian of model '{}' is degenerate: d2L/dy2 has rank {}, and the {} form "
+            "needs rank {}\nhint: the velocities cannot be solved for; give every fibre coordinate a kinetic term",
+            system.name, regularity.rank, form, system.r()));
+}
+
+std::vector<NodeId> single_blocks(const Graph& graph, const std::vector<NodeId>& W, std::size_t r)
+{
+    std::vector<NodeId> pivots;
+    for (std::size_t a = 0; a < r; ++a)
+        for (std::size_t b = 0; b < r; ++b) {
+            if (graph.is_zero(W[a * r + b])) continue;
+            std::size_t others = 0;
+            for (std::size_t k = 0; k < r; ++k) {
+                if (k != b && !graph.is_zero(W[a * r + k])) ++others;
+                if (k != a && !graph.is_zero(W[k * r + b])) ++others;
+            }
+            const NodeId pivot = W[a * r + b];
+            if (others == 0 && !graph.is_constant(pivot) && std::ranges::find(pivots, pivot) == pivots.end())
+                pivots.push_back(pivot);
+        }
+    return pivots;
+}
+
+KernelOutput column(std::string name, const std::vector<NodeId>& values)
+{
+    KernelOutput output{std::move(name), values.size(), 1, {}};
+    for (std::size_t k = 0; k < values.size(); ++k) output.entries.push_back({k, 0, values[k]});
+    return output;
+}
+
+KernelOutput matrix(const Graph& graph, std::string name, std::size_t rows, std::size_t columns,
+                    const std::vector<NodeId>& values)
+{
+    KernelOutput output{std::move(name), rows, columns, {}};
+    for (std::size_t k = 0; k < values.size(); ++k)
+        if (!graph.is_zero(values[k])) output.entries.push_back({k / columns, k % columns, values[k]});
+    return output;
+}
+
+std::vector<NodeId> state_of(const Formulation& form)
+{
+    std::vector<NodeId> lanes = form.x;
+    lanes.insert(lanes.end(), form.lanes.begin(), form.lanes.end());
+    return lanes;
+}
+
+Kernel hessian_kernel(Graph& graph, std::string name, const std::vector<NodeId>& first, const Formulation& form,
+                      const std::string& formula)
+{
+    const std::vector<NodeId> state = state_of(form);
+    const std::vector<NodeId> hessian = joined_rows(jacobian_through(graph, first, state, form.implicit));
+    return {std::move(name),
+            KernelShape::matrix,
+            matrix(graph, "H", state.size(), state.size(), hessian),
+            {formula + " over the lanes of the state, symmetric."},
+            {},
+            {}};
+}
+
+Kernel scalar_kernel(std::string name, NodeId value, std::string documentation)
+{
+    return {std::move(name), KernelShape::scalar, column("value", {value}), {std::move(documentation)}, {}, {}};
+}
+
+} // namespace lagen

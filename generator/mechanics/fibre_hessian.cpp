@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Momenta, fibre Hessian, its coupled blocks and their minors.
+#include "mechanics/fibre_hessian.hpp"
+#include "graph/differentiate.hpp"
+
+#include <algorithm>
+
+namespace lagen {
+namespace {
+
+std::vector<std::vector<std::size_t>> coupled_blocks(const Graph& graph, const FibreHessian& hessian)
+{
+    const std::size_t r = hessian.momenta.size();
+    std::vector<std::vector<std::size_t>> blocks;
+    std::vector<bool> seen(r, false);
+    for (std::size_t start = 0; start < r; ++start) {
+        if (seen[start]) continue;
+        std::vector<std::size_t> block = {start};
+        seen[start] = true;
+        for (std::size_t next = 0; next < block.size(); ++next)
+            for (std::size_t b = 0; b < r; ++b)
+                if (!seen[b] && !graph.is_zero(hessian.W(block[next], b))) {
+                    seen[b] = true;
+                    block.push_back(b);
+                }
+        std::sort(block.begin(), block.end());
+        blocks.push_back(std::move(block));
+    }
+    return blocks;
+}
+
+} // namespace
+
+FibreHessian fibre_hessian(Graph& graph, NodeId lagrangian, const std::vector<NodeId>& y)
+{
+    FibreHessian result;
+    result.lagrangian = lagrangian;
+    result.y = y;
+    result.momenta = gradient(graph, lagrangian, y);
+    for (const std::vector<NodeId>& row : jacobian(graph, result.momenta, y))
+        result.hessian.insert(result.hessian.end(), row.begin(), row.end());
+    // The two orders of differentiation may leave different nodes; one of them stands for both.
+    const std::size_t r = y.size();
+    for (std::size_t a = 0; a < r; ++a)
+        for (std::size_t b = 0; b < a; ++b) {
+            const bool zero = graph.is_zero(result.W(a, b)) || graph.is_zero(result.W(b, a));
+            const NodeId entry = zero ? graph.constant(0) : result.W(a, b);
+            result.hessian[a * r + b] = entry;
+            result.hessian[b * r + a] = entry;
+        }
+    result.blocks = coupled_blocks(graph, result);
+    return result;
+}
+
+NodeId minor_determinant(Graph& graph, const FibreHessian& hessian, const std::vector<std::size_t>& rows,
+                         const std::vector<std::size_t>& columns, std::optional<std::size_t> replaced,
+                         const std::vector<NodeId>& right)
+{
+    if (!replaced) return determinant_of(graph, hessian.hessian, hessian.y.size(), rows, columns);
+    std::vector<NodeId> matrix = hessian.hessian;
+    for (std::size_t k = 0; k < rows.size(); ++k) matrix[rows[k] * hessian.y.size() + columns.at(*replaced)] = right[k];
+    return determinant_of(graph, matrix, hessian.y.size(), rows, columns);
+}
+
+} // namespace lagen

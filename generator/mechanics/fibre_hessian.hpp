@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// The Lagrangian with its momenta p_a = dL/dy^a and fibre Hessian W_ab = d2L/dy^a dy^b on the graph, W split into the
+/// blocks of coupled fibre coordinates.
+#pragma once
+
+#include "algebroid/algebroid.hpp"
+#include "graph/determinant.hpp"
+
+#include <optional>
+
+namespace lagen {
+
+struct FibreHessian {
+    NodeId lagrangian;
+    std::vector<NodeId> momenta;                  ///< p_a, shape (r)
+    std::vector<NodeId> hessian;                  ///< W_ab, shape (r, r), by rows
+    std::vector<std::vector<std::size_t>> blocks; ///< classes of coupled coordinates, each ascending
+    std::vector<NodeId> y;                        ///< fibre coordinates, shape (r)
+
+    [[nodiscard]] NodeId W(std::size_t a, std::size_t b) const { return hessian[a * momenta.size() + b]; }
+};
+
+[[nodiscard]] FibreHessian fibre_hessian(Graph& graph, NodeId lagrangian, const std::vector<NodeId>& y);
+
+/// det of the submatrix W(rows, columns); column `replaced` (a position in `columns`), where given, is `right` instead.
+[[nodiscard]] NodeId minor_determinant(Graph& graph, const FibreHessian& hessian, const std::vector<std::size_t>& rows,
+                                       const std::vector<std::size_t>& columns,
+                                       std::optional<std::size_t> replaced = {}, const std::vector<NodeId>& right = {});
+
+} // namespace lagen

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "mechanics/hamilton.hpp"
+
+#include "graph/differentiate.hpp"
+#include "graph/simplify.hpp"
+
+namespace lagen {
+
+HamiltonianNodes given_hamiltonian(Graph& graph, const System& system)
+{
+    HamiltonianNodes nodes;
+    nodes.value = *system.hamiltonian;
+    nodes.mu = system.mu;
+    std::vector<NodeId> variables = system.mu;
+    variables.insert(variables.end(), system.algebroid.x.begin(), system.algebroid.x.end());
+    variables.push_back(system.time);
+    const std::vector<NodeId> slopes = gradient(graph, nodes.value, variables);
+    const auto first_x = slopes.begin() + static_cast<std::ptrdiff_t>(system.mu.size());
+    nodes.y.assign(slopes.begin(), first_x);
+    nodes.dH_dx.assign(first_x, slopes.end() - 1);
+    nodes.dH_dt = slopes.back();
+    nodes.lagrangian = graph.subtract(contraction(graph, nodes.mu, nodes.y), nodes.value);
+    return nodes;
+}
+
+HamiltonianNodes legendre_transform(Graph& graph, const System& system, const LagrangianNodes& lagrangian,
+                                    MatrixStructure structure, std::span<const Rational> start)
+{
+    const std::vector<NodeId>& y = system.algebroid.y;
+    HamiltonianNodes nodes;
+    nodes.mu = system.mu;
+    std::vector<NodeId> W = lagrangian.fibre.hessian;
+    if (depends_on_any(graph, W, y)) {
+        std::vector<NodeId> divisors;
+        W = simplify(graph, W, divisors);
+    }
+    std::vector<NodeId> residuals;
+    for (std::size_t a = 0; a < y.size(); ++a)
+        residuals.push_back(graph.subtract(lagrangian.fibre.momenta[a], nodes.mu[a]));
+    std::vector<NodeId> at_velocity = lagrangian.dL_dx;
+    at_velocity.push_back(lagrangian.dL_dt);
+    at_velocity.push_back(*system.lagrangian);
+    // Of a momentum that is affine in y the root may lie where L is not defined: what must be positive has cancelled.
+    if (depends_on_any(graph, W, y) || !positive_operands(graph, *system.lagrangian, y).empty()) {
+        nodes.implicit.push_back(gradient_block(graph, "velocity", "y with dL/dy^a = mu_a (the Legendre transform).", y,
+                                                residuals, *system.lagrangian, start));
+        nodes.implicit.back().structure = structure;
+        nodes.y = y;
+    } else {
+        const std::vector<NodeId> zeros(y.size(), graph.constant(0));
+        std::vector<NodeId> right = substitute(graph, residuals, replacements(y, zeros));
+        for (NodeId& entry : right) entry = graph.negate(entry);
+        nodes.y = graph.solve(W, right, structure);
+        nodes.matrix = W;
+        at_velocity = substitute(graph, at_velocity, replacements(y, nodes.y));
+    }
+    nodes.lagrangian = at_velocity.back();
+    nodes.dH_dt = graph.negate(at_velocity[at_velocity.size() - 2]);
+    for (std::size_t i = 0; i < system.n(); ++i) nodes.dH_dx.push_back(graph.negate(at_velocity[i]));
+    nodes.value = graph.subtract(contraction(graph, nodes.mu, nodes.y), nodes.lagrangian);
+    return nodes;
+}
+
+MomentumBalance hamilton_balance(Graph& graph, const System& system, const HamiltonianNodes& hamiltonian)
+{
+    MomentumBalance balance;
+    for (const NodeId slope : hamiltonian.dH_dx) balance.df_dx.push_back(graph.negate(slope));
+    balance.df_dt = graph.negate(hamiltonian.dH_dt);
+    balance.p = hamiltonian.mu;
+    balance.y = hamiltonian.y;
+    balance.forces = substitute(graph, system.forces_or_zero(graph), replacements(system.algebroid.y, hamiltonian.y));
+    return balance;
+}
+
+} // namespace lagen

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Rates along Lagrange's equations on the graph. Names with a space cannot clash with identifiers of a model.
+#include "mechanics/lagrange_motion.hpp"
+
+#include "graph/differentiate.hpp"
+
+#include <algorithm>
+
+namespace lagen {
+namespace {
+
+using Seeds = std::vector<std::pair<NodeId, NodeId>>;
+
+} // namespace
+
+LagrangeMotion::LagrangeMotion(Graph& graph, const System& system, const LagrangianNodes* lagrangian)
+    : graph_(graph), system_(system), lagrangian_(lagrangian)
+{
+    xdot_ = base_velocity(graph, system.algebroid, system.algebroid.y);
+    if (lagrangian == nullptr) return;
+    const MomentumBalance balance = lagrange_balance(graph, system, *lagrangian);
+    pdot_ = momentum_rates(graph, system.algebroid, balance);
+    force_ = acceleration_forces(graph, system, *lagrangian, pdot_);
+    for (std::size_t a = 0; a < system.r(); ++a)
+        momentum_names_.push_back(graph.input("momentum " + std::to_string(a)));
+    energy_name_ = graph.input("energy of L");
+    energy_rate_ = energy_rate(graph, system.algebroid, balance);
+}
+
+Binding LagrangeMotion::names() const
+{
+    Binding binding;
+    if (lagrangian_ == nullptr) return binding;
+    const auto bind = [&](const std::string& name, NodeId node) {
+        if (!system_.declares(name)) binding.emplace(name, node);
+    };
+    for (std::size_t a = 0; a < std::min(momentum_names_.size(), system_.mu.size()); ++a)
+        bind(system_.graph.input_name(system_.mu[a]), momentum_names_[a]);
+    bind("energy", energy_name_);
+    bind("hamiltonian", energy_name_);
+    bind("lagrangian", *system_.lagrangian);
+    return binding;
+}
+
+std::vector<NodeId> LagrangeMotion::without_stand_ins(const std::vector<NodeId>& nodes)
+{
+    if (lagrangian_ == nullptr) return nodes;
+    Seeds replacements = {{energy_name_, lagrangian_->energy}};
+    for (std::size_t a = 0; a < momentum_names_.size(); ++a)
+        replacements.emplace_back(momentum_names_[a], lagrangian_->fibre.momenta[a]);
+    return substitute(graph_, nodes, replacements);
+}
+
+/// f_y . ydot by Cramer's rule, a block of coupled coordinates at a time.
+std::optional<NodeId> LagrangeMotion::along_accelerations(const std::vector<NodeId>& f_y, std::string& obstacle)
+{
+    std::vector<NodeId> terms;
+    for (const std::vector<std::size_t>& block : lagrangian_->fibre.blocks) {
+        const bool used =
+            std::any_of(block.begin(), block.end(), [&](std::size_t a) { return !graph_.is_zero(f_y[a]); });
+        if (!used) continue;
+        if (block.size() > determinant_limit) {
+            obstacle = "d2L/dy2 couples " + std::to_string(block.size()) + " fibre coordinates, more than the " +
+                       std::to_string(determinant_limit) + " that are solved for exactly";
+            return {};
+        }
+        const NodeId determinant = minor_determinant(graph_, lagrangian_->fibre, block, block);
+        if (graph_.is_zero(determinant)) {
+            obstacle =
+                "the Lagrangian is degenerate, so that the equations of motion do not determine the accelerations";
+            return {};
+        }
+        std::vector<NodeId> right;
+        for (const std::size_t a : block) right.push_back(force_[a]);
+        std::vector<NodeId> numerator;
+        for (std::size_t k = 0; k < block.size(); ++k)
+            if (!graph_.is_zero(f_y[block[k]]))
+                numerator.push_back(graph_.multiply(
+                    f_y[block[k]], minor_determinant(graph_, lagrangian_->fibre, block, block, k, right)));
+        terms.push_back(graph_.divide(graph_.sum(numerator), determinant));
+    }
+    return graph_.sum(terms);
+}
+
+Rate LagrangeMotion::rate(NodeId f)
+{
+    Seeds seeds;
+    for (std::size_t i = 0; i < xdot_.size(); ++i) seeds.emplace_back(system_.algebroid.x[i], xdot_[i]);
+    seeds.emplace_back(system_.time, graph_.constant(1));
+    for (std::size_t a = 0; a < momentum_names_.size(); ++a) seeds.emplace_back(momentum_names_[a], pdot_[a]);
+    if (lagrangian_ != nullptr) seeds.emplace_back(energy_name_, energy_rate_);
+    const NodeId outputs[] = {f};
+    const NodeId known = directional(graph_, outputs, seeds)[0];
+    const std::vector<NodeId> f_y = gradient(graph_, f, system_.algebroid.y);
+    const bool free = std::all_of(f_y.begin(), f_y.end(), [&](NodeId id) { return graph_.is_zero(id); });
+    if (free) return {without_stand_ins({known})[0], {}};
+    if (lagrangian_ == nullptr)
+        return {std::nullopt, "the model has no Lagrangian, so that nothing is known of d/dt of the fibre coordinates"};
+    std::vector<NodeId> plain = f_y;
+    plain.push_back(known);
+    plain = without_stand_ins(plain);
+    Rate result;
+    const std::optional<NodeId> accelerated =
+        along_accelerations(std::vector<NodeId>(plain.begin(), plain.end() - 1), result.obstacle);
+    if (accelerated) result.value = graph_.add(plain.back(), *accelerated);
+    return result;
+}
+
+} // namespace lagen

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Rates along Lagrange's equations, kept polynomial where that is possible: momenta and energy have rates of their
+/// own, so that only functions of y that are not written in them need W^-1.
+///   pdot_a = rho_a(L) - p_c C^c_ab y^b + Q_a,   dE/dt = Q_a y^a - dL/dt - p_c C^c_ab y^a y^b,
+///   W ydot = pdot - (d2L/dydx) xdot - d2L/dydt
+#pragma once
+
+#include "mechanics/equations_of_motion.hpp"
+#include "mechanics/lagrange.hpp"
+
+namespace lagen {
+
+class LagrangeMotion : public EquationsOfMotion {
+  public:
+    /// `lagrangian` null: no Lagrangian. Keeps references.
+    LagrangeMotion(Graph& graph, const System& system, const LagrangianNodes* lagrangian);
+
+    /// Momenta, `energy`, `hamiltonian` and `lagrangian`.
+    [[nodiscard]] Binding names() const override;
+    [[nodiscard]] Rate rate(NodeId f) override;
+    [[nodiscard]] NodeId in_states(NodeId f) override { return without_stand_ins({f})[0]; }
+
+  private:
+    [[nodiscard]] std::vector<NodeId> without_stand_ins(const std::vector<NodeId>& nodes);
+    [[nodiscard]] std::optional<NodeId> along_accelerations(const std::vector<NodeId>& f_y, std::string& obstacle);
+
+    Graph& graph_;
+    const System& system_;
+    const LagrangianNodes* lagrangian_;
+    std::vector<NodeId> xdot_, pdot_, force_; ///< force_: W ydot
+    std::vector<NodeId> momentum_names_;
+    NodeId energy_name_ = 0, energy_rate_ = 0;
+};
+
+} // namespace lagen

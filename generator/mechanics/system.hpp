@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// A mechanical or control system on a Lie algebroid, lowered once: everything that is proved, printed or emitted of a
+/// model is derived from these nodes. Whoever derives works on a copy of the graph, in which the nodes keep their
+/// numbers. It knows nothing of files; a system may be built by hand:
+///
+///   System system;
+///   Graph& graph = system.graph;
+///   system.algebroid = lie_algebra(graph, {"w1", "w2", "w3"}, {{0, 1, 2, 1}, {1, 2, 0, 1}, {2, 0, 1, 1}});
+///   system.lagrangian = ..;
+#pragma once
+
+#include "algebroid/form.hpp"
+#include "algebroid/structure_equations.hpp"
+#include "graph/lower.hpp"
+#include "mechanics/written_algebroid.hpp"
+
+#include <functional>
+#include <optional>
+
+namespace lagen {
+
+/// Optimal control of xdot = rho(sigma(t, x, u)) with the running cost L(t, x, u).
+struct ControlProblem {
+    std::vector<NodeId> u;     ///< inputs
+    std::vector<NodeId> sigma; ///< sigma^a, shape (r)
+    NodeId cost = 0;
+    std::vector<std::optional<NodeId>> lower, upper; ///< bounds, of each control
+    std::vector<NodeId> parts;                       ///< partial operations of sigma and cost as they are written
+
+    [[nodiscard]] bool bounded() const;
+};
+
+/// What of the algebroid stands in the model file as it is here, so that a hint can ask to change it.
+struct Editable {
+    bool anchor = false;
+    bool bracket = false;
+    bool constant_bracket = false; ///< the file admits numbers and parameters alone in brackets
+};
+
+/// A named E-form with what is claimed of it.
+struct FormClaim {
+    std::string name;
+    ExteriorForm form;
+    bool closed = false;                ///< claimed: d of it is zero
+    std::optional<ExteriorForm> equals; ///< claimed
+    std::vector<NodeId> partial_parts;  ///< of its components as they are written
+};
+
+/// The trees that the nodes were lowered from, for what asks how something is written and where.
+struct Written {
+    WrittenAlgebroid algebroid;
+    std::vector<NamedTree> invariants;
+    std::vector<Tree> phase; ///< on E* and the controls: H, sigma, cost, bounds
+    std::vector<Tree> all;   ///< definitions, domain, constraints, Casimirs, rho, C, L, forces, observables, events
+};
+
+struct System {
+    std::string name; ///< of the model
+    Graph graph;
+    NodeId time = 0;
+    std::vector<NodeId> parameters;                          ///< inputs
+    std::vector<std::pair<NodeId, NodeId>> parameter_values; ///< with the values of the file
+    Algebroid algebroid;
+    BaseFunctions functions;                                  ///< base constraints and Casimirs
+    std::vector<std::string> casimir_names, constraint_texts; ///< of these
+    std::vector<NodeId> domain;                               ///< comparisons that hold on M
+    std::vector<NodeId> mu;                                   ///< inputs mu_a on E*, shape (r)
+    std::optional<NodeId> lagrangian;                         ///< L(t, x, y)
+    std::optional<NodeId> hamiltonian;                        ///< H(t, x, mu)
+    std::vector<NodeId> forces;      ///< Q_a(t, x, y) = [forces] - dR/dy^a, shape (r); empty: none
+    std::vector<NodeId> force_parts; ///< the given forces and R, each as it is written
+    std::optional<ControlProblem> control;
+    std::vector<FormClaim> forms;
+    std::vector<NodeId> partial_parts; ///< must be defined, though folded away: log(-1 - x^2) of 0*log(-1 - x^2)
+    bool is_distribution = false;      ///< a subbundle of TM: the anchor equations say that it is involutive
+    Editable editable;
+    /// Whether the structure equations hold by construction (a frame of what is proved); empty where nothing is known.
+    std::function<bool()> construction;
+    Written written;
+
+    [[nodiscard]] std::size_t n() const { return algebroid.n(); }
+    [[nodiscard]] std::size_t r() const { return algebroid.r(); }
+    /// Q_a, zeros where there are none.
+    [[nodiscard]] std::vector<NodeId> forces_or_zero(Graph& graph) const;
+    /// Whether a parameter, a coordinate of E or a control bears this name.
+    [[nodiscard]] bool declares(const std::string& name) const;
+};
+
+/// Pairs for `substitute`.
+[[nodiscard]] std::vector<std::pair<NodeId, NodeId>> replacements(const std::vector<NodeId>& inputs,
+                                                                  const std::vector<NodeId>& nodes);
+
+} // namespace lagen

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Derived equations as plain named trees: all that printing ever sees of mechanics.
+#pragma once
+
+#include "expression/tree.hpp"
+
+namespace lagen {
+
+/// How a left-hand side reads.
+enum class LeftSide {
+    time_derivative, ///< d(symbol)/dt
+    symbol,          ///< symbol itself
+    zero,            ///< 0 = right
+    bracket,         ///< {symbol, other}
+    differential,    ///< d of the function symbol
+    form,            ///< the basis form e^symbol under d
+};
+
+/// How the left side stands to the right one.
+enum class Relation { equal, at_least, at_most };
+
+/// A group of terms of a right-hand side that belongs together in the formula it came from, for instance
+/// rho_a(L) or -p_c C^c_ab y^b. `label` is a short UTF-8 name of the group; may be empty. With a `basis` the group is
+/// value e^{basis[0]} ^ e^{basis[1]} ^ ..
+struct TermGroup {
+    std::string label;
+    Tree value;
+    std::vector<std::string> basis = {};
+};
+
+/// left = sum of groups, or an inequality. With `mass` entries the left side is sum_b mass[b].value *
+/// d(mass[b].label)/dt instead.
+struct Equation {
+    LeftSide left = LeftSide::time_derivative;
+    std::string symbol;
+    std::vector<TermGroup> mass;   ///< W_ab ydot^b: label = y^b, value = W_ab (zero entries left out)
+    std::vector<TermGroup> groups; ///< empty: the right side is 0
+    std::string other = {};        ///< of a bracket: its second function
+    Relation relation = Relation::equal;
+};
+
+/// One titled block, e.g. "momenta" or "equations of motion (acceleration form)", with its formula in UTF-8.
+struct EquationBlock {
+    std::string title;
+    std::string formula; ///< e.g. "W_ab ẏ^b = ρ_a(L) − (∂²L/∂y^a∂x^i) ρ^i_b y^b − p_c C^c_ab y^b"
+    std::string latex_formula;
+    std::vector<Equation> equations;
+};
+
+struct SymbolText {
+    std::string name;
+    std::string latex; ///< how LaTeX shows the symbol; empty: made from the name
+};
+
+/// Everything that `derive` shows, for one formulation.
+struct EquationSet {
+    std::string model;
+    std::string title;
+    std::string form; ///< "lagrange", "hamilton", "pontryagin", "exterior"
+    std::vector<SymbolText> symbols;
+    std::vector<EquationBlock> blocks;
+};
+
+} // namespace lagen

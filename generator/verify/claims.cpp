@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// The setting in which the claims of a system are decided, and what is refused before.
+#include "verify/claims.hpp"
+
+#include "verify/legendre_obstacle.hpp"
+#include "verify/proof_setting.hpp"
+#include "verify/regularity.hpp"
+#include "verify/zero_divisors.hpp"
+
+#include <algorithm>
+
+namespace lagen {
+
+Claims::Claims(const System& system, std::size_t points, const ProofBudget& budget)
+    : system_(system), points_(points), graph_(system.graph), partial_(graph_, system.algebroid.x),
+      setting_(proof_setting(system))
+{
+    if (system.lagrangian) lagrangian_ = lagrangian_nodes(graph_, system);
+    if (system.hamiltonian) hamiltonian_hessian_ = fibre_hessian(graph_, *system.hamiltonian, system.mu);
+    require_triangular_constraints();
+    refuse_zero_divisors(budget);
+    judge_ = std::make_unique<Judge>(graph_, setting_, accessory_inputs(system), points_, budget);
+    if (!judge_->decider().sample_point())
+        note_ = "no point was found where everything in the model is defined and every condition of [base] holds";
+}
+
+/// Those of the system's default form.
+std::unique_ptr<EquationsOfMotion> Claims::equations_of_motion()
+{
+    if (system_.control) return std::make_unique<PhaseMotion>(graph_, system_, pontryagin_system(graph_, system_));
+    if (system_.hamiltonian && !system_.lagrangian)
+        return std::make_unique<PhaseMotion>(graph_, system_, hamilton_system(graph_, system_));
+    return std::make_unique<LagrangeMotion>(graph_, system_, lagrangian_ ? &*lagrangian_ : nullptr);
+}
+
+/// Where nothing else is defined than these nodes: what is claimed to be constant may be undefined at points of a
+/// motion.
+ProofSetting Claims::setting_of(std::vector<NodeId> defined) const
+{
+    ProofSetting setting = setting_;
+    std::erase_if(defined, [&](NodeId node) { return graph_.is_constant(node); });
+    setting.defined = std::move(defined);
+    return setting;
+}
+
+Continuity Claims::along_anchor()
+{
+    return {graph_, setting_of(system_.algebroid.entries()), judge_->decider().budget(), {}};
+}
+
+/// What the equations of the system's default form are made of, as it is written.
+Continuity Claims::along_motions(EquationsOfMotion& motion)
+{
+    std::vector<NodeId> defined = system_.algebroid.entries();
+    if (system_.control) {
+        defined.insert(defined.end(), system_.control->sigma.begin(), system_.control->sigma.end());
+        defined.push_back(system_.control->cost);
+    } else {
+        if (system_.lagrangian || system_.hamiltonian)
+            defined.push_back(system_.lagrangian ? *system_.lagrangian : *system_.hamiltonian);
+        defined.insert(defined.end(), system_.force_parts.begin(), system_.force_parts.end());
+    }
+    const auto conserved = [this, &motion](NodeId f) {
+        const Rate rate = motion.rate(f);
+        return rate.value && judge_->decider().decide(*rate.value).status == ProofStatus::proved;
+    };
+    Continuity continuity(graph_, setting_of(std::move(defined)), judge_->decider().budget(), conserved);
+    if (system_.lagrangian && !system_.control)
+        continuity.divisors().keep_momenta_finite(*system_.lagrangian, system_.algebroid.y);
+    return continuity;
+}
+
+void Claims::require_triangular_constraints()
+{
+    // One constraint more each time, so that the one that is refused is known by its place.
+    ProofSetting growing;
+    growing.variables = system_.algebroid.x;
+    growing.parameters = setting_.parameters;
+    const std::vector<Tree>& written = system_.written.algebroid.constraints;
+    for (std::size_t k = 0; k < system_.functions.constraints.size(); ++k) {
+        growing.constraints.push_back(system_.functions.constraints[k]);
+        try {
+            ZeroDecider(graph_, growing);
+        } catch (const MathematicsError& error) {
+            throw ModelError(error.what(), k < written.size() ? written[k]->where : SourceRange{},
+                             "each constraint must solve for a base coordinate that no earlier one uses up, linearly "
+                             "or as a monic power");
+        }
+    }
+}
+
+void Claims::refuse_zero_divisors(const ProofBudget& budget)
+{
+    const std::unique_ptr<EquationsOfMotion> motion = equations_of_motion();
+    Lowering plain(graph_), named(graph_, motion->names());
+    ZeroDivisors divisors(graph_, setting_, budget);
+    for (const Tree& tree : system_.written.phase)
+        divisors.refuse(tree, [&](const Tree& divisor) { return plain(divisor); });
+    for (const Tree& tree : system_.written.all)
+        divisors.refuse(tree, [&](const Tree& divisor) { return motion->in_states(named(divisor)); });
+}
+
+void Claims::decide_regularity(Report& report)
+{
+    const bool of_hamiltonian = !lagrangian_ && hamiltonian_hessian_;
+    if (!lagrangian_ && !hamiltonian_hessian_) return;
+    const FibreHessian& hessian = of_hamiltonian ? *hamiltonian_hessian_ : lagrangian_->fibre;
+    report.regularity =
+        lagen::decide_regularity(graph_, hessian, setting_, judge_->decider(), system_.parameter_values);
+    report.regularity.of_hamiltonian = of_hamiltonian;
+    decide_legendre_transform(graph_, hessian, setting_, judge_->decider().budget(), report.regularity);
+}
+
+} // namespace lagen

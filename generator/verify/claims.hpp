@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// A system with its proof setting, and the deciding of each kind of claim.
+#pragma once
+
+#include "mechanics/lagrange.hpp"
+#include "mechanics/lagrange_motion.hpp"
+#include "mechanics/phase_motion.hpp"
+#include "verify/judge.hpp"
+#include "verify/jumps.hpp"
+#include "verify/verify.hpp"
+
+#include <memory>
+
+namespace lagen {
+
+class Claims {
+  public:
+    /// `points`: of a re-evaluation; 0: none. `budget`: of each decision. Keeps a reference to `system`. Throws
+    /// ModelError where the base constraints are not triangular, and where a divisor of the model is zero everywhere.
+    Claims(const System& system, std::size_t points, const ProofBudget& budget);
+
+    /// antisymmetry, anchor, jacobi, tangency of the constraints, Casimirs
+    void decide_structure(Report& verified);
+    /// closed and equals of [forms], and whether each form is closed.
+    void decide_forms(Report& report);
+    void decide_regularity(Report& verified);
+    /// Where L and H are given: H(t, x, dL/dy) - (y^a dL/dy^a - L)
+    void decide_legendre(Report& verified);
+    /// Of a control problem: do the controls maximise H?
+    void decide_controls(Report& verified);
+    void decide_invariants(Report& verified, const std::vector<NamedTree>& extra);
+
+  private:
+    [[nodiscard]] std::unique_ptr<EquationsOfMotion> equations_of_motion();
+    [[nodiscard]] ProofSetting setting_of(std::vector<NodeId> defined) const;
+    [[nodiscard]] Continuity along_anchor();
+    [[nodiscard]] Continuity along_motions(EquationsOfMotion& motion);
+    void require_triangular_constraints();
+    void refuse_zero_divisors(const ProofBudget& budget);
+    void decide_by_construction(const ResidualList& list);
+    [[nodiscard]] std::vector<Check> vanishing(const std::string& name, const FormClaim& claim,
+                                               const ExteriorForm& residual, std::size_t& trivial);
+    [[nodiscard]] Check check_of(const Residual& residual) const;
+
+    const System& system_;
+    std::size_t points_;
+    Graph graph_; ///< the system's, and what is derived here
+    BaseGradient partial_;
+    std::optional<LagrangianNodes> lagrangian_;
+    std::optional<FibreHessian> hamiltonian_hessian_; ///< of H, over mu
+    ProofSetting setting_;
+    std::unique_ptr<Judge> judge_;
+    std::string note_;
+};
+
+} // namespace lagen

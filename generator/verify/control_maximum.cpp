@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "verify/control_maximum.hpp"
+
+#include "verify/definite_squares.hpp"
+#include "verify/legendre_obstacle.hpp"
+#include "verify/regularity.hpp"
+#include "verify/smooth_controls.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace lagen {
+namespace {
+
+using Kind = ControlMaximum::Kind;
+
+constexpr const char* cost_hint = "H = mu_a sigma^a - cost is maximised: a cost is to be convex in the controls";
+constexpr std::size_t most_pairs = 100; ///< that are looked at for a wrong sign
+
+class MaximumDecision {
+  public:
+    MaximumDecision(Graph& graph, const ControlProblem& control, const std::vector<NodeId>& mu,
+                    const ProofSetting& setting, const ProofBudget& budget)
+        : graph_(graph), control_(control), setting_(setting), budget_(budget),
+          hamiltonian_(control_hamiltonian(graph, control, mu)),
+          hessian_(fibre_hessian(graph, graph.negate(hamiltonian_), control.u)),
+          proofs_(graph, control, setting, budget)
+    {
+        parts_ = control.parts;
+        parts_.push_back(hamiltonian_);
+    }
+
+    [[nodiscard]] ControlMaximum decide()
+    {
+        if (const std::string kink = proofs_.kink_in(parts_); !kink.empty())
+            return {Kind::nonsmooth, "H is not smooth in the controls: it contains " + kink,
+                    "write a cost that is smooth in the controls"};
+        if (const auto linear = affine_control())
+            return {Kind::unsolved,
+                    fmt::format("H is affine in the control {0}: dH/d{0} = 0 does not determine it (a singular or "
+                                "bang-bang control)",
+                                name_of(*linear)),
+                    fmt::format("give the cost a term in which {} is strictly convex", name_of(*linear))};
+        return control_.bounded() ? between_bounds() : without_bounds();
+    }
+
+  private:
+    [[nodiscard]] const std::string& name_of(std::size_t k) const { return graph_.input_name(control_.u[k]); }
+    /// "d2H/du2", "d2H/d(u2)2", "d2H/dudw"
+    [[nodiscard]] std::string second(std::size_t k, std::size_t l) const
+    {
+        const std::string& name = name_of(k);
+        if (k != l) return fmt::format("d2H/d{}d{}", name, name_of(l));
+        const bool plain = name.find_first_of("0123456789[") == std::string::npos;
+        return plain ? fmt::format("d2H/d{}2", name) : fmt::format("d2H/d({})2", name);
+    }
+    [[nodiscard]] std::size_t count() const { return control_.u.size(); }
+    /// -d2H/du^k du^l
+    [[nodiscard]] NodeId curvature(std::size_t k, std::size_t l) const { return hessian_.W(k, l); }
+
+    /// A control whose row of d2H/du2 vanishes.
+    [[nodiscard]] std::optional<std::size_t> affine_control() const
+    {
+        for (std::size_t k = 0; k < count(); ++k) {
+            bool vanishes = true;
+            for (std::size_t l = 0; l < count() && vanishes; ++l) vanishes = proofs_.zero(curvature(k, l));
+            if (vanishes) return k;
+        }
+        return std::nullopt;
+    }
+
+    [[nodiscard]] ControlMaximum between_bounds()
+    {
+        const auto unsolved = [](const std::string& why) {
+            return ControlMaximum{Kind::unsolved,
+                                  "with bounds on controls H must be separable, smooth and strictly concave in them, "
+                                  "or dH/du = 0 and the bounds do not give its maximum: " +
+                                      why,
+                                  "without bounds dH/du = 0 is solved as it is"};
+        };
+        for (std::size_t k = 0; k < count(); ++k)
+            for (std::size_t l = k + 1; l < count(); ++l)
+                if (!proofs_.zero(curvature(k, l))) return unsolved(second(k, l) + " is not zero");
+        for (std::size_t k = 0; k < count(); ++k)
+            if (!proofs_.positive(curvature(k, k)))
+                return unsolved(fmt::format("{} < 0 was not proved for all admissible {}", second(k, k), name_of(k)));
+        if (const std::string part = proofs_.partial_in(parts_); !part.empty())
+            return unsolved(fmt::format("{} was not proved to be smooth for all admissible controls", part));
+        return {Kind::maximal, {}, {}};
+    }
+
+    [[nodiscard]] ControlMaximum without_bounds()
+    {
+        const Regularity regularity = decide_regularity(graph_, hessian_, proofs_.setting(), proofs_.decider(), {});
+        if (regularity.kind == Regularity::Kind::degenerate)
+            return {Kind::unsolved,
+                    fmt::format("dH/du = 0 does not determine the controls: d2H/du2 has rank {}, and {} controls need "
+                                "rank {}",
+                                regularity.rank, count(), count()),
+                    "give the cost a term that is strictly convex in all controls together"};
+        // Of a function that is concave and smooth everywhere each stationary point is a maximum.
+        if (regularity.positive_definite || proves_semidefinite_by_squares(graph_, hessian_, proofs_.decider())) {
+            const std::string part = proofs_.partial_in(parts_);
+            if (part.empty()) return {Kind::maximal, {}, {}};
+            if (ControlMaximum inside = inside_part(); inside.kind == Kind::maximal) return inside;
+            return {Kind::stationary, fmt::format("{} was not proved to be smooth for all controls", part), {}};
+        }
+        if (ControlMaximum inside = inside_part(); inside.kind == Kind::maximal) return inside;
+        // Where H ends its maximum may be at the end.
+        if (proofs_.partial_in(parts_).empty())
+            if (ControlMaximum refuted = refutation(); refuted.kind == Kind::refuted) return refuted;
+        const FibreHessian opposite = fibre_hessian(graph_, hamiltonian_, control_.u);
+        if (strictly_convex_start(graph_, opposite, proofs_.setting(), budget_))
+            return {Kind::refuted, "dH/du = 0 is where H is least: d2H/du2 > 0 wherever H is defined", cost_hint};
+        return {
+            Kind::stationary,
+            fmt::format("d2H/du2 < 0 was not proved for all {}", count() == 1 ? name_of(0) : std::string("controls")),
+            {}};
+    }
+
+    /// Costs with a barrier, -log(1 - u^2): H is defined on a convex set of controls, and strictly concave there.
+    [[nodiscard]] ControlMaximum inside_part()
+    {
+        const auto start = strictly_convex_start(graph_, hessian_, proofs_.setting(), budget_);
+        return start ? ControlMaximum{Kind::maximal, {}, {}, true, *start} : ControlMaximum{};
+    }
+
+    /// At a maximum d2H/du2 has no positive diagonal entry and no negative 2 x 2 minor. Here everything in the model is
+    /// taken to be defined: elsewhere there is no H.
+    [[nodiscard]] ControlMaximum refutation()
+    {
+        const ZeroDecider decider(graph_, setting_, budget_);
+        for (std::size_t k = 0; k < count(); ++k)
+            if (decider.proves_positive(graph_.negate(curvature(k, k))))
+                return {Kind::refuted,
+                        fmt::format("H has no maximum in the control '{}': {} > 0", name_of(k), second(k, k)),
+                        cost_hint};
+        std::size_t minors = 0;
+        for (std::size_t k = 0; k < count(); ++k)
+            for (std::size_t l = k + 1; l < count(); ++l) {
+                if (graph_.is_zero(curvature(k, l)) || ++minors > most_pairs) continue;
+                const NodeId minor = graph_.subtract(graph_.power(curvature(k, l), 2),
+                                                     graph_.multiply(curvature(k, k), curvature(l, l)));
+                if (decider.proves_positive(minor))
+                    return {Kind::refuted,
+                            fmt::format("H has no maximum in the controls '{}' and '{}': d2H/du2 is indefinite",
+                                        name_of(k), name_of(l)),
+                            cost_hint};
+            }
+        return {};
+    }
+
+    Graph& graph_;
+    const ControlProblem& control_;
+    const ProofSetting& setting_;
+    ProofBudget budget_;
+    NodeId hamiltonian_;
+    FibreHessian hessian_; ///< of -H
+    ControlProofs proofs_;
+    std::vector<NodeId> parts_;
+};
+
+} // namespace
+
+ControlMaximum decide_maximum(Graph& graph, const ControlProblem& control, const std::vector<NodeId>& mu,
+                              const ProofSetting& setting, const ProofBudget& budget)
+{
+    return MaximumDecision(graph, control, mu, setting, budget).decide();
+}
+
+void require_maximum(const std::string& model, const ControlMaximum& maximum)
+{
+    if (maximum.kind == Kind::absent || maximum.kind == Kind::maximal || maximum.kind == Kind::stationary) return;
+    throw MathematicsError(fmt::format("error: the controls of model '{}' are not solved for: {}\nhint: {}", model,
+                                       maximum.reason, maximum.hint));
+}
+
+} // namespace lagen

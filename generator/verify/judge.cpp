@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// The memory of decisions: hash-consing makes equal residuals the same node.
+#include "verify/judge.hpp"
+
+namespace lagen {
+
+Judge::Judge(const Graph& graph, ProofSetting setting, std::set<std::string> accessory, std::size_t points,
+             const ProofBudget& budget)
+    : graph_(graph), setting_(std::move(setting)), accessory_(std::move(accessory)), points_(points),
+      decider_(std::make_unique<ZeroDecider>(graph, setting_, budget))
+{
+}
+
+Decision Judge::decide_anew(NodeId residual) const
+{
+    Decision decision = decider_->decide(residual);
+    if (!decision.witness) return decision;
+    std::set<std::string> unused = accessory_;
+    const NodeId roots[] = {residual};
+    for (const NodeId id : reachable(graph_, roots))
+        if (graph_.op(id) == Op::input) unused.erase(graph_.input_name(id));
+    std::erase_if(decision.witness->point, [&](const auto& entry) { return unused.contains(entry.first); });
+    return decision;
+}
+
+const Decision& Judge::decide(NodeId residual)
+{
+    const auto known = decisions_.find(residual);
+    if (known != decisions_.end()) return known->second;
+    return decisions_.emplace(residual, decide_anew(residual)).first->second;
+}
+
+std::optional<Reevaluation> Judge::reevaluate(NodeId residual)
+{
+    if (points_ == 0) return std::nullopt;
+    const auto known = reevaluations_.find(residual);
+    if (known != reevaluations_.end()) return known->second;
+    if (second_ == nullptr) {
+        ProofBudget budget = decider_->budget();
+        budget.seed = reevaluation_seed;
+        second_ = std::make_unique<ZeroDecider>(graph_, setting_, budget);
+    }
+    return reevaluations_.emplace(residual, second_->reevaluate(residual, points_)).first->second;
+}
+
+} // namespace lagen

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// The kernel of a degenerate fibre Hessian W, a block of coupled coordinates at a time: for a nonzero principal minor
+/// det W_PP of the size of the rank and each j outside of P, k = e_j - (W_PP^-1 W_Pj)^i e_i without its denominators.
+#pragma once
+
+#include "mechanics/fibre_hessian.hpp"
+#include "proof/decide.hpp"
+
+namespace lagen {
+
+/// A symmetric matrix has a nonzero principal minor of the size of its rank: its rows, ascending, found by a witness;
+/// nothing where that is not decided. For blocks of at most `determinant_limit` rows.
+[[nodiscard]] std::optional<std::vector<std::size_t>> nonzero_principal_minor(Graph& graph, const FibreHessian& hessian,
+                                                                              const std::vector<std::size_t>& block,
+                                                                              const ZeroDecider& decider);
+
+/// Components that are not zero, by fibre coordinate.
+using KernelVector = std::vector<std::pair<std::size_t, std::string>>;
+
+/// A basis of the kernel wherever minors and denominators do not vanish; W k = 0 is proved of each vector that is
+/// listed. A vector is left out where that is not decided, and where a component is too long to be read. `setting`
+/// orders the names.
+[[nodiscard]] std::vector<KernelVector> kernel_vectors(Graph& graph, const FibreHessian& hessian,
+                                                       const ZeroDecider& decider, const ProofSetting& setting);
+
+} // namespace lagen

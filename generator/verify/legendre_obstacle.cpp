@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// The set of fibre coordinates where L is smooth, condition by condition, and the sign of W there.
+#include "verify/legendre_obstacle.hpp"
+
+#include "graph/differentiate.hpp"
+#include "graph/evaluate.hpp"
+#include "graph/implicit.hpp"
+#include "graph/lower.hpp"
+#include "graph/smoothness.hpp"
+#include "verify/definite_squares.hpp"
+#include "verify/regularity.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+
+namespace lagen {
+namespace {
+
+constexpr std::size_t longest_condition = 100; ///< characters of a condition in a message
+
+/// The operations of `root` that depend on one of `inputs`, operands first.
+std::vector<NodeId> dependents(const Graph& graph, NodeId root, const std::vector<NodeId>& inputs)
+{
+    const std::vector<bool> depends = depends_on(graph, inputs);
+    const NodeId roots[] = {root};
+    std::vector<NodeId> result = reachable(graph, roots);
+    std::erase_if(result, [&](NodeId node) { return !depends[node] || graph.op(node) == Op::input; });
+    return result;
+}
+
+/// Conditions f > 0 that make L smooth, taken in as long as the set where they hold is convex in y: f is positive
+/// already, or concave in y.
+class SmoothSet {
+  public:
+    SmoothSet(Graph& graph, const FibreHessian& hessian, const ProofSetting& setting, const ProofBudget& budget,
+              const char* function)
+        : graph_(graph), hessian_(hessian), setting_(setting), budget_(budget), function_(function)
+    {
+        // What depends on y is what the conditions are about.
+        std::erase_if(setting_.defined, [&](NodeId node) { return depends_on_y(node); });
+        std::vector<NodeId> nodes = dependents(graph_, hessian_.lagrangian, hessian_.y);
+        // Roots of what is smooth everywhere first: they make divisors nonzero.
+        std::stable_partition(nodes.begin(), nodes.end(), [&](NodeId node) { return is_plain_root(node); });
+        for (const NodeId node : nodes) {
+            if (!obstacle_.empty()) return;
+            require_smooth(node);
+        }
+    }
+
+    /// The first condition that was not shown; empty where L is smooth on a convex set.
+    [[nodiscard]] const std::string& obstacle() const { return obstacle_; }
+    /// With the conditions in its domain.
+    [[nodiscard]] const ProofSetting& setting() const { return setting_; }
+    [[nodiscard]] const ZeroDecider& decider()
+    {
+        if (!decider_) decider_ = std::make_unique<ZeroDecider>(graph_, setting_, budget_);
+        return *decider_;
+    }
+
+  private:
+    [[nodiscard]] bool depends_on_y(NodeId node) const
+    {
+        const NodeId nodes[] = {node};
+        return depends_on_any(graph_, nodes, hessian_.y);
+    }
+
+    [[nodiscard]] bool is_plain_root(NodeId node) const
+    {
+        const Op op = graph_.op(node);
+        if (op != Op::sqrt && op != Op::log && op != Op::real_power) return false;
+        const std::vector<NodeId> below = dependents(graph_, graph_.operands(node)[0], hessian_.y);
+        return std::all_of(below.begin(), below.end(), [&](NodeId each) {
+            const Op inner = graph_.op(each);
+            return inner == Op::power
+                       ? static_cast<std::int32_t>(graph_.payload(each)) > 0
+                       : inner == Op::add || inner == Op::subtract || inner == Op::multiply || inner == Op::negate;
+        });
+    }
+
+    void require_smooth(NodeId node)
+    {
+        if (compares(graph_.op(node))) {
+            obstacle_ = std::string(function_) + " is not smooth";
+            return;
+        }
+        switch (graph_.op(node)) {
+        case Op::atan2: // its cut, and slopes that do not see it
+            if (const NodeId u = graph_.operands(node)[1]; !decider().proves_positive(u))
+                obstacle_ = not_shown(u, "positive");
+            return;
+        case Op::select: obstacle_ = std::string(function_) + " is not smooth"; return;
+        case Op::factor:
+            obstacle_ =
+                std::string(function_) + " contains the solution of a linear system whose matrix is not constant";
+            return;
+        default: break;
+        }
+        const SmoothWhere where = smooth_where(graph_, node);
+        if (where.condition == SmoothWhere::Condition::nonzero) require_nonzero(where.function);
+        if (where.condition == SmoothWhere::Condition::positive) require_positive(where.function);
+    }
+
+    void require_nonzero(NodeId f)
+    {
+        if (!depends_on_y(f) || decider().proves_nonzero(f)) return;
+        obstacle_ = not_shown(f, "nonzero");
+    }
+
+    void require_positive(NodeId f)
+    {
+        if (!depends_on_y(f) || decider().proves_positive(f)) return;
+        if (is_concave(f)) {
+            setting_.domain.push_back(graph_.apply(Op::greater, f, graph_.constant(0)));
+            decider_.reset();
+            return;
+        }
+        obstacle_ = not_shown(f, "positive");
+    }
+
+    [[nodiscard]] bool is_concave(NodeId f)
+    {
+        const NodeId below = graph_.negate(f);
+        const FibreHessian all = fibre_hessian(graph_, below, hessian_.y);
+        std::vector<NodeId> curved;
+        for (const std::vector<std::size_t>& block : all.blocks)
+            for (const std::size_t a : block)
+                if (block.size() > 1 || !graph_.is_zero(all.W(a, a))) curved.push_back(all.y[a]);
+        if (curved.empty()) return true; // affine
+        const FibreHessian hessian = fibre_hessian(graph_, below, curved);
+        return proves_semidefinite_by_squares(graph_, hessian, decider()) ||
+               proves_definite(graph_, hessian, setting_, decider());
+    }
+
+    [[nodiscard]] std::string not_shown(NodeId f, const char* what) const
+    {
+        std::string text = to_text(to_tree(graph_, f));
+        if (text.size() > longest_condition) text = "an operand";
+        return fmt::format("{} is not shown to be {}, and {} is smooth only where it is", text, what, function_);
+    }
+
+    Graph& graph_;
+    const FibreHessian& hessian_;
+    ProofSetting setting_;
+    ProofBudget budget_;
+    const char* function_;                 ///< its letter
+    std::unique_ptr<ZeroDecider> decider_; ///< made where it is needed, anew for each further condition
+    std::string obstacle_;
+};
+
+/// Whether W does not depend on y: its derivatives are proved to be zero.
+bool is_quadratic(Graph& graph, const FibreHessian& hessian, SmoothSet& smooth)
+{
+    for (const NodeId entry : hessian.hessian)
+        for (const NodeId slope : gradient(graph, entry, hessian.y))
+            if (!graph.is_zero(slope) && smooth.decider().decide(slope).status != ProofStatus::proved) return false;
+    return true;
+}
+
+/// An exact rational or a decimal of a sample point.
+double number_in(const std::string& text)
+{
+    return text.find_first_not_of("-0123456789/") == std::string::npos ? Rational(text).get_d() : std::stod(text);
+}
+
+/// Fibre coordinates of a sample point where L, momenta or W are not defined or smooth at 0, as for L = v log(v); else
+/// empty.
+std::vector<Rational> newton_start(Graph& graph, const FibreHessian& hessian, const ZeroDecider& decider)
+{
+    const auto point = decider.sample_point();
+    if (!point) return {};
+    std::map<std::string, double> inputs;
+    for (const auto& [name, text] : *point) inputs[name] = number_in(text);
+    std::vector<Rational> start;
+    for (const NodeId y : hessian.y) {
+        double& value = inputs[graph.input_name(y)];
+        start.emplace_back(value);
+        value = 0;
+    }
+    std::vector<NodeId> nodes = hessian.momenta;
+    nodes.push_back(hessian.lagrangian);
+    nodes.insert(nodes.end(), hessian.hessian.begin(), hessian.hessian.end());
+    const std::vector<double> at_zero = evaluate<double>(graph, nodes, inputs);
+    const std::vector<double> conditions =
+        evaluate<double>(graph, positive_operands(graph, hessian.lagrangian, hessian.y), inputs);
+    const bool is_defined = std::ranges::all_of(at_zero, [](double x) { return std::isfinite(x); }) &&
+                            std::ranges::all_of(conditions, [](double x) { return x > 0; });
+    return is_defined ? std::vector<Rational>{} : start;
+}
+
+} // namespace
+
+void decide_legendre_transform(Graph& graph, const FibreHessian& hessian, const ProofSetting& setting,
+                               const ProofBudget& budget, Regularity& regularity)
+{
+    const bool is_hamiltonian = regularity.of_hamiltonian;
+    const std::string matrix = is_hamiltonian ? "d2H/dmu2" : "d2L/dy2";
+    SmoothSet smooth(graph, hessian, setting, budget, is_hamiltonian ? "H" : "L");
+    regularity.legendre_obstacle = smooth.obstacle();
+    if (!smooth.obstacle().empty() || is_quadratic(graph, hessian, smooth)) return;
+    if (regularity.kind == Regularity::Kind::degenerate) {
+        regularity.legendre_obstacle = matrix + " is singular";
+        return;
+    }
+    // Anew: forces, which count for the verdict on W, may be defined for fewer velocities.
+    const FibreHessian negative = fibre_hessian(graph, graph.negate(hessian.lagrangian), hessian.y);
+    for (const FibreHessian* each : {&hessian, &negative})
+        if (proves_definite(graph, *each, smooth.setting(), smooth.decider())) {
+            regularity.newton_start = newton_start(graph, hessian, smooth.decider());
+            return;
+        }
+    regularity.legendre_obstacle = matrix + (regularity.for_given_parameters && regularity.positive_definite
+                                                 ? " is shown to be definite for the parameter values of the file alone"
+                                                 : " is not shown to be definite");
+}
+
+std::optional<std::vector<Rational>> strictly_convex_start(Graph& graph, const FibreHessian& hessian,
+                                                           const ProofSetting& setting, const ProofBudget& budget)
+{
+    SmoothSet smooth(graph, hessian, setting, budget, "F");
+    if (!smooth.obstacle().empty() || !proves_definite(graph, hessian, smooth.setting(), smooth.decider()))
+        return std::nullopt;
+    return newton_start(graph, hessian, smooth.decider());
+}
+
+void require_legendre_transform(const std::string& model, const Regularity& regularity)
+{
+    if (regularity.legendre_obstacle.empty()) return;
+    throw MathematicsError(fmt::format(
+        "error: the momenta dL/dy of model '{}' are not shown to fix the velocities, as its Hamiltonian form "
+        "needs: {}\n"
+        "hint: give [hamiltonian] H, or conditions on x and parameters in [base] domain under which d2L/dy2 is "
+        "definite",
+        model, regularity.legendre_obstacle));
+}
+
+} // namespace lagen

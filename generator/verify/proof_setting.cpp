@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "verify/proof_setting.hpp"
+
+#include <algorithm>
+
+namespace lagen {
+namespace {
+
+void append(std::vector<NodeId>& nodes, const std::vector<NodeId>& more)
+{
+    nodes.insert(nodes.end(), more.begin(), more.end());
+}
+
+/// rho, C, L, H, forces, the control problem and Casimirs: they count where they are defined.
+std::vector<NodeId> defined_nodes(const System& system)
+{
+    std::vector<NodeId> nodes = system.algebroid.entries();
+    for (const std::optional<NodeId>& function : {system.lagrangian, system.hamiltonian})
+        if (function) nodes.push_back(*function);
+    append(nodes, system.forces);
+    if (system.control) {
+        append(nodes, system.control->sigma);
+        nodes.push_back(system.control->cost);
+    }
+    append(nodes, system.functions.casimirs);
+    append(nodes, system.partial_parts);
+    std::erase_if(nodes, [&](NodeId node) { return system.graph.is_constant(node); });
+    std::ranges::sort(nodes);
+    const auto repeated = std::ranges::unique(nodes);
+    nodes.erase(repeated.begin(), repeated.end());
+    return nodes;
+}
+
+} // namespace
+
+ProofSetting proof_setting(const System& system)
+{
+    ProofSetting setting;
+    setting.variables = system.algebroid.x;
+    append(setting.variables, system.algebroid.y);
+    if (system.hamiltonian || system.control) append(setting.variables, system.mu);
+    if (system.control) append(setting.variables, system.control->u);
+    setting.variables.push_back(system.time);
+    setting.parameters = system.parameters;
+    setting.constraints = system.functions.constraints;
+    setting.domain = system.domain;
+    setting.defined = defined_nodes(system);
+    return setting;
+}
+
+std::set<std::string> accessory_inputs(const System& system)
+{
+    std::vector<NodeId> inputs = system.algebroid.y;
+    append(inputs, system.mu);
+    if (system.control) append(inputs, system.control->u);
+    inputs.push_back(system.time);
+    std::set<std::string> names;
+    for (const NodeId input : inputs) names.insert(system.graph.input_name(input));
+    return names;
+}
+
+} // namespace lagen

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Where the claims about a system are decided: its variables, parameters, constraints and domain, and what must be
+/// defined at a point for the point to count.
+#pragma once
+
+#include "mechanics/system.hpp"
+#include "proof/decide.hpp"
+
+#include <set>
+
+namespace lagen {
+
+[[nodiscard]] ProofSetting proof_setting(const System& system);
+
+/// Inputs that only some claims are about, which a witness names only where it needs them: y, mu, u and t.
+[[nodiscard]] std::set<std::string> accessory_inputs(const System& system);
+
+} // namespace lagen

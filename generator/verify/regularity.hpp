@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Regularity of the fibre Hessian W = d2L/dy2: generic rank by certified witnesses, `regular` only where det W is
+/// proved nonzero on the whole domain, definiteness by leading minors.
+#pragma once
+
+#include "mechanics/fibre_hessian.hpp"
+#include "verify/verify.hpp"
+
+namespace lagen {
+
+/// `defaults`: parameter inputs with their values in the file, used where the claim does not hold for all parameters.
+[[nodiscard]] Regularity decide_regularity(Graph& graph, const FibreHessian& hessian, const ProofSetting& setting,
+                                           const ZeroDecider& decider,
+                                           const std::vector<std::pair<NodeId, NodeId>>& defaults);
+
+/// Whether W is proved positive definite wherever it is defined.
+[[nodiscard]] bool proves_definite(Graph& graph, const FibreHessian& hessian, const ProofSetting& setting,
+                                   const ZeroDecider& decider);
+
+} // namespace lagen

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Every check that a system calls for, decided on one graph under one setting.
+#include "verify/verify.hpp"
+#include "verify/claims.hpp"
+
+#include <algorithm>
+
+namespace lagen {
+
+const char* to_text(Verdict verdict)
+{
+    switch (verdict) {
+    case Verdict::valid: return "valid";
+    case Verdict::invalid: return "invalid";
+    case Verdict::undecided: break;
+    }
+    return "undecided";
+}
+
+namespace {
+
+Verdict verdict_of(const Report& report)
+{
+    Verdict verdict = report.note.empty() ? Verdict::valid : Verdict::undecided;
+    for (const Check& check : report.checks) {
+        if (check.decision.status == ProofStatus::refuted) return Verdict::invalid;
+        if (check.decision.status == ProofStatus::undecided) verdict = Verdict::undecided;
+    }
+    return verdict;
+}
+
+std::optional<Reevaluation> summary_of(const Report& report, std::size_t points)
+{
+    if (points == 0) return std::nullopt;
+    Reevaluation summary;
+    summary.points = points;
+    for (const Check& check : report.checks) {
+        if (check.decision.status != ProofStatus::proved || !check.reevaluation) continue;
+        summary.points = std::min(summary.points, check.reevaluation->points);
+        summary.bound = std::max(summary.bound, check.reevaluation->bound);
+    }
+    return summary;
+}
+
+} // namespace
+
+void require_confirmed(const Check& check)
+{
+    if (check.decision.status != ProofStatus::proved || !check.reevaluation || !check.reevaluation->zero_excluded)
+        return;
+    std::string what = check.name;
+    for (const std::string& index : check.indices) what += " " + index;
+    std::string where;
+    for (const auto& [name, value] : check.reevaluation->where)
+        where += (where.empty() ? " at " : ", ") + name + " = " + value;
+    throw InternalError("the residual of " + what + " was proved to be zero, and is certainly not zero" + where);
+}
+
+Report verify(const System& system, const std::vector<NamedTree>& extra_invariants, std::size_t points,
+              const ProofBudget& budget)
+{
+    Report report;
+    Claims claims(system, points, budget);
+    claims.decide_structure(report);
+    append_involutive(report, system);
+    claims.decide_forms(report);
+    claims.decide_regularity(report);
+    claims.decide_legendre(report);
+    claims.decide_invariants(report, extra_invariants);
+    claims.decide_controls(report);
+    for (const Check& check : report.checks) require_confirmed(check);
+    report.reevaluation = summary_of(report, points);
+    report.verdict = verdict_of(report);
+    return report;
+}
+
+} // namespace lagen

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// The structure equations and the other claims of a model, each proved, refuted or undecided.
+///   antisymmetry  C^c_ab + C^c_ba = 0                                       (where both orders are given)
+///   anchor        rho_a(rho^i_b) - rho_b(rho^i_a) - rho^i_c C^c_ab = 0       a < b, all i
+///   jacobi        sum_cyc(a,b,c) [ rho_a(C^v_bc) + C^m_bc C^v_am ] = 0       a < b < c, all v
+///   tangency      rho_a(h) = 0 on M for each base constraint h
+///   casimir       rho_a(f) = 0
+///   closed        d A = 0, by components (A, a, b, ..)                        of E-forms that claim it
+///   equals        A - B = 0, by components (A, a, ..)
+///   legendre      H(t, x, dL/dy) = y^a dL/dy^a - L                            (where both are given)
+///   invariant     df/dt = 0 along the equations of motion of the model's default form
+#pragma once
+
+#include "mechanics/system.hpp"
+#include "proof/decide.hpp"
+
+namespace lagen {
+
+struct Check {
+    std::string name; ///< "anchor", "jacobi", ...
+    std::vector<std::string>
+        indices; ///< names, e.g. {"w1", "w2", "g3"} for anchor (a, b, i); {"w1","w2","w3","w1"} for jacobi (a, b, c, v)
+    Decision decision;
+    std::string hint;                         ///< may be empty
+    std::optional<Reevaluation> reevaluation; ///< where it was asked for and there is a residual
+};
+
+enum class Verdict { valid, invalid, undecided };
+[[nodiscard]] const char* to_text(Verdict verdict);
+
+/// Of the fibre Hessian W = d2L/dy2.
+struct Regularity {
+    enum class Kind { regular, generically_regular, degenerate, absent, undecided } kind = Kind::absent;
+    std::size_t rank = 0;               ///< generic rank, by a witness
+    bool positive_definite = false;     ///< proved on the whole domain
+    bool for_given_parameters = false;  ///< `regular` and `positive_definite` rest on the parameter values of the file
+    bool of_hamiltonian = false;        ///< of d2H/dmu2, where the model has H and no L
+    std::string evidence;               ///< why `undecided`; may be empty
+    std::string legendre_obstacle;      ///< why y -> dL/dy is not shown to be one-to-one; empty where it is
+    std::vector<Rational> newton_start; ///< a y where dL/dy is defined, if it is not at 0; else empty
+    bool singular_everywhere = false;   ///< generically_regular, but det W = 0 for the parameter values of the file
+    std::vector<std::vector<std::pair<std::string, std::string>>> singular_at; ///< known singular points
+    std::vector<std::string> singular_where; ///< where L is defined W is singular where one of these vanishes, for the
+                                             ///< parameter values of the file; empty where that is not known
+    std::vector<std::vector<std::pair<std::string, std::string>>>
+        kernel; ///< where degenerate: vectors k with W k = 0, proved, as components by fibre coordinate
+};
+
+/// Of the controls of Pontryagin's equations.
+struct ControlMaximum {
+    enum class Kind {
+        absent,     ///< no control problem, or not asked
+        maximal,    ///< proved: dH/du = 0, or a bound, is the maximum of H
+        stationary, ///< no bounds: dH/du = 0 is solved, and is not proved to be a maximum
+        unsolved,   ///< dH/du = 0 does not determine the controls, or not the maximum between bounds
+        nonsmooth,  ///< there is no dH/du
+        refuted,    ///< dH/du = 0 is certainly no maximum
+    } kind = Kind::absent;
+    std::string reason; ///< "d2H/du2 < 0 was not proved"; empty where `maximal`
+    std::string hint;
+    bool on_part = false;                    ///< `maximal`, where H is defined on a convex set of controls alone
+    std::vector<Rational> newton_start = {}; ///< u in that set, if 0 is not; else empty
+};
+
+/// What every text says of stationary controls.
+inline constexpr const char* stationary_controls =
+    "Stationary controls: dH/du = 0; that H is largest there is not proved.";
+
+/// An E-form of [forms] and whether d of it is zero, which stands outside the verdict.
+struct FormReport {
+    std::string name;
+    std::size_t degree = 0;
+    ProofStatus closed = ProofStatus::undecided;
+};
+
+/// What is known of a system.
+struct Report {
+    std::vector<Check> checks;
+    std::size_t trivial = 0; ///< residuals that are zero by structure: counted, not listed
+    Verdict verdict = Verdict::undecided;
+    Regularity regularity;
+    std::vector<FormReport> forms;
+    ControlMaximum maximum;
+    std::string note; ///< e.g. "no regular point was found: ..."
+    std::optional<Reevaluation>
+        reevaluation; ///< of all residuals that were proved: the least points, the largest bound
+};
+
+/// Digits to which `verify` re-evaluates.
+constexpr int reevaluation_digits = 60;
+
+/// Runs every check that the system calls for, on extra invariants (closed trees from the command line) too. With
+/// `points` each residual is evaluated again at as many regular points, others than those of the decision. A smaller
+/// `budget` leaves more undecided, sooner.
+[[nodiscard]] Report verify(const System& system, const std::vector<NamedTree>& extra_invariants = {},
+                            std::size_t points = 0, const ProofBudget& budget = {});
+
+/// Of a subbundle: a check "involutive" (a, b) for each pair of sections, from its anchor equations.
+void append_involutive(Report& report, const System& system);
+
+/// What `Decision::evidence` says where System::construction holds.
+inline constexpr const char* construction_argument =
+    "by construction: a frame of what is proved to be an algebroid, and its determinant is not zero";
+
+/// Throws InternalError where a residual was proved to be zero and its re-evaluation excludes that.
+void require_confirmed(const Check& check);
+
+} // namespace lagen

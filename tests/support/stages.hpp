@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Several stages of the pipeline at once, for tests that begin with a model and look at its end.
+#pragma once
+
+#include "advice/advise.hpp"
+#include "elaborate/build_algebroid.hpp"
+#include "elaborate/elaborate.hpp"
+
+namespace lagen {
+
+/// A report with its hints, and rho and C as they were built.
+struct ModelReport : Report {
+    WrittenAlgebroid algebroid;
+};
+
+[[nodiscard]] inline ModelReport verify(const Model& model, const std::vector<NamedTree>& extra_invariants = {},
+                                        std::size_t points = 0, const ProofBudget& budget = {})
+{
+    const System system = elaborate(model);
+    ModelReport report{verify(system, extra_invariants, points, budget), system.written.algebroid};
+    advise(system, report, budget);
+    return report;
+}
+
+} // namespace lagen

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// What the tests of `verify` share: a model text in, lines about its checks out.
+#pragma once
+
+#include "model/read_model.hpp"
+#include "support/stages.hpp"
+
+#include <set>
+
+namespace lagen {
+
+inline ModelReport verified_text(const std::string& text, const std::vector<NamedTree>& extra = {})
+{
+    return verify(read_model_text("test.toml", "name = \"test\"\n" + text), extra);
+}
+
+/// "anchor(w1, w2, g3) proved"
+inline std::string line_of(const Check& check)
+{
+    std::string line = check.name + "(";
+    for (std::size_t k = 0; k < check.indices.size(); ++k) line += (k == 0 ? "" : ", ") + check.indices[k];
+    return line + ") " + to_text(check.decision.status);
+}
+
+inline std::vector<std::string> lines_of(const Report& verified)
+{
+    std::vector<std::string> lines;
+    for (const Check& check : verified.checks) lines.push_back(line_of(check));
+    return lines;
+}
+
+/// The distinct hints of a model in order.
+inline std::vector<std::string> hints_of(const Report& verified)
+{
+    std::vector<std::string> hints;
+    std::set<std::string> seen = {""};
+    for (const Check& check : verified.checks)
+        if (seen.insert(check.hint).second) hints.push_back(check.hint);
+    return hints;
+}
+
+} // namespace lagen

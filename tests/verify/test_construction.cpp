@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Frames with dense matrices of fractions: proved by what they frame, and refuted where that is no algebroid.
+#include "elaborate/build_algebroid.hpp"
+#include "elaborate/construction.hpp"
+#include "verify/checking.hpp"
+
+#include "expression/parse.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+
+using namespace lagen;
+
+namespace {
+
+/// Four sections with 16 entries (c + x_i)/(d + x_j^2) of the inner table.
+std::string dense_frame(const std::string& inner)
+{
+    std::string text =
+        "[base]\ncoordinates = ['x1', 'x2', 'x3', 'x4']\n[fibre]\ncoordinates = ['f1', 'f2', 'f3', 'f4']\n"
+        "[algebroid]\nkind = 'frame'\n[algebroid.sections]\n";
+    for (int a = 1; a <= 4; ++a) {
+        text += "f" + std::to_string(a) + " = {";
+        for (int b = 1; b <= 4; ++b)
+            text += std::string(b == 1 ? "" : ",") + " e" + std::to_string(b) + " = '(" +
+                    std::to_string(a == b ? 5 : a + b - 4) + " + x" + std::to_string((a + b) % 4 + 1) + ")/(" +
+                    std::to_string(1 + a * b) + " + x" + std::to_string((a + 2 * b) % 4 + 1) + "^2)'";
+        text += " }\n";
+    }
+    return text + "[algebroid.of]\nfibre = ['e1', 'e2', 'e3', 'e4']\n" + inner;
+}
+
+/// so(2) + R^1 acting on a plane, and two derivations; `c` is [e1, e3]'s multiple of e4.
+std::string rotations(const std::string& c)
+{
+    return "[algebroid.of.anchor]\ne1 = { x1 = '-x2', x2 = 'x1' }\ne2 = { x1 = 'x1', x2 = 'x2' }\n"
+           "e3 = { x3 = '1' }\ne4 = { x4 = '1' }\n[algebroid.of.bracket]\n'e1,e3' = { e4 = '" +
+           c + "' }\n";
+}
+
+/// A frame of TR^2 with the first section e1 * factor, and what stands before and in [base].
+std::string plane_frame(const std::string& factor, const std::string& base = "")
+{
+    return "[base]\ncoordinates = ['x', 'y']\n" + base +
+           "[fibre]\ncoordinates = ['a', 'b']\n[algebroid]\nkind = 'frame'\n[algebroid.sections]\na = { u = '" +
+           factor + "', v = 'x' }\nb = { v = '1 + y^2' }\n[algebroid.of]\nkind = 'tangent'\nfibre = ['u', 'v']\n";
+}
+
+bool holds_by_construction(const Model& model, const WrittenAlgebroid& algebroid)
+{
+    const std::function<bool()> construction = construction_of(model, algebroid);
+    return construction && construction();
+}
+
+bool holds(const std::string& text)
+{
+    const Model model = read_model_text("test.toml", "name = 'test'\n" + text);
+    return holds_by_construction(model, build_algebroid(model));
+}
+
+std::size_t constructed(const Report& verified)
+{
+    return static_cast<std::size_t>(
+        std::count_if(verified.checks.begin(), verified.checks.end(),
+                      [](const Check& check) { return check.decision.evidence == construction_argument; }));
+}
+
+} // namespace
+
+TEST_CASE("a dense rational frame of TR^4 is proved by construction, and its residuals vanish at other points")
+{
+    const Model model = read_model_text("test.toml", "name = 'test'\n" + dense_frame("kind = 'tangent'\n"));
+    const ModelReport verified = verify(model, {}, 3);
+    CHECK(verified.verdict == Verdict::valid);
+    CHECK(verified.checks.size() == 40);
+    CHECK(constructed(verified) > 30);
+    REQUIRE(verified.reevaluation);
+    CHECK(verified.reevaluation->points == 3);
+    CHECK(verified.reevaluation->bound < 1e-60);
+}
+
+TEST_CASE("a dense rational frame of what is no algebroid is refuted, be it by 1e-15")
+{
+    // [e1, e3] = c e4 needs rho([e1, e3]) = [rho(e1), rho(e3)] = 0.
+    CHECK(verified_text(dense_frame(rotations("0"))).verdict == Verdict::valid);
+    CHECK(verified_text(dense_frame(rotations("1/1000000000000000"))).verdict == Verdict::invalid);
+}
+
+TEST_CASE("a construction is believed for exactly the entries that it gives")
+{
+    const Model model = read_model_text("test.toml", "name = 'test'\n" + plane_frame("1 + x*y"));
+    const WrittenAlgebroid algebroid = build_algebroid(model);
+    CHECK(holds_by_construction(model, algebroid));
+    const auto altered = [](const Tree& tree, const std::string& by) {
+        return parse_expression(whole_text("test", "(" + to_text(tree) + ")" + by));
+    };
+    for (std::size_t k = 0; k < algebroid.C.size(); ++k) {
+        WrittenAlgebroid other = algebroid;
+        other.C[k].value = altered(algebroid.C[k].value, " + 1/10^15");
+        CHECK_FALSE(holds_by_construction(model, other));
+        other.C[k].value = altered(algebroid.C[k].value, "*(sin(x)^2 + cos(x)^2)");
+        CHECK(holds_by_construction(model, other));
+    }
+    for (std::size_t k = 0; k < algebroid.rho.size(); ++k) {
+        WrittenAlgebroid other = algebroid;
+        other.rho[k].value = altered(algebroid.rho[k].value, "*(1 + 1/10^15)");
+        CHECK_FALSE(holds_by_construction(model, other));
+        other.rho.erase(other.rho.begin() + static_cast<std::ptrdiff_t>(k));
+        CHECK_FALSE(holds_by_construction(model, other));
+    }
+}
+
+TEST_CASE("from one point to the whole domain a construction argues for meromorphic entries without constraints alone")
+{
+    CHECK(holds(plane_frame("1 + x*y")));
+    CHECK(holds(plane_frame("exp(1/x) + tan(y)", "domain = ['x > 0']\n")));
+    // x + |x| vanishes on a half-plane, and is not zero at a point.
+    CHECK_FALSE(holds(plane_frame("x + abs(x)")));
+    CHECK_FALSE(holds(plane_frame("x + sqrt(x^2)")));
+    CHECK_FALSE(holds(plane_frame("1 + x*y", "domain = ['x + abs(x) > 0']\n")));
+    CHECK_FALSE(holds(plane_frame("1 + x*y", "casimirs = { c = '1' }\n")));
+    CHECK_FALSE(holds("[base]\ncoordinates = ['x']\n[fibre]\ncoordinates = ['a']\n[algebroid]\nkind = 'tangent'\n"));
+}
+
+TEST_CASE("a prolongation of a frame holds by construction where the frame does not know the gained coordinates")
+{
+    const auto prolongation = [](const std::string& factor) {
+        return "[base]\ncoordinates = ['x', 'a']\n[algebroid]\nkind = 'prolongation'\n[algebroid.of]\nkind = 'frame'\n"
+               "fibre = ['a']\nsections = { a = { u = '" +
+               factor + "' } }\n[algebroid.of.of]\nkind = 'tangent'\nfibre = ['u']\nover = ['x']\n";
+    };
+    CHECK(holds(prolongation("1 + x^2")));
+    CHECK(verified_text(prolongation("1 + x^2")).verdict == Verdict::valid);
+    CHECK_FALSE(holds(prolongation("1 + a^2")));
+    CHECK(verified_text(prolongation("1 + a^2")).verdict == Verdict::invalid);
+}

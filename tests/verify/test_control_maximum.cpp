@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Which controls are proved to maximise H, which are certainly no maximum, and what is said of the others.
+#include "verify/checking.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace lagen;
+using Kind = ControlMaximum::Kind;
+
+namespace {
+
+ControlMaximum maximum_of(const std::string& control)
+{
+    return verified_text("[parameters]\nk = 1\nc = 2\n[base]\ncoordinates = [\"x\", \"y\"]\ndomain = [\"c > 0\"]\n"
+                         "[fibre]\ncoordinates = [\"a\", \"b\"]\nmomenta = [\"p\", \"q\"]\n[algebroid]\nkind = "
+                         "\"tangent\"\n[control]\n" +
+                         control)
+        .maximum;
+}
+
+ControlMaximum of_one(const std::string& cost, const std::string& bounds = "")
+{
+    return maximum_of("controls = [\"u\"]\nsigma = { a = \"u\" }\ncost = \"" + cost + "\"\n" +
+                      (bounds.empty() ? "" : "bounds = { u = " + bounds + " }\n"));
+}
+
+ControlMaximum of_two(const std::string& cost, const std::string& bounds = "")
+{
+    return maximum_of("controls = [\"u\", \"w\"]\nsigma = { a = \"u\", b = \"w\" }\ncost = \"" + cost + "\"\n" +
+                      (bounds.empty() ? "" : "bounds = " + bounds + "\n"));
+}
+
+} // namespace
+
+TEST_CASE("a strictly concave and smooth Hamiltonian is proved to have its maximum", "[maximum]")
+{
+    for (const char* cost : {"u^2/2", "c*u^2/2 + k*u", "cosh(u)", "sqrt(1 + u^2)", "exp(u) - u", "u^4/4",
+                             "(2 + sin(x))*u^2", "u^2*abs(1 + x^2)", "atan2(x, 1)*u + u^2"}) {
+        INFO(cost);
+        CHECK(of_one(cost).kind == Kind::maximal);
+    }
+    CHECK(of_two("u^2 + u*w + w^2").kind == Kind::maximal);
+    CHECK(of_two("(1 + x^2)*u^2 + (u - w)^2").kind == Kind::maximal);
+}
+
+TEST_CASE("between bounds the interval counts, its ends included", "[maximum]")
+{
+    const std::vector<std::pair<const char*, const char*>> proved = {{"-log(cos(u))", "[-1.5, 1.5]"},
+                                                                     {"u^2/2 + 1/u^2", "[0.5, 20]"},
+                                                                     {"-log(1 - u^2)", "[-0.99, 0.99]"},
+                                                                     {"u^3", "[0.1, 2]"},
+                                                                     {"-sin(u)", "[0.1, \"pi/2\"]"},
+                                                                     {"u^2 + abs(u + 2)", "[-1, 1]"},
+                                                                     {"u^2", "[\"-c\", \"c\"]"},
+                                                                     {"u^3", "[\"c\", \"inf\"]"},
+                                                                     {"-sqrt(u)", "[1, inf]"}};
+    for (const auto& [cost, bounds] : proved) {
+        INFO(cost << " on " << bounds);
+        CHECK(of_one(cost, bounds).kind == Kind::maximal);
+    }
+    const std::string needed = "with bounds on controls H must be separable, smooth and strictly concave in them, or "
+                               "dH/du = 0 and the bounds do not give its maximum: ";
+    const std::vector<std::array<const char*, 3>> refused = {
+        {"u^3", "[0, 2]", "d2H/du2 < 0 was not proved for all admissible u"},
+        {"u^2/2 + 1/u^2", "[-1, 1]", "1/u^2 was not proved to be smooth for all admissible controls"},
+        {"-log(1 - u^2)", "[-1, 1]", "log(1 - u^2) was not proved to be smooth for all admissible controls"},
+        {"u^2 - log(1 + u)/8", "[-2, 1]", "log(1 + u) was not proved to be smooth for all admissible controls"},
+        {"k*u^2", "[-1, 1]", "d2H/du2 < 0 was not proved for all admissible u"},
+        {"-u^2", "[-1, 1]", "d2H/du2 < 0 was not proved for all admissible u"}};
+    for (const auto& [cost, bounds, why] : refused) {
+        INFO(cost << " on " << bounds);
+        const ControlMaximum maximum = of_one(cost, bounds);
+        CHECK(maximum.kind == Kind::unsolved);
+        CHECK(maximum.reason == needed + why);
+    }
+    CHECK(of_two("u^2 + u*w + w^2", "{ u = [-1, 1] }").reason == needed + "d2H/dudw is not zero");
+    CHECK(of_two("u^2 + w^2", "{ u = [-1, 1] }").kind == Kind::maximal);
+}
+
+TEST_CASE("a Hamiltonian that certainly has no maximum is refuted", "[maximum]")
+{
+    CHECK(of_one("-u^2/2 + x^2").reason == "H has no maximum in the control 'u': d2H/du2 > 0");
+    CHECK(of_one("-u^2/2 + x^2").kind == Kind::refuted);
+    CHECK(of_two("u^2 - w^2").reason == "H has no maximum in the control 'w': d2H/dw2 > 0");
+    CHECK(of_two("u*w").reason == "H has no maximum in the controls 'u' and 'w': d2H/du2 is indefinite");
+    CHECK(of_two("u*w").kind == Kind::refuted);
+    CHECK(of_two("u^2 + 3*u*w + w^2").kind == Kind::refuted);
+    // H = mu u - sqrt(1 - u^2) has its maximum at an end of the interval where it is defined.
+    for (const char* cost : {"sqrt(1 - u^2)", "log(1 - u^2)"}) {
+        CHECK(of_one(cost).kind == Kind::refuted);
+        CHECK(of_one(cost).reason == "dH/du = 0 is where H is least: d2H/du2 > 0 wherever H is defined");
+    }
+}
+
+TEST_CASE("where nothing is proved of a maximum the controls are stationary", "[maximum]")
+{
+    for (const char* cost : {"-cos(u)", "k*u^2", "u^4/4 - u^2/2", "u^3", "x*u^2"}) {
+        INFO(cost);
+        const ControlMaximum maximum = of_one(cost);
+        CHECK(maximum.kind == Kind::stationary);
+        CHECK(maximum.reason == "d2H/du2 < 0 was not proved for all u");
+    }
+    CHECK(of_one("u^2/2 + 1/u^2").reason == "1/u^2 was not proved to be smooth for all controls");
+}
+
+TEST_CASE("a cost that is defined and strictly convex on a convex set of controls has its maximum there", "[maximum]")
+{
+    for (const char* cost : {"-log(1 - u^2)", "-sqrt(1 - u^2)", "u^2/2 - log(1 + u) - log(2 - u)", "(1 - u)^(-3/2)"}) {
+        INFO(cost);
+        const ControlMaximum maximum = of_one(cost);
+        CHECK(maximum.kind == Kind::maximal);
+        CHECK(maximum.on_part);
+        CHECK(maximum.newton_start.empty());
+    }
+    const ControlMaximum entropy = of_one("u*log(u)");
+    CHECK(entropy.kind == Kind::maximal);
+    REQUIRE(entropy.newton_start.size() == 1);
+    CHECK(entropy.newton_start[0] > 0);
+    CHECK_FALSE(of_one("exp(u)").on_part);
+    // Two intervals, and a cost that is neither convex nor concave.
+    for (const char* cost : {"-log(u^2 - 1)", "-log(u^2)", "1/sqrt(u^2 - 1)", "sqrt(1 - u) + u^2"})
+        CHECK(of_one(cost).kind == Kind::stationary);
+    CHECK(of_two("-log(1 - u - w)").kind != Kind::maximal);
+    CHECK(of_two("-log(1 - u^2 - w^2)").on_part);
+}
+
+TEST_CASE("kinks, affine and dependent controls are named", "[maximum]")
+{
+    CHECK(of_one("abs(u) + u^2/2").kind == Kind::nonsmooth);
+    CHECK(of_one("abs(u) + u^2/2").reason ==
+          "H is not smooth in the controls: it contains abs(u), where u was not proved to keep its sign");
+    CHECK(of_one("u^2/2 - abs(u)", "[-4, 1]").kind == Kind::nonsmooth);
+    CHECK(of_one("u^2 + atan2(x, u)").reason ==
+          "H is not smooth in the controls: it contains atan2(x, u), which was not proved to keep off its cut");
+    CHECK(of_one("x^2").reason == "H is affine in the control u: dH/du = 0 does not determine it (a singular or "
+                                  "bang-bang control)");
+    const ControlMaximum dependent = of_two("(u + w)^2");
+    CHECK(dependent.kind == Kind::unsolved);
+    CHECK(dependent.reason ==
+          "dH/du = 0 does not determine the controls: d2H/du2 has rank 1, and 2 controls need rank 2");
+    CHECK(of_two("(u + w)^4").kind == Kind::unsolved);
+}

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Hints of refuted algebroids: the one sign or the one entry that mends them, in the words of the file.
+#include "verify/checking.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace lagen;
+using Hints = std::vector<std::string>;
+
+namespace {
+
+Hints hints_of(const std::string& text)
+{
+    return hints_of(verified_text(text));
+}
+
+/// `text` with one passage replaced, which must be there.
+std::string with(std::string text, const std::string& passage, const std::string& by)
+{
+    const std::size_t at = text.find(passage);
+    REQUIRE(at != std::string::npos);
+    return text.replace(at, passage.size(), by);
+}
+
+const std::string half_plane = R"(
+[base]
+coordinates = ["x", "y"]
+[fibre]
+coordinates = ["a", "b"]
+[algebroid.anchor]
+a = { x = "y" }
+b = { y = "y" }
+[algebroid.bracket]
+)";
+
+const std::string top = R"(
+[base]
+coordinates = ["g1", "g2", "g3"]
+[fibre]
+coordinates = ["w1", "w2", "w3"]
+[algebroid.anchor]
+w1 = { g2 = "g3", g3 = "-g2" }
+w2 = { g1 = "-g3", g3 = "g1" }
+w3 = { g1 = "g2", g2 = "-g1" }
+[algebroid.bracket]
+"w1,w2" = { w3 = 1 }
+"w2,w3" = { w1 = 1 }
+"w3,w1" = { w2 = 1 }
+)";
+
+const std::string top_on_sphere = "\n[base]\ncoordinates = [\"g1\", \"g2\", \"g3\"]\n"
+                                  "constraints = [\"g1^2 + g2^2 + g3^2 - 1\"]\n" +
+                                  top.substr(top.find("[fibre]"));
+
+/// so(4) in the basis of pairs i < j, as a user would write it.
+const std::string so4 = R"(
+[fibre]
+coordinates = ["e1", "e2", "e3", "e4", "e5", "e6"]
+[algebroid]
+kind = "lie_algebra"
+[algebroid.bracket]
+"e1,e2" = { e4 = -1 }
+"e1,e3" = { e5 = -1 }
+"e1,e4" = { e2 = 1 }
+"e1,e5" = { e3 = 1 }
+"e2,e3" = { e6 = -1 }
+"e2,e4" = { e1 = -1 }
+"e2,e6" = { e3 = 1 }
+"e3,e5" = { e1 = -1 }
+"e3,e6" = { e2 = -1 }
+"e4,e5" = { e6 = -1 }
+"e4,e6" = { e5 = 1 }
+"e5,e6" = { e4 = -1 }
+)";
+
+} // namespace
+
+TEST_CASE("the models that the hints start from are valid")
+{
+    CHECK(verified_text(half_plane + "\"a,b\" = { a = -1 }\n").verdict == Verdict::valid);
+    CHECK(verified_text(top).verdict == Verdict::valid);
+    CHECK(verified_text(top_on_sphere).verdict == Verdict::valid);
+    CHECK(verified_text(so4).verdict == Verdict::valid);
+}
+
+TEST_CASE("a flipped sign of a bracket entry is named in the order of the file")
+{
+    CHECK(hints_of(with(top, "w2 = 1 }", "w2 = -1 }")) ==
+          Hints{"all equations of the algebroid hold with the opposite sign of component w2 of [w3, w1]"});
+    CHECK(hints_of(with(so4, "e2 = 1 }", "e2 = -1 }")) ==
+          Hints{"all equations of the algebroid hold with the opposite sign of component e2 of [e1, e4]"});
+}
+
+TEST_CASE("a flipped sign of an anchor entry is named")
+{
+    const Hints hint{"all equations of the algebroid hold with the opposite sign of component g3 of the anchor of w1"};
+    CHECK(hints_of(with(top, "\"-g2\"", "\"g2\"")) == hint);
+    CHECK(hints_of(with(top_on_sphere, "\"-g2\"", "\"g2\"")) == hint);
+}
+
+TEST_CASE("where two signs would mend a model both are named")
+{
+    CHECK(hints_of(half_plane + "\"b,a\" = { a = -1 }\n") ==
+          Hints{"all equations of the algebroid hold with the opposite sign of component a of [b, a], or with the "
+                "opposite sign of component y of the anchor of b"});
+}
+
+TEST_CASE("a bracket given in the wrong order is named")
+{
+    // [a, b] = b - a on the line: rho_a = d/dx, rho_b = d/dx + exp(x) d/dx.
+    const std::string text = R"toml(
+[base]
+coordinates = ["x"]
+[fibre]
+coordinates = ["a", "b"]
+[algebroid.anchor]
+a = { x = 1 }
+b = { x = "1 + exp(x)" }
+[algebroid.bracket]
+)toml";
+    CHECK(verified_text(text + "\"a,b\" = { a = -1, b = 1 }\n").verdict == Verdict::valid);
+    CHECK(hints_of(text + "\"b,a\" = { a = -1, b = 1 }\n") ==
+          Hints{"all equations of the algebroid hold with the opposite sign of [b, a], as if its sections were given "
+                "in the wrong order"});
+}
+
+TEST_CASE("where the anchor determines a component the hint says its value and what is given")
+{
+    CHECK(hints_of(half_plane + "\"a,b\" = { a = -2 }\n") ==
+          Hints{"[a, b] needs component a = -1, given is -2; with it all equations of the algebroid hold"});
+    CHECK(hints_of(half_plane) ==
+          Hints{"[a, b] needs component a = -1, given is none; with it all equations of the algebroid hold"});
+    CHECK(hints_of(with(top, "w2 = 1 }", "w2 = \"1.000000000000001\" }")) ==
+          Hints{"[w3, w1] needs component w2 = 1, given is 1.000000000000001; with it all equations of the algebroid "
+                "hold"});
+}
+
+TEST_CASE("an anchor entry that is wrong or missing is solved for")
+{
+    const auto hint = [](const std::string& entry) {
+        return Hints{"all equations of the algebroid hold with component " + entry};
+    };
+    CHECK(hints_of(with(top_on_sphere, "g2 = \"g3\"", "g2 = \"g1\"")) ==
+          hint("g2 = g3 of the anchor of w1 (given is g1)"));
+    CHECK(hints_of(with(top_on_sphere, ", g3 = \"-g2\"", "")) == hint("g3 = -g2 of the anchor of w1 (given is none)"));
+    CHECK(hints_of(with(top, ", g3 = \"-g2\"", "")) == hint("g3 = -g2 of the anchor of w1 (given is none)"));
+    CHECK(hints_of(with(top, "\"-g2\"", "\"-1.0000000000001*g2\"")) ==
+          hint("g3 = -g2 of the anchor of w1 (given is -1.0000000000001*g2)"));
+}
+
+TEST_CASE("an entry of a Lie algebra that is wrong or missing is solved for in Jacobi's identity")
+{
+    CHECK(hints_of(with(so4, "e2 = 1 }", "e2 = 3 }")) ==
+          Hints{"all equations of the algebroid hold with component e2 = 1 of [e1, e4] (given is 3)"});
+    CHECK(hints_of(with(so4, "\"e1,e4\" = { e2 = 1 }\n", "")) ==
+          Hints{"all equations of the algebroid hold with component e2 = 1 of [e1, e4] (given is none)"});
+}
+
+TEST_CASE("of two mistakes each pair has a hint of its own")
+{
+    CHECK(hints_of(with(with(top, "w2 = 1 }", "w2 = -1 }"), "w3 = 1 }", "w3 = 2 }")) ==
+          Hints{"[w1, w2] needs component w3 = 1, given is 2; with it the anchor equations of [w1, w2] hold",
+                "the anchor equations of [w1, w3] hold with the opposite sign of component w2 of [w3, w1]"});
+}
+
+TEST_CASE("a bracket that must be constant is not asked to depend on the base")
+{
+    // rho_a = d/dx, rho_b = x d/dy: [a, b] = b/x, which no action of a Lie algebra has.
+    const std::string text = "[base]\ncoordinates = [\"x\", \"y\"]\n[fibre]\ncoordinates = [\"a\", \"b\"]\n";
+    const std::string anchor = "[algebroid.anchor]\na = { x = 1 }\nb = { y = \"x\" }\n";
+    CHECK(hints_of(text + anchor) ==
+          Hints{"[a, b] needs component b = 1/x, given is none; with it all equations of the algebroid hold"});
+    CHECK(hints_of(text + "[algebroid]\nkind = \"action\"\n" + anchor + "[algebroid.bracket]\n") ==
+          Hints{"all equations of the algebroid hold with the anchor of a without its component x, or with the anchor "
+                "of b without its component y"});
+}

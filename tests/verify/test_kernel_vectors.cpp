@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Kernel vectors of degenerate Lagrangians.
+#include "proof/rational_matrix.hpp"
+#include "verify/checking.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace lagen;
+using Kernel = std::vector<std::vector<std::pair<std::string, std::string>>>;
+
+namespace {
+
+Regularity regularity_in_space(const std::string& lagrangian)
+{
+    return verified_text("[parameters]\nm = 2\n[base]\ncoordinates = [\"x\", \"y\", \"z\"]\n[fibre]\ncoordinates = "
+                         "[\"u\", \"v\", \"w\"]\n[algebroid]\nkind = \"tangent\"\n[lagrangian]\nL = \"" +
+                         lagrangian + "\"\n")
+        .regularity;
+}
+
+} // namespace
+
+TEST_CASE("a coordinate without kinetic energy is a kernel vector")
+{
+    const Regularity result = regularity_in_space("m*(u^2 + v^2)/2 + x*w");
+    CHECK(result.kind == Regularity::Kind::degenerate);
+    CHECK(result.rank == 2);
+    CHECK(result.kernel == Kernel{{{"w", "1"}}});
+}
+
+TEST_CASE("a square of one combination has a plane of constant kernel vectors")
+{
+    CHECK(regularity_in_space("(u + 2*v - w)^2").kernel == Kernel{{{"u", "-2"}, {"v", "1"}}, {{"u", "1"}, {"w", "1"}}});
+}
+
+TEST_CASE("kernel vectors with parameters and functions of the base are expressions")
+{
+    CHECK(regularity_in_space("(u + m*v)^2 + w^2").kernel == Kernel{{{"u", "-m"}, {"v", "1"}}});
+    CHECK(regularity_in_space("(u*cos(x) - v*sin(y))^2/2 + w^2").kernel == Kernel{{{"u", "sin(y)"}, {"v", "cos(x)"}}});
+}
+
+TEST_CASE("a matrix that is singular only by an identity has its kernel proved")
+{
+    // W = [[1, s, 0], [s, s^2 + c^2 - 1 + s^2 - s^2 + ..]]: det = 0 by sin^2 + cos^2 = 1
+    CHECK(regularity_in_space("u^2/2 + sin(x)*u*v + (1 - cos(x)^2)*v^2/2 + w^2").kernel ==
+          Kernel{{{"u", "-sin(x)"}, {"v", "1"}}});
+}
+
+TEST_CASE("a Lagrangian of degree one has kernel along its velocity")
+{
+    // L = sqrt(u^2 + v^2): W (u, v) = 0
+    const Regularity result = regularity_in_space("sqrt(u^2 + v^2) + w^2");
+    CHECK(result.rank == 2);
+    CHECK(result.kernel == Kernel{{{"u", "u"}, {"v", "v"}}});
+}
+
+TEST_CASE("kernel vectors have no denominators: they are defined wherever the Lagrangian is")
+{
+    CHECK(regularity_in_space("(x*u + m*v)^2 + w^2").kernel == Kernel{{{"u", "-m"}, {"v", "x"}}});
+    CHECK(regularity_in_space("sqrt(u^2 + v^2 + w^2)").kernel == Kernel{{{"u", "u"}, {"v", "v"}, {"w", "w"}}});
+    CHECK(regularity_in_space("(x*u + y*v + z*w)^2").kernel ==
+          Kernel{{{"u", "-y"}, {"v", "x"}}, {{"u", "-z"}, {"w", "x"}}});
+}
+
+TEST_CASE("a regular Lagrangian has no kernel")
+{
+    CHECK(regularity_in_space("u^2 + v^2 + w^2").kernel.empty());
+    CHECK(regularity_in_space("u^2 + x*v^2 + w^2").kernel.empty());
+}
+
+TEST_CASE("the null space of a rational matrix has one vector a free column")
+{
+    const std::vector<Rational> matrix = {0, 2, 4, 0, 1, 2, 0, 3, 6};
+    CHECK(kernel_of(matrix, 3) == std::vector<std::vector<Rational>>{{1, 0, 0}, {0, -2, 1}});
+    CHECK(kernel_of({1, 2, 3, 4}, 2).empty());
+}

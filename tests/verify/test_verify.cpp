@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Proofs looked at again at other points, counts of what is zero by structure, and divisions by zero in every block.
+#include "verify/checking.hpp"
+
+#include "graph/lower.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace lagen;
+
+namespace {
+
+const std::string checked_sphere = R"(
+[base]
+coordinates = ["g1", "g2", "g3"]
+constraints = ["g1^2 + g2^2 + g3^2 - 1"]
+casimirs = { a = "g1^2 + g2^2 + g3^2" }
+[fibre]
+coordinates = ["w1", "w2", "w3"]
+[algebroid.anchor]
+w1 = { g2 = "g3", g3 = "-g2" }
+w2 = { g1 = "-g3", g3 = "g1" }
+w3 = { g1 = "g2", g2 = "-g1" }
+[algebroid.bracket]
+"w1,w2" = { w3 = 1 }
+"w2,w3" = { w1 = 1 }
+"w3,w1" = { w2 = 1 }
+[lagrangian]
+L = "(w1^2 + w2^2 + 2*w3^2)/2 - g3"
+[invariants]
+vertical = "p_w1*g1 + p_w2*g2 + p_w3*g3"
+)";
+
+Model model_of(const std::string& text)
+{
+    return read_model_text("test.toml", "name = \"test\"\n" + text);
+}
+
+/// The message of the error that `verify` ends with, "" where it does not.
+std::string refusal(const std::string& text)
+{
+    try {
+        (void)verify(model_of(text));
+    } catch (const ModelError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+/// What is said of `divisor`, written in a line that starts with `start`.
+std::string zero_divisor(int line, const std::string& start, const std::string& divisor, const std::string& rest)
+{
+    return "test.toml:" + std::to_string(line) + ":" + std::to_string(start.size() + 1) + ": error: division by " +
+           divisor + ", which is zero everywhere\n  " + start + divisor + rest + "\n  " +
+           std::string(start.size(), ' ') + "^" + std::string(divisor.size() - 1, '~') +
+           "\nhint: a divisor must be nonzero somewhere on the domain";
+}
+
+const std::string plane = "[base]\ncoordinates = [\"x\", \"y\"]\n"
+                          "[fibre]\ncoordinates = [\"v\", \"w\"]\n"
+                          "[algebroid]\nkind = \"tangent\"\n";
+
+} // namespace
+
+TEST_CASE("every residual of a proof is zero to 60 digits at five other points")
+{
+    const ModelReport verified = verify(model_of(checked_sphere), {}, 5);
+    REQUIRE(verified.verdict == Verdict::valid);
+    REQUIRE(verified.reevaluation);
+    CHECK(verified.reevaluation->points == 5);
+    CHECK(verified.reevaluation->bound < 1e-60);
+    REQUIRE(verified.checks.size() == 13);
+    CHECK(verified.checks.back().name == "invariant");
+    for (const Check& check : verified.checks) {
+        INFO(line_of(check));
+        REQUIRE(check.reevaluation);
+        CHECK(check.reevaluation->points == 5);
+        CHECK(check.reevaluation->bound < 1e-60);
+        CHECK_FALSE(check.reevaluation->zero_excluded);
+    }
+    CHECK_FALSE(verify(model_of(checked_sphere)).reevaluation);
+    CHECK_FALSE(verify(model_of(checked_sphere)).checks[0].reevaluation);
+}
+
+TEST_CASE("a re-evaluated residual that is not zero is seen not to be, and the summary is about proofs alone")
+{
+    std::string text = checked_sphere;
+    text.replace(text.find("w2 = 1 }"), 8, "w2 = 3 }");
+    const ModelReport verified = verify(model_of(text), {}, 5);
+    CHECK(verified.verdict == Verdict::invalid);
+    std::size_t refuted = 0;
+    for (const Check& check : verified.checks) {
+        if (check.decision.status != ProofStatus::refuted) continue;
+        ++refuted;
+        CHECK(check.reevaluation->zero_excluded);
+        CHECK(check.reevaluation->bound > 1e-3);
+        CHECK_FALSE(check.reevaluation->where.empty());
+    }
+    CHECK(refuted >= 2);
+    CHECK(verified.reevaluation->bound < 1e-60);
+}
+
+TEST_CASE("the points of another seed are other points")
+{
+    Graph graph;
+    ProofSetting setting;
+    setting.variables = {graph.input("x"), graph.input("y")};
+    ProofBudget other;
+    other.seed = 1;
+    const auto first = ZeroDecider(graph, setting).sample_point(),
+               second = ZeroDecider(graph, setting, other).sample_point();
+    REQUIRE(first);
+    REQUIRE(second);
+    CHECK(*first != *second);
+}
+
+TEST_CASE("a proof that a re-evaluation contradicts is a defect of ours")
+{
+    Check check{"anchor", {"a", "b", "x"}, {}, {}, {}};
+    check.decision.status = ProofStatus::proved;
+    check.reevaluation = Reevaluation{5, 1e-70, false, {}};
+    CHECK_NOTHROW(require_confirmed(check));
+    check.reevaluation = Reevaluation{5, 0.25, true, {{"x", "1/2"}, {"y", "3"}}};
+    CHECK_THROWS_WITH(require_confirmed(check),
+                      Catch::StartsWith("internal error: the residual of anchor a b x was proved to be zero, and is "
+                                        "certainly not zero at x = 1/2, y = 3\nhint: "));
+    CHECK_THROWS_AS(require_confirmed(check), InternalError);
+    check.decision.status = ProofStatus::refuted;
+    CHECK_NOTHROW(require_confirmed(check));
+}
+
+TEST_CASE("of the 638550 Jacobi equations of so(10) all but those with a product are counted, not listed")
+{
+    std::string coordinates;
+    for (int a = 0; a < 45; ++a) coordinates += (a == 0 ? "\"y" : ", \"y") + std::to_string(a) + "\"";
+    const ModelReport verified = verified_text("[fibre]\ncoordinates = [" + coordinates +
+                                               "]\n[algebroid]\nkind = \"lie_algebra\"\nalgebra = \"so(10)\"\n");
+    CHECK(verified.verdict == Verdict::valid);
+    CHECK(verified.checks.size() + verified.trivial == 638550);
+    // [[e_ij, e_jk], e_kl] and its like: an equation for each of three ways round a path or a star of three edges.
+    CHECK(verified.checks.size() < 6000);
+    CHECK(verified.checks.size() > 1000);
+}
+
+TEST_CASE("a divisor that is zero everywhere is refused in every block, also where it takes algebra to see it")
+{
+    const std::string one = "sin(x)^2 + cos(x)^2 - 1";
+    CHECK(refusal("[base]\ncoordinates = [\"x\", \"y\"]\n[fibre]\ncoordinates = [\"v\", \"w\"]\n[algebroid.anchor]\n"
+                  "v = { x = \"1/(" +
+                  one + ")\" }\n") == zero_divisor(7, "v = { x = \"1/(", one, ")\" }"));
+    CHECK(refusal("[base]\ncoordinates = [\"x\", \"y\"]\n[fibre]\ncoordinates = [\"v\", \"w\"]\n[algebroid.bracket]\n"
+                  "\"v,w\" = { v = \"1/(" +
+                  one + ")\" }\n") == zero_divisor(7, "\"v,w\" = { v = \"1/(", one, ")\" }"));
+    CHECK(refusal(plane + "[lagrangian]\nL = \"v^2/(" + one + ")\"\n") == zero_divisor(9, "L = \"v^2/(", one, ")\""));
+    CHECK(refusal(plane + "[definitions]\nunused = \"y/(" + one + ")\"\n") ==
+          zero_divisor(9, "unused = \"y/(", one, ")\""));
+    CHECK(refusal(plane + "[definitions]\n\"f(u)\" = \"y/((u - 1)*(u + 1) - u^2 + 1)\"\n") ==
+          zero_divisor(9, "\"f(u)\" = \"y/(", "(u - 1)*(u + 1) - u^2 + 1", ")\""));
+    CHECK(refusal(plane + "[invariants]\nk = \"v/(" + one + ")\"\n") == zero_divisor(9, "k = \"v/(", one, ")\""));
+    CHECK(refusal(plane + "[observables]\nk = \"v/(" + one + ")\"\n") == zero_divisor(9, "k = \"v/(", one, ")\""));
+    CHECK(refusal(plane + "[lagrangian]\nL = \"v^2*(" + one + ")^(-2)\"\n") ==
+          zero_divisor(9, "L = \"v^2*(", one, ")^(-2)\""));
+}
+
+TEST_CASE("a divisor that vanishes on the constraints, or for momenta as they are, is refused")
+{
+    const std::string constrained = "[base]\ncoordinates = [\"x\", \"y\"]\nconstraints = [\"x^2 + y^2 - 1\"]\n"
+                                    "[fibre]\ncoordinates = [\"v\"]\n[algebroid.anchor]\n";
+    CHECK(refusal(constrained + "v = { x = \"-y\", y = \"x/(1 - x^2 - y^2)\" }\n") ==
+          zero_divisor(8, "v = { x = \"-y\", y = \"x/(", "1 - x^2 - y^2", ")\" }"));
+    CHECK(refusal(plane + "[lagrangian]\nL = \"(v^2 + w^2)/2\"\n[observables]\nk = \"x/(p_v - v)\"\n") ==
+          zero_divisor(11, "k = \"x/(", "p_v - v", ")\""));
+    CHECK(refusal(plane + "[lagrangian]\nL = \"(v^2 + w^2)/2\"\n[observables]\nk = \"x/(p_v - 2*v)\"\n").empty());
+}
+
+TEST_CASE("the label of a Casimir may be divided by, and a divisor that vanishes at points alone is no mistake")
+{
+    std::string text = checked_sphere;
+    text.replace(text.find("2*w3^2)/2"), 9, "2*w3^2)/a");
+    CHECK(verified_text(text).verdict == Verdict::valid);
+    CHECK(refusal(plane + "[lagrangian]\nL = \"v^2/x + w^2/sin(y)\"\n").empty());
+}
+
+TEST_CASE("a model is defined where its operations are as they are written, also those that fold away")
+{
+    // [e1, e2] = 2 sqrt(x^2) - 2 x: zero for x >= 0, and for x < 0 the model has no meaning.
+    const auto verdict = [](const std::string& entry) {
+        return verified_text("[base]\ncoordinates = [\"x\"]\n[fibre]\ncoordinates = [\"e1\", \"e2\"]\n"
+                             "[algebroid.anchor]\ne1 = { x = 1 }\ne2 = { x = \"" +
+                             entry + "\" }\n[algebroid.bracket]\n\"e1,e2\" = { e1 = \"1 + sqrt(x^2) - x\" }\n")
+            .verdict;
+    };
+    CHECK(verdict("x") == Verdict::invalid);
+    CHECK(verdict("sqrt(x)^2") == Verdict::valid);
+    CHECK(verdict("sqrt(x)*sqrt(x)") == Verdict::valid);
+    CHECK(verdict("exp(log(x))") == Verdict::valid);
+    CHECK(verdict("x + 0*log(x)") == Verdict::valid);
+}
