@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// dx^i and de^a as they are printed.
+#include "elaborate/build_algebroid.hpp"
+#include "emit/print_equations.hpp"
+#include "equations/exterior.hpp"
+#include "model/read_model.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace lagen;
+
+namespace {
+
+EquationSet exterior_of(const std::string& name)
+{
+    const Model model = read_model(LAGEN_SOURCE_DIR "/models/" + name + ".toml", {});
+    return derive_exterior(model, build_algebroid(model));
+}
+
+} // namespace
+
+TEST_CASE("the exterior differential of the heavy top's algebroid as text")
+{
+    CHECK(print_text(exterior_of("heavy_top")) == R"(Heavy top in body coordinates
+
+differentials of the coordinates:  dx^i = ρ^i_a e^a
+  dg1 = g2 e^w3 - g3 e^w2
+  dg2 = g3 e^w1 - g1 e^w3
+  dg3 = g1 e^w2 - g2 e^w1
+
+differentials of the basis forms:  de^c = -½ C^c_ab e^a∧e^b
+  de^w1 = -e^w2∧e^w3
+  de^w2 = e^w1∧e^w3
+  de^w3 = -e^w1∧e^w2
+)");
+}
+
+TEST_CASE("the exterior differential in an orthonormal frame of the half-plane as LaTeX and JSON")
+{
+    const EquationSet set = exterior_of("half_plane");
+    const std::string latex = print_latex(set);
+    CHECK(latex.find("  dx &= y\\, e^{a} \\\\\n  dy &= y\\, e^{b}\n") != std::string::npos);
+    CHECK(latex.find("  de^{a} &= e^{a} \\wedge e^{b} \\\\\n  de^{b} &= 0\n") != std::string::npos);
+    const std::string json = print_json(set);
+    CHECK(json.find(R"({"left": {"kind": "form", "symbol": "a"}, "groups": [{"label": "", "value": "1", "basis": )"
+                    R"(["a", "b"]}]})") != std::string::npos);
+    CHECK(json.find(R"({"left": {"kind": "form", "symbol": "b"}, "groups": []})") != std::string::npos);
+}
+
+TEST_CASE("coefficients that are sums stand in parentheses before their basis form")
+{
+    CHECK(print_text(exterior_of("wong")).find("de^q3 = a x (b y + 2) e^u∧e^v + a y e^u∧e^q2") != std::string::npos);
+    CHECK(print_text(exterior_of("wong")).find("(c y - a - b² x) e^u∧e^v") != std::string::npos);
+}

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// [forms]: claims decided by components, closedness outside the verdict.
+#include "verify/checking.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace lagen;
+
+namespace {
+
+using Lines = std::vector<std::string>;
+
+/// The sphere with the action of so(3), and these forms.
+ModelReport with_forms(const std::string& forms)
+{
+    return verified_text("[parameters]\nk = 2\n[base]\ncoordinates = ['g1', 'g2', 'g3']\n[fibre]\ncoordinates = ['w1', "
+                         "'w2', 'w3']\n[algebroid]\nkind = 'action'\nalgebra = 'so(3)'\n[algebroid.anchor]\n"
+                         "w1 = { g2 = 'g3', g3 = '-g2' }\nw2 = { g1 = '-g3', g3 = 'g1' }\n"
+                         "w3 = { g1 = 'g2', g2 = '-g1' }\n[forms]\n" +
+                         forms);
+}
+
+Lines claims_of(const ModelReport& report)
+{
+    Lines lines;
+    for (const Check& check : report.checks)
+        if (check.name == "closed" || check.name == "equals") lines.push_back(line_of(check));
+    return lines;
+}
+
+} // namespace
+
+TEST_CASE("d of a function has the components rho_a(f), and is closed")
+{
+    const ModelReport report =
+        with_forms("V = { degree = 0, value = 'k*g3' }\n"
+                   "A = { degree = 1, w1 = '-k*g2', w2 = 'k*g1', closed = true, equals = 'd(V)' }\n");
+    CHECK(report.verdict == Verdict::valid);
+    CHECK(claims_of(report) == Lines{"closed(A, w1, w3) proved", "closed(A, w2, w3) proved", "equals(A, w1) proved",
+                                     "equals(A, w2) proved"});
+    REQUIRE(report.forms.size() == 2);
+    CHECK(report.forms[0].closed == ProofStatus::refuted);
+    CHECK(report.forms[1].closed == ProofStatus::proved);
+}
+
+TEST_CASE("a wrong sign in a claim is refuted, and a form that claims nothing is not part of the verdict")
+{
+    const ModelReport wrong = with_forms("V = { degree = 0, value = 'k*g3' }\n"
+                                         "A = { degree = 1, w1 = 'k*g2', w2 = 'k*g1', equals = 'd(V)' }\n");
+    CHECK(wrong.verdict == Verdict::invalid);
+    CHECK(claims_of(wrong) == Lines{"equals(A, w1) refuted", "equals(A, w2) proved"});
+    const ModelReport silent = with_forms("A = { degree = 1, w1 = 'k*g2', w2 = 'k*g1' }\n");
+    CHECK(silent.verdict == Verdict::valid);
+    CHECK(silent.forms.at(0).closed == ProofStatus::refuted);
+}
+
+TEST_CASE("components in another order of their indices have the sign of the order")
+{
+    const ModelReport report = with_forms("F = { degree = 2, 'w2,w1' = 'g3' }\n"
+                                          "G = { degree = 2, 'w1,w2' = '-g3', equals = 'F' }\n");
+    CHECK(claims_of(report) == Lines{"equals(G, w1, w2) proved"});
+}
+
+TEST_CASE("claims may use d, wedge, contraction with a section, sums and products with functions")
+{
+    const std::string forms = "A = { degree = 1, w1 = 'g1', w2 = '3' }\nB = { degree = 1, w2 = 'g2', w3 = 'k' }\n";
+    const auto holds = [&](const std::string& degree, const std::string& rest) {
+        return with_forms(forms + "C = { degree = " + degree + ", " + rest + " }\n").verdict == Verdict::valid;
+    };
+    CHECK(holds("2", "'w1,w2' = 'g1*g2', 'w1,w3' = 'k*g1', 'w2,w3' = '3*k', equals = 'wedge(A, B)'"));
+    CHECK(holds("2", "'w1,w2' = '-g1*g2', 'w1,w3' = '-k*g1', 'w2,w3' = '-3*k', equals = 'wedge(B, A)'"));
+    CHECK(holds("1", "w2 = 'g1*g2', w3 = 'k*g1', equals = 'i(w1, wedge(A, B))'"));
+    CHECK(holds("1", "w1 = '2*g1*g3/k', w2 = '(6 + g2)*g3/k', w3 = 'g3', equals = 'g3*(2*A + B)/k'"));
+    CHECK(holds("0", "value = 'g1^2 + 3*g2', equals = 'i([g1, g2, g3], A)'"));
+    CHECK(holds("3", "equals = 'd(d(A))'"));
+    CHECK_FALSE(holds("3", "'w1,w2,w3' = '1/10^15', equals = 'd(d(A))'"));
+}
