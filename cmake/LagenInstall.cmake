@@ -1,4 +1,5 @@
-# What `cmake --install` leaves: bin/lagen, include/lagen, lib/cmake/lagen, share/lagen/models, the licences.
+# What `cmake --install` leaves: bin/lagen, include/lagen, lib/cmake/lagen, share/lagen/models, share/lagen/program (what
+# `lagen run` compiles around a header), the licences.
 include(CMakePackageConfigHelpers)
 
 set(LAGEN_INSTALL_CMAKE "${CMAKE_INSTALL_LIBDIR}/cmake/lagen")
@@ -18,5 +19,8 @@ install(FILES ${PROJECT_BINARY_DIR}/lagenConfig.cmake ${PROJECT_BINARY_DIR}/lage
               cmake/LagenGenerate.cmake DESTINATION ${LAGEN_INSTALL_CMAKE})
 
 install(DIRECTORY runtime/include/lagen DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
+if(TARGET lagen)
+  install(DIRECTORY runtime/program/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lagen/program FILES_MATCHING PATTERN "*.hpp")
+endif()
 install(DIRECTORY models/ DESTINATION ${LAGEN_INSTALL_MODELS} FILES_MATCHING PATTERN "*.toml")
 install(FILES LICENSE.md LICENSES/GPL-2.0-or-later.txt LICENSES/MIT.txt DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -60,11 +60,11 @@ std::string code_of(const std::string& header)
     return code;
 }
 
-/// Every header of the runtime, by path: a change to any of them is a new key.
-void add_runtime(ContentHash& hash, const std::string& folder)
+/// Every header below folder/part, by path: a change to any of them is a new key.
+void add_headers(ContentHash& hash, const std::string& folder, const char* part)
 {
     std::vector<fs::path> files;
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(fs::path(folder) / "lagen"))
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(fs::path(folder) / part))
         if (entry.is_regular_file() && entry.path().extension() == ".hpp") files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     for (const fs::path& file : files)
@@ -100,12 +100,13 @@ void call_compiler(std::vector<std::string> command, const std::string& source, 
 Compiled compile_program(const std::string& header, const std::string& main)
 {
     std::vector<std::string> command = find_compiler();
-    const std::string runtime = runtime_folder();
-    command.insert(command.end(), {"-std=c++20", "-O2", "-I" + runtime, "-isystem", eigen_folder()});
+    const std::string runtime = runtime_folder(), program = program_folder();
+    command.insert(command.end(), {"-std=c++20", "-O2", "-I" + runtime, "-I" + program, "-isystem", eigen_folder()});
     for (const std::string& flag : words(std::getenv("CXXFLAGS"))) command.push_back(flag);
     ContentHash hash;
     hash.add(code_of(header)).add(main);
-    add_runtime(hash, runtime);
+    add_headers(hash, runtime, "lagen");
+    add_headers(hash, program, "lagen_run");
     add_compiler(hash, command);
 
     const std::string cache = cache_folder();

@@ -60,6 +60,18 @@ std::string runtime_folder()
     return folder;
 }
 
+std::string program_folder()
+{
+    const std::string folder =
+        first_with({prefix() / "share" / "lagen" / "program", fs::path(LAGEN_SOURCE_DIR) / "runtime" / "program"},
+                   "lagen_run/driver.hpp");
+    if (folder.empty())
+        throw MachineError(
+            "error: the program of `run` (lagen_run/driver.hpp) was not found\nhint: it is installed with "
+            "lagen, in share/lagen/program beside bin/");
+    return folder;
+}
+
 std::string eigen_folder()
 {
     const std::string folder = first_with(

@@ -8,8 +8,10 @@
 namespace lagen {
 
 /// Folders for -I: the runtime's headers (LAGEN_INCLUDE, else beside the executable, else the source tree that it was
-/// built from) and Eigen. Throws MachineError where the runtime's headers are nowhere.
+/// built from), the program of `run` around a header (beside the executable, else in the source tree) and Eigen. Throws
+/// MachineError where they are nowhere.
 [[nodiscard]] std::string runtime_folder();
+[[nodiscard]] std::string program_folder();
 [[nodiscard]] std::string eigen_folder();
 
 /// The folder of the example models (LAGEN_MODELS, else the installed one, else the source tree), or "".

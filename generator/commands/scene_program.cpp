@@ -92,7 +92,7 @@ TableColumn observable(const KernelModule& module, const std::string& name)
 std::string program_text(const std::string& name, const MethodEntry& method)
 {
     return fmt::format(
-        "#include \"model.hpp\"\n#include \"lagen/driver.hpp\"\nint main(int argc, char** argv)\n{{\n    return "
+        "#include \"model.hpp\"\n#include \"lagen_run/driver.hpp\"\nint main(int argc, char** argv)\n{{\n    return "
         "lagen::drive<lagen::models::{}<double>, lagen::{}>(argc, argv);\n}}\n",
         cpp_names({name})[0], method.type);
 }

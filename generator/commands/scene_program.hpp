@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// The program of a scene: its text, its arguments and its report, as runtime/include/lagen/driver.hpp defines them.
+/// The program of a scene: its text, its arguments and its report, as runtime/program/lagen_run/driver.hpp defines
+/// them.
 #pragma once
 
 #include "commands/methods.hpp"

@@ -18,11 +18,15 @@ macro(must)
 endmacro()
 
 must(${CMAKE_COMMAND} --install "${build}" --prefix "${work}/prefix")
-foreach(file bin/lagen include/lagen/kernel.hpp share/lagen/models/heavy_top.toml)
+foreach(file bin/lagen include/lagen/kernel.hpp share/lagen/models/heavy_top.toml
+             share/lagen/program/lagen_run/driver.hpp)
   if(NOT EXISTS "${work}/prefix/${file}")
     message(FATAL_ERROR "consumer: the installation lacks ${file}")
   endif()
 endforeach()
+if(EXISTS "${work}/prefix/include/lagen/driver.hpp" OR EXISTS "${work}/prefix/include/lagen_run")
+  message(FATAL_ERROR "consumer: the program of `lagen run` is among the public headers")
+endif()
 must("${work}/prefix/bin/lagen" --version)
 
 set(common -G Ninja -D CMAKE_CXX_COMPILER=${compiler} -D CMAKE_BUILD_TYPE=Debug)

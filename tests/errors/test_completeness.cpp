@@ -93,6 +93,8 @@ constexpr std::array of_the_machine{
     "error: the compiled scene could not be started: {}\nhint: remove '{}' to have it compiled again",
     "error: the compiled scene ended with exit code {}\n{}",
     "error: the example models were not found\nhint: set LAGEN_MODELS to their folder",
+    "error: the program of `run` (lagen_run/driver.hpp) was not found\nhint: it is installed with lagen, in "
+    "share/lagen/program beside bin/",
     "error: the runtime's headers (lagen/kernel.hpp) were not found\nhint: set LAGEN_INCLUDE to the folder that holds "
     "lagen/",
     "error: there is nothing to plot: the run gave no rows",

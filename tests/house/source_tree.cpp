@@ -70,6 +70,7 @@ std::string room_of(const std::string& path)
     const fs::path parts(path);
     std::vector<std::string> names;
     for (const fs::path& part : parts) names.push_back(part.string());
+    if (path.starts_with("runtime/program/")) return "program";
     if (names.empty() || names[0] != "generator") return names.empty() ? "" : names[0];
     if (names.size() > 2) return names[1];
     const std::string stem = parts.stem().string();
@@ -99,6 +100,7 @@ const Arrows& planned_arrows()
         {"pipeline", {"elaborate", "equations", "kernels", "advice", "scene", "emit"}},
         {"commands", {"pipeline"}},
         {"runtime", {}},
+        {"program", {"runtime"}},
     };
     return arrows;
 }

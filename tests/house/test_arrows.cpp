@@ -14,6 +14,13 @@ using namespace lagen::house;
 
 namespace {
 
+/// The runtime's own headers are "lagen/...", those of the program of `lagen run` "lagen_run/...".
+std::string room_included(const std::string& target)
+{
+    if (target.starts_with("lagen/")) return "runtime";
+    return target.starts_with("lagen_run/") ? "program" : room_of("generator/" + target);
+}
+
 /// "path:line includes X (room r)", one a line, for every include that no arrow allows.
 std::vector<std::string> backward_includes(const std::vector<SourceText>& files, const Arrows& arrows)
 {
@@ -22,9 +29,7 @@ std::vector<std::string> backward_includes(const std::vector<SourceText>& files,
         const std::set<std::string> allowed = reachable_rooms(arrows, room_of(file.path));
         for (const Include& include : includes_of(file)) {
             if (!include.quoted) continue;
-            // The runtime's own headers are "lagen/...", and only the runtime includes them.
-            const std::string room =
-                include.target.starts_with("lagen/") ? "runtime" : room_of("generator/" + include.target);
+            const std::string room = room_included(include.target);
             if (!allowed.contains(room))
                 found.push_back(file.path + ":" + std::to_string(include.line) + " includes \"" + include.target +
                                 "\" of " + room);
@@ -98,12 +103,14 @@ TEST_CASE("a backward include is found")
 {
     const SourceText backward{"generator/graph/graph.cpp",
                               {"#include \"graph/graph.hpp\"", "#include \"model/model.hpp\""}};
-    const SourceText runtime{"runtime/include/lagen/x.hpp",
-                             {"#include \"lagen/status.hpp\"", " # include \"emit/json.hpp\""}};
+    const SourceText runtime{
+        "runtime/include/lagen/x.hpp",
+        {"#include \"lagen/status.hpp\"", " # include \"emit/json.hpp\"", "#include \"lagen_run/driver.hpp\""}};
     const SourceText generator{"generator/emit/json.cpp", {"#include \"lagen/status.hpp\""}};
     CHECK(backward_includes({backward, runtime, generator}, planned_arrows()) ==
           std::vector<std::string>{"generator/graph/graph.cpp:2 includes \"model/model.hpp\" of model",
                                    "runtime/include/lagen/x.hpp:2 includes \"emit/json.hpp\" of emit",
+                                   "runtime/include/lagen/x.hpp:3 includes \"lagen_run/driver.hpp\" of program",
                                    "generator/emit/json.cpp:1 includes \"lagen/status.hpp\" of runtime"});
 }
 

@@ -68,4 +68,47 @@ TEST_CASE("A longer run allocates no more than a short one")
     CHECK(allocations == before);
 }
 
+TEST_CASE("Steps of an Integrator, values inside them, turns and failures allocate nothing")
+{
+    const auto check = [](const auto& method) {
+        const std::size_t before = allocations;
+        Integrator integrator(Pendulum{}, Pendulum::State(1, 0), 0, method);
+        double sum = 0;
+        for (int k = 0; k < 100; ++k) {
+            if (integrator.step() != Status::ok) ++sum;
+            sum += integrator.at((integrator.t_before() + integrator.t()) / 2)[0];
+        }
+        if (integrator.advance_to(1) != Status::ok) ++sum;
+        if (integrator.advance_to(std::numeric_limits<double>::quiet_NaN()) != Status::invalid_input) ++sum;
+        const std::size_t after = allocations;
+        CHECK(after == before);
+        CHECK(integrator.t() == 1);
+        CHECK(std::isfinite(sum));
+    };
+    check(Euler{.step = 0.01});
+    check(Rk4{.step = 0.01});
+    check(Rk4{.step = 0.01, .compensated = true});
+    check(Yoshida6{.step = 0.01});
+    check(Dopri5{});
+    check(Tsit5{});
+    check(Dop853{});
+    check(Gauss8{.step = 0.01});
+    check(Radau5{});
+}
+
+TEST_CASE("A lambda is called without an allocation, and a dense solution allocates outside of the steps alone")
+{
+    const auto model = ode<2>([](double, const auto& s, auto& ds) {
+        ds[0] = s[1];
+        ds[1] = -s[0];
+    });
+    const std::size_t before = allocations;
+    const auto plain = integrate(model, Eigen::Vector2d(1, 0), {0.0, 100.0}, Rk4{.step = 0.01});
+    CHECK(allocations == before);
+    CHECK(plain.steps == 10000);
+    const auto dense = integrate(model, Eigen::Vector2d(1, 0), {0.0, 100.0}, Rk4{.step = 0.01}, {.dense = true});
+    CHECK(allocations - before < 100); // vectors that double
+    CHECK(dense.solution.times().size() == 10001);
+}
+
 #endif

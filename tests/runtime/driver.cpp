@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The program behind `lagen run`: arguments, rows, report, exit codes.
-#include "lagen/driver.hpp"
+#include "lagen_run/driver.hpp"
 #include "support/problems.hpp"
 
 #include <catch2/catch.hpp>

@@ -8,11 +8,13 @@
 #include "lagen/integrate/dopri5.hpp"
 #include "lagen/integrate/fixed_step.hpp"
 #include "lagen/integrate/gauss.hpp"
+#include "lagen/integrate/integrator.hpp"
 #include "lagen/integrate/march.hpp"
 #include "lagen/integrate/radau5.hpp"
 #include "lagen/integrate/run.hpp"
 #include "lagen/integrate/symplectic.hpp"
 #include "lagen/integrate/tsit5.hpp"
+#include "lagen/ode.hpp"
 
 #include <type_traits>
 

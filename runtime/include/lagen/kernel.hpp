@@ -3,6 +3,7 @@
 /// for nothing else. Kernels are noexcept, allocate nothing, and answer a typed status.
 #pragma once
 
+#include "lagen/scalar.hpp"
 #include "lagen/status.hpp"
 
 #include <Eigen/Core>
@@ -14,98 +15,55 @@
 
 namespace lagen {
 
-/// What a kernel answers for one scalar type. Scalars answer `Status`; a pack of N lanes answers a mask a lane: the
-/// specialisation next to the pack type. Generated code uses only `good` and `fail`:
-///   auto status = StatusOf<Scalar>::good();
-///   StatusOf<Scalar>::fail(status, condition, Status::singular_mass_matrix);   // where condition (a mask) holds
-/// so that no kernel branches on values.
-template <class Scalar>
-struct StatusOf {
-    using type = Status;
-    using mask = bool;
-    [[nodiscard]] static constexpr type good() noexcept { return Status::ok; }
-    static constexpr void fail(type& status, bool where, Status reason) noexcept
-    {
-        if (where && status == Status::ok) status = reason;
-    }
-    [[nodiscard]] static constexpr bool all_good(type status) noexcept { return status == Status::ok; }
-    /// The first failure of two, a lane.
-    [[nodiscard]] static constexpr type first(type earlier, type later) noexcept
-    {
-        return earlier == Status::ok ? later : earlier;
-    }
-};
-
-template <class Scalar>
-using status_t = typename StatusOf<Scalar>::type;
-
-/// `where ? yes : no`, the branch that kernels may take: on packs a choice a lane.
-template <class Scalar>
-[[nodiscard]] constexpr Scalar select(bool where, const Scalar& yes, const Scalar& no) noexcept
-{
-    return where ? yes : no;
-}
-
 namespace detail {
 
-/// False for NaN, a lane.
-template <class Scalar>
-[[nodiscard]] constexpr typename StatusOf<Scalar>::mask is_number(const Scalar& value) noexcept
+template <class M>
+concept NamesTangent = requires
 {
-    using Mask = typename StatusOf<Scalar>::mask;
-    const Mask below = value <= Scalar(0), above = value >= Scalar(0);
-    return below | above;
-}
+    typename M::Tangent;
+};
+
+template <class M>
+struct TangentOf {
+    using type = typename M::State;
+};
+template <NamesTangent M>
+struct TangentOf<M> {
+    using type = typename M::Tangent;
+};
 
 } // namespace detail
 
-/// The type of times and steps: the scalar itself, or the type of one lane of a pack.
-template <class Scalar>
-struct RealOf {
-    using type = Scalar;
-    static constexpr int lanes = 1;
-};
-
-template <class Scalar>
-using real_t = typename RealOf<Scalar>::type;
-
-/// True where every time and step of `Scalar` is a lane of it.
-template <class Scalar>
-inline constexpr bool is_pack = RealOf<Scalar>::lanes != 1;
-
-/// A right-hand side: M::Scalar, M::State (an Eigen column), M::dimension, and
-///   status_t<Scalar> rhs(Scalar t, const State& s, State& ds) const noexcept.
+/// The type of rates and increments of a state: an Eigen column, M::Tangent where the model names one (a state that is
+/// an element of a group), else M::State.
 template <class M>
-concept RightHandSide = requires(const M& model, typename M::Scalar t, const typename M::State& s,
-                                 typename M::State& ds)
+using tangent_t = typename detail::TangentOf<M>::type;
+
+/// A right-hand side: M::Scalar, M::State (an Eigen column, unless there is a retraction: integrate/retract.hpp),
+/// M::dimension, and
+///   status_t<Scalar> rhs(Scalar t, const State& s, tangent_t<M>& ds) const noexcept.
+template <class M>
+concept RightHandSide = requires(const M& model, typename M::Scalar t, const typename M::State& s, tangent_t<M>& ds)
 {
-    {
-        M::dimension
-        } -> std::convertible_to<int>;
-    {
-        model.rhs(t, s, ds)
-    }
-    noexcept->std::same_as<status_t<typename M::Scalar>>;
+    requires std::convertible_to<decltype(M::dimension), int>;
+    requires std::same_as<decltype(model.rhs(t, s, ds)), status_t<typename M::Scalar>>;
+    requires noexcept(model.rhs(t, s, ds));
 };
 
 /// Kernels with optional parts; `count` of each is a static constexpr and its names an array of C strings.
 template <class M>
 concept HasEnergy = requires(const M& model, typename M::Scalar t, const typename M::State& s)
 {
-    {
-        model.energy(t, s)
-    }
-    noexcept->std::convertible_to<typename M::Scalar>;
+    requires std::convertible_to<decltype(model.energy(t, s)), typename M::Scalar>;
+    requires noexcept(model.energy(t, s));
 };
 
 /// Of Pontryagin's form, where the Hamiltonian is no energy.
 template <class M>
 concept HasHamiltonian = requires(const M& model, typename M::Scalar t, const typename M::State& s)
 {
-    {
-        model.hamiltonian(t, s)
-    }
-    noexcept->std::convertible_to<typename M::Scalar>;
+    requires std::convertible_to<decltype(model.hamiltonian(t, s)), typename M::Scalar>;
+    requires noexcept(model.hamiltonian(t, s));
 };
 
 template <class M>
@@ -113,6 +71,34 @@ concept HasEvents = requires(const M& model, typename M::Scalar t, const typenam
 {
     M::events_names;
     model.events(t, s);
+};
+
+template <class M>
+concept HasInvariants = requires(const M& model, typename M::Scalar t, const typename M::State& s)
+{
+    M::invariants_names;
+    model.invariants(t, s);
+};
+
+template <class M>
+concept HasObservables = requires(const M& model, typename M::Scalar t, const typename M::State& s)
+{
+    M::observables_names;
+    model.observables(t, s);
+};
+
+/// Parameters by number: parameter(k), k < parameter_names.size().
+template <class M>
+concept HasParameters = requires(M& model)
+{
+    M::parameter_names;
+    model.parameter(std::size_t{0});
+};
+
+template <class M>
+concept HasParameterStatus = requires(const M& model)
+{
+    model.parameter_status();
 };
 
 template <class M>

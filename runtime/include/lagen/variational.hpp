@@ -11,14 +11,17 @@ namespace lagen {
 namespace detail {
 
 /// The name lists of M, where it has them: what asks a model for its events or observables asks for these.
+/// Headers without parameters name none, and have no parameter(k).
+template <class M>
+concept NamesParameters = requires
+{
+    M::parameter_names;
+};
+
 template <class M>
 struct EventNames {
 };
-template <class M>
-requires requires
-{
-    M::events_names;
-}
+template <HasEvents M>
 struct EventNames<M> {
     static constexpr auto events_names = M::events_names;
 };
@@ -26,11 +29,7 @@ struct EventNames<M> {
 template <class M>
 struct InvariantNames {
 };
-template <class M>
-requires requires
-{
-    M::invariants_names;
-}
+template <HasInvariants M>
 struct InvariantNames<M> {
     static constexpr auto invariants_names = M::invariants_names;
 };
@@ -38,11 +37,7 @@ struct InvariantNames<M> {
 template <class M>
 struct ObservableNames {
 };
-template <class M>
-requires requires
-{
-    M::observables_names;
-}
+template <HasObservables M>
 struct ObservableNames<M> {
     static constexpr auto observables_names = M::observables_names;
 };
@@ -50,11 +45,7 @@ struct ObservableNames<M> {
 template <class M>
 struct ParameterNames {
 };
-template <class M>
-requires requires
-{
-    M::parameter_names;
-}
+template <NamesParameters M>
 struct ParameterNames<M> {
     static constexpr auto parameter_names = M::parameter_names;
 };
@@ -115,11 +106,8 @@ struct WithTangents : detail::EventNames<M>,
         return status;
     }
 
-    [[nodiscard]] auto& parameter(std::size_t k) noexcept requires requires(M& m) { m.parameter(k); }
-    {
-        return model.parameter(k);
-    }
-    [[nodiscard]] auto parameter_status() const noexcept requires requires(const M& m) { m.parameter_status(); }
+    [[nodiscard]] auto& parameter(std::size_t k) noexcept requires HasParameters<M> { return model.parameter(k); }
+    [[nodiscard]] auto parameter_status() const noexcept requires HasParameterStatus<M>
     {
         return model.parameter_status();
     }
@@ -143,19 +131,11 @@ struct WithTangents : detail::EventNames<M>,
     {
         return model.constraints(t, point(all));
     }
-    [[nodiscard]] auto invariants(Scalar t, const State& all) const noexcept requires
-        requires(const M& m, const Point& s)
-    {
-        m.invariants(t, s);
-    }
+    [[nodiscard]] auto invariants(Scalar t, const State& all) const noexcept requires HasInvariants<M>
     {
         return model.invariants(t, point(all));
     }
-    [[nodiscard]] auto observables(Scalar t, const State& all) const noexcept requires
-        requires(const M& m, const Point& s)
-    {
-        m.observables(t, s);
-    }
+    [[nodiscard]] auto observables(Scalar t, const State& all) const noexcept requires HasObservables<M>
     {
         return model.observables(t, point(all));
     }

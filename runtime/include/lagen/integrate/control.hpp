@@ -3,8 +3,9 @@
 /// step.
 #pragma once
 
-#include "lagen/integrate/tableau.hpp"
+#include "lagen/integrate/lanes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -61,22 +62,42 @@ struct AdaptiveMethod {
 
 namespace detail {
 
-/// sum over lanes of (e / (atol + rtol max(|s|, |s1|)))^2.
+/// What an error is measured in: atol + rtol max(|s|, |s1|), a lane.
+template <class Real>
+class ErrorScale {
+  public:
+    /// No scale is 0, so that an error of 0 is none; every other one is too large for it.
+    explicit ErrorScale(const StepControl& control) noexcept
+        : relative_(static_cast<Real>(control.relative_tolerance())),
+          absolute_(std::max<Real>(static_cast<Real>(control.absolute_tolerance()), std::numeric_limits<Real>::min()))
+    {
+    }
+
+    template <int width, class State>
+    [[nodiscard]] [[gnu::always_inline]] Slice<State, width> of(const State& s, const State& s1,
+                                                                Eigen::Index lane) const noexcept
+    {
+        using Size = Slice<State, width>;
+        const Size before = size_of(load<width>(s, lane)), after = size_of(load<width>(s1, lane));
+        const Size larger = before > after ? before : after;
+        return absolute_ + relative_ * larger;
+    }
+
+  private:
+    Real relative_, absolute_;
+};
+
+/// sum over lanes of (e / scale)^2.
 template <class State>
-typename State::Scalar squared_error(const StepControl& control, const State& s, const State& s1,
+typename State::Scalar squared_error(const ErrorScale<typename State::Scalar>& scale, const State& s, const State& s1,
                                      const State& e) noexcept
 {
     using Real = typename State::Scalar;
-    using std::abs;
-    const Real rtol = static_cast<Real>(control.relative_tolerance());
-    const Real atol = static_cast<Real>(control.absolute_tolerance());
     Real sum = Real(0);
-    for (Eigen::Index lane = 0; lane < s.size(); ++lane) {
-        const Real size = abs(s[lane]) < abs(s1[lane]) ? abs(s1[lane]) : abs(s[lane]);
-        // A scale of zero (absolute = 0 at a zero) asks for no error at all: the quotient 0/0 is then no error.
-        const Real scale = atol + rtol * size;
-        if (e[lane] != Real(0)) sum += (e[lane] / scale) * (e[lane] / scale);
-    }
+    for_lanes(s, [&]<int width>(Width<width>, Eigen::Index lane) {
+        const Slice<State, width> ratio = load<width>(e, lane) / scale.template of<width>(s, s1, lane);
+        sum += total(Slice<State, width>(ratio * ratio));
+    });
     return sum;
 }
 
@@ -95,8 +116,12 @@ class Controller {
     /// The step after an accepted one with scaled error `error` <= 1.
     [[nodiscard]] Real after_accepted(Real h, Real error) noexcept
     {
-        using std::pow;
-        Real factor = pow(error, exponent_) / pow(last_, beta_) / safety_;
+        Real factor = power(error);
+        if (beta_ != Real(0)) {
+            using std::pow;
+            factor /= pow(last_, beta_);
+        }
+        factor /= safety_;
         factor = factor < least_ ? least_ : (factor > most_ ? most_ : factor);
         if (rejected_ && factor < Real(1)) factor = Real(1);
         last_ = error < Real(1e-4) ? Real(1e-4) : error;
@@ -106,8 +131,7 @@ class Controller {
 
     [[nodiscard]] Real after_rejected(Real h, Real error) noexcept
     {
-        using std::pow;
-        const Real factor = pow(error, exponent_) / safety_;
+        const Real factor = power(error) / safety_;
         rejected_ = true;
         return h / (factor > most_ ? most_ : factor);
     }
@@ -120,6 +144,12 @@ class Controller {
     }
 
   private:
+    [[nodiscard]] Real power(const Real& error) const noexcept
+    {
+        using std::pow;
+        return pow(error, exponent_);
+    }
+
     Real beta_, safety_, most_, least_, exponent_;
     Real last_ = Real(1e-4);
     bool rejected_ = false;
@@ -137,8 +167,9 @@ typename M::Scalar first_step(const M& model, const StepControl& control, int or
     using std::pow;
     using std::sqrt;
     const Real n = static_cast<Real>(s.size());
-    const Real size = sqrt(squared_error(control, s, s, s) / n);
-    const Real slope = sqrt(squared_error(control, s, s, f) / n);
+    const ErrorScale<Real> scale(control);
+    const Real size = sqrt(squared_error(scale, s, s, s) / n);
+    const Real slope = sqrt(squared_error(scale, s, s, f) / n);
     const Real cap = abs(length);
     Real h = size < Real(1e-5) || slope < Real(1e-5) ? Real(1e-6) : Real(0.01) * size / slope;
     if (!(h < cap)) h = cap;
@@ -146,7 +177,7 @@ typename M::Scalar first_step(const M& model, const StepControl& control, int or
     for (Eigen::Index lane = 0; lane < s.size(); ++lane) x[lane] = s[lane] + sign * h * f[lane];
     const bool good = model.rhs(t + sign * h, x, f1) == Status::ok;
     for (Eigen::Index lane = 0; lane < s.size(); ++lane) x[lane] = f1[lane] - f[lane];
-    const Real bend = good ? sqrt(squared_error(control, s, s, x) / n) / h : Real(0);
+    const Real bend = good ? sqrt(squared_error(scale, s, s, x) / n) / h : Real(0);
     Real steepest = bend < slope ? slope : bend;
     Real h1 = steepest <= Real(1e-15) ? (Real(1e-6) < h * Real(1e-3) ? h * Real(1e-3) : Real(1e-6))
                                       : pow(Real(0.01) / steepest, Real(1) / Real(order));

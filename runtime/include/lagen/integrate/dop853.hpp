@@ -8,14 +8,17 @@
 
 #include "lagen/integrate/control.hpp"
 #include "lagen/integrate/dop853_coefficients.hpp"
+#include "lagen/integrate/stages.hpp"
 
 namespace lagen {
 
-/// See integrate/march.hpp for what the march asks of a stepper.
+/// See integrate/integrator.hpp for what is asked of a stepper.
 template <class M>
 class Dop853Stepper {
     static_assert(!is_pack<typename M::Scalar>,
                   "adaptive methods choose one step for one trajectory: use a fixed-step method with packs");
+    static_assert(moves_by_sums<M>,
+                  "the dense output of this method is made of sums: use Dopri5, or a fixed-step method");
 
   public:
     using Scalar = typename M::Scalar;
@@ -29,7 +32,7 @@ class Dop853Stepper {
     static constexpr double beta_share = 0.2;
 
     template <class Method>
-    explicit Dop853Stepper(const Method& method) noexcept : control_(method.control())
+    explicit Dop853Stepper(const Method& method) noexcept : control_(method.control()), scale_(control_)
     {
     }
 
@@ -55,7 +58,7 @@ class Dop853Stepper {
         dense_ready_ = false;
         const Status status = detail::evaluate_stages<Tableau, 1, 12>(model, t, s, h, x_, k_);
         if (status != Status::ok) return status;
-        detail::add_weighted<Tableau::a, detail::lower_index(12, 0), 12>(s, h, k_, s1);
+        detail::move_along<Tableau::a, detail::lower_index(12, 0), 12>(model, s, h, k_, s1);
         estimate(s, h, s1);
         return detail::check_finite(s1);
     }
@@ -97,10 +100,16 @@ class Dop853Stepper {
     void estimate(const State& s, Real h, const State& s1) noexcept
     {
         using std::sqrt;
-        detail::weighted_sum<Tableau::error5>(h, k_, x_);
-        const Real five = detail::squared_error(control_, s, s1, x_);
-        detail::weighted_sum<Tableau::error3>(h, k_, x_);
-        const Real three = detail::squared_error(control_, s, s1, x_);
+        Real five = Real(0), three = Real(0);
+        detail::for_lanes(s, [&]<int width>(detail::Width<width>, Eigen::Index lane) {
+            using Slice = detail::Slice<State, width>;
+            const auto all = std::make_index_sequence<12>{};
+            const Slice scale = scale_.template of<width>(s, s1, lane);
+            const Slice e5 = h * detail::weighted_lanes<Tableau::error5, 0, width>(k_, lane, all) / scale;
+            const Slice e3 = h * detail::weighted_lanes<Tableau::error3, 0, width>(k_, lane, all) / scale;
+            five += detail::total(Slice(e5 * e5));
+            three += detail::total(Slice(e3 * e3));
+        });
         const Real sum = five + Real(0.01) * three;
         error_ = sum > Real(0) ? five / sqrt(sum * static_cast<Real>(s.size())) : sum;
     }
@@ -129,6 +138,7 @@ class Dop853Stepper {
     std::array<State, 7> dense_;
     State x_;
     StepControl control_;
+    detail::ErrorScale<Real> scale_;
     Real error_ = Real(0);
     std::size_t calls_ = 0;
     bool dense_ready_ = false;

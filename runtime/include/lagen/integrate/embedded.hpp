@@ -6,14 +6,17 @@
 #pragma once
 
 #include "lagen/integrate/control.hpp"
+#include "lagen/integrate/stages.hpp"
 
 namespace lagen {
 
-/// See integrate/march.hpp for what the march asks of a stepper.
+/// See integrate/integrator.hpp for what is asked of a stepper.
 template <class Tableau, class M>
 class EmbeddedStepper {
     static_assert(!is_pack<typename M::Scalar>,
                   "adaptive methods choose one step for one trajectory: use a fixed-step method with packs");
+    static_assert(std::is_same_v<typename M::State, tangent_t<M>>,
+                  "step control measures errors by the lanes of the state: use a fixed-step method with this one");
 
   public:
     using Scalar = typename M::Scalar;
@@ -26,7 +29,7 @@ class EmbeddedStepper {
     static constexpr double beta_share = 0.75;
 
     template <class Method>
-    explicit EmbeddedStepper(const Method& method) noexcept : control_(method.control())
+    explicit EmbeddedStepper(const Method& method) noexcept : control_(method.control()), scale_(control_)
     {
     }
 
@@ -55,7 +58,7 @@ class EmbeddedStepper {
         status = detail::evaluate_stages<Tableau, Tableau::stages - 1, Tableau::stages>(model, t, s, h, s1, k_);
         if (status != Status::ok) return status;
         detail::weighted_sum<Tableau::error>(h, k_, x_);
-        error_ = sqrt(detail::squared_error(control_, s, s1, x_) / static_cast<Real>(s.size()));
+        error_ = sqrt(detail::squared_error(scale_, s, s1, x_) / static_cast<Real>(s.size()));
         status = detail::check_finite(s1);
         return status == Status::ok ? detail::check_finite(k_.back()) : status;
     }
@@ -69,15 +72,17 @@ class EmbeddedStepper {
     [[nodiscard]] const State& derivative() const noexcept { return k_.front(); }
 
     /// Asks nothing of the model.
-    Status interpolate(const M&, Real, const State& s, Real h, const State&, Real theta, State& out) noexcept
+    Status interpolate(const M& model, Real, const State& s, Real h, const State&, Real theta, State& out) noexcept
     {
         std::array<Real, Tableau::stages> weights;
         Tableau::dense(theta, weights);
+        State delta = x_;
         for (Eigen::Index lane = 0; lane < s.size(); ++lane) {
             Real sum = Real(0);
             for (std::size_t i = 0; i < Tableau::stages; ++i) sum += weights[i] * k_[i][lane];
-            out[lane] = s[lane] + h * sum;
+            delta[lane] = h * sum;
         }
+        out = detail::retracted(model, s, delta);
         return detail::check_finite(out);
     }
 
@@ -87,6 +92,7 @@ class EmbeddedStepper {
     std::array<State, Tableau::stages> k_;
     State x_;
     StepControl control_;
+    detail::ErrorScale<Real> scale_;
     Real error_ = Real(0);
     std::size_t calls_ = 0;
 };

@@ -4,7 +4,7 @@
 /// beginning of that step, so that it has the full order and leaves the sequence of steps alone.
 #pragma once
 
-#include "lagen/integrate/tableau.hpp"
+#include "lagen/integrate/stages.hpp"
 
 namespace lagen {
 
@@ -75,13 +75,14 @@ struct Rk38 {
 
 } // namespace tableau
 
-/// The stepper of an explicit fixed-step method on model M: see integrate/march.hpp for what the march asks of it.
+/// The stepper of an explicit fixed-step method on model M: see integrate/integrator.hpp for what is asked of it.
 template <class Tableau, class M>
 class FixedStepper {
   public:
     using Scalar = typename M::Scalar;
     using Real = real_t<Scalar>;
     using State = typename M::State;
+    using Tangent = tangent_t<M>;
     static constexpr bool adaptive = false;
     static constexpr int order = Tableau::order;
     static constexpr int dense_order = Tableau::order;
@@ -91,32 +92,27 @@ class FixedStepper {
     {
     }
 
-    /// Sets the compensation to zero; no derivative is kept from step to step.
-    status_t<Scalar> begin(const M& model, Real, const State& s) noexcept
+    /// Sets the compensation to zero, which only sums have; no derivative is kept from step to step.
+    status_t<Scalar> begin(const M&, Real, const State& s) noexcept
     {
-        static_cast<void>(model);
-        lost_ = State::Zero(s.size());
-        next_lost_ = lost_;
-        for (State& stage : k_) stage = lost_;
-        x_ = lost_;
-        return StatusOf<Scalar>::good();
+        auto status = StatusOf<Scalar>::good();
+        if constexpr (moves_by_sums<M>) {
+            lost_ = Tangent::Zero(s.size());
+            next_lost_ = lost_;
+            if constexpr (!is_local) {
+                for (Tangent& slope : scratch_.k) slope = lost_;
+                scratch_.x = lost_;
+            }
+        } else {
+            StatusOf<Scalar>::fail(status, compensated_, Status::invalid_input);
+        }
+        return status;
     }
 
     /// s1 = s + h sum_i b_i K_i; where `compensated`, with the low-order part of earlier sums [Kahan 1965].
-    status_t<Scalar> attempt(const M& model, Real t, const State& s, Real h, State& s1) noexcept
+    [[gnu::always_inline]] status_t<Scalar> attempt(const M& model, Real t, const State& s, Real h, State& s1) noexcept
     {
-        const auto status = stages(model, t, s, h);
-        if (!compensated_) {
-            detail::add_weighted<Tableau::b, 0, Tableau::stages>(s, h, k_, s1);
-        } else {
-            detail::weighted_sum<Tableau::b>(h, k_, x_);
-            for (Eigen::Index lane = 0; lane < s.size(); ++lane) {
-                const Scalar increment = x_[lane] - lost_[lane];
-                s1[lane] = s[lane] + increment;
-                next_lost_[lane] = (s1[lane] - s[lane]) - increment;
-            }
-        }
-        return StatusOf<Scalar>::first(status, detail::check_finite(s1));
+        return move(model, t, s, h, s1, compensated_);
     }
 
     void accept() noexcept
@@ -128,25 +124,65 @@ class FixedStepper {
     status_t<Scalar> interpolate(const M& model, Real t, const State& s, Real h, const State&, Real theta,
                                  State& out) noexcept
     {
-        const auto status = stages(model, t, s, theta * h);
-        detail::add_weighted<Tableau::b, 0, Tableau::stages>(s, theta * h, k_, out);
-        return StatusOf<Scalar>::first(status, detail::check_finite(out));
+        return move(model, t, s, theta * h, out, false);
     }
 
     [[nodiscard]] std::size_t calls() const noexcept { return calls_; }
 
   private:
-    status_t<Scalar> stages(const M& model, Real t, const State& s, Real h) noexcept
+    using Scratch = detail::StageScratch<M, Tableau::stages>;
+    struct Nothing {};
+    /// What a step alone needs is local to it where it is short and of a built-in scalar, so that it may live in
+    /// registers; otherwise it is kept, and nothing is allocated but at the start.
+    static constexpr bool is_local = detail::is_short<Tangent>;
+
+    using Local = std::conditional_t<is_local, Scratch, Nothing>;
+    using Kept = std::conditional_t<is_local, Nothing, Scratch>;
+    Scratch& choose(Scratch& local, Nothing&) noexcept { return local; }
+    Scratch& choose(Nothing&, Scratch& kept) noexcept { return kept; }
+
+    [[gnu::always_inline]] status_t<Scalar> move(const M& model, Real t, const State& s, Real h, State& out,
+                                                 bool compensated) noexcept
     {
-        calls_ += Tableau::stages;
-        const auto status = model.rhs(Scalar(t), s, k_[0]);
+        Local local;
+        Scratch& scratch = choose(local, scratch_);
+        const auto status = stages(model, t, s, h, scratch);
         if (!is_pack<Scalar> && !StatusOf<Scalar>::all_good(status)) return status;
-        return StatusOf<Scalar>::first(status,
-                                       detail::evaluate_stages<Tableau, 1, Tableau::stages>(model, t, s, h, x_, k_));
+        if constexpr (moves_by_sums<M>) {
+            if (compensated) {
+                add_compensated(s, h, scratch, out);
+                return StatusOf<Scalar>::first(status, detail::check_finite(out));
+            }
+        }
+        return StatusOf<Scalar>::first(
+            status, detail::move_checked<Tableau::b, 0, Tableau::stages>(model, s, h, scratch.k, out));
     }
 
-    std::array<State, Tableau::stages> k_;
-    State x_, lost_, next_lost_;
+    void add_compensated(const State& s, Real h, const Scratch& scratch, State& s1) noexcept
+    {
+        detail::for_lanes(s, [&]<int width>(detail::Width<width>, Eigen::Index lane) {
+            using Slice = detail::Slice<State, width>;
+            const auto all = std::make_index_sequence<Tableau::stages>{};
+            const Slice sum = detail::weighted_lanes<Tableau::b, 0, width>(scratch.k, lane, all);
+            const Slice increment = h * sum - detail::load<width>(lost_, lane);
+            const Slice here = detail::load<width>(s, lane), there = here + increment;
+            detail::store(s1, lane, there);
+            detail::store(next_lost_, lane, (there - here) - increment);
+        });
+    }
+
+    [[gnu::always_inline]] status_t<Scalar> stages(const M& model, Real t, const State& s, Real h,
+                                                   Scratch& scratch) noexcept
+    {
+        calls_ += Tableau::stages;
+        const auto status = model.rhs(Scalar(t), s, scratch.k[0]);
+        if (!is_pack<Scalar> && !StatusOf<Scalar>::all_good(status)) return status;
+        return StatusOf<Scalar>::first(
+            status, detail::evaluate_stages<Tableau, 1, Tableau::stages>(model, t, s, h, scratch.x, scratch.k));
+    }
+
+    Kept scratch_;
+    Tangent lost_, next_lost_;
     std::size_t calls_ = 0;
     bool compensated_;
 };

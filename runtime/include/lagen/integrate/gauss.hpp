@@ -19,7 +19,7 @@
 
 namespace lagen {
 
-/// The stepper of a collocation method: see integrate/march.hpp for what the march asks of it.
+/// The stepper of a collocation method: see integrate/integrator.hpp for what is asked of it.
 template <class Scheme, class M>
 class CollocationStepper {
   public:
@@ -47,6 +47,8 @@ class CollocationStepper {
         scale_ = lost_;
         least_ = lost_;
         rounds_ = lost_;
+        steps_ = lost_;
+        relative_ = lost_;
         for (State& stage : z_) stage = lost_;
         inner_ = z_;
         return Status::ok;
@@ -63,11 +65,11 @@ class CollocationStepper {
             status = try_from(model, t, s, h, 0);
         }
         if (status != Status::ok) return status;
-        for (Eigen::Index lane = 0; lane < s.size(); ++lane) {
+        detail::for_each_lane(s, [&](Eigen::Index lane) {
             const Real increment = gain(z_, lane) - lost_[lane];
             s1[lane] = s[lane] + increment;
             next_lost_[lane] = (s1[lane] - s[lane]) - increment;
-        }
+        });
         return detail::check_finite(s1);
     }
 
@@ -75,6 +77,13 @@ class CollocationStepper {
     {
         if (compensated_) lost_ = next_lost_;
         last_h_ = h_;
+    }
+
+    /// After a step that failed: its stages predict nothing.
+    void forget() noexcept
+    {
+        last_h_ = Real(0);
+        for (State& stage : z_) stage.setZero();
     }
 
     /// The state at t + theta h, 0 <= theta <= 1: a step of length theta h.
@@ -122,24 +131,40 @@ class CollocationStepper {
         return equations_.times_length(sum);
     }
 
+    using Weights = std::array<Real, stages>;
+
+    /// The sum of weights times the stages of the last step.
+    void combine(const Weights& weights, State& out) const noexcept
+    {
+        detail::for_each_lane(out, [&](Eigen::Index lane) {
+            Real sum = weights[0] * z_[0][lane];
+            for (std::size_t j = 1; j < stages; ++j) sum += weights[j] * z_[j][lane];
+            out[lane] = sum;
+        });
+    }
+
     /// Z(theta) of the last step's collocation polynomial.
     void along(const Real& theta, State& out) noexcept
     {
-        detail::collocation_weights(equations_.method().c, theta, weights_);
-        for (Eigen::Index lane = 0; lane < out.size(); ++lane) {
-            Real sum = Real(0);
-            for (std::size_t j = 0; j < stages; ++j) sum += weights_[j] * z_[j][lane];
-            out[lane] = sum;
-        }
+        Weights weights;
+        detail::collocation_weights(equations_.method().c, theta, weights);
+        combine(weights, out);
     }
 
     /// The stages of a step of length h from the collocation polynomial of the step before; of the first step: s.
     void predict(const Real& h) noexcept
     {
         if (last_h_ == Real(0)) return;
-        along(Real(1), middle_);
+        const auto& c = equations_.method().c;
+        if (const Real ratio = h / last_h_; ratio != ratio_) {
+            ratio_ = ratio;
+            detail::collocation_weights(c, Real(1), at_end_);
+            for (std::size_t i = 0; i < stages; ++i)
+                detail::collocation_weights(c, Real(Real(1) + ratio * c[i]), ahead_[i]);
+        }
+        combine(at_end_, middle_);
         for (std::size_t i = 0; i < stages; ++i) {
-            along(Real(Real(1) + h / last_h_ * equations_.method().c[i]), inner_[i]);
+            combine(ahead_[i], inner_[i]);
             inner_[i] -= middle_;
         }
         z_ = inner_;
@@ -178,7 +203,9 @@ class CollocationStepper {
     Status iterate(const M& model, const Real& t, const State& s, const Real& h, Stages& z, int refreshments) noexcept
     {
         measure(s, h);
-        const Real noise = largest_noise();
+        least_.setConstant(std::numeric_limits<Real>::max());
+        rounds_.setZero();
+        const Real noise = noise_;
         Real before = Real(0), least = Real(0);
         int rounds = 0;      // since the largest increment reached a new minimum
         bool judged = false; // the increments of two Jacobians are not compared
@@ -187,9 +214,11 @@ class CollocationStepper {
             const Status status = equations_.evaluate(model, t, s, lost_, z);
             if (status != Status::ok) return status;
             equations_.solve();
-            bool rests = true, wanders = true;
-            const Real size = move(z, round == 0, noise, rests, wanders);
+            const Real size = move(z);
             if (size - size != Real(0)) return equations_.runaway();
+            bool rests = false, wanders = false;
+            if (size <= noise) judge(noise, rests, wanders);
+            remember();
             rounds = round == 0 || size < least ? 0 : rounds + 1;
             if (rounds == 0) least = size;
             if (rests || (wanders && rounds >= 2)) return Status::ok;
@@ -209,8 +238,9 @@ class CollocationStepper {
     void measure(const State& s, const Real& h) noexcept
     {
         equations_.row_sizes(s, scale_);
-        for (Eigen::Index lane = 0; lane < s.size(); ++lane)
+        detail::for_each_lane(s, [&](Eigen::Index lane) {
             scale_[lane] = detail::magnitude(s[lane]) + detail::magnitude(h) * scale_[lane];
+        });
     }
 
     /// The Jacobian at s + sum_j b_j Z_j; false where it cannot be decomposed.
@@ -222,45 +252,75 @@ class CollocationStepper {
         return equations_.factor(h);
     }
 
-    /// z += increments; answers the largest one relative to what it is a rounding error of: |s| + |Z| + |h J| |s|.
-    /// Of the increments of every lane (the largest of the stages):
-    ///   `rests` stays where they are zero, or a few units of the last place and fell by less than a quarter after a
-    ///     fast convergence. (To stop at two units instead saves a tenth of the calls and lets invariants drift: what
-    ///     is left of Newton's method's error has a sign.)
-    ///   `wanders` stays where they do, or are below `noise` and reached no new minimum for two rounds: after a slow
+    /// z += increments; answers the largest one relative to what it is a rounding error of: |s| + |Z| + |h J| |s|. No
+    /// number where an increment is none.
+    Real move(Stages& z) noexcept
+    {
+        using detail::load;
+        using detail::size_of;
+        Real largest = Real(0), sum = Real(0);
+        detail::for_lanes(scale_, [&]<int width>(detail::Width<width>, Eigen::Index lane) {
+            using Slice = detail::Slice<State, width>;
+            Slice step{}, reach{}, all{};
+            detail::write_out<stages>([&](auto i) {
+                const Slice increment = load<width>(equations_.residuals[i], lane);
+                const Slice moved = load<width>(z[i], lane) + increment;
+                detail::store(z[i], lane, moved);
+                const Slice size = size_of(increment), far = size_of(moved);
+                step = size > step ? size : step;
+                reach = far > reach ? far : reach;
+                all += increment;
+            });
+            // Where everything is zero the quotient is, too.
+            const Slice least = Slice{} + std::numeric_limits<Real>::min();
+            const Slice relative = step / (load<width>(scale_, lane) + reach + least);
+            detail::store(steps_, lane, step);
+            detail::store(relative_, lane, relative);
+            sum += detail::total(all);
+            largest = std::max<Real>(largest, detail::largest(relative));
+        });
+        return largest + (sum - sum);
+    }
+
+    /// After `move`, of all increments (of a lane the largest of its stages):
+    ///   `rests` says that they are zero, or a few units of the last place and fell by less than a quarter after a fast
+    ///     convergence. (To stop at two units instead saves a tenth of the calls and lets invariants drift: what is
+    ///     left of Newton's method's error has a sign.)
+    ///   `wanders` says that they do so, or are below `noise` and reached no new minimum for two rounds: after a slow
     ///     convergence, or with a right-hand side that is not computed to the last place. An oscillation comes close to
     ///     zero in one lane or another: the largest increment has to stand still as well.
-    Real move(Stages& z, bool first, const Real& noise, bool& rests, bool& wanders) noexcept
+    void judge(const Real& noise, bool& rests, bool& wanders) const noexcept
     {
-        Real largest = Real(0), bad = Real(0);
-        for (Eigen::Index lane = 0; lane < scale_.size(); ++lane) {
-            Real step = Real(0), reach = Real(0);
-            for (std::size_t i = 0; i < stages; ++i) {
-                const Real increment = equations_.residuals[i][lane];
-                z[i][lane] += increment;
-                const Real size = detail::magnitude(increment), all = detail::magnitude(z[i][lane]);
-                bad += increment - increment;
-                if (size > step) step = size;
-                if (all > reach) reach = all;
-            }
-            const Real relative = step == Real(0) ? Real(0) : Real(step / (scale_[lane] + reach));
-            const bool fell = first || Real(4) * step < Real(3) * least_[lane];
-            rounds_[lane] = first || step < least_[lane] ? Real(0) : Real(rounds_[lane] + Real(1));
-            if (first || step < least_[lane]) least_[lane] = step;
-            const bool small = step == Real(0) || (fast_ && !fell && relative <= rounding());
+        rests = wanders = true;
+        detail::for_each_lane(scale_, [&](Eigen::Index lane) {
+            const bool small = steps_[lane] == Real(0) || (relative_[lane] <= rounding() && fast_ &&
+                                                           !(Real(4) * steps_[lane] < Real(3) * least_[lane]));
+            const bool stands = steps_[lane] >= least_[lane] && rounds_[lane] >= Real(1);
             rests = rests && small;
-            wanders = wanders && (small || (rounds_[lane] >= Real(2) && relative <= noise));
-            if (relative > largest) largest = relative;
-        }
-        return largest + bad; // a NaN where an increment is not finite
+            wanders = wanders && (small || (stands && relative_[lane] <= noise));
+        });
+    }
+
+    /// Keeps the least increment of every lane, and for how many rounds there has been no new one.
+    void remember() noexcept
+    {
+        detail::for_lanes(scale_, [&]<int width>(detail::Width<width>, Eigen::Index lane) {
+            using Slice = detail::Slice<State, width>;
+            const Slice step = detail::load<width>(steps_, lane), least = detail::load<width>(least_, lane);
+            const Slice more = detail::load<width>(rounds_, lane) + Real(1);
+            detail::store(rounds_, lane, step < least ? Slice{} : more);
+            detail::store(least_, lane, step < least ? step : least);
+        });
     }
 
     detail::StageEquations<Scheme, M> equations_;
     Stages z_, inner_;
     State lost_, next_lost_; ///< of the sum, before and behind a step that converged; values inside it leave them alone
-    State middle_, scale_, least_, rounds_;
-    std::array<Real, stages> weights_{};
-    Real h_ = Real(0), last_h_ = Real(0);
+    State middle_, scale_, steps_, relative_, least_, rounds_;
+    Real noise_ = largest_noise();
+    Weights at_end_{};                    ///< of the stages, in Z(1)
+    std::array<Weights, stages> ahead_{}; ///< and in the next step's stages, h / last_h_ being ratio_
+    Real h_ = Real(0), last_h_ = Real(0), ratio_ = Real(0);
     bool compensated_;
     bool fast_ = true; ///< the increments of this iteration fall well
 };

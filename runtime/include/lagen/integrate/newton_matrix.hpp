@@ -46,7 +46,8 @@ Complex<Real> reciprocal(const Complex<Real>& a) noexcept
 template <class Real>
 Real magnitude(const Real& a) noexcept
 {
-    return a < Real(0) ? Real(-a) : a;
+    using std::abs;
+    return abs(a);
 }
 template <class Real>
 Real magnitude(const Complex<Real>& a) noexcept
@@ -78,12 +79,23 @@ class Square {
         if constexpr (in_place)
             entries_.fill(Entry{});
         else
-            entries_.assign(n * n, Entry{});
+            entries_.assign(n * n, Entry{}); // allocates the first time alone
     }
 
   private:
     std::conditional_t<in_place, std::array<Entry, n * n>, std::vector<Entry>> entries_;
 };
+
+/// f(0), .., f(count - 1), the numbers as constants: written out, which g++ 12 does not do at -O2 by itself.
+template <std::size_t count, class Function>
+[[gnu::always_inline]] inline void write_out(const Function& f) noexcept
+{
+    [&]<std::size_t... k>(std::index_sequence<k...>)
+    {
+        (f(std::integral_constant<std::size_t, k>()), ...);
+    }
+    (std::make_index_sequence<count>{});
+}
 
 /// P A = L U, the pivot of a column its largest entry. Zeros below the diagonal cost nothing.
 template <class Entry, std::size_t n>
@@ -93,6 +105,8 @@ class MatrixLu {
 
     /// The matrix to be factorised, by entries.
     [[nodiscard]] Entry& operator()(std::size_t i, std::size_t j) noexcept { return lu_(i, j); }
+
+    void clear() { lu_.clear(); }
 
     /// Factorises in place. False where a pivot is zero or no number.
     [[nodiscard]] bool factor() noexcept
@@ -116,11 +130,20 @@ class MatrixLu {
     {
         for (std::size_t k = 0; k + 1 < n; ++k)
             if (swaps_[k] != k) std::swap(b[k], b[swaps_[k]]);
-        for (std::size_t i = 1; i < n; ++i)
-            for (std::size_t j = 0; j < i; ++j) b[i] = b[i] - lu_(i, j) * b[j];
-        for (std::size_t j = n; j-- > 0;) {
-            b[j] = b[j] * inverses_[j];
-            for (std::size_t i = 0; i < j; ++i) b[i] = b[i] - lu_(i, j) * b[j];
+        if constexpr (n <= 6) {
+            write_out<n>([&](auto i) { write_out<i()>([&](auto j) { b[i] = b[i] - lu_(i, j) * b[j]; }); });
+            write_out<n>([&](auto k) {
+                constexpr std::size_t j = n - 1 - k();
+                b[j] = b[j] * inverses_[j];
+                write_out<j>([&](auto i) { b[i] = b[i] - lu_(i, j) * b[j]; });
+            });
+        } else {
+            for (std::size_t i = 1; i < n; ++i)
+                for (std::size_t j = 0; j < i; ++j) b[i] = b[i] - lu_(i, j) * b[j];
+            for (std::size_t j = n; j-- > 0;) {
+                b[j] = b[j] * inverses_[j];
+                for (std::size_t i = 0; i < j; ++i) b[i] = b[i] - lu_(i, j) * b[j];
+            }
         }
     }
 

@@ -84,7 +84,7 @@ class PredictiveControl {
 
 } // namespace detail
 
-/// See integrate/march.hpp for what the march asks of a stepper.
+/// See integrate/integrator.hpp for what is asked of a stepper.
 template <class M>
 class Radau5Stepper {
     using Scheme = detail::RadauScheme<3>;

@@ -2,6 +2,7 @@
 /// What a run is asked for besides the method, and what it answers.
 #pragma once
 
+#include "lagen/integrate/solution.hpp"
 #include "lagen/kernel.hpp"
 
 #include <atomic>
@@ -49,6 +50,7 @@ struct Options {
     std::span<const Real> at{};
     std::span<const EventRequest<Real, State>> events{};
     std::size_t max_steps = 100'000'000; ///< accepted and rejected together; rows do not count
+    bool dense = false;                  ///< keep every step for Run::solution
     const std::atomic<bool>* cancel = nullptr;
     const volatile std::sig_atomic_t* signal = nullptr; ///< as cancel, for a signal handler: not zero ends the run
     /// Called every 256 steps with the fraction of the interval that is done.
@@ -72,10 +74,13 @@ struct [[nodiscard]] Run {
     std::size_t decompositions = 0;    ///< of implicit methods; all matrices of one Newton iteration count as one
     std::vector<Real> times;           ///< of the rows
     std::vector<State> states;
-    std::vector<EventFound<Real, State>> events;       ///< in the order of the run
+    std::vector<EventFound<Real, State>> events; ///< in the order of the run
+    /// With Options::dense: the state at any time from the start to t, also as (*this)(t).
+    Solution<Real, State> solution;
     status_t<Scalar> lanes = StatusOf<Scalar>::good(); ///< a status a lane of a pack; else the status
     Status outcome = Status::ok;
 
+    [[nodiscard]] State operator()(const Real& time) const { return solution(time); }
     [[nodiscard]] Status status() const noexcept { return outcome; }
     [[nodiscard]] explicit operator bool() const noexcept { return is_success(outcome); }
 };

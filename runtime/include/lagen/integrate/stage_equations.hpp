@@ -5,7 +5,8 @@
 #pragma once
 
 #include "lagen/integrate/collocation.hpp"
-#include "lagen/integrate/tableau.hpp"
+#include "lagen/integrate/lanes.hpp"
+#include "lagen/integrate/retract.hpp"
 
 #include <limits>
 
@@ -18,6 +19,7 @@ class StageEquations {
     static_assert(HasJacobian<M>,
                   "implicit methods need the exact Jacobian of the right-hand side: jacobian_values(t, s, values) with "
                   "jacobian_rows and jacobian_columns, as generated headers have them");
+    static_assert(moves_by_sums<M>, "implicit methods move states by sums: use an explicit fixed-step method");
 
   public:
     using Real = typename M::Scalar;
@@ -58,18 +60,23 @@ class StageEquations {
     Status evaluate(const M& model, const Real& t, const State& s, const State& lost, const Stages& z) noexcept
     {
         for (std::size_t i = 0; i < stages; ++i) {
-            for (Eigen::Index lane = 0; lane < s.size(); ++lane) x_[lane] = s[lane] + (z[i][lane] - lost[lane]);
+            for_lanes(s, [&]<int width>(Width<width>, Eigen::Index lane) {
+                store(x_, lane, load<width>(s, lane) + (load<width>(z[i], lane) - load<width>(lost, lane)));
+            });
             ++calls;
             const Status status = model.rhs(Real(t + method_.c[i] * h_), x_, slopes[i]);
             if (status != Status::ok) return status;
-            for (Eigen::Index lane = 0; lane < s.size(); ++lane) slopes[i][lane] *= method_.b[i];
+            for_lanes(s, [&]<int width>(Width<width>, Eigen::Index lane) {
+                store(slopes[i], lane, method_.b[i] * load_fresh<width>(slopes[i], lane));
+            });
         }
-        for (std::size_t i = 0; i < stages; ++i)
-            for (Eigen::Index lane = 0; lane < s.size(); ++lane) {
-                Real sum = method_.mu[i][0] * slopes[0][lane];
-                for (std::size_t j = 1; j < stages; ++j) sum += method_.mu[i][j] * slopes[j][lane];
-                residuals[i][lane] = times_length(sum) - z[i][lane];
-            }
+        write_out<stages>([&](auto i) {
+            for_lanes(s, [&]<int width>(Width<width>, Eigen::Index lane) {
+                Slice<State, width> sum = method_.mu[i][0] * load<width>(slopes[0], lane);
+                write_out<stages - 1>([&](auto j) { sum += method_.mu[i][j + 1] * load<width>(slopes[j + 1], lane); });
+                store(residuals[i], lane, times_length(sum) - load<width>(z[i], lane));
+            });
+        });
         return Status::ok;
     }
 
@@ -84,31 +91,27 @@ class StageEquations {
     /// h a, without a bias: products with a step such as 0.1, close to a fraction of small denominator, are rounded up
     /// or down according to the size of `a`, and invariants then drift by 1e-4 units of the last place a step. Products
     /// with its halves are not.
-    [[nodiscard]] Real times_length(const Real& a) const noexcept { return high_ * a + low_ * a; }
+    template <class Lane>
+    [[nodiscard]] [[gnu::always_inline]] Lane times_length(const Lane& a) const noexcept
+    {
+        return high_ * a + low_ * a;
+    }
 
     /// Turns the residuals into the increments of z.
     void solve() noexcept
     {
         ++iterations;
         for (std::size_t k = 0; k < real_.size(); ++k) {
-            for (std::size_t lane = 0; lane < n; ++lane) w_real_[k][lane] = project(modes_.real[k].left, lane);
+            for_each_lane(x_, [&](Eigen::Index lane) { at(w_real_[k], lane) = project(modes_.real[k].left, lane); });
             real_[k].solve(w_real_[k]);
         }
         for (std::size_t k = 0; k < complex_.size(); ++k) {
-            for (std::size_t lane = 0; lane < n; ++lane) w_complex_[k][lane] = project(modes_.complex[k].left, lane);
+            for_each_lane(x_,
+                          [&](Eigen::Index lane) { at(w_complex_[k], lane) = project(modes_.complex[k].left, lane); });
             complex_[k].solve(w_complex_[k]);
         }
-        for (std::size_t i = 0; i < stages; ++i)
-            for (std::size_t lane = 0; lane < n; ++lane) {
-                Real sum = Real(0);
-                for (std::size_t k = 0; k < real_.size(); ++k) sum += modes_.real[k].right[i] * w_real_[k][lane];
-                for (std::size_t k = 0; k < complex_.size(); ++k) {
-                    const Complex<Real>& v = modes_.complex[k].right[i];
-                    const Complex<Real>& w = w_complex_[k][lane];
-                    sum += Real(2) * (v.re * w.re - v.im * w.im);
-                }
-                residuals[i][static_cast<Eigen::Index>(lane)] = sum;
-            }
+        write_out<stages>(
+            [&](auto i) { for_each_lane(x_, [&](Eigen::Index lane) { residuals[i][lane] = increment(i, lane); }); });
     }
 
     /// Sum of the squares of the last increments, in the coordinates of the modes, in units of `scale`; where there is
@@ -159,6 +162,7 @@ class StageEquations {
     /// h = high + low, each with half the digits [Dekker 1971].
     void split(const Real& h) noexcept
     {
+        if (h == h_) return;
         Real factor = Real(1);
         for (int k = 0; k < (std::numeric_limits<Real>::digits + 1) / 2; ++k) factor *= Real(2);
         const Real large = (factor + Real(1)) * h, rest = large - h;
@@ -171,8 +175,8 @@ class StageEquations {
     bool factor(MatrixLu<Entry, n>& lu, const Entry& scale) noexcept
     {
         const Entry one = unit(scale);
-        for (std::size_t i = 0; i < n; ++i)
-            for (std::size_t j = 0; j < n; ++j) lu(i, j) = i == j ? one : Entry{};
+        lu.clear();
+        for (std::size_t i = 0; i < n; ++i) lu(i, i) = one;
         for (std::size_t k = 0; k < values_.size(); ++k) {
             Entry& entry =
                 lu(static_cast<std::size_t>(M::jacobian_rows[k]), static_cast<std::size_t>(M::jacobian_columns[k]));
@@ -185,12 +189,36 @@ class StageEquations {
     static Complex<Real> unit(const Complex<Real>&) noexcept { return {Real(1), Real(0)}; }
 
     template <class Entry>
-    Entry project(const std::array<Entry, stages>& left, std::size_t lane) const noexcept
+    Entry project(const std::array<Entry, stages>& left, Eigen::Index lane) const noexcept
     {
-        const auto index = static_cast<Eigen::Index>(lane);
-        Entry sum = residuals[0][index] * left[0];
-        for (std::size_t i = 1; i < stages; ++i) sum = sum + residuals[i][index] * left[i];
+        Entry sum = residuals[0][lane] * left[0];
+        write_out<stages - 1>([&](auto i) { sum = sum + residuals[i + 1][lane] * left[i + 1]; });
         return sum;
+    }
+
+    template <class Entry>
+    static Entry& at(std::array<Entry, n>& w, Eigen::Index lane) noexcept
+    {
+        return w[static_cast<std::size_t>(lane)];
+    }
+
+    /// The increment of stage i from what the modes have: a pair of conjugate ones counts twice.
+    [[gnu::always_inline]] Real increment(std::size_t i, Eigen::Index lane) noexcept
+    {
+        const auto half = [&](std::size_t k) {
+            const Complex<Real>& v = modes_.complex[k].right[i];
+            const Complex<Real>& w = at(w_complex_[k], lane);
+            return Real(v.re * w.re - v.im * w.im);
+        };
+        if constexpr (Modes<Scheme, Real>::pairs == 0) {
+            return modes_.real[0].right[i] * at(w_real_[0], lane);
+        } else {
+            Real sum = half(0);
+            for (std::size_t k = 1; k < complex_.size(); ++k) sum += half(k);
+            sum *= Real(2);
+            for (std::size_t k = 0; k < real_.size(); ++k) sum += modes_.real[k].right[i] * at(w_real_[k], lane);
+            return sum;
+        }
     }
 
     Collocation<Real, stages> method_;

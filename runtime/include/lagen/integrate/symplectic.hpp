@@ -6,6 +6,8 @@
 /// the start refuses a right-hand side that plainly is not separable, and can miss one that is only nearly so.
 #pragma once
 
+#include "lagen/integrate/lanes.hpp"
+#include "lagen/integrate/retract.hpp"
 #include "lagen/integrate/tableau.hpp"
 
 namespace lagen {
@@ -73,11 +75,12 @@ struct Yoshida6 {
 
 } // namespace splitting
 
-/// The stepper of a splitting method: see integrate/march.hpp for what the march asks of it.
+/// The stepper of a splitting method: see integrate/integrator.hpp for what is asked of it.
 template <class Splitting, class M>
 class SplittingStepper {
     static_assert(M::base_dimension > 0 && M::base_dimension < M::dimension,
                   "a partitioned method needs a model with base and fibre lanes");
+    static_assert(moves_by_sums<M>, "a partitioned method moves base and fibre lanes by sums");
 
   public:
     using Scalar = typename M::Scalar;

@@ -2,7 +2,7 @@
 /// The program behind `lagen run`: integrates one model with one method as its arguments say. The whole generated main
 /// is
 ///   #include "model.hpp"
-///   #include "lagen/driver.hpp"
+///   #include "lagen_run/driver.hpp"
 ///   int main(int argc, char** argv) { return lagen::drive<lagen::models::NAME<double>, lagen::METHOD>(argc, argv); }
 ///
 /// Arguments, each followed by its value (numbers as strtod reads them, hexadecimal included):
@@ -42,9 +42,9 @@
 /// is written).
 #pragma once
 
-#include "lagen/driver/arguments.hpp"
-#include "lagen/driver/record.hpp"
 #include "lagen/integrate.hpp"
+#include "lagen_run/arguments.hpp"
+#include "lagen_run/record.hpp"
 
 #include <chrono>
 #include <csignal>

@@ -1,0 +1,388 @@
+// SPDX-License-Identifier: MIT
+/// `lagen::Integrator integrator(model, s, t, method);`: one step after another, forwards and backwards.
+///   integrator.step()              a step of the method, as long as it likes
+///   integrator.advance_to(t)       steps to exactly t
+///   integrator.at(t)               the state inside the last step
+/// A stepper, which does the work, offers
+///   begin(model, t, s)                        once, at the start
+///   attempt(model, t, s, h, s1)               a step of length h into s1; `error()` where adaptive
+///   finish(model, t1, s1), accept()           the derivative at the end where it is needed; then the step counts
+///   interpolate(model, t, s, h, s1, theta, out)   a value inside the last attempted step, before accept()
+///   calls()                                   of the right-hand side so far
+/// Adaptive ones may choose their steps themselves: after_accepted(h, error), after_rejected(h, error),
+/// after_failure(h). Implicit ones count newton_iterations() and decompositions().
+#pragma once
+
+#include "lagen/integrate/control.hpp"
+#include "lagen/integrate/creeping.hpp"
+#include "lagen/integrate/lanes.hpp"
+#include "lagen/integrate/retract.hpp"
+#include "lagen/integrate/states.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace lagen {
+
+namespace detail {
+
+template <class M, class Method, class Observer>
+class March;
+
+} // namespace detail
+
+/// An initial-value problem and where it stands. It keeps the model and allocates nothing in a step. Every status is
+/// that of `integrate`; a step that fails leaves time and state as they are. Of a pack, lanes that fail keep their
+/// state while the others go on (`lanes()`), and the status is not ok where all have failed.
+template <RightHandSide M, class Method>
+class Integrator {
+  public:
+    using Scalar = typename M::Scalar;
+    using Real = real_t<Scalar>;
+    using State = typename M::State;
+    using Stepper = typename Method::template Stepper<M>;
+
+    /// From the state s at time t. A start that is refused (invalid_input, left_domain, non_finite, or what the model
+    /// answers) is the status(), and that of every step.
+    Integrator(const M& model, const State& s, const Real& t, const Method& method)
+        : model_(model), method_(method), stepper_(method), s_(s), from_(s), inner_(s), t_(t), t_from_(t), end_(t),
+          failed_at_(t), reach_(size(t)), creeping_(t)
+    {
+        status_ = begin();
+    }
+
+    /// One step in the direction of the last one (the first one: forwards), of the length that the method asks for.
+    Status step()
+    {
+        bounded_ = false;
+        near_ = Real(-1);
+        const Real far = std::numeric_limits<Real>::max();
+        prepare(forward_ ? far : Real(-far));
+        return one_step();
+    }
+
+    /// One step that does not go beyond `end`; none where t() is there.
+    Status step_towards(const Real& end)
+    {
+        if (!aim(end)) return Status::invalid_input;
+        return status_ == Status::ok && t_ == end_ ? Status::ok : one_step();
+    }
+
+    static constexpr std::size_t most_steps = 100'000'000; ///< of one advance_to; beyond them it is too_many_steps
+
+    /// Steps until t() == end, the last one shortened. A failure leaves the state after the last step that was made.
+    Status advance_to(const Real& end)
+    {
+        Status status = aim(end) ? status_ : Status::invalid_input;
+        if (!adaptive && status == Status::ok && length_ > static_cast<Real>(most_steps) * h_)
+            return Status::too_many_steps;
+        for (std::size_t k = 0; status == Status::ok && t_ != end_; ++k)
+            status = k < most_steps ? one_step() : Status::too_many_steps;
+        return status;
+    }
+
+    /// The state at a time inside the last step, both ends included: from the method's dense output, or by a shorter
+    /// step of the same method; the sequence of steps does not depend on it. Elsewhere, and behind a step that failed,
+    /// NaN.
+    [[nodiscard]] State at(const Real& t)
+    {
+        const Real h = t_ - t_from_, slack = Real(4) * epsilon() * std::max<Real>(size(t_from_), size(t_));
+        if (t == t_ || size(t - t_) <= slack) return s_;
+        if (t == t_from_ || size(t - t_from_) <= slack) return from_;
+        const Real theta = (t - t_from_) / h;
+        if (theta > Real(0) && theta < Real(1)) return inside(theta);
+        return detail::no_state<Scalar>(s_);
+    }
+
+    [[nodiscard]] const Real& t() const noexcept { return t_; }
+    [[nodiscard]] const State& state() const noexcept { return s_; }
+    /// Where the last step began; t() where it failed.
+    [[nodiscard]] const Real& t_before() const noexcept { return t_from_; }
+    /// Of the start.
+    [[nodiscard]] Status status() const noexcept { return status_; }
+    /// Of each lane of a pack so far.
+    [[nodiscard]] const status_t<Scalar>& lanes() const noexcept { return lanes_; }
+    /// Where the last step that failed would have ended, or what ended it was met.
+    [[nodiscard]] const Real& failed_at() const noexcept { return failed_at_; }
+    [[nodiscard]] const M& model() const noexcept { return model_; }
+
+    [[nodiscard]] std::size_t steps() const noexcept { return steps_; }
+    [[nodiscard]] std::size_t rejected() const noexcept { return rejected_; }
+    [[nodiscard]] std::size_t rhs_calls() const noexcept { return stepper_.calls(); }
+    [[nodiscard]] std::size_t newton_iterations() const noexcept
+    {
+        if constexpr (requires { stepper_.newton_iterations(); }) return stepper_.newton_iterations();
+        return 0;
+    }
+    [[nodiscard]] std::size_t decompositions() const noexcept
+    {
+        if constexpr (requires { stepper_.decompositions(); }) return stepper_.decompositions();
+        return 0;
+    }
+
+  private:
+    template <class, class, class>
+    friend class detail::March;
+
+    static constexpr bool adaptive = Stepper::adaptive;
+    static constexpr bool chooses_lengths = requires(Stepper stepper, Real h) { stepper.after_failure(h); };
+    static Real epsilon() noexcept { return std::numeric_limits<Real>::epsilon(); }
+    static Real size(const Real& x) noexcept { return detail::size_of(x); }
+
+    // ---- start ----
+
+    Status begin()
+    {
+        if (t_ - t_ != Real(0) || !step_is_valid()) return Status::invalid_input;
+        auto status = StatusOf<Scalar>::good();
+        if constexpr (requires { detail::check_finite(s_); }) status = detail::check_finite(s_);
+        if constexpr (HasParameterStatus<M>) status = StatusOf<Scalar>::first(model_.parameter_status(), status);
+        status = StatusOf<Scalar>::first(status, accepted());
+        if (is_pack<Scalar> || StatusOf<Scalar>::all_good(status))
+            status = StatusOf<Scalar>::first(status, stepper_.begin(model_, t_, s_));
+        if constexpr (adaptive && !chooses_lengths)
+            controller_ = detail::Controller<Real>(method_.control(), Stepper::error_order, Real(Stepper::beta_share));
+        return detail::settle<Scalar>(lanes_, status);
+    }
+
+    bool step_is_valid() noexcept
+    {
+        if constexpr (adaptive) {
+            return method_.control().is_valid();
+        } else {
+            h_ = static_cast<Real>(method_.step);
+            return h_ > Real(0) && h_ - h_ == Real(0);
+        }
+    }
+
+    /// The next steps go to `end`. False where that is no number.
+    bool aim(const Real& end)
+    {
+        if (bounded_ && end == end_) return true;
+        const Real length = end - t_;
+        if (length - length != Real(0)) return false;
+        bounded_ = true;
+        end_ = end;
+        forward_ = !(length < Real(0));
+        length_ = size(length);
+        reach_ = std::max<Real>(size(t_), size(end));
+        if constexpr (!adaptive) near_ = h_ + Real(8) * epsilon() * reach_;
+        prepare(length);
+        return true;
+    }
+
+    /// The first step's length, `most` being the way to go.
+    void prepare(const Real& most)
+    {
+        if constexpr (adaptive) {
+            if (h_ != Real(0) || most == Real(0) || status_ != Status::ok) return;
+            const Real first = static_cast<Real>(method_.control().first_step);
+            h_ = first > Real(0) ? first : size(stepper_.first_step(model_, t_, most, s_));
+            if (!bounded_) length_ = h_;
+        }
+    }
+
+    // ---- one step ----
+
+    Status one_step()
+    {
+        if (status_ != Status::ok) return status_;
+        Status status = take();
+        while (retry_ && status == Status::ok) status = take();
+        if (status != Status::ok && fresh_) undo();
+        return status;
+    }
+
+    /// An attempt at a step. It may ask for another one (`retry_`), and it may leave the domain: then it stands until
+    /// `undo`, not counted, so that values inside it can be asked for.
+    [[gnu::always_inline]] Status take()
+    {
+        if (fresh_) stepper_.accept();
+        fresh_ = false;
+        from_ = s_;
+        t_from_ = t_;
+        const auto [h, last] = next_length();
+        if constexpr (adaptive)
+            if (!last && is_lost_in_time(h_)) return fail(Status::step_too_small, t_);
+        // Compensated sum of the times [Kahan 1965].
+        const Real increment = h - lost_;
+        Real t1 = t_ + increment;
+        if (last) [[unlikely]]
+            t1 = end_;
+        const auto status = stepper_.attempt(model_, t_from_, from_, h, s_);
+        if constexpr (adaptive) {
+            const Status verdict = judge(status, h, t1);
+            if (verdict != Status::ok) return fail(verdict, t1);
+            if (retry_) return Status::ok;
+        } else if constexpr (!is_pack<Scalar>) {
+            if (status != Status::ok) return fail(status, t1);
+        }
+        t_ = t1;
+        const auto ending = accepted();
+        if constexpr (is_pack<Scalar>) {
+            const Status verdict = detail::settle<Scalar>(lanes_, StatusOf<Scalar>::first(status, ending));
+            if (verdict != Status::ok) return fail(verdict, t1);
+            detail::freeze<Scalar>(lanes_, from_, s_);
+        }
+        fresh_ = true;
+        if constexpr (!is_pack<Scalar>) {
+            if (ending != Status::ok) {
+                failed_at_ = t1;
+                return ending;
+            }
+        }
+        ++steps_;
+        lost_ = (t1 - t_from_) - increment;
+        if (last) [[unlikely]]
+            lost_ = Real(0);
+        return Status::ok;
+    }
+
+    /// What is asked at the start and behind every accepted step, at t_ and s_.
+    [[gnu::always_inline]] status_t<Scalar> accepted() { return detail::domain_status(model_, t_, s_); }
+
+    Status fail(Status reason, const Real& failed_at) noexcept
+    {
+        failed_at_ = failed_at;
+        undo();
+        if constexpr (adaptive) {
+            // Its length says nothing of the steps that may be tried from here.
+            h_ = failed_length_ = Real(0);
+            bounded_ = imprecise_ = retry_ = false;
+        }
+        return reason;
+    }
+
+    /// Back to the beginning of the step, which is then over.
+    void undo() noexcept
+    {
+        s_ = from_;
+        t_ = t_from_;
+        fresh_ = false;
+        if constexpr (requires { stepper_.forget(); }) stepper_.forget();
+    }
+
+    /// The signed length of the next step, and whether it ends at `end_`. An end within rounding of the step's is the
+    /// step's.
+    [[gnu::always_inline]] std::pair<Real, bool> next_length() const noexcept
+    {
+        Real length = h_;
+        bool last = false;
+        const Real rest = size(end_ - t_);
+        if constexpr (!adaptive) {
+            if (rest <= near_) [[unlikely]]
+                return {end_ - t_, true};
+            return {forward_ ? length : Real(-length), false};
+        } else {
+            // A rest of up to 1.01 steps is one step, so that no tiny one is left; but never beyond the cap.
+            const Real cap = static_cast<Real>(method_.control().max_step);
+            Real reaches = Real(1.01) * length;
+            if (cap > Real(0) && length > cap) length = cap;
+            if (cap > Real(0) && reaches > cap) reaches = cap;
+            last = bounded_ && reaches >= rest;
+            if (last) length = rest;
+            return {forward_ ? length : Real(-length), last};
+        }
+    }
+
+    /// Accepts or rejects a step of an adaptive method and proposes the next length; not ok where there is none.
+    Status judge(Status status, const Real& h, const Real& t1) noexcept requires(adaptive)
+    {
+        const Real error = status == Status::ok ? stepper_.error() : Real(0);
+        if (status == Status::ok && error - error != Real(0)) status = Status::non_finite;
+        const bool is_imprecise = status == Status::ok && error > Real(1);
+        if (status == Status::ok && !is_imprecise) status = stepper_.finish(model_, t1, s_);
+        retry_ = is_imprecise || status != Status::ok;
+        if (!retry_) {
+            imprecise_ = false;
+            failed_length_ = Real(0);
+            const Real asked = h_, length = size(h);
+            h_ = lengths().after_accepted(length, error);
+            // A step that an end cut short says nothing against the length that was asked for.
+            if (length < asked && h_ < asked) h_ = asked;
+            return Status::ok;
+        }
+        s_ = from_;
+        ++rejected_;
+        if (is_imprecise) {
+            imprecise_ = true;
+            h_ = lengths().after_rejected(size(h), error);
+            status = Status::step_too_small;
+        } else {
+            if (failed_length_ == Real(0)) failed_length_ = h;
+            h_ = lengths().after_failure(size(h));
+        }
+        return creeping_.creeps(t_, length_, steps_, rejected_) ? status : size_verdict(status, t1);
+    }
+
+    /// Whose lengths the next steps have.
+    auto& lengths() noexcept
+    {
+        if constexpr (chooses_lengths)
+            return stepper_;
+        else
+            return controller_;
+    }
+
+    /// Within the rounding of time?
+    bool is_lost_in_time(const Real& length) const noexcept
+    {
+        const Real scale = std::max<Real>(size(t_), epsilon() * length_);
+        return !(Real(0.1) * length > epsilon() * scale);
+    }
+
+    /// `reason` where the next step would be lost in the rounding of time; left_domain in a run into the boundary.
+    Status size_verdict(Status reason, const Real& t1) noexcept requires(adaptive)
+    {
+        if (!is_lost_in_time(h_)) return Status::ok;
+        if constexpr (HasDomain<M>) {
+            inner_ = s_ + failed_length_ * stepper_.derivative();
+            if (reason != Status::step_too_small && detail::domain_status(model_, t1, inner_) != Status::ok)
+                return Status::left_domain;
+        }
+        // Shorter steps were finite and failed by their error: the tolerance cannot be met.
+        return reason == Status::non_finite && imprecise_ ? Status::step_too_small : reason;
+    }
+
+    // ---- states ----
+
+    /// The state at t_from_ + theta h, 0 < theta < 1; where it cannot be computed, on the chord of the step.
+    const State& inside(const Real& theta) noexcept
+    {
+        const auto status = stepper_.interpolate(model_, t_from_, from_, Real(t_ - t_from_), s_, theta, inner_);
+        if (!is_pack<Scalar> && !StatusOf<Scalar>::all_good(status)) {
+            if constexpr (moves_by_sums<M>)
+                inner_ = from_ + theta * (s_ - from_);
+            else
+                inner_ = theta < Real(0.5) ? from_ : s_;
+        }
+        detail::freeze<Scalar>(lanes_, from_, inner_);
+        return inner_;
+    }
+
+    M model_;
+    Method method_;
+    Stepper stepper_;
+    State s_, from_, inner_; ///< at the end and at the beginning of the last step; a value inside it
+    Real t_, t_from_;
+    Real end_; ///< where the steps go, if bounded_
+    Real failed_at_;
+    Real length_ = Real(0);        ///< of the way to end_, from where it was aimed at; else the first step's
+    Real reach_;                   ///< the largest |t| of that way
+    Real near_ = Real(-1);         ///< so close to end_ a step of fixed length is the last one
+    Real lost_ = Real(0);          ///< the rounding error of t_
+    Real h_ = Real(0);             ///< positive: the length that the method or the controller asks for
+    Real failed_length_ = Real(0); ///< of the first of a series of steps that could not be evaluated
+    detail::Controller<Real> controller_{StepControl{}, 5, Real(0)};
+    detail::CreepingWatch<Real> creeping_;
+    std::size_t steps_ = 0, rejected_ = 0;
+    status_t<Scalar> lanes_ = StatusOf<Scalar>::good();
+    Status status_ = Status::ok;
+    bool bounded_ = false, forward_ = true;
+    bool fresh_ = false;     ///< the stepper has not been told yet that the last step was accepted
+    bool retry_ = false;     ///< the last attempt was rejected
+    bool imprecise_ = false; ///< since the last accepted step, one was rejected by its error
+};
+
+} // namespace lagen

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+/// A model of a user's own function: `lagen::ode<2>([](double t, const auto& s, auto& ds) { .. })`.
+#pragma once
+
+#include "lagen/kernel.hpp"
+
+#include <type_traits>
+#include <utility>
+
+namespace lagen {
+
+/// ds/dt = f(t, s) of N lanes. What f has captured are its parameters; a copy of it is kept.
+template <int N, class S, class F>
+class Ode {
+  public:
+    using Scalar = S;
+    static constexpr int dimension = N;
+    using State = Eigen::Matrix<S, N, 1>;
+
+    explicit Ode(F f) : f_(std::move(f)) {}
+
+    /// f writes every lane of ds. Where it answers a status, that is the status of the call. It must not throw.
+    [[nodiscard]] status_t<S> rhs(S t, const State& s, State& ds) const noexcept
+    {
+        static_assert(std::is_invocable_v<const F&, S, const State&, State&>,
+                      "lagen::ode<N>(f): f(t, s, ds) with t a scalar, s a const State and ds a State to write is "
+                      "required, and f must be callable where it is const (no mutable lambda)");
+        using Answer = std::invoke_result_t<const F&, S, const State&, State&>;
+        static_assert(std::is_void_v<Answer> || std::is_same_v<Answer, status_t<S>>,
+                      "lagen::ode<N>(f): f answers nothing or a lagen::Status (of a pack: its status)");
+        if constexpr (std::is_void_v<Answer>) {
+            f_(t, s, ds);
+            return StatusOf<S>::good();
+        } else {
+            return f_(t, s, ds);
+        }
+    }
+
+  private:
+    F f_;
+};
+
+/// The model of ds/dt = f(t, s): f is called as f(t, s, ds) with Eigen columns s and ds of N lanes of `S`, and answers
+/// nothing or a Status. A generic lambda serves every scalar: ode<2, float>(f), ode<2, Pack<double, 4>>(f).
+template <int N, class S = double, class F>
+[[nodiscard]] Ode<N, S, F> ode(F f)
+{
+    static_assert(N > 0, "lagen::ode<N>: a state has at least one lane");
+    return Ode<N, S, F>(std::move(f));
+}
+
+} // namespace lagen

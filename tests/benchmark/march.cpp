@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// What a step costs: `integrate` beside plain loops of the same methods (tests/benchmark/plain), on generated models.
+/// Compiled by scripts/march-table with -D MODEL=heavy_top, -D METHOD=Rk4 and, for the plain loop, -D PLAIN, so that a
+/// program holds one loop alone and the compiler inlines what it would inline in a user's program.
+///   march N        about N steps inside a function `marched`, for callgrind; prints accepted and rejected steps, calls
+///   of
+///                  the right-hand side, Newton iterations and the end
+///   march N rhs    N right-hand sides inside a function `marched_calls`
+#define TEXT_OF_(x) #x
+#define TEXT_OF(x) TEXT_OF_(x)
+// A space here would stand in the name of the file.
+// clang-format off
+#define HEADER_(model) TEXT_OF(model.hpp)
+// clang-format on
+
+#include "plain/dop853.hpp"
+#include "plain/gauss4.hpp"
+#include "plain/rk4.hpp"
+
+#include HEADER_(MODEL)
+
+#include "lagen/integrate.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+
+namespace {
+
+using Model = lagen::models::MODEL<double>;
+using State = Model::State;
+
+constexpr double fixed_step = 1.0 / 128, tolerance = 1e-10;
+
+struct Cost {
+    std::size_t accepted = 0, rejected = 0, calls = 0, iterations = 0;
+};
+
+template <class M>
+Cost cost_of(const lagen::Run<M>& run)
+{
+    return {run.steps, run.rejected, run.rhs_calls, run.newton_iterations};
+}
+
+struct Rk4 {
+    [[maybe_unused]] static constexpr double length = fixed_step;
+    static Cost by_lagen(const Model& model, State& s, double end)
+    {
+        const auto run = lagen::integrate(model, s, {0.0, end}, lagen::Rk4{.step = fixed_step});
+        s = run.state;
+        return cost_of(run);
+    }
+    static Cost by_loop(const Model& model, State& s, double end)
+    {
+        const long n = static_cast<long>(end / fixed_step);
+        plain::rk4(model, s, fixed_step, n);
+        const auto steps = static_cast<std::size_t>(n);
+        return {steps, 0, 4 * steps, 0};
+    }
+};
+
+struct Dop853 {
+    [[maybe_unused]] static constexpr double length = 0.3; // about
+    static Cost by_lagen(const Model& model, State& s, double end)
+    {
+        const auto run =
+            lagen::integrate(model, s, {0.0, end}, lagen::Dop853{.tolerance = tolerance, .first_step = 0.1});
+        s = run.state;
+        return cost_of(run);
+    }
+    static Cost by_loop(const Model& model, State& s, double end)
+    {
+        plain::Dop853<Model> method;
+        const plain::Steps steps = method.run(model, s, end, 0.1, tolerance);
+        const auto accepted = static_cast<std::size_t>(steps.accepted);
+        const auto rejected = static_cast<std::size_t>(steps.rejected);
+        return {accepted, rejected, 1 + 12 * accepted + 11 * rejected, 0};
+    }
+};
+
+struct Gauss4 {
+    [[maybe_unused]] static constexpr double length = fixed_step;
+    static Cost by_lagen(const Model& model, State& s, double end)
+    {
+        const auto run = lagen::integrate(model, s, {0.0, end}, lagen::Gauss4{.step = fixed_step});
+        s = run.state;
+        return cost_of(run);
+    }
+    static Cost by_loop(const Model& model, State& s, double end)
+    {
+        const long n = static_cast<long>(end / fixed_step);
+        plain::Gauss4<Model> method;
+        method.run(model, s, fixed_step, n);
+        const auto iterations = static_cast<std::size_t>(method.iterations);
+        return {static_cast<std::size_t>(n), 0, 2 * iterations, iterations};
+    }
+};
+
+// Names that callgrind finds.
+[[gnu::noinline]] Cost marched(const Model& model, State& s, double end)
+{
+#ifdef PLAIN
+    return METHOD::by_loop(model, s, end);
+#else
+    return METHOD::by_lagen(model, s, end);
+#endif
+}
+
+[[gnu::noinline]] void marched_calls(const Model& model, State& s, long n)
+{
+    State ds;
+    for (long k = 0; k < n; ++k) {
+        (void)model.rhs(0, s, ds);
+        asm volatile("" : : "g"(&s), "g"(&ds) : "memory");
+    }
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    if (argc < 2) return 4;
+    const long steps = std::atol(argv[1]);
+    const Model model;
+    State s;
+    for (int i = 0; i < Model::dimension; ++i) s[i] = 1.0 / (i + 1); // a start of no symmetry
+    if (argc > 2) {
+        marched_calls(model, s, steps);
+        std::printf("%ld 0 0 0\n", steps);
+        return 0;
+    }
+    const Cost cost = marched(model, s, METHOD::length * static_cast<double>(steps));
+    std::printf("%zu %zu %zu %zu", cost.accepted, cost.rejected, cost.calls, cost.iterations);
+    for (int i = 0; i < Model::dimension; ++i) std::printf(" %.17g", s[i]);
+    std::printf("\n");
+}
