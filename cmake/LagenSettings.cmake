@@ -4,8 +4,14 @@
 #     [SEPARATE]         its files are never united
 #     [TEMPLATES]        its files instantiate the runtime, which is compiled with some optimisation
 #     [UNSANITIZED]      left out of builds with sanitizers: its tests compile programs of their own, or look at digits
-#     [APART tag])       its tests of that tag are a test by themselves, NAME_tag
-#   lagen_fuzz_target(NAME LIBRARIES libs... SOURCES files... CORPUS places... LONGEST bytes RUNS n)  one of tests/fuzz
+#     [COMPUTES]         left out of them too, but for scripts/test --all: its tests print, or compute again what is proved
+#     [APART tags]       its tests of each tag are a test by themselves, NAME_tag; those of the tag `all` are for
+#                        scripts/test --all only (LAGEN_ALL_TESTS)
+#     [SECONDS n..]      processor seconds that NAME and its tests apart are expected to take, in this order (5 each)
+#     [SANITIZED n..])   the same with sanitizers
+#   lagen_fuzz_target(NAME LIBRARIES libs... SOURCES files... CORPUS places... LONGEST bytes RUNS n ALL n
+#     SECONDS n n)       one of tests/fuzz: with sanitizers, of RUNS inputs and for scripts/test --all of ALL
+#   lagen_timed_test(NAME SECONDS command...)             a test that fails where it takes five times as long
 
 add_library(lagen_settings INTERFACE)
 target_compile_options(lagen_settings INTERFACE -Wall -Wextra -Wpedantic -Wconversion
@@ -38,6 +44,9 @@ function(lagen_unite target)
   endif()
 endfunction()
 
+# With sanitizers optimising a room doubles the time of the compiler. It pays where the tests spend theirs.
+set(lagen_busy_rooms expression graph proof)
+
 function(lagen_room name)
   cmake_parse_arguments(PARSE_ARGV 1 ROOM "" "" "DEPENDS;LIBRARIES")
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
@@ -47,6 +56,9 @@ function(lagen_room name)
     lagen_unite(lagen_${name})
     target_include_directories(lagen_${name} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
     target_link_libraries(lagen_${name} PUBLIC ${ROOM_DEPENDS} ${ROOM_LIBRARIES} PRIVATE lagen_settings)
+    if(LAGEN_SANITIZE AND NOT name IN_LIST lagen_busy_rooms)
+      target_compile_options(lagen_${name} PRIVATE -O0)
+    endif()
   else()
     add_library(lagen_${name} INTERFACE)
     target_include_directories(lagen_${name} INTERFACE ${CMAKE_CURRENT_SOURCE_DIR})
@@ -54,10 +66,55 @@ function(lagen_room name)
   endif()
 endfunction()
 
+# What every test reads is read once for all tests that are compiled alike: Catch2, and for those that instantiate the
+# runtime (KIND templates) the runtime. Only united builds do so; the others show which file forgets to include something.
+function(lagen_share_headers target kind)
+  if(NOT LAGEN_UNITY)
+    return()
+  endif()
+  set(shared test_headers_${kind})
+  if(NOT TARGET ${shared})
+    file(CONFIGURE OUTPUT ${shared}.cpp CONTENT "")
+    add_library(${shared} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/${shared}.cpp)
+    target_compile_options(${shared} PRIVATE $<TARGET_PROPERTY:${target},COMPILE_OPTIONS>)
+    target_link_libraries(${shared} PRIVATE Catch2::Catch2 lagen_settings)
+    if(kind STREQUAL "templates")
+      target_link_libraries(${shared} PRIVATE lagen_runtime)
+      target_precompile_headers(${shared} PRIVATE <catch2/catch.hpp> <lagen/lagen.hpp>)
+    else()
+      target_precompile_headers(${shared} PRIVATE <catch2/catch.hpp> <filesystem> <functional> <map> <set>)
+    endif()
+    lagen_cache_shared_headers(${shared})
+  endif()
+  target_precompile_headers(${target} REUSE_FROM ${shared})
+  lagen_cache_shared_headers(${target})
+endfunction()
+
+# ccache keeps what was compiled with shared headers where it may take their contents for their names and times.
+function(lagen_cache_shared_headers target)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    target_compile_options(${target} PRIVATE "SHELL:-Xclang -fno-pch-timestamp")
+  endif()
+  if(CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache$")
+    set_target_properties(${target} PROPERTIES CXX_COMPILER_LAUNCHER
+      "${CMAKE_COMMAND};-E;env;CCACHE_SLOPPINESS=pch_defines,time_macros;${CMAKE_CXX_COMPILER_LAUNCHER}")
+  endif()
+endfunction()
+
+# Of every allocation the sanitizer keeps two callers: whole stacks would take up to two thirds of the time of deep expressions.
+function(lagen_timed_test name seconds)
+  add_test(NAME ${name} COMMAND ${PROJECT_SOURCE_DIR}/tests/support/timed ${name} ${seconds} ${PROJECT_BINARY_DIR}/test-times ${ARGN})
+  set_tests_properties(${name} PROPERTIES COST ${seconds}) # the long ones start first
+  if(LAGEN_SANITIZE)
+    set_tests_properties(${name} PROPERTIES ENVIRONMENT
+      "ASAN_OPTIONS=malloc_context_size=2;LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/cmake/leaks.supp:print_suppressions=0")
+  endif()
+endfunction()
+
 function(lagen_test_room name)
-  cmake_parse_arguments(PARSE_ARGV 1 ROOM "SEPARATE;TEMPLATES;UNSANITIZED" "APART" "LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 1 ROOM "SEPARATE;TEMPLATES;UNSANITIZED;COMPUTES" "" "LIBRARIES;APART;SECONDS;SANITIZED")
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
-  if(NOT sources OR (ROOM_UNSANITIZED AND LAGEN_SANITIZE))
+  if(NOT sources OR (LAGEN_SANITIZE AND (ROOM_UNSANITIZED OR (ROOM_COMPUTES AND NOT LAGEN_ALL_TESTS))))
     return()
   endif()
   add_executable(test_${name} ${sources} $<TARGET_OBJECTS:catch_main>)
@@ -67,52 +124,65 @@ function(lagen_test_room name)
   # Tests are compiled for longer than they run; what computes for long is what they test. Only the templates of Eigen
   # and of the runtime are compiled with them, whose loops are too slow without any optimisation.
   if(ROOM_TEMPLATES AND NOT LAGEN_SANITIZE)
-    target_compile_options(test_${name} PRIVATE -O1)
+    target_compile_options(test_${name} PRIVATE -Og)
   else()
     target_compile_options(test_${name} PRIVATE -O0)
+  endif()
+  if(ROOM_TEMPLATES)
+    lagen_share_headers(test_${name} templates)
+  else()
+    lagen_share_headers(test_${name} tests)
   endif()
   target_include_directories(test_${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
   target_compile_definitions(test_${name} PRIVATE LAGEN_SOURCE_DIR="${PROJECT_SOURCE_DIR}" LAGEN_BINARY_DIR="${PROJECT_BINARY_DIR}")
   target_link_libraries(test_${name} PRIVATE ${ROOM_LIBRARIES} lagen_settings)
-  set(tests ${name})
-  if(ROOM_APART)
-    list(APPEND tests ${name}_${ROOM_APART})
-    add_test(NAME ${name} COMMAND test_${name} ~[${ROOM_APART}])
-    add_test(NAME ${name}_${ROOM_APART} COMMAND test_${name} [${ROOM_APART}])
-    set_tests_properties(${tests} PROPERTIES COST 100) # the long ones start first
-  else()
-    add_test(NAME ${name} COMMAND test_${name})
-  endif()
   if(LAGEN_SANITIZE)
-    set_tests_properties(${tests} PROPERTIES ENVIRONMENT
-      "LSAN_OPTIONS=suppressions=${CMAKE_CURRENT_FUNCTION_LIST_DIR}/leaks.supp:print_suppressions=0")
+    set(ROOM_SECONDS ${ROOM_SANITIZED})
   endif()
+  list(APPEND ROOM_SECONDS 5 5 5 5)
+  list(POP_FRONT ROOM_SECONDS seconds)
+  list(TRANSFORM ROOM_APART REPLACE "(.+)" "~[\\1]" OUTPUT_VARIABLE rest)
+  list(JOIN rest "" rest)
+  lagen_timed_test(${name} ${seconds} $<TARGET_FILE:test_${name}> ${rest})
+  foreach(tag IN LISTS ROOM_APART)
+    list(POP_FRONT ROOM_SECONDS seconds)
+    if(LAGEN_ALL_TESTS OR NOT tag STREQUAL "all")
+      lagen_timed_test(${name}_${tag} ${seconds} $<TARGET_FILE:test_${name}> [${tag}])
+    endif()
+  endforeach()
 endfunction()
 
+# A part of lagen_fuzz_target. What is new is written to the first folder named, which must not be the corpus. Weights by
+# entropy would take half of the time of short runs.
+macro(lagen_fuzz_test test runs)
+  list(POP_FRONT FUZZ_SECONDS seconds)
+  lagen_timed_test(${test} ${seconds} sh -c "rm -rf $1 && mkdir -p $1 && shift && exec \"$@\"" --
+    ${PROJECT_BINARY_DIR}/fuzz/${test} $<TARGET_FILE:fuzz_${name}> -runs=${FUZZ_${runs}} -seed=1 -timeout=20 -rss_limit_mb=2048
+    -entropic=0 -detect_leaks=0 -max_len=${FUZZ_LONGEST} -dict=${CMAKE_CURRENT_SOURCE_DIR}/fuzz/tokens.dict -verbosity=0
+    ${PROJECT_BINARY_DIR}/fuzz/${test} ${FUZZ_CORPUS})
+  set_tests_properties(${test} PROPERTIES WORKING_DIRECTORY ${PROJECT_BINARY_DIR} LABELS fuzz)
+endmacro()
+
 # libFuzzer drives the target where the compiler is clang and the sanitizers are on: its test replays the corpus and goes on
-# to RUNS inputs in all, the same ones every time. Elsewhere the test replays the corpus.
+# to RUNS inputs in all, NAME_all to ALL, the same ones every time. Elsewhere the test replays the corpus.
 function(lagen_fuzz_target name)
-  cmake_parse_arguments(PARSE_ARGV 1 FUZZ "" "LONGEST;RUNS" "LIBRARIES;SOURCES;CORPUS")
+  cmake_parse_arguments(PARSE_ARGV 1 FUZZ "" "LONGEST;RUNS;ALL" "LIBRARIES;SOURCES;CORPUS;SECONDS")
   list(TRANSFORM FUZZ_SOURCES PREPEND fuzz/)
   list(TRANSFORM FUZZ_CORPUS PREPEND ${PROJECT_SOURCE_DIR}/)
   add_executable(fuzz_${name} fuzz/fuzz_${name}.cpp fuzz/require.cpp)
   target_include_directories(fuzz_${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
   target_link_libraries(fuzz_${name} PRIVATE ${FUZZ_LIBRARIES} lagen_settings)
-  if(LAGEN_SANITIZE AND CMAKE_CXX_COMPILER_ID MATCHES "Clang")
-    target_sources(fuzz_${name} PRIVATE ${FUZZ_SOURCES})
-    target_compile_options(fuzz_${name} PRIVATE -fsanitize=fuzzer)
-    target_link_options(fuzz_${name} PRIVATE -fsanitize=fuzzer)
-    # What is new is written to the first folder named, which must not be the corpus. Whole stacks of allocations would
-    # take up to two thirds of the time of deep expressions, weights by entropy half of that of short runs.
-    add_test(NAME fuzz_${name} COMMAND sh -c "rm -rf $1 && mkdir -p $1 && shift && exec \"$@\"" --
-      ${PROJECT_BINARY_DIR}/fuzz/${name} $<TARGET_FILE:fuzz_${name}> -runs=${FUZZ_RUNS} -seed=1 -timeout=20 -rss_limit_mb=2048
-      -entropic=0 -detect_leaks=0 -max_len=${FUZZ_LONGEST} -dict=${CMAKE_CURRENT_SOURCE_DIR}/fuzz/tokens.dict -verbosity=0
-      ${PROJECT_BINARY_DIR}/fuzz/${name} ${FUZZ_CORPUS})
-    set_tests_properties(fuzz_${name} PROPERTIES WORKING_DIRECTORY ${PROJECT_BINARY_DIR} ENVIRONMENT
-      "ASAN_OPTIONS=malloc_context_size=2;LSAN_OPTIONS=suppressions=${CMAKE_CURRENT_FUNCTION_LIST_DIR}/leaks.supp:print_suppressions=0")
-  else()
+  if(NOT (LAGEN_SANITIZE AND CMAKE_CXX_COMPILER_ID MATCHES "Clang"))
     target_sources(fuzz_${name} PRIVATE fuzz/replay.cpp)
-    add_test(NAME fuzz_${name} COMMAND fuzz_${name} ${FUZZ_CORPUS})
+    lagen_timed_test(fuzz_${name} 5 $<TARGET_FILE:fuzz_${name}> ${FUZZ_CORPUS})
+    set_tests_properties(fuzz_${name} PROPERTIES LABELS fuzz)
+    return()
   endif()
-  set_tests_properties(fuzz_${name} PROPERTIES LABELS fuzz)
+  target_sources(fuzz_${name} PRIVATE ${FUZZ_SOURCES})
+  target_compile_options(fuzz_${name} PRIVATE -fsanitize=fuzzer)
+  target_link_options(fuzz_${name} PRIVATE -fsanitize=fuzzer)
+  lagen_fuzz_test(fuzz_${name} RUNS)
+  if(LAGEN_ALL_TESTS)
+    lagen_fuzz_test(fuzz_${name}_all ALL)
+  endif()
 endfunction()

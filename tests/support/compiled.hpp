@@ -73,8 +73,17 @@ static void show(const lagen::Pack<double, 4>& x) { std::printf("%.17g\n", x[0] 
 )";
 }
 
+/// A scalar by name, and its epsilon.
+struct CompiledScalar {
+    std::string type;
+    double epsilon;
+};
+inline const std::vector<CompiledScalar> two_scalars{{"double", 2.3e-16}, {"lagen::Pack<double, 4>", 2.3e-16}};
+inline const std::vector<CompiledScalar> four_scalars{
+    {"double", 2.3e-16}, {"long double", 2.3e-16}, {"lagen::Pack<double, 4>", 2.3e-16}, {"float", 1.2e-7}};
+
 /// One function template a module that sets every input by name or lane and shows every listed entry.
-inline std::string program_text(const std::vector<CompiledCase>& cases)
+inline std::string program_text(const std::vector<CompiledCase>& cases, const std::vector<CompiledScalar>& scalars)
 {
     std::string text;
     for (const CompiledCase& one : cases) text += fmt::format("#include \"{}.hpp\"\n", one.module.name);
@@ -103,9 +112,9 @@ inline std::string program_text(const std::vector<CompiledCase>& cases)
         calls += fmt::format("    try_{}<S>();\n", module.name);
     }
     text += "template <class S> void try_all()\n{\n" + calls + "}\n";
-    return text + "int main()\n{\n    try_all<double>();\n    try_all<long double>();\n    try_all<lagen::Pack<double, "
-                  "4>>();\n    try_all<float>();\n"
-                  "    std::printf(\"allocations %d\\n\", allocations);\n}\n";
+    text += "int main()\n{\n";
+    for (const CompiledScalar& scalar : scalars) text += fmt::format("    try_all<{}>();\n", scalar.type);
+    return text + "    std::printf(\"allocations %d\\n\", allocations);\n}\n";
 }
 
 /// The interpreter's answers in the same order.
@@ -126,12 +135,13 @@ inline std::vector<double> expected_values(const std::vector<CompiledCase>& case
 
 /// Compiles with `compiler`, runs, and compares with the interpreter: `roundings` of relative size epsilon are allowed.
 inline void compare_compiled(const std::string& folder, const std::string& compiler,
-                             const std::vector<CompiledCase>& cases, double roundings)
+                             const std::vector<CompiledCase>& cases, double roundings,
+                             const std::vector<CompiledScalar>& scalars = four_scalars)
 {
     const std::string where = std::string(LAGEN_BINARY_DIR) + "/compiled/" + folder + "_" + compiler;
     std::filesystem::create_directories(where);
     for (const CompiledCase& one : cases) write_text(where + "/" + one.module.name + ".hpp", print_header(one.module));
-    write_text(where + "/main.cpp", program_text(cases));
+    write_text(where + "/main.cpp", program_text(cases, scalars));
     // Optimised once, by the compiler whose warnings need it.
     const std::string optimise = compiler == "g++" ? "-O1" : "-O0";
     const Shell build =
@@ -146,11 +156,11 @@ inline void compare_compiled(const std::string& folder, const std::string& compi
     std::istringstream out(run.output);
     const std::vector<double> expected = expected_values(cases);
     REQUIRE(!expected.empty());
-    for (const double epsilon : {2.3e-16, 2.3e-16, 2.3e-16, 1.2e-7}) { // double, long double, pack, float
+    for (const auto& [type, epsilon] : scalars) {
         for (std::size_t k = 0; k < expected.size(); ++k) {
             std::string line;
             std::getline(out, line);
-            INFO("value " << k << " with epsilon " << epsilon << ": " << line << ", expected " << expected[k]);
+            INFO("value " << k << " in " << type << ": " << line << ", expected " << expected[k]);
             char* end = nullptr;
             const double value = std::strtod(line.c_str(), &end);
             REQUIRE(end != line.c_str());
