@@ -271,10 +271,16 @@ ModelError::ModelError(std::string message, SourceRange where, std::string hint)
 {
 }
 
+MathematicsError::MathematicsError(std::string message, std::string hint)
+    : Error(ExitCode::refuted, render({Severity::error, message, {}, hint})), message_(std::move(message)),
+      hint_(std::move(hint))
+{
+}
+
 InternalError::InternalError(const std::string& text)
-    : Error(ExitCode::machine, fmt::format("internal error: {}\nhint: this is a defect of lagen; please report it "
-                                           "together with the model file and the command",
-                                           text))
+    : text_(fmt::format("internal error: {}\nhint: this is a defect of lagen; please report it "
+                        "together with the model file and the command",
+                        text))
 {
 }
 

@@ -94,7 +94,7 @@ struct Diagnostic {
 /// stands under its character; a line longer than 120 characters is cut around the caret with "...".
 [[nodiscard]] std::string render(const Diagnostic& diagnostic);
 
-/// The base of everything that lagen throws on purpose.
+/// The base of everything that lagen throws on purpose, its own defects (InternalError) apart.
 class Error : public std::runtime_error {
   public:
     Error(ExitCode code, const std::string& text) : std::runtime_error(text), code_(code) {}
@@ -115,10 +115,16 @@ class ModelError : public Error {
     Diagnostic diagnostic_;
 };
 
-/// The mathematics says no (exit code 1).
+/// The mathematics says no (exit code 1): a sentence without a full stop, and a hint where there is one; what() is the
+/// rendered diagnostic.
 class MathematicsError : public Error {
   public:
-    explicit MathematicsError(const std::string& text) : Error(ExitCode::refuted, text) {}
+    explicit MathematicsError(std::string message, std::string hint = {});
+    [[nodiscard]] const std::string& message() const noexcept { return message_; }
+    [[nodiscard]] const std::string& hint() const noexcept { return hint_; }
+
+  private:
+    std::string message_, hint_;
 };
 
 /// The machine failed us: no compiler, disk full, unreadable folder (exit code 5).
@@ -127,10 +133,16 @@ class MachineError : public Error {
     explicit MachineError(const std::string& text) : Error(ExitCode::machine, text) {}
 };
 
-/// A defect of lagen itself: the text asks the user to report it (exit code 5).
-class InternalError : public Error {
+/// A defect of lagen itself: the text asks the user to report it (exit code 5). It is neither an Error nor a
+/// std::exception, so that nothing between a decision and the command can take it for an ordinary outcome.
+class InternalError {
   public:
     explicit InternalError(const std::string& text);
+    [[nodiscard]] const char* what() const noexcept { return text_.c_str(); }
+    [[nodiscard]] static ExitCode code() noexcept { return ExitCode::machine; }
+
+  private:
+    std::string text_;
 };
 
 /// The entry of `known` nearest to `unknown` in edit distance if it is near enough to be a slip of the hand, else "".

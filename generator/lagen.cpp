@@ -107,6 +107,8 @@ int main(int argc, char** argv)
         return static_cast<int>(code);
     } catch (const Error& error) {
         return report(error.what(), error.code());
+    } catch (const InternalError& error) {
+        return report(error.what(), error.code());
     } catch (const std::bad_alloc&) {
         return report("error: out of memory", ExitCode::machine);
     } catch (const std::exception& error) {

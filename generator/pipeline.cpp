@@ -55,9 +55,7 @@ std::vector<std::string> readable_equations(const CheckedModel& checked, const s
     try {
         return lines_of(print_text(derive(form, checked.model, checked.system, checked.report)));
     } catch (const MathematicsError& error) {
-        std::string reason = lines_of(error.what()).front();
-        if (reason.starts_with("error: ")) reason.erase(0, 7);
-        return {fmt::format("The equations are not written out here: {}.", reason)};
+        return {fmt::format("The equations are not written out here: {}.", error.message())};
     }
 }
 
@@ -136,9 +134,8 @@ CheckedModel load(const std::string& path, const std::vector<Setting>& settings,
         const std::string what = first_with(verified, ProofStatus::refuted);
         if (!unchecked && what.empty()) require_maximum(checked.model.name, verified.maximum);
         if (!unchecked) {
-            throw MathematicsError(fmt::format(
-                "error: model '{}' is refuted: {}\nhint: see `lagen check {}`; --unchecked goes on all the same",
-                checked.model.name, what, path));
+            throw MathematicsError(fmt::format("model '{}' is refuted: {}", checked.model.name, what),
+                                   fmt::format("see `lagen check {}`; --unchecked goes on all the same", path));
         }
         if (!what.empty()) checked.warnings.push_back(fmt::format("this model is REFUTED: {}", what));
     } else if (const std::string what = first_with(verified, ProofStatus::undecided);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "advice/describe_repair.hpp"
 
+#include "graph/lower.hpp"
+
 #include <algorithm>
 
 namespace lagen {
@@ -57,12 +59,11 @@ Repair simplified(Graph& graph, Judge& judge, Repair repair)
     for (EntryChange& change : repair.changes) {
         if (graph.is_constant(change.value)) continue;
         const Decision& decision = judge.decide(change.value);
-        Rational value;
         if (decision.status == ProofStatus::proved)
             change.value = graph.constant(0);
-        else if (decision.residual.find_first_not_of("-0123456789/") == std::string::npos &&
-                 value.set_str(decision.residual, 10) == 0)
-            change.value = graph.constant(value);
+        else if (const NodeId value = decision.normal_form ? Lowering(graph)(decision.normal_form) : change.value;
+                 graph.is_constant(value))
+            change.value = value;
     }
     return repair;
 }

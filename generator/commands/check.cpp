@@ -7,6 +7,7 @@
 #include "commands/report_check.hpp"
 #include "commands/write_file.hpp"
 #include "elaborate/elaborate.hpp"
+#include "elaborate/require_values.hpp"
 #include "expression/parse.hpp"
 
 #include <fmt/core.h>
@@ -56,8 +57,10 @@ ExitCode check_one(const std::string& path, const Options& options, std::string&
     try {
         const Model model = read_model(model_path(path), options.settings());
         const std::size_t points = options.has("verify") ? reevaluation_points : 0;
+        const std::vector<NamedTree> claims = extra_invariants(options, model);
+        require_values(claims);
         const System system = elaborate(model);
-        Report verified = verify(system, extra_invariants(options, model), points);
+        Report verified = verify(system, claims, points);
         advise(system, verified);
         if (verified.maximum.kind == ControlMaximum::Kind::stationary)
             write_standard_error(fmt::format("warning: {}\n", stationary_controls));
@@ -68,7 +71,8 @@ ExitCode check_one(const std::string& path, const Options& options, std::string&
         }
         return code_of(verified.verdict);
     } catch (const Error& error) {
-        write_standard_error(std::string(error.what()) + (std::string_view(error.what()).ends_with('\n') ? "" : "\n"));
+        const std::string said = error.what();
+        write_standard_error(said + (said.ends_with('\n') ? "" : "\n"));
         if (json != nullptr)
             json->begin_object()
                 .key("model")
@@ -76,7 +80,7 @@ ExitCode check_one(const std::string& path, const Options& options, std::string&
                 .key("verdict")
                 .value("error")
                 .key("message")
-                .value(error.what())
+                .value(said)
                 .end_object();
         return error.code();
     }

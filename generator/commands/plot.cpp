@@ -56,15 +56,12 @@ std::string terminal(const std::string& extension, int height)
                        height / 100.0);
 }
 
-/// The rows as gnuplot reads them: blanks for commas; what is not finite becomes a gap.
+/// The rows as gnuplot reads them: blanks for commas; an empty field becomes a gap.
 std::string data_block(const Table& table)
 {
     std::string text = "$rows << LAGEN_END\n";
     for (const std::string_view line : table.lines()) {
-        for (const std::string_view field : fields(line)) {
-            const bool finite = field.find_first_of("nN") == std::string_view::npos; // nan, inf
-            text.append(finite ? field : "?").append(" ");
-        }
+        for (const std::string_view field : fields(line)) text.append(field.empty() ? "?" : field).append(" ");
         text += '\n';
     }
     return text + "LAGEN_END\n";

@@ -22,17 +22,17 @@ const char* kind_text(Regularity::Kind kind)
     return "undecided";
 }
 
-using Point = std::vector<std::pair<std::string, std::string>>;
-
-std::string values_text(const Point& values, const char* prefix)
+/// "x = 1, y = 3/5" of named values that have a text.
+template <class Values>
+std::string values_text(const Values& values, const char* prefix)
 {
     std::string text;
     for (const auto& [name, value] : values)
-        text += fmt::format("{}{}{} = {}", text.empty() ? "" : ", ", prefix, name, value);
+        text += fmt::format("{}{}{} = {}", text.empty() ? "" : ", ", prefix, name, to_text(value));
     return text;
 }
 
-std::string point_text(const Point& point)
+std::string point_text(const NamedPoint& point)
 {
     return point.empty() ? "every point" : values_text(point, "");
 }
@@ -177,7 +177,7 @@ std::string regularity_text(const Regularity& regularity)
     if (regularity.of_hamiltonian) text += fmt::format("  {:<16}of d2H/dmu2: the model has no Lagrangian\n", "");
     if (regularity.kind == Regularity::Kind::degenerate && !regularity.of_hamiltonian)
         text += fmt::format("  {:<16}`generate` and `run` refuse a degenerate Lagrangian\n", "");
-    for (const Point& vector : regularity.kernel)
+    for (const auto& vector : regularity.kernel)
         text += fmt::format("  {:<16}kernel vector {}\n", "", values_text(vector, "k_"));
     if (!regularity.evidence.empty()) text += fmt::format("  {:<16}{}\n", "", regularity.evidence);
     std::string equations;
@@ -186,7 +186,7 @@ std::string regularity_text(const Regularity& regularity)
     if (!equations.empty()) text += fmt::format("  {:<16}singular where {}\n", "", equations);
     if (regularity.singular_everywhere)
         text += fmt::format("  {:<16}singular everywhere for the parameter values of the file\n", "");
-    for (const Point& point : regularity.singular_at)
+    for (const NamedPoint& point : regularity.singular_at)
         text += fmt::format("  {:<16}singular at {}\n", "", point_text(point));
     return text;
 }
@@ -197,10 +197,11 @@ const char* closed_text(ProofStatus closed)
     return closed == ProofStatus::proved ? "closed" : "not closed";
 }
 
-void point_json(JsonWriter& json, const Point& point)
+template <class Values>
+void values_json(JsonWriter& json, const Values& values)
 {
     json.begin_object();
-    for (const auto& [name, value] : point) json.key(name).value(value);
+    for (const auto& [name, value] : values) json.key(name).value(to_text(value));
     json.end_object();
 }
 
@@ -219,7 +220,7 @@ void check_json(JsonWriter& json, const Check& check)
     json.end_array().key("status").value(to_text(check.decision.status)).key("residual").value(check.decision.residual);
     if (check.decision.witness) {
         json.key("witness");
-        point_json(json, check.decision.witness->point);
+        values_json(json, check.decision.witness->point);
         json.key("value").value(check.decision.witness->value);
     }
     if (!check.decision.evidence.empty()) json.key("evidence").value(check.decision.evidence);
@@ -273,12 +274,12 @@ void report_json(JsonWriter& json, const std::string& model, const Report& verif
     if (regularity.of_hamiltonian) json.key("of").value("d2H/dmu2");
     if (regularity.kind == Regularity::Kind::degenerate) {
         json.key("kernel").begin_array();
-        for (const Point& vector : regularity.kernel) point_json(json, vector);
+        for (const auto& vector : regularity.kernel) values_json(json, vector);
         json.end_array();
     }
     json.key("singular_everywhere").value(regularity.singular_everywhere);
     json.key("singular_at").begin_array();
-    for (const Point& point : regularity.singular_at) point_json(json, point);
+    for (const NamedPoint& point : regularity.singular_at) values_json(json, point);
     json.end_array().key("singular_where").begin_array();
     for (const std::string& factor : regularity.singular_where) json.value(factor);
     json.end_array().end_object();

@@ -10,9 +10,8 @@ namespace lagen {
 
 namespace {
 
-constexpr std::size_t most_terms = 3;      ///< of each kernel
-constexpr double least_share = 0.05;       ///< of a kernel's weight, for a term that is shown
-constexpr const char* whole = "the whole"; ///< the pass of what is no pass over a form
+constexpr std::size_t most_terms = 3; ///< of each kernel
+constexpr double least_share = 0.05;  ///< of a kernel's weight, for a term that is shown
 
 using Passes = std::span<const PassReport>;
 
@@ -53,10 +52,9 @@ Passes search_of(const SimplifyReport& report)
     const Passes all(report.passes);
     std::size_t begin = 0;
     for (std::size_t k = 0; k < all.size(); ++k) {
-        if (all[k].pass != whole) continue;
-        const bool solved = all[k].form == "solved through the terms of a Hessian";
+        const bool solved = all[k].stage == Stage::eliminated;
         if (solved && same(all[k].after, report.kept)) return all.first(k + 1);
-        const bool ends = solved || all[k].form == "outputs of several forms";
+        const bool ends = solved || all[k].stage == Stage::mixed;
         if (ends && k + 1 < all.size()) begin = k + 1;
     }
     return all.subspan(begin);
@@ -66,14 +64,14 @@ Passes search_of(const SimplifyReport& report)
 Passes passes_of_kept(Passes search)
 {
     const auto lightest =
-        std::ranges::find_if(search, [](const PassReport& pass) { return pass.form.starts_with("the lightest form"); });
+        std::ranges::find_if(search, [](const PassReport& pass) { return pass.stage == Stage::lightest; });
     Passes best;
     for (std::size_t begin = 0; begin < search.size();) {
         std::size_t end = begin + 1;
         while (end < search.size() && search[end].form == search[begin].form) ++end;
         const Passes form = search.subspan(begin, end - begin);
         begin = end;
-        if (form[0].pass == whole) continue;
+        if (form[0].stage != Stage::pass) continue;
         if (lightest != search.end() && same(form.back().after, lightest->after)) return form;
         if (best.empty() || form.back().after.weight < best.back().after.weight) best = form;
     }
@@ -100,17 +98,17 @@ std::string summary_of(const KernelReport& kernel)
     OperationRows rows(kernel.kernel + ", as written", report.written);
     const Passes search = search_of(report);
     const Passes form = passes_of_kept(search);
-    const bool angles = !form.empty() && form[0].form.starts_with("angles added");
+    const bool angles = !form.empty() && form[0].of_added_angles;
     bool shown = false;
     for (const PassReport& pass : search) {
-        if (pass.form == "angles added" && angles) rows.add("  angles added", pass.after);
-        if (pass.pass == whole || shown || form.empty() || pass.form != form[0].form) continue;
+        if (pass.stage == Stage::angles_added && angles) rows.add("  angles added", pass.after);
+        if (pass.stage != Stage::pass || shown || form.empty() || pass.form != form[0].form) continue;
         rows.add("  " + pass.form, form[0].before);
         for (const PassReport& each : form) rows.add("    " + each.pass, each.after);
         shown = true;
     }
     for (const PassReport& pass : search)
-        if (pass.pass == whole && pass.form != "angles added") rows.add("  " + pass.form, pass.after);
+        if (pass.stage != Stage::pass && pass.stage != Stage::angles_added) rows.add("  " + pass.form, pass.after);
     rows.print("  kept", report.kept);
     return rows.text() + costliest_text(report);
 }

@@ -195,6 +195,8 @@ ExitCode run_run(Arguments arguments)
     outcome.energy_changes = has_kernel(generated.module, "power");
     outcome.table.columns = {"t"};
     for (const TableColumn& column : input.columns) outcome.table.columns.push_back(column.name);
+    for (const std::vector<Quantity>* group : {&generated.module.base, &generated.module.fibre})
+        for (const Quantity& quantity : *group) outcome.state.emplace_back(quantity.name, "");
     integrate_scene(compiled.program, input, outcome);
     if (options.has("output")) write_file(options.get("output"), to_csv(outcome.table));
     if (options.has("plot"))

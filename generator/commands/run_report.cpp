@@ -37,6 +37,17 @@ std::string row_text(std::string_view line)
     return list_text(fields(line), [](std::string_view field) { return number_text(field); });
 }
 
+/// The last good state of a run that failed, where it has few lanes.
+std::string last_state(const RunOutcome& outcome)
+{
+    constexpr std::size_t most_lanes = 12;
+    std::string lanes;
+    for (const auto& [name, value] : outcome.state)
+        lanes += fmt::format("{}{} = {:.9g}", lanes.empty() ? ": " : ", ", name, std::strtod(value.c_str(), nullptr));
+    return fmt::format("  the last good state is at t = {:.15g}{}\n", std::strtod(outcome.time.c_str(), nullptr),
+                       outcome.state.size() <= most_lanes ? lanes : "");
+}
+
 /// Of a run that did not leave its start.
 const char* start_hint(const std::string& status)
 {
@@ -65,14 +76,19 @@ std::string report_json(const RunOutcome& outcome)
                                      ? ""
                                      : fmt::format(" \"newton_iterations\": {}, \"decompositions\": {},",
                                                    number_text(outcome.newton), number_text(outcome.decompositions));
+    std::string state;
+    for (const auto& [name, value] : outcome.state)
+        state += fmt::format("{}{}: {}", state.empty() ? "" : ", ", string_text(name), number_text(value));
     return fmt::format(
-        "{{\"model\": {}, \"scene\": {}, \"form\": {}, \"method\": {}, \"status\": {}, \"t\": {},\n \"steps\": {}, "
+        "{{\"model\": {}, \"scene\": {}, \"form\": {}, \"method\": {}, \"status\": {}, \"t\": {}, "
+        "\"state\": {{{}}}, \"failed_at\": {},\n \"steps\": {}, "
         "\"rejected\": {}, \"rhs_calls\": {},{} \"seconds\": {},\n \"columns\": {},\n \"rows\": {},\n \"events\": "
         "{},\n "
         "\"invariants\": {}}}\n",
         string_text(outcome.model), string_text(outcome.scene), string_text(outcome.form), string_text(outcome.method),
-        string_text(outcome.status), number_text(outcome.where), number_text(outcome.steps),
-        number_text(outcome.rejected), number_text(outcome.rhs_calls), implicit, number_text(outcome.seconds),
+        string_text(outcome.status), number_text(outcome.time), state, number_text(outcome.failed_at),
+        number_text(outcome.steps), number_text(outcome.rejected), number_text(outcome.rhs_calls), implicit,
+        number_text(outcome.seconds),
         list_text(outcome.table.columns, [](const std::string& column) { return string_text(column); }),
         list_text(outcome.table.lines(), row_text), events, invariants);
 }
@@ -87,15 +103,16 @@ std::string report_text(const RunOutcome& outcome)
     };
     std::string text = fmt::format(
         "{}, scene {}: {} at t = {}; {}, {} ({} rejected), {}, {}\n", outcome.model, outcome.scene, outcome.status,
-        brief(outcome.where, 9), outcome.method, counted(outcome.steps, "step"), outcome.rejected,
+        brief(outcome.failed_at, 9), outcome.method, counted(outcome.steps, "step"), outcome.rejected,
         counted(outcome.rhs_calls, "right-hand side"), counted(std::to_string(outcome.table.count), "row"));
     if (!outcome.newton.empty())
         text += fmt::format("  {}, {}\n", counted(outcome.newton, "Newton iteration"),
                             counted(outcome.decompositions, "factorisation"));
     for (const EventReport& event : outcome.events)
         text += fmt::format("  event {} at t = {}\n", event.name, brief(event.time, 15));
-    const bool has_started = outcome.steps != "0" || outcome.status == "ok" || outcome.status == "stopped_by_event";
-    if (!has_started) return text + start_hint(outcome.status);
+    const bool failed = outcome.status != "ok" && outcome.status != "stopped_by_event";
+    if (failed && outcome.steps == "0") return text + start_hint(outcome.status);
+    if (failed) text += last_state(outcome);
     for (const Drift& drift : outcome.invariants) {
         if (!std::isfinite(std::strtod(drift.initial.c_str(), nullptr))) {
             text += fmt::format("  {}: no finite number at the start\n", drift.name);

@@ -5,6 +5,7 @@
 #include "commands/table.hpp"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace lagen {
@@ -24,8 +25,10 @@ struct Drift {
 
 struct RunOutcome {
     std::string model, scene, form, method;
-    std::string status;                              ///< "ok", "stopped_by_event", "left_domain", ... (runtime's names)
-    std::string where;                               ///< time that was reached
+    std::string status; ///< "ok", "stopped_by_event", "left_domain", ... (runtime's names)
+    std::string time;   ///< of the last good state
+    std::vector<std::pair<std::string, std::string>> state; ///< the last good state: lanes by name, base first
+    std::string failed_at; ///< time at which the run met what ended it; `time` where nothing failed
     std::string steps, rejected, rhs_calls, seconds; ///< numbers as printed
     std::string newton, decompositions; ///< Newton iterations and factorisations of implicit methods; else empty
     std::vector<EventReport> events;

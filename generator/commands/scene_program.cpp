@@ -63,7 +63,13 @@ void read_line(const std::string& key, const std::string& value, RunOutcome& out
 {
     constexpr std::string_view invariant = "invariant:";
     if (key == "status") outcome.status = value;
-    if (key == "failed_at") outcome.where = value;
+    if (key == "t") outcome.time = value;
+    if (key == "state") {
+        const std::vector<std::string_view> lanes = fields(value);
+        if (lanes.size() != outcome.state.size()) throw InternalError("the program of a scene gave another state");
+        for (std::size_t k = 0; k < lanes.size(); ++k) outcome.state[k].second = lanes[k];
+    }
+    if (key == "failed_at") outcome.failed_at = value;
     if (key == "steps") outcome.steps = value;
     if (key == "rejected") outcome.rejected = value;
     if (key == "rhs_calls") outcome.rhs_calls = value;

@@ -37,7 +37,7 @@ struct ProgramInput {
 
 [[nodiscard]] std::vector<std::string> program_arguments(const std::string& program, const ProgramInput& input);
 
-/// Reads the report's KEY=VALUE lines into `outcome`.
+/// Reads the report's KEY=VALUE lines into `outcome`, whose state has its names.
 void read_report(const std::string& text, RunOutcome& outcome);
 
 } // namespace lagen

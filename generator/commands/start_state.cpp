@@ -30,8 +30,8 @@ std::vector<long double> invert(Graph& graph, const Regularity& regularity, cons
                                 const std::vector<NamedNumber>& target, Values inputs)
 {
     const auto fail = [&](const std::string& why) {
-        throw MathematicsError(fmt::format("error: the {0} of the start {1}\nhint: give the {2} in `initial` instead",
-                                           inversion.given, why, inversion.wanted));
+        throw MathematicsError(fmt::format("the {} of the start {}", inversion.given, why),
+                               fmt::format("give the {} in `initial` instead", inversion.wanted));
     };
     const std::string& obstacle = regularity.legendre_obstacle;
     if (!obstacle.empty()) fail(fmt::format("are not shown to fix the {}: {}", inversion.wanted, obstacle));
@@ -79,9 +79,8 @@ std::vector<long double> momenta_of(const CheckedModel& checked, const SceneValu
     const LagrangianNodes lagrangian = lagrangian_nodes(graph, system);
     std::vector<long double> momenta = evaluate<long double>(graph, lagrangian.fibre.momenta, inputs);
     if (!std::ranges::all_of(momenta, [](long double mu) { return std::isfinite(mu); }))
-        throw MathematicsError(
-            "error: the momenta dL/dy of the start are no finite numbers\nhint: L is not defined, or "
-            "not smooth, at the initial values");
+        throw MathematicsError("the momenta dL/dy of the start are no finite numbers",
+                               "L is not defined, or not smooth, at the initial values");
     return momenta;
 }
 

@@ -5,14 +5,13 @@ namespace lagen {
 
 namespace {
 
-/// The pieces of `text` between separators; a final separator ends the last piece.
+/// The pieces of `text` between separators, the last one included.
 std::vector<std::string_view> pieces(std::string_view text, char separator)
 {
     std::vector<std::string_view> list;
-    while (!text.empty()) {
-        const std::size_t end = text.find(separator);
-        list.push_back(text.substr(0, end));
-        text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    for (std::size_t begin = 0, end = 0; end != std::string_view::npos; begin = end + 1) {
+        end = text.find(separator, begin);
+        list.push_back(text.substr(begin, end == std::string_view::npos ? end : end - begin));
     }
     return list;
 }
@@ -29,7 +28,9 @@ std::string quoted(const std::string& field)
 
 std::vector<std::string_view> Table::lines() const
 {
-    return pieces(rows, '\n');
+    std::vector<std::string_view> list = pieces(rows, '\n');
+    if (list.back().empty()) list.pop_back(); // every line ends
+    return list;
 }
 
 std::vector<std::string_view> fields(std::string_view line)

@@ -18,7 +18,7 @@ struct Table {
     [[nodiscard]] std::vector<std::string_view> lines() const;
 };
 
-/// The fields of one CSV line of numbers.
+/// The fields of one CSV line of numbers; an empty one stands for what is no finite number.
 [[nodiscard]] std::vector<std::string_view> fields(std::string_view line);
 
 /// RFC 4180: a heading (quoted where needed), then the rows, CRLF line ends.

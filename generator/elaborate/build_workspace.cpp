@@ -2,7 +2,6 @@
 /// Formulas of the kinds of algebroid on one graph, and their readable form.
 #include "elaborate/build_workspace.hpp"
 
-#include "expression/parse.hpp"
 #include "proof/print_fraction.hpp"
 #include "proof/triangular.hpp"
 #include "symbolic/shortest_form.hpp"
@@ -22,18 +21,6 @@ std::size_t cost_of(const Tree& tree)
 {
     const std::string text = to_text(tree);
     return text.size() + parenthesis_cost * static_cast<std::size_t>(std::count(text.begin(), text.end(), '('));
-}
-
-/// x[3], and pi where the model declares it, as the symbol that it stands for. (The number is acos(-1) then.)
-Tree with_entries_as_names(const Tree& tree, bool declares_pi)
-{
-    if (tree->kind == TreeKind::pi && declares_pi) return name("pi", tree->where);
-    if (tree->kind == TreeKind::index) return name(to_text(tree), tree->where);
-    if (tree->arguments.empty()) return tree;
-    auto node = std::make_shared<TreeNode>(*tree);
-    node->where = {};
-    for (Tree& argument : node->arguments) argument = with_entries_as_names(argument, declares_pi);
-    return node;
 }
 
 } // namespace
@@ -56,7 +43,7 @@ BuildWorkspace::BuildWorkspace(const Model& model)
     for (const Tree& tree : model.base.constraints) setting_.constraints.push_back(lower_(tree));
     try {
         solved_ = proof::triangular_constraints(graph_, setting_);
-    } catch (const MathematicsError&) {
+    } catch (const TriangularityError&) { // refused where the claims are made, with its place
         setting_.constraints.clear();
     }
 }
@@ -79,10 +66,8 @@ Tree BuildWorkspace::normal_tree(NodeId node, bool& zero)
         const proof::Fraction form = forms.of(node);
         if (!forms.condition().empty()) return nullptr;
         zero = form.is_zero();
-        const std::string text = proof::to_text(forms.ring(), forms.readable(form), 2 * normal_length);
-        if (text.size() > normal_length || !proof::is_whole(text)) return nullptr;
-        return with_entries_as_names(parse_expression(whole_text("<normal form>", text)),
-                                     model_.scope.has_symbol("pi"));
+        const auto [text, tree] = proof::print(forms.ring(), forms.readable(form), 2 * normal_length);
+        return text.size() > normal_length ? nullptr : tree;
     } catch (const proof::BudgetExhausted&) {
         return nullptr;
     } catch (const proof::VanishingDivisor&) {

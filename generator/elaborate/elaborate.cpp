@@ -5,6 +5,7 @@
 #include "elaborate/construction.hpp"
 #include "elaborate/lower_forms.hpp"
 #include "elaborate/model_trees.hpp"
+#include "elaborate/require_values.hpp"
 #include "graph/differentiate.hpp"
 #include "proof/partial_parts.hpp"
 
@@ -20,6 +21,7 @@ class Elaboration {
 
     System run()
     {
+        require_values(model_);
         system_.name = model_.name;
         system_.written = written(model_);
         declare_inputs();

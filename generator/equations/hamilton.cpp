@@ -186,11 +186,11 @@ EquationSet derive_hamilton(const Model& model, const WrittenAlgebroid& algebroi
 {
     if (!model.hamiltonian && !model.lagrangian)
         throw MathematicsError(
-            "error: model '" + model.name +
+            "model '" + model.name +
             "' has neither a Hamiltonian nor a Lagrangian; Hamilton's equations need [hamiltonian] H "
             "or [lagrangian] L");
     if (!model.hamiltonian && regularity.kind == Regularity::Kind::degenerate)
-        throw MathematicsError("error: the Lagrangian of model '" + model.name +
+        throw MathematicsError("the Lagrangian of model '" + model.name +
                                "' is degenerate: its momenta p_a = dL/dy^a have rank " +
                                std::to_string(regularity.rank) + " of " + std::to_string(algebroid.r()) +
                                ", so that it has no Hamiltonian form; Hamilton's equations need [hamiltonian] H");

@@ -139,9 +139,8 @@ class LagrangeDerivation {
             if (regularity.kernel.size() > 1)
                 block.title += fmt::format(", vector {} of {}", k + 1, regularity.kernel.size());
             for (const auto& [coordinate, component] : regularity.kernel[k]) {
-                const Tree value = symbolic_.model().scope.close(parse_expression(whole_text("<kernel>", component)));
                 block.equations.push_back(
-                    symbolic_.equation(LeftSide::symbol, "k_" + coordinate, {symbolic_.lower(value)}));
+                    symbolic_.equation(LeftSide::symbol, "k_" + coordinate, {symbolic_.lower(component)}));
             }
             set.blocks.push_back(std::move(block));
         }
@@ -158,7 +157,7 @@ class LagrangeDerivation {
 EquationSet derive_lagrange(const Model& model, const WrittenAlgebroid& algebroid, const Regularity& regularity)
 {
     if (!model.lagrangian)
-        throw MathematicsError("error: model '" + model.name +
+        throw MathematicsError("model '" + model.name +
                                "' has no Lagrangian; Lagrange's equations need [lagrangian] L");
     return derived(model, "Lagrange's equations",
                    [&] { return LagrangeDerivation(model, algebroid).derive(regularity); });

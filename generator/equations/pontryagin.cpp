@@ -192,7 +192,7 @@ class PontryaginDerivation {
 EquationSet derive_pontryagin(const Model& model, const WrittenAlgebroid& algebroid, const ControlMaximum& maximum)
 {
     if (!model.control)
-        throw MathematicsError("error: model '" + model.name +
+        throw MathematicsError("model '" + model.name +
                                "' has no controls; Pontryagin's equations need [control] controls, sigma and cost");
     if (maximum.kind == ControlMaximum::Kind::refuted || maximum.kind == ControlMaximum::Kind::nonsmooth)
         require_maximum(model.name, maximum);

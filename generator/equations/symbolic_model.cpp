@@ -253,14 +253,7 @@ EquationSet SymbolicModel::empty_set(const std::string& form) const
 
 EquationSet derived(const Model& model, const char* equations, const std::function<EquationSet()>& derivation)
 {
-    try {
-        return derivation();
-    } catch (const Error&) {
-        throw;
-    } catch (const std::exception& error) {
-        throw MathematicsError(
-            fmt::format("error: {} of model '{}' could not be derived: {}", equations, model.name, error.what()));
-    }
+    return with_ginac(fmt::format("{} of model '{}' could not be derived", equations, model.name), derivation);
 }
 
 } // namespace lagen

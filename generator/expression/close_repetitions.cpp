@@ -14,6 +14,9 @@ namespace {
 constexpr long longest_range = 100'000;
 /// Sums inside one another before one starts anew: trees are bounded in height.
 constexpr std::size_t longest_chain = 500;
+/// Terms that sums inside sums stand for. Equal ones are one node, so that trees do not show how many there are; but
+/// what is made of them, numbers first, grows with each level.
+constexpr std::size_t most_terms = 1'000'000'000;
 
 bool is_sum(const TreeNode& node)
 {
@@ -35,6 +38,22 @@ long bound_of(const TreeNode& node, std::size_t which, const Closed& value)
                            quote(to_text(written)), word_for(node)),
                "a bound is made of integers, sizes, and the indices of outer sums and products");
     return *bound;
+}
+
+std::size_t terms_of(const Closed& value)
+{
+    std::size_t most = 1;
+    for (const ClosedTree& entry : value.entries) most = std::max(most, entry.measure.terms);
+    return most;
+}
+
+/// The value, which stands for so many terms. A single term is not a new value: it keeps its count.
+Value with_terms(Value value, std::size_t terms)
+{
+    if (terms <= terms_of(*value)) return value;
+    value = std::make_shared<Closed>(*value);
+    for (ClosedTree& entry : value->entries) entry.measure.terms = terms;
+    return value;
 }
 
 } // namespace
@@ -130,11 +149,29 @@ Expansion::Closing::Result Expansion::Closing::finish_repetition()
             top.before = top.from - 1;
             chain = 1;
         }
-        result = join_terms(top, make);
-        results.emplace(top.to, Partial{result, chain});
+        const std::size_t terms = count_terms(top);
+        result = with_terms(join_terms(top, make), terms);
+        results.emplace(top.to, Partial{result, chain, terms});
     }
     frames_.pop_back();
     return result;
+}
+
+/// Of this repetition with those inside it, bounded.
+std::size_t Expansion::Closing::count_terms(const Frame& top) const
+{
+    const auto& results = top.repetition->results.at(top.from);
+    const auto before = results.find(top.before);
+    std::size_t count = before == results.end() ? 0 : before->second.terms;
+    for (long k = top.before + 1; k <= top.to; ++k) {
+        count += terms_of(*top.repetition->terms.at(k));
+        if (count > most_terms)
+            refuse(top.tree,
+                   fmt::format("this {} stands for more than {} terms when those inside it are written out",
+                               word_for(*top.tree), most_terms),
+                   "a sum or product inside another is written out for each index of the outer one");
+    }
+    return count;
 }
 
 /// The terms after the partial sum `before`, added to it from left to right.

@@ -70,6 +70,7 @@ class Expansion::Closing {
     Result open_repetition(Frame& top);
     const std::set<std::string>& names_of(const TreeNode& repetition);
     Value join_terms(const Frame& top, const Maker& make) const;
+    std::size_t count_terms(const Frame& top) const;
 
     Value family(const std::string& name, const Shape& shape, const OpenBody& body) const;
     const Definition& function_of(const TreeNode& node, const OpenBody& body) const;

@@ -37,10 +37,11 @@ class Expansion {
     /// A sum or product with the numbers of what the names in its body are bound to.
     using RepetitionKey = std::pair<const TreeNode*, std::vector<std::size_t>>;
 
-    /// The sum of a body over from..to, made of `chain` sums one inside the other.
+    /// The sum of a body over from..to, made of `chain` sums one inside the other; `terms` counts what it stands for.
     struct Partial {
         Value value;
         std::size_t chain = 1;
+        std::size_t terms = 0;
     };
     struct Repetition {
         Tree alive;                                      ///< keeps the address of the key its own

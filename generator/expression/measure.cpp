@@ -86,6 +86,13 @@ Measure measure_sum(const TreeNode& node, std::span<const Measure> terms, const 
     return result;
 }
 
+[[noreturn]] void degree_too_large(const char* what, const Measure& measure, const SourceRange& where,
+                                   const ParseLimits& limits)
+{
+    throw ModelError(fmt::format("{} the total degree {}", what, measure.degree), where,
+                     fmt::format("the total degree of a power or a product is at most {}", limits.degree));
+}
+
 Measure measure_product(const TreeNode& node, std::span<const Measure> factors, const ParseLimits& limits)
 {
     Measure result{.constant = true, .factor = 1, .degree = 0};
@@ -95,6 +102,7 @@ Measure measure_product(const TreeNode& node, std::span<const Measure> factors, 
         require_small(result.factor, node.where, limits);
         result.degree = std::min(result.degree + factor.degree, degree_ceiling);
     }
+    if (result.degree > limits.degree) degree_too_large("a product reaches", result, node.where, limits);
     return result;
 }
 
@@ -105,6 +113,7 @@ Measure measure_quotient(const TreeNode& node, const Measure& above, const Measu
                    .factor = below.factor == 0 ? above.factor : Rational(above.factor / below.factor),
                    .degree = std::min(above.degree + below.degree, degree_ceiling)};
     require_small(result.factor, node.where, limits);
+    if (result.degree > limits.degree) degree_too_large("a quotient reaches", result, node.where, limits);
     return result;
 }
 
@@ -120,9 +129,7 @@ Measure measure_power_of_symbols(const TreeNode& node, const Measure& base, cons
     const mpz_class whole = exponent.get_num() / exponent.get_den();
     const long size = std::abs(whole.get_si()) + (exponent.get_den() == 1 ? 0 : 1);
     result.degree = std::min(base.degree, degree_ceiling / (size + 1)) * size;
-    if (size > 1 && result.degree > limits.degree)
-        throw ModelError(fmt::format("nested powers reach the total degree {}", result.degree), node.where,
-                         fmt::format("the total degree of a power is at most {}", limits.degree));
+    if (size > 1 && result.degree > limits.degree) degree_too_large("nested powers reach", result, node.where, limits);
     if (exponent.get_den() == 1 && base.factor != 0)
         result.factor = integer_power(base.factor, exponent.get_num(), node.where, limits);
     return result;
@@ -169,9 +176,11 @@ Measure measure(const TreeNode& node, std::span<const Measure> arguments, const 
 {
     Measure result = measure_content(node, arguments, limits);
     result.height = 0;
+    result.terms = 1;
     result.nonsmooth = nullptr;
     for (const Measure& argument : arguments) {
         result.height = std::max(result.height, argument.height);
+        result.terms = std::max(result.terms, argument.terms);
         if (!result.nonsmooth) result.nonsmooth = argument.nonsmooth;
     }
     ++result.height;

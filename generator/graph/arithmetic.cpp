@@ -97,7 +97,7 @@ NodeId Graph::multiply(NodeId a, NodeId b)
 NodeId Graph::divide(NodeId a, NodeId b)
 {
     if (is_zero(b))
-        throw MathematicsError("division by zero: the divisor is the constant 0, a divisor other than 0 is required");
+        throw DivisionByZero("division by zero: the divisor is the constant 0, a divisor other than 0 is required");
     if (is_zero(a) || is_one(b)) return a;
     if (a == b) return constant(1);
     if (foldable(*this, a, b)) return constant(Rational(value(a) / value(b)));
@@ -117,7 +117,7 @@ NodeId Graph::power(NodeId a, int exponent)
     if (exponent == 0) return constant(1);
     if (exponent == 1) return a;
     if (is_zero(a) && exponent < 0)
-        throw MathematicsError("division by zero: 0^" + std::to_string(exponent) + ", a base other than 0 is required");
+        throw DivisionByZero("division by zero: 0^" + std::to_string(exponent) + ", a base other than 0 is required");
     const auto magnitude = static_cast<std::size_t>(exponent < 0 ? -std::int64_t{exponent} : std::int64_t{exponent});
     if (is_zero(a) || is_one(a)) return a;
     if (is_constant(a) && bits_of(value(a)) <= folded_bits / magnitude)

@@ -7,6 +7,8 @@
 
 #include "graph/graph.hpp"
 
+#include <optional>
+
 namespace lagen {
 
 /// Forward mode: the directional derivatives of `outputs` along `seeds` (pairs input node, its tangent); one sweep.
@@ -24,8 +26,14 @@ namespace lagen {
 /// The rows of such a matrix one after another.
 [[nodiscard]] std::vector<NodeId> joined_rows(const std::vector<std::vector<NodeId>>& rows);
 
-/// The same outputs with inputs replaced by nodes (simultaneously).
+/// The same outputs with inputs replaced by nodes (simultaneously). Throws DivisionByZero where a divisor becomes the
+/// constant 0.
 [[nodiscard]] std::vector<NodeId> substitute(Graph& graph, std::span<const NodeId> outputs,
                                              std::span<const std::pair<NodeId, NodeId>> replacements);
+
+/// The same, and nothing where a divisor becomes the constant 0: the outputs are not defined there.
+[[nodiscard]] std::optional<std::vector<NodeId>>
+substitute_where_defined(Graph& graph, std::span<const NodeId> outputs,
+                         std::span<const std::pair<NodeId, NodeId>> replacements);
 
 } // namespace lagen

@@ -72,6 +72,12 @@ struct HessianOrigin {
     std::vector<NodeId> variables; ///< inputs
 };
 
+/// A divisor is the constant 0, or the base of a negative power.
+class DivisionByZero : public MathematicsError {
+  public:
+    using MathematicsError::MathematicsError;
+};
+
 class Graph {
   public:
     // Leaves.
@@ -86,7 +92,7 @@ class Graph {
     NodeId add(NodeId a, NodeId b);
     NodeId subtract(NodeId a, NodeId b);
     NodeId multiply(NodeId a, NodeId b);
-    NodeId divide(NodeId a, NodeId b); ///< throws MathematicsError where b is the constant 0
+    NodeId divide(NodeId a, NodeId b); ///< throws DivisionByZero where b is the constant 0
     NodeId negate(NodeId a);
     NodeId power(NodeId a, int exponent);
     NodeId apply(Op op, NodeId a);           ///< sqrt .. abs, sign

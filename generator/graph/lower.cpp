@@ -99,7 +99,7 @@ NodeId lower_solve(Graph& graph, const TreeNode& tree, std::span<const NodeId> a
     try {
         const auto z = graph.solve(arguments.first(n * n), arguments.last(n), MatrixStructure::general);
         return z[tree.number.get_num().get_ui()];
-    } catch (const MathematicsError&) {
+    } catch (const DivisionByZero&) {
         throw ModelError("the matrix of a linear system has an entry 0 that is alone in its row and column, a matrix "
                          "with an inverse is required",
                          tree.where);

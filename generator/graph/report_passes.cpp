@@ -48,6 +48,18 @@ std::vector<CostlyTerm> costliest_terms(const Graph& graph, std::span<const Node
     return terms;
 }
 
+const char* to_text(Stage stage)
+{
+    switch (stage) {
+    case Stage::pass: return "one pass";
+    case Stage::angles_added: return "angles added";
+    case Stage::lightest: return "the lightest form that keeps its digits";
+    case Stage::mixed: return "outputs of several forms";
+    case Stage::eliminated: return "solved through the terms of a Hessian";
+    }
+    return "";
+}
+
 std::string to_text(const SimplifyReport& report, const std::string& kernel)
 {
     std::string text = fmt::format("{}\n  {:<60} {:>6} {:>6} {:>6} {:>9} {:>6} {:>8}\n", kernel, "", "+ -", "*", "/",
@@ -55,9 +67,9 @@ std::string to_text(const SimplifyReport& report, const std::string& kernel)
     text += row("as written", report.written);
     std::string form;
     for (const PassReport& pass : report.passes) {
-        if (pass.form != form && pass.pass != "the whole") text += row(pass.form, pass.before);
+        if (pass.form != form && pass.stage == Stage::pass) text += row(pass.form, pass.before);
         form = pass.form;
-        text += row(pass.pass == "the whole" ? pass.form : "  " + pass.pass, pass.after);
+        text += row(pass.stage != Stage::pass ? pass.form : "  " + pass.pass, pass.after);
     }
     text += row("kept", report.kept);
     if (!report.costliest.empty()) text += "  costliest terms: weight, uses, term\n";

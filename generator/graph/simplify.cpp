@@ -116,13 +116,12 @@ struct Portfolio {
         undivided = factors_of(written);
     }
 
-    /// Forms of `outputs`, which have the values of the written ones, in every expansion of the list; `origin` says
-    /// what was done to them.
+    /// Forms of `outputs`, which have the values of the written ones, in every expansion of the list.
     void add_forms(const std::vector<NodeId>& outputs, const std::vector<ExpansionMode>& expansions,
-                   const std::string& origin)
+                   bool of_added_angles)
     {
         const std::size_t known = candidates.size();
-        label_ = origin;
+        of_added_angles_ = of_added_angles;
         for (const ExpansionMode expansion : expansions) add_forms(outputs, expansion);
         give_back_digits(outputs, known);
     }
@@ -147,7 +146,8 @@ struct Portfolio {
         for (const Order order : {Order::factor_then_share, Order::share_then_factor, Order::share_only})
             for (const bool divided : {false, true})
                 attempt(*form, order, divided,
-                        label_ + name_of(expansion) + (divided ? ", rows divided, " : ", ") + name_of(order));
+                        std::string(of_added_angles_ ? "angles added, " : "") + name_of(expansion) +
+                            (divided ? ", rows divided, " : ", ") + name_of(order));
     }
 
     /// Outputs of the candidates from `first` on that lose digits become those of `outputs` again.
@@ -180,7 +180,7 @@ struct Portfolio {
             pass.apply(form);
             if (report == nullptr) continue;
             const OperationCount after = count_of(form, graph);
-            report->passes.push_back({label, pass.name, before, after});
+            report->passes.push_back({label, pass.name, before, after, Stage::pass, of_added_angles_});
             before = after;
         }
     }
@@ -197,8 +197,8 @@ struct Portfolio {
             outputs.resize(written.roots.size());
             note(divided ? divisors : undivided, divided ? appended : factors_of(outputs));
             candidates.push_back(std::move(outputs));
-        } catch (const FormRefused&) {      // too large in this form
-        } catch (const MathematicsError&) { // a divisor vanishes identically: the outputs stay as written
+        } catch (const FormRefused&) {    // too large in this form
+        } catch (const DivisionByZero&) { // a divisor vanishes identically: the outputs stay as written
         }
     }
 
@@ -209,7 +209,7 @@ struct Portfolio {
         sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
     }
 
-    std::string label_; ///< of the forms that are being made
+    bool of_added_angles_ = false; ///< of the forms that are made now
 };
 
 /// Replaces single outputs of `best` by another candidate's where that makes the whole lighter.
@@ -237,10 +237,11 @@ std::vector<ExpansionMode> expansions_for(std::size_t nodes)
     return {ExpansionMode::none, ExpansionMode::monomials, ExpansionMode::all, ExpansionMode::nested};
 }
 
-void tell(SimplifyReport* report, const Graph& graph, const char* form, const OperationCount& before,
+void tell(SimplifyReport* report, const Graph& graph, Stage stage, const OperationCount& before,
           const std::vector<NodeId>& outputs)
 {
-    if (report != nullptr) report->passes.push_back({form, "the whole", before, count_operations(graph, outputs)});
+    if (report != nullptr)
+        report->passes.push_back({to_text(stage), "", before, count_operations(graph, outputs), stage});
 }
 
 /// The forms of the outputs whose linear systems stay nodes.
@@ -253,10 +254,10 @@ std::vector<NodeId> simplify_pieces(Graph& graph, std::span<const NodeId> output
     const OperationCount written = count_operations(graph, best);
     double weight = written.weight;
     Portfolio portfolio(graph, best, report);
-    portfolio.add_forms(best, expansions_for(size), "");
+    portfolio.add_forms(best, expansions_for(size), false);
     if (const auto added = add_angles(graph, outputs); added != best) {
-        tell(report, graph, "angles added", written, added);
-        portfolio.add_forms(added, {ExpansionMode::none, ExpansionMode::nested}, "angles added, ");
+        tell(report, graph, Stage::angles_added, written, added);
+        portfolio.add_forms(added, {ExpansionMode::none, ExpansionMode::nested}, true);
     }
     for (const auto& candidate : portfolio.candidates) {
         const double tried = count_operations(graph, candidate).weight;
@@ -265,9 +266,9 @@ std::vector<NodeId> simplify_pieces(Graph& graph, std::span<const NodeId> output
             best = candidate;
         }
     }
-    tell(report, graph, "the lightest form that keeps its digits", written, best);
+    tell(report, graph, Stage::lightest, written, best);
     mix(graph, best, weight, portfolio.candidates);
-    tell(report, graph, "outputs of several forms", written, best);
+    tell(report, graph, Stage::mixed, written, best);
     if (portfolio.has_divided(best)) divisors = portfolio.divisors;
     return best;
 }
@@ -280,8 +281,7 @@ std::vector<NodeId> eliminated(Graph& graph, std::span<const NodeId> outputs, st
     if (cut.pieces().empty()) return {};
     const std::vector<NodeId> pieces = simplify_pieces(graph, cut.pieces(), pivots, report);
     std::vector<NodeId> joined = cut.join(pieces, pivots);
-    if (!joined.empty())
-        tell(report, graph, "solved through the terms of a Hessian", count_operations(graph, outputs), joined);
+    if (!joined.empty()) tell(report, graph, Stage::eliminated, count_operations(graph, outputs), joined);
     return joined;
 }
 

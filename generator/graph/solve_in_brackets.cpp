@@ -76,7 +76,7 @@ class BracketSolver {
 
     [[noreturn]] void fail() const
     {
-        throw MathematicsError("error: no " + block_.name + " were found: " + block_.documentation);
+        throw MathematicsError("no " + block_.name + " were found: " + block_.documentation);
     }
 
     /// Moves `moving` towards `end`, twice as far each time, until F has the sign that it must have there; `other`

@@ -52,8 +52,7 @@ class UnknownSolver {
     void run()
     {
         const bool found = at_.finite && (largest_entry(at_.residual) == 0 || (follow_path(), polish()));
-        if (!found)
-            throw MathematicsError("error: Newton's method finds no " + block_.name + ": " + block_.documentation);
+        if (!found) throw MathematicsError("Newton's method finds no " + block_.name + ": " + block_.documentation);
         set(at_.z);
     }
 

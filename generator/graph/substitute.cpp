@@ -63,4 +63,14 @@ std::vector<NodeId> substitute(Graph& graph, std::span<const NodeId> outputs,
     return result;
 }
 
+std::optional<std::vector<NodeId>> substitute_where_defined(Graph& graph, std::span<const NodeId> outputs,
+                                                            std::span<const std::pair<NodeId, NodeId>> replacements)
+{
+    try {
+        return substitute(graph, outputs, replacements);
+    } catch (const DivisionByZero&) {
+        return std::nullopt;
+    }
+}
+
 } // namespace lagen

@@ -37,14 +37,15 @@ MatrixStructure mass_structure(const Regularity& regularity)
 void require_regular_lagrangian(const System& system, const Regularity& regularity, const char* form)
 {
     if (!system.lagrangian)
-        throw MathematicsError(fmt::format("error: model '{}' has no Lagrangian; the {} form needs [lagrangian] L{}",
+        throw MathematicsError(fmt::format("model '{}' has no Lagrangian; the {} form needs [lagrangian] L{}",
                                            system.name, form,
                                            form == std::string("Hamiltonian") ? " or [hamiltonian] H" : ""));
     if (regularity.kind == Regularity::Kind::degenerate)
-        throw MathematicsError(fmt::format(
-            "error: the Lagrangian of model '{}' is degenerate: d2L/dy2 has rank {}, and the {} form "
-            "needs rank {}\nhint: the velocities cannot be solved for; give every fibre coordinate a kinetic term",
-            system.name, regularity.rank, form, system.r()));
+        throw MathematicsError(
+            fmt::format(
+                "the Lagrangian of model '{}' is degenerate: d2L/dy2 has rank {}, and the {} form needs rank {}",
+                system.name, regularity.rank, form, system.r()),
+            "the velocities cannot be solved for; give every fibre coordinate a kinetic term");
 }
 
 std::vector<NodeId> single_blocks(const Graph& graph, const std::vector<NodeId>& W, std::size_t r)

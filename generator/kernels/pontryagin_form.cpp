@@ -237,7 +237,7 @@ Formulation pontryagin_form(Graph& graph, const Model& model, const System& syst
                             const FormulationParts& parts)
 {
     if (!model.control)
-        throw MathematicsError(fmt::format("error: model '{}' is no control problem; the Pontryagin form needs "
+        throw MathematicsError(fmt::format("model '{}' is no control problem; the Pontryagin form needs "
                                            "[control] with controls, sigma and cost",
                                            model.name));
     return PontryaginForm(graph, model, system, report).build(parts);

@@ -174,8 +174,9 @@ Scene in_form(const Model& model, Scene scene, const std::string& form)
         require_form(model, form, fmt::format("'form' of scene '{}'", scene.name), scene.form_where);
     const std::vector<std::string> forms = forms_of(model);
     if (form != form_of(model, scene) && std::ranges::find(forms, form) == forms.end())
-        throw MathematicsError(fmt::format("error: the form asked for is '{}', but the model has {}\nhint: {}", form,
-                                           missing_block(form), form_hint(forms)));
+        throw MathematicsError(
+            fmt::format("the form asked for is '{}', but the model has {}", form, missing_block(form)),
+            form_hint(forms));
     scene.form = form;
     replace_states(model, scene, form);
     if (form == "pontryagin")

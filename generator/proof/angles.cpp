@@ -32,8 +32,16 @@ Fraction Elementary::pi(const char* text)
         const Range range{End{false, mpq_class(333, 106), true}, End{false, mpq_class(355, 113), true}, true};
         Ball value;
         arb_const_pi(value.get(), 256);
-        Generator generator{text, range, 0, {}, -1, false, value};
-        return ring_.add_generator(generator);
+        const Tree number = constant_pi();
+        const bool taken = std::string_view(text) != "pi"; // a name of the model; the number is acos(-1) then
+        return ring_.add_generator({text,
+                                    range,
+                                    0,
+                                    {},
+                                    -1,
+                                    false,
+                                    value,
+                                    taken ? call_of(Function::acos, {negate(lagen::number(1))}) : number});
     }));
 }
 
@@ -55,9 +63,10 @@ std::vector<Elementary::Part> Elementary::parts(const Fraction& argument) const
 void Elementary::make_generators(Unit& unit, const Fraction& atom, bool angle)
 {
     Fraction argument = ring_.times(ring_.constant(unit.size), atom);
-    const std::string text = to_text(ring_, argument, longest_generator);
+    const Printed inner = print(ring_, argument, longest_generator);
     if (!angle) {
-        Generator generator{"exp(" + text + ")", Range::positive(), 0, {}, -1, false};
+        Generator generator{"exp(" + inner.text + ")", Range::positive(), 0, {}, -1, false};
+        generator.tree = call_of(Function::exp, {inner.tree});
         const Signs signs = ring_.signs(argument);
         if (!signs.negative) generator.range.low = End{false, 1, !signs.zero};
         if (!signs.positive) generator.range.high = End{false, 1, !signs.zero};
@@ -70,9 +79,22 @@ void Elementary::make_generators(Unit& unit, const Fraction& atom, bool angle)
     }
     std::optional<Ball> sine = ring_.value_of(argument), cosine = sine;
     if (sine) arb_sin_cos(sine->get(), cosine->get(), Ball(*sine).get(), 256);
-    unit.first = ring_.add_generator({"sin(" + text + ")", angle_range(argument, true), 0, {}, -1, true, sine});
-    unit.second = ring_.add_generator(
-        {"cos(" + text + ")", angle_range(argument, false), 0, {}, static_cast<int>(unit.first), false, cosine});
+    unit.first = ring_.add_generator({"sin(" + inner.text + ")",
+                                      angle_range(argument, true),
+                                      0,
+                                      {},
+                                      -1,
+                                      true,
+                                      sine,
+                                      call_of(Function::sin, {inner.tree})});
+    unit.second = ring_.add_generator({"cos(" + inner.text + ")",
+                                       angle_range(argument, false),
+                                       0,
+                                       {},
+                                       static_cast<int>(unit.first),
+                                       false,
+                                       cosine,
+                                       call_of(Function::cos, {inner.tree})});
     Polynomial relation = constant_polynomial(1);
     relation = add_scaled(relation, generator_polynomial(unit.second, 2), -1, ring_.work());
     ring_.set_relation(unit.first, 2, std::move(relation));
@@ -208,13 +230,18 @@ Fraction Elementary::exponential(const Fraction& argument)
 Fraction Elementary::opaque(const std::string& name, const std::vector<Fraction>& arguments)
 {
     std::string key = name, text = name + '(';
+    std::vector<Tree> trees;
     for (std::size_t k = 0; k < arguments.size(); ++k) {
         key += ':' + key_of(arguments[k]);
-        text += (k == 0 ? "" : ", ") + to_text(ring_, arguments[k], longest_generator);
+        const Printed argument = print(ring_, arguments[k], longest_generator);
+        text += (k == 0 ? "" : ", ") + argument.text;
+        trees.push_back(argument.tree);
         if (key.size() > 1'000'000) throw BudgetExhausted("an argument is longer than 1000000 characters");
     }
     if (text.size() > 2 * longest_generator) text = name + "(...";
-    return ring_.of(ring_.keyed(key, [&] { return ring_.add_generator({text + ')', {}, 0, {}, -1, false}); }));
+    return ring_.of(ring_.keyed(key, [&] {
+        return ring_.add_generator({text + ')', {}, 0, {}, -1, false, std::nullopt, call_of(name, std::move(trees))});
+    }));
 }
 
 } // namespace lagen::proof

@@ -4,14 +4,18 @@
 #include "proof/elementary.hpp"
 #include "proof/print_fraction.hpp"
 
+#include <algorithm>
+
 namespace lagen::proof {
 
-std::optional<Signs> Elementary::assumed(const Polynomial& p, const std::string& text)
+std::optional<Signs> Elementary::assumed(const Polynomial& p, const Tree& tree)
 {
-    const auto at = assumptions_.find(text);
+    if (!tree) return std::nullopt;
+    const auto at = std::ranges::find_if(
+        assumptions_, [&](const Assumption& assumption) { return same_tree(assumption.polynomial, tree); });
     if (at == assumptions_.end()) return std::nullopt;
-    const Signs known = both(at->second, ring_.signs(p));
-    if (applied_.insert(text).second) {
+    const Signs known = both(at->signs, ring_.signs(p));
+    if (applied_.insert(static_cast<std::size_t>(at - assumptions_.begin())).second) {
         ring_.add_fact(p, known);
         ring_.propagate_facts();
         if (!known.negative && !known.positive) eliminate(p);
@@ -58,9 +62,9 @@ Signs Elementary::sign_of(const Fraction& a)
     product = divide_content(std::move(product), common);
     const Signs known = ring_.signs(product);
     if (static_cast<int>(known.negative) + known.zero + known.positive <= 1) return known;
-    const std::string text = to_text(ring_, product, longest_open);
-    if (const auto assumption = assumed(product, text)) return *assumption;
-    if (is_whole(text)) open_signs_.push_back({text, true, std::nullopt});
+    const Tree tree = print(ring_, product, longest_open).tree;
+    if (const auto assumption = assumed(product, tree)) return *assumption;
+    if (tree) open_signs_.push_back({tree, true, std::nullopt});
     return known;
 }
 

@@ -46,7 +46,7 @@ class ZeroDecider::State {
     [[nodiscard]] Decision decide(NodeId residual);
     [[nodiscard]] Decision confirm(NodeId residual, const std::string& argument);
     [[nodiscard]] Signs signs(NodeId value);
-    [[nodiscard]] std::optional<std::vector<std::pair<std::string, std::string>>> sample_point();
+    [[nodiscard]] std::optional<NamedPoint> sample_point();
     [[nodiscard]] Reevaluation reevaluate(NodeId residual, std::size_t points);
 
   private:
@@ -55,7 +55,7 @@ class ZeroDecider::State {
         bool zero = false;
         bool division_by_zero = false;
         bool exhausted = false; ///< the budget
-        std::string text;       ///< of the normal form
+        Printed form;           ///< the normal form
         std::string note;       ///< why there is no verdict from here
     };
 
@@ -84,12 +84,6 @@ class ZeroDecider::State {
 namespace {
 
 constexpr std::size_t modular_points = 5;
-
-/// Whether the search for a witness found the residual defined nowhere.
-bool no_point(const Decision& decision)
-{
-    return decision.evidence.compare(0, 2, "no") == 0;
-}
 
 std::string joined(const std::string& a, const std::string& b)
 {
@@ -173,13 +167,13 @@ ZeroDecider::State::Algebra ZeroDecider::State::reduce(NodeId residual) const
     // Where this fails the common denominator decides, and says why not.
     if (has_many_divisors(residual) && vanishes(residual, {budget_.terms, budget_.products, true})) {
         result.zero = true;
-        result.text = "0";
+        result.form = {"0", number(0)};
         return result;
     }
     try {
         NormalForm forms = normal_form(residual);
         const Fraction form = forms.of(residual);
-        result.text = to_text(forms.ring(), forms.readable(form));
+        result.form = print(forms.ring(), forms.readable(form));
         result.zero = form.is_zero() && (forms.condition().empty() || is_multiple(residual));
         if (form.is_zero() && !result.zero)
             result.note = "zero wherever " + forms.condition() + " != 0, which is not shown on the whole domain";
@@ -191,7 +185,7 @@ ZeroDecider::State::Algebra ZeroDecider::State::reduce(NodeId residual) const
         result.note = error.what();
         result.division_by_zero = true;
     }
-    result.text = to_text(graph_, residual, 397); // the cut adds three dots
+    result.form.text = to_text(graph_, residual, 397); // the cut adds three dots
     return result;
 }
 
@@ -230,12 +224,12 @@ void ZeroDecider::State::search_witness(const Evaluation& evaluation, Sampler& s
         if (!value.is_finite()) continue;
         if (!zero && value.excludes_zero()) {
             decision.status = ProofStatus::refuted;
-            decision.witness = Witness{sampler.text(*point, evaluation.inputs()), nonzero_double(value)};
+            decision.witness = Witness{sampler.values(*point, evaluation.inputs()), nonzero_double(value)};
             return;
         }
         // The evidence speaks of the first points alone: later ones are looked at with one precision only.
         if (finite < std::max<std::size_t>(budget_.points, 1)) bound = std::max(bound, value.bound());
-        ++finite;
+        decision.points = ++finite;
         if (prove) {
             decision.status = ProofStatus::proved;
             return;
@@ -254,14 +248,15 @@ Decision ZeroDecider::State::decide(NodeId residual)
 {
     Decision decision;
     const Algebra algebra = reduce(residual);
-    decision.residual = algebra.text;
+    decision.residual = algebra.form.text;
+    decision.normal_form = algebra.form.tree;
     if (algebra.division_by_zero) {
         decision.evidence = algebra.note;
         return decision;
     }
     const Evaluation evaluation(graph_, {residual});
     search_witness(evaluation, sampler_, algebra.zero, decision);
-    if (decision.status == ProofStatus::undecided && no_point(decision) && sampler_.regular(0) != nullptr) {
+    if (decision.status == ProofStatus::undecided && decision.points == 0 && sampler_.regular(0) != nullptr) {
         // The residual is defined on a part of the domain that the points of the model miss.
         ProofSetting narrower = setting_;
         narrower.defined.push_back(residual);
@@ -271,12 +266,13 @@ Decision ZeroDecider::State::decide(NodeId residual)
     if (algebra.zero && decision.status == ProofStatus::refuted)
         throw InternalError("the residual " + to_text(graph_, residual, 200) +
                             " has the normal form 0 and a point where it is not zero");
-    if (decision.status == ProofStatus::undecided && !no_point(decision) && !algebra.exhausted &&
+    const Decision proved_zero{.status = ProofStatus::proved, .residual = "0", .normal_form = number(0)};
+    if (decision.status == ProofStatus::undecided && decision.points > 0 && !algebra.exhausted &&
         vanishes_with_roots_apart(residual))
-        return {ProofStatus::proved, "0", std::nullopt, {}};
-    if (decision.status == ProofStatus::undecided && !no_point(decision) &&
+        return proved_zero;
+    if (decision.status == ProofStatus::undecided && decision.points > 0 &&
         proves_by_cases(graph_, setting_, constraints_, operands_, residual, {budget_.terms, budget_.products}))
-        return {ProofStatus::proved, "0", std::nullopt, {}};
+        return proved_zero;
     if (decision.status == ProofStatus::undecided && algebra.exhausted && constraints_.empty() &&
         modular_zeros(graph_, residual, modular_points) == modular_points)
         decision.evidence = joined(decision.evidence,
@@ -295,6 +291,7 @@ Decision ZeroDecider::State::confirm(NodeId residual, const std::string& argumen
                             ") and has a point where it is not");
     if (decision.status != ProofStatus::proved) return decision;
     decision.residual = "0";
+    decision.normal_form = number(0);
     decision.evidence = argument;
     return decision;
 }
@@ -315,11 +312,11 @@ Signs ZeroDecider::State::signs(NodeId value)
     return known;
 }
 
-std::optional<std::vector<std::pair<std::string, std::string>>> ZeroDecider::State::sample_point()
+std::optional<NamedPoint> ZeroDecider::State::sample_point()
 {
     const SamplePoint* point = sampler_.regular(0);
     if (point == nullptr) return std::nullopt;
-    return sampler_.text(*point, {});
+    return sampler_.values(*point, {});
 }
 
 Reevaluation ZeroDecider::State::reevaluate(NodeId residual, std::size_t points)
@@ -340,7 +337,7 @@ Reevaluation ZeroDecider::State::reevaluate(NodeId residual, std::size_t points)
         result.bound = std::max(result.bound, value.bound());
         if (!value.excludes_zero() || result.zero_excluded) continue;
         result.zero_excluded = true;
-        result.where = sampler_.text(*point, evaluation.inputs());
+        result.where = sampler_.values(*point, evaluation.inputs());
     }
     return result;
 }
@@ -354,6 +351,15 @@ const ProofBudget& ZeroDecider::budget() const
 {
     return state_->budget();
 }
+std::unique_ptr<ZeroDecider> ZeroDecider::make(const Graph& graph, ProofSetting setting, ProofBudget budget)
+{
+    try {
+        return std::make_unique<ZeroDecider>(graph, std::move(setting), budget);
+    } catch (const TriangularityError&) {
+        return nullptr;
+    }
+}
+
 ZeroDecider::~ZeroDecider() = default;
 
 Decision ZeroDecider::decide(NodeId residual) const
@@ -381,7 +387,7 @@ bool ZeroDecider::proves_nonzero(NodeId value) const
     return state_->signs(value).certainly_nonzero();
 }
 
-std::optional<std::vector<std::pair<std::string, std::string>>> ZeroDecider::sample_point() const
+std::optional<NamedPoint> ZeroDecider::sample_point() const
 {
     return state_->sample_point();
 }

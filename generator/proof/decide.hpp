@@ -21,7 +21,9 @@
 #pragma once
 
 #include "graph/graph.hpp"
+#include "proof/point.hpp"
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -33,19 +35,20 @@ enum class ProofStatus { proved, refuted, undecided };
 
 [[nodiscard]] const char* to_text(ProofStatus status);
 
-/// A point where a residual is certainly not zero. Values are exact rationals ("3/5") or, where a constraint forces an
-/// irrational number, a decimal with at least 17 correct digits; every variable that the setting names is listed.
+/// A point where a residual is certainly not zero; every variable that the setting names is listed.
 struct Witness {
-    std::vector<std::pair<std::string, std::string>> point;
+    NamedPoint point;
     double value = 0; ///< of the residual there (rounded; its enclosure excludes 0)
 };
 
 struct Decision {
     ProofStatus status = ProofStatus::undecided;
-    std::string residual; ///< normal form as text, "0" where proved; deterministic
-    std::optional<Witness> witness;
-    std::string evidence; ///< for `undecided`: what is known, e.g. "|r| < 1e-74 at 3 points; term budget of 20000
-                          ///< exhausted"; for `proved`: the argument, where it is another than a normal form
+    std::string residual;  ///< normal form as text, "0" where proved; deterministic
+    Tree normal_form = {}; ///< the residual's normal form; null where it has none, or was too long
+    std::optional<Witness> witness = {};
+    std::string evidence = {}; ///< for `undecided`: what is known, e.g. "|r| < 1e-74 at 3 points; term budget of 20000
+                               ///< exhausted"; for `proved`: the argument, where it is another than a normal form
+    std::size_t points = 0;    ///< of `undecided`: regular points at which the residual was found to have a value
 };
 
 /// What holds of the variables.
@@ -74,10 +77,10 @@ struct ProofBudget {
 
 /// What a residual is at sample points, by enclosures alone and whatever algebra says.
 struct Reevaluation {
-    std::size_t points = 0;                                 ///< regular points where it has a finite enclosure
-    double bound = 0;                                       ///< the largest certified bound of |value|
-    bool zero_excluded = false;                             ///< at one of the points the value is certainly not zero
-    std::vector<std::pair<std::string, std::string>> where; ///< that point
+    std::size_t points = 0;     ///< regular points where it has a finite enclosure
+    double bound = 0;           ///< the largest certified bound of |value|
+    bool zero_excluded = false; ///< at one of the points the value is certainly not zero
+    NamedPoint where;           ///< that point
 };
 
 /// A base constraint that is not triangular; `index` says which one of ProofSetting::constraints.
@@ -93,9 +96,12 @@ class TriangularityError : public MathematicsError {
 /// Decides residuals of one graph under one setting. Same answers and texts on every run and machine.
 class ZeroDecider {
   public:
-    /// Throws ModelError-free MathematicsError where the constraints are not triangular (each must solve for a new base
-    /// coordinate, linearly or as a monic power); the message says which and why.
+    /// Throws TriangularityError where the constraints are not triangular (each must solve for a new base coordinate,
+    /// linearly or as a monic power); the message says which and why.
     ZeroDecider(const Graph& graph, ProofSetting setting, ProofBudget budget = {});
+    /// The same, null where the constraints are not triangular.
+    [[nodiscard]] static std::unique_ptr<ZeroDecider> make(const Graph& graph, ProofSetting setting,
+                                                           ProofBudget budget = {});
     ~ZeroDecider();
     ZeroDecider(const ZeroDecider&) = delete;
     ZeroDecider& operator=(const ZeroDecider&) = delete;
@@ -114,7 +120,7 @@ class ZeroDecider {
     [[nodiscard]] bool proves_nonzero(NodeId value) const;
 
     /// A regular sample point (all of `variables` and `parameters`), or nothing where none was found.
-    [[nodiscard]] std::optional<std::vector<std::pair<std::string, std::string>>> sample_point() const;
+    [[nodiscard]] std::optional<NamedPoint> sample_point() const;
 
     /// The residual at `points` regular points, with balls to 60 digits: precision grows until |value| < 1e-60 or zero
     /// is excluded. For `check --verify`, with a decider of another seed than that which decided.

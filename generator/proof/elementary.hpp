@@ -15,12 +15,17 @@ namespace lagen::proof {
 /// How cos(a + b) is seen: by the addition theorem, or as a generator of the whole angle (better for signs).
 enum class Angles { split, whole };
 
-/// Signs assumed of polynomials, by their uncut texts: one case of a distinction.
-using Assumptions = std::map<std::string, Signs>;
+/// A sign assumed of a polynomial, which is a tree so that every ring of the distinction knows it.
+struct Assumption {
+    Tree polynomial;
+    Signs signs;
+};
+/// One case of a distinction.
+using Assumptions = std::vector<Assumption>;
 
 /// A sign that a normal form would have needed.
 struct OpenSign {
-    std::string text;                    ///< of the polynomial
+    Tree polynomial;
     bool zero_apart = false;             ///< 0 is a case of its own; else it belongs to both signs
     std::optional<GeneratorId> absolute; ///< the generator that stands for the absolute value
 };
@@ -116,7 +121,7 @@ class Elementary {
     [[nodiscard]] Fraction open_absolute(const Polynomial& p);
     [[nodiscard]] Fraction absolute_generator(const Polynomial& p);
     /// The assumed sign of p, made a fact of the ring at the first use; nothing where p has no assumption.
-    [[nodiscard]] std::optional<Signs> assumed(const Polynomial& p, const std::string& text);
+    [[nodiscard]] std::optional<Signs> assumed(const Polynomial& p, const Tree& tree);
     void eliminate(const Polynomial& p);
     [[nodiscard]] Fraction inverse_angle(const std::string& name, const std::vector<Fraction>& arguments,
                                          const SineCosine& values, const Range& range);
@@ -147,7 +152,7 @@ class Elementary {
     std::map<GeneratorId, SineCosine> inverses_;   ///< sine and cosine of asin, atan, atan2 generators
     std::set<GeneratorId> halved_;                 ///< those in [-pi/2, pi/2]
     Assumptions assumptions_;
-    std::set<std::string> applied_; ///< assumptions that are facts of the ring by now
+    std::set<std::size_t> applied_; ///< assumptions that are facts of the ring by now
     std::vector<OpenSign> open_signs_;
     std::map<GeneratorId, Polynomial> logs_; ///< arguments of log generators
 };
@@ -158,7 +163,7 @@ inline constexpr std::size_t longest_generator = 160;
 /// The greatest rational that divides both.
 [[nodiscard]] mpq_class common_divisor(const mpq_class& a, const mpq_class& b);
 
-/// Longest text of a polynomial whose sign may be assumed; a text that was cut is none.
+/// Longest text of a polynomial whose sign may be assumed.
 inline constexpr std::size_t longest_open = 600;
 
 /// The primes of |number| up to a bound, with multiplicities, and what is left (1, or a number without small primes).

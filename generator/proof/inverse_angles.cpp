@@ -34,12 +34,16 @@ Fraction Elementary::inverse_angle(const std::string& name, const std::vector<Fr
                                    const SineCosine& values, const Range& range)
 {
     std::string key = name, text = name + '(';
+    std::vector<Tree> trees;
     for (std::size_t k = 0; k < arguments.size(); ++k) {
         key += ':' + key_of(arguments[k]);
-        text += (k == 0 ? "" : ", ") + to_text(ring_, arguments[k], longest_generator);
+        const Printed argument = print(ring_, arguments[k], longest_generator);
+        text += (k == 0 ? "" : ", ") + argument.text;
+        trees.push_back(argument.tree);
     }
     const GeneratorId id = ring_.keyed(key, [&] {
         Generator generator{text + ')', range, 0, {}, -1, false};
+        generator.tree = call_of(name, std::move(trees));
         const auto sine = ring_.value_of(values.sine), cosine = ring_.value_of(values.cosine);
         if (sine && cosine) {
             generator.value = Ball();

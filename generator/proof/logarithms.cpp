@@ -12,7 +12,9 @@ Fraction Elementary::log_generator(const Polynomial& p)
     const GeneratorId id = ring_.keyed("log:" + key_of(p), [&] {
         // log p > 0 where p > 1
         const Signs signs = ring_.signs(add_scaled(p, constant_polynomial(1), -1, ring_.work()));
-        Generator generator{"log(" + to_text(ring_, p, longest_generator) + ")", {}, 0, {}, -1, false};
+        const Printed argument = print(ring_, p, longest_generator);
+        Generator generator{"log(" + argument.text + ")", {}, 0, {}, -1, false};
+        generator.tree = call_of(Function::log, {argument.tree});
         if (!signs.negative) generator.range.low = End{false, 0, !signs.zero};
         if (!signs.positive) generator.range.high = End{false, 0, !signs.zero};
         generator.range.nonzero = !signs.zero;
@@ -44,9 +46,8 @@ Fraction Elementary::factor_logarithm(const Polynomial& p)
     if (const Fraction* inner = exponent_of(p)) return *inner;
     if (p.size() == 1 && p[0].coefficient == 1 && p[0].monomial.size() == 1 && p[0].monomial.exponent(0) == 1) {
         const Generator generator = ring_.generator(p[0].monomial.generator(0));
-        // A root w >= 0 with w^q = r, and log w defined: log w = log(r) / q. (Not for |x|, a root of degree 2 of a
-        // square.)
-        if (generator.power > 0 && !generator.range.low.infinite && generator.text.compare(0, 4, "abs(") != 0 &&
+        // A root w >= 0 with w^q = r, and log w defined: log w = log(r) / q.
+        if (generator.power > 0 && !generator.range.low.infinite && !generator.is_absolute &&
             log_depth_ < deepest_log) {
             // Relations of coordinates may lead back to one another (x^2 = x*y): the depth is bounded.
             ++log_depth_;

@@ -18,7 +18,8 @@ NormalForm::NormalForm(const Graph& graph, const ProofSetting& setting,
 {
     const auto declare = [this](NodeId input) {
         if (inputs_.count(input) > 0) return;
-        inputs_[input] = ring_.add_generator({graph_.input_name(input), {}, 0, {}, -1, false});
+        inputs_[input] = ring_.add_generator(
+            {graph_.input_name(input), {}, 0, {}, -1, false, std::nullopt, name(graph_.input_name(input))});
     };
     for (const NodeId input : setting.parameters) declare(input);
     for (const NodeId input : setting.variables) declare(input);
@@ -193,7 +194,9 @@ void NormalForm::solve_constraint(const SolvedConstraint& solved)
         // V = leading * v satisfies the monic V^k = -leading^(k-1) lower.
         const Fraction ratio = ring_.of(leading);
         const std::string& name = graph_.input_name(solved.variable);
-        Generator scaled{"(" + name + "*(" + to_text(ring_, leading) + "))", {}, 0, {}, -1, false};
+        const Printed factor = print(ring_, leading);
+        Generator scaled{"(" + name + "*(" + factor.text + "))", {}, 0, {}, -1, false};
+        if (factor.tree) scaled.tree = lagen::multiply({lagen::name(name), factor.tree});
         scaled.power = solved.degree;
         scaled.relation = ring_.times(negate(ring_.power(leading, solved.degree - 1)), lower);
         const GeneratorId multiple = ring_.add_generator(scaled);

@@ -3,6 +3,7 @@
 /// sin(k pi/L) = V_(L - 2k)(t)/2, where V_0 = 2, V_1 = t, V_(k+1) = t V_k - V_(k-1), and t is a root of the minimal
 /// polynomial of 2 cos(2 pi/m), m = 4 L.
 #include "proof/elementary.hpp"
+#include "proof/print_fraction.hpp"
 
 #include <numeric>
 
@@ -84,7 +85,9 @@ Elementary::SineCosine Elementary::part_of_pi(const mpq_class& turns)
         arb_cos(value.get(), value.get(), 256);
         arb_mul_2exp_si(value.get(), value.get(), 1);
         const Range range{End{false, 0, true}, End{false, 2, true}, true};
-        return ring_.add_generator({text, range, 0, {}, -1, false, value});
+        const Tree angle = divide(constant_pi(), number(2 * L));
+        return ring_.add_generator(
+            {text, range, 0, {}, -1, false, value, lagen::multiply({number(2), call_of(Function::cos, {angle})})});
     });
     if (ring_.generator(id).power == 0) {
         const Coefficients minimal = minimal_polynomial(4 * L);

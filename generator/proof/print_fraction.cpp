@@ -64,6 +64,42 @@ std::string denominator_text(const Ring& ring, const Fraction& a, std::size_t li
     return single ? product : '(' + product + ')';
 }
 
+Tree product_tree(std::vector<Tree> factors)
+{
+    return factors.size() == 1 ? std::move(factors[0]) : multiply(std::move(factors));
+}
+
+Tree power_tree(const Tree& base, unsigned exponent)
+{
+    return exponent == 1 ? base : power(base, number(exponent));
+}
+
+/// Null where a generator has no tree.
+Tree term_tree(const Ring& ring, const Term& term)
+{
+    std::vector<Tree> factors;
+    const mpz_class magnitude = abs(term.coefficient);
+    if (magnitude != 1 || term.monomial.is_one()) factors.push_back(number(Rational(magnitude)));
+    for (std::size_t k = 0; k < term.monomial.size(); ++k) {
+        const Tree& base = ring.generator(term.monomial.generator(k)).tree;
+        if (!base) return nullptr;
+        factors.push_back(power_tree(base, term.monomial.exponent(k)));
+    }
+    const Tree product = product_tree(std::move(factors));
+    return term.coefficient < 0 ? negate(product) : product;
+}
+
+Tree polynomial_tree(const Ring& ring, const Polynomial& p)
+{
+    if (p.empty()) return number(0);
+    std::vector<Tree> terms;
+    for (const Term& term : p) {
+        terms.push_back(term_tree(ring, term));
+        if (!terms.back()) return nullptr;
+    }
+    return terms.size() == 1 ? terms[0] : add(std::move(terms));
+}
+
 } // namespace
 
 std::string to_text(const Ring& ring, const Polynomial& p, std::size_t limit)
@@ -98,6 +134,46 @@ std::string to_text(const Ring& ring, const Fraction& a, std::size_t limit)
 bool is_whole(const std::string& text)
 {
     return text.find("...") == std::string::npos;
+}
+
+Tree to_tree(const Ring& ring, const Fraction& a)
+{
+    const Tree above = polynomial_tree(ring, a.num);
+    std::vector<Tree> below;
+    if (a.scale != 1) below.push_back(number(Rational(a.scale)));
+    for (const auto& [index, power] : a.factors) {
+        const Tree factor = polynomial_tree(ring, ring.factor(index));
+        below.push_back(factor ? power_tree(factor, power) : nullptr);
+    }
+    if (!above || std::ranges::count(below, nullptr) > 0) return nullptr;
+    return below.empty() ? above : divide(above, product_tree(std::move(below)));
+}
+
+Printed print(const Ring& ring, const Fraction& a, std::size_t limit)
+{
+    std::string text = to_text(ring, a, limit);
+    Tree tree = is_whole(text) ? to_tree(ring, a) : nullptr;
+    return {std::move(text), std::move(tree)};
+}
+
+Printed print(const Ring& ring, const Polynomial& p, std::size_t limit)
+{
+    std::string text = to_text(ring, p, limit);
+    Tree tree = is_whole(text) ? polynomial_tree(ring, p) : nullptr;
+    return {std::move(text), std::move(tree)};
+}
+
+Tree call_of(Function function, std::vector<Tree> arguments)
+{
+    if (std::ranges::count(arguments, nullptr) > 0) return nullptr;
+    return call(function, std::move(arguments));
+}
+
+Tree call_of(const std::string& function, std::vector<Tree> arguments)
+{
+    const FunctionEntry* entry = find_function(function);
+    const bool known = entry != nullptr && !entry->array && entry->arity == arguments.size();
+    return known ? call_of(entry->function, std::move(arguments)) : nullptr;
 }
 
 } // namespace lagen::proof

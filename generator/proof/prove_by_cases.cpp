@@ -8,7 +8,7 @@ namespace lagen::proof {
 
 namespace {
 
-constexpr int deepest = 4;                   ///< distinctions, one within another
+constexpr int deepest_case = 4;              ///< distinctions, one within another
 constexpr std::size_t most_sign_terms = 120; ///< of a numerator that is looked at as a sum of signs
 
 bool is_zero(const Signs& signs)
@@ -80,25 +80,28 @@ class Cases {
         } catch (const BudgetExhausted&) {
             return false;
         }
-        if (depth == deepest) return false;
+        if (depth == deepest_case) return false;
         for (const OpenSign& sign : open) {
-            if (assumptions.count(sign.text) > 0) continue;
+            const auto is_known = [&](const Assumption& assumption) {
+                return same_tree(assumption.polynomial, sign.polynomial);
+            };
+            if (std::any_of(assumptions.begin(), assumptions.end(), is_known)) continue;
             const bool apart = std::any_of(open.begin(), open.end(), [&](const OpenSign& other) {
-                return other.zero_apart && other.text == sign.text;
+                return other.zero_apart && same_tree(other.polynomial, sign.polynomial);
             });
-            return prove_each(assumptions, sign.text, apart, depth);
+            return prove_each(assumptions, sign.polynomial, apart, depth);
         }
         return false;
     }
 
   private:
-    [[nodiscard]] bool prove_each(const Assumptions& assumptions, const std::string& text, bool apart, int depth)
+    [[nodiscard]] bool prove_each(const Assumptions& assumptions, const Tree& polynomial, bool apart, int depth)
     {
         std::vector<Signs> cases{{false, !apart, true}, {true, !apart, false}};
         if (apart) cases.push_back({false, true, false});
         return std::all_of(cases.begin(), cases.end(), [&](const Signs& signs) {
             Assumptions more = assumptions;
-            more[text] = signs;
+            more.push_back({polynomial, signs});
             return prove(more, depth + 1);
         });
     }

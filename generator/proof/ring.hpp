@@ -40,6 +40,8 @@ struct Generator {
     int partner = -1; ///< of a cosine: its sine (and of a sine: its cosine)
     bool is_sine = false;
     std::optional<Ball> value = std::nullopt; ///< of a constant such as sqrt(2) or pi
+    Tree tree = nullptr;                      ///< null where it has no name in the language, or one too long to be read
+    bool is_absolute = false;                 ///< |p|: a root of degree 2 of a square, whose logarithm is no half
 };
 
 /// What is known of a polynomial on the domain.

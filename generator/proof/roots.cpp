@@ -69,14 +69,16 @@ Fraction Elementary::root_generator(const Polynomial& radicand, unsigned wanted)
     const unsigned degree = common % wanted == 0 ? common : wanted;
     const std::string key = "root" + std::to_string(degree) + ':' + key_of(radicand);
     const GeneratorId id = ring_.keyed(key, [&] {
-        const std::string inner = to_text(ring_, radicand, longest_generator);
+        const Printed inner = print(ring_, radicand, longest_generator);
         const std::string text =
-            degree == 2 ? "sqrt(" + inner + ")" : "(" + inner + ")^(1/" + std::to_string(degree) + ")";
+            degree == 2 ? "sqrt(" + inner.text + ")" : "(" + inner.text + ")^(1/" + std::to_string(degree) + ")";
+        Tree tree = degree == 2 ? call_of(Function::sqrt, {inner.tree}) : nullptr;
+        if (degree != 2 && inner.tree) tree = power(inner.tree, number(Rational(1, degree)));
         const Range range = ring_.signs(radicand).zero ? Range::nonnegative() : Range::positive();
         std::optional<Ball> value = ring_.value_of(radicand);
         if (value && !value->is_positive()) value.reset();
         if (value) arb_root_ui(value->get(), value->get(), degree, 256);
-        return ring_.add_generator({text, range, degree, radicand, -1, false, value});
+        return ring_.add_generator({text, range, degree, radicand, -1, false, value, tree});
     });
     roots_.insert_or_assign(id, Root{radicand, degree});
     return ring_.of(id, degree / wanted);
@@ -205,24 +207,26 @@ Fraction Elementary::root(const Fraction& argument, unsigned degree)
 Fraction Elementary::absolute_generator(const Polynomial& p)
 {
     const GeneratorId id = ring_.keyed("abs:" + key_of(p), [&] {
-        const std::string text = "abs(" + to_text(ring_, p, longest_generator) + ")";
+        const Printed inner = print(ring_, p, longest_generator);
+        const std::string text = "abs(" + inner.text + ")";
         const Range range = ring_.signs(p).zero ? Range::nonnegative() : Range::positive();
         std::optional<Ball> value = ring_.value_of(p);
         if (value) arb_abs(value->get(), value->get());
-        return ring_.add_generator({text, range, 2, ring_.power(p, 2), -1, false, value});
+        return ring_.add_generator(
+            {text, range, 2, ring_.power(p, 2), -1, false, value, call_of(Function::abs, {inner.tree}), true});
     });
     return ring_.of(id);
 }
 
 Fraction Elementary::open_absolute(const Polynomial& p)
 {
-    const std::string text = to_text(ring_, p, longest_open);
-    if (const auto known = assumed(p, text)) {
+    const Tree tree = print(ring_, p, longest_open).tree;
+    if (const auto known = assumed(p, tree)) {
         if (!known->negative) return ring_.of(p);
         if (!known->positive) return ring_.of(negate(p));
     }
     const Fraction magnitude = absolute_generator(p);
-    if (is_whole(text)) open_signs_.push_back({text, false, magnitude.num[0].monomial.generator(0)});
+    if (tree) open_signs_.push_back({tree, false, magnitude.num[0].monomial.generator(0)});
     return magnitude;
 }
 

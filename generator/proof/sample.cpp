@@ -18,6 +18,35 @@ std::uint64_t mix(std::uint64_t x)
     return x ^ (x >> 31);
 }
 
+Rational rational(const arf_t value)
+{
+    fmpq_t fraction;
+    fmpq_init(fraction);
+    arf_get_fmpq(fraction, value);
+    Rational result;
+    fmpq_get_mpq(result.get_mpq_t(), fraction);
+    fmpq_clear(fraction);
+    return result;
+}
+
+/// A number that is known by an enclosure alone.
+PointValue irrational(const Ball& ball)
+{
+    constexpr slong digits = 20, precision = 128;
+    if (!ball.is_finite()) throw InternalError("a coordinate of a regular point has no value");
+    char* text = arb_get_str(ball.get(), digits, ARB_STR_NO_RADIUS);
+    std::string decimal = text;
+    flint_free(text);
+    arf_t end;
+    arf_init(end);
+    arb_get_lbound_arf(end, ball.get(), precision);
+    Rational lower = rational(end);
+    arb_get_ubound_arf(end, ball.get(), precision);
+    Rational upper = rational(end);
+    arf_clear(end);
+    return {std::move(decimal), std::move(lower), std::move(upper)};
+}
+
 Rational ratio(long above, long below)
 {
     Rational q(above, below);
@@ -218,27 +247,19 @@ ExactInputs Sampler::exact_values(const SamplePoint& point, const std::vector<No
     return values;
 }
 
-std::vector<std::pair<std::string, std::string>> Sampler::text(const SamplePoint& point,
-                                                               const std::vector<NodeId>& more) const
+NamedPoint Sampler::values(const SamplePoint& point, const std::vector<NodeId>& more) const
 {
-    constexpr slong digits = 20;
     std::vector<NodeId> order = setting_.variables;
     order.insert(order.end(), setting_.parameters.begin(), setting_.parameters.end());
     const ExactInputs exact = exact_values(point, more);
     const BallInputs balls = enclosures(point, more, budget_.precision);
     for (const NodeId input : more)
         if (places_.count(input) == 0) order.push_back(input);
-    std::vector<std::pair<std::string, std::string>> result;
+    NamedPoint result;
     for (const NodeId input : order) {
-        std::string value;
-        if (const auto at = exact.find(input); at != exact.end()) {
-            value = at->second.get_str();
-        } else {
-            char* decimal = arb_get_str(balls.at(input).get(), digits, ARB_STR_NO_RADIUS);
-            value = decimal;
-            flint_free(decimal);
-        }
-        result.emplace_back(graph_.input_name(input), std::move(value));
+        const auto at = exact.find(input);
+        result.emplace_back(graph_.input_name(input),
+                            at != exact.end() ? PointValue(at->second) : irrational(balls.at(input)));
     }
     return result;
 }

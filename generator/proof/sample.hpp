@@ -32,8 +32,7 @@ class Sampler {
     /// Exact values of the inputs; those that are irrational are missing.
     [[nodiscard]] ExactInputs exact_values(const SamplePoint& point, const std::vector<NodeId>& more) const;
     /// Names and values, variables first, then parameters, then `more`.
-    [[nodiscard]] std::vector<std::pair<std::string, std::string>> text(const SamplePoint& point,
-                                                                        const std::vector<NodeId>& more) const;
+    [[nodiscard]] NamedPoint values(const SamplePoint& point, const std::vector<NodeId>& more) const;
 
   private:
     struct Bounds {

@@ -99,18 +99,21 @@ void Elementary::make_family(Family& family, const Fraction& kernel)
         const Polynomial factor = ring_.factor(index);
         below = ring_.times(below, ring_.power(factor, power));
     }
-    const std::string text = to_text(ring_, family.argument, longest_generator);
-    const std::string name = "stumpff(1, " + text + ")";
-    const GeneratorId odd =
-        ring_.add_generator({is_one(below) ? name : "(" + name + "/(" + to_text(ring_, below, longest_generator) + "))",
-                             {},
-                             0,
-                             {},
-                             -1,
-                             false});
+    const Printed argument = print(ring_, family.argument, longest_generator);
+    const Printed divisor = print(ring_, below, longest_generator);
+    const auto generator = [&](unsigned order, const Range& range) {
+        Generator made{"stumpff(" + std::to_string(order) + ", " + argument.text + ")", range, 0, {}, -1, false};
+        made.tree = call_of(Function::stumpff, {number(order), argument.tree});
+        return made;
+    };
+    Generator quotient = generator(1, {});
+    if (!is_one(below)) {
+        quotient.text = "(" + quotient.text + "/(" + divisor.text + "))";
+        quotient.tree = quotient.tree && divisor.tree ? divide(quotient.tree, divisor.tree) : nullptr;
+    }
+    const GeneratorId odd = ring_.add_generator(std::move(quotient));
     const bool circular = ring_.signs(kernel).certainly_nonnegative();
-    const GeneratorId even =
-        ring_.add_generator({"stumpff(0, " + text + ")", circular ? Range::between(-1, 1) : Range{}, 0, {}, -1, false});
+    const GeneratorId even = ring_.add_generator(generator(0, circular ? Range::between(-1, 1) : Range{}));
     const Polynomial square = ring_.times(ring_.times(family.argument.num, below), generator_polynomial(odd, 2));
     ring_.set_relation(even, 2, add_scaled(constant_polynomial(1), square, -1, ring_.work()));
     family.first = {ring_.of(even), ring_.times(ring_.of(below), ring_.of(odd))};

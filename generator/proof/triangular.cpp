@@ -129,10 +129,15 @@ std::vector<SolvedConstraint> triangular_constraints(const Graph& graph, const P
     for (std::size_t k = 0; k < setting.constraints.size(); ++k) {
         const std::string what =
             "base constraint " + std::to_string(k + 1) + ", " + to_text(graph, setting.constraints[k], 120);
+        const auto refuse = [&](const std::runtime_error& reason) {
+            throw TriangularityError(what + ", cannot be brought to a polynomial form: " + reason.what(), k);
+        };
         try {
             all.push_back(analyse(graph, setting, k));
-        } catch (const std::runtime_error& error) {
-            throw TriangularityError(what + ", cannot be brought to a polynomial form: " + error.what(), k);
+        } catch (const BudgetExhausted& error) {
+            refuse(error);
+        } catch (const VanishingDivisor& error) {
+            refuse(error);
         }
         std::size_t budget = most_assignments;
         chosen.clear();

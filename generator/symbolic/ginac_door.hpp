@@ -10,6 +10,7 @@
 #include <ginac/ginac.h>
 
 #include <map>
+#include <new>
 
 namespace lagen {
 
@@ -34,6 +35,22 @@ struct Order {
 
 /// What a tree may cost when it is written out without sharing.
 inline constexpr std::size_t symbolic_size_limit = 50'000;
+
+/// What `work` gives. GiNaC reports poles, functions that it does not have and sizes that it cannot hold by
+/// std::exceptions of many kinds: each becomes a MathematicsError, "`failure`: " and its text.
+template <class Work>
+auto with_ginac(const std::string& failure, const Work& work)
+{
+    try {
+        return work();
+    } catch (const Error&) { // says itself what is wrong
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& error) {
+        throw MathematicsError(failure + ": " + error.what());
+    }
+}
 
 /// A closed, smooth tree in GiNaC. Throws MathematicsError where it has more than `symbolic_size_limit` nodes without
 /// sharing, where it has a function or comparison that is not smooth, and where GiNaC finds a pole (division by zero).

@@ -303,7 +303,7 @@ class Shortest {
 
 Tree shortest_form(const GiNaC::ex& expression, const SymbolTable& symbols, const Order& order)
 {
-    try {
+    return with_ginac("an expression could not be rewritten", [&] {
         Shortest shortest;
         if (expanded_terms(expression) <= term_limit) {
             const SortedTerm expanded = sort_expression(expression.expand(), symbols, order);
@@ -322,11 +322,7 @@ Tree shortest_form(const GiNaC::ex& expression, const SymbolTable& symbols, cons
         }
         shortest.offer(from_ginac(expression, symbols, order));
         return shortest.best();
-    } catch (const Error&) {
-        throw;
-    } catch (const std::exception& error) {
-        throw MathematicsError(std::string("an expression could not be rewritten: ") + error.what());
-    }
+    });
 }
 
 std::optional<std::size_t> expanded_length(const GiNaC::ex& expression)

@@ -129,7 +129,7 @@ class ToGinac {
         }
         if (size > symbolic_size_limit)
             throw MathematicsError(
-                "error: the expression has more than " + std::to_string(symbolic_size_limit) +
+                "the expression has more than " + std::to_string(symbolic_size_limit) +
                 " terms and factors when it is written out, too many for a formula that a person could read");
         done_.emplace(&node, Done{value_of(node, arguments), size});
     }
@@ -169,13 +169,7 @@ class ToGinac {
 
 GiNaC::ex to_ginac(const Tree& tree, SymbolTable& symbols)
 {
-    try {
-        return ToGinac(symbols)(tree);
-    } catch (const Error&) {
-        throw;
-    } catch (const std::exception& error) {
-        throw MathematicsError(std::string("an expression has no value: ") + error.what());
-    }
+    return with_ginac("an expression has no value", [&] { return ToGinac(symbols)(tree); });
 }
 
 } // namespace lagen

@@ -81,8 +81,8 @@ void Claims::require_triangular_constraints()
         growing.constraints.push_back(system_.functions.constraints[k]);
         try {
             ZeroDecider(graph_, growing);
-        } catch (const MathematicsError& error) {
-            throw ModelError(error.what(), k < written.size() ? written[k]->where : SourceRange{},
+        } catch (const TriangularityError& error) {
+            throw ModelError(error.message(), k < written.size() ? written[k]->where : SourceRange{},
                              "each constraint must solve for a base coordinate that no earlier one uses up, linearly "
                              "or as a monic power");
         }

@@ -172,8 +172,8 @@ ControlMaximum decide_maximum(Graph& graph, const ControlProblem& control, const
 void require_maximum(const std::string& model, const ControlMaximum& maximum)
 {
     if (maximum.kind == Kind::absent || maximum.kind == Kind::maximal || maximum.kind == Kind::stationary) return;
-    throw MathematicsError(fmt::format("error: the controls of model '{}' are not solved for: {}\nhint: {}", model,
-                                       maximum.reason, maximum.hint));
+    throw MathematicsError(fmt::format("the controls of model '{}' are not solved for: {}", model, maximum.reason),
+                           maximum.hint);
 }
 
 } // namespace lagen

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "verify/kernel_vectors.hpp"
 
-#include "expression/parse.hpp"
 #include "graph/lower.hpp"
-#include "proof/print_fraction.hpp"
 #include "proof/rational_matrix.hpp"
 #include "verify/reduced_fraction.hpp"
 
@@ -24,26 +22,25 @@ constexpr std::size_t longest_input = 2000;
 Tree shorter_tree(const Graph& graph, NodeId node, const Decision& decision)
 {
     Tree tree = to_tree(graph, node);
-    if (!proof::is_whole(decision.residual) || decision.residual.size() >= to_text(tree).size()) return tree;
-    try {
-        return parse_expression(whole_text("<normal form>", decision.residual));
-    } catch (const Error&) {
-        return tree; // a name that cannot be read back
-    }
+    const bool shorter = decision.normal_form && to_text(decision.normal_form).size() < to_text(tree).size();
+    return shorter ? decision.normal_form : tree;
 }
 
-/// The shortest of what was built, its normal form and its reduced fraction; empty where all are too long.
-std::string text_of(Graph& graph, NodeId node, const Decision& decision, const Order& order, const ZeroDecider& decider)
+/// The shortest of what was built, its normal form and its reduced fraction; null where all are too long.
+Tree tree_of(Graph& graph, NodeId node, const Decision& decision, const Order& order, const ZeroDecider& decider)
 {
-    const Tree tree = shorter_tree(graph, node, decision);
-    std::string text = to_text(tree);
-    if (text.size() > longest_input) return "";
-    const auto offer = [&](std::string other) {
-        if (!other.empty() && other.size() <= text.size()) text = std::move(other);
+    Tree tree = shorter_tree(graph, node, decision);
+    std::size_t size = to_text(tree).size();
+    if (size > longest_input) return nullptr;
+    const auto offer = [&](const Tree& other) {
+        const std::size_t other_size = to_text(other).size();
+        if (other_size > size) return;
+        tree = other;
+        size = other_size;
     };
-    if (proof::is_whole(decision.residual)) offer(decision.residual);
-    if (const auto reduced = reduced_fraction(graph, node, tree, order, decider)) offer(to_text(*reduced));
-    return text.size() <= longest_component ? text : "";
+    if (decision.normal_form) offer(decision.normal_form);
+    if (const auto reduced = reduced_fraction(graph, node, tree, order, decider)) offer(*reduced);
+    return size <= longest_component ? tree : nullptr;
 }
 
 /// Whether W k = 0 is proved in the rows of a block.
@@ -75,29 +72,42 @@ std::vector<NodeId> kernel_entries(Graph& graph, const FibreHessian& hessian, co
     return k;
 }
 
+/// The least common denominator; null where that is a number, or GiNaC cannot say: it lacks functions, and meets poles.
+Tree common_denominator(const std::vector<Tree>& trees, const Order& order)
+{
+    try {
+        return with_ginac("no common denominator", [&]() -> Tree {
+            SymbolTable symbols;
+            GiNaC::exmap functions; // as symbols: lcm knows polynomials alone
+            GiNaC::ex common = 1;
+            for (const Tree& tree : trees) {
+                const GiNaC::ex denominator = to_ginac(tree, symbols).normal().denom();
+                common = GiNaC::lcm(common, denominator.to_polynomial(functions));
+            }
+            if (GiNaC::is_a<GiNaC::numeric>(common)) return nullptr;
+            return shortest_form(common.subs(functions), symbols, order);
+        });
+    } catch (const MathematicsError&) {
+        return nullptr;
+    }
+}
+
 /// k times the least common denominator of its entries, so that it is defined wherever W is; k itself where that is a
 /// number, or takes too long to find.
 std::vector<NodeId> without_denominators(Graph& graph, const std::vector<NodeId>& k, const Order& order,
                                          const ZeroDecider& decider)
 {
-    try {
-        SymbolTable symbols;
-        GiNaC::exmap functions; // as symbols: lcm knows polynomials alone
-        GiNaC::ex common = 1;
-        for (const NodeId entry : k) {
-            const Tree tree = shorter_tree(graph, entry, decider.decide(entry));
-            if (to_text(tree).size() > longest_input) return k;
-            const GiNaC::ex denominator = to_ginac(tree, symbols).normal().denom();
-            common = GiNaC::lcm(common, denominator.to_polynomial(functions));
-        }
-        if (GiNaC::is_a<GiNaC::numeric>(common)) return k;
-        const NodeId factor = Lowering(graph)(shortest_form(common.subs(functions), symbols, order));
-        std::vector<NodeId> multiple;
-        for (const NodeId entry : k) multiple.push_back(graph.multiply(factor, entry));
-        return multiple;
-    } catch (const std::exception&) {
-        return k; // a function that GiNaC does not have
+    std::vector<Tree> trees;
+    for (const NodeId entry : k) {
+        trees.push_back(shorter_tree(graph, entry, decider.decide(entry)));
+        if (to_text(trees.back()).size() > longest_input) return k;
     }
+    const Tree common = common_denominator(trees, order);
+    if (common == nullptr) return k;
+    const NodeId factor = Lowering(graph)(common);
+    std::vector<NodeId> multiple;
+    for (const NodeId entry : k) multiple.push_back(graph.multiply(factor, entry));
+    return multiple;
 }
 
 void append_vectors(std::vector<KernelVector>& vectors, Graph& graph, const FibreHessian& hessian, const Block& block,
@@ -115,8 +125,8 @@ void append_vectors(std::vector<KernelVector>& vectors, Graph& graph, const Fibr
         for (std::size_t b = 0; b < block.size(); ++b) {
             const Decision decision = decider.decide(k[b]);
             if (decision.status == ProofStatus::proved) continue;
-            vector.emplace_back(block[b], text_of(graph, k[b], decision, order, decider));
-            readable = readable && !vector.back().second.empty();
+            vector.emplace_back(block[b], tree_of(graph, k[b], decision, order, decider));
+            readable = readable && vector.back().second != nullptr;
         }
         if (readable) vectors.push_back(std::move(vector));
     }
@@ -135,7 +145,7 @@ bool append_constant_vectors(std::vector<KernelVector>& vectors, const Graph& gr
     for (const std::vector<Rational>& k : kernel_of(entries, block.size())) {
         KernelVector vector;
         for (std::size_t b = 0; b < block.size(); ++b)
-            if (k[b] != 0) vector.emplace_back(block[b], k[b].get_str());
+            if (k[b] != 0) vector.emplace_back(block[b], number(k[b]));
         vectors.push_back(std::move(vector));
     }
     return true;

@@ -15,7 +15,7 @@ namespace lagen {
                                                                               const ZeroDecider& decider);
 
 /// Components that are not zero, by fibre coordinate.
-using KernelVector = std::vector<std::pair<std::size_t, std::string>>;
+using KernelVector = std::vector<std::pair<std::size_t, Tree>>;
 
 /// A basis of the kernel wherever minors and denominators do not vanish; W k = 0 is proved of each vector that is
 /// listed. A vector is left out where that is not decided, and where a component is too long to be read. `setting`

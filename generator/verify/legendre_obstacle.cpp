@@ -160,12 +160,6 @@ bool is_quadratic(Graph& graph, const FibreHessian& hessian, SmoothSet& smooth)
     return true;
 }
 
-/// An exact rational or a decimal of a sample point.
-double number_in(const std::string& text)
-{
-    return text.find_first_not_of("-0123456789/") == std::string::npos ? Rational(text).get_d() : std::stod(text);
-}
-
 /// Fibre coordinates of a sample point where L, momenta or W are not defined or smooth at 0, as for L = v log(v); else
 /// empty.
 std::vector<Rational> newton_start(Graph& graph, const FibreHessian& hessian, const ZeroDecider& decider)
@@ -173,7 +167,7 @@ std::vector<Rational> newton_start(Graph& graph, const FibreHessian& hessian, co
     const auto point = decider.sample_point();
     if (!point) return {};
     std::map<std::string, double> inputs;
-    for (const auto& [name, text] : *point) inputs[name] = number_in(text);
+    for (const auto& [name, value] : *point) inputs[name] = to_double(value);
     std::vector<Rational> start;
     for (const NodeId y : hessian.y) {
         double& value = inputs[graph.input_name(y)];
@@ -229,12 +223,11 @@ std::optional<std::vector<Rational>> strictly_convex_start(Graph& graph, const F
 void require_legendre_transform(const std::string& model, const Regularity& regularity)
 {
     if (regularity.legendre_obstacle.empty()) return;
-    throw MathematicsError(fmt::format(
-        "error: the momenta dL/dy of model '{}' are not shown to fix the velocities, as its Hamiltonian form "
-        "needs: {}\n"
-        "hint: give [hamiltonian] H, or conditions on x and parameters in [base] domain under which d2L/dy2 is "
-        "definite",
-        model, regularity.legendre_obstacle));
+    throw MathematicsError(
+        fmt::format("the momenta dL/dy of model '{}' are not shown to fix the velocities, as its Hamiltonian form "
+                    "needs: {}",
+                    model, regularity.legendre_obstacle),
+        "give [hamiltonian] H, or conditions on x and parameters in [base] domain under which d2L/dy2 is definite");
 }
 
 } // namespace lagen

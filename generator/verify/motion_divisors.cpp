@@ -5,6 +5,8 @@
 #include "graph/smoothness.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <map>
 
 namespace lagen {
 
@@ -35,25 +37,29 @@ void MotionDivisors::collect(const std::vector<NodeId>& motion)
 std::vector<NodeId> MotionDivisors::linear_roots(NodeId lagrangian, const std::vector<NodeId>& y) const
 {
     const auto depends_on_y = [&](NodeId node) { return depends_on_any(graph_, std::vector<NodeId>{node}, y); };
-    std::vector<NodeId> terms = {lagrangian};
+    // How often a term stands in L, once or more; operands come before their node, so the greatest is complete.
+    std::map<NodeId, std::size_t, std::greater<>> terms = {{lagrangian, 1}};
     std::vector<NodeId> roots;
     while (!terms.empty()) {
-        const NodeId term = terms.back();
+        const auto [term, count] = *terms.begin();
+        terms.erase(terms.begin());
         const auto operands = graph_.operands(term);
-        terms.pop_back();
+        const auto add = [&terms, times = count](NodeId node) {
+            std::size_t& known = terms[node];
+            known = std::min<std::size_t>(known + times, 2);
+        };
         switch (graph_.op(term)) {
         case Op::add:
         case Op::subtract:
-        case Op::negate: terms.insert(terms.end(), operands.begin(), operands.end()); break;
+        case Op::negate: std::ranges::for_each(operands, add); break;
         case Op::divide:
-            if (!depends_on_y(operands[1])) terms.push_back(operands[0]);
+            if (!depends_on_y(operands[1])) add(operands[0]);
             break;
         case Op::multiply:
             for (const std::size_t k : {0U, 1U})
-                if (!depends_on_y(operands[k]) && decider_->proves_nonzero(operands[k]))
-                    terms.push_back(operands[1 - k]);
+                if (!depends_on_y(operands[k]) && decider_->proves_nonzero(operands[k])) add(operands[1 - k]);
             break;
-        case Op::sqrt: roots.push_back(term); break;
+        case Op::sqrt: roots.insert(roots.end(), count, term); break;
         default: break;
         }
     }

@@ -5,6 +5,23 @@
 
 namespace lagen {
 
+namespace {
+
+/// By GiNaC; null where it does not have a function of the tree, or meets a pole.
+Tree reduced_tree(const Tree& tree, const Order& order)
+{
+    try {
+        return with_ginac("no reduced fraction", [&] {
+            SymbolTable symbols;
+            return shortest_form(to_ginac(tree, symbols).normal(), symbols, order);
+        });
+    } catch (const MathematicsError&) {
+        return nullptr;
+    }
+}
+
+} // namespace
+
 Order writing_order(const Graph& graph, const ProofSetting& setting)
 {
     Order order;
@@ -16,14 +33,11 @@ Order writing_order(const Graph& graph, const ProofSetting& setting)
 std::optional<Tree> reduced_fraction(Graph& graph, NodeId node, const Tree& tree, const Order& order,
                                      const ZeroDecider& decider)
 {
-    try {
-        SymbolTable symbols;
-        const Tree reduced = shortest_form(to_ginac(tree, symbols).normal(), symbols, order);
-        const NodeId difference = graph.subtract(Lowering(graph)(reduced), node);
-        if (decider.decide(difference).status == ProofStatus::proved) return reduced;
-    } catch (const std::exception&) { // a function that GiNaC does not have, or a pole where it evaluates
-    }
-    return std::nullopt;
+    const Tree reduced = reduced_tree(tree, order);
+    if (reduced == nullptr) return std::nullopt;
+    const NodeId difference = graph.subtract(Lowering(graph)(reduced), node);
+    if (decider.decide(difference).status != ProofStatus::proved) return std::nullopt;
+    return reduced;
 }
 
 } // namespace lagen

@@ -22,15 +22,13 @@ using Point = NamedPoint;
 /// For ranks, where a witness is usually all that is needed.
 constexpr ProofBudget witness_budget{.products = 200'000};
 
-/// The values of an exact sample point; nothing where one of them is a decimal (an irrational coordinate, rounded).
+/// The values of an exact sample point; nothing where one of them is irrational.
 std::optional<std::map<std::string, Rational>> exact_values(const Point& point)
 {
     std::map<std::string, Rational> values;
-    for (const auto& [name, text] : point) {
-        if (text.find_first_not_of("-0123456789/") != std::string::npos) return {};
-        Rational value(text);
-        value.canonicalize();
-        values.emplace(name, std::move(value));
+    for (const auto& [name, value] : point) {
+        if (!value.exact) return {};
+        values.emplace(name, *value.exact);
     }
     return values;
 }
@@ -173,10 +171,11 @@ void describe_singular(Regularity& result, Graph& graph, const ProofSetting& set
                        const std::vector<std::vector<NodeId>>& minors)
 {
     const std::vector<NodeId> determinants = determinants_of(minors);
-    const std::vector<NodeId> values = substitute(graph, determinants, defaults);
-    result.singular_everywhere =
-        std::ranges::any_of(values, [&](NodeId value) { return valued.decide(value).status == ProofStatus::proved; });
-    if (!result.singular_everywhere) result.singular_at = singular_points(graph, there, valued.budget(), values);
+    if (const auto values = substitute_where_defined(graph, determinants, defaults)) {
+        result.singular_everywhere = std::ranges::any_of(
+            *values, [&](NodeId value) { return valued.decide(value).status == ProofStatus::proved; });
+        if (!result.singular_everywhere) result.singular_at = singular_points(graph, there, valued.budget(), *values);
+    }
     if (determinants.size() == minors.size())
         result.singular_where = singular_factors(graph, setting, valued, defaults, determinants);
 }
@@ -198,34 +197,38 @@ bool add_ranks(Graph& graph, const FibreHessian& hessian, const ZeroDecider& dec
     return true;
 }
 
-/// W, and what holds, where the parameters have the values of the file. Throws where these make something undefined.
+/// W, and what holds, where the parameters have the values of the file.
 struct AtDefaults {
     ProofSetting setting;
     FibreHessian hessian;
-    ZeroDecider decider;
-
-    AtDefaults(Graph& graph, const FibreHessian& general, const ProofSetting& all, const ProofBudget& budget,
-               const Replacements& defaults)
-        : setting(replaced(graph, all, defaults)), hessian(general), decider(graph, setting, budget)
-    {
-        const NodeId lagrangian[] = {general.lagrangian};
-        hessian.lagrangian = substitute(graph, lagrangian, defaults)[0];
-        hessian.hessian = substitute(graph, general.hessian, defaults);
-    }
+    std::unique_ptr<ZeroDecider> decider;
 };
+
+/// Nothing where these values make something undefined, or leave constraints that are not triangular.
+std::optional<AtDefaults> at_defaults(Graph& graph, const FibreHessian& general, const ProofSetting& all,
+                                      const ProofBudget& budget, const Replacements& defaults)
+{
+    const NodeId lagrangian[] = {general.lagrangian};
+    const auto value = substitute_where_defined(graph, lagrangian, defaults);
+    auto entries = substitute_where_defined(graph, general.hessian, defaults);
+    auto setting = replaced(graph, all, defaults);
+    if (!value || !entries || !setting) return std::nullopt;
+    auto decider = ZeroDecider::make(graph, *setting, budget);
+    if (!decider) return std::nullopt;
+    AtDefaults there{std::move(*setting), general, std::move(decider)};
+    there.hessian.lagrangian = (*value)[0];
+    there.hessian.hessian = std::move(*entries);
+    return there;
+}
 
 /// Definite by squares where the parameters have the values of the file.
 bool is_definite_for(Graph& graph, const FibreHessian& hessian, const ProofSetting& setting, const ProofBudget& budget,
                      const Replacements& defaults)
 {
     if (defaults.empty()) return false;
-    try {
-        const AtDefaults there(graph, hessian, setting, budget, defaults);
-        return proves_definite_by_squares(graph, there.hessian, there.decider) &&
-               there.decider.sample_point().has_value();
-    } catch (const Error&) {
-        return false; // the values of the file make something undefined
-    }
+    const std::optional<AtDefaults> there = at_defaults(graph, hessian, setting, budget, defaults);
+    return there && proves_definite_by_squares(graph, there->hessian, *there->decider) &&
+           there->decider->sample_point().has_value();
 }
 
 /// Whether W, which is regular at one point, is so at almost all.
@@ -248,12 +251,8 @@ bool is_regular_for(Graph& graph, const FibreHessian& hessian, const ProofSettin
                     const Replacements& defaults)
 {
     if (defaults.empty()) return true;
-    try {
-        const AtDefaults there(graph, hessian, setting, budget, defaults);
-        return is_regular_almost_everywhere(graph, there.hessian, there.setting, there.decider);
-    } catch (const Error&) {
-        return true;
-    }
+    const std::optional<AtDefaults> there = at_defaults(graph, hessian, setting, budget, defaults);
+    return !there || is_regular_almost_everywhere(graph, there->hessian, there->setting, *there->decider);
 }
 
 /// Of a W of full generic rank: where it is regular, and whether definite.
@@ -275,22 +274,21 @@ void decide_everywhere(Regularity& result, Graph& graph, const FibreHessian& hes
             describe_singular(result, graph, setting, decider, setting, defaults, minors);
         return;
     }
-    try {
-        const AtDefaults there(graph, hessian, setting, decider.budget(), defaults);
-        const Shown given =
-            is_definite_for(graph, hessian, setting, decider.budget(), defaults)
-                ? Shown{}
-                : show(graph, there.hessian, there.setting, there.decider, leading_minors(graph, there.hessian));
-        result.for_given_parameters = given.positive_definite || (given.regular && !shown.regular);
-        result.positive_definite = given.positive_definite;
-        if (given.regular || shown.regular)
-            result.kind = Regularity::Kind::regular;
-        else
-            describe_singular(result, graph, setting, there.decider, there.setting, defaults, minors);
-    } catch (const Error&) {
-        // The values of the file make something undefined: the claim for all parameters stands alone.
+    const std::optional<AtDefaults> there = at_defaults(graph, hessian, setting, decider.budget(), defaults);
+    if (!there) { // the claim for all parameters stands alone
         if (shown.regular) result.kind = Regularity::Kind::regular;
+        return;
     }
+    const Shown given =
+        is_definite_for(graph, hessian, setting, decider.budget(), defaults)
+            ? Shown{}
+            : show(graph, there->hessian, there->setting, *there->decider, leading_minors(graph, there->hessian));
+    result.for_given_parameters = given.positive_definite || (given.regular && !shown.regular);
+    result.positive_definite = given.positive_definite;
+    if (given.regular || shown.regular)
+        result.kind = Regularity::Kind::regular;
+    else
+        describe_singular(result, graph, setting, *there->decider, there->setting, defaults, minors);
 }
 
 } // namespace

@@ -58,7 +58,8 @@ std::vector<std::string> singular_factors(Graph& graph, const ProofSetting& sett
         append_factors(factors, reduced_fraction(graph, determinant, tree, order, decider).value_or(tree));
         for (const Tree& factor : factors) {
             const std::vector<NodeId> node = {Lowering(graph)(factor)};
-            if (valued.proves_nonzero(substitute(graph, node, defaults)[0])) continue;
+            const auto there = substitute_where_defined(graph, node, defaults);
+            if (there && valued.proves_nonzero((*there)[0])) continue;
             const std::string text = to_text(factor);
             if (text.size() > longest_factor) return {};
             if (std::ranges::find(texts, text) == texts.end()) texts.push_back(text);

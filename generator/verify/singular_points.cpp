@@ -14,29 +14,36 @@ constexpr ProofBudget slice_budget{.products = 200'000};
 
 using Replacements = std::vector<std::pair<NodeId, NodeId>>;
 
-/// A point of the slice `zero` where a determinant vanishes; it does on the whole slice.
+/// A point of the slice `zero` where a determinant vanishes; it does on the whole slice. None where something is not
+/// defined on the slice, or the constraints are not triangular there.
 std::optional<NamedPoint> singular_point(Graph& graph, const ProofSetting& setting, const ProofBudget& budget,
                                          const Replacements& zero, const std::vector<NodeId>& determinants)
 {
-    const ZeroDecider decider(graph, replaced(graph, setting, zero), smaller(budget, slice_budget));
-    std::optional<NamedPoint> point = decider.sample_point();
+    const std::optional<ProofSetting> slice = replaced(graph, setting, zero);
+    const auto there = substitute_where_defined(graph, determinants, zero);
+    if (!slice || !there) return {};
+    const std::unique_ptr<ZeroDecider> decider = ZeroDecider::make(graph, *slice, smaller(budget, slice_budget));
+    std::optional<NamedPoint> point = decider ? decider->sample_point() : std::nullopt;
     if (!point) return {};
-    for (const NodeId determinant : substitute(graph, determinants, zero))
-        if (decider.decide(determinant).status == ProofStatus::proved) return point;
+    for (const NodeId determinant : *there)
+        if (decider->decide(determinant).status == ProofStatus::proved) return point;
     return {};
 }
 
 } // namespace
 
-ProofSetting replaced(Graph& graph, const ProofSetting& setting, const Replacements& values)
+std::optional<ProofSetting> replaced(Graph& graph, const ProofSetting& setting, const Replacements& values)
 {
     ProofSetting result = setting;
     for (const auto& [input, value] : values) {
         std::erase(result.variables, input);
         std::erase(result.parameters, input);
     }
-    for (std::vector<NodeId>* nodes : {&result.constraints, &result.domain, &result.defined})
-        *nodes = substitute(graph, *nodes, values);
+    for (std::vector<NodeId>* nodes : {&result.constraints, &result.domain, &result.defined}) {
+        auto there = substitute_where_defined(graph, *nodes, values);
+        if (!there) return std::nullopt;
+        *nodes = std::move(*there);
+    }
     return result;
 }
 
@@ -46,15 +53,11 @@ std::vector<NamedPoint> singular_points(Graph& graph, const ProofSetting& settin
     std::vector<NamedPoint> points;
     for (std::size_t k = 0; k < setting.variables.size() && points.size() < point_limit; ++k) {
         const NodeId variable = setting.variables[k];
-        try {
-            std::optional<NamedPoint> point =
-                singular_point(graph, setting, budget, {{variable, graph.constant(0)}}, determinants);
-            if (!point) continue;
-            point->insert(point->begin() + static_cast<std::ptrdiff_t>(k), {graph.input_name(variable), "0"});
-            points.push_back(std::move(*point));
-        } catch (const Error&) {
-            // A division by zero, or constraints that do not meet the slice: no point of the model is known here.
-        }
+        std::optional<NamedPoint> point =
+            singular_point(graph, setting, budget, {{variable, graph.constant(0)}}, determinants);
+        if (!point) continue;
+        point->insert(point->begin() + static_cast<std::ptrdiff_t>(k), {graph.input_name(variable), Rational(0)});
+        points.push_back(std::move(*point));
     }
     return points;
 }

@@ -6,17 +6,15 @@
 
 namespace lagen {
 
-/// A point as names and values.
-using NamedPoint = std::vector<std::pair<std::string, std::string>>;
-
 /// One point on each slice "a variable is zero" on which everything is defined and one of `determinants` is proved to
 /// vanish; eight at most.
 [[nodiscard]] std::vector<NamedPoint> singular_points(Graph& graph, const ProofSetting& setting,
                                                       const ProofBudget& budget,
                                                       const std::vector<NodeId>& determinants);
 
-/// The setting with some of its inputs replaced; those are no variables or parameters any more.
-[[nodiscard]] ProofSetting replaced(Graph& graph, const ProofSetting& setting,
-                                    const std::vector<std::pair<NodeId, NodeId>>& values);
+/// The setting with some of its inputs replaced; those are no variables or parameters any more. Nothing where a divisor
+/// becomes the constant 0.
+[[nodiscard]] std::optional<ProofSetting> replaced(Graph& graph, const ProofSetting& setting,
+                                                   const std::vector<std::pair<NodeId, NodeId>>& values);
 
 } // namespace lagen

@@ -52,7 +52,7 @@ void require_confirmed(const Check& check)
     for (const std::string& index : check.indices) what += " " + index;
     std::string where;
     for (const auto& [name, value] : check.reevaluation->where)
-        where += (where.empty() ? " at " : ", ") + name + " = " + value;
+        where += (where.empty() ? " at " : ", ") + name + " = " + to_text(value);
     throw InternalError("the residual of " + what + " was proved to be zero, and is certainly not zero" + where);
 }
 

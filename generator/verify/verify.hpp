@@ -31,18 +31,18 @@ enum class Verdict { valid, invalid, undecided };
 /// Of the fibre Hessian W = d2L/dy2.
 struct Regularity {
     enum class Kind { regular, generically_regular, degenerate, absent, undecided } kind = Kind::absent;
-    std::size_t rank = 0;               ///< generic rank, by a witness
-    bool positive_definite = false;     ///< proved on the whole domain
-    bool for_given_parameters = false;  ///< `regular` and `positive_definite` rest on the parameter values of the file
-    bool of_hamiltonian = false;        ///< of d2H/dmu2, where the model has H and no L
-    std::string evidence;               ///< why `undecided`; may be empty
-    std::string legendre_obstacle;      ///< why y -> dL/dy is not shown to be one-to-one; empty where it is
-    std::vector<Rational> newton_start; ///< a y where dL/dy is defined, if it is not at 0; else empty
-    bool singular_everywhere = false;   ///< generically_regular, but det W = 0 for the parameter values of the file
-    std::vector<std::vector<std::pair<std::string, std::string>>> singular_at; ///< known singular points
+    std::size_t rank = 0;                ///< generic rank, by a witness
+    bool positive_definite = false;      ///< proved on the whole domain
+    bool for_given_parameters = false;   ///< `regular` and `positive_definite` rest on the parameter values of the file
+    bool of_hamiltonian = false;         ///< of d2H/dmu2, where the model has H and no L
+    std::string evidence;                ///< why `undecided`; may be empty
+    std::string legendre_obstacle;       ///< why y -> dL/dy is not shown to be one-to-one; empty where it is
+    std::vector<Rational> newton_start;  ///< a y where dL/dy is defined, if it is not at 0; else empty
+    bool singular_everywhere = false;    ///< generically_regular, but det W = 0 for the parameter values of the file
+    std::vector<NamedPoint> singular_at; ///< known singular points
     std::vector<std::string> singular_where; ///< where L is defined W is singular where one of these vanishes, for the
                                              ///< parameter values of the file; empty where that is not known
-    std::vector<std::vector<std::pair<std::string, std::string>>>
+    std::vector<std::vector<std::pair<std::string, Tree>>>
         kernel; ///< where degenerate: vectors k with W k = 0, proved, as components by fibre coordinate
 };
 

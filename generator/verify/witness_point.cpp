@@ -8,37 +8,23 @@ namespace {
 
 constexpr slong precision = 256;
 
-std::optional<Rational> rational(const std::string& text)
+/// All numbers from `lower` to `upper`.
+proof::Ball enclosure(const PointValue& value)
 {
-    Rational value;
-    if (text.find_first_not_of("0123456789-/") != std::string::npos || value.set_str(text, 10) != 0)
-        return std::nullopt;
-    value.canonicalize();
-    return value;
-}
-
-proof::Ball decimal(const std::string& text)
-{
+    const proof::Ball lower(value.lower, precision), upper(value.upper, precision);
     proof::Ball ball;
-    if (arb_set_str(ball.get(), text.c_str(), precision) != 0) {
-        arb_indeterminate(ball.get());
-        return ball;
-    }
-    proof::Ball error;
-    arb_mul_2exp_si(error.get(), ball.get(), -50);
-    arb_add_error(ball.get(), error.get());
+    arb_union(ball.get(), lower.get(), upper.get(), precision);
     return ball;
 }
 
 } // namespace
 
-WitnessPoint::WitnessPoint(Graph& graph, const std::vector<std::pair<std::string, std::string>>& point) : graph_(graph)
+WitnessPoint::WitnessPoint(Graph& graph, const NamedPoint& point) : graph_(graph)
 {
-    for (const auto& [name, text] : point) {
+    for (const auto& [name, value] : point) {
         const NodeId input = graph.input(name);
-        const std::optional<Rational> value = rational(text);
-        if (value) exact_.emplace(input, *value);
-        balls_.emplace(input, value ? proof::Ball(*value, precision) : decimal(text));
+        if (value.exact) exact_.emplace(input, *value.exact);
+        balls_.emplace(input, value.exact ? proof::Ball(*value.exact, precision) : enclosure(value));
     }
 }
 

@@ -9,8 +9,7 @@ namespace lagen {
 
 class WitnessPoint {
   public:
-    /// Decimals (irrational coordinates) are taken with an error of 1e-15, relative.
-    WitnessPoint(Graph& graph, const std::vector<std::pair<std::string, std::string>>& point);
+    WitnessPoint(Graph& graph, const NamedPoint& point);
 
     /// False where the value is certainly not zero at the point.
     [[nodiscard]] bool may_vanish(NodeId node);

@@ -83,7 +83,7 @@ void set_environment(const Surroundings& around)
     std::vector<char*> pointers{const_cast<char*>("lagen")};
     for (const std::string& argument : arguments) pointers.push_back(const_cast<char*>(argument.c_str()));
     pointers.push_back(nullptr);
-    ::execv(LAGEN_PROGRAM, pointers.data());
+    ::execv(around.program.empty() ? LAGEN_PROGRAM : around.program.c_str(), pointers.data());
     ::_exit(97);
 }
 

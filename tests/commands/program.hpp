@@ -12,6 +12,8 @@ namespace lagen::testing {
 struct Outcome {
     int code = -1; ///< 128 + signal where it was killed
     std::string out, err;
+
+    [[nodiscard]] bool operator==(const Outcome&) const = default;
 };
 
 /// What differs from an ordinary call.
@@ -22,6 +24,7 @@ struct Surroundings {
     bool output_closed = false;
     bool error_closed = false;
     long largest_file = 0; ///< bytes; 0: no limit
+    std::string program{}; ///< instead of lagen
 };
 
 /// Runs lagen. Programs that it compiles are shared by the whole test program.

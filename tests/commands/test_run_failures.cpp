@@ -60,8 +60,52 @@ TEST_CASE("a run that leaves the domain says so")
 {
     const json::Value value = fails("leave");
     CHECK(value["status"].text == "left_domain");
-    CHECK(value["rows"].size() == 40); // t = 0, 0.005, .., 0.195: x reaches 0 at 0.198
+    CHECK(value["rows"].size() == 41); // t = 0, 0.005, .., 0.195: x reaches 0 at 0.198, and the last good state
     CHECK(std::strtod(value["t"].text.c_str(), nullptr) < 0.2);
+}
+
+TEST_CASE("a run that fails ends with its last good state, at the time of that state")
+{
+    for (const char* scene : {"leave", "fall"}) {
+        const json::Value value = fails(scene);
+        INFO(scene);
+        const double t = std::strtod(value["t"].text.c_str(), nullptr);
+        CHECK(t < std::strtod(value["failed_at"].text.c_str(), nullptr));
+        const json::Value& last = value["rows"][value["rows"].size() - 1];
+        CHECK(last[0].text == value["t"].text);
+        CHECK(last[1].text == value["state"]["x"].text);
+        CHECK(last[2].text == value["state"]["v"].text);
+        // The state belongs to this time: the energy of the fall from x = 1 is kept by it.
+        const double x = std::strtod(last[1].text.c_str(), nullptr), v = std::strtod(last[2].text.c_str(), nullptr);
+        if (std::string(scene) == "fall") CHECK(std::abs(v * v / 2 - 1 / x + 1) < 1e-6 / x);
+    }
+    const Outcome outcome = call({"run", "fall.toml", "--scene", "leave"});
+    const std::size_t begin = outcome.out.rfind('\n', outcome.out.size() - 2) + 1;
+    const std::string last = outcome.out.substr(begin, outcome.out.size() - begin - 2);
+    CHECK_THAT(last, Catch::StartsWith("0.198"));
+    CHECK_THAT(outcome.err, Catch::Contains(" left_domain at t = 0.198") &&
+                                Catch::Contains("\n  the last good state is at t = 0.198") &&
+                                Catch::Contains(": x = ") && Catch::Contains(", v = -5"));
+}
+
+TEST_CASE("an observable that is not defined is an empty field of CSV and null in JSON")
+{
+    const std::string folder = fresh_folder();
+    write_text(folder + "/m.toml", read_text(models_folder() + "/oscillator.toml") +
+                                       "\n[observables]\ndepth = \"log(x - 3)\"\nover = \"1/(x - x0)\"\n"
+                                       "[scene.undefined]\ninitial = { x = 1, v = 0 }\nduration = 1\n"
+                                       "observe = [\"over\", \"x\", \"depth\"]\n[parameters]\nx0 = 1\n");
+    const Outcome csv = call({"run", "m.toml", "--scene", "undefined", "--at", "0"}, {.folder = folder});
+    INFO(csv.err);
+    CHECK(csv.code == 0);
+    CHECK(csv.out == "t,over,x,depth\r\n0,,1,\r\n");
+    const Outcome text =
+        call({"run", "m.toml", "--scene", "undefined", "--at", "0", "--format", "json"}, {.folder = folder});
+    const json::Value row = json::parse(text.out)["rows"][0];
+    REQUIRE(row.size() == 4);
+    CHECK(row[1].text == "null");
+    CHECK(row[2].text == "1");
+    CHECK(row[3].text == "null");
 }
 
 TEST_CASE("a singular mass matrix is a status, not a number")

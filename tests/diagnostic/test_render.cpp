@@ -4,6 +4,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <type_traits>
+
 using namespace lagen;
 
 namespace {
@@ -99,6 +101,22 @@ TEST_CASE("an excerpt maps its bytes through the escapes of its file")
     CHECK(tab.begin == 2);
     CHECK(tab.end == 4);
     CHECK(source_text(tab) == "\\t");
+}
+
+TEST_CASE("no handler of an ordinary error takes an internal one")
+{
+    STATIC_REQUIRE_FALSE(std::is_base_of_v<Error, InternalError>);
+    STATIC_REQUIRE_FALSE(std::is_base_of_v<std::exception, InternalError>);
+}
+
+TEST_CASE("a mathematical error keeps its message and its hint apart, and is printed as an error")
+{
+    const MathematicsError error("model 'm' is refuted", "see `lagen check`");
+    CHECK(error.message() == "model 'm' is refuted");
+    CHECK(error.hint() == "see `lagen check`");
+    CHECK(std::string(error.what()) == "error: model 'm' is refuted\nhint: see `lagen check`");
+    CHECK(std::string(MathematicsError("no value").what()) == "error: no value");
+    CHECK(error.code() == ExitCode::refuted);
 }
 
 TEST_CASE("an internal error asks for a report and is the machine's fault")

@@ -190,7 +190,7 @@ TEST_CASE("nested powers are bounded by their total degree")
     CHECK(error_of("((x^64)^64)^64") == "e:1:1: error: nested powers reach the total degree 262144\n"
                                         "  ((x^64)^64)^64\n"
                                         "  ^~~~~~~~~~~~~~\n"
-                                        "hint: the total degree of a power is at most 4096");
+                                        "hint: the total degree of a power or a product is at most 4096");
     CHECK(sentence_of("(x^64)^64") == "accepted");
     CHECK(sentence_of("(x*(1 + y^64)^64)^2") == "nested powers reach the total degree 8194");
     CHECK(sentence_of(repeated("(", 200) + "x" + repeated("^2)", 200)) == "nested powers reach the total degree 8192");

@@ -111,3 +111,38 @@ TEST_CASE("what is written out is bounded, and the bound is named")
         if (LAGEN_SANITIZED) break;
     }
 }
+
+TEST_CASE("sums inside sums stand for a bounded number of terms, however few nodes they are")
+{
+    const Scope scope = array_scope();
+    const std::string beyond = " stands for more than 1000000000 terms when those inside it are written out";
+    CHECK(closing_error(scope, "sum(i, 1, 10000, sum(j, 1, 10000, sum(k, 1, 10000, a)))") == "this sum" + beyond);
+    CHECK(closing_error(scope, "product(i, 1, 1000, sum(j, 1, 10000, sum(k, 1, 1000, a)))") == "this product" + beyond);
+    CHECK(closing_error(scope, "sum(i, 1, 40000, sum(j, 1, i, a)^2 + sum(j, 1, 30000, b))") == "this sum" + beyond);
+    CHECK(closing_error(scope, "sum(i, 1, 1001, [sum(j, 1, 1000, sum(k, 1, 1000, a)), b])[2]") == "this sum" + beyond);
+    Scope with_functions = array_scope();
+    with_functions.define(definition("f", "sum(i, 1, 100, q^2 + q)", {"q"}));
+    with_functions.define(definition("S", "sum(i, 1, 100000, a)", {}));
+    CHECK(closing_error(with_functions, "f(f(f(f(f(a)))))") == "this sum" + beyond);
+    CHECK(closing_error(with_functions, "sum(i, 1, 100000, S)") == "this sum" + beyond);
+    CHECK_NOTHROW(with_functions.close(parse("sum(i, 1, 10000, S)")));
+    // Beside one another they add up to what is written out, and that is bounded by its operations.
+    CHECK_NOTHROW(scope.close(parse("sum(i, 1, 30000, a) + sum(i, 1, 30000, sum(j, 1, 30000, b))")));
+}
+
+TEST_CASE("products that are written out reach the degree of a power and no more")
+{
+    const Scope scope = array_scope();
+    CHECK_NOTHROW(scope.close(parse("product(i, 1, 4096, a)")));
+    CHECK(closing_error(scope, "product(i, 1, 4097, a)") == "a product reaches the total degree 4097");
+    CHECK(closing_error(scope, "product(i, 1, 100, product(j, 1, 100, a + 1))") ==
+          "a product reaches the total degree 10000");
+    CHECK(closing_error(scope, "(a^64)^64/(a + b)") == "a quotient reaches the total degree 4097");
+    Scope chain = array_scope();
+    chain.define(definition("f0", "q + q^2", {"q"}));
+    for (int k = 1; k <= 12; ++k)
+        chain.define(definition("f" + std::to_string(k),
+                                "f" + std::to_string(k - 1) + "(q)*f" + std::to_string(k - 1) + "(q + 1)", {"q"}));
+    CHECK_NOTHROW(chain.close(parse("f11(a)")));
+    CHECK(closing_error(chain, "f12(a)") == "a product reaches the total degree 8192");
+}

@@ -122,10 +122,8 @@ std::optional<Point> exact_point(const Witness& witness)
     Point point;
     require(witness.point.size() == 3, "a witness does not name every variable");
     for (std::size_t k = 0; k < 3; ++k) {
-        if (witness.point[k].second.find('.') != std::string::npos) return std::nullopt;
-        if (witness.point[k].second.find('e') != std::string::npos) return std::nullopt;
-        require(point[k].set_str(witness.point[k].second, 10) == 0, "not a number: " + witness.point[k].second);
-        point[k].canonicalize();
+        if (!witness.point[k].second.exact) return std::nullopt;
+        point[k] = *witness.point[k].second.exact;
     }
     return point;
 }

@@ -48,7 +48,7 @@ std::string fault_of(const LocalAlgebroid& algebroid, const Check& check)
     // Where the two orders of a pair disagree, C has no meaning for the other equations.
     if (!algebroid.second_orders.empty() && check.name != "antisymmetry") return "";
     Point point;
-    for (const auto& [name, text] : check.decision.witness->point) point[name] = Ball(exact_number(text));
+    for (const auto& [name, value] : check.decision.witness->point) point[name] = Ball(exact_number(to_text(value)));
     for (const std::vector<std::string>* names : {&algebroid.base, &algebroid.parameters})
         for (const std::string& name : *names)
             if (!point.contains(name)) return "the witness has no " + name;
@@ -87,6 +87,8 @@ Answer answer_of(const std::string& text)
         if (answer.reason.empty()) answer.reason = verified.note;
         answer.algebroid = verified.algebroid;
     } catch (const std::exception& error) {
+        answer.verdict = std::string("exception: ") + error.what();
+    } catch (const InternalError& error) {
         answer.verdict = std::string("exception: ") + error.what();
     }
     answer.milliseconds = 1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;

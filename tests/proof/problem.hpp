@@ -46,7 +46,8 @@ inline std::string point_text(const Decision& decision)
 {
     std::string text;
     if (!decision.witness) return text;
-    for (const auto& [name, value] : decision.witness->point) text += (text.empty() ? "" : " ") + name + '=' + value;
+    for (const auto& [name, value] : decision.witness->point)
+        text += (text.empty() ? "" : " ") + name + '=' + to_text(value);
     return text;
 }
 

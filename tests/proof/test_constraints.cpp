@@ -5,6 +5,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
+
 using namespace lagen;
 using namespace lagen::test;
 
@@ -36,7 +38,7 @@ TEST_CASE("witnesses on the sphere are rational points of it")
     REQUIRE(decision.witness);
     CHECK(decision.witness->value == -1);
     Rational norm;
-    for (const auto& [name, value] : decision.witness->point) norm += Rational(value) * Rational(value);
+    for (const auto& [name, value] : decision.witness->point) norm += value.exact.value() * value.exact.value();
     CHECK(norm == 1);
 }
 
@@ -125,4 +127,23 @@ TEST_CASE("constraints that are not triangular are refused with their number")
         CHECK(error.index() == 1);
         CHECK(error.code() == ExitCode::refuted);
     }
+}
+
+TEST_CASE("a witness carries its values: exact where they are rational, else a decimal inside its enclosure")
+{
+    Problem problem({{"x", "y"}, {}, {"y^2 - 2 - x^2"}, {"y > 0", "x > 0"}, {}});
+    const Decision decision = problem.decide("x*y");
+    REQUIRE(decision.witness);
+    const PointValue& x = decision.witness->point[0].second;
+    const PointValue& y = decision.witness->point[1].second;
+    REQUIRE(x.exact);
+    CHECK(x.decimal.empty());
+    CHECK(to_text(x) == x.exact->get_str());
+    const Rational square = 2 + *x.exact * *x.exact;
+    REQUIRE_FALSE(y.exact);
+    CHECK(y.lower * y.lower < square);
+    CHECK(square < y.upper * y.upper);
+    CHECK(y.upper - y.lower < Rational(1, 1'000'000'000'000'000'000));
+    CHECK(std::abs(to_double(y) - std::sqrt(square.get_d())) <= tolerance::roundoff(4) * to_double(y));
+    CHECK(std::abs(std::stod(to_text(y)) - to_double(y)) <= tolerance::roundoff(2) * to_double(y));
 }

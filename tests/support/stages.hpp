@@ -5,6 +5,7 @@
 #include "advice/advise.hpp"
 #include "elaborate/build_algebroid.hpp"
 #include "elaborate/elaborate.hpp"
+#include "elaborate/require_values.hpp"
 
 namespace lagen {
 
@@ -16,6 +17,7 @@ struct ModelReport : Report {
 [[nodiscard]] inline ModelReport verify(const Model& model, const std::vector<NamedTree>& extra_invariants = {},
                                         std::size_t points = 0, const ProofBudget& budget = {})
 {
+    require_values(extra_invariants);
     const System system = elaborate(model);
     ModelReport report{verify(system, extra_invariants, points, budget), system.written.algebroid};
     advise(system, report, budget);

@@ -112,7 +112,7 @@ TEST_CASE("a rank that drops on a line is generic, and the line is met")
     CHECK(result.rank == 2);
     CHECK_FALSE(result.positive_definite);
     REQUIRE(result.singular_at.size() == 1);
-    CHECK(result.singular_at[0][0] == std::pair<std::string, std::string>("x", "0"));
+    CHECK(result.singular_at[0][0] == std::pair<std::string, PointValue>("x", Rational(0)));
     CHECK(result.singular_where == std::vector<std::string>{"sin(x)"});
 }
 
@@ -183,8 +183,8 @@ TEST_CASE("singular points are found on a constraint too")
     const Regularity result = regularity("(u^2 + (1 - y^2)*v^2)/2", "", circle);
     CHECK(result.kind == Kind::generically_regular);
     REQUIRE(result.singular_at.size() == 1);
-    CHECK(result.singular_at[0][0] == std::pair<std::string, std::string>("x", "0"));
-    CHECK(result.singular_at[0][1] == std::pair<std::string, std::string>("y", "1"));
+    CHECK(result.singular_at[0][0] == std::pair<std::string, PointValue>("x", Rational(0)));
+    CHECK(result.singular_at[0][1] == std::pair<std::string, PointValue>("y", Rational(1)));
 }
 
 TEST_CASE("degenerate Lagrangians have their generic rank")

@@ -68,7 +68,7 @@ TEST_CASE("a wrong sign in a bracket is refuted with a witness, and the hint nam
     REQUIRE(point.size() == 2);
     CHECK(point[0].first == "x");
     CHECK(point[1].first == "y");
-    CHECK(check.decision.witness->value == -2 * std::stod(point[1].second));
+    CHECK(check.decision.witness->value == -2 * to_double(point[1].second));
     CHECK(check.hint == "all equations of the algebroid hold with the opposite sign of component a of [a, b], or with "
                         "the opposite sign of component y of the anchor of b");
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Normal forms are read back as expressions where an algebroid is built, and tell assumptions apart by their texts:
-/// no two may have one text, and none may be read as another.
+/// Normal forms become expressions where an algebroid is built, and tell assumptions apart: no two may be one tree, and
+/// none may stand for another.
+#include "verify/checking.hpp"
 #include "graph/differentiate.hpp"
 #include "graph/lower.hpp"
 #include "verify/checking.hpp"

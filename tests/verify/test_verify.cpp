@@ -8,6 +8,11 @@
 
 using namespace lagen;
 
+CATCH_TRANSLATE_EXCEPTION(const InternalError& error)
+{
+    return error.what();
+}
+
 namespace {
 
 const std::string checked_sphere = R"(
@@ -120,7 +125,7 @@ TEST_CASE("a proof that a re-evaluation contradicts is a defect of ours")
     check.decision.status = ProofStatus::proved;
     check.reevaluation = Reevaluation{5, 1e-70, false, {}};
     CHECK_NOTHROW(require_confirmed(check));
-    check.reevaluation = Reevaluation{5, 0.25, true, {{"x", "1/2"}, {"y", "3"}}};
+    check.reevaluation = Reevaluation{5, 0.25, true, {{"x", Rational(1, 2)}, {"y", Rational(3)}}};
     CHECK_THROWS_WITH(require_confirmed(check),
                       Catch::StartsWith("internal error: the residual of anchor a b x was proved to be zero, and is "
                                         "certainly not zero at x = 1/2, y = 3\nhint: "));

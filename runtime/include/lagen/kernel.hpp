@@ -39,6 +39,11 @@ struct TangentOf<M> {
 template <class M>
 using tangent_t = typename detail::TangentOf<M>::type;
 
+/// Scalars whose copies are noexcept promise a call that is: the whole of it, its arguments by value included. Where a
+/// copy may throw (derivatives on the heap), no call can promise that, and none is asked to.
+template <class Scalar, bool call_is_noexcept>
+concept KeepsPromise = call_is_noexcept || !std::is_nothrow_copy_constructible_v<Scalar>;
+
 /// A right-hand side: M::Scalar, M::State (an Eigen column, unless there is a retraction: integrate/retract.hpp),
 /// M::dimension, and
 ///   status_t<Scalar> rhs(Scalar t, const State& s, tangent_t<M>& ds) const noexcept.
@@ -47,7 +52,7 @@ concept RightHandSide = requires(const M& model, typename M::Scalar t, const typ
 {
     requires std::convertible_to<decltype(M::dimension), int>;
     requires std::same_as<decltype(model.rhs(t, s, ds)), status_t<typename M::Scalar>>;
-    requires noexcept(model.rhs(t, s, ds));
+    requires KeepsPromise<typename M::Scalar, noexcept(model.rhs(t, s, ds))>;
 };
 
 /// Kernels with optional parts; `count` of each is a static constexpr and its names an array of C strings.
@@ -55,7 +60,7 @@ template <class M>
 concept HasEnergy = requires(const M& model, typename M::Scalar t, const typename M::State& s)
 {
     requires std::convertible_to<decltype(model.energy(t, s)), typename M::Scalar>;
-    requires noexcept(model.energy(t, s));
+    requires KeepsPromise<typename M::Scalar, noexcept(model.energy(t, s))>;
 };
 
 /// Of Pontryagin's form, where the Hamiltonian is no energy.
@@ -63,7 +68,7 @@ template <class M>
 concept HasHamiltonian = requires(const M& model, typename M::Scalar t, const typename M::State& s)
 {
     requires std::convertible_to<decltype(model.hamiltonian(t, s)), typename M::Scalar>;
-    requires noexcept(model.hamiltonian(t, s));
+    requires KeepsPromise<typename M::Scalar, noexcept(model.hamiltonian(t, s))>;
 };
 
 template <class M>

@@ -20,14 +20,14 @@
 ///   header
 ///   --columns c,c,..      s0, s1, .. state lanes; o0, o1, .. entries of observables(); left out: every state lane;
 ///   "-": none
-///   --format csv|binary   rows on standard output: CSV numbers by %.17g, commas, "\n", no heading; or native doubles,
-///   row after row
+///   --format csv|binary   rows on standard output: CSV numbers by %.17g (an empty field for what is no finite number),
+///   commas, "\n", no heading; or native doubles, row after row
 ///   --report FILE         where the report goes ("-": standard error)
 ///
-/// A row is t, then the columns. Rows appear while the run goes on, at exactly the times asked for; where an event
-/// stops the run, one more row stands at the end, at the time of the event (unless that was asked for anyway; times of
-/// --at-file are exactly what is written). The report, at the end of every run, has lines KEY=VALUE in this order,
-/// numbers by %.17g, those in brackets only where the model has the part:
+/// A row is t, then the columns. Rows appear while the run goes on, at exactly the times asked for; where an event or a
+/// failure ends the run after its start, one more row stands at the end, the last good state at its time (unless that
+/// was asked for anyway; times of --at-file are exactly what is written). The report, at the end of every run, has
+/// lines KEY=VALUE in this order, numbers by %.17g, those in brackets only where the model has the part:
 ///   status=ok             as to_text(Status)
 ///   t=10                  time of the last good state
 ///   failed_at=10          time at which the run met what ended it; the same as t where nothing failed
@@ -263,8 +263,8 @@ int drive(int argc, char** argv)
     const auto begin = std::chrono::steady_clock::now();
     const auto run = integrate(plan.model, plan.initial, plan.span, method, options, record);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-    if (run.status() == Status::stopped_by_event && given.at_file.empty() && record.last_time() != run.t)
-        record.row(run.t, run.state);
+    const bool ended_early = run.status() != Status::ok && run.steps > 0;
+    if (ended_early && given.at_file.empty() && record.last_time() != run.t) record.row(run.t, run.state);
 
     const bool rows_written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
     if (!rows_written) return detail::complain("the rows could not be written to standard output", 5);

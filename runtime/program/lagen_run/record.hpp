@@ -112,13 +112,15 @@ class DriveRecord {
     }
 
   private:
+    /// A value that is no finite number is an empty field.
     void write(double value, bool first)
     {
         if (binary_) {
             std::fwrite(&value, sizeof value, 1, out_);
-        } else {
-            std::fprintf(out_, first ? "%.17g" : ",%.17g", value);
+            return;
         }
+        if (!first) std::fputc(',', out_);
+        if (std::isfinite(value)) std::fprintf(out_, "%.17g", value);
     }
 
     const M& model_;

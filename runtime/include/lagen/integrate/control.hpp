@@ -101,6 +101,24 @@ typename State::Scalar squared_error(const ErrorScale<typename State::Scalar>& s
     return sum;
 }
 
+/// The number of a scalar that carries derivatives (`x.value()`), any other scalar itself: lengths of steps are chosen
+/// by numbers.
+template <class Real>
+[[nodiscard]] auto plain_number(const Real& x) noexcept
+{
+    if constexpr (requires { x.value(); })
+        return x.value();
+    else
+        return x;
+}
+
+template <class Real>
+[[nodiscard]] Real power_of_number(const Real& x, const Real& exponent) noexcept
+{
+    using std::pow;
+    return Real(pow(plain_number(x), plain_number(exponent)));
+}
+
 /// Proportional-integral control of the step [Hairer, Norsett, Wanner II.4; Hairer, Wanner IV.2].
 template <class Real>
 class Controller {
@@ -116,11 +134,8 @@ class Controller {
     /// The step after an accepted one with scaled error `error` <= 1.
     [[nodiscard]] Real after_accepted(Real h, Real error) noexcept
     {
-        Real factor = power(error);
-        if (beta_ != Real(0)) {
-            using std::pow;
-            factor /= pow(last_, beta_);
-        }
+        Real factor = power_of_number(error, exponent_);
+        if (beta_ != Real(0)) factor /= power_of_number(last_, beta_);
         factor /= safety_;
         factor = factor < least_ ? least_ : (factor > most_ ? most_ : factor);
         if (rejected_ && factor < Real(1)) factor = Real(1);
@@ -131,7 +146,7 @@ class Controller {
 
     [[nodiscard]] Real after_rejected(Real h, Real error) noexcept
     {
-        const Real factor = power(error) / safety_;
+        const Real factor = power_of_number(error, exponent_) / safety_;
         rejected_ = true;
         return h / (factor > most_ ? most_ : factor);
     }
@@ -144,12 +159,6 @@ class Controller {
     }
 
   private:
-    [[nodiscard]] Real power(const Real& error) const noexcept
-    {
-        using std::pow;
-        return pow(error, exponent_);
-    }
-
     Real beta_, safety_, most_, least_, exponent_;
     Real last_ = Real(1e-4);
     bool rejected_ = false;
@@ -164,7 +173,6 @@ typename M::Scalar first_step(const M& model, const StepControl& control, int or
 {
     using Real = typename M::Scalar;
     using std::abs;
-    using std::pow;
     using std::sqrt;
     const Real n = static_cast<Real>(s.size());
     const ErrorScale<Real> scale(control);
@@ -180,7 +188,7 @@ typename M::Scalar first_step(const M& model, const StepControl& control, int or
     const Real bend = good ? sqrt(squared_error(scale, s, s, x) / n) / h : Real(0);
     Real steepest = bend < slope ? slope : bend;
     Real h1 = steepest <= Real(1e-15) ? (Real(1e-6) < h * Real(1e-3) ? h * Real(1e-3) : Real(1e-6))
-                                      : pow(Real(0.01) / steepest, Real(1) / Real(order));
+                                      : power_of_number<Real>(Real(0.01) / steepest, Real(1) / Real(order));
     Real chosen = Real(100) * h < h1 ? Real(100) * h : h1;
     if (!(chosen < cap)) chosen = cap;
     return sign * (chosen > Real(0) ? chosen : h);

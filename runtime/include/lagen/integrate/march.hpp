@@ -91,7 +91,8 @@ class March {
         if (options_.signal != nullptr && *options_.signal != 0) return Status::interrupted;
         if (tried >= options_.max_steps) return Status::too_many_steps;
         if (options_.progress && tried % 256 == 255)
-            options_.progress(static_cast<double>((steps_.t() - span_.start) / (span_.end - span_.start)));
+            options_.progress(
+                static_cast<double>(plain_number<Real>((steps_.t() - span_.start) / (span_.end - span_.start))));
         return Status::ok;
     }
 

@@ -64,6 +64,16 @@ struct RealPart<Complex<Real>> {
     using type = Real;
 };
 
+/// Zero; a scalar's default constructor need not make one.
+template <class Entry>
+Entry zero() noexcept
+{
+    if constexpr (std::is_same_v<Entry, typename RealPart<Entry>::type>)
+        return Entry(0);
+    else
+        return Entry{};
+}
+
 /// n x n entries by rows: in place up to a size that a stack holds easily, else on the heap (once, at construction).
 template <class Entry, std::size_t n>
 class Square {
@@ -77,9 +87,9 @@ class Square {
     void clear()
     {
         if constexpr (in_place)
-            entries_.fill(Entry{});
+            entries_.fill(zero<Entry>());
         else
-            entries_.assign(n * n, Entry{}); // allocates the first time alone
+            entries_.assign(n * n, zero<Entry>()); // allocates the first time alone
     }
 
   private:
@@ -116,7 +126,7 @@ class MatrixLu {
             const Entry inverse = reciprocal(lu_(k, k));
             inverses_[k] = inverse;
             for (std::size_t i = k + 1; i < n; ++i) {
-                if (lu_(i, k) == Entry{}) continue;
+                if (lu_(i, k) == zero<Entry>()) continue;
                 const Entry multiplier = lu_(i, k) * inverse;
                 lu_(i, k) = multiplier;
                 for (std::size_t j = k + 1; j < n; ++j) lu_(i, j) = lu_(i, j) - multiplier * lu_(k, j);

@@ -33,10 +33,9 @@ class PredictiveControl {
 
     [[nodiscard]] Real after_accepted(const Real& h, const Real& error, int iterations, bool keeps_matrix) noexcept
     {
-        using std::pow;
         Real quotient = elementary(error, iterations);
         if (accepted_) {
-            const Real predicted = h_ / h * pow(Real(error * error / error_), Real(0.25)) / safety_;
+            const Real predicted = h_ / h * power_of_number<Real>(error * error / error_, Real(0.25)) / safety_;
             quotient = std::max<Real>(quotient, inside(predicted));
         }
         accepted_ = true;
@@ -71,10 +70,9 @@ class PredictiveControl {
 
     [[nodiscard]] Real elementary(const Real& error, int iterations) const noexcept
     {
-        using std::pow;
         const Real share = Real(1 + 2 * most_iterations) / Real(iterations + 2 * most_iterations);
         const Real factor = safety_ * std::min<Real>(Real(1), share);
-        return inside(Real(pow(error, Real(0.25)) / factor));
+        return inside(Real(power_of_number(error, Real(0.25)) / factor));
     }
 
     Real safety_, most_, least_;
@@ -289,10 +287,9 @@ class Radau5Stepper {
     /// Simplified Newton iterations until what is left of the error is `enough_` of the tolerance.
     Status iterate(const M& model, const Real& t, const State& s) noexcept
     {
-        using std::pow;
         using std::sqrt;
         const auto lanes = static_cast<Real>(stages * static_cast<std::size_t>(s.size()));
-        left_ = pow(std::max<Real>(left_, epsilon()), Real(0.8));
+        left_ = detail::power_of_number(std::max<Real>(left_, epsilon()), Real(0.8));
         rate_ = Real(fast);
         Real before = Real(0), rate_before = Real(0);
         for (iterations_ = 1; iterations_ <= Lengths::most_iterations; ++iterations_) {
@@ -322,14 +319,13 @@ class Radau5Stepper {
     /// False where the iteration diverges or would need too many steps; sets the share of the step to go on with.
     bool is_converging(const Real& size) noexcept
     {
-        using std::pow;
         if (!(rate_ < Real(0.99))) return false;
         left_ = rate_ / (Real(1) - rate_);
         const int rest = Lengths::most_iterations - 1 - iterations_;
-        const Real at_end = left_ * size * pow(rate_, Real(rest)) / enough_;
+        const Real at_end = left_ * size * detail::power_of_number(rate_, Real(rest)) / enough_;
         if (at_end < Real(1)) return true;
         const Real excess = std::max<Real>(Real(1e-4), std::min<Real>(Real(20), at_end));
-        share_ = Real(0.8) * pow(excess, Real(-1) / Real(4 + rest));
+        share_ = Real(0.8) * detail::power_of_number<Real>(excess, Real(-1) / Real(4 + rest));
         return false;
     }
 

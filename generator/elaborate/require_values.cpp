@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "elaborate/require_values.hpp"
+
+#include "proof/constant_values.hpp"
+
+namespace lagen {
+
+namespace {
+
+/// Looks at trees that may be absent, and at the values of entries.
+class ModelValues {
+  public:
+    void add(const Tree& tree)
+    {
+        if (tree) values_.require(tree);
+    }
+    void add(const std::vector<Tree>& trees)
+    {
+        for (const Tree& tree : trees) add(tree);
+    }
+    template <class Entry>
+    void add(const std::vector<Entry>& entries)
+    {
+        for (const Entry& entry : entries) add(entry.value);
+    }
+    void add(const AlgebroidBlock& block)
+    {
+        add(block.anchor);
+        add(block.bracket);
+        add(block.connection);
+        add(block.sections);
+        for (const ArrayValue& matrix : block.representation) add(matrix.entries);
+        for (const AlgebroidBlock& inner : block.of) add(inner);
+    }
+    void add(const Control& control)
+    {
+        add(control.sigma);
+        add(control.cost);
+        for (const ControlBound& bound : control.bounds) add(std::vector{bound.lower, bound.upper});
+        if (!control.boundary) return;
+        add(control.boundary->from);
+        add(control.boundary->to);
+        add(std::vector{control.boundary->duration, control.boundary->terminal_cost});
+    }
+    void add(const Scene& scene)
+    {
+        add(scene.parameters);
+        add(scene.initial);
+        add(std::vector{scene.start, scene.duration, scene.step, scene.tolerance, scene.relative, scene.absolute,
+                        scene.sampling.interval});
+        add(scene.sampling.at);
+        if (scene.observe) add(*scene.observe);
+        for (const Event& event : scene.events) add(event.when);
+    }
+
+  private:
+    ConstantValues values_;
+};
+
+} // namespace
+
+void require_values(const std::vector<NamedTree>& claims)
+{
+    ModelValues values;
+    values.add(claims);
+}
+
+void require_values(const Model& model)
+{
+    ModelValues values;
+    for (const Parameter& parameter : model.parameters) values.add(parameter.value);
+    values.add(model.base.constraints);
+    values.add(model.base.casimirs);
+    values.add(model.base.domain);
+    values.add(model.algebroid);
+    values.add(std::vector{model.lagrangian, model.hamiltonian, model.dissipation});
+    values.add(model.forces);
+    if (model.control) values.add(*model.control);
+    values.add(model.observables);
+    values.add(model.invariants);
+    for (const NamedForm& form : model.forms) values.add(form.components);
+    for (const Scene& scene : model.scenes) values.add(scene);
+}
+
+} // namespace lagen
