@@ -24,7 +24,7 @@ class Construction {
     {
         for (const NodeId condition : work_.setting().domain)
             smooth_ = smooth_ && is_comparison(graph_.op(condition)) &&
-                      are_meromorphic({graph_.operands(condition)[0], graph_.operands(condition)[1]});
+                      are_analytic({graph_.operands(condition)[0], graph_.operands(condition)[1]});
     }
 
     /// `parts` of the block satisfy the structure equations.
@@ -44,16 +44,13 @@ class Construction {
     }
 
   private:
-    [[nodiscard]] bool are_meromorphic(const std::vector<NodeId>& roots) const
+    /// Polynomials in them that are not zero at a point are so almost everywhere.
+    [[nodiscard]] bool are_analytic(const std::vector<NodeId>& functions)
     {
-        const std::vector<NodeId> nodes = reachable(graph_, roots);
-        return std::all_of(nodes.begin(), nodes.end(), [&](NodeId node) { return is_meromorphic(graph_.op(node)); });
+        return lagen::are_analytic(graph_, functions, work_.setting(), decider_);
     }
 
-    [[nodiscard]] bool are_meromorphic(const Algebroid& algebroid) const
-    {
-        return are_meromorphic(algebroid.entries());
-    }
+    [[nodiscard]] bool are_analytic(const Algebroid& algebroid) { return are_analytic(algebroid.entries()); }
 
     /// Neither the directions nor the functions of the block know coordinates outside its own base.
     bool stands_on_its_base(const AlgebroidBlock& block, const BlockParts& parts)
@@ -70,14 +67,14 @@ class Construction {
 
     [[nodiscard]] bool is_zero(NodeId node) const
     {
-        return graph_.is_zero(node) || decider_.decide(node).status == ProofStatus::proved;
+        return graph_.is_zero(node) || decider_.status(node) == ProofStatus::proved;
     }
 
     /// By the zero decision, equation by equation.
     bool is_proved(const AlgebroidBlock& block, const BlockParts& parts)
     {
         const Algebroid lowered = work_.lowered(block, parts);
-        if (!are_meromorphic(lowered)) return false;
+        if (!are_analytic(lowered)) return false;
         BaseGradient partial(graph_, lowered.x);
         const ResidualList list = structure_equations(partial, lowered);
         std::set<NodeId> values;
@@ -101,7 +98,7 @@ class Construction {
     {
         const Algebroid a = work_.lowered(block, parts), b = work_.lowered(block, expected);
         const auto same = [&](const Column& x, const Column& y) { return are_equal(x, y); };
-        return are_meromorphic(a) && are_meromorphic(b) && a.given == b.given &&
+        return are_analytic(a) && are_analytic(b) && a.given == b.given &&
                std::equal(a.anchor.begin(), a.anchor.end(), b.anchor.begin(), b.anchor.end(), same) &&
                std::equal(a.bracket.begin(), a.bracket.end(), b.bracket.begin(), b.bracket.end(), same);
     }
@@ -124,7 +121,7 @@ class Construction {
         const FrameFormulas frame = frame_formulas(work_, block, inner);
         const std::size_t r = block.fibre.size();
         const Algebroid lowered = work_.lowered(block, parts);
-        if (frame.both_orders || !are_meromorphic(lowered) || !are_meromorphic(frame.transposed)) return false;
+        if (frame.both_orders || !are_analytic(lowered) || !are_analytic(frame.transposed)) return false;
         for (std::size_t k = 0; k < frame.pairs.size(); ++k) {
             const auto& [a, b] = frame.pairs[k];
             Column bracket;

@@ -15,7 +15,8 @@ namespace lagen {
 /// wherever they are defined: those of the innermost blocks are proved by the zero decision, every C'^c_ab and rho'^i_a
 /// is the one that the frame gives (the same node, or a difference that is proved to be zero), and det A is not zero at
 /// a point. From one point to a dense set: all entries are compositions of +, -, *, /, integer powers and entire
-/// functions, so that each of them lives on the complement of complex hypersurfaces, which is connected. It answers
+/// functions, so that each of them lives on the complement of complex hypersurfaces, which is connected; or, on a
+/// convex domain, of other functions too that are analytic on all of it (see are_analytic). It answers
 /// false, which says nothing, where there are other functions, base constraints or Casimirs, pairs in both orders or
 /// blocks of A beyond size 5. Empty where no frame stands in the model's algebroid.
 [[nodiscard]] std::function<bool()> construction_of(const Model& model, const WrittenAlgebroid& algebroid);

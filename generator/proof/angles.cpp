@@ -3,14 +3,11 @@
 #include "proof/elementary.hpp"
 #include "proof/print_fraction.hpp"
 
-#include <numeric>
-
 namespace lagen::proof {
 
 namespace {
 
 constexpr unsigned largest_multiple = 256; ///< of an angle; cos(256 u) has 129 terms
-constexpr unsigned finest_part = 60;       ///< of pi whose sine and cosine are algebraic numbers
 constexpr std::size_t most_parts = 64;     ///< terms of one argument: each brings generators of its own
 
 } // namespace
@@ -70,6 +67,10 @@ void Elementary::make_generators(Unit& unit, const Fraction& atom, bool angle)
         const Signs signs = ring_.signs(argument);
         if (!signs.negative) generator.range.low = End{false, 1, !signs.zero};
         if (!signs.positive) generator.range.high = End{false, 1, !signs.zero};
+        if (argument.is_polynomial())
+            generator.range = intersect(
+                generator.range,
+                increasing_image(ring_.range_of(argument.num) * Range::point(mpq_class(1, argument.scale)), arb_exp));
         generator.value = ring_.value_of(argument);
         if (generator.value) arb_exp(generator.value->get(), generator.value->get(), 256);
         unit.first = ring_.add_generator(std::move(generator));
@@ -157,9 +158,6 @@ Elementary::SineCosine Elementary::pi_angle(const mpq_class& turns)
         const SineCosine twelfth = sum(fourth, minus_sixth);
         const SineCosine table[6] = {value, twelfth, sixth, fourth, third, sum(fourth, sixth)};
         value = table[twelfths.get_num().get_ui()];
-    } else if (rest != 0 && rest.get_den() <= finest_part &&
-               std::lcm(pi_parts_, static_cast<unsigned>(rest.get_den().get_ui())) <= finest_part) {
-        value = part_of_pi(rest);
     } else if (rest != 0) {
         const Part part{rest, pi()};
         const mpz_class multiple = multiple_of_unit(angle_units_, part, true);

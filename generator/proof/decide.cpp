@@ -2,7 +2,6 @@
 /// The decision: normal form first (it is the proof and the residual's text), then certified points.
 #include "proof/decide.hpp"
 
-#include "proof/modular.hpp"
 #include "proof/print_fraction.hpp"
 #include "proof/prove_by_cases.hpp"
 #include "proof/sample.hpp"
@@ -30,6 +29,7 @@ const char* to_text(ProofStatus status)
 namespace {
 
 constexpr std::size_t many_divisors = 6;
+constexpr std::size_t most_signed_terms = 3000; ///< ten times what Ring::signs looks at
 
 } // namespace
 
@@ -44,6 +44,7 @@ class ZeroDecider::State {
 
     [[nodiscard]] const ProofBudget& budget() const { return budget_; }
     [[nodiscard]] Decision decide(NodeId residual);
+    [[nodiscard]] ProofStatus status(NodeId residual);
     [[nodiscard]] Decision confirm(NodeId residual, const std::string& argument);
     [[nodiscard]] Signs signs(NodeId value);
     [[nodiscard]] std::optional<NamedPoint> sample_point();
@@ -83,7 +84,6 @@ class ZeroDecider::State {
 
 namespace {
 
-constexpr std::size_t modular_points = 5;
 
 std::string joined(const std::string& a, const std::string& b)
 {
@@ -273,12 +273,19 @@ Decision ZeroDecider::State::decide(NodeId residual)
     if (decision.status == ProofStatus::undecided && decision.points > 0 &&
         proves_by_cases(graph_, setting_, constraints_, operands_, residual, {budget_.terms, budget_.products}))
         return proved_zero;
-    if (decision.status == ProofStatus::undecided && algebra.exhausted && constraints_.empty() &&
-        modular_zeros(graph_, residual, modular_points) == modular_points)
-        decision.evidence = joined(decision.evidence,
-                                   "zero modulo 2^61-1 at " + std::to_string(modular_points) + " points, not proved");
     if (decision.status == ProofStatus::undecided) decision.evidence = joined(decision.evidence, algebra.note);
     return decision;
+}
+
+ProofStatus ZeroDecider::State::status(NodeId residual)
+{
+    const Evaluation evaluation(graph_, {residual});
+    for (std::size_t k = 0; k < std::max<std::size_t>(budget_.points, 1); ++k) {
+        const SamplePoint* point = sampler_.regular(k);
+        if (point == nullptr) break;
+        if (refine(evaluation, sampler_, *point, false).excludes_zero()) return ProofStatus::refuted;
+    }
+    return decide(residual).status;
 }
 
 Decision ZeroDecider::State::confirm(NodeId residual, const std::string& argument)
@@ -298,17 +305,25 @@ Decision ZeroDecider::State::confirm(NodeId residual, const std::string& argumen
 
 Signs ZeroDecider::State::signs(NodeId value)
 {
+    // What is long has no sign that is found.
+    const Work work{std::min(budget_.terms, most_signed_terms), budget_.products};
+    const std::vector<SolvedConstraint> none;
+    std::vector<const std::vector<SolvedConstraint>*> sets{&constraints_};
+    // A constraint that is put in may hide a sign, as that of 2 + z^2 with z^2 = 1 - x^2 - y^2.
+    if (!constraints_.empty()) sets.push_back(&none);
     Signs known;
-    for (const Angles angles : {Angles::split, Angles::whole}) {
-        try {
-            NormalForm forms = normal_form(value, angles);
-            const Fraction form = forms.of(value);
-            if (forms.condition().empty()) known = both(known, forms.ring().signs(form));
-        } catch (const BudgetExhausted&) { // nothing learnt
-        } catch (const VanishingDivisor&) {
-            return {};
+    for (const auto* constraints : sets)
+        for (const Angles angles : {Angles::split, Angles::whole}) {
+            try {
+                NormalForm forms(graph_, setting_, *constraints, value, operands_, work, angles);
+                const Fraction form = forms.of(value);
+                if (forms.condition().empty()) known = both(known, forms.ring().signs(form));
+            } catch (const BudgetExhausted&) { // nothing learnt
+            } catch (const VanishingDivisor&) {
+                return {};
+            }
+            if (known.negative + known.zero + known.positive <= 1) return known;
         }
-    }
     return known;
 }
 
@@ -365,6 +380,11 @@ ZeroDecider::~ZeroDecider() = default;
 Decision ZeroDecider::decide(NodeId residual) const
 {
     return state_->decide(residual);
+}
+
+ProofStatus ZeroDecider::status(NodeId residual) const
+{
+    return state_->status(residual);
 }
 
 Decision ZeroDecider::confirm(NodeId residual, const std::string& argument) const

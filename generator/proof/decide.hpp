@@ -6,7 +6,7 @@
 /// Classes that are decided (proved where true):
 /// - rational functions; denominators may be any expressions that are not identically zero;
 /// - sin, cos, tan of sums of rational multiples of power products (multiples up to 256 times the common unit), sinh,
-///   cosh, tanh, exp, Stumpff functions; sin and cos of rational multiples of pi with denominators up to 60;
+///   cosh, tanh, exp, Stumpff functions; sin and cos of multiples of pi/12 as numbers, of others by their sums;
 /// - exp and log: products, quotients, powers, log of what is certainly positive or a square, sums of logarithms with
 ///   integer coefficients;
 /// - roots of any degree whose radicands factor, denest over one root, or cancel by norms and signs; |p|, min, max,
@@ -108,6 +108,10 @@ class ZeroDecider {
 
     [[nodiscard]] const ProofBudget& budget() const;
     [[nodiscard]] Decision decide(NodeId residual) const;
+
+    /// The status of `decide` without its texts: a residual that is not zero at one of a few points is not multiplied
+    /// out.
+    [[nodiscard]] ProofStatus status(NodeId residual) const;
 
     /// A residual that is known to vanish, by `argument`: `proved`, with the argument as evidence, once its enclosure
     /// at a regular point contains zero; `undecided` where no point tells. Throws InternalError where zero is excluded.

@@ -15,6 +15,9 @@ namespace lagen::proof {
 /// How cos(a + b) is seen: by the addition theorem, or as a generator of the whole angle (better for signs).
 enum class Angles { split, whole };
 
+/// Bounds of f on a range, from its ends to about three decimals; f is increasing, as arb_log and arb_exp are.
+[[nodiscard]] Range increasing_image(const Range& range, void (*f)(arb_t, const arb_t, slong));
+
 /// A sign assumed of a polynomial, which is a tree so that every ring of the distinction knows it.
 struct Assumption {
     Tree polynomial;
@@ -105,8 +108,6 @@ class Elementary {
     void make_generators(Unit& unit, const Fraction& atom, bool angle);
     [[nodiscard]] SineCosine multiple_angle(const Unit& unit, const mpz_class& multiple);
     [[nodiscard]] SineCosine pi_angle(const mpq_class& turns);
-    /// sin and cos of turns * pi, 0 < turns < 1/2.
-    [[nodiscard]] SineCosine part_of_pi(const mpq_class& turns);
     [[nodiscard]] SineCosine sum(const SineCosine& a, const SineCosine& b);
     [[nodiscard]] StumpffPair stumpff_pair(const Fraction& z);
     [[nodiscard]] StumpffPair repeated(const Family& family, const mpz_class& count);
@@ -136,8 +137,7 @@ class Elementary {
     Ring& ring_;
     Angles angles_;
     bool refined_ = false;
-    int log_depth_ = 0;     ///< logarithms of relations that wait for one another
-    unsigned pi_parts_ = 1; ///< common denominator of the multiples of pi
+    int log_depth_ = 0; ///< logarithms of relations that wait for one another
     std::map<std::string, Unit> angle_units_;
     std::map<std::string, Unit> exponential_units_;
     std::map<std::string, Family> families_; ///< of Stumpff functions

@@ -8,10 +8,6 @@ namespace lagen::proof {
 
 namespace {
 
-struct Before {
-    bool operator()(const Monomial& a, const Monomial& b) const { return before(a, b); }
-};
-
 using Remainder = std::map<Monomial, mpz_class, Before>;
 
 Remainder remainder_of(const Polynomial& p)

@@ -3,9 +3,33 @@
 #include "proof/elementary.hpp"
 #include "proof/print_fraction.hpp"
 
+#include <cmath>
+
 namespace lagen::proof {
 
 constexpr int deepest_log = 6;
+
+Range increasing_image(const Range& range, void (*f)(arb_t, const arb_t, slong))
+{
+    constexpr double steps = 1024, largest = 1e9;
+    Range image;
+    for (const bool upper : {false, true}) {
+        const End& end = upper ? range.high : range.low;
+        if (end.infinite) continue;
+        Ball value(end.value, 64);
+        f(value.get(), value.get(), 64);
+        if (!value.is_finite() || value.bound() > largest) continue;
+        arf_t bound;
+        arf_init(bound);
+        upper ? arb_get_ubound_arf(bound, value.get(), 64) : arb_get_lbound_arf(bound, value.get(), 64);
+        const double scaled = steps * arf_get_d(bound, upper ? ARF_RND_CEIL : ARF_RND_FLOOR);
+        arf_clear(bound);
+        mpq_class rounded(upper ? std::ceil(scaled) : std::floor(scaled));
+        rounded /= steps;
+        (upper ? image.high : image.low) = End{false, rounded, false};
+    }
+    return image;
+}
 
 Fraction Elementary::log_generator(const Polynomial& p)
 {
@@ -18,6 +42,7 @@ Fraction Elementary::log_generator(const Polynomial& p)
         if (!signs.negative) generator.range.low = End{false, 0, !signs.zero};
         if (!signs.positive) generator.range.high = End{false, 0, !signs.zero};
         generator.range.nonzero = !signs.zero;
+        generator.range = intersect(generator.range, increasing_image(ring_.range_of(p), arb_log));
         generator.value = ring_.value_of(p);
         if (generator.value) arb_log(generator.value->get(), generator.value->get(), 256);
         return ring_.add_generator(std::move(generator));

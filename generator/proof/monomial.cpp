@@ -9,6 +9,11 @@ Monomial::Monomial(GeneratorId generator, unsigned exponent)
     append(generator, exponent);
 }
 
+Monomial::Monomial(const std::vector<GeneratorId>& generators, const std::vector<unsigned long>& exponents)
+{
+    for (std::size_t k = 0; k < generators.size(); ++k) append(generators[k], static_cast<unsigned>(exponents[k]));
+}
+
 void Monomial::append(GeneratorId generator, unsigned exponent)
 {
     if (exponent > 0xffffU) throw BudgetExhausted("an exponent exceeds 65535");
@@ -89,17 +94,6 @@ bool before(const Monomial& a, const Monomial& b)
         return a.exponent(k) > b.exponent(k);
     }
     return a.size() > b.size();
-}
-
-std::size_t Monomial::hash() const
-{
-    std::uint64_t h = 0x9e3779b97f4a7c15ULL;
-    for (const std::uint32_t factor : factors_) {
-        h ^= factor;
-        h *= 0xff51afd7ed558ccdULL;
-        h ^= h >> 32;
-    }
-    return static_cast<std::size_t>(h);
 }
 
 } // namespace lagen::proof

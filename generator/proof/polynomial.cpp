@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Arithmetic of sparse integer polynomials; every product is paid for out of `Work`.
+/// Sums and multiples of sparse integer polynomials; every product is paid for out of `Work`.
 #include "proof/polynomial.hpp"
 
 #include <algorithm>
-#include <unordered_map>
 
 namespace lagen::proof {
 
 namespace {
-
-/// Longest coefficient in bits; a longer one costs more than any decision is worth.
-constexpr std::size_t longest_coefficient = 100'000;
-
-struct MonomialHash {
-    std::size_t operator()(const Monomial& m) const { return m.hash(); }
-};
 
 std::size_t limbs(const mpz_class& z)
 {
@@ -120,35 +112,6 @@ Polynomial multiply_term(const Polynomial& p, const Monomial& m, const mpz_class
         product.push_back({term.monomial * m, term.coefficient * factor});
         check(product.back().coefficient);
     }
-    return product;
-}
-
-Polynomial multiply(const Polynomial& p, const Polynomial& q, Work& work)
-{
-    if (p.empty() || q.empty()) return {};
-    if (q.size() == 1) return multiply_term(p, q[0].monomial, q[0].coefficient, work);
-    if (p.size() == 1) return multiply_term(q, p[0].monomial, p[0].coefficient, work);
-    // Paid in advance: a product that cannot be finished is not begun.
-    work.spend(p.size() * q.size() * (1 + limbs(p[0].coefficient) / 4));
-    std::unordered_map<Monomial, mpz_class, MonomialHash> sums;
-    for (const Term& a : p) {
-        for (const Term& b : q) {
-            mpz_class& sum = sums[a.monomial * b.monomial];
-            sum += a.coefficient * b.coefficient;
-            check(sum);
-        }
-        // Cancelled terms stay in the table until the end: twice the budget leaves room for them.
-        if (sums.size() > 2 * work.terms)
-            throw BudgetExhausted("term budget of " + std::to_string(work.terms) + " exhausted");
-    }
-    Polynomial product;
-    product.reserve(sums.size());
-    // The table is emptied in any order; sorting makes the result independent of it.
-    for (auto& [monomial, sum] : sums)
-        if (sum != 0) product.push_back({monomial, std::move(sum)});
-    std::sort(product.begin(), product.end(),
-              [](const Term& a, const Term& b) { return before(a.monomial, b.monomial); });
-    check(product, work);
     return product;
 }
 

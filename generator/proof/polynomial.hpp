@@ -26,6 +26,8 @@ class Monomial {
   public:
     Monomial() = default;
     Monomial(GeneratorId generator, unsigned exponent);
+    /// The product of the generators, which ascend, with their exponents, 0 among them.
+    Monomial(const std::vector<GeneratorId>& generators, const std::vector<unsigned long>& exponents);
 
     [[nodiscard]] bool is_one() const { return factors_.empty(); }
     [[nodiscard]] std::size_t size() const { return factors_.size(); }
@@ -44,17 +46,23 @@ class Monomial {
     friend bool operator==(const Monomial& a, const Monomial& b) { return a.factors_ == b.factors_; }
     /// Descending lexicographic order: true where a comes first.
     friend bool before(const Monomial& a, const Monomial& b);
-    [[nodiscard]] std::size_t hash() const;
 
   private:
     void append(GeneratorId generator, unsigned exponent);
     boost::container::small_vector<std::uint32_t, 8> factors_;
 };
 
+struct Before {
+    bool operator()(const Monomial& a, const Monomial& b) const { return before(a, b); }
+};
+
 struct Term {
     Monomial monomial;
     mpz_class coefficient; ///< never 0
 };
+
+/// Longest coefficient in bits; a longer one costs more than any decision is worth.
+inline constexpr std::size_t longest_coefficient = 100'000;
 
 using Polynomial = std::vector<Term>; ///< sorted by `before`; empty: 0
 

@@ -44,7 +44,7 @@ Polynomial Ring::reduce(const Polynomial& p)
     for (const Term& term : p) (reducible(term.monomial) ? todo : done).push_back(term);
     // Terms with the same powers to replace are gathered, so that each power is multiplied in once.
     while (!todo.empty()) {
-        std::map<std::string, std::pair<Monomial, Polynomial>> groups;
+        std::map<Monomial, Polynomial, Before> groups; ///< by the powers that are replaced
         for (const Term& term : todo) {
             Monomial rest, replaced;
             for (std::size_t k = 0; k < term.monomial.size(); ++k) {
@@ -54,15 +54,13 @@ Polynomial Ring::reduce(const Polynomial& p)
                 if (quotient > 0) replaced = replaced * Monomial(id, quotient);
                 rest = rest * Monomial(id, exponent - quotient * power);
             }
-            auto& group = groups[key_of(replaced)];
-            group.first = replaced;
-            group.second.push_back({rest, term.coefficient});
+            groups[replaced].push_back({rest, term.coefficient});
         }
         todo.clear();
-        for (auto& [key, group] : groups) {
-            Polynomial product = collect(std::move(group.second), work_);
-            for (std::size_t k = 0; k < group.first.size(); ++k)
-                product = multiply(product, relation_power(group.first.generator(k), group.first.exponent(k)), work_);
+        for (auto& [powers, group] : groups) {
+            Polynomial product = collect(std::move(group), work_);
+            for (std::size_t k = 0; k < powers.size(); ++k)
+                product = multiply(product, relation_power(powers.generator(k), powers.exponent(k)), work_);
             Polynomial ready, again;
             for (Term& term : product) (reducible(term.monomial) ? again : ready).push_back(std::move(term));
             done = add_scaled(done, ready, 1, work_);

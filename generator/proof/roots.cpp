@@ -129,11 +129,12 @@ std::optional<Fraction> Elementary::denested(const Polynomial& radicand)
 Fraction Elementary::remaining_root(const Polynomial& radicand, unsigned degree)
 {
     if (is_one(radicand)) return ring_.constant(1);
-    // A coordinate that a constraint makes a root already, g3^2 = 1 - g1^2 - g2^2, and whose sign is known.
+    // A coordinate that a constraint makes a root already, g3^2 = 1 - g1^2 - g2^2, and whose sign is known. (Not a root
+    // that was made here: its degree may be too low for the others of the same radicand.)
     for (std::size_t k = 0; k < ring_.size(); ++k) {
         const auto id = static_cast<GeneratorId>(k);
         const Generator& generator = ring_.generator(id);
-        if (generator.power == degree && signs_of(generator.range).certainly_nonnegative() &&
+        if (generator.power == degree && !roots_.contains(id) && signs_of(generator.range).certainly_nonnegative() &&
             equal(generator.relation, radicand))
             return ring_.of(id);
     }

@@ -14,6 +14,10 @@ namespace lagen {
 /// the choice is the same on every run.
 [[nodiscard]] Tree shortest_form(const GiNaC::ex& expression, const SymbolTable& symbols, const Order& order);
 
+/// Whether numerator and denominator over a common denominator have few terms even if nothing cancels: the greatest
+/// common divisors that bring a fraction to lowest terms take a multiple of their time for each further divisor.
+[[nodiscard]] bool has_short_fraction(const GiNaC::ex& expression);
+
 /// The number of terms of an expression when it is expanded and like terms are joined; nothing where expanding costs
 /// too much.
 [[nodiscard]] std::optional<std::size_t> expanded_length(const GiNaC::ex& expression);

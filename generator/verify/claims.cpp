@@ -62,7 +62,7 @@ Continuity Claims::along_motions(EquationsOfMotion& motion)
     }
     const auto conserved = [this, &motion](NodeId f) {
         const Rate rate = motion.rate(f);
-        return rate.value && judge_->decider().decide(*rate.value).status == ProofStatus::proved;
+        return rate.value && judge_->decider().status(*rate.value) == ProofStatus::proved;
     };
     Continuity continuity(graph_, setting_of(std::move(defined)), judge_->decider().budget(), conserved);
     if (system_.lagrangian && !system_.control)

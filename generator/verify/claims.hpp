@@ -38,6 +38,7 @@ class Claims {
     void require_triangular_constraints();
     void refuse_zero_divisors(const ProofBudget& budget);
     void decide_by_construction(const ResidualList& list);
+    [[nodiscard]] std::optional<NodeId> momentum_in(NodeId f, const Binding& names);
     [[nodiscard]] std::vector<Check> vanishing(const std::string& name, const FormClaim& claim,
                                                const ExteriorForm& residual, std::size_t& trivial);
     [[nodiscard]] Check check_of(const Residual& residual) const;

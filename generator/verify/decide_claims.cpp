@@ -6,6 +6,8 @@
 #include "verify/control_maximum.hpp"
 #include "verify/proof_setting.hpp"
 
+#include <algorithm>
+
 namespace lagen {
 
 /// The names that its numbers stand for; the last one is a base coordinate or a function of the base.
@@ -75,17 +77,32 @@ void Claims::decide_structure(Report& report)
     }
 }
 
+/// The name of the momentum that f is written out as: its rate needs no accelerations.
+std::optional<NodeId> Claims::momentum_in(NodeId f, const Binding& names)
+{
+    const NodeId only[] = {f};
+    if (!lagrangian_ || !depends_on_any(graph_, only, system_.algebroid.y)) return {};
+    for (std::size_t a = 0; a < std::min(system_.mu.size(), system_.r()); ++a) {
+        const auto name = names.find(graph_.input_name(system_.mu[a]));
+        if (name == names.end() || name->second == f) continue;
+        if (judge_->decider().status(graph_.subtract(f, lagrangian_->fibre.momenta[a])) == ProofStatus::proved)
+            return name->second;
+    }
+    return {};
+}
+
 void Claims::decide_invariants(Report& report, const std::vector<NamedTree>& extra)
 {
     const std::unique_ptr<EquationsOfMotion> motion = equations_of_motion();
     Continuity continuity = along_motions(*motion);
-    Lowering lower(graph_, motion->names());
+    const Binding names = motion->names();
+    Lowering lower(graph_, names);
     std::vector<NamedTree> claims = system_.written.invariants;
     claims.insert(claims.end(), extra.begin(), extra.end());
     for (const NamedTree& claim : claims) {
         Check check{"invariant", {claim.name}, {}, {}, {}};
         const NodeId f = lower(claim.value);
-        const Rate rate = motion->rate(f);
+        const Rate rate = motion->rate(momentum_in(f, names).value_or(f));
         if (!rate.value) {
             check.decision.evidence = rate.obstacle;
         } else {

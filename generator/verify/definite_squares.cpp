@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// L taken apart into squares, and the elimination of the fibre coordinates.
+/// L taken apart into squares and products, and the elimination of the fibre coordinates.
 #include "verify/definite_squares.hpp"
+
+#include "proof/rational_matrix.hpp"
 #include "graph/differentiate.hpp"
 
 #include <algorithm>
@@ -18,6 +20,12 @@ struct Part {
     NodeId node;
 };
 
+/// A part sum_fg c_fg df dg^T of W, where c is symmetric, of functions f that are affine in y.
+struct Form {
+    std::vector<NodeId> nodes;        ///< f, shape (m)
+    std::vector<NodeId> coefficients; ///< c_fg, shape (m, m)
+};
+
 class Squares {
   public:
     Squares(Graph& graph, const FibreHessian& hessian) : graph_(graph), y_(hessian.y)
@@ -26,10 +34,13 @@ class Squares {
         // Degrees in y, from the operands up; 2 stands for everything that is not affine.
         for (const NodeId node : reachable(graph, roots)) degrees_[node] = degree(node);
         split({graph.constant(1), hessian.lagrangian});
+        for (const auto& [factor, f, g] : products_) distribute(factor, f, g);
+        if (found_) make_forms();
     }
 
-    [[nodiscard]] bool found() const { return found_ && !squares_.empty(); }
+    [[nodiscard]] bool found() const { return found_ && (!squares_.empty() || !forms_.empty()); }
     [[nodiscard]] const std::vector<Part>& squares() const { return squares_; }
+    [[nodiscard]] const std::vector<Form>& forms() const { return forms_; }
 
   private:
     [[nodiscard]] int degree(NodeId node) const
@@ -69,14 +80,110 @@ class Squares {
                 open.push_back({graph_.negate(part.factor), operands[1]});
                 break;
             case Op::negate: open.push_back({graph_.negate(part.factor), operands[0]}); break;
-            case Op::multiply: {
-                const std::size_t plain = degrees_.at(operands[0]) == 0 ? 0 : 1;
-                found_ = degrees_.at(operands[plain]) == 0; // no product of two functions of y
-                open.push_back({graph_.multiply(part.factor, operands[plain]), operands[1 - plain]});
+            case Op::multiply:
+                if (degrees_.at(operands[0]) > 0 && degrees_.at(operands[1]) > 0) {
+                    take_product(part.factor, operands[0], operands[1], open);
+                } else {
+                    const std::size_t plain = degrees_.at(operands[0]) == 0 ? 0 : 1;
+                    open.push_back({graph_.multiply(part.factor, operands[plain]), operands[1 - plain]});
+                }
                 break;
-            }
             default: compose(part, operands, open);
             }
+        }
+    }
+
+    /// `node` without its factors that do not depend on y, which are multiplied into `factor`.
+    [[nodiscard]] NodeId stripped(NodeId node, NodeId& factor)
+    {
+        for (;;) {
+            const std::vector<NodeId> operands(graph_.operands(node).begin(), graph_.operands(node).end());
+            const Op op = graph_.op(node);
+            if (op == Op::negate) {
+                factor = graph_.negate(factor);
+                node = operands[0];
+            } else if (op == Op::multiply && degrees_.at(operands[0]) == 0) {
+                factor = graph_.multiply(factor, operands[0]);
+                node = operands[1];
+            } else if (op == Op::multiply && degrees_.at(operands[1]) == 0) {
+                factor = graph_.multiply(factor, operands[1]);
+                node = operands[0];
+            } else if (op == Op::divide && degrees_.at(operands[1]) == 0) {
+                factor = graph_.divide(factor, operands[1]);
+                node = operands[0];
+            } else {
+                return node;
+            }
+        }
+    }
+
+    /// m f g is a square where f and g differ by a factor that does not depend on y; else both must be affine.
+    void take_product(NodeId factor, NodeId f, NodeId g, std::vector<Part>& open)
+    {
+        f = stripped(f, factor);
+        g = stripped(g, factor);
+        if (f == g) {
+            const NodeId twice = graph_.multiply(graph_.constant(2), factor);
+            squares_.push_back({twice, f});
+            open.push_back({graph_.multiply(twice, f), f});
+            return;
+        }
+        found_ = degrees_.at(f) == 1 && degrees_.at(g) == 1;
+        products_.push_back({factor, std::min(f, g), std::max(f, g)});
+        whole_.insert(std::min(f, g));
+    }
+
+    /// g, the later one of the two, is a sum of others as a rule: of w_j in w_i (J w)_i.
+    void distribute(NodeId product, NodeId f, NodeId g)
+    {
+        std::vector<Part> open{{product, g}};
+        while (!open.empty() && found_) {
+            auto [factor, node] = open.back();
+            open.pop_back();
+            node = stripped(node, factor);
+            if (degrees_.at(node) == 0) continue; // affine with f
+            const std::vector<NodeId> operands(graph_.operands(node).begin(), graph_.operands(node).end());
+            const Op op = graph_.op(node);
+            if (!whole_.contains(node) && (op == Op::add || op == Op::subtract)) {
+                open.push_back({factor, operands[0]});
+                open.push_back({op == Op::add ? factor : graph_.negate(factor), operands[1]});
+                found_ = open.size() + entries_.size() < most_squares;
+                continue;
+            }
+            entries_[{f, node}].push_back(f == node ? graph_.multiply(graph_.constant(2), factor) : factor);
+            if (f != node) entries_[{node, f}].push_back(factor);
+        }
+    }
+
+    /// A form for each class of functions that are coupled by products. Squares of these functions with factors that do
+    /// not depend on y belong to it.
+    void make_forms()
+    {
+        for (auto square = squares_.begin(); square != squares_.end();) {
+            const NodeId factor[] = {square->factor};
+            const auto coupled = entries_.lower_bound({square->node, 0});
+            const bool inside = coupled != entries_.end() && coupled->first.first == square->node;
+            if (inside && !depends_on_any(graph_, factor, y_)) {
+                entries_[{square->node, square->node}].push_back(square->factor);
+                square = squares_.erase(square);
+            } else {
+                ++square;
+            }
+        }
+        std::set<NodeId> seen;
+        for (const auto& [start, unused] : entries_) {
+            if (!seen.insert(start.first).second) continue;
+            Form form{{start.first}, {}};
+            for (std::size_t next = 0; next < form.nodes.size(); ++next)
+                for (const auto& [pair, terms] : entries_)
+                    if (pair.first == form.nodes[next] && seen.insert(pair.second).second)
+                        form.nodes.push_back(pair.second);
+            for (const NodeId f : form.nodes)
+                for (const NodeId g : form.nodes) {
+                    const auto at = entries_.find({f, g});
+                    form.coefficients.push_back(at == entries_.end() ? graph_.constant(0) : graph_.sum(at->second));
+                }
+            forms_.push_back(std::move(form));
         }
     }
 
@@ -113,12 +220,39 @@ class Squares {
     Graph& graph_;
     const std::vector<NodeId>& y_;
     std::map<NodeId, int> degrees_;
+    struct Product {
+        NodeId factor, f, g;
+    };
     std::vector<Part> squares_;
+    std::vector<Product> products_;
+    std::set<NodeId> whole_; ///< functions that products are written in
+    std::map<std::pair<NodeId, NodeId>, std::vector<NodeId>> entries_;
+    std::vector<Form> forms_;
     bool found_ = true;
 };
 
-/// The nodes of the squares with a positive factor; nothing where a factor may be negative.
-std::optional<std::vector<NodeId>> positive_squares(const Squares& squares, const ZeroDecider& decider)
+/// Sylvester's criterion.
+bool proves_definite(Graph& graph, const Form& form, const ZeroDecider& decider)
+{
+    const std::size_t m = form.nodes.size();
+    const std::vector<NodeId>& c = form.coefficients;
+    if (std::ranges::all_of(c, [&](NodeId each) { return graph.is_constant(each); })) {
+        std::vector<Rational> numbers;
+        for (const NodeId each : c) numbers.push_back(graph.value(each));
+        return is_positive_definite(numbers, m);
+    }
+    if (m > determinant_limit) return false;
+    std::vector<std::size_t> first;
+    for (std::size_t k = 0; k < m; ++k) {
+        first.push_back(k);
+        if (!decider.proves_positive(determinant_of(graph, c, m, first, first))) return false;
+    }
+    return true;
+}
+
+/// The nodes of the squares with a positive factor and of the definite forms; nothing where a factor may be negative or
+/// a form is not shown to be definite.
+std::optional<std::vector<NodeId>> positive_squares(Graph& graph, const Squares& squares, const ZeroDecider& decider)
 {
     if (!squares.found()) return {};
     std::map<NodeId, bool> positive;
@@ -127,6 +261,10 @@ std::optional<std::vector<NodeId>> positive_squares(const Squares& squares, cons
         if (positive.count(factor) == 0) positive[factor] = decider.proves_positive(factor);
         if (!positive[factor] && !decider.proves_nonnegative(factor)) return {};
         if (positive[factor]) nodes.push_back(node);
+    }
+    for (const Form& form : squares.forms()) {
+        if (!proves_definite(graph, form, decider)) return {};
+        nodes.insert(nodes.end(), form.nodes.begin(), form.nodes.end());
     }
     return nodes;
 }
@@ -143,29 +281,40 @@ std::size_t only_open(const Graph& graph, const std::vector<NodeId>& row, const 
     return only;
 }
 
+/// Whether the sum of the squares is positive: one that is a number makes it so, whatever the others are.
+bool have_positive_squares(Graph& graph, const std::vector<NodeId>& slopes, const ZeroDecider& decider)
+{
+    std::vector<NodeId> squares;
+    for (const NodeId slope : slopes) {
+        if (graph.is_constant(slope) && !graph.is_zero(slope)) return true;
+        squares.push_back(graph.power(slope, 2));
+    }
+    return decider.proves_positive(graph.sum(squares));
+}
+
 } // namespace
 
 bool proves_semidefinite_by_squares(Graph& graph, const FibreHessian& hessian, const ZeroDecider& decider)
 {
-    return positive_squares(Squares(graph, hessian), decider).has_value();
+    return positive_squares(graph, Squares(graph, hessian), decider).has_value();
 }
 
 bool proves_definite_by_squares(Graph& graph, const FibreHessian& hessian, const ZeroDecider& decider)
 {
     const std::size_t r = hessian.y.size();
     if (r == 0) return false;
-    const auto nodes = positive_squares(Squares(graph, hessian), decider);
+    const auto nodes = positive_squares(graph, Squares(graph, hessian), decider);
     if (!nodes) return false;
     std::vector<std::vector<NodeId>> rows; // J_i
     for (const NodeId node : *nodes) rows.push_back(gradient(graph, node, hessian.y));
     std::vector<bool> closed(r, false);
     for (std::size_t count = 0; count < r;) {
-        std::map<std::size_t, std::vector<NodeId>> sums;
+        std::map<std::size_t, std::vector<NodeId>> entries;
         for (const std::vector<NodeId>& row : rows)
-            if (const std::size_t a = only_open(graph, row, closed); a < r) sums[a].push_back(graph.power(row[a], 2));
+            if (const std::size_t a = only_open(graph, row, closed); a < r) entries[a].push_back(row[a]);
         bool progress = false;
-        for (const auto& [a, terms] : sums) {
-            if (!decider.proves_positive(graph.sum(terms))) continue;
+        for (const auto& [a, slopes] : entries) {
+            if (!have_positive_squares(graph, slopes, decider)) continue;
             closed[a] = progress = true;
             ++count;
         }

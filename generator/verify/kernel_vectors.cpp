@@ -50,7 +50,7 @@ bool is_in_kernel(Graph& graph, const FibreHessian& hessian, const Block& block,
     return std::ranges::all_of(block, [&](std::size_t a) {
         std::vector<NodeId> terms;
         for (std::size_t b = 0; b < block.size(); ++b) terms.push_back(graph.multiply(hessian.W(a, block[b]), k[b]));
-        return decider.decide(graph.sum(terms)).status == ProofStatus::proved;
+        return decider.status(graph.sum(terms)) == ProofStatus::proved;
     });
 }
 
@@ -81,7 +81,9 @@ Tree common_denominator(const std::vector<Tree>& trees, const Order& order)
             GiNaC::exmap functions; // as symbols: lcm knows polynomials alone
             GiNaC::ex common = 1;
             for (const Tree& tree : trees) {
-                const GiNaC::ex denominator = to_ginac(tree, symbols).normal().denom();
+                const GiNaC::ex fraction = to_ginac(tree, symbols);
+                if (!has_short_fraction(fraction)) return nullptr;
+                const GiNaC::ex denominator = fraction.normal().denom();
                 common = GiNaC::lcm(common, denominator.to_polynomial(functions));
             }
             if (GiNaC::is_a<GiNaC::numeric>(common)) return nullptr;
@@ -162,9 +164,9 @@ std::optional<Block> nonzero_principal_minor(Graph& graph, const FibreHessian& h
             Block part;
             for (std::size_t k = 0; k < block.size(); ++k)
                 if (set >> k & 1U) part.push_back(block[k]);
-            const Decision decision = decider.decide(minor_determinant(graph, hessian, part, part));
-            if (decision.status == ProofStatus::refuted) return part;
-            if (decision.status == ProofStatus::undecided) return {};
+            const ProofStatus status = decider.status(minor_determinant(graph, hessian, part, part));
+            if (status == ProofStatus::refuted) return part;
+            if (status == ProofStatus::undecided) return {};
         }
     return Block{};
 }

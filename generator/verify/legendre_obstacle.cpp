@@ -156,7 +156,7 @@ bool is_quadratic(Graph& graph, const FibreHessian& hessian, SmoothSet& smooth)
 {
     for (const NodeId entry : hessian.hessian)
         for (const NodeId slope : gradient(graph, entry, hessian.y))
-            if (!graph.is_zero(slope) && smooth.decider().decide(slope).status != ProofStatus::proved) return false;
+            if (!graph.is_zero(slope) && smooth.decider().status(slope) != ProofStatus::proved) return false;
     return true;
 }
 

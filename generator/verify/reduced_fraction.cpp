@@ -7,13 +7,14 @@ namespace lagen {
 
 namespace {
 
-/// By GiNaC; null where it does not have a function of the tree, or meets a pole.
+/// By GiNaC; null where it does not have a function of the tree, meets a pole, or the fraction is long.
 Tree reduced_tree(const Tree& tree, const Order& order)
 {
     try {
-        return with_ginac("no reduced fraction", [&] {
+        return with_ginac("no reduced fraction", [&]() -> Tree {
             SymbolTable symbols;
-            return shortest_form(to_ginac(tree, symbols).normal(), symbols, order);
+            const GiNaC::ex given = to_ginac(tree, symbols);
+            return has_short_fraction(given) ? shortest_form(given.normal(), symbols, order) : nullptr;
         });
     } catch (const MathematicsError&) {
         return nullptr;
@@ -36,7 +37,7 @@ std::optional<Tree> reduced_fraction(Graph& graph, NodeId node, const Tree& tree
     const Tree reduced = reduced_tree(tree, order);
     if (reduced == nullptr) return std::nullopt;
     const NodeId difference = graph.subtract(Lowering(graph)(reduced), node);
-    if (decider.decide(difference).status != ProofStatus::proved) return std::nullopt;
+    if (decider.status(difference) != ProofStatus::proved) return std::nullopt;
     return reduced;
 }
 

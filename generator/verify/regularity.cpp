@@ -4,7 +4,7 @@
 #include "graph/differentiate.hpp"
 #include "graph/evaluate.hpp"
 #include "proof/rational_matrix.hpp"
-#include "verify/almost_everywhere.hpp"
+#include "proof/almost_everywhere.hpp"
 #include "verify/definite_squares.hpp"
 #include "verify/kernel_vectors.hpp"
 #include "verify/singular_factors.hpp"
@@ -173,7 +173,7 @@ void describe_singular(Regularity& result, Graph& graph, const ProofSetting& set
     const std::vector<NodeId> determinants = determinants_of(minors);
     if (const auto values = substitute_where_defined(graph, determinants, defaults)) {
         result.singular_everywhere = std::ranges::any_of(
-            *values, [&](NodeId value) { return valued.decide(value).status == ProofStatus::proved; });
+            *values, [&](NodeId value) { return valued.status(value) == ProofStatus::proved; });
         if (!result.singular_everywhere) result.singular_at = singular_points(graph, there, valued.budget(), *values);
     }
     if (determinants.size() == minors.size())

@@ -26,7 +26,7 @@ std::optional<NamedPoint> singular_point(Graph& graph, const ProofSetting& setti
     std::optional<NamedPoint> point = decider ? decider->sample_point() : std::nullopt;
     if (!point) return {};
     for (const NodeId determinant : *there)
-        if (decider->decide(determinant).status == ProofStatus::proved) return point;
+        if (decider->status(determinant) == ProofStatus::proved) return point;
     return {};
 }
 

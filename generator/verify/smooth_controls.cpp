@@ -128,7 +128,7 @@ bool ControlProofs::nonzero(NodeId value) const
 bool ControlProofs::zero(NodeId value) const
 {
     if (graph_.is_constant(value)) return graph_.is_zero(value);
-    return decider_->decide(value).status == ProofStatus::proved;
+    return decider_->status(value) == ProofStatus::proved;
 }
 
 std::string ControlProofs::kink_in(const std::vector<NodeId>& roots)

@@ -38,7 +38,7 @@ bool ZeroDivisors::is_zero(NodeId node)
 {
     if (graph_.is_constant(node)) return graph_.is_zero(node);
     if (!nonzero_.insert(node).second || (point_ && !point_->may_vanish(node))) return false;
-    return decider_.decide(node).status == ProofStatus::proved;
+    return decider_.status(node) == ProofStatus::proved;
 }
 
 void ZeroDivisors::refuse(const Tree& root, const Lower& lower)

@@ -103,3 +103,13 @@ TEST_CASE("components of small linear solves are eliminated by Cramer's rule")
     CHECK(to_text(wrong.status) == std::string("refuted"));
     CHECK(wrong.residual == "(-x*y^2 - x + 2*y)/(x*y - 1)");
 }
+
+TEST_CASE("roots of one radicand meet in the finest of them, whichever stands first")
+{
+    Problem problem({{"x", "y"}, {}, {}, {}, {}});
+    for (const char* text : {"(sqrt(1 + x^2) - ((1 + x^2)^(1/4))^2)*y", "y*((1 + x^2)^(1/4))^2 - sqrt(1 + x^2)*y",
+                             "sqrt(1 + x^2)*y + (1 + x^2)^(1/6)*x - ((1 + x^2)^(1/4))^2*y - ((1 + x^2)^(1/12))^2*x"}) {
+        INFO(text);
+        CHECK(to_text(problem.decide(text).status) == std::string("proved"));
+    }
+}

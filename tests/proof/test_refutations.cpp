@@ -102,3 +102,23 @@ TEST_CASE("a long residual is cut after a whole term and says how many there are
     CHECK(decision.residual.substr(0, 28) == "x^6 + 6*x^5*y + 6*x^5*z + 6*");
     CHECK(decision.residual.substr(decision.residual.size() - 15) == " ... (84 terms)");
 }
+
+TEST_CASE("a status is that of the decision, and points come before polynomials")
+{
+    const Statement statement{{"x", "y", "z"}, {"a"}, {"x^2 + y^2 - 1"}, {"a > 0"}, {}};
+    for (const char* text : {"x^2 + y^2 - 1", "x*y*z", "x/x - 1", "1/(x^2 + y^2 - 1)", "sqrt(-1 - x^2)", "a - abs(a)",
+                             "sin(z)^2 + cos(z)^2 - 1", "cos(z) - 1", "(x + y + z + a)^40 - 1"}) {
+        INFO(text);
+        Problem problem(statement);
+        CHECK(to_text(problem.decider->status(problem.node(text))) ==
+              std::string(to_text(problem.decide(text).status)));
+    }
+    // Without points the budget of terms would decide.
+    ProofBudget small;
+    small.terms = 10;
+    small.products = 100;
+    Problem problem(statement, small);
+    CHECK(to_text(problem.decider->status(problem.node("(x + y + z + a)^40 - 1"))) == std::string("refuted"));
+    CHECK(to_text(problem.decider->status(problem.node("(x + y + z)^9 - (x + y + z)^8*(z + y + x)"))) !=
+          std::string("refuted"));
+}

@@ -91,3 +91,24 @@ TEST_CASE("signs on a constraint set use the constraint")
     CHECK(problem.decider->proves_positive(problem.node("g1^2 + g2^2 + g3^2")));
     CHECK_FALSE(problem.decider->proves_positive(problem.node("g1^2 + g2^2")));
 }
+
+TEST_CASE("a sign that holds beside the constraints is not lost where one of them is put in")
+{
+    Problem problem({{"x", "y", "z"}, {}, {"(9/4*x)^2 + (5/4*y)^2 + (3/4*z)^2 - 1"}, {}, {}});
+    CHECK(problem.decider->proves_positive(problem.node("2 + z^2")));
+    CHECK(problem.decider->proves_positive(problem.node("3 - (9/4*x)^2 - (5/4*y)^2 - (3/4*z)^2")));
+    CHECK_FALSE(problem.decider->proves_nonnegative(problem.node("z + z^2")));
+}
+
+TEST_CASE("logarithms and exponentials lie between those of the ends of their arguments")
+{
+    Problem problem({{"x"}, {"a"}, {}, {"a > 2", "a < 3"}, {}});
+    CHECK(problem.decider->proves_positive(problem.node("log(3 + x^2) - 1")));
+    CHECK_FALSE(problem.decider->proves_positive(problem.node("log(3 + x^2) - 11/10")));
+    CHECK(problem.decider->proves_positive(problem.node("11/10 - log(a)")));
+    CHECK_FALSE(problem.decider->proves_positive(problem.node("1 - log(a)")));
+    CHECK(problem.decider->proves_positive(problem.node("exp(a) - 7")));
+    CHECK_FALSE(problem.decider->proves_positive(problem.node("exp(a) - 8")));
+    CHECK(problem.decider->proves_positive(problem.node("exp(5 + x^2) - 100")));
+    CHECK_FALSE(problem.decider->proves_nonzero(problem.node("exp(10^9*x + 10^30) - 1")));
+}

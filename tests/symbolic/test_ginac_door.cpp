@@ -157,3 +157,19 @@ TEST_CASE("the length of an expansion counts joined terms")
     CHECK(expanded_length(to_ginac(parsed("x*(y + 1) - x*y - x"), symbols)) == 0U);
     CHECK_FALSE(expanded_length(to_ginac(parsed("(x + y + z)^30"), symbols)).has_value());
 }
+
+TEST_CASE("many different divisors are not brought to one denominator")
+{
+    const auto is_short = [](const std::string& text) {
+        SymbolTable symbols;
+        return has_short_fraction(to_ginac(parsed(text), symbols));
+    };
+    CHECK(is_short("x/(y + z)"));
+    CHECK(is_short("x/(y + z) + y/(x + z)^2 + 1/(y + z)"));
+    CHECK(is_short("1/(1 + 1/(1 + 1/(1 + x)))"));
+    std::string sum = "x";
+    for (int k = 1; k <= 12; ++k) sum += " + " + std::to_string(k) + "/(x^2 + y*" + std::to_string(k) + " + z)";
+    CHECK_FALSE(is_short(sum));
+    CHECK_FALSE(is_short("(x + y + z)^50/(1 + x)"));
+    CHECK(shortest(sum).size() <= sum.size() + 12);
+}

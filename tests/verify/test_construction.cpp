@@ -111,9 +111,13 @@ TEST_CASE("a construction is believed for exactly the entries that it gives")
     }
 }
 
-TEST_CASE("from one point to the whole domain a construction argues for meromorphic entries without constraints alone")
+TEST_CASE("from one point to the whole domain a construction argues for analytic entries without constraints alone")
 {
     CHECK(holds(plane_frame("1 + x*y")));
+    CHECK(holds(plane_frame("x*sqrt(1 + sin(y)^2)")));
+    CHECK(holds(plane_frame("y + log(x)", "domain = ['x + y > 0']\n")));
+    CHECK_FALSE(holds(plane_frame("x + sqrt(x^2 + sin(y))")));
+    CHECK_FALSE(holds(plane_frame("y + log(x)", "domain = ['x*y != 0']\n")));
     CHECK(holds(plane_frame("exp(1/x) + tan(y)", "domain = ['x > 0']\n")));
     // x + |x| vanishes on a half-plane, and is not zero at a point.
     CHECK_FALSE(holds(plane_frame("x + abs(x)")));

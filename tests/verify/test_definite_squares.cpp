@@ -52,13 +52,30 @@ TEST_CASE("the mass matrix of a chain of links is positive definite for all posi
     CHECK(definite("(m1*v1^2 + m2*(v1 + th1*v2)^2)/2 + v2^2/(1 + th1^2) + v1*th2", 2));
 }
 
-TEST_CASE("a square with a negative or a vanishing coefficient, and a product of velocities, show nothing")
+TEST_CASE("a square with a negative or a vanishing coefficient, and an indefinite form, show nothing")
 {
     CHECK_FALSE(definite(chain(3, "-"), 3));
     CHECK_FALSE(definite("m1*(v1 + v2)^2", 2));
     CHECK_FALSE(definite("m1*v1^2 + th1^2*v2^2", 2));
-    CHECK_FALSE(definite("v1*v2 + v1^2 + v2^2", 2));
+    CHECK_FALSE(definite("v1*v2", 2));
+    CHECK_FALSE(definite("2*v1*v2 + v1^2 + v2^2", 2));
+    CHECK_FALSE(definite("3*v1*v2 + v1^2 + v2^2 + v1^4", 2));
+    CHECK_FALSE(definite("v1*v2 + v1^2 + v2^2 - v1^4", 2));
     CHECK_FALSE(definite("v1^2 + v2^4", 2));
+}
+
+TEST_CASE("products of affine functions make quadratic forms, which count where they are definite")
+{
+    CHECK(definite("v1*v2 + v1^2 + v2^2", 2));
+    CHECK(definite("v1*(2*v1 + v2) + v2*(v1 + 3*v2) + th1*v1 + (v1^2 + v2^2)^2", 2));
+    CHECK_FALSE(definite("v1*(2*v1 + v2) + v2*(v1 + 1/3*v2) + (v1^2 + v2^2)^2", 2));
+    CHECK(definite("m1*v1^2 + m1*v1*v2 + (m1 + m2)*v2^2", 2));
+    CHECK_FALSE(definite("m1*v1^2 + m2*v1*v2 + m1*v2^2", 2));
+    // A square in two factors, and the full inertia of a body: w^T J w of w = (v1, v1 th1 + v2)
+    CHECK(definite("(cos(th1)*v1 + v2)*(m1*(cos(th1)*v1 + v2)/2) + m2*v1^2", 2));
+    CHECK(definite("v1*(2*v1 + (v1*th1 + v2)) + (v1*th1 + v2)*(v1 + 3*(v1*th1 + v2))", 2));
+    CHECK(definite("3/4*v1^2/2 + log(3 + th1^2)*v2^2/2 + 1/10*v1*v2", 2));
+    CHECK_FALSE(definite("1/10*v1^2/2 + log(3 + th1^2)*v2^2/2 + v1*v2", 2));
 }
 
 TEST_CASE("functions of one variable with the right slopes are definite, and those of the wrong sign show nothing")

@@ -165,3 +165,11 @@ TEST_CASE("a Lagrangian that is not quadratic has its own mass matrix in each in
     CHECK(statuses(plane("(x*u^2 + v^2)/2"), {"x*u^2", "x*u", "v"}) == "proved refuted proved");
     CHECK(statuses(plane("exp(k*t)*(u^2 - x^2)/2 + v^2/2"), {"p_u", "v", "energy"}) == "refuted proved refuted");
 }
+
+TEST_CASE("a momentum that is written out is decided as the momentum, which needs no accelerations")
+{
+    CHECK(statuses(plane("(u + v)^2/2 - k*(x - y)^4"), {"u + v", "2*u + v", "u"}) == "refuted undecided undecided");
+    CHECK(statuses(plane("(u + v)^2/2"), {"u + v", "v + u + 1", "u"}) == "proved undecided undecided");
+    CHECK(statuses(plane("exp(y)*(u*(1 + y^2) + v)^2/2"),
+                   {"exp(y)*(1 + y^2)*(u + u*y^2 + v)", "exp(y)*(1 + y^2)*(u - u*y^2 + v)"}) == "proved undecided");
+}

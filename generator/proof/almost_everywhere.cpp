@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "verify/almost_everywhere.hpp"
+#include "proof/almost_everywhere.hpp"
 
 #include "graph/differentiate.hpp"
 #include "graph/substitute.hpp"
@@ -45,7 +45,7 @@ class AlmostEverywhere {
         NodeId product = f;
         for (std::size_t signs = 1; signs < std::size_t{1} << roots.size(); ++signs)
             product = graph_.multiply(product, with_signs(f, nodes, roots, signs));
-        return decider_.decide(product).status == ProofStatus::refuted;
+        return decider_.status(product) == ProofStatus::refuted;
     }
 
     bool all_analytic(const std::vector<NodeId>& functions)
