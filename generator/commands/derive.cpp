@@ -16,16 +16,16 @@ namespace lagen {
 
 namespace {
 
-const CommandSyntax derive_syntax{
-    "derive",
-    "MODEL",
-    "Prints the equations of motion.",
-    {{"form", "FORM",
-      "lagrange, hamilton, pontryagin or exterior (dx^i and de^a); pontryagin is the default "
-      "where the model has controls, else lagrange where it has L"},
-     {"output,o", "FILE", "write there instead of to standard output"},
-     {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
-     {"format,f", "FORMAT", "text, latex or json", "text"}}};
+const std::string derive_form_help =
+    form_list() + ", or exterior (dx^i and de^a); without it the first that the model has of " + default_order();
+
+const CommandSyntax derive_syntax{"derive",
+                                  "MODEL",
+                                  "Prints the equations of motion.",
+                                  {{"form", "FORM", derive_form_help.c_str()},
+                                   {"output,o", "FILE", "write there instead of to standard output"},
+                                   {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
+                                   {"format,f", "FORMAT", "text, latex or json", "text"}}};
 
 /// The equations of a refuted model say so themselves: they may go on without the error stream.
 std::string marked(const std::string& text, const std::string& format, const std::vector<std::string>& warnings)
@@ -56,7 +56,7 @@ ExitCode run_derive(Arguments arguments)
     const CheckedModel checked = load(model_path(options.positional()[0]), options.settings(), true);
     for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
     const std::string form = options.has("form") ? options.get("form") : default_form(checked.model);
-    if (form == "lagrange" && checked.report.regularity.kind == Regularity::Kind::degenerate)
+    if (is_form(form, FormKind::lagrange) && checked.report.regularity.kind == Regularity::Kind::degenerate)
         write_standard_error(
             "warning: the Lagrangian is degenerate: the accelerations are not determined by the equations\n");
     const EquationSet equations = derive(form, checked.model, checked.system, checked.report);

@@ -16,16 +16,14 @@ namespace lagen {
 
 namespace {
 
-CommandSyntax generate_syntax(const std::string& only)
+CommandSyntax generate_syntax(const std::string& form, const std::string& only)
 {
     return {"generate",
             "MODEL",
             "Writes the C++ header of a model: right-hand side, mass matrix, energy, momentum, "
             "constraints, observables, events.",
             {{"output,o", "FILE", "the header; standard output without it"},
-             {"form", "FORM",
-              "lagrange, hamilton or pontryagin; without it pontryagin for a control problem, lagrange where "
-              "there is L, else hamilton"},
+             {"form", "FORM", form.c_str()},
              {"only", "KERNELS", only.c_str()},
              {"report", "WHAT",
               "on standard error: summary, the operations of each kernel before and after the passes that changed them "
@@ -36,6 +34,12 @@ CommandSyntax generate_syntax(const std::string& only)
              {"unchecked", nullptr, "go on although the model is refuted; the header says so"},
              {"format,f", "FORMAT", "text (the header) or json (what it holds, and the header)", "text"},
              {"depfile", "FILE", "write a dependency file for make or ninja (needs --output)"}}};
+}
+
+/// What `--form` may name.
+std::string help_for_form()
+{
+    return form_list() + "; without it the first that the model has of " + default_order();
 }
 
 /// What `--only` may name.
@@ -79,8 +83,9 @@ std::string module_json(const Generated& generated)
 
 ExitCode run_generate(Arguments arguments)
 {
+    const std::string form = help_for_form();
     const std::string only = help_for_only();
-    const Options options(generate_syntax(only), arguments);
+    const Options options(generate_syntax(form, only), arguments);
     if (options.help()) return ExitCode::done;
     const bool as_json = options.choice("format", {"text", "json"}) == "json";
     if (options.has("form")) (void)options.choice("form", form_names());

@@ -24,12 +24,14 @@ namespace lagen {
 
 namespace {
 
+const std::string run_form_help = form_list() + "; without it the scene's, else the model's";
+
 const CommandSyntax run_syntax{
     "run",
     "MODEL",
     "Generates, compiles and integrates a scene. CSV on standard output unless --output or --format json.",
     {{"scene", "NAME", "the scene; without it `default`, else the first"},
-     {"form", "FORM", "lagrange, hamilton or pontryagin; without it the scene's, else the model's"},
+     {"form", "FORM", run_form_help.c_str()},
      {"method", "METHOD", "see `lagen methods`; without it the scene's, else dop853"},
      {"step", "H", "step of a fixed-step method"},
      {"tolerance", "TOL", "relative and absolute tolerance of an adaptive method; without it the scene's, else 1e-10"},
@@ -200,7 +202,7 @@ ExitCode run_run(Arguments arguments)
     integrate_scene(compiled.program, input, outcome);
     if (options.has("output")) write_file(options.get("output"), to_csv(outcome.table));
     if (options.has("plot"))
-        plot_table(outcome.table, panels_of(input.columns, model, form == "lagrange" ? "fibre coordinates" : "momenta"),
+        plot_table(outcome.table, panels_of(input.columns, model, form_named(form).lanes),
                    model.title.empty() ? model.name : model.title, options.get("plot"), unit_of(model, "t"));
     tell(options, outcome, as_json);
     return outcome.status == "ok" || outcome.status == "stopped_by_event" ? ExitCode::done : ExitCode::refuted;

@@ -5,6 +5,7 @@
 #include "graph/evaluate.hpp"
 #include "graph/solve_unknowns.hpp"
 #include "mechanics/hamilton.hpp"
+#include "model/form.hpp"
 
 #include <fmt/core.h>
 
@@ -103,10 +104,14 @@ std::vector<long double> start_state(const CheckedModel& checked, const KernelMo
     std::vector<long double> given;
     for (const auto& [name, value] : values.momenta.empty() ? values.fibre : values.momenta) given.push_back(value);
     const bool has_momenta = !values.momenta.empty();
-    if (module.form == "lagrange") return append(has_momenta ? velocities_of(checked, values, inputs) : given);
-    if (has_momenta || given.empty()) return append(given);
-    if (module.form == "pontryagin") throw InternalError("a scene in Pontryagin's form without momenta");
-    return append(momenta_of(checked, values, inputs));
+    switch (form_named(module.form).kind) {
+    case FormKind::lagrange: return append(has_momenta ? velocities_of(checked, values, inputs) : given);
+    case FormKind::hamilton: return append(has_momenta || given.empty() ? given : momenta_of(checked, values, inputs));
+    case FormKind::pontryagin:
+        if (has_momenta || given.empty()) return append(given);
+        throw InternalError("a scene in Pontryagin's form without momenta");
+    }
+    throw InternalError("a form without a start");
 }
 
 } // namespace lagen

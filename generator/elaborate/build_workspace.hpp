@@ -5,6 +5,7 @@
 
 #include "algebroid/section.hpp"
 #include "elaborate/build_algebroid.hpp"
+#include "expression/linear_algebra.hpp"
 #include "graph/determinant.hpp"
 #include "proof/decide.hpp"
 #include "proof/normal_form.hpp"
@@ -94,10 +95,7 @@ struct FrameFormulas {
 [[nodiscard]] std::vector<StructureValue> structure_constants(const AlgebroidBlock& block, std::size_t first,
                                                               std::size_t rank);
 
-/// Rows and columns of a matrix with m*m entries that nonzero entries connect.
-struct CoupledBlock {
-    std::vector<std::size_t> rows, columns;
-};
+/// Of a matrix with m*m entries.
 [[nodiscard]] std::vector<CoupledBlock> coupled_blocks(const Graph& graph, const std::vector<NodeId>& matrix,
                                                        std::size_t m);
 /// z with M z = b for each b of `right`; M has m*m entries by rows and is invertible. Uncoupled unknowns are solved for

@@ -4,7 +4,8 @@
 
 #include "algebroid/structure_equations.hpp"
 #include "elaborate/build_workspace.hpp"
-#include "graph/smoothness.hpp"
+#include "graph/operators.hpp"
+#include "proof/almost_everywhere.hpp"
 
 #include <algorithm>
 #include <set>
@@ -12,9 +13,10 @@
 namespace lagen {
 namespace {
 
-bool is_comparison(Op op)
+bool is_strict(Op op)
 {
-    return op == Op::less || op == Op::greater || op == Op::not_equal;
+    const Trichotomy& holds = operator_of(op).holds;
+    return (holds.below || holds.above) && !holds.equal;
 }
 
 class Construction {
@@ -23,7 +25,7 @@ class Construction {
         : work_(model), graph_(work_.graph()), decider_(graph_, work_.setting()), smooth_(true)
     {
         for (const NodeId condition : work_.setting().domain)
-            smooth_ = smooth_ && is_comparison(graph_.op(condition)) &&
+            smooth_ = smooth_ && is_strict(graph_.op(condition)) &&
                       are_analytic({graph_.operands(condition)[0], graph_.operands(condition)[1]});
     }
 

@@ -2,29 +2,11 @@
 /// Linear systems of graph nodes, a block of coupled rows and columns at a time.
 #include "elaborate/build_workspace.hpp"
 
-#include <numeric>
-
 namespace lagen {
 
 std::vector<CoupledBlock> coupled_blocks(const Graph& graph, const std::vector<NodeId>& matrix, std::size_t m)
 {
-    std::vector<std::size_t> parent(2 * m); // rows, then columns
-    std::iota(parent.begin(), parent.end(), std::size_t{0});
-    const auto root = [&](std::size_t k) {
-        while (parent[k] != k) k = parent[k] = parent[parent[k]];
-        return k;
-    };
-    for (std::size_t i = 0; i < m; ++i)
-        for (std::size_t j = 0; j < m; ++j)
-            if (!graph.is_zero(matrix[i * m + j])) parent[root(i)] = root(m + j);
-    std::vector<CoupledBlock> blocks;
-    std::map<std::size_t, std::size_t> index;
-    for (std::size_t k = 0; k < 2 * m; ++k) {
-        const auto [at, fresh] = index.emplace(root(k), blocks.size());
-        if (fresh) blocks.emplace_back();
-        (k < m ? blocks[at->second].rows : blocks[at->second].columns).push_back(k < m ? k : k - m);
-    }
-    return blocks;
+    return coupled_blocks(m, [&](std::size_t i, std::size_t j) { return graph.is_zero(matrix[i * m + j]); });
 }
 
 namespace {

@@ -10,12 +10,6 @@ namespace lagen {
 
 namespace {
 
-/// Cycles until the result of an operation may be used (AMD Zen 4, Intel Golden Cove: 3 to 4, 13 to 14, 18 to 21).
-constexpr double addition_latency = 4;
-constexpr double division_latency = 13;
-constexpr double root_latency = 20;
-constexpr double function_latency = 70; ///< sincos of a batch; others take no less
-
 /// Additions and multiplications, with the moves between them, that begin in a cycle.
 constexpr double width = 1.5;
 
@@ -45,28 +39,11 @@ struct Timing {
     std::vector<Wait> waits;
 };
 
+/// Linear algebra takes as long as it computes.
 double latency_of(const Graph& graph, NodeId id)
 {
-    switch (graph.op(id)) {
-    case Op::constant:
-    case Op::pi:
-    case Op::input:
-    case Op::component:
-    case Op::negate: return 0;
-    case Op::add:
-    case Op::subtract:
-    case Op::multiply: return addition_latency;
-    case Op::divide: return division_latency;
-    case Op::sqrt: return root_latency;
-    case Op::power: {
-        const auto n = std::abs(std::int64_t{static_cast<std::int32_t>(graph.payload(id))});
-        const double chain = addition_latency * power_multiplications(n);
-        return static_cast<std::int32_t>(graph.payload(id)) < 0 ? chain + division_latency : chain;
-    }
-    case Op::factor:
-    case Op::solve: return operation_weight(graph, id) / width;
-    default: return function_latency;
-    }
+    const bool block = graph.op(id) == Op::factor || graph.op(id) == Op::solve;
+    return block ? operation_weight(graph, id) / width : operation_latency(graph, id);
 }
 
 /// The timings of all steps.
@@ -131,7 +108,8 @@ class Clock {
                 continue;
             }
             const double own = visit.fused ? 0 : latency_of(graph_, visit.node);
-            if (own > 0) timing.operations += graph_.op(visit.node) == Op::divide ? width : own / addition_latency;
+            if (own > 0)
+                timing.operations += graph_.op(visit.node) == Op::divide ? width : own / operator_of(Op::add).latency;
             timing.latency = std::max(timing.latency, visit.after + own);
             const Op op = graph_.op(visit.node);
             bool free = op == Op::add || op == Op::subtract;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "emit/plan_body.hpp"
 
+#include "graph/operators.hpp"
+
 #include <algorithm>
 #include <cstdlib>
 #include <optional>
@@ -15,7 +17,7 @@ constexpr std::size_t largest_expression = 16;
 
 bool is_leaf(Op op)
 {
-    return op == Op::constant || op == Op::pi || op == Op::input;
+    return kind_of(op) == OpKind::leaf;
 }
 
 /// Never named on their own: leaves and entries of a solution.
@@ -50,15 +52,11 @@ bool repeats_operands(const Graph& graph, NodeId id)
 std::optional<std::pair<Batch::Kind, NodeId>> batched_operation(const Graph& graph, NodeId id)
 {
     const std::span<const NodeId> operands = graph.operands(id);
-    switch (graph.op(id)) {
-    case Op::sin:
-    case Op::cos: return std::pair{Batch::Kind::angles, operands[0]};
-    case Op::sqrt: return std::pair{Batch::Kind::roots, operands[0]};
-    case Op::divide:
-        if (graph.is_one(operands[0])) return std::pair{Batch::Kind::reciprocals, operands[1]};
-        return std::nullopt;
-    default: return std::nullopt;
-    }
+    const Op op = graph.op(id);
+    if (op == Op::sin || op == Op::cos) return std::pair{Batch::Kind::angles, operands[0]};
+    if (op == Op::sqrt) return std::pair{Batch::Kind::roots, operands[0]};
+    if (op == Op::divide && graph.is_one(operands[0])) return std::pair{Batch::Kind::reciprocals, operands[1]};
+    return std::nullopt;
 }
 
 /// One angle is worth a call where both its values are used, several where they have three; with fewer than four square

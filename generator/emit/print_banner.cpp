@@ -2,6 +2,7 @@
 #include "emit/print_banner.hpp"
 
 #include "emit/print_literal.hpp"
+#include "graph/operators.hpp"
 #include "graph/simplify.hpp"
 
 #include <fmt/format.h>
@@ -65,7 +66,7 @@ double count_unshared(const Graph& graph, std::span<const NodeId> outputs)
     for (const NodeId id : reachable(graph, outputs)) {
         const Op op = graph.op(id);
         for (const NodeId operand : graph.operands(id)) count[id] += count[operand];
-        if (op > Op::input && op != Op::component) count[id] += 1;
+        if (kind_of(op) != OpKind::leaf && op != Op::component) count[id] += 1;
     }
     double total = 0;
     for (const NodeId id : outputs) total += count[id];

@@ -21,30 +21,6 @@ struct LatexPiece {
     LatexHold hold;
 };
 
-const char* latex_function(Function function)
-{
-    switch (function) {
-    case Function::sin: return "\\sin";
-    case Function::cos: return "\\cos";
-    case Function::tan: return "\\tan";
-    case Function::asin: return "\\arcsin";
-    case Function::acos: return "\\arccos";
-    case Function::atan: return "\\arctan";
-    case Function::atan2: return "\\operatorname{atan2}";
-    case Function::sinh: return "\\sinh";
-    case Function::cosh: return "\\cosh";
-    case Function::tanh: return "\\tanh";
-    case Function::exp: return "\\exp";
-    case Function::log: return "\\log";
-    case Function::minimum: return "\\min";
-    case Function::maximum: return "\\max";
-    case Function::sign: return "\\operatorname{sign}";
-    case Function::select: return "\\operatorname{if}";
-    default: break;
-    }
-    return "";
-}
-
 class LatexWriter {
   public:
     explicit LatexWriter(const LatexNames& names) : names_(names) {}
@@ -94,7 +70,7 @@ class LatexWriter {
         const std::string exponent = "^{" + write(tree->arguments[1], LatexHold::sum) + "}";
         if (!raised_by_name(tree)) return {write_base(tree->arguments[0]) + exponent, LatexHold::power};
         const Tree& call = tree->arguments[0];
-        return {latex_function(call->function) + exponent + "\\left(" + write(call->arguments[0], LatexHold::sum) +
+        return {entry_of(call->function).latex + exponent + "\\left(" + write(call->arguments[0], LatexHold::sum) +
                     "\\right)",
                 LatexHold::power};
     }
@@ -132,7 +108,7 @@ class LatexWriter {
             return {"c_{" + first + "}\\left(" + write(tree->arguments[1], LatexHold::sum) + "\\right)",
                     LatexHold::power};
         if (tree->function == Function::abs) return {"\\left|" + first + "\\right|", LatexHold::atom};
-        std::string text = latex_function(tree->function) + ("\\left(" + first);
+        std::string text = entry_of(tree->function).latex + ("\\left(" + first);
         for (std::size_t k = 1; k < tree->arguments.size(); ++k)
             text += ", " + write(tree->arguments[k], LatexHold::sum);
         return {text + "\\right)", LatexHold::power};

@@ -23,15 +23,7 @@ bool raised_by_name(const Tree& tree)
     if (tree->kind != TreeKind::power || tree->arguments[0]->kind != TreeKind::call) return false;
     const Tree& exponent = tree->arguments[1];
     if (exponent->kind != TreeKind::number || exponent->number.get_den() != 1 || exponent->number < 2) return false;
-    switch (tree->arguments[0]->function) {
-    case Function::sin:
-    case Function::cos:
-    case Function::tan:
-    case Function::sinh:
-    case Function::cosh:
-    case Function::tanh: return true;
-    default: return false;
-    }
+    return entry_of(tree->arguments[0]->function).raised_by_name;
 }
 
 std::vector<SignedTree> right_side_terms(const Equation& equation)

@@ -20,7 +20,7 @@ std::string enclose(const Spelling& spelling, int precedence)
 
 bool is_comparison(Op op)
 {
-    return op >= Op::less && op <= Op::not_equal;
+    return kind_of(op) == OpKind::comparison;
 }
 
 /// Written by `select`, so that its type is the scalar's.
@@ -68,21 +68,23 @@ Spelling Speller::operator()(NodeId id)
 Spelling Speller::operation(NodeId id)
 {
     const std::span<const NodeId> operand = graph_.operands(id);
-    switch (graph_.op(id)) {
-    case Op::constant: return print_literal(graph_.value(id));
-    case Op::pi: return print_pi();
-    case Op::add: return add(operand[0], operand[1]);
-    case Op::subtract: return subtract(operand[0], operand[1]);
-    case Op::multiply: return multiply(operand[0], operand[1]);
-    case Op::divide: return {at_least(2, operand[0]) + " / " + at_least(3, operand[1]), 2};
-    case Op::negate: return {"-" + at_least(2, operand[0]), 1};
-    case Op::power: return power(operand[0], static_cast<std::int32_t>(graph_.payload(id)));
-    case Op::input: throw InternalError("an input without a local name: " + graph_.input_name(id));
-    case Op::factor:
-    case Op::solve:
-    case Op::component: throw InternalError("linear algebra inside an expression");
-    default: return is_comparison(graph_.op(id)) ? comparison(id) : function(id);
+    const Op op = graph_.op(id);
+    switch (kind_of(op)) {
+    case OpKind::leaf:
+        if (op == Op::input) break;
+        return op == Op::pi ? print_pi() : print_literal(graph_.value(id));
+    case OpKind::sum:
+        if (op == Op::negate) return {"-" + at_least(2, operand[0]), 1};
+        return op == Op::add ? add(operand[0], operand[1]) : subtract(operand[0], operand[1]);
+    case OpKind::product: return multiply(operand[0], operand[1]);
+    case OpKind::quotient: return {at_least(2, operand[0]) + " / " + at_least(3, operand[1]), 2};
+    case OpKind::power: return power(operand[0], static_cast<std::int32_t>(graph_.payload(id)));
+    case OpKind::comparison: return comparison(id);
+    case OpKind::choice: return choice(id);
+    case OpKind::function: return function(id);
+    case OpKind::system: throw InternalError("linear algebra inside an expression");
     }
+    throw InternalError("an input without a local name: " + graph_.input_name(id));
 }
 
 /// Numbers stand in front, then what depends on the earlier inputs (parameters before coordinates); a product goes on
@@ -137,33 +139,34 @@ Spelling Speller::power(NodeId base, int exponent)
     return {"S(1) / " + enclose(positive, 3), 2};
 }
 
+/// S(..): a scalar with expression templates has another type for every sum.
+Spelling Speller::choice(NodeId id)
+{
+    const std::span<const NodeId> operand = graph_.operands(id);
+    const auto value = [&](std::size_t k) {
+        const std::string text = (*this)(operand[k]).text;
+        const bool plain = has_name(operand[k]) || is_choice(graph_.op(operand[k])) ||
+                           (graph_.is_constant(operand[k]) && print_literal(graph_.value(operand[k])).precedence == 5);
+        return plain && text.front() != '(' ? text : "S(" + text + ")";
+    };
+    return {fmt::format("select({}, {}, {})", condition(operand[0]).text, value(1), value(2)), 5};
+}
+
 Spelling Speller::function(NodeId id)
 {
     const std::span<const NodeId> operand = graph_.operands(id);
+    const Op op = graph_.op(id);
     const auto text = [&](std::size_t k) { return (*this)(operand[k]).text; };
-    switch (graph_.op(id)) {
-    case Op::select: { // S(..): a scalar with expression templates has another type for every sum
-        const auto value = [&](std::size_t k) {
-            const std::string value_text = text(k);
-            const bool plain =
-                has_name(operand[k]) || is_choice(graph_.op(operand[k])) ||
-                (graph_.is_constant(operand[k]) && print_literal(graph_.value(operand[k])).precedence == 5);
-            return plain && value_text.front() != '(' ? value_text : "S(" + value_text + ")";
-        };
-        return {fmt::format("select({}, {}, {})", condition(operand[0]).text, value(1), value(2)), 5};
-    }
-    case Op::minimum:
-        return {fmt::format("select({0} < {1}, {0}, {1})", at_least(1, operand[0]), at_least(1, operand[1])), 5};
-    case Op::maximum:
-        return {fmt::format("select({0} > {1}, {0}, {1})", at_least(1, operand[0]), at_least(1, operand[1])), 5};
-    case Op::sign: {
+    if (op == Op::minimum || op == Op::maximum)
+        return {fmt::format("select({0} {2} {1}, {0}, {1})", at_least(1, operand[0]), at_least(1, operand[1]),
+                            op == Op::minimum ? '<' : '>'),
+                5};
+    if (op == Op::sign) {
         const std::string x = at_least(1, operand[0]);
         return {fmt::format("select({0} > S(0), S(1), select({0} < S(0), S(-1), S(0)))", x), 5};
     }
-    case Op::stumpff: return {fmt::format("stumpff<{}, S>({})", graph_.payload(id), text(0)), 5};
-    default: break;
-    }
-    const std::string name = call(operator_of(graph_.op(id)).spelling);
+    if (op == Op::stumpff) return {fmt::format("stumpff<{}, S>({})", graph_.payload(id), text(0)), 5};
+    const std::string name = call(operator_of(op).spelling);
     if (operand.size() == 1) return {fmt::format("{}({})", name, text(0)), 5};
     return {fmt::format("{}({}, {})", name, text(0), text(1)), 5};
 }

@@ -39,6 +39,7 @@ class Speller {
     std::optional<Spelling> negated(NodeId id);
     Spelling power(NodeId base, int exponent);
     Spelling function(NodeId id);
+    Spelling choice(NodeId id);
     Spelling condition(NodeId id);
     Spelling comparison(NodeId id);
 

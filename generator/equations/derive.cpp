@@ -5,6 +5,7 @@
 #include "equations/hamilton.hpp"
 #include "equations/lagrange.hpp"
 #include "equations/pontryagin.hpp"
+#include "model/form.hpp"
 #include "model/scene_form.hpp"
 
 namespace lagen {
@@ -18,11 +19,14 @@ std::vector<std::string> derivation_names()
 
 EquationSet derive(const std::string& form, const Model& model, const System& system, const Report& report)
 {
-    if (form == "lagrange") return derive_lagrange(model, system.written.algebroid, report.regularity);
-    if (form == "hamilton") return derive_hamilton(model, system.written.algebroid, report.regularity);
-    if (form == "pontryagin") return derive_pontryagin(model, system.written.algebroid, report.maximum);
-    if (form == "exterior") return derive_exterior(model, system.written.algebroid);
-    throw InternalError("there is no derivation called " + form);
+    const WrittenAlgebroid& algebroid = system.written.algebroid;
+    if (form == "exterior") return derive_exterior(model, algebroid);
+    switch (form_named(form).kind) {
+    case FormKind::lagrange: return derive_lagrange(model, algebroid, report.regularity);
+    case FormKind::hamilton: return derive_hamilton(model, algebroid, report.regularity);
+    case FormKind::pontryagin: return derive_pontryagin(model, algebroid, report.maximum);
+    }
+    throw InternalError("a form without equations");
 }
 
 } // namespace lagen

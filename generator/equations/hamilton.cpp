@@ -2,6 +2,7 @@
 #include "equations/hamilton.hpp"
 
 #include "equations/legendre.hpp"
+#include "model/form.hpp"
 #include "verify/legendre_obstacle.hpp"
 
 namespace lagen {
@@ -46,7 +47,7 @@ class HamiltonDerivation {
 
     EquationSet derive()
     {
-        EquationSet set = symbolic_.empty_set("hamilton");
+        EquationSet set = symbolic_.empty_set(entry_of(FormKind::hamilton).name);
         set.blocks = {hamiltonian()};
         if (EquationBlock labels = symbolic_.casimirs(); !labels.equations.empty()) set.blocks.push_back(labels);
         set.blocks.push_back(velocities());

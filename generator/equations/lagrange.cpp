@@ -3,6 +3,7 @@
 
 #include "equations/symbolic_model.hpp"
 #include "expression/parse.hpp"
+#include "model/form.hpp"
 
 #include <fmt/core.h>
 
@@ -20,7 +21,7 @@ class LagrangeDerivation {
 
     EquationSet derive(const Regularity& regularity)
     {
-        EquationSet set = symbolic_.empty_set("lagrange");
+        EquationSet set = symbolic_.empty_set(entry_of(FormKind::lagrange).name);
         set.blocks = {
             {"kinematics", "ẋ^i = ρ^i_a y^a", R"(\dot x^i = \rho^i_a\, y^a)", symbolic_.kinematics(symbolic_.y())}};
         if (EquationBlock labels = symbolic_.casimirs(); !labels.equations.empty()) set.blocks.push_back(labels);

@@ -3,6 +3,7 @@
 
 #include "equations/linear_equations.hpp"
 #include "equations/symbolic_model.hpp"
+#include "model/form.hpp"
 #include "verify/control_maximum.hpp"
 
 #include <algorithm>
@@ -26,7 +27,7 @@ class PontryaginDerivation {
 
     EquationSet derive()
     {
-        EquationSet set = symbolic_.empty_set("pontryagin");
+        EquationSet set = symbolic_.empty_set(entry_of(FormKind::pontryagin).name);
         set.blocks = {hamiltonian()};
         if (EquationBlock labels = symbolic_.casimirs(); !labels.equations.empty()) set.blocks.push_back(labels);
         set.blocks.push_back(section());

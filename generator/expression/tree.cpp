@@ -2,46 +2,11 @@
 /// Building trees, and taking them down without recursion.
 #include "expression/tree.hpp"
 
-#include <array>
 #include <utility>
 
 namespace lagen {
 
 namespace {
-
-constexpr std::array functions{
-    FunctionEntry{Function::sin, "sin", 1, true},
-    FunctionEntry{Function::cos, "cos", 1, true},
-    FunctionEntry{Function::tan, "tan", 1, true},
-    FunctionEntry{Function::asin, "asin", 1, true},
-    FunctionEntry{Function::acos, "acos", 1, true},
-    FunctionEntry{Function::atan, "atan", 1, true},
-    FunctionEntry{Function::atan2, "atan2", 2, true},
-    FunctionEntry{Function::sinh, "sinh", 1, true},
-    FunctionEntry{Function::cosh, "cosh", 1, true},
-    FunctionEntry{Function::tanh, "tanh", 1, true},
-    FunctionEntry{Function::exp, "exp", 1, true},
-    FunctionEntry{Function::log, "log", 1, true},
-    FunctionEntry{Function::sqrt, "sqrt", 1, true},
-    FunctionEntry{Function::abs, "abs", 1, true},
-    FunctionEntry{Function::minimum, "min", 2, false},
-    FunctionEntry{Function::maximum, "max", 2, false},
-    FunctionEntry{Function::sign, "sign", 1, false},
-    FunctionEntry{Function::select, "if", 3, false},
-    FunctionEntry{Function::stumpff, "stumpff", 2, true},
-    FunctionEntry{Function::dot, "dot", 2, true, true},
-    FunctionEntry{Function::cross, "cross", 2, true, true},
-    FunctionEntry{Function::norm, "norm", 1, true, true},
-    FunctionEntry{Function::trace, "trace", 1, true, true},
-    FunctionEntry{Function::transpose, "transpose", 1, true, true},
-    FunctionEntry{Function::det, "det", 1, true, true},
-    FunctionEntry{Function::inverse, "inverse", 1, true, true},
-    FunctionEntry{Function::diag, "diag", 1, true, true},
-    FunctionEntry{Function::identity, "identity", 1, true, true},
-    FunctionEntry{Function::hat, "hat", 1, true, true},
-    FunctionEntry{Function::vee, "vee", 1, true, true},
-    FunctionEntry{Function::cay, "cay", 1, true, true},
-};
 
 Tree node(TreeKind kind, std::vector<Tree> arguments)
 {
@@ -67,14 +32,9 @@ TreeNode::~TreeNode()
     }
 }
 
-std::span<const FunctionEntry> function_table()
-{
-    return functions;
-}
-
 const FunctionEntry* find_function(std::string_view name)
 {
-    for (const FunctionEntry& entry : functions)
+    for (const FunctionEntry& entry : function_table())
         if (name == entry.name) return &entry;
     return name == "tr" ? &entry_of(Function::trace) : nullptr;
 }
@@ -88,11 +48,6 @@ bool is_reserved_name(std::string_view name)
 {
     const FunctionEntry* function = find_function(name);
     return function && !function->array;
-}
-
-const FunctionEntry& entry_of(Function function)
-{
-    return functions[static_cast<std::size_t>(function)];
 }
 
 Tree number(Rational value, SourceRange where)
@@ -167,19 +122,6 @@ Tree compare(Comparison comparison, Tree a, Tree b)
     result->comparison = comparison;
     result->arguments = {std::move(a), std::move(b)};
     return result;
-}
-
-const char* spelling(Comparison comparison)
-{
-    switch (comparison) {
-    case Comparison::less: return "<";
-    case Comparison::less_equal: return "<=";
-    case Comparison::greater: return ">";
-    case Comparison::greater_equal: return ">=";
-    case Comparison::equal: return "==";
-    case Comparison::not_equal: return "!=";
-    }
-    return "?";
 }
 
 Tree solve_component(std::vector<Tree> matrix, const std::vector<Tree>& right, std::size_t k)

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "diagnostic.hpp"
+#include "expression/functions.hpp"
 
 #include <gmpxx.h>
 
@@ -21,63 +22,6 @@ using Rational = mpq_class; ///< always canonical
 {
     return mpz_sizeinbase(value.get_num_mpz_t(), 2) + mpz_sizeinbase(value.get_den_mpz_t(), 2);
 }
-
-/// Functions built into the language. `minimum`, `maximum`, `sign` and `select` (spelled min max sign if) are not
-/// smooth: legal in forces, observables and events only.
-enum class Function {
-    sin,
-    cos,
-    tan,
-    asin,
-    acos,
-    atan,
-    atan2,
-    sinh,
-    cosh,
-    tanh,
-    exp,
-    log,
-    sqrt,
-    abs,
-    minimum,
-    maximum,
-    sign,
-    select,
-    stumpff, ///< stumpff(k, z) = sum_j (-z)^j / (2j+k)!, k a literal 0 .. 32; what exp(hat(v)) and its derivatives need
-    // Of vectors and matrices; gone after closing.
-    dot,
-    cross,
-    norm,
-    trace,
-    transpose,
-    det,
-    inverse,
-    diag,
-    identity,
-    hat,
-    vee,
-    cay,
-};
-
-struct FunctionEntry {
-    Function function;
-    const char* name;
-    std::size_t arity;
-    bool smooth;        ///< false: allowed in observables, forces and events only
-    bool array = false; ///< takes or gives vectors or matrices; closing replaces it by scalars
-};
-
-/// Every built-in function, in the order of the enumeration.
-[[nodiscard]] std::span<const FunctionEntry> function_table();
-[[nodiscard]] const FunctionEntry* find_function(std::string_view name); ///< nullptr where there is none; "tr" is trace
-[[nodiscard]] const FunctionEntry& entry_of(Function function);
-/// A name that stands for something of the language where parentheses follow: a built-in function, sum, product.
-[[nodiscard]] bool is_function_name(std::string_view name);
-/// A name that a model cannot declare. The array functions, sum and product can be: without parentheses the declared
-/// name is meant.
-[[nodiscard]] bool is_reserved_name(std::string_view name);
-
-enum class Comparison { less, less_equal, greater, greater_equal, equal, not_equal };
 
 enum class TreeKind {
     number,   ///< `number`
@@ -130,9 +74,6 @@ struct TreeNode {
 [[nodiscard]] Tree solve_component(std::vector<Tree> matrix, const std::vector<Tree>& right, std::size_t k);
 /// The unknowns m of a TreeKind::solve with m*m + m arguments.
 [[nodiscard]] std::size_t solve_order(std::size_t arguments);
-
-/// "<", "<=", ">", ">=", "==", "!=".
-[[nodiscard]] const char* spelling(Comparison comparison);
 
 /// The text of a tree in the expression language, with the fewest parentheses: parse(to_text(t)) has the value of t.
 /// A number prints as an integer, a fraction p/q, or a finite decimal where that is shorter (21e399 where it

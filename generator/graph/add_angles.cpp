@@ -10,6 +10,7 @@
 /// whole.
 #include "graph/differentiate.hpp"
 #include "graph/form.hpp"
+#include "graph/operators.hpp"
 
 #include <map>
 
@@ -30,18 +31,18 @@ using Pairs = std::map<NodeId, Pair>; ///< by angle
 /// Does the k-th operand of `node` reach its value through sums, products and linear systems alone?
 bool passes_errors_on(const Graph& graph, NodeId node, std::size_t k)
 {
-    switch (graph.op(node)) {
-    case Op::add:
-    case Op::subtract:
-    case Op::negate:
-    case Op::multiply:
-    case Op::factor:
-    case Op::solve:
-    case Op::component: return true;
-    case Op::divide: return k == 0;
-    case Op::power: return static_cast<std::int32_t>(graph.payload(node)) > 0;
-    default: return false;
+    switch (kind_of(graph.op(node))) {
+    case OpKind::leaf:
+    case OpKind::sum:
+    case OpKind::product:
+    case OpKind::system: return true;
+    case OpKind::quotient: return k == 0;
+    case OpKind::power: return domain_of(graph, node) == Sense::always;
+    case OpKind::function:
+    case OpKind::comparison:
+    case OpKind::choice: break;
     }
+    return false;
 }
 
 /// By node: is it an operand, at any depth, of a quotient or a function?

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Reads a form off the graph: sums flattened and their like terms collected, products flattened, functions as atoms.
 #include "graph/form.hpp"
+#include "graph/operators.hpp"
 
 #include <cstdlib>
 
@@ -40,18 +41,24 @@ class Collector {
     [[nodiscard]] Polynomial read(NodeId id)
     {
         const auto operands = graph_.operands(id);
-        switch (graph_.op(id)) {
-        case Op::constant: return graph_.is_zero(id) ? Polynomial{} : Polynomial{{graph_.value(id), {}}};
-        case Op::pi:
-        case Op::input: return single(graph_.op(id), id, {});
-        case Op::add: return algebra_.add(values_[operands[0]], values_[operands[1]]);
-        case Op::subtract: return algebra_.add(values_[operands[0]], algebra_.scaled(values_[operands[1]], -1));
-        case Op::negate: return algebra_.scaled(values_[operands[0]], -1);
-        case Op::multiply: return multiply(values_[operands[0]], values_[operands[1]]);
-        case Op::divide: return multiply(values_[operands[0]], {power(values_[operands[1]], -1)});
-        case Op::power: return integer_power(id);
-        default: return function(id);
+        const Op op = graph_.op(id);
+        switch (kind_of(op)) {
+        case OpKind::leaf:
+            if (op != Op::constant) return single(op, id, {});
+            return graph_.is_zero(id) ? Polynomial{} : Polynomial{{graph_.value(id), {}}};
+        case OpKind::sum:
+            if (operands.size() == 1) return algebra_.scaled(values_[operands[0]], -1);
+            if (op == Op::add) return algebra_.add(values_[operands[0]], values_[operands[1]]);
+            return algebra_.add(values_[operands[0]], algebra_.scaled(values_[operands[1]], -1));
+        case OpKind::product: return multiply(values_[operands[0]], values_[operands[1]]);
+        case OpKind::quotient: return multiply(values_[operands[0]], {power(values_[operands[1]], -1)});
+        case OpKind::power: return integer_power(id);
+        case OpKind::function:
+        case OpKind::comparison:
+        case OpKind::choice:
+        case OpKind::system: break;
         }
+        return function(id);
     }
 
     [[nodiscard]] Polynomial single(Op op, std::uint32_t payload, std::vector<Polynomial> operands)

@@ -24,25 +24,21 @@ OperationCount count_operations(const Graph& graph, std::span<const NodeId> root
             continue;
         }
         count.weight += operation_weight(graph, id);
-        switch (op) {
-        case Op::constant:
-        case Op::pi:
-        case Op::input:
-        case Op::factor:
-        case Op::component: break;
-        case Op::add:
-        case Op::subtract:
-        case Op::negate: ++count.additions; break;
-        case Op::multiply: ++count.multiplications; break;
-        case Op::divide: ++count.divisions; break;
-        case Op::power: {
+        switch (kind_of(op)) {
+        case OpKind::leaf: break;
+        case OpKind::sum: ++count.additions; break;
+        case OpKind::product: ++count.multiplications; break;
+        case OpKind::quotient: ++count.divisions; break;
+        case OpKind::power: {
             const std::int64_t n = static_cast<std::int32_t>(graph.payload(id));
             count.multiplications += static_cast<std::size_t>(power_multiplications(n < 0 ? -n : n));
             if (n < 0) ++count.divisions;
             break;
         }
-        case Op::solve: ++count.solves; break;
-        default: ++count.functions;
+        case OpKind::system: count.solves += op == Op::solve ? 1 : 0; break;
+        case OpKind::function:
+        case OpKind::comparison:
+        case OpKind::choice: ++count.functions;
         }
     }
     return count;
@@ -55,17 +51,22 @@ std::size_t expanded_terms(const Graph& graph, NodeId node, std::size_t most)
     for (const NodeId id : reachable(graph, roots)) {
         const auto of = [&](std::size_t k) { return terms[graph.operands(id)[k]]; };
         std::size_t count = 1;
-        switch (graph.op(id)) {
-        case Op::add:
-        case Op::subtract: count = of(0) + of(1); break;
-        case Op::negate:
-        case Op::divide: count = of(0); break;
-        case Op::multiply: count = of(0) * of(1); break; // both at most `most`
-        case Op::power:
+        switch (kind_of(graph.op(id))) {
+        case OpKind::sum:
+            count = 0;
+            for (const NodeId operand : graph.operands(id)) count += terms[operand];
+            break;
+        case OpKind::quotient: count = of(0); break;
+        case OpKind::product: count = of(0) * of(1); break; // both at most `most`
+        case OpKind::power:
             for (std::int32_t k = 0; k < std::min(static_cast<std::int32_t>(graph.payload(id)), 8) && count < most; ++k)
                 count *= of(0);
             break;
-        default: break;
+        case OpKind::leaf:
+        case OpKind::function:
+        case OpKind::comparison:
+        case OpKind::choice:
+        case OpKind::system: break;
         }
         terms[id] = std::min(count, most);
     }

@@ -2,12 +2,10 @@
 /// The interpreter in floating point: one sweep over the reachable nodes.
 #include "graph/evaluate.hpp"
 
-#include "graph/dense_lu.hpp"
-#include "graph/operators.hpp"
+#include "graph/sweep.hpp"
 
 #include <mpfr.h>
 
-#include <cmath>
 #include <limits>
 #include <type_traits>
 
@@ -43,68 +41,32 @@ Scalar rounded(const Graph& graph, NodeId id)
 template <class Scalar>
 Value<Scalar> value_of(Op op)
 {
-    const Operator& entry = operator_of(op);
+    const ScalarValues& values = operator_of(op).value;
     if constexpr (std::is_same_v<Scalar, float>)
-        return entry.value_float;
+        return values.in_float;
     else if constexpr (std::is_same_v<Scalar, double>)
-        return entry.value_double;
+        return values.in_double;
     else
-        return entry.value_long_double;
+        return values.in_long_double;
 }
 
-/// The sweep: scalar values by node id; factorisations and solutions in their own tables.
 template <class Scalar>
-class Interpreter {
-  public:
-    Interpreter(const Graph& graph, const std::map<std::string, Scalar>& inputs) : graph_(graph), inputs_(inputs) {}
+struct FloatField : Arithmetic<Scalar> {
+    const std::map<std::string, Scalar>& inputs;
 
-    void visit(NodeId id)
+    explicit FloatField(const std::map<std::string, Scalar>& values) : inputs(values) {}
+
+    bool leaf(const Graph& graph, NodeId id, Scalar& value) const
     {
-        gather(id);
-        switch (graph_.op(id)) {
-        case Op::constant:
-        case Op::pi: values_[id] = rounded<Scalar>(graph_, id); break;
-        case Op::input: values_[id] = input(id); break;
-        case Op::factor: {
-            const auto n = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(operands_.size()))));
-            factors_.emplace(id, factorise(operands_, n));
-            break;
-        }
-        case Op::solve:
-            operands_.erase(operands_.begin()); // the factor node
-            solutions_.emplace(id, substitute(factors_.at(graph_.operands(id)[0]), operands_));
-            break;
-        case Op::component: values_[id] = solutions_.at(graph_.operands(id)[0])[graph_.payload(id)]; break;
-        default:
-            values_[id] =
-                value_of<Scalar>(graph_.op(id))(operands_.data(), static_cast<std::int32_t>(graph_.payload(id)));
-        }
+        value = graph.op(id) == Op::input ? input_value(graph, id, inputs) : rounded<Scalar>(graph, id);
+        return true;
     }
 
-    void resize(std::size_t size) { values_.resize(size); }
-    [[nodiscard]] Scalar value(NodeId id) const { return values_[id]; }
-
-  private:
-    void gather(NodeId id)
+    bool operation(Op op, std::uint32_t payload, const Scalar* x, Scalar& value) const
     {
-        operands_.clear();
-        for (const NodeId operand : graph_.operands(id)) operands_.push_back(values_[operand]);
+        value = value_of<Scalar>(op)(x, static_cast<std::int32_t>(payload));
+        return true;
     }
-
-    [[nodiscard]] Scalar input(NodeId id) const
-    {
-        const auto found = inputs_.find(graph_.input_name(id));
-        if (found == inputs_.end())
-            throw InternalError("evaluate() has no value for the input " + graph_.input_name(id));
-        return found->second;
-    }
-
-    const Graph& graph_;
-    const std::map<std::string, Scalar>& inputs_;
-    std::vector<Scalar> values_;
-    std::vector<Scalar> operands_;
-    std::map<NodeId, Factorisation<Scalar>> factors_;
-    std::map<NodeId, std::vector<Scalar>> solutions_;
 };
 
 } // namespace
@@ -113,10 +75,8 @@ template <class Scalar>
 std::vector<Scalar> evaluate(const Graph& graph, std::span<const NodeId> outputs,
                              const std::map<std::string, Scalar>& inputs)
 {
-    Interpreter<Scalar> interpreter(graph, inputs);
-    const auto nodes = reachable(graph, outputs);
-    interpreter.resize(nodes.empty() ? 0 : std::size_t{nodes.back()} + 1);
-    for (const NodeId id : nodes) interpreter.visit(id);
+    Sweep interpreter(graph, FloatField<Scalar>(inputs));
+    interpreter.visit(reachable(graph, outputs));
     std::vector<Scalar> result;
     for (const NodeId id : outputs) result.push_back(interpreter.value(id));
     return result;

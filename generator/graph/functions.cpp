@@ -5,56 +5,13 @@
 #include "graph/operators.hpp"
 
 #include <algorithm>
-#include <optional>
+#include <limits>
 
 namespace lagen {
+
 namespace {
 
-/// The rational square root, where there is one.
-std::optional<Rational> exact_root(const Rational& value)
-{
-    if (sgn(value) < 0 || mpz_perfect_square_p(value.get_num_mpz_t()) == 0 ||
-        mpz_perfect_square_p(value.get_den_mpz_t()) == 0)
-        return std::nullopt;
-    return Rational(sqrt(value.get_num()), sqrt(value.get_den()));
-}
-
-std::optional<Rational> exact_value(Op op, const Rational& a)
-{
-    switch (op) {
-    case Op::sqrt: return exact_root(a);
-    case Op::abs: return Rational(abs(a));
-    case Op::sign: return Rational(sgn(a));
-    case Op::sin:
-    case Op::tan:
-    case Op::asin:
-    case Op::atan:
-    case Op::sinh:
-    case Op::tanh: return a == 0 ? std::optional<Rational>(0) : std::nullopt;
-    case Op::cos:
-    case Op::cosh:
-    case Op::exp: return a == 0 ? std::optional<Rational>(1) : std::nullopt;
-    case Op::acos:
-    case Op::log: return a == 1 ? std::optional<Rational>(0) : std::nullopt;
-    default: return std::nullopt;
-    }
-}
-
-std::optional<Rational> exact_value(Op op, const Rational& a, const Rational& b)
-{
-    switch (op) {
-    case Op::minimum: return a <= b ? a : b;
-    case Op::maximum: return a >= b ? a : b;
-    case Op::less: return Rational(a < b ? 1 : 0);
-    case Op::less_equal: return Rational(a <= b ? 1 : 0);
-    case Op::greater: return Rational(a > b ? 1 : 0);
-    case Op::greater_equal: return Rational(a >= b ? 1 : 0);
-    case Op::equal: return Rational(a == b ? 1 : 0);
-    case Op::not_equal: return Rational(a != b ? 1 : 0);
-    case Op::atan2: return a == 0 && b > 0 ? std::optional<Rational>(0) : std::nullopt;
-    default: return std::nullopt;
-    }
-}
+constexpr std::size_t any_length = std::numeric_limits<std::size_t>::max();
 
 } // namespace
 
@@ -64,7 +21,7 @@ NodeId Graph::apply(Op op, NodeId a)
     if (operator_of(op).arity != 1 || operator_of(op).notation != Notation::call || op == Op::stumpff)
         throw InternalError(std::string("apply(op, a) wants a function of one operand, not ") + operator_of(op).name);
     if (is_constant(a))
-        if (const auto known = exact_value(op, value(a))) return constant(*known);
+        if (const auto known = exact_value(op, &value(a), 0, any_length)) return constant(*known);
     if (op == Op::abs && (ops_[a] == Op::abs || ops_[a] == Op::sqrt)) return a;
     if (op == Op::abs && ops_[a] == Op::negate) return apply(op, operands(a)[0]);
     if (op == Op::sqrt && ops_[a] == Op::power && payloads_[a] == 2) return apply(Op::abs, operands(a)[0]);
@@ -74,13 +31,10 @@ NodeId Graph::apply(Op op, NodeId a)
 
 NodeId Graph::apply(Op op, NodeId a, NodeId b)
 {
-    switch (op) {
-    case Op::add: return add(a, b);
-    case Op::subtract: return subtract(a, b);
-    case Op::multiply: return multiply(a, b);
-    case Op::divide: return divide(a, b);
-    default: break;
-    }
+    if (op == Op::add) return add(a, b);
+    if (op == Op::subtract) return subtract(a, b);
+    if (op == Op::multiply) return multiply(a, b);
+    if (op == Op::divide) return divide(a, b);
     if (operator_of(op).arity != 2)
         throw InternalError(std::string("apply(op, a, b) wants a function of two operands, not ") +
                             operator_of(op).name);
@@ -94,8 +48,10 @@ NodeId Graph::apply(Op op, NodeId a, NodeId b)
         }
     }
     if (op == Op::real_power && is_one(a)) return a;
-    if (is_constant(a) && is_constant(b))
-        if (const auto known = exact_value(op, value(a), value(b))) return constant(*known);
+    if (is_constant(a) && is_constant(b)) {
+        const Rational both[] = {value(a), value(b)};
+        if (const auto known = exact_value(op, both, 0, any_length)) return constant(*known);
+    }
     if ((op == Op::minimum || op == Op::maximum) && a == b) return a;
     if (operator_of(op).commutative && a > b) std::swap(a, b);
     const NodeId pair[] = {a, b};
@@ -118,6 +74,24 @@ NodeId Graph::select(NodeId condition, NodeId a, NodeId b)
     if (is_constant(condition)) return is_zero(condition) ? b : a;
     const NodeId operands[] = {condition, a, b};
     return intern(Op::select, operands, 0);
+}
+
+NodeId Graph::make(Op op, std::uint32_t payload, std::span<const NodeId> operands)
+{
+    switch (kind_of(op)) {
+    case OpKind::leaf:
+    case OpKind::system: break;
+    case OpKind::power: return power(operands[0], static_cast<std::int32_t>(payload));
+    case OpKind::choice: return select(operands[0], operands[1], operands[2]);
+    case OpKind::sum:
+    case OpKind::product:
+    case OpKind::quotient:
+    case OpKind::function:
+    case OpKind::comparison:
+        if (op == Op::stumpff) return stumpff(payload, operands[0]);
+        return operands.size() == 1 ? apply(op, operands[0]) : apply(op, operands[0], operands[1]);
+    }
+    throw InternalError(std::string("no node is made of ") + operator_of(op).name + " alone");
 }
 
 } // namespace lagen

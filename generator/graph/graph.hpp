@@ -47,6 +47,7 @@ enum class Op : std::uint8_t {
     maximum,
     sign,
     stumpff, ///< c_k(z) = sum_j (-z)^j / (2j+k)!; payload: k
+    erf,
     less,
     less_equal,
     greater,
@@ -98,6 +99,8 @@ class Graph {
     NodeId apply(Op op, NodeId a);           ///< sqrt .. abs, sign
     NodeId apply(Op op, NodeId a, NodeId b); ///< real_power, atan2, minimum, maximum, comparisons
     NodeId select(NodeId condition, NodeId a, NodeId b);
+    /// Any operation but leaves and linear algebra, by the functions above and below.
+    NodeId make(Op op, std::uint32_t payload, std::span<const NodeId> operands);
     /// c_k(z), 1/k! at the constant 0. Throws MathematicsError where k > largest_stumpff_order.
     NodeId stumpff(unsigned k, NodeId z);
     /// The components z_0 .. z_{n-1} of A^-1 b; `matrix` has n*n entries by rows. n = 1 is a division; a diagonal or

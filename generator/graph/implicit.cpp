@@ -2,6 +2,7 @@
 #include "graph/implicit.hpp"
 
 #include "graph/differentiate.hpp"
+#include "graph/operators.hpp"
 
 #include <algorithm>
 
@@ -51,12 +52,8 @@ std::vector<NodeId> positive_operands(Graph& graph, NodeId function, std::span<c
     std::vector<NodeId> result;
     const NodeId roots[] = {function};
     for (const NodeId node : certainly_needed(graph, roots)) {
-        const Op op = graph.op(node);
-        const bool inverse = op == Op::asin || op == Op::acos;
-        if (op != Op::sqrt && op != Op::log && op != Op::real_power && !inverse) continue;
-        const NodeId operand = graph.operands(node)[0];
-        if (!depends[operand]) continue;
-        const NodeId positive = inverse ? graph.subtract(graph.constant(1), graph.power(operand, 2)) : operand;
+        if (smooth_where(graph, node) != Sense::positive || !depends[graph.operands(node)[0]]) continue;
+        const NodeId positive = condition_of(graph, node);
         if (std::ranges::count(result, positive) == 0) result.push_back(positive);
     }
     return result;

@@ -60,7 +60,7 @@ struct KernelModule {
     std::string name;  ///< class name: model name, with _FORM for forms other than lagrange
     std::string model; ///< model name
     std::string title;
-    std::string form;                   ///< "lagrange", "hamilton", "pontryagin"
+    std::string form;                   ///< its name
     std::string hash;                   ///< of the model's content, 16 hexadecimal digits
     std::string regenerate;             ///< the command that makes this header again
     std::vector<std::string> warnings;  ///< e.g. that the model was not proved
@@ -73,7 +73,7 @@ struct KernelModule {
     std::vector<std::pair<std::string, NodeId>> parameter_conditions;
     std::vector<Quantity> base;          ///< first lanes of State
     std::vector<Quantity> fibre;         ///< the other lanes (fibre coordinates, or momenta)
-    std::string fibre_name = "Fibre";    ///< the struct of the second group: "Fibre" or "Momenta"
+    std::string fibre_name = "Fibre";    ///< the struct of the second group
     std::vector<Quantity> direction;     ///< inputs of a vector v beside the state, a lane each; may be empty
     std::vector<ImplicitBlock> implicit; ///< unknowns of the kernels, in the order in which they are solved
     std::vector<Kernel> kernels;

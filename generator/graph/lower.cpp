@@ -3,53 +3,12 @@
 #include "graph/lower.hpp"
 
 #include "expression/evaluate_stumpff.hpp"
+#include "graph/operators.hpp"
 
-#include <array>
 #include <utility>
 
 namespace lagen {
 namespace {
-
-constexpr std::array<std::pair<Function, Op>, 18> function_ops{{
-    {Function::sin, Op::sin},
-    {Function::cos, Op::cos},
-    {Function::tan, Op::tan},
-    {Function::asin, Op::asin},
-    {Function::acos, Op::acos},
-    {Function::atan, Op::atan},
-    {Function::atan2, Op::atan2},
-    {Function::sinh, Op::sinh},
-    {Function::cosh, Op::cosh},
-    {Function::tanh, Op::tanh},
-    {Function::exp, Op::exp},
-    {Function::log, Op::log},
-    {Function::sqrt, Op::sqrt},
-    {Function::abs, Op::abs},
-    {Function::minimum, Op::minimum},
-    {Function::maximum, Op::maximum},
-    {Function::sign, Op::sign},
-    {Function::select, Op::select},
-}};
-
-Op op_of(Function function)
-{
-    for (const auto& [key, op] : function_ops)
-        if (key == function) return op;
-    throw InternalError("a built-in function without an operation");
-}
-
-Op op_of(Comparison comparison)
-{
-    switch (comparison) {
-    case Comparison::less: return Op::less;
-    case Comparison::less_equal: return Op::less_equal;
-    case Comparison::greater: return Op::greater;
-    case Comparison::greater_equal: return Op::greater_equal;
-    case Comparison::equal: return Op::equal;
-    case Comparison::not_equal: return Op::not_equal;
-    }
-    throw InternalError("a comparison without an operation");
-}
 
 /// The text of a sub-expression as the user wrote it, cut for a message.
 std::string quoted(const Tree& tree)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The linear terms of a quadratic function and the products that it makes of them.
+#include "graph/operators.hpp"
 #include "graph/sparse_hessian.hpp"
 
 #include <algorithm>
@@ -47,19 +48,24 @@ class Reader {
     {
         const auto operands = graph_.operands(id);
         const auto of = [&](std::size_t k) { return degrees_[operands[k]]; };
-        if (std::ranges::any_of(operands, [&](NodeId operand) { return degrees_[operand] == none; })) return none;
-        switch (graph_.op(id)) {
-        case Op::add:
-        case Op::subtract: return std::max(of(0), of(1));
-        case Op::negate: return of(0);
-        case Op::multiply: return of(0) + of(1) <= 2 ? of(0) + of(1) : none;
-        case Op::divide: return of(1) == 0 ? of(0) : none;
-        case Op::power:
-            if (of(0) == 0) return 0;
-            return of(0) == 1 && graph_.payload(id) == 2 ? 2 : none;
-        default:
-            return std::ranges::all_of(operands, [&](NodeId operand) { return degrees_[operand] == 0; }) ? 0 : none;
+        int greatest = 0;
+        for (const NodeId operand : operands) {
+            if (degrees_[operand] == none) return none;
+            greatest = std::max(greatest, degrees_[operand]);
         }
+        if (greatest == 0) return 0;
+        switch (kind_of(graph_.op(id))) {
+        case OpKind::sum: return greatest;
+        case OpKind::product: return of(0) + of(1) <= 2 ? of(0) + of(1) : none;
+        case OpKind::quotient: return of(1) == 0 ? of(0) : none;
+        case OpKind::power: return of(0) == 1 && graph_.payload(id) == 2 ? 2 : none;
+        case OpKind::leaf:
+        case OpKind::function:
+        case OpKind::comparison:
+        case OpKind::choice:
+        case OpKind::system: break;
+        }
+        return none;
     }
 
     /// d value / d node for the nodes of degree 2, from the value down; H from the products of linear nodes.
@@ -75,27 +81,27 @@ class Reader {
             const auto [id, weight] = *weights.begin();
             weights.erase(weights.begin());
             const std::vector<NodeId> operands(graph_.operands(id).begin(), graph_.operands(id).end());
-            switch (graph_.op(id)) {
-            case Op::add:
-                pass(operands[0], weight);
-                pass(operands[1], weight);
-                break;
-            case Op::subtract:
-                pass(operands[0], weight);
-                pass(operands[1], graph_.negate(weight));
-                break;
-            case Op::negate: pass(operands[0], graph_.negate(weight)); break;
-            case Op::divide: pass(operands[0], graph_.divide(weight, operands[1])); break;
-            case Op::power: add_product(operands[0], operands[0], graph_.multiply(graph_.constant(2), weight)); break;
-            default: // a product
-                if (degrees_[operands[0]] == 1) {
-                    add_product(operands[0], operands[1], weight);
-                } else {
-                    const std::size_t quadratic = degrees_[operands[0]] == 2 ? 0 : 1;
-                    pass(operands[quadratic], graph_.multiply(weight, operands[1 - quadratic]));
-                }
+            const Op op = graph_.op(id);
+            const OpKind kind = kind_of(op);
+            if (kind == OpKind::sum) {
+                for (std::size_t k = 0; k < operands.size(); ++k) pass(operands[k], signed_by(op, k, weight));
+            } else if (kind == OpKind::quotient) {
+                pass(operands[0], graph_.divide(weight, operands[1]));
+            } else if (kind == OpKind::power) {
+                add_product(operands[0], operands[0], graph_.multiply(graph_.constant(2), weight));
+            } else if (degrees_[operands[0]] == 1) { // a product
+                add_product(operands[0], operands[1], weight);
+            } else {
+                const std::size_t quadratic = degrees_[operands[0]] == 2 ? 0 : 1;
+                pass(operands[quadratic], graph_.multiply(weight, operands[1 - quadratic]));
             }
         }
+    }
+
+    /// The weight of the k-th operand of a sum of this weight.
+    NodeId signed_by(Op op, std::size_t k, NodeId weight)
+    {
+        return term_sign(op, k) > 0 ? weight : graph_.negate(weight);
     }
 
     void add_product(NodeId a, NodeId b, NodeId weight)
@@ -125,23 +131,16 @@ class Reader {
     {
         const std::vector<NodeId> operands(graph_.operands(id).begin(), graph_.operands(id).end());
         const NodeId one = graph_.constant(1);
-        const NodeId minus_one = graph_.constant(-1);
         SparseHessian::Terms terms;
         const auto append = [&](NodeId operand, NodeId coefficient) {
             if (degrees_[operand] == 1) terms.emplace_back(numbers_.at(operand), coefficient);
         };
-        switch (graph_.op(id)) {
-        case Op::add:
-            append(operands[0], one);
-            append(operands[1], one);
-            break;
-        case Op::subtract:
-            append(operands[0], one);
-            append(operands[1], minus_one);
-            break;
-        case Op::negate: append(operands[0], minus_one); break;
-        case Op::divide: append(operands[0], graph_.divide(one, operands[1])); break;
-        default: // a product with one linear factor
+        const Op op = graph_.op(id);
+        if (kind_of(op) == OpKind::sum) {
+            for (std::size_t k = 0; k < operands.size(); ++k) append(operands[k], signed_by(op, k, one));
+        } else if (kind_of(op) == OpKind::quotient) {
+            append(operands[0], graph_.divide(one, operands[1]));
+        } else { // a product with one linear factor
             append(operands[0], operands[1]);
             append(operands[1], operands[0]);
         }

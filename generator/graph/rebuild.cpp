@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// A form back to nodes: numerators over denominators, powers by shared squares, signs absorbed into differences.
 #include "graph/form.hpp"
+#include "graph/operators.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -24,22 +25,23 @@ class Builder {
     {
         const Atom& atom = form_.algebra[id];
         latest_[id] = latest_input(atom);
-        switch (atom.op) {
-        case Op::input:
-        case Op::pi: nodes_[id] = atom.payload; break;
-        case Op::add:
-        case Op::multiply: nodes_[id] = sum(atom.operands[0]); break;
-        case Op::factor: break; // built with its solve
-        case Op::solve: solve(id); break;
-        case Op::component: nodes_[id] = solutions_.at(only_atom(atom.operands[0]))[atom.payload]; break;
-        case Op::select:
-            nodes_[id] = graph_.select(sum(atom.operands[0]), sum(atom.operands[1]), sum(atom.operands[2]));
+        switch (kind_of(atom.op)) {
+        case OpKind::leaf: nodes_[id] = atom.payload; break;
+        case OpKind::sum: // the form has no other
+        case OpKind::product: nodes_[id] = sum(atom.operands[0]); break;
+        case OpKind::system:
+            if (atom.op == Op::solve) solve(id); // its factor with it
+            if (atom.op == Op::component) nodes_[id] = solutions_.at(only_atom(atom.operands[0]))[atom.payload];
             break;
-        case Op::stumpff: nodes_[id] = graph_.stumpff(atom.payload, sum(atom.operands[0])); break;
-        default:
-            nodes_[id] = atom.operands.size() == 1
-                             ? graph_.apply(atom.op, sum(atom.operands[0]))
-                             : graph_.apply(atom.op, sum(atom.operands[0]), sum(atom.operands[1]));
+        case OpKind::quotient:
+        case OpKind::power:
+        case OpKind::function:
+        case OpKind::comparison:
+        case OpKind::choice: {
+            std::vector<NodeId> operands;
+            for (const Polynomial& operand : atom.operands) operands.push_back(sum(operand));
+            nodes_[id] = graph_.make(atom.op, atom.payload, operands);
+        }
         }
     }
 

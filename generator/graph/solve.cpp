@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Linear systems as nodes: split into blocks that do not touch, one factorisation a block.
+#include "expression/linear_algebra.hpp"
 #include "graph/graph.hpp"
 
 #include <algorithm>
@@ -8,41 +9,14 @@
 namespace lagen {
 namespace {
 
-/// Rows and columns of one connected part of the sparsity pattern, ascending.
-struct Block {
-    std::vector<std::size_t> rows;
-    std::vector<std::size_t> columns;
-};
-
-/// The connected parts of the graph rows - columns with an edge for every entry that is not the constant 0, by
-/// smallest row. One block with everything where some part is not square (the matrix is singular by structure).
-std::vector<Block> connected_blocks(const Graph& graph, std::span<const NodeId> matrix, std::size_t n)
+/// One block with everything where some part is not square (the matrix is singular by structure).
+std::vector<CoupledBlock> square_blocks(const Graph& graph, std::span<const NodeId> matrix, std::size_t n)
 {
-    std::vector<std::size_t> parent(2 * n); // rows, then columns
-    std::iota(parent.begin(), parent.end(), std::size_t{0});
-    const auto root = [&](std::size_t k) {
-        while (parent[k] != k) k = parent[k] = parent[parent[k]];
-        return k;
-    };
-    for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t j = 0; j < n; ++j)
-            if (!graph.is_zero(matrix[i * n + j])) {
-                const std::size_t a = root(i);
-                const std::size_t b = root(n + j);
-                parent[std::max(a, b)] = std::min(a, b);
-            }
-    std::vector<Block> blocks;
-    std::vector<std::size_t> block_of(2 * n, SIZE_MAX);
-    for (std::size_t k = 0; k < 2 * n; ++k) {
-        std::size_t& index = block_of[root(k)];
-        if (index == SIZE_MAX) {
-            index = blocks.size();
-            blocks.emplace_back();
-        }
-        (k < n ? blocks[index].rows : blocks[index].columns).push_back(k < n ? k : k - n);
-    }
-    if (std::ranges::all_of(blocks, [](const Block& b) { return b.rows.size() == b.columns.size(); })) return blocks;
-    Block whole;
+    std::vector<CoupledBlock> blocks =
+        coupled_blocks(n, [&](std::size_t i, std::size_t j) { return graph.is_zero(matrix[i * n + j]); });
+    if (std::ranges::all_of(blocks, [](const CoupledBlock& b) { return b.rows.size() == b.columns.size(); }))
+        return blocks;
+    CoupledBlock whole;
     whole.rows.resize(n);
     std::iota(whole.rows.begin(), whole.rows.end(), std::size_t{0});
     whole.columns = whole.rows;
@@ -60,7 +34,7 @@ Graph::solve(std::span<const NodeId> matrix, const std::vector<std::vector<NodeI
             throw InternalError("solve() wants n*n entries of the matrix and n of every right-hand side");
     std::vector<std::vector<NodeId>> result(columns.size(), std::vector<NodeId>(n, constant(0)));
     const std::vector<NodeId> entries(matrix.begin(), matrix.end());
-    for (const Block& block : connected_blocks(*this, entries, n)) {
+    for (const CoupledBlock& block : square_blocks(*this, entries, n)) {
         const std::size_t size = block.rows.size();
         if (size == 1) {
             const NodeId divisor = entries[block.rows[0] * n + block.columns[0]];
@@ -90,7 +64,7 @@ void Graph::remember_hessian(std::span<const NodeId> matrix, std::span<const Nod
     const std::size_t n = variables.size();
     if (matrix.size() != n * n) throw InternalError("remember_hessian() wants n*n entries for n variables");
     const std::vector<NodeId> entries(matrix.begin(), matrix.end());
-    for (const Block& block : connected_blocks(*this, entries, n)) {
+    for (const CoupledBlock& block : square_blocks(*this, entries, n)) {
         if (block.rows.size() < 2 || block.rows != block.columns) continue;
         std::vector<NodeId> part;
         HessianOrigin origin{value, {}};

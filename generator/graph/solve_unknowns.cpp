@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "graph/solve_unknowns.hpp"
 
-#include "graph/dense_lu.hpp"
+#include "expression/linear_algebra.hpp"
 #include "graph/evaluate.hpp"
 #include "graph/solve_in_brackets.hpp"
 

@@ -10,14 +10,11 @@ namespace lagen {
 
 NodeId Rebuilder::rebuild_scalar(NodeId old) const
 {
-    const Op op = graph_.op(old);
     const auto operands = graph_.operands(old);
-    const auto at = [&](std::size_t k) { return map_[operands[k]]; };
     if (operands.empty()) return old;
-    if (op == Op::power) return graph_.power(at(0), static_cast<std::int32_t>(graph_.payload(old)));
-    if (op == Op::stumpff) return graph_.stumpff(graph_.payload(old), at(0));
-    if (op == Op::select) return graph_.select(at(0), at(1), at(2));
-    return operands.size() == 1 ? graph_.apply(op, at(0)) : graph_.apply(op, at(0), at(1));
+    NodeId mapped[3]{};
+    for (std::size_t k = 0; k < operands.size(); ++k) mapped[k] = map_[operands[k]];
+    return graph_.make(graph_.op(old), graph_.payload(old), {mapped, operands.size()});
 }
 
 void Rebuilder::rebuild_solve(NodeId solve)

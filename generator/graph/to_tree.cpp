@@ -13,40 +13,34 @@ Tree pi_tree()
     return node;
 }
 
-Comparison comparison_of(Op op)
+Tree leaf_tree(const Graph& graph, NodeId id)
 {
-    switch (op) {
-    case Op::less: return Comparison::less;
-    case Op::less_equal: return Comparison::less_equal;
-    case Op::greater: return Comparison::greater;
-    case Op::greater_equal: return Comparison::greater_equal;
-    case Op::equal: return Comparison::equal;
-    default: return Comparison::not_equal;
-    }
+    if (graph.is_constant(id)) return number(graph.value(id));
+    return graph.op(id) == Op::pi ? pi_tree() : name(graph.input_name(id));
 }
 
 /// The tree of one node from those of its operands.
 Tree combine(const Graph& graph, NodeId id, std::vector<Tree> operands)
 {
     const Op op = graph.op(id);
-    switch (op) {
-    case Op::constant: return number(graph.value(id));
-    case Op::pi: return pi_tree();
-    case Op::input: return name(graph.input_name(id));
-    case Op::add: return add(std::move(operands));
-    case Op::subtract: return add({operands[0], negate(operands[1])});
-    case Op::multiply: return multiply(std::move(operands));
-    case Op::divide: return divide(operands[0], operands[1]);
-    case Op::negate: return negate(operands[0]);
-    case Op::power: return power(operands[0], number(Rational(static_cast<std::int32_t>(graph.payload(id)))));
-    case Op::real_power: return power(operands[0], operands[1]);
-    case Op::stumpff: return call(Function::stumpff, {number(Rational(graph.payload(id))), operands[0]});
-    default: break;
+    const Operator& row = operator_of(op);
+    switch (row.kind) {
+    case OpKind::leaf: return leaf_tree(graph, id);
+    case OpKind::sum:
+        if (op == Op::negate) return negate(operands[0]);
+        return op == Op::add ? add(std::move(operands)) : add({operands[0], negate(operands[1])});
+    case OpKind::product: return multiply(std::move(operands));
+    case OpKind::quotient: return divide(operands[0], operands[1]);
+    case OpKind::power: return power(operands[0], number(Rational(static_cast<std::int32_t>(graph.payload(id)))));
+    case OpKind::comparison: return compare(*row.comparison, operands[0], operands[1]);
+    case OpKind::function:
+    case OpKind::choice:
+        if (op == Op::real_power) return power(operands[0], operands[1]);
+        if (op == Op::stumpff) operands.insert(operands.begin(), number(Rational(graph.payload(id))));
+        return call(*row.function, std::move(operands));
+    case OpKind::system: break;
     }
-    if (op >= Op::less && op <= Op::not_equal) return compare(comparison_of(op), operands[0], operands[1]);
-    const FunctionEntry* entry = find_function(operator_of(op).name);
-    if (entry == nullptr) throw InternalError(std::string("no built-in function is called ") + operator_of(op).name);
-    return call(entry->function, std::move(operands));
+    throw InternalError(std::string("no tree is written for ") + row.name);
 }
 
 /// z_k of A z = b from the trees of the entries of A and b.

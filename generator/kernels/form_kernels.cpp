@@ -3,6 +3,7 @@
 
 #include "graph/differentiate.hpp"
 #include "kernels/formulation.hpp"
+#include "kernels/kernel_table.hpp"
 #include "kernels/requested_kernels.hpp"
 #include "model/scene_form.hpp"
 
@@ -17,10 +18,12 @@ namespace {
 Formulation formulation(Graph& graph, const Model& model, const System& system, const Report& report,
                         const KernelRequest& request, const FormulationParts& parts)
 {
-    const std::string form = request.form.empty() ? default_form(model) : request.form;
-    if (form == "hamilton") return hamilton_form(graph, system, report, parts);
-    if (form == "pontryagin") return pontryagin_form(graph, model, system, report, parts);
-    return lagrange_form(graph, system, report, parts);
+    switch (form_named(request.form.empty() ? default_form(model) : request.form).kind) {
+    case FormKind::lagrange: return lagrange_form(graph, system, report, parts);
+    case FormKind::hamilton: return hamilton_form(graph, system, report, parts);
+    case FormKind::pontryagin: return pontryagin_form(graph, model, system, report, parts);
+    }
+    throw InternalError("a form without kernels");
 }
 
 /// Kernels of one module, each simplified on its own and left out where nobody asked for it or it would be empty.
@@ -38,11 +41,11 @@ class ModuleBuilder {
         if (wants("rhs")) add_right_hand_side();
         for (Kernel& kernel : form_.kernels)
             if (wants(kernel.name)) add(std::move(kernel));
-        add_trees("constraints", model_base_constraints(), "Base constraints: each is 0 on M.");
+        add_trees("constraints", model_base_constraints());
         add_domain();
-        add_trees("observables", observables(), "Observables of the model.");
-        add_trees("invariants", named(model_.invariants), "Functions that are constant along solutions.");
-        if (wants("events")) add_trees("events", events(), "Events: each happens where its value crosses 0.");
+        add_trees("observables", observables());
+        add_trees("invariants", named(model_.invariants));
+        if (wants("events")) add_trees("events", events());
         if (wants("jacobian")) add_jacobian();
         if (wants("variational")) add_variational();
         simplify_implicit();
@@ -68,8 +71,8 @@ class ModuleBuilder {
     void describe()
     {
         module_.model = model_.name;
-        module_.form = form_.form;
-        module_.name = form_.form == "lagrange" ? model_.name : model_.name + "_" + form_.form;
+        module_.form = form_.form->name;
+        module_.name = model_.name + form_.form->suffix;
         module_.title = model_.title;
         module_.regenerate = fmt::format("lagen generate {}.toml", model_.name);
         module_.graph = graph_;
@@ -80,7 +83,7 @@ class ModuleBuilder {
             module_.base.push_back(quantity(model_.base.coordinates[i], form_.x[i]));
         for (std::size_t a = 0; a < form_.lanes.size(); ++a)
             module_.fibre.push_back(quantity(lane_symbol(a), form_.lanes[a]));
-        module_.fibre_name = form_.lane_group;
+        module_.fibre_name = form_.form->lane_group;
         module_.implicit = form_.implicit;
         module_.parameter_conditions = form_.parameter_conditions;
         for (const auto& [parameter, value] : system_.parameter_values) module_.parameter_defaults.push_back(value);
@@ -88,7 +91,7 @@ class ModuleBuilder {
 
     [[nodiscard]] const Symbol& lane_symbol(std::size_t a) const
     {
-        return (form_.lanes == system_.mu ? model_.fibre.momenta : model_.fibre.coordinates)[a];
+        return (form_.form->momenta ? model_.fibre.momenta : model_.fibre.coordinates)[a];
     }
 
     /// Adds a kernel with its entries and pivots simplified together.
@@ -112,16 +115,13 @@ class ModuleBuilder {
 
     void add_right_hand_side()
     {
-        Kernel kernel;
-        kernel.name = "rhs";
-        kernel.shape = KernelShape::right_hand_side;
-        kernel.output = column("ds", form_.derivative);
+        Kernel kernel = table_kernel(form_, "rhs", column("ds", form_.derivative));
         kernel.pivots = form_.pivots;
         kernel.documentation = form_.documentation;
         add(std::move(kernel));
     }
 
-    void add_trees(const std::string& name, const NamedTrees& trees, const std::string& text)
+    void add_trees(const std::string& name, const NamedTrees& trees)
     {
         if (trees.empty() || !wants(name)) return;
         std::vector<NodeId> values;
@@ -132,7 +132,14 @@ class ModuleBuilder {
             names.push_back(label);
         }
         if (values.empty()) return;
-        add({name, KernelShape::vector, column(name, values), {text}, std::move(names), {}});
+        add_named(name, values, std::move(names));
+    }
+
+    void add_named(const std::string& name, const std::vector<NodeId>& values, std::vector<std::string> names)
+    {
+        Kernel kernel = table_kernel(form_, name, column(name, values));
+        kernel.entry_names = std::move(names);
+        add(std::move(kernel));
     }
 
     [[nodiscard]] NamedTrees model_base_constraints() const
@@ -199,12 +206,7 @@ class ModuleBuilder {
             names.push_back(to_text(tree));
         }
         if (values.empty() || !wants("domain")) return;
-        add({"domain",
-             KernelShape::vector,
-             column("domain", values),
-             {"Positive inside the domain of the model."},
-             std::move(names),
-             {}});
+        add_named("domain", values, std::move(names));
     }
 
     /// Of the one scene asked for, or of all; the same event of two scenes once, different ones of one name with the
@@ -236,12 +238,7 @@ class ModuleBuilder {
         const std::vector<NodeId> lanes = state_of(form_);
         const std::vector<NodeId> values =
             joined_rows(jacobian_through(*graph_, form_.derivative, lanes, form_.implicit));
-        add({"jacobian",
-             KernelShape::sparse,
-             matrix(*graph_, "values", lanes.size(), lanes.size(), values),
-             {"Derivative of ds with respect to s: the entries that are not zero by structure."},
-             {},
-             {}});
+        add(table_kernel(form_, "jacobian", matrix(*graph_, "values", lanes.size(), lanes.size(), values)));
     }
 
     /// The directional derivative of the right-hand side along v: one sweep, however many lanes there are.
@@ -255,12 +252,7 @@ class ModuleBuilder {
         }
         const std::vector<NodeId> tangent =
             directional(*graph_, form_.derivative, seeds_through(*graph_, form_.implicit, std::move(seeds)));
-        add({"variational",
-             KernelShape::directional,
-             column("dv", tangent),
-             {"The variational equations at s: dv = (d rhs / d s) v. v and dv may be the same object."},
-             {},
-             {}});
+        add(table_kernel(form_, "variational", column("dv", tangent)));
     }
 
     /// Residuals, Jacobian and guess of each block, simplified together.

@@ -2,6 +2,7 @@
 #include "kernels/formulation.hpp"
 
 #include "graph/differentiate.hpp"
+#include "kernels/kernel_table.hpp"
 
 #include <fmt/format.h>
 
@@ -9,15 +10,14 @@
 
 namespace lagen {
 
-Formulation empty_form(const System& system, std::string form, std::vector<NodeId> lanes, std::string lane_group)
+Formulation empty_form(const System& system, FormKind form, std::vector<NodeId> lanes)
 {
     Formulation result;
-    result.form = std::move(form);
+    result.form = &entry_of(form);
     result.time = system.time;
     result.parameters = system.parameters;
     result.x = system.algebroid.x;
     result.lanes = std::move(lanes);
-    result.lane_group = std::move(lane_group);
     return result;
 }
 
@@ -89,22 +89,23 @@ std::vector<NodeId> state_of(const Formulation& form)
     return lanes;
 }
 
-Kernel hessian_kernel(Graph& graph, std::string name, const std::vector<NodeId>& first, const Formulation& form,
-                      const std::string& formula)
+Kernel table_kernel(const Formulation& form, const std::string& name, KernelOutput output)
+{
+    const KernelRow& row = kernel_row(name, form.form->kind);
+    const std::string text = fmt::format(fmt::runtime(row.documentation), output.rows, output.columns);
+    return {name, row.shape, std::move(output), {text}, {}, {}};
+}
+
+Kernel scalar_kernel(const Formulation& form, const std::string& name, NodeId value)
+{
+    return table_kernel(form, name, column("value", {value}));
+}
+
+Kernel hessian_kernel(Graph& graph, const Formulation& form, const std::string& name, const std::vector<NodeId>& first)
 {
     const std::vector<NodeId> state = state_of(form);
     const std::vector<NodeId> hessian = joined_rows(jacobian_through(graph, first, state, form.implicit));
-    return {std::move(name),
-            KernelShape::matrix,
-            matrix(graph, "H", state.size(), state.size(), hessian),
-            {formula + " over the lanes of the state, symmetric."},
-            {},
-            {}};
-}
-
-Kernel scalar_kernel(std::string name, NodeId value, std::string documentation)
-{
-    return {std::move(name), KernelShape::scalar, column("value", {value}), {std::move(documentation)}, {}, {}};
+    return table_kernel(form, name, matrix(graph, "H", state.size(), state.size(), hessian));
 }
 
 } // namespace lagen

@@ -8,18 +8,17 @@
 
 #include "graph/kernel.hpp"
 #include "graph/lower.hpp"
-#include "model/model.hpp"
+#include "model/form.hpp"
 #include "verify/verify.hpp"
 
 namespace lagen {
 
 struct Formulation {
-    std::string form;
+    const EquationForm* form = nullptr;
     NodeId time = 0;
     std::vector<NodeId> parameters;
     std::vector<NodeId> x;                  ///< x^i, shape (n)
     std::vector<NodeId> lanes;              ///< the other lanes of the state, shape (r)
-    std::string lane_group;                 ///< the struct of them: "Fibre" or "Momenta"
     std::vector<NodeId> derivative;         ///< of x, then of the lanes; empty unless asked for
     std::vector<NodeId> pivots;             ///< 1 x 1 blocks of what is solved for the derivative
     std::vector<std::string> documentation; ///< of the right-hand side
@@ -47,8 +46,7 @@ struct FormulationParts {
                                           const FormulationParts& parts);
 
 /// A form without motion, names and kernels: what all of them share. `lanes`: y, mu, ..
-[[nodiscard]] Formulation empty_form(const System& system, std::string form, std::vector<NodeId> lanes,
-                                     std::string lane_group);
+[[nodiscard]] Formulation empty_form(const System& system, FormKind form, std::vector<NodeId> lanes);
 /// Binds t, parameters and base coordinates, which win over what is bound already.
 void bind_system(const System& system, Formulation& form);
 
@@ -67,9 +65,11 @@ void require_regular_lagrangian(const System& system, const Regularity& regulari
                                   const std::vector<NodeId>& values);
 /// The lanes of the state: x, then the others.
 [[nodiscard]] std::vector<NodeId> state_of(const Formulation& form);
-/// The derivatives of `first` = df/ds with respect to the state, through the implicit blocks; `formula`: "d2L/ds2".
-[[nodiscard]] Kernel hessian_kernel(Graph& graph, std::string name, const std::vector<NodeId>& first,
-                                    const Formulation& form, const std::string& formula);
-[[nodiscard]] Kernel scalar_kernel(std::string name, NodeId value, std::string documentation);
+/// A kernel as its row in the table of kernels says.
+[[nodiscard]] Kernel table_kernel(const Formulation& form, const std::string& name, KernelOutput output);
+[[nodiscard]] Kernel scalar_kernel(const Formulation& form, const std::string& name, NodeId value);
+/// The derivatives of `first` = df/ds with respect to the state, through the implicit blocks.
+[[nodiscard]] Kernel hessian_kernel(Graph& graph, const Formulation& form, const std::string& name,
+                                    const std::vector<NodeId>& first);
 
 } // namespace lagen

@@ -35,23 +35,15 @@ void bind_names(const System& system, const HamiltonianNodes& hamiltonian, Formu
 void add_kernels(Graph& graph, const System& system, const HamiltonianNodes& hamiltonian, NodeId power,
                  const FormulationParts& parts, Formulation& form)
 {
-    if (!hamiltonian.y.empty())
-        form.kernels.push_back({"velocity",
-                                KernelShape::vector,
-                                column("y", hamiltonian.y),
-                                {fmt::format("y^a = dH/dmu_a, shape ({}).", hamiltonian.y.size())},
-                                {},
-                                {}});
-    form.kernels.push_back(scalar_kernel("energy", hamiltonian.value, "E = H(t, x, mu)."));
-    if (!graph.is_zero(power))
-        form.kernels.push_back(scalar_kernel("power", power, "dE/dt = Q_a y^a + dH/dt along the motion."));
-    form.kernels.push_back(scalar_kernel("hamiltonian", hamiltonian.value, "H(t, x, mu)."));
-    if (system.lagrangian)
-        form.kernels.push_back(scalar_kernel("lagrangian", hamiltonian.lagrangian, "L at y = dH/dmu."));
+    if (!hamiltonian.y.empty()) form.kernels.push_back(table_kernel(form, "velocity", column("y", hamiltonian.y)));
+    form.kernels.push_back(scalar_kernel(form, "energy", hamiltonian.value));
+    if (!graph.is_zero(power)) form.kernels.push_back(scalar_kernel(form, "power", power));
+    form.kernels.push_back(scalar_kernel(form, "hamiltonian", hamiltonian.value));
+    if (system.lagrangian) form.kernels.push_back(scalar_kernel(form, "lagrangian", hamiltonian.lagrangian));
     if (!parts.hessians) return;
     std::vector<NodeId> first = hamiltonian.dH_dx;
     first.insert(first.end(), hamiltonian.y.begin(), hamiltonian.y.end());
-    form.kernels.push_back(hessian_kernel(graph, "hamiltonian_hessian", first, form, "d2H/ds2"));
+    form.kernels.push_back(hessian_kernel(graph, form, "hamiltonian_hessian", first));
 }
 
 } // namespace
@@ -60,7 +52,7 @@ Formulation hamilton_form(Graph& graph, const System& system, const Report& repo
 {
     const HamiltonianNodes hamiltonian = hamiltonian_nodes(graph, system, report.regularity);
     const MomentumBalance balance = hamilton_balance(graph, system, hamiltonian);
-    Formulation form = empty_form(system, "hamilton", system.mu, "Momenta");
+    Formulation form = empty_form(system, FormKind::hamilton, system.mu);
     form.implicit = hamiltonian.implicit;
     if (parts.motion) {
         form.derivative = base_velocity(graph, system.algebroid, hamiltonian.y);

@@ -25,26 +25,15 @@ void add_kernels(Graph& graph, const System& system, const LagrangianNodes& lagr
 {
     const std::size_t r = system.r();
     if (r > 0) {
-        form.kernels.push_back({"mass_matrix",
-                                KernelShape::matrix,
-                                matrix(graph, "W", r, r, lagrangian.fibre.hessian),
-                                {fmt::format("W_ab = d2L/dy^a dy^b, shape ({}, {}), symmetric.", r, r)},
-                                {},
-                                {}});
-        form.kernels.push_back({"momentum",
-                                KernelShape::vector,
-                                column("p", lagrangian.fibre.momenta),
-                                {fmt::format("p_a = dL/dy^a, shape ({}).", r)},
-                                {},
-                                {}});
+        form.kernels.push_back(table_kernel(form, "mass_matrix", matrix(graph, "W", r, r, lagrangian.fibre.hessian)));
+        form.kernels.push_back(table_kernel(form, "momentum", column("p", lagrangian.fibre.momenta)));
     }
-    form.kernels.push_back(scalar_kernel("energy", lagrangian.energy, "E = y^a p_a - L."));
-    if (!graph.is_zero(power))
-        form.kernels.push_back(scalar_kernel("power", power, "dE/dt = Q_a y^a - dL/dt along the motion."));
-    form.kernels.push_back(scalar_kernel("lagrangian", *system.lagrangian, "L(t, x, y)."));
+    form.kernels.push_back(scalar_kernel(form, "energy", lagrangian.energy));
+    if (!graph.is_zero(power)) form.kernels.push_back(scalar_kernel(form, "power", power));
+    form.kernels.push_back(scalar_kernel(form, "lagrangian", *system.lagrangian));
     if (!parts.hessians) return;
     const std::vector<NodeId> first = gradient(graph, *system.lagrangian, state_of(form));
-    form.kernels.push_back(hessian_kernel(graph, "lagrangian_hessian", first, form, "d2L/ds2"));
+    form.kernels.push_back(hessian_kernel(graph, form, "lagrangian_hessian", first));
 }
 
 } // namespace
@@ -56,7 +45,7 @@ Formulation lagrange_form(Graph& graph, const System& system, const Report& repo
     const std::vector<NodeId>& W = lagrangian.fibre.hessian;
     graph.remember_hessian(W, system.algebroid.y, *system.lagrangian);
     const MomentumBalance balance = lagrange_balance(graph, system, lagrangian);
-    Formulation form = empty_form(system, "lagrange", system.algebroid.y, "Fibre");
+    Formulation form = empty_form(system, FormKind::lagrange, system.algebroid.y);
     if (parts.motion) {
         form.derivative = base_velocity(graph, system.algebroid, system.algebroid.y);
         const std::vector<NodeId> right =

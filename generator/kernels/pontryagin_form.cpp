@@ -31,7 +31,7 @@ class PontryaginForm {
 
     Formulation build(const FormulationParts& parts)
     {
-        Formulation form = empty_form(system_, "pontryagin", mu_, "Momenta");
+        Formulation form = empty_form(system_, FormKind::pontryagin, mu_);
         form.implicit = implicit_;
         form.pivots = pivots_;
         for (const Symbol& symbol : control_.controls) form.controls.push_back(symbol.name);
@@ -204,18 +204,13 @@ class PontryaginForm {
     void add_kernels(Formulation& form)
     {
         const std::vector<NodeId> values = at_controls({hamiltonian_, cost_, dH_dt_});
-        form.kernels.push_back(
-            {"controls",
-             KernelShape::vector,
-             column("u", solution_),
-             {verified_.maximum.kind == ControlMaximum::Kind::maximal ? "The controls that maximise H."
-                                                                      : stationary_controls},
-             form.controls,
-             {}});
-        form.kernels.push_back(scalar_kernel("hamiltonian", values[0], "H = mu_a sigma^a - cost at these controls."));
-        if (!graph_.is_zero(values[2]))
-            form.kernels.push_back(scalar_kernel("power", values[2], "dH/dt along the motion."));
-        form.kernels.push_back(scalar_kernel("cost", values[1], "The running cost."));
+        Kernel controls = table_kernel(form, "controls", column("u", solution_));
+        if (verified_.maximum.kind != ControlMaximum::Kind::maximal) controls.documentation = {stationary_controls};
+        controls.entry_names = form.controls;
+        form.kernels.push_back(std::move(controls));
+        form.kernels.push_back(scalar_kernel(form, "hamiltonian", values[0]));
+        if (!graph_.is_zero(values[2])) form.kernels.push_back(scalar_kernel(form, "power", values[2]));
+        form.kernels.push_back(scalar_kernel(form, "cost", values[1]));
     }
 
     Graph& graph_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "kernels/requested_kernels.hpp"
 
+#include "kernels/kernel_table.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,9 +10,6 @@
 namespace lagen {
 
 namespace {
-
-/// Those that are made only where they are asked for by name.
-const std::vector<std::string> on_request{"variational", "lagrangian_hessian", "hamiltonian_hessian"};
 
 bool is_among(const std::vector<std::string>& names, const std::string& name)
 {
@@ -28,16 +27,20 @@ bool is_among(const std::vector<std::string>& names, const std::string& name)
 
 const std::vector<std::string>& kernel_names()
 {
-    static const std::vector<std::string> names{
-        "rhs",         "jacobian",   "variational",        "mass_matrix",         "momentum", "velocity",    "controls",
-        "energy",      "power",      "hamiltonian",        "lagrangian",          "cost",     "constraints", "domain",
-        "observables", "invariants", "lagrangian_hessian", "hamiltonian_hessian", "events"};
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> all;
+        for (const KernelRow& row : kernel_table())
+            if (!is_among(all, row.name)) all.emplace_back(row.name);
+        return all;
+    }();
     return names;
 }
 
 bool is_requested(const std::vector<std::string>& only, const std::string& name)
 {
-    return only.empty() ? !is_among(on_request, name) : is_among(only, name);
+    if (!only.empty()) return is_among(only, name);
+    return std::ranges::none_of(kernel_table(),
+                                [&](const KernelRow& row) { return row.on_request && name == row.name; });
 }
 
 void refuse_unknown(const std::vector<std::string>& only)
@@ -57,9 +60,9 @@ void require_requested(const KernelModule& module, const Model& model, const Sys
         every.scene = request.scene;
         std::vector<std::string> names;
         for (const Kernel& kernel : form_kernels(model, system, report, every).kernels) names.push_back(kernel.name);
-        names.emplace_back("variational");
-        if (module.form == "lagrange") names.emplace_back("lagrangian_hessian");
-        if (module.form == "hamilton") names.emplace_back("hamiltonian_hessian");
+        const FormKind form = form_named(module.form).kind;
+        for (const KernelRow& row : kernel_table())
+            if (row.on_request && row.form.value_or(form) == form) names.emplace_back(row.name);
         refuse(fmt::format("the {} form of model '{}' has no kernel '{}'; it has", module.form, model.name, name), name,
                names);
     }

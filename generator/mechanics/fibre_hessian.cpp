@@ -1,36 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Momenta, fibre Hessian, its coupled blocks and their minors.
 #include "mechanics/fibre_hessian.hpp"
+
+#include "expression/linear_algebra.hpp"
 #include "graph/differentiate.hpp"
 
 #include <algorithm>
 
 namespace lagen {
-namespace {
-
-std::vector<std::vector<std::size_t>> coupled_blocks(const Graph& graph, const FibreHessian& hessian)
-{
-    const std::size_t r = hessian.momenta.size();
-    std::vector<std::vector<std::size_t>> blocks;
-    std::vector<bool> seen(r, false);
-    for (std::size_t start = 0; start < r; ++start) {
-        if (seen[start]) continue;
-        std::vector<std::size_t> block = {start};
-        seen[start] = true;
-        for (std::size_t next = 0; next < block.size(); ++next)
-            for (std::size_t b = 0; b < r; ++b)
-                if (!seen[b] && !graph.is_zero(hessian.W(block[next], b))) {
-                    seen[b] = true;
-                    block.push_back(b);
-                }
-        std::sort(block.begin(), block.end());
-        blocks.push_back(std::move(block));
-    }
-    return blocks;
-}
-
-} // namespace
-
 FibreHessian fibre_hessian(Graph& graph, NodeId lagrangian, const std::vector<NodeId>& y)
 {
     FibreHessian result;
@@ -48,7 +25,7 @@ FibreHessian fibre_hessian(Graph& graph, NodeId lagrangian, const std::vector<No
             result.hessian[a * r + b] = entry;
             result.hessian[b * r + a] = entry;
         }
-    result.blocks = coupled_blocks(graph, result);
+    result.blocks = connected_classes(r, [&](std::size_t a, std::size_t b) { return !graph.is_zero(result.W(a, b)); });
     return result;
 }
 

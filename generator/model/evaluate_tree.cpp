@@ -4,9 +4,11 @@
 #include "model/evaluate_tree.hpp"
 
 #include "expression/evaluate_stumpff.hpp"
+#include "expression/linear_algebra.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <numbers>
 
 namespace lagen {
@@ -66,24 +68,27 @@ Dual stumpff_function(long double order, Dual z)
     return chain(evaluate_stumpff(k, z.value), slope, z);
 }
 
-/// Component `row` of A^-1 b by elimination with row exchanges; `a` holds the n*n entries of A by rows, then b. Not a
-/// number where A is singular.
-Dual solve_system(std::vector<Dual> a, std::size_t row)
+/// Of values with derivatives; the values choose the pivots.
+struct DualArithmetic {
+    using Number = Dual;
+    [[nodiscard]] bool is_better_pivot(Dual a, Dual than) const { return std::fabs(a.value) > std::fabs(than.value); }
+    [[nodiscard]] bool is_pivot(Dual a) const { return std::fabs(a.value) > 0; }
+    [[nodiscard]] Dual quotient(Dual a, Dual b) const { return a / b; }
+    void subtract_product(Dual& a, Dual f, Dual b) const { a = a + Dual{-1, 0} * f * b; }
+    [[nodiscard]] std::vector<Dual> no_solution(std::size_t n) const
+    {
+        constexpr long double nan = std::numeric_limits<long double>::quiet_NaN();
+        return std::vector<Dual>(n, Dual{nan, nan});
+    }
+};
+
+/// Component `row` of A^-1 b; `a` holds the n*n entries of A by rows, then b. Not a number where A is singular.
+Dual solve_system(const std::vector<Dual>& a, std::size_t row)
 {
     const std::size_t n = solve_order(a.size());
-    const auto at = [&a, n](std::size_t i, std::size_t j) -> Dual& { return a[j < n ? i * n + j : n * n + i]; };
-    for (std::size_t k = 0; k < n; ++k) {
-        std::size_t pivot = k;
-        for (std::size_t i = k + 1; i < n; ++i)
-            if (std::fabs(at(i, k).value) > std::fabs(at(pivot, k).value)) pivot = i;
-        for (std::size_t j = k; j <= n; ++j) std::swap(at(k, j), at(pivot, j));
-        for (std::size_t i = 0; i < n; ++i) {
-            if (i == k) continue;
-            const Dual factor = at(i, k) / at(k, k);
-            for (std::size_t j = k; j <= n; ++j) at(i, j) = at(i, j) + Dual{-1, 0} * factor * at(k, j);
-        }
-    }
-    return at(row, n) / at(row, row);
+    const auto middle = a.begin() + static_cast<std::ptrdiff_t>(n * n);
+    const Factorisation<Dual> factors = factorise(std::vector<Dual>(a.begin(), middle), n, DualArithmetic{});
+    return substitute(factors, std::vector<Dual>(middle, a.end()), DualArithmetic{})[row];
 }
 
 Dual call_function(Function function, const std::vector<Dual>& args)
@@ -114,7 +119,19 @@ Dual call_function(Function function, const std::vector<Dual>& args)
     case Function::stumpff: return stumpff_function(x, args[1]);
     case Function::sign: return {x > 0 ? 1.0L : x < 0 ? -1.0L : x, 0};
     case Function::select: return x != 0 ? args[1] : args[2];
-    default: break;
+    case Function::erf: return chain(std::erf(x), 2 * std::numbers::inv_sqrtpi_v<long double> * std::exp(-x * x), a);
+    case Function::dot:
+    case Function::cross:
+    case Function::norm:
+    case Function::trace:
+    case Function::transpose:
+    case Function::det:
+    case Function::inverse:
+    case Function::diag:
+    case Function::identity:
+    case Function::hat:
+    case Function::vee:
+    case Function::cay: break; // gone after closing
     }
     throw InternalError("a function without a value");
 }

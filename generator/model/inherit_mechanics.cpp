@@ -31,7 +31,7 @@ void append_files(std::vector<const IncludedModel*>& files, bool& complete, cons
     for (const AlgebroidDraft& inner : draft.of) append_files(files, complete, reader, inner);
 }
 
-Tree sum_of(const std::vector<Tree>& terms)
+Tree sum_or_nothing(const std::vector<Tree>& terms)
 {
     return terms.empty() ? nullptr : terms.size() == 1 ? terms[0] : add(terms);
 }
@@ -53,7 +53,7 @@ std::vector<Tree> forces_of(const ModelReader& reader, const AlgebroidDraft& dra
         std::vector<std::vector<Tree>> terms(forces.size());
         for (const SectionEntry& entry : block.sections)
             if (inner[entry.inner]) terms[entry.section].push_back(product_of(entry.value, inner[entry.inner]));
-        for (std::size_t a = 0; a < forces.size(); ++a) forces[a] = sum_of(terms[a]);
+        for (std::size_t a = 0; a < forces.size(); ++a) forces[a] = sum_or_nothing(terms[a]);
     }
     return forces;
 }
@@ -75,9 +75,9 @@ void inherit_mechanics(ModelReader& reader)
         if (file->model.dissipation) dissipations.push_back(in_model(*file, file->model.dissipation));
     }
     const SourceRange where = files.front()->of->where;
-    reader.lagrangian = sum_of(lagrangians);
+    reader.lagrangian = sum_or_nothing(lagrangians);
     reader.model.lagrangian_where = where;
-    if (own.dissipation == nullptr) reader.dissipation = sum_of(dissipations);
+    if (own.dissipation == nullptr) reader.dissipation = sum_or_nothing(dissipations);
     if (own.forces != nullptr) return;
     const std::vector<Tree> forces = forces_of(reader, *reader.draft, reader.model.algebroid);
     for (std::size_t a = 0; a < forces.size(); ++a)

@@ -184,7 +184,7 @@ void require_complete(const ModelReader& reader, const Scene& scene)
                          scene.where, "give every fibre coordinate or every momentum");
     }
     Missing missing = missing_of(reader.model.base.coordinates, given);
-    const bool momenta = some_momenta || form_of(reader.model, scene) == "pontryagin";
+    const bool momenta = some_momenta || is_form(form_of(reader.model, scene), FormKind::pontryagin);
     const Missing& rest = momenta ? no_momentum : no_fibre;
     if (!scene.rest || momenta) missing.add(rest);
     if (missing.count == 0) return;

@@ -13,12 +13,20 @@ namespace lagen {
 
 namespace {
 
+/// Of models on groupoids; known by name alone.
+constexpr const char* discrete = "discrete";
+
 /// What a model lacks that has not this form.
 const char* missing_block(const std::string& form)
 {
-    if (form == "lagrange") return "no [lagrangian]";
-    if (form == "hamilton") return "neither [hamiltonian] nor [lagrangian]";
-    return form == "pontryagin" ? "no [control]" : "no [discrete]";
+    return form == discrete ? "no [discrete]" : form_named(form).needs;
+}
+
+std::vector<EquationForm> by_rank()
+{
+    std::vector<EquationForm> rows(form_table().begin(), form_table().end());
+    std::ranges::sort(rows, {}, &EquationForm::rank);
+    return rows;
 }
 
 std::string form_hint(const std::vector<std::string>& forms)
@@ -61,7 +69,7 @@ class ControlSearch {
 {
     throw ModelError(
         fmt::format("{} depends on the control '{}', which the form '{}' does not have", what, control, form), where,
-        "controls are there in Pontryagin's form: form = \"pontryagin\"");
+        fmt::format("controls are there in Pontryagin's form: form = \"{}\"", entry_of(FormKind::pontryagin).name));
 }
 
 /// No form but Pontryagin's has controls to observe.
@@ -115,29 +123,45 @@ void replace_states(const Model& model, Scene& scene, const std::string& form)
 
 std::string default_form(const Model& model)
 {
-    if (model.control) return "pontryagin";
-    return model.lagrangian == nullptr && model.hamiltonian != nullptr ? "hamilton" : "lagrange";
+    const std::vector<std::string> forms = forms_of(model);
+    return forms.empty() ? entry_of(FormKind::lagrange).name : forms.front();
 }
 
 const std::vector<std::string>& form_names()
 {
-    static const std::vector<std::string> names{"lagrange", "hamilton", "pontryagin"};
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> all;
+        for (const EquationForm& form : form_table()) all.emplace_back(form.name);
+        return all;
+    }();
     return names;
+}
+
+std::string form_list()
+{
+    const std::vector<std::string>& names = form_names();
+    return fmt::format("{} or {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());
+}
+
+std::string default_order()
+{
+    std::vector<std::string> names;
+    for (const EquationForm& form : by_rank()) names.emplace_back(form.name);
+    return comma_list(names);
 }
 
 std::vector<std::string> forms_of(const Model& model)
 {
-    std::vector<std::string> forms;
-    if (model.control) forms.emplace_back("pontryagin");
-    if (model.lagrangian) forms.emplace_back("lagrange");
-    if (model.lagrangian || model.hamiltonian) forms.emplace_back("hamilton");
-    return forms;
+    std::vector<std::string> names;
+    for (const EquationForm& form : by_rank())
+        if (form.exists(model)) names.emplace_back(form.name);
+    return names;
 }
 
 void require_form(const Model& model, const std::string& form, const std::string& what, const SourceRange& where)
 {
     std::vector<std::string> known = form_names();
-    known.emplace_back("discrete"); // of models on groupoids
+    known.emplace_back(discrete);
     if (std::ranges::find(known, form) == known.end())
         throw ModelError(fmt::format("{} is '{}', which is no form", what, form), where,
                          hint_for(form, known, "forms"));
@@ -158,8 +182,8 @@ std::vector<std::string> state_names(const Model& model, const std::string& form
     const auto append = [&](const std::vector<Symbol>& symbols) {
         for (const Symbol& symbol : symbols) names.push_back(symbol.name);
     };
-    append(form == "lagrange" ? model.fibre.coordinates : model.fibre.momenta);
-    if (form == "pontryagin" && model.control) append(model.control->controls);
+    append(form_named(form).momenta ? model.fibre.momenta : model.fibre.coordinates);
+    if (is_form(form, FormKind::pontryagin) && model.control) append(model.control->controls);
     return names;
 }
 
@@ -179,7 +203,7 @@ Scene in_form(const Model& model, Scene scene, const std::string& form)
             form_hint(forms));
     scene.form = form;
     replace_states(model, scene, form);
-    if (form == "pontryagin")
+    if (is_form(form, FormKind::pontryagin))
         require_momenta(model, scene);
     else
         require_no_controls(model, scene, form);

@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Forms of the equations of motion, "lagrange", "hamilton", "pontryagin": which of them a model has, and what a scene
-/// means in one of them.
+/// Which forms of the equations of motion a model has, and what a scene means in one of them.
 #pragma once
 
-#include "model/model.hpp"
+#include "model/form.hpp"
 
 namespace lagen {
 
-/// "pontryagin" where the model has [control], else "lagrange" where it has L, else "hamilton" where it has H;
-/// "lagrange" for a model that has none of them.
+/// The first of forms_of(); Lagrange's for a model that has none.
 [[nodiscard]] std::string default_form(const Model& model);
 
 /// Every form that lagen derives, generates and runs.
 [[nodiscard]] const std::vector<std::string>& form_names();
+
+/// "lagrange, hamilton or pontryagin": every form, for a sentence.
+[[nodiscard]] std::string form_list();
+
+/// "pontryagin, lagrange, hamilton": a model's default is the first of them that it has.
+[[nodiscard]] std::string default_order();
 
 /// The forms that the model has, the default first.
 [[nodiscard]] std::vector<std::string> forms_of(const Model& model);

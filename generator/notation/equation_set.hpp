@@ -56,7 +56,7 @@ struct SymbolText {
 struct EquationSet {
     std::string model;
     std::string title;
-    std::string form; ///< "lagrange", "hamilton", "pontryagin", "exterior"
+    std::string form; ///< its name: "lagrange", "exterior"
     std::vector<SymbolText> symbols;
     std::vector<EquationBlock> blocks;
 };

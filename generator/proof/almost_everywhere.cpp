@@ -2,6 +2,7 @@
 #include "proof/almost_everywhere.hpp"
 
 #include "graph/differentiate.hpp"
+#include "graph/operators.hpp"
 #include "graph/substitute.hpp"
 #include "proof/rational_matrix.hpp"
 
@@ -143,25 +144,24 @@ class AlmostEverywhere {
         return std::ranges::all_of(reachable(graph_, only), [&](NodeId node) { return is_analytic_here(node); });
     }
 
-    /// As a function of its operands, at all their values.
+    /// As a function of its operands, at all their values. What makes a condition positive is an interval of the first
+    /// operand.
     bool is_analytic_here(NodeId node)
     {
-        const std::vector<NodeId> operands(graph_.operands(node).begin(), graph_.operands(node).end());
-        switch (graph_.op(node)) {
-        case Op::divide: return on_domain_.proves_nonzero(operands[1]);
-        case Op::power:
-            return static_cast<std::int32_t>(graph_.payload(node)) >= 0 || on_domain_.proves_nonzero(operands[0]);
-        case Op::sqrt:
-        case Op::log:
-        case Op::real_power: return is_affine(operands[0]) || on_domain_.proves_positive(operands[0]);
-        case Op::asin:
-        case Op::acos:
-            return is_affine(operands[0]) ||
-                   on_domain_.proves_positive(graph_.subtract(graph_.constant(1), graph_.power(operands[0], 2)));
-        case Op::atan: return true;
-        case Op::tan: return false;
-        default: return is_meromorphic(graph_.op(node));
+        const Smoothness smoothness = operator_of(graph_.op(node)).smoothness;
+        if (smoothness != Smoothness::meromorphic && smoothness != Smoothness::analytic) return false;
+        switch (smooth_where(graph_, node)) {
+        case Sense::always: return true;
+        case Sense::nonzero: return on_domain_.proves_nonzero(condition_of(graph_, node));
+        case Sense::nonnegative:
+        case Sense::positive:
+            return is_affine(graph_.operands(node)[0]) || on_domain_.proves_positive(condition_of(graph_, node));
+        case Sense::off_origin:
+        case Sense::off_cut:
+        case Sense::same_branch:
+        case Sense::regular: break;
         }
+        return false;
     }
 
     Graph& graph_;

@@ -57,6 +57,8 @@ class Elementary {
     /// An argument of stumpff by which it divided, although it may vanish on a whole component of the points; empty:
     /// none.
     [[nodiscard]] const std::string& condition() const { return condition_; }
+    /// A function of its own: odd, between -1 and 1, 0 at 0 alone.
+    [[nodiscard]] Fraction error_function(const Fraction& a);
     [[nodiscard]] Fraction arcsine(const Fraction& a);
     [[nodiscard]] Fraction arccosine(const Fraction& a);
     [[nodiscard]] Fraction arctangent(const Fraction& a);

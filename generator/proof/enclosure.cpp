@@ -3,6 +3,9 @@
 /// spreads to all that depends on it.
 #include "proof/enclosure.hpp"
 
+#include "graph/operators.hpp"
+
+#include <arb_hypgeom.h>
 #include <arb_mat.h>
 
 #include <cmath>
@@ -24,45 +27,41 @@ Ball decided(bool yes, bool no)
     return result;
 }
 
-Ball compare(Op op, const Ball& a, const Ball& b)
+/// By the signs that a - b may have.
+Ball compare(const Trichotomy& holds, const Ball& a, const Ball& b)
 {
-    arb_srcptr x = a.get();
-    arb_srcptr y = b.get();
     if (!a.is_finite() || !b.is_finite()) return decided(false, false);
-    switch (op) {
-    case Op::less: return decided(arb_lt(x, y) != 0, arb_ge(x, y) != 0);
-    case Op::less_equal: return decided(arb_le(x, y) != 0, arb_gt(x, y) != 0);
-    case Op::greater: return decided(arb_gt(x, y) != 0, arb_le(x, y) != 0);
-    case Op::greater_equal: return decided(arb_ge(x, y) != 0, arb_lt(x, y) != 0);
-    case Op::equal: return decided(arb_eq(x, y) != 0, arb_ne(x, y) != 0);
-    default: return decided(arb_ne(x, y) != 0, arb_eq(x, y) != 0);
-    }
+    const bool below = arb_ge(a.get(), b.get()) == 0;
+    const bool equal = arb_ne(a.get(), b.get()) == 0;
+    const bool above = arb_le(a.get(), b.get()) == 0;
+    const bool yes = (below && holds.below) || (equal && holds.equal) || (above && holds.above);
+    const bool no = (below && !holds.below) || (equal && !holds.equal) || (above && !holds.above);
+    return decided(yes && !no, no && !yes);
 }
 
-Ball unary(Op op, const Ball& a, slong precision)
+/// a where the condition is not 0, b where it is.
+Ball chosen(const Ball& condition, const Ball& a, const Ball& b)
 {
-    Ball result;
-    arb_ptr z = result.get();
-    arb_srcptr x = a.get();
-    switch (op) {
-    case Op::negate: arb_neg(z, x); break;
-    case Op::sqrt: arb_sqrt(z, x, precision); break;
-    case Op::sin: arb_sin(z, x, precision); break;
-    case Op::cos: arb_cos(z, x, precision); break;
-    case Op::tan: arb_tan(z, x, precision); break;
-    case Op::asin: arb_asin(z, x, precision); break;
-    case Op::acos: arb_acos(z, x, precision); break;
-    case Op::atan: arb_atan(z, x, precision); break;
-    case Op::sinh: arb_sinh(z, x, precision); break;
-    case Op::cosh: arb_cosh(z, x, precision); break;
-    case Op::tanh: arb_tanh(z, x, precision); break;
-    case Op::exp: arb_exp(z, x, precision); break;
-    case Op::log: arb_log(z, x, precision); break;
-    case Op::abs: arb_abs(z, x); break;
-    case Op::sign: arb_sgn(z, x); break;
-    default: arb_indeterminate(z); break;
-    }
-    return result;
+    if (condition.excludes_zero()) return a;
+    return arb_is_zero(condition.get()) != 0 ? b : decided(false, false);
+}
+
+/// Undefined at the origin.
+void angle(arb_ptr z, arb_srcptr y, arb_srcptr x, slong precision)
+{
+    if (arb_contains_zero(y) != 0 && arb_contains_zero(x) != 0)
+        arb_indeterminate(z);
+    else
+        arb_atan2(z, y, x, precision);
+}
+
+void integer_power(arb_ptr z, arb_srcptr x, std::int32_t exponent, slong precision)
+{
+    fmpz_t e;
+    fmpz_init(e);
+    fmpz_set_si(e, exponent);
+    arb_pow_fmpz(z, x, e, precision);
+    fmpz_clear(e);
 }
 
 /// A constant exponent: x >= 0, x > 0 where it is negative, any x where it is an integer. Any other exponent: x > 0,
@@ -129,52 +128,52 @@ std::vector<Ball> Evaluation::enclose(const BallInputs& inputs, slong precision)
 
 Ball Evaluation::enclose_node(NodeId node, const std::vector<Ball>& values, slong precision) const
 {
-    const Op op = graph_.op(node);
+    const auto operands = graph_.operands(node);
+    const auto at = [&](std::size_t k) -> const Ball& { return operand(node, k, values); };
     Ball result;
     arb_ptr z = result.get();
-    if (op == Op::constant) return {graph_.value(node), precision};
-    if (op == Op::pi) {
-        arb_const_pi(z, precision);
-        return result;
-    }
-    if (op == Op::component) return enclose_component(node, values, precision);
-    if (op == Op::factor || op == Op::solve) return result;
-    const Ball& a = operand(node, 0, values);
-    if (op == Op::power) {
-        const auto exponent = static_cast<std::int32_t>(graph_.payload(node));
-        fmpz_t e;
-        fmpz_init(e);
-        fmpz_set_si(e, exponent);
-        arb_pow_fmpz(z, a.get(), e, precision);
-        fmpz_clear(e);
-        return result;
-    }
-    if (op == Op::stumpff) return enclose_stumpff(graph_.payload(node), a, precision);
-    if (graph_.operands(node).size() == 1) return unary(op, a, precision);
-    const Ball& b = operand(node, 1, values);
-    switch (op) {
-    case Op::add: arb_add(z, a.get(), b.get(), precision); break;
-    case Op::subtract: arb_sub(z, a.get(), b.get(), precision); break;
-    case Op::multiply: arb_mul(z, a.get(), b.get(), precision); break;
-    case Op::divide: arb_div(z, a.get(), b.get(), precision); break;
-    case Op::real_power:
-        real_power(z, a.get(), b.get(), graph_.is_constant(graph_.operands(node)[1]), precision);
-        break;
-    case Op::atan2: // undefined at the origin
-        if (arb_contains_zero(a.get()) != 0 && arb_contains_zero(b.get()) != 0) {
-            arb_indeterminate(z);
-        } else {
-            arb_atan2(z, a.get(), b.get(), precision);
-        }
-        break;
-    case Op::minimum: arb_min(z, a.get(), b.get(), precision); break;
-    case Op::maximum: arb_max(z, a.get(), b.get(), precision); break;
-    case Op::select:
-        if (a.excludes_zero()) return b;
-        if (arb_is_zero(a.get()) != 0) return operand(node, 2, values);
-        arb_indeterminate(z);
-        break;
-    default: return compare(op, a, b);
+    arb_srcptr x = operands.empty() ? nullptr : at(0).get();
+    arb_srcptr y = operands.size() < 2 ? nullptr : at(1).get();
+    switch (graph_.op(node)) {
+    case Op::constant: return {graph_.value(node), precision};
+    case Op::pi: arb_const_pi(z, precision); break;
+    case Op::add: arb_add(z, x, y, precision); break;
+    case Op::subtract: arb_sub(z, x, y, precision); break;
+    case Op::multiply: arb_mul(z, x, y, precision); break;
+    case Op::divide: arb_div(z, x, y, precision); break;
+    case Op::negate: arb_neg(z, x); break;
+    case Op::power: integer_power(z, x, static_cast<std::int32_t>(graph_.payload(node)), precision); break;
+    case Op::real_power: real_power(z, x, y, graph_.is_constant(operands[1]), precision); break;
+    case Op::sqrt: arb_sqrt(z, x, precision); break;
+    case Op::sin: arb_sin(z, x, precision); break;
+    case Op::cos: arb_cos(z, x, precision); break;
+    case Op::tan: arb_tan(z, x, precision); break;
+    case Op::asin: arb_asin(z, x, precision); break;
+    case Op::acos: arb_acos(z, x, precision); break;
+    case Op::atan: arb_atan(z, x, precision); break;
+    case Op::atan2: angle(z, x, y, precision); break;
+    case Op::sinh: arb_sinh(z, x, precision); break;
+    case Op::cosh: arb_cosh(z, x, precision); break;
+    case Op::tanh: arb_tanh(z, x, precision); break;
+    case Op::exp: arb_exp(z, x, precision); break;
+    case Op::log: arb_log(z, x, precision); break;
+    case Op::abs: arb_abs(z, x); break;
+    case Op::minimum: arb_min(z, x, y, precision); break;
+    case Op::maximum: arb_max(z, x, y, precision); break;
+    case Op::sign: arb_sgn(z, x); break;
+    case Op::stumpff: return enclose_stumpff(graph_.payload(node), at(0), precision);
+    case Op::erf: arb_hypgeom_erf(z, x, precision); break;
+    case Op::less:
+    case Op::less_equal:
+    case Op::greater:
+    case Op::greater_equal:
+    case Op::equal:
+    case Op::not_equal: return compare(operator_of(graph_.op(node)).holds, at(0), at(1));
+    case Op::select: return chosen(at(0), at(1), at(2));
+    case Op::input: // given
+    case Op::factor:
+    case Op::solve: break; // read by the components
+    case Op::component: return enclose_component(node, values, precision);
     }
     return result;
 }

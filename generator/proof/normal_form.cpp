@@ -2,6 +2,7 @@
 /// The walk over the graph: one ring element a node, in topological order.
 #include "proof/normal_form.hpp"
 
+#include "graph/operators.hpp"
 #include "proof/print_fraction.hpp"
 
 #include <algorithm>
@@ -52,7 +53,7 @@ std::set<NodeId> inputs_of_rational(const Graph& graph, NodeId argument)
 {
     std::set<NodeId> inputs;
     for (const NodeId node : reachable(graph, std::vector<NodeId>{argument})) {
-        if (graph.op(node) > Op::power) return {};
+        if (!is_rational(graph.op(node))) return {};
         if (graph.op(node) == Op::input) inputs.insert(node);
     }
     return inputs;
@@ -127,12 +128,11 @@ void NormalForm::add_domain()
 {
     for (const NodeId node : setting_.domain) {
         const auto operands = graph_.operands(node);
-        const Op op = graph_.op(node);
-        if (operands.size() != 2 || op < Op::less || op > Op::not_equal || op == Op::equal) continue;
+        const auto [below, equal, above] = operator_of(graph_.op(node)).holds;
+        if (!below && !above) continue; // no comparison, or an equation
         Fraction difference = ring_.add(of(operands[0]), of(operands[1]), -1);
-        if (op == Op::less || op == Op::less_equal) difference = ring_.negate(std::move(difference));
-        const bool strict = op != Op::less_equal && op != Op::greater_equal;
-        const Signs known{op == Op::not_equal, !strict, true};
+        if (!above) difference = ring_.negate(std::move(difference));
+        const Signs known{below && above, equal, true};
         Polynomial product = difference.num;
         // n / d > 0 says n d > 0.
         for (const auto& [index, power] : difference.factors)
@@ -158,9 +158,7 @@ bool NormalForm::divides_as_written(NodeId root) const
 {
     for (const NodeId node : reachable(graph_, std::vector<NodeId>{root})) {
         const Op op = graph_.op(node);
-        const bool function = op == Op::sin || op == Op::cos || op == Op::tan || op == Op::sinh || op == Op::cosh ||
-                              op == Op::tanh || op == Op::exp;
-        if (op > Op::power && !function) return false;
+        if (!is_rational(op) && units_of(op) == Units::none) return false;
     }
     return true;
 }
@@ -247,72 +245,75 @@ Fraction NormalForm::once(NodeId node)
 
 Fraction NormalForm::apply(NodeId node)
 {
+    const auto a = [&]() -> const Fraction& { return operand(node, 0); };
+    const auto b = [&]() -> const Fraction& { return operand(node, 1); };
     switch (graph_.op(node)) {
     case Op::constant: return ring_.constant(graph_.value(node));
     case Op::pi: return elementary_.pi();
-    case Op::input: {
-        const auto substitute = substitutes_.find(node);
-        return substitute != substitutes_.end() ? substitute->second : ring_.of(inputs_.at(node));
-    }
-    case Op::add:
-    case Op::subtract:
-    case Op::multiply:
-    case Op::divide:
-    case Op::negate:
-    case Op::power: return arithmetic(node);
+    case Op::input: return input(node);
+    case Op::add: return ring_.add(a(), b());
+    case Op::subtract: return ring_.add(a(), b(), -1);
+    case Op::multiply: return ring_.times(a(), b());
+    case Op::divide: return ring_.divide(a(), b());
+    case Op::negate: return ring_.negate(a());
+    case Op::power: return ring_.power(a(), static_cast<std::int32_t>(graph_.payload(node)));
+    case Op::real_power: return elementary_.real_power(a(), b());
+    case Op::sqrt: return elementary_.root(a(), 2);
+    case Op::sin: return elementary_.sine_cosine(a()).sine;
+    case Op::cos: return elementary_.sine_cosine(a()).cosine;
+    case Op::tan: return tangent(a());
+    case Op::asin: return elementary_.arcsine(a());
+    case Op::acos: return elementary_.arccosine(a());
+    case Op::atan: return elementary_.arctangent(a());
+    case Op::atan2: return elementary_.arctangent2(a(), b());
+    case Op::sinh: return hyperbolic(a(), -1);
+    case Op::cosh: return hyperbolic(a(), 1);
+    case Op::tanh: return hyperbolic_tangent(a());
+    case Op::exp: return elementary_.exponential(a());
+    case Op::log: return elementary_.logarithm(a());
+    case Op::abs: return elementary_.absolute(a());
+    case Op::minimum: return extremum(node, -1);
+    case Op::maximum: return extremum(node, 1);
+    case Op::sign: return sign(a());
+    case Op::stumpff: return elementary_.stumpff(graph_.payload(node), a());
+    case Op::erf: return elementary_.error_function(a());
+    case Op::less:
+    case Op::less_equal:
+    case Op::greater:
+    case Op::greater_equal:
+    case Op::equal:
+    case Op::not_equal: return comparison(node);
+    case Op::select: return choice(node);
     case Op::factor:
-    case Op::solve: return {}; // never read: a component looks at the entries itself
+    case Op::solve: break; // never read: a component looks at the entries itself
     case Op::component: return component(node);
-    default: return function(node);
     }
+    return {};
 }
 
-Fraction NormalForm::arithmetic(NodeId node)
+Fraction NormalForm::input(NodeId node)
 {
-    const Fraction& a = operand(node, 0);
-    switch (graph_.op(node)) {
-    case Op::add: return ring_.add(a, operand(node, 1));
-    case Op::subtract: return ring_.add(a, operand(node, 1), -1);
-    case Op::multiply: return ring_.times(a, operand(node, 1));
-    case Op::negate: return ring_.negate(a);
-    case Op::power: return ring_.power(a, static_cast<std::int32_t>(graph_.payload(node)));
-    default: break;
-    }
-    return ring_.divide(a, operand(node, 1));
+    const auto substitute = substitutes_.find(node);
+    return substitute != substitutes_.end() ? substitute->second : ring_.of(inputs_.at(node));
 }
 
-Fraction NormalForm::function(NodeId node)
+Fraction NormalForm::tangent(const Fraction& a)
 {
-    const Fraction& a = operand(node, 0);
-    switch (graph_.op(node)) {
-    case Op::sin: return elementary_.sine_cosine(a).sine;
-    case Op::cos: return elementary_.sine_cosine(a).cosine;
-    case Op::tan: {
-        const auto [sine, cosine] = elementary_.sine_cosine(a);
-        return ring_.divide(sine, cosine);
-    }
-    case Op::sinh:
-    case Op::cosh: {
-        const Fraction e = elementary_.exponential(a);
-        const Fraction twice = ring_.add(e, ring_.inverse(e), graph_.op(node) == Op::sinh ? -1 : 1);
-        return ring_.times(ring_.constant(mpq_class(1, 2)), twice);
-    }
-    case Op::tanh: {
-        const Fraction square = ring_.power(elementary_.exponential(a), 2);
-        const Fraction one = ring_.constant(1);
-        return ring_.divide(ring_.add(square, one, -1), ring_.add(square, one));
-    }
-    case Op::exp: return elementary_.exponential(a);
-    case Op::log: return elementary_.logarithm(a);
-    case Op::sqrt: return elementary_.root(a, 2);
-    case Op::abs: return elementary_.absolute(a);
-    case Op::stumpff: return elementary_.stumpff(graph_.payload(node), a);
-    case Op::real_power: return elementary_.real_power(a, operand(node, 1));
-    case Op::asin: return elementary_.arcsine(a);
-    case Op::acos: return elementary_.arccosine(a);
-    case Op::atan: return elementary_.arctangent(a);
-    case Op::atan2: return elementary_.arctangent2(a, operand(node, 1));
-    default: return nonsmooth(node);
-    }
+    const auto [sine, cosine] = elementary_.sine_cosine(a);
+    return ring_.divide(sine, cosine);
 }
+
+Fraction NormalForm::hyperbolic(const Fraction& a, int sign)
+{
+    const Fraction e = elementary_.exponential(a);
+    return ring_.times(ring_.constant(mpq_class(1, 2)), ring_.add(e, ring_.inverse(e), sign));
+}
+
+Fraction NormalForm::hyperbolic_tangent(const Fraction& a)
+{
+    const Fraction square = ring_.power(elementary_.exponential(a), 2);
+    const Fraction one = ring_.constant(1);
+    return ring_.divide(ring_.add(square, one, -1), ring_.add(square, one));
+}
+
 } // namespace lagen::proof

@@ -61,17 +61,21 @@ class NormalForm {
     [[nodiscard]] bool divides_as_written(NodeId root) const;
     [[nodiscard]] Fraction once(NodeId node);
     [[nodiscard]] Fraction apply(NodeId node);
-    [[nodiscard]] Fraction arithmetic(NodeId node);
-    [[nodiscard]] Fraction function(NodeId node);
+    [[nodiscard]] Fraction input(NodeId node);
+    [[nodiscard]] Fraction tangent(const Fraction& a);
+    [[nodiscard]] Fraction hyperbolic(const Fraction& a, int sign); ///< (e^a + sign e^-a)/2
+    [[nodiscard]] Fraction hyperbolic_tangent(const Fraction& a);
     [[nodiscard]] Fraction component(NodeId node);
-    [[nodiscard]] Fraction nonsmooth(NodeId node);
+    [[nodiscard]] Fraction comparison(NodeId node);
+    [[nodiscard]] Fraction choice(NodeId node);
+    [[nodiscard]] Fraction extremum(NodeId node, int sign);
+    [[nodiscard]] Fraction sign(const Fraction& a);
     [[nodiscard]] std::optional<bool> holds(NodeId condition);
     /// All components of a `solve`.
     [[nodiscard]] const std::vector<Fraction>& solution(NodeId solve);
     [[nodiscard]] std::vector<Fraction> free_unknowns(const std::string& key,
                                                       const std::vector<std::vector<Fraction>>& rows);
     [[nodiscard]] bool vanishes_by_rows(Polynomial p);
-    [[nodiscard]] Fraction determinant(const std::vector<Fraction>& matrix, std::size_t n);
     [[nodiscard]] const Fraction& operand(NodeId node, std::size_t k) const
     {
         return done_.at(graph_.operands(node)[k]);

@@ -2,6 +2,8 @@
 /// The walk over the tree.
 #include "proof/partial_parts.hpp"
 
+#include "graph/operators.hpp"
+
 #include <set>
 
 namespace lagen {
@@ -15,16 +17,7 @@ bool is_partial(const TreeNode& tree)
         const TreeNode& exponent = *tree.arguments[1];
         return exponent.kind != TreeKind::number || exponent.number < 0 || exponent.number.get_den() != 1;
     }
-    if (tree.kind != TreeKind::call) return false;
-    switch (tree.function) {
-    case Function::log:
-    case Function::sqrt:
-    case Function::asin:
-    case Function::acos:
-    case Function::tan:
-    case Function::atan2: return true;
-    default: return false;
-    }
+    return tree.kind == TreeKind::call && operator_of(op_of(tree.function)).domain != nullptr;
 }
 
 } // namespace

@@ -2,6 +2,8 @@
 /// The sequence of points and the test of regularity.
 #include "proof/sample.hpp"
 
+#include "graph/operators.hpp"
+
 #include <algorithm>
 #include <array>
 
@@ -144,9 +146,8 @@ void Sampler::read_bounds()
 {
     for (const NodeId node : setting_.domain) {
         const auto operands = graph_.operands(node);
-        const Op op = graph_.op(node);
-        if (operands.size() != 2 || op < Op::less || op > Op::greater_equal) continue;
-        const bool below = op == Op::less || op == Op::less_equal; // first operand below the second
+        const auto [below, equal, above] = operator_of(graph_.op(node)).holds;
+        if (below == above) continue; // no bound
         if (graph_.op(operands[0]) == Op::input && graph_.is_constant(operands[1])) {
             Bounds& bounds = bounds_[operands[0]];
             (below ? bounds.high : bounds.low) = graph_.value(operands[1]);

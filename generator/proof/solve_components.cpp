@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Components of z = A^-1 b in the ring: Cramer's rule where A is small.
+#include "expression/linear_algebra.hpp"
 #include "proof/normal_form.hpp"
 
 namespace lagen::proof {
@@ -8,23 +9,22 @@ namespace {
 
 constexpr std::size_t largest_determinant = 4; ///< rows; beyond, see linear_systems.cpp
 
-} // namespace
+/// A matrix of fractions.
+struct FractionRing {
+    using Number = Fraction;
+    Ring& ring;
+    const std::vector<Fraction>& matrix;
+    std::size_t n;
 
-Fraction NormalForm::determinant(const std::vector<Fraction>& matrix, std::size_t n)
-{
-    if (n == 1) return matrix[0];
-    Fraction sum;
-    for (std::size_t column = 0; column < n; ++column) {
-        if (matrix[column].is_zero()) continue;
-        std::vector<Fraction> minor;
-        for (std::size_t i = 1; i < n; ++i)
-            for (std::size_t j = 0; j < n; ++j)
-                if (j != column) minor.push_back(matrix[i * n + j]);
-        const Fraction product = ring_.times(matrix[column], determinant(minor, n - 1));
-        sum = ring_.add(sum, product, column % 2 == 0 ? 1 : -1);
-    }
-    return sum;
-}
+    [[nodiscard]] Fraction zero() const { return {}; }
+    [[nodiscard]] Fraction one() const { return ring.constant(1); }
+    [[nodiscard]] const Fraction& entry(std::size_t i, std::size_t j) const { return matrix[i * n + j]; }
+    [[nodiscard]] bool is_zero(const Fraction& a) const { return a.is_zero(); }
+    [[nodiscard]] Fraction times(const Fraction& a, const Fraction& b) const { return ring.times(a, b); }
+    void add(Fraction& sum, const Fraction& term, int sign) const { sum = ring.add(sum, term, sign); }
+};
+
+} // namespace
 
 Fraction NormalForm::component(NodeId node)
 {
@@ -35,9 +35,9 @@ Fraction NormalForm::component(NodeId node)
     std::vector<Fraction> matrix, right;
     for (const NodeId entry : graph_.operands(operands[0])) matrix.push_back(done_.at(entry));
     for (std::size_t k = 0; k < n; ++k) right.push_back(done_.at(operands[k + 1]));
-    const Fraction whole = determinant(matrix, n);
+    const Fraction whole = determinant(FractionRing{ring_, matrix, n}, n);
     for (std::size_t i = 0; i < n; ++i) matrix[i * n + row] = right[i];
-    return ring_.divide(determinant(matrix, n), whole);
+    return ring_.divide(determinant(FractionRing{ring_, matrix, n}, n), whole);
 }
 
 } // namespace lagen::proof

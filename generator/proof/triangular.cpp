@@ -3,6 +3,7 @@
 /// coordinates.
 #include "proof/triangular.hpp"
 
+#include "graph/operators.hpp"
 #include "proof/print_fraction.hpp"
 
 #include <algorithm>
@@ -33,10 +34,9 @@ std::set<NodeId> entangled(const Graph& graph, NodeId root)
     for (const NodeId node : reachable(graph, std::vector<NodeId>{root})) {
         const auto operands = graph.operands(node);
         const Op op = graph.op(node);
-        const bool negative_power = op == Op::power && static_cast<std::int32_t>(graph.payload(node)) < 0;
-        if (op == Op::divide) {
+        if (kind_of(op) == OpKind::quotient) {
             arguments.push_back(operands[1]);
-        } else if (negative_power || op > Op::power) {
+        } else if (!is_rational(op) || domain_of(graph, node) != Sense::always) {
             arguments.insert(arguments.end(), operands.begin(), operands.end());
         }
     }

@@ -2,6 +2,8 @@
 /// Newton's method for h(x) = 0 with steps of least length: dx = -J^T lambda, (J J^T) lambda = h.
 #include "scene/project_start.hpp"
 
+#include "expression/linear_algebra.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -9,33 +11,6 @@
 namespace lagen {
 
 namespace {
-
-using Matrix = std::vector<std::vector<long double>>;
-
-/// Solves A z = b in place by Gaussian elimination with row pivoting; false where A is singular to working accuracy.
-bool solve(Matrix& A, std::vector<long double>& b)
-{
-    const std::size_t m = b.size();
-    for (std::size_t k = 0; k < m; ++k) {
-        std::size_t pivot = k;
-        for (std::size_t i = k + 1; i < m; ++i) {
-            if (std::fabs(A[i][k]) > std::fabs(A[pivot][k])) pivot = i;
-        }
-        if (!(std::fabs(A[pivot][k]) > 0)) return false;
-        std::swap(A[k], A[pivot]);
-        std::swap(b[k], b[pivot]);
-        for (std::size_t i = k + 1; i < m; ++i) {
-            const long double factor = A[i][k] / A[k][k];
-            for (std::size_t j = k; j < m; ++j) A[i][j] -= factor * A[k][j];
-            b[i] -= factor * b[k];
-        }
-    }
-    for (std::size_t k = m; k-- > 0;) {
-        for (std::size_t j = k + 1; j < m; ++j) b[k] -= A[k][j] * b[j];
-        b[k] /= A[k][k];
-    }
-    return true;
-}
 
 long double term_sum(const Tree& constraint, const Values& values)
 {
@@ -49,15 +24,18 @@ long double term_sum(const Tree& constraint, const Values& values)
 bool step(const Model& model, Values& values, const std::vector<ConstraintValue>& h)
 {
     const std::size_t n = model.base.coordinates.size();
-    Matrix JJt(h.size(), std::vector<long double>(h.size(), 0));
-    std::vector<long double> lambda;
-    for (std::size_t a = 0; a < h.size(); ++a) {
-        lambda.push_back(h[a].value);
-        for (std::size_t b = 0; b < h.size(); ++b) {
-            for (std::size_t i = 0; i < n; ++i) JJt[a][b] += h[a].gradient[i] * h[b].gradient[i];
+    const std::size_t m = h.size();
+    std::vector<long double> JJt(m * m, 0);
+    std::vector<long double> right;
+    for (std::size_t a = 0; a < m; ++a) {
+        right.push_back(h[a].value);
+        for (std::size_t b = 0; b < m; ++b) {
+            for (std::size_t i = 0; i < n; ++i) JJt[a * m + b] += h[a].gradient[i] * h[b].gradient[i];
         }
     }
-    if (!solve(JJt, lambda)) return false;
+    const Factorisation<long double> factors = factorise(std::move(JJt), m);
+    if (!factors.regular) return false;
+    const std::vector<long double> lambda = substitute(factors, right);
     for (std::size_t i = 0; i < n; ++i) {
         long double& x = values.at(model.base.coordinates[i].name).value;
         for (std::size_t a = 0; a < h.size(); ++a) x -= h[a].gradient[i] * lambda[a];

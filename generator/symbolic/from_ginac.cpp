@@ -12,23 +12,6 @@ namespace {
 /// GiNaC nests as deep as the user's tree; a bound keeps the recursion off the end of the stack.
 constexpr std::size_t depth_limit = 4000;
 
-enum class Parity { none, even, odd };
-
-struct FunctionDoor {
-    const char* ginac;
-    Function function;
-    Parity parity;
-};
-
-constexpr FunctionDoor function_doors[] = {
-    {"sin", Function::sin, Parity::odd},      {"cos", Function::cos, Parity::even},
-    {"tan", Function::tan, Parity::odd},      {"asin", Function::asin, Parity::odd},
-    {"acos", Function::acos, Parity::none},   {"atan", Function::atan, Parity::odd},
-    {"atan2", Function::atan2, Parity::none}, {"sinh", Function::sinh, Parity::odd},
-    {"cosh", Function::cosh, Parity::even},   {"tanh", Function::tanh, Parity::odd},
-    {"exp", Function::exp, Parity::none},     {"log", Function::log, Parity::none},
-    {"abs", Function::abs, Parity::even},     {"stumpff", Function::stumpff, Parity::none}};
-
 Rational to_rational(const GiNaC::numeric& value)
 {
     if (!value.is_rational()) throw MathematicsError("a number that is not a real rational came out of the derivation");
@@ -162,26 +145,25 @@ class Sorter {
     SortedTerm function_term(const GiNaC::ex& e)
     {
         const std::string text = GiNaC::ex_to<GiNaC::function>(e).get_name();
-        const auto* const door = std::find_if(std::begin(function_doors), std::end(function_doors),
-                                              [&](const FunctionDoor& entry) { return text == entry.ginac; });
-        if (door == std::end(function_doors))
+        const FunctionEntry* const entry = find_function(text); // GiNaC's names are those of the language
+        if (entry == nullptr)
             throw MathematicsError("the derivation left the function " + text + ", which the language does not have");
         std::vector<Tree> arguments;
-        std::string key = function_key(door->function);
+        std::string key = function_key(entry->function);
         bool constant = true;
         bool negative = false;
         for (std::size_t k = 0; k < e.nops(); ++k) {
             SortedTerm argument = (*this)(e.op(k));
-            if (door->parity != Parity::none && argument.coefficient < 0) {
+            if (entry->parity != Parity::none && argument.coefficient < 0) {
                 argument.coefficient = -argument.coefficient;
-                negative = door->parity == Parity::odd;
+                negative = entry->parity == Parity::odd;
             }
             constant = constant && is_constant(argument);
             key += "<" + whole_key(argument) + ">";
             arguments.push_back(tree_of(argument));
         }
         SortedTerm term =
-            factor_term((constant ? "2f" : "4f") + key, constant, call(door->function, std::move(arguments)));
+            factor_term((constant ? "2f" : "4f") + key, constant, call(entry->function, std::move(arguments)));
         if (negative) term.coefficient = -1;
         return term;
     }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Trees to GiNaC, each shared sub-tree once.
 #include "symbolic/ginac_door.hpp"
+#include "symbolic/ginac_erf.hpp"
+#include "symbolic/ginac_ring.hpp"
 #include "symbolic/ginac_stumpff.hpp"
 
 #include <algorithm>
@@ -51,27 +53,26 @@ GiNaC::ex apply_function(const TreeNode& node, const std::vector<GiNaC::ex>& a)
     case Function::sqrt: return GiNaC::sqrt(a[0]);
     case Function::abs: return GiNaC::abs(a[0]);
     case Function::stumpff: return stumpff(a[0], a[1]);
-    default: break;
+    case Function::erf: return erf(a[0]);
+    case Function::minimum:
+    case Function::maximum:
+    case Function::sign:
+    case Function::select: break;
+    case Function::dot:
+    case Function::cross:
+    case Function::norm:
+    case Function::trace:
+    case Function::transpose:
+    case Function::det:
+    case Function::inverse:
+    case Function::diag:
+    case Function::identity:
+    case Function::hat:
+    case Function::vee:
+    case Function::cay: throw InternalError("a function of vectors went to GiNaC");
     }
     throw MathematicsError(std::string("the function ") + entry_of(node.function).name +
                            " is not smooth, so that nothing is derived from it symbolically");
-}
-
-/// Along the first row, and nothing multiplied out: products of long sums stay products.
-GiNaC::ex laplace_determinant(const std::vector<GiNaC::ex>& matrix, std::size_t n)
-{
-    if (n == 1) return matrix[0];
-    GiNaC::ex sum = 0;
-    for (std::size_t column = 0; column < n; ++column) {
-        if (matrix[column].is_zero()) continue;
-        std::vector<GiNaC::ex> minor;
-        for (std::size_t i = 1; i < n; ++i)
-            for (std::size_t j = 0; j < n; ++j)
-                if (j != column) minor.push_back(matrix[i * n + j]);
-        const GiNaC::ex term = matrix[column] * laplace_determinant(minor, n - 1);
-        sum += column % 2 == 0 ? term : GiNaC::ex(-term);
-    }
-    return sum;
 }
 
 /// Component k of A^-1 b by Cramer's rule: `a` holds the n*n entries of A by rows, then b.
@@ -85,10 +86,10 @@ GiNaC::ex solve_explicitly(const std::vector<GiNaC::ex>& a, std::size_t k)
                                "exists up to " +
                                std::to_string(largest_order));
     std::vector<GiNaC::ex> matrix(a.begin(), a.begin() + static_cast<std::ptrdiff_t>(n * n));
-    const GiNaC::ex whole = laplace_determinant(matrix, n);
+    const GiNaC::ex whole = determinant(GinacRing{matrix, n}, n);
     if (whole.is_zero()) throw MathematicsError("the matrix of a linear system has no inverse: its determinant is 0");
     for (std::size_t i = 0; i < n; ++i) matrix[i * n + k] = a[n * n + i];
-    return laplace_determinant(matrix, n) / whole;
+    return determinant(GinacRing{matrix, n}, n) / whole;
 }
 
 class ToGinac {

@@ -4,6 +4,7 @@
 
 #include "proof/rational_matrix.hpp"
 #include "graph/differentiate.hpp"
+#include "graph/operators.hpp"
 
 #include <algorithm>
 #include <map>
@@ -51,14 +52,18 @@ class Squares {
         int greatest = 0;
         for (std::size_t k = 0; k < operands.size(); ++k) greatest = std::max(greatest, of(k));
         if (greatest == 0) return 0;
-        switch (graph_.op(node)) {
-        case Op::add:
-        case Op::subtract:
-        case Op::negate: return greatest;
-        case Op::multiply: return std::min(2, of(0) + of(1));
-        case Op::divide: return of(1) == 0 ? of(0) : 2;
-        default: return 2;
+        switch (kind_of(graph_.op(node))) {
+        case OpKind::sum: return greatest;
+        case OpKind::product: return std::min(2, of(0) + of(1));
+        case OpKind::quotient: return of(1) == 0 ? of(0) : 2;
+        case OpKind::leaf:
+        case OpKind::power:
+        case OpKind::function:
+        case OpKind::comparison:
+        case OpKind::choice:
+        case OpKind::system: break;
         }
+        return 2;
     }
 
     void split(const Part& root)
@@ -70,25 +75,18 @@ class Squares {
             if (degrees_.at(part.node) <= 1) continue; // nothing of W
             found_ = squares_.size() + open.size() < most_squares;
             const std::vector<NodeId> operands(graph_.operands(part.node).begin(), graph_.operands(part.node).end());
-            switch (graph_.op(part.node)) {
-            case Op::add:
-                open.push_back({part.factor, operands[0]});
-                open.push_back({part.factor, operands[1]});
-                break;
-            case Op::subtract:
-                open.push_back({part.factor, operands[0]});
-                open.push_back({graph_.negate(part.factor), operands[1]});
-                break;
-            case Op::negate: open.push_back({graph_.negate(part.factor), operands[0]}); break;
-            case Op::multiply:
-                if (degrees_.at(operands[0]) > 0 && degrees_.at(operands[1]) > 0) {
-                    take_product(part.factor, operands[0], operands[1], open);
-                } else {
-                    const std::size_t plain = degrees_.at(operands[0]) == 0 ? 0 : 1;
-                    open.push_back({graph_.multiply(part.factor, operands[plain]), operands[1 - plain]});
-                }
-                break;
-            default: compose(part, operands, open);
+            const Op op = graph_.op(part.node);
+            const OpKind kind = kind_of(op);
+            if (kind == OpKind::sum) {
+                for (std::size_t k = 0; k < operands.size(); ++k)
+                    open.push_back({term_sign(op, k) > 0 ? part.factor : graph_.negate(part.factor), operands[k]});
+            } else if (kind == OpKind::product && degrees_.at(operands[0]) > 0 && degrees_.at(operands[1]) > 0) {
+                take_product(part.factor, operands[0], operands[1], open);
+            } else if (kind == OpKind::product) {
+                const std::size_t plain = degrees_.at(operands[0]) == 0 ? 0 : 1;
+                open.push_back({graph_.multiply(part.factor, operands[plain]), operands[1 - plain]});
+            } else {
+                compose(part, operands, open);
             }
         }
     }
@@ -197,17 +195,13 @@ class Squares {
             f = operand;
         }
         const Op op = graph_.op(part.node);
-        found_ = found_ && op < Op::abs;
+        const Smoothness smoothness = operator_of(op).smoothness;
+        found_ = found_ && (smoothness == Smoothness::meromorphic || smoothness == Smoothness::analytic ||
+                            smoothness == Smoothness::cut);
         if (!found_) return;
         const NodeId z = graph_.input("argument of a function");
         std::replace(operands.begin(), operands.end(), f, z);
-        NodeId g = 0;
-        if (op == Op::power)
-            g = graph_.power(z, static_cast<std::int32_t>(graph_.payload(part.node)));
-        else if (op == Op::divide)
-            g = graph_.divide(operands[0], operands[1]);
-        else
-            g = operands.size() == 1 ? graph_.apply(op, z) : graph_.apply(op, operands[0], operands[1]);
+        const NodeId g = graph_.make(op, graph_.payload(part.node), operands);
         const NodeId argument[] = {z};
         const NodeId first = gradient(graph_, g, argument)[0];
         const NodeId derivatives[] = {first, gradient(graph_, first, argument)[0]};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "verify/jumps.hpp"
 
-#include "graph/smoothness.hpp"
+#include "graph/operators.hpp"
 
 #include <fmt/format.h>
 
@@ -28,15 +28,20 @@ void Continuity::classify_motion()
     along_.clear();
 }
 
-/// Except at zeros of divisors and of cosines, which are poles and no kinks.
+/// Off the zeros of its condition, or for good where that does not move. Of functions that have one.
 bool Continuity::is_smooth(NodeId node)
 {
-    const Op op = graph_.op(node);
-    if (op == Op::divide || op == Op::power || op == Op::tan) return true;
-    const SmoothWhere where = smooth_where(graph_, node);
-    if (where.condition == SmoothWhere::Condition::none) return true;
-    return where.condition == SmoothWhere::Condition::positive ? divisors_.positive(where.function)
-                                                               : divisors_.keeps_nonzero(where.function);
+    switch (smooth_where(graph_, node)) {
+    case Sense::always: return true;
+    case Sense::nonzero: return divisors_.keeps_nonzero(condition_of(graph_, node));
+    case Sense::nonnegative:
+    case Sense::positive: return divisors_.positive(condition_of(graph_, node));
+    case Sense::off_origin:
+    case Sense::off_cut:
+    case Sense::same_branch:
+    case Sense::regular: break;
+    }
+    return false;
 }
 
 Continuity::Along Continuity::jumping(NodeId node, NodeId hole) const
@@ -166,65 +171,56 @@ Continuity::Along Continuity::step(NodeId node)
 Continuity::Along Continuity::operation(NodeId node)
 {
     const std::vector<NodeId> operands(graph_.operands(node).begin(), graph_.operands(node).end());
-    const bool smooth = is_smooth(node);
-    switch (graph_.op(node)) {
-    case Op::constant:
-    case Op::pi:
-    case Op::input: return {};
-    case Op::add:
-    case Op::subtract:
-    case Op::negate: return add(node);
-    case Op::multiply: return multiply(along_.at(operands[0]), along_.at(operands[1]), node);
-    case Op::divide:
+    switch (kind_of(graph_.op(node))) {
+    case OpKind::leaf: return {};
+    case OpKind::sum: return add(node);
+    case OpKind::product: return multiply(along_.at(operands[0]), along_.at(operands[1]), node);
+    case OpKind::quotient:
         return multiply(along_.at(operands[0]), reciprocal(operands[1], along_.at(operands[1]), node), node);
-    case Op::power: {
+    case OpKind::power: {
         const Along& inner = along_.at(operands[0]);
-        const bool falls = static_cast<std::int32_t>(graph_.payload(node)) < 0;
-        const Along base = falls ? reciprocal(operands[0], inner, node) : inner;
+        const Along base = domain_of(graph_, node) == Sense::nonzero ? reciprocal(operands[0], inner, node) : inner;
         return multiply(base, base, node);
     }
-    case Op::sin:
-    case Op::cos:
-    case Op::sinh:
-    case Op::cosh:
-    case Op::tanh:
-    case Op::atan:
-    case Op::exp:
-    case Op::stumpff: return smooth_function(node);
-    case Op::tan: {
-        const Along cosine = smooth_function(node);
-        return multiply(cosine, reciprocal(graph_.apply(Op::cos, operands[0]), cosine, node), node);
-    }
-    case Op::log: return smooth ? smooth_function(node) : logarithm(node);
-    case Op::real_power: {
-        const bool rises = graph_.is_constant(operands[1])
-                               ? sgn(graph_.value(operands[1])) > 0
-                               : divisors_.is_defined(node) && !divisors_.moves(operands[1]);
-        return smooth || rises ? kinked(node, smooth) : jumping(node, operands[0]);
-    }
-    case Op::sqrt:
-    case Op::asin:
-    case Op::acos:
-    case Op::abs:
-    case Op::minimum:
-    case Op::maximum: return kinked(node, smooth);
-    case Op::atan2: return angle(node);
-    case Op::sign:
-    case Op::less:
-    case Op::less_equal:
-    case Op::greater:
-    case Op::greater_equal:
-    case Op::equal:
-    case Op::not_equal: return smooth ? smooth_function(node) : jumping(node, smooth_where(graph_, node).function);
-    case Op::select: {
+    case OpKind::choice: {
         const Along& condition = along_.at(operands[0]);
         return condition.course == Course::jumps ? condition : add(node);
     }
-    case Op::factor:
-    case Op::solve:
-    case Op::component: return solution(node);
+    case OpKind::system: return solution(node);
+    case OpKind::function:
+    case OpKind::comparison: break;
     }
-    return {};
+    return function(node);
+}
+
+Continuity::Along Continuity::function(NodeId node)
+{
+    switch (operator_of(graph_.op(node)).smoothness) {
+    case Smoothness::meromorphic: { // over a function that vanishes at its poles
+        const Along result = smooth_function(node);
+        if (domain_of(graph_, node) == Sense::always) return result;
+        return multiply(result, reciprocal(condition_of(graph_, node), result, node), node);
+    }
+    case Smoothness::analytic: return analytic_inside(node);
+    case Smoothness::cut: return angle(node);
+    case Smoothness::kinked: return kinked(node, is_smooth(node));
+    case Smoothness::stepped:
+        return is_smooth(node) ? smooth_function(node) : jumping(node, condition_of(graph_, node));
+    case Smoothness::chosen:
+    case Smoothness::system: break; // no functions
+    }
+    throw InternalError("a function that is a choice or a linear system");
+}
+
+/// Of a function that may end, continuous or not, where its condition vanishes.
+Continuity::Along Continuity::analytic_inside(NodeId node)
+{
+    if (is_smooth(node)) return smooth_function(node);
+    if (graph_.op(node) == Op::log) return logarithm(node);
+    const bool exponent_stays = graph_.op(node) == Op::real_power && !graph_.is_constant(graph_.operands(node)[1]) &&
+                                divisors_.is_defined(node) && !divisors_.moves(graph_.operands(node)[1]);
+    const bool continuous = exponent_stays || domain_of(graph_, node) == Sense::nonnegative;
+    return continuous ? kinked(node, false) : jumping(node, condition_of(graph_, node));
 }
 
 const Continuity::Along& Continuity::along(NodeId f)

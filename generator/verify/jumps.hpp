@@ -49,6 +49,8 @@ class Continuity {
     [[nodiscard]] const Along& along(NodeId f);
     [[nodiscard]] Along step(NodeId node);
     [[nodiscard]] Along operation(NodeId node);
+    [[nodiscard]] Along function(NodeId node);
+    [[nodiscard]] Along analytic_inside(NodeId node);
     void classify_motion();
     [[nodiscard]] Along add(NodeId node) const;
     [[nodiscard]] Along multiply(const Along& a, const Along& b, NodeId node) const;

@@ -6,7 +6,7 @@
 #include "graph/evaluate.hpp"
 #include "graph/implicit.hpp"
 #include "graph/lower.hpp"
-#include "graph/smoothness.hpp"
+#include "graph/operators.hpp"
 #include "verify/definite_squares.hpp"
 #include "verify/regularity.hpp"
 
@@ -70,38 +70,33 @@ class SmoothSet {
 
     [[nodiscard]] bool is_plain_root(NodeId node) const
     {
-        const Op op = graph_.op(node);
-        if (op != Op::sqrt && op != Op::log && op != Op::real_power) return false;
+        if (smooth_where(graph_, node) != Sense::positive || operator_of(graph_.op(node)).condition_operand != 0)
+            return false;
         const std::vector<NodeId> below = dependents(graph_, graph_.operands(node)[0], hessian_.y);
-        return std::all_of(below.begin(), below.end(), [&](NodeId each) {
-            const Op inner = graph_.op(each);
-            return inner == Op::power
-                       ? static_cast<std::int32_t>(graph_.payload(each)) > 0
-                       : inner == Op::add || inner == Op::subtract || inner == Op::multiply || inner == Op::negate;
+        return std::ranges::all_of(below, [&](NodeId each) {
+            const OpKind kind = kind_of(graph_.op(each));
+            return kind == OpKind::sum || kind == OpKind::product ||
+                   (kind == OpKind::power && domain_of(graph_, each) == Sense::always);
         });
     }
 
     void require_smooth(NodeId node)
     {
-        if (compares(graph_.op(node))) {
-            obstacle_ = std::string(function_) + " is not smooth";
-            return;
-        }
-        switch (graph_.op(node)) {
-        case Op::atan2: // its cut, and slopes that do not see it
+        switch (smooth_where(graph_, node)) {
+        case Sense::always: return;
+        case Sense::nonzero: return require_nonzero(condition_of(graph_, node));
+        case Sense::nonnegative:
+        case Sense::positive: return require_positive(condition_of(graph_, node));
+        case Sense::off_origin:
+        case Sense::off_cut: // and slopes that do not see it
             if (const NodeId u = graph_.operands(node)[1]; !decider().proves_positive(u))
                 obstacle_ = not_shown(u, "positive");
             return;
-        case Op::select: obstacle_ = std::string(function_) + " is not smooth"; return;
-        case Op::factor:
+        case Sense::same_branch: obstacle_ = std::string(function_) + " is not smooth"; return;
+        case Sense::regular:
             obstacle_ =
                 std::string(function_) + " contains the solution of a linear system whose matrix is not constant";
-            return;
-        default: break;
         }
-        const SmoothWhere where = smooth_where(graph_, node);
-        if (where.condition == SmoothWhere::Condition::nonzero) require_nonzero(where.function);
-        if (where.condition == SmoothWhere::Condition::positive) require_positive(where.function);
     }
 
     void require_nonzero(NodeId f)

@@ -2,7 +2,7 @@
 #include "verify/motion_divisors.hpp"
 
 #include "graph/differentiate.hpp"
-#include "graph/smoothness.hpp"
+#include "graph/operators.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -22,14 +22,8 @@ void MotionDivisors::collect(const std::vector<NodeId>& motion)
     const std::vector<NodeId> needed = certainly_needed(graph_, motion);
     certain_.insert(needed.begin(), needed.end());
     for (const NodeId node : needed) {
-        const std::vector<NodeId> operands(graph_.operands(node).begin(), graph_.operands(node).end());
-        const Op op = graph_.op(node);
-        if (op == Op::divide) require_nonzero(operands[1]);
-        if (op == Op::log) require_nonzero(operands[0]);
-        if (op == Op::power && static_cast<std::int32_t>(graph_.payload(node)) < 0) require_nonzero(operands[0]);
-        if (op == Op::real_power && graph_.is_constant(operands[1]) && sgn(graph_.value(operands[1])) < 0)
-            require_nonzero(operands[0]);
-        if (op == Op::tan) require_nonzero(graph_.apply(Op::cos, operands[0]));
+        const Sense sense = known_where_defined(graph_, node);
+        if (sense == Sense::nonzero || sense == Sense::positive) require_nonzero(condition_of(graph_, node));
     }
 }
 
@@ -48,19 +42,17 @@ std::vector<NodeId> MotionDivisors::linear_roots(NodeId lagrangian, const std::v
             std::size_t& known = terms[node];
             known = std::min<std::size_t>(known + times, 2);
         };
-        switch (graph_.op(term)) {
-        case Op::add:
-        case Op::subtract:
-        case Op::negate: std::ranges::for_each(operands, add); break;
-        case Op::divide:
+        const Op op = graph_.op(term);
+        const OpKind kind = kind_of(op);
+        if (kind == OpKind::sum) {
+            std::ranges::for_each(operands, add);
+        } else if (kind == OpKind::quotient) {
             if (!depends_on_y(operands[1])) add(operands[0]);
-            break;
-        case Op::multiply:
+        } else if (kind == OpKind::product) {
             for (const std::size_t k : {0U, 1U})
                 if (!depends_on_y(operands[k]) && decider_->proves_nonzero(operands[k])) add(operands[1 - k]);
-            break;
-        case Op::sqrt: roots.insert(roots.end(), count, term); break;
-        default: break;
+        } else if (op == Op::sqrt) {
+            roots.insert(roots.end(), count, term);
         }
     }
     return roots;
@@ -71,11 +63,19 @@ bool MotionDivisors::is_smooth_but_for(NodeId root, NodeId lagrangian, const std
 {
     const std::vector<NodeId> needed = reachable(graph_, std::vector<NodeId>{lagrangian});
     return std::ranges::all_of(needed, [&](NodeId node) {
-        const Op op = graph_.op(node);
-        const bool whole = op == Op::atan2 || op == Op::factor || op == Op::select || op == Op::real_power;
-        const SmoothWhere where = smooth_where(graph_, node);
-        if (node == root || (!whole && where.condition == SmoothWhere::Condition::none)) return true;
-        return !depends_on_any(graph_, std::vector<NodeId>{whole ? node : where.function}, y);
+        const auto moves = [&](NodeId f) { return depends_on_any(graph_, std::vector<NodeId>{f}, y); };
+        if (node == root) return true;
+        switch (smooth_where(graph_, node)) {
+        case Sense::always: return true;
+        case Sense::nonzero:
+        case Sense::nonnegative:
+        case Sense::positive: return !moves(graph_.op(node) == Op::real_power ? node : condition_of(graph_, node));
+        case Sense::off_origin:
+        case Sense::off_cut:
+        case Sense::same_branch:
+        case Sense::regular: break;
+        }
+        return !moves(node);
     });
 }
 
@@ -105,12 +105,10 @@ bool MotionDivisors::moves(NodeId node) const
 void MotionDivisors::require_nonzero(NodeId divisor)
 {
     if (!divisors_.insert(divisor).second) return;
-    const Op op = graph_.op(divisor);
-    const bool vanishes_with_operands =
-        op == Op::multiply || op == Op::negate || op == Op::power || op == Op::sqrt || op == Op::abs || op == Op::sign;
-    if (op == Op::divide)
+    const Operator& row = operator_of(graph_.op(divisor));
+    if (row.vanishes_with_operand)
         require_nonzero(graph_.operands(divisor)[0]);
-    else if (vanishes_with_operands)
+    else if (row.kind == OpKind::product)
         for (const NodeId operand : graph_.operands(divisor)) require_nonzero(operand);
 }
 
@@ -118,19 +116,9 @@ bool MotionDivisors::nonzero(NodeId f) const
 {
     if (divisors_.contains(f)) return true;
     const auto operands = graph_.operands(f);
-    switch (graph_.op(f)) {
-    case Op::multiply:
-        if (nonzero(operands[0]) && nonzero(operands[1])) return true;
-        break;
-    case Op::divide:
-    case Op::negate:
-    case Op::power:
-    case Op::sqrt:
-    case Op::abs:
-        if (nonzero(operands[0])) return true;
-        break;
-    default: break;
-    }
+    const Operator& row = operator_of(graph_.op(f));
+    if (row.vanishes_with_operand && nonzero(operands[0])) return true;
+    if (row.kind == OpKind::product && nonzero(operands[0]) && nonzero(operands[1])) return true;
     return decider_->proves_nonzero(f);
 }
 

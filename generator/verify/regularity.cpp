@@ -3,8 +3,9 @@
 #include "verify/regularity.hpp"
 #include "graph/differentiate.hpp"
 #include "graph/evaluate.hpp"
-#include "proof/rational_matrix.hpp"
+#include "graph/operators.hpp"
 #include "proof/almost_everywhere.hpp"
+#include "proof/rational_matrix.hpp"
 #include "verify/definite_squares.hpp"
 #include "verify/kernel_vectors.hpp"
 #include "verify/singular_factors.hpp"
@@ -114,16 +115,13 @@ Shown show_by_minors(const ZeroDecider& decider, const std::vector<std::vector<N
     return shown;
 }
 
-/// Operations whose value exists, and is continuous, at all real operands.
+/// Operations that are defined and analytic at all real operands, or divide by a number.
 bool is_total(const Graph& graph, NodeId node)
 {
-    switch (graph.op(node)) {
-    case Op::atan: return true;
-    case Op::tan: return false;
-    case Op::power: return static_cast<std::int32_t>(graph.payload(node)) >= 0;
-    case Op::divide: return graph.is_constant(graph.operands(node)[1]);
-    default: return is_meromorphic(graph.op(node));
-    }
+    const Operator& row = operator_of(graph.op(node));
+    const bool analytic = row.smoothness == Smoothness::meromorphic || row.smoothness == Smoothness::analytic;
+    const bool by_number = row.kind == OpKind::quotient && graph.is_constant(graph.operands(node)[1]);
+    return analytic && (by_number || domain_of(graph, node) == Sense::always);
 }
 
 /// For a W that is regular everywhere: the domain is all of R^N, so that its signature is the one at the origin.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "verify/smooth_controls.hpp"
 
-#include "graph/smoothness.hpp"
+#include "graph/operators.hpp"
 #include "proof/enclosure.hpp"
 
 #include <algorithm>
@@ -35,22 +35,10 @@ proof::Ball values_on(const Piece& piece, const proof::Ball& lower, const proof:
     return value;
 }
 
+/// Linear systems as a whole; their factorisation tells.
 bool is_partial(const Graph& graph, NodeId node)
 {
-    switch (graph.op(node)) {
-    case Op::divide:
-    case Op::real_power:
-    case Op::sqrt:
-    case Op::tan:
-    case Op::asin:
-    case Op::acos:
-    case Op::log:
-    case Op::solve:
-    case Op::component:
-    case Op::factor: return true;
-    case Op::power: return static_cast<std::int32_t>(graph.payload(node)) < 0;
-    default: return false;
-    }
+    return kind_of(graph.op(node)) == OpKind::system || domain_of(graph, node) != Sense::always;
 }
 
 } // namespace
@@ -141,26 +129,41 @@ std::string ControlProofs::kink_in(const std::vector<NodeId>& roots)
                    " was not proved to keep its sign";
         };
         std::string found;
-        if (has_kink(graph_.op(node))) {
-            found = unless(smooth_where(graph_, node).function);
-        } else if (graph_.op(node) == Op::atan2) { // jumps across v = 0, w < 0
+        switch (operator_of(graph_.op(node)).smoothness) {
+        case Smoothness::kinked:
+        case Smoothness::stepped: found = unless(condition_of(graph_, node)); break;
+        case Smoothness::cut: // jumps across v = 0, w < 0
             if (depends_on_controls(node) && !positive(operands[1]) && !nonzero(operands[0]))
                 found = to_text(graph_, node, 60) + ", which was not proved to keep off its cut";
+            break;
+        case Smoothness::chosen: found = unless(operands[0]); break;
+        case Smoothness::meromorphic: // partial_in
+        case Smoothness::analytic:
+        case Smoothness::system: break;
         }
         if (!found.empty()) return found;
     }
     return {};
 }
 
-/// Whether the operation is defined, with all its derivatives, for all admissible controls.
+/// Whether the operation is defined, with all its derivatives, for all admissible controls; kinks and cuts are told by
+/// kink_in().
 bool ControlProofs::is_smooth(NodeId node)
 {
-    if (graph_.op(node) == Op::factor) return !depends_on_controls(node);
-    const SmoothWhere where = smooth_where(graph_, node);
-    const bool moves = graph_.op(node) == Op::real_power ? depends_on_controls(node) // the exponent may
-                                                         : depends_on_controls(where.function);
-    if (where.condition == SmoothWhere::Condition::none || !moves) return true; // of a solution the factorisation tells
-    return where.condition == SmoothWhere::Condition::positive ? positive(where.function) : nonzero(where.function);
+    const Sense sense = smooth_where(graph_, node);
+    switch (sense) {
+    case Sense::always: // of a solution the factorisation tells
+    case Sense::off_origin:
+    case Sense::off_cut:
+    case Sense::same_branch: return true;
+    case Sense::regular: return !depends_on_controls(node);
+    case Sense::nonzero:
+    case Sense::nonnegative:
+    case Sense::positive: break;
+    }
+    const NodeId condition = condition_of(graph_, node);
+    const bool moves = depends_on_controls(graph_.op(node) == Op::real_power ? node : condition); // the exponent may
+    return !moves || (sense == Sense::nonzero ? nonzero(condition) : positive(condition));
 }
 
 std::string ControlProofs::partial_in(const std::vector<NodeId>& roots)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "../support/compiled.hpp"
+#include "graph/operators.hpp"
 #include "hand_built.hpp"
 
 #include <random>
@@ -42,10 +43,11 @@ KernelModule operators_module()
     const NodeId b = module.base[1].input;
     const NodeId c = g.add(g.power(module.base[2].input, 2), g.constant(Rational(1, 10)));
     std::vector<NodeId> values;
-    for (Op op = Op::sin; op <= Op::abs; op = static_cast<Op>(static_cast<int>(op) + 1)) {
-        if (op == Op::atan2) continue;
-        const bool bounded = op == Op::asin || op == Op::acos;
-        values.push_back(g.apply(op, op == Op::log ? c : bounded ? g.divide(a, g.constant(2)) : a));
+    for (const Operator& row : operator_table()) {
+        if (row.kind != OpKind::function || row.arity != 1 || row.op == Op::stumpff) continue;
+        const bool bounded = row.op == Op::asin || row.op == Op::acos;
+        const bool positive = row.op == Op::log || row.op == Op::sqrt;
+        values.push_back(g.apply(row.op, positive ? c : bounded ? g.divide(a, g.constant(2)) : a));
     }
     values.push_back(g.apply(Op::atan2, a, b));
     values.push_back(g.stumpff(3, g.subtract(g.multiply(g.constant(9), a), b)));
@@ -55,9 +57,9 @@ KernelModule operators_module()
     for (const int exponent : {-7, -3, -1, 4, 5, 13, 64}) values.push_back(g.power(c, exponent));
     values.push_back(g.apply(Op::minimum, a, b));
     values.push_back(g.apply(Op::maximum, a, g.multiply(b, c)));
-    values.push_back(g.apply(Op::sign, a));
-    for (Op op = Op::less; op <= Op::not_equal; op = static_cast<Op>(static_cast<int>(op) + 1))
-        values.push_back(g.select(g.apply(op, a, b), c, g.apply(op, a, g.constant(0))));
+    for (const Operator& row : operator_table())
+        if (row.kind == OpKind::comparison)
+            values.push_back(g.select(g.apply(row.op, a, b), c, g.apply(row.op, a, g.constant(0))));
     values.push_back(g.multiply(g.pi(), g.subtract(a, g.multiply(g.constant(Rational(-1, 7)), g.subtract(b, c)))));
     values.push_back(g.subtract(module.parameters[0].input, g.multiply(module.parameters[1].input, module.time)));
     module.kernels = {vector_kernel("values_of", values),

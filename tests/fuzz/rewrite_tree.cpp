@@ -110,6 +110,7 @@ Tree rewrite_call(const Tree& tree)
     case Function::sign: return divide(a[0], one(Function::abs, a[0]));
     case Function::select: return negate(call(Function::select, {a[0], negate(a[1]), negate(a[2])}));
     case Function::stumpff: return rewrite_stumpff(a[0], a[1]);
+    case Function::erf: return negate(one(Function::erf, negate(a[0])));
     default: return tree;
     }
 }

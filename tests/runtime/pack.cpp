@@ -49,6 +49,7 @@ TEST_CASE("A pack computes in every lane what its scalar computes")
     check(exp(a), [](double x, double) { return std::exp(x); });
     check(sqrt(abs(a)), [](double x, double) { return std::sqrt(std::abs(x)); });
     check(log(abs(a)), [](double x, double) { return std::log(std::abs(x)); });
+    check(erf(a), [](double x, double) { return std::erf(x); });
     check(atan2(a, b), [](double x, double y) { return std::atan2(x, y); });
     check(select(a < b, a, b), [](double x, double y) { return x < y ? x : y; });
     check(max(a, b), [](double x, double y) { return x < y ? y : x; });
