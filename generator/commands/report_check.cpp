@@ -197,6 +197,16 @@ const char* closed_text(ProofStatus closed)
     return closed == ProofStatus::proved ? "closed" : "not closed";
 }
 
+/// How a proved maximum is known, where more is to be said of it than its name says.
+std::string maximum_text(const Report& verified)
+{
+    std::string text;
+    for (const Check& check : verified.checks)
+        if (check.name == "maximum" && check.decision.status == ProofStatus::proved && !check.decision.evidence.empty())
+            text += fmt::format("  {:<16}{}\n", "", check.decision.evidence);
+    return text;
+}
+
 template <class Values>
 void values_json(JsonWriter& json, const Values& values)
 {
@@ -234,8 +244,10 @@ void check_json(JsonWriter& json, const Check& check)
 std::string report_text(const std::string& model, const Report& verified)
 {
     std::string text = fmt::format("{}: {}\n{}", model, to_text(verified.verdict), summary_text(verified));
-    for (const std::string& kind : kinds_of(verified))
+    for (const std::string& kind : kinds_of(verified)) {
         text += fmt::format("  {:<16}{}\n", kind, counts_text(counts_of(verified, kind)));
+        if (kind == "maximum") text += maximum_text(verified);
+    }
     for (const FormReport& form : verified.forms)
         text += fmt::format("  {:<16}degree {}, {}\n", "form " + form.name, form.degree, closed_text(form.closed));
     text += regularity_text(verified.regularity);

@@ -195,6 +195,8 @@ ExitCode run_run(Arguments arguments)
     outcome.form = generated.module.form;
     outcome.method = method.name;
     outcome.energy_changes = has_kernel(generated.module, "power");
+    for (const ImplicitBlock& block : generated.module.implicit)
+        outcome.searches = outcome.searches || (block.follows && !block.angles);
     outcome.table.columns = {"t"};
     for (const TableColumn& column : input.columns) outcome.table.columns.push_back(column.name);
     for (const std::vector<Quantity>* group : {&generated.module.base, &generated.module.fibre})

@@ -5,6 +5,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -32,6 +33,15 @@ std::string list_text(const Items& items, Print print)
     return text + "]";
 }
 
+/// What ended a run whose controls could not be followed.
+std::string control_text(const std::string& status)
+{
+    if (status == "not_a_maximum")
+        return "the controls that were followed are no maximum of H any more: d2H/du2 is not negative definite";
+    if (status == "singular_control") return "H does not depend on a control: b = c = 0 in a + b cos u + c sin u";
+    return {};
+}
+
 std::string row_text(std::string_view line)
 {
     return list_text(fields(line), [](std::string_view field) { return number_text(field); });
@@ -49,8 +59,13 @@ std::string last_state(const RunOutcome& outcome)
 }
 
 /// Of a run that did not leave its start.
-const char* start_hint(const std::string& status)
+const char* start_hint(const RunOutcome& outcome)
 {
+    const std::string& status = outcome.status;
+    if (outcome.searches && (status == "newton_diverged" || status == "not_a_maximum"))
+        return "hint: the search for the controls found no maximum of H at the start: `guess = { u = .. }` in "
+               "[control] "
+               "says where it begins\n";
     if (status == "non_finite")
         return "hint: the right-hand side is no finite number at the start: the model is not defined there, or "
                "overflows\n";
@@ -111,7 +126,9 @@ std::string report_text(const RunOutcome& outcome)
     for (const EventReport& event : outcome.events)
         text += fmt::format("  event {} at t = {}\n", event.name, brief(event.time, 15));
     const bool failed = outcome.status != "ok" && outcome.status != "stopped_by_event";
-    if (failed && outcome.steps == "0") return text + start_hint(outcome.status);
+    if (const std::string reason = control_text(outcome.status); !reason.empty())
+        text += fmt::format("  {}\n", reason);
+    if (failed && outcome.steps == "0") return text + start_hint(outcome);
     if (failed) text += last_state(outcome);
     for (const Drift& drift : outcome.invariants) {
         if (!std::isfinite(std::strtod(drift.initial.c_str(), nullptr))) {

@@ -31,6 +31,7 @@ struct RunOutcome {
     std::string failed_at; ///< time at which the run met what ended it; `time` where nothing failed
     std::string steps, rejected, rhs_calls, seconds; ///< numbers as printed
     std::string newton, decompositions; ///< Newton iterations and factorisations of implicit methods; else empty
+    bool searches = false;              ///< controls are searched for, and followed
     std::vector<EventReport> events;
     std::vector<Drift> invariants;
     bool energy_changes = false; ///< forces or explicit time: the energy is not conserved

@@ -55,6 +55,9 @@ std::set<std::string> class_scope_names(const KernelModule& module, const std::s
     for (const ImplicitBlock& block : module.implicit) {
         names.insert("solve_" + block.name);
         names.insert("solved_" + block.name);
+        if (block.angles) names.insert({"b", "c", "nearest_angles"});
+        if (block.follows)
+            names.insert({"guess", "Guess", "follow", "same", "curvature", "from", "matrix", "number_or"});
     }
     return names;
 }
@@ -81,7 +84,9 @@ void name_unknowns(const KernelModule& module, ModuleNames& names)
         texts.push_back(unknown.name);
         names.moving.push_back(unknown.input);
     }
-    name_locals(unknowns, cpp_names(texts), names.locals);
+    const std::vector<std::string> members = cpp_names(texts);
+    for (std::size_t k = 0; k < unknowns.size(); ++k) names.guess[unknowns[k].input] = members[k];
+    name_locals(unknowns, members, names.locals);
     std::vector<std::string> tangents;
     for (const std::vector<std::string>* group : {&names.base, &names.fibre})
         for (const std::string& member : *group) tangents.push_back("d_" + member);

@@ -12,6 +12,7 @@ struct ModuleNames {
     std::vector<std::string> parameters; ///< members of Parameters
     std::vector<std::string> base;       ///< members of Base
     std::vector<std::string> fibre;      ///< members of the second group
+    std::map<NodeId, std::string> guess; ///< members of Guess, by the unknown that is followed
     LocalNames locals;
     std::vector<NodeId> moving; ///< time and state lanes, and what is solved for over them
 };

@@ -175,11 +175,13 @@ std::string print_header(const KernelModule& module)
     print_constants(kernels, module);
     print_parameters(kernels, module, names);
     print_parameter_access(kernels, names);
+    print_guess(kernels, module, names);
     print_group(kernels, "Base", module.base, names.base, "Base coordinates, the first lanes of State.");
     print_group(kernels, module.fibre_name, module.fibre, names.fibre, "The other lanes of State.");
     print_state(kernels, module, names);
     print_parameter_status(kernels, module, names, needs);
     for (const ImplicitBlock& block : module.implicit) print_implicit(kernels, module, names, block, needs);
+    print_follow(kernels, module, names);
     for (const Kernel& kernel : module.kernels) print_kernel(kernels, module, names, kernel, needs);
 
     TextBlock out;
@@ -188,6 +190,7 @@ std::string print_header(const KernelModule& module)
     out.blank();
     out.line("#include \"lagen/kernel.hpp\"");
     if (needs.bracket) out.line("#include \"lagen/bracket.hpp\"");
+    if (needs.controls) out.line("#include \"lagen/controls.hpp\"");
     if (needs.linear) out.line("#include \"lagen/linear.hpp\"");
     if (needs.newton) out.line("#include \"lagen/newton.hpp\"");
     const auto calls = [&](const char* name) { return kernels.text().find(name) != std::string::npos; };

@@ -38,6 +38,13 @@ void print_scope(TextBlock& out, const KernelModule& module, const ModuleNames& 
     close_block(out);
 }
 
+std::string list_of(std::size_t count, const std::function<std::string(std::size_t)>& entry)
+{
+    std::vector<std::string> entries;
+    for (std::size_t k = 0; k < count; ++k) entries.push_back(entry(k));
+    return joined(entries);
+}
+
 /// solve_NAME() of one block.
 class ImplicitPrinter {
   public:
@@ -49,11 +56,17 @@ class ImplicitPrinter {
             for (const auto* ends : {&block.bracket->lower, &block.bracket->upper})
                 for (const std::optional<NodeId>& end : *ends)
                     if (end) start.push_back(*end);
-        std::vector<NodeId> inner = block.residuals;
-        for (std::size_t k = 0; k < block.jacobian.size(); ++k)
-            if (!block.bracket || k % (size_ + 1) == 0) inner.push_back(block.jacobian[k]);
-        inner.insert(inner.end(), block.sizes.begin(), block.sizes.end());
-        if (!block.bracket) inner.insert(inner.end(), block.inside.begin(), block.inside.end());
+        std::vector<NodeId> inner;
+        if (block.angles) {
+            inner = block.angles->b;
+            inner.insert(inner.end(), block.angles->c.begin(), block.angles->c.end());
+        } else {
+            inner = block.residuals;
+            for (std::size_t k = 0; k < block.jacobian.size(); ++k)
+                if (!block.bracket || k % (size_ + 1) == 0) inner.push_back(block.jacobian[k]);
+            inner.insert(inner.end(), block.sizes.begin(), block.sizes.end());
+            if (!block.bracket) inner.insert(inner.end(), block.inside.begin(), block.inside.end());
+        }
         start_ = body_of(start);
         iteration_ = body_of(inner);
     }
@@ -62,7 +75,9 @@ class ImplicitPrinter {
     {
         out_.blank();
         out_.comment(block_.documentation);
-        out_.comment(block_.bracket
+        out_.comment(block_.angles
+                         ? "In closed form; answers singular_control, and NaN in z, where one has no direction."
+                     : block_.bracket
                          ? "By Newton's method and bisection; answers newton_diverged, and NaN in z, where a value is "
                            "not finite."
                          : "By Newton's method; answers newton_diverged, and NaN in z, where it finds no solution to "
@@ -74,7 +89,7 @@ class ImplicitPrinter {
                                "const noexcept",
                                block_.name, maybe_unused(reads_time), maybe_unused(reads_lanes), size_));
         block_.bracket ? print_bounds() : print_guess();
-        print_iteration();
+        block_.angles ? print_angles() : print_iteration();
         close_block(out_);
     }
 
@@ -86,8 +101,19 @@ class ImplicitPrinter {
 
     void print_guess()
     {
-        print_scope(out_, module_, names_, start_,
-                    [](std::size_t k, const std::string& value) { return fmt::format("z[{}] = {};", k, value); });
+        print_scope(out_, module_, names_, start_, [this](std::size_t k, const std::string& value) {
+            if (!block_.follows) return fmt::format("z[{}] = {};", k, value);
+            return fmt::format("z[{}] = number_or<S>(guess.{}, {});", k, names_.guess.at(block_.unknowns[k]), value);
+        });
+    }
+
+    void print_angles()
+    {
+        out_.line(fmt::format("std::array<S, {}> b, c;", size_));
+        print_scope(out_, module_, names_, iteration_, [this](std::size_t k, const std::string& value) {
+            return fmt::format("{}[{}] = {};", k < size_ ? "b" : "c", k % size_, value);
+        });
+        out_.line("return nearest_angles(b, c, z);");
     }
 
     void print_bounds()
@@ -140,16 +166,91 @@ class ImplicitPrinter {
     std::size_t size_;
     Body start_;     ///< the guess, or the ends of the bracket
     Body iteration_; ///< residuals, then the Jacobian, sizes and conditions; of a bracket the Jacobian's diagonal, no
-                     ///< conditions
+                     ///< conditions; of angles b, then c
 };
 
+/// The part of follow() that is about one block.
+void follow_block(TextBlock& out, const KernelModule& module, const ModuleNames& names, const ImplicitBlock& block)
+{
+    const std::size_t size = block.unknowns.size();
+    const std::string solved = "solved_" + block.name;
+    const auto member = [&](std::size_t k) { return "guess." + names.guess.at(block.unknowns[k]); };
+    std::string kept = "guess.{0} = number_or<S>({1}[{2}], guess.{0});";
+    if (!block.angles) {
+        Body body = print_body({*module.graph, names.locals, block.jacobian, {}, names.moving, Checking::none, {}, 0});
+        out.line(fmt::format("const std::array<S, {}> from = {{{}}};", size, list_of(size, member)));
+        out.line(fmt::format("const auto curvature = [&]([[maybe_unused]] const std::array<S, {}>& unknowns, "
+                             "std::array<S, {}>& matrix) noexcept {{",
+                             size, size * size));
+        out.indent(1);
+        load_own_unknowns(out, body, names, block);
+        print_lines(out, body, storing_to(module, names, [](std::size_t k, const std::string& value) {
+                        return fmt::format("matrix[{}] = {};", k, value);
+                    }));
+        out.indent(-1);
+        out.line("};");
+        out.line(fmt::format("const auto same = is_same_maximum(from, {}, curvature);", solved));
+        out.line("StatusOf<S>::fail(status, !same, Status::not_a_maximum);");
+        kept = "guess.{0} = select(same, {1}[{2}], guess.{0});";
+    }
+    for (std::size_t k = 0; k < size; ++k)
+        out.line(fmt::format(fmt::runtime(kept), names.guess.at(block.unknowns[k]), solved, k));
+}
+
 } // namespace
+
+void print_guess(TextBlock& out, const KernelModule& module, const ModuleNames& names)
+{
+    std::vector<std::string> members;
+    for (const ImplicitBlock& block : module.implicit)
+        if (block.follows)
+            for (const NodeId unknown : block.unknowns) members.push_back(names.guess.at(unknown));
+    if (members.empty()) return;
+    out.blank();
+    out.comment("Where the next search for the controls begins; NaN: where the model says. follow() keeps it.");
+    out.line("struct Guess {");
+    out.indent(1);
+    for (const std::string& member : members)
+        out.line(fmt::format("S {} = S(std::numeric_limits<real_t<S>>::quiet_NaN());", member));
+    out.indent(-1);
+    out.line("} guess;");
+}
+
+void print_follow(TextBlock& out, const KernelModule& module, const ModuleNames& names)
+{
+    std::vector<const ImplicitBlock*> followed;
+    bool watches = false;
+    for (const ImplicitBlock& block : module.implicit) {
+        if (block.follows) followed.push_back(&block);
+        watches = watches || (block.follows && !block.angles);
+    }
+    if (followed.empty()) return;
+    out.blank();
+    out.comment("The controls at (t, s) become the guess of the next search: called at the start of a run and after "
+                "each of its");
+    out.comment("steps, it follows their branch; integrate() does so. A control that is not found leaves its guess as "
+                "it is.");
+    if (watches)
+        out.comment(
+            "not_a_maximum unless d2H/du2 is negative definite at them, and on the way to them from the guess.");
+    open_block(out, "[[nodiscard]] status_t<S> follow(S t, const State& s) noexcept");
+    for (const ImplicitBlock* block : followed) {
+        out.line(fmt::format("std::array<S, {}> solved_{};", block->unknowns.size(), block->name));
+        const std::string call = fmt::format("solve_{0}(t, s, solved_{0})", block->name);
+        out.line(block == followed.front() ? fmt::format("auto status = {};", call)
+                                           : fmt::format("status = StatusOf<S>::first(status, {});", call));
+    }
+    for (const ImplicitBlock* block : followed) follow_block(out, module, names, *block);
+    out.line("return status;");
+    close_block(out);
+}
 
 void print_implicit(TextBlock& out, const KernelModule& module, const ModuleNames& names, const ImplicitBlock& block,
                     KernelNeeds& needs)
 {
-    (block.bracket ? needs.bracket : needs.linear) = true;
-    needs.newton = needs.newton || !block.bracket;
+    needs.controls = needs.controls || block.follows;
+    if (!block.angles) (block.bracket ? needs.bracket : needs.linear) = true;
+    needs.newton = needs.newton || !(block.bracket || block.angles);
     ImplicitPrinter(out, module, names, block).print();
 }
 

@@ -9,15 +9,22 @@ namespace lagen {
 
 /// What the functions printed so far need from elsewhere.
 struct KernelNeeds {
-    bool linear = false;  ///< lagen/linear.hpp
-    bool newton = false;  ///< lagen/newton.hpp
-    bool bracket = false; ///< lagen/bracket.hpp
+    bool linear = false;   ///< lagen/linear.hpp
+    bool newton = false;   ///< lagen/newton.hpp
+    bool bracket = false;  ///< lagen/bracket.hpp
+    bool controls = false; ///< lagen/controls.hpp
 };
 
 void print_kernel(TextBlock& out, const KernelModule& module, const ModuleNames& names, const Kernel& kernel,
                   KernelNeeds& needs);
 
-/// solve_NAME(): the unknowns of a block at a state, by Newton's method, between its bounds where it has a bracket.
+/// Guess, with a member an unknown that is followed along a run; nothing where there is none.
+void print_guess(TextBlock& out, const KernelModule& module, const ModuleNames& names);
+/// follow(): the unknowns at a state become the guess; nothing where none is followed.
+void print_follow(TextBlock& out, const KernelModule& module, const ModuleNames& names);
+
+/// solve_NAME(): the unknowns of a block at a state, by Newton's method, between its bounds where it has a bracket, in
+/// closed form where they are angles.
 void print_implicit(TextBlock& out, const KernelModule& module, const ModuleNames& names, const ImplicitBlock& block,
                     KernelNeeds& needs);
 

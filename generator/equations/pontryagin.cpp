@@ -14,7 +14,7 @@ namespace {
 class PontryaginDerivation {
   public:
     PontryaginDerivation(const Model& model, const WrittenAlgebroid& algebroid, const ControlMaximum& maximum)
-        : control_(*model.control), maximal_(maximum.kind == ControlMaximum::Kind::maximal),
+        : control_(*model.control), maximal_(maximum.kind == ControlMaximum::Kind::maximal), angles_(maximum.angles),
           symbolic_(model, algebroid, functions_of(*model.control)), sigma_(symbolic_.r(), 0)
     {
         for (const ComponentEntry& entry : control_.sigma) sigma_[entry.section] += symbolic_.lower(entry.value);
@@ -22,6 +22,7 @@ class PontryaginDerivation {
         if (control_.cost) terms.push_back(-symbolic_.lower(control_.cost));
         for (std::size_t a = 0; a < symbolic_.r(); ++a) terms.push_back(symbolic_.mu()[a] * sigma_[a]);
         hamiltonian_ = total(terms);
+        find_angles();
         if (maximum.kind != ControlMaximum::Kind::unsolved) solve_controls();
     }
 
@@ -33,10 +34,9 @@ class PontryaginDerivation {
         set.blocks.push_back(section());
         set.blocks.push_back(condition());
         if (!optimal_ && !control_.bounds.empty()) set.blocks.push_back(bounds());
-        if (optimal_) {
-            set.blocks.push_back(optimal_controls());
-            if (maximal_ && control_.bounds.empty()) set.blocks.push_back(maximal_hamiltonian());
-        }
+        if (!directions_.empty()) set.blocks.push_back(angles());
+        if (optimal_ && !optimal_->empty()) set.blocks.push_back(optimal_controls());
+        if (optimal_ && maximal_ && control_.bounds.empty()) set.blocks.push_back(maximal_hamiltonian());
         set.blocks.push_back(
             {"kinematics", "ẋ^i = ρ^i_a σ^a", R"(\dot x^i = \rho^i_a\, \sigma^a)", symbolic_.kinematics(sigma_)});
         set.blocks.push_back(motion());
@@ -59,16 +59,40 @@ class PontryaginDerivation {
     [[nodiscard]] std::string energy_name() const { return symbolic_.free_name({"H", "H_P"}); }
     [[nodiscard]] const std::string& control_name(std::size_t A) const { return control_.controls[A].name; }
 
-    /// u with dH/du = 0 where that is a regular linear system in u.
-    void solve_controls()
+    /// b and c of each angle u, of H = a + b cos u + c sin u.
+    struct Direction {
+        std::size_t control;
+        GiNaC::ex b, c;
+    };
+
+    /// b = -d2H/du2 and c = dH/du at u = 0.
+    void find_angles()
     {
         const Sum& u = symbolic_.controls();
+        GiNaC::exmap upright;
+        for (const std::size_t A : angles_) {
+            GiNaC::exmap zero;
+            zero[u[A]] = upright[u[A]] = 0;
+            const GiNaC::ex slope = derivative(hamiltonian_, u[A]);
+            directions_.push_back({A, (-derivative(slope, u[A])).subs(zero, GiNaC::subs_options::no_pattern),
+                                   slope.subs(zero, GiNaC::subs_options::no_pattern)});
+        }
+        rest_ = hamiltonian_.subs(upright, GiNaC::subs_options::no_pattern);
+        for (std::size_t A = 0; A < u.size(); ++A)
+            if (!std::ranges::binary_search(angles_, A)) others_.push_back(A);
+    }
+
+    /// u with dH/du = 0 where that is a regular linear system in the controls that are no angles.
+    void solve_controls()
+    {
+        Sum u;
+        for (const std::size_t A : others_) u.push_back(symbolic_.controls()[A]);
         GiNaC::exmap none;
         for (const GiNaC::ex& control : u) none[control] = 0;
         SquareMatrix second{u.size(), {}};
         Sum first, right;
         for (const GiNaC::ex& control : u) {
-            first.push_back(derivative(hamiltonian_, control));
+            first.push_back(derivative(rest_, control));
             for (const GiNaC::ex& other : u) {
                 GiNaC::ex entry = derivative(first.back(), other);
                 if (expanded_length(entry)) entry = entry.expand();
@@ -78,8 +102,8 @@ class PontryaginDerivation {
         }
         // Affine in u, and so defined at 0.
         for (const GiNaC::ex& slope : first) right.push_back(-slope.subs(none, GiNaC::subs_options::no_pattern));
-        if (!u.empty())
-            optimal_ = solve_in_blocks(second, right, [&](const GiNaC::ex& e) { return symbolic_.simpler(e); });
+        optimal_ = u.empty() ? std::optional<Sum>(Sum{})
+                             : solve_in_blocks(second, right, [&](const GiNaC::ex& e) { return symbolic_.simpler(e); });
     }
 
     [[nodiscard]] EquationBlock hamiltonian() const
@@ -129,6 +153,25 @@ class PontryaginDerivation {
         return block;
     }
 
+    [[nodiscard]] EquationBlock angles() const
+    {
+        EquationBlock block{"optimal angles",
+                            "H = a + b cos u + c sin u is largest at u = atan2(c, b), up to whole turns",
+                            R"(H = a + b \cos u + c \sin u \text{ is largest at } u = \operatorname{atan2}(c, b))"
+                            R"(\text{, up to whole turns})",
+                            {}};
+        const auto value = [&](const GiNaC::ex& term) {
+            const Equation equation = symbolic_.equation(LeftSide::symbol, "", {term});
+            return equation.groups.empty() ? number(0) : equation.groups[0].value;
+        };
+        for (const Direction& direction : directions_) {
+            Equation next{LeftSide::symbol, control_name(direction.control), {}, {}};
+            next.groups = {{"", call(Function::atan2, {value(direction.c), value(direction.b)})}};
+            block.equations.push_back(std::move(next));
+        }
+        return block;
+    }
+
     /// u cut to its bounds: a concave function of one variable is largest at the admissible point next to its maximum.
     [[nodiscard]] EquationBlock optimal_controls() const
     {
@@ -139,8 +182,9 @@ class PontryaginDerivation {
             block.latex_formula += R"(\text{ with } \partial H/\partial u^A = 0\text{; that } H)"
                                    R"(\text{ is largest there is not proved})";
         }
-        for (std::size_t A = 0; A < optimal_->size(); ++A) {
-            Equation next = symbolic_.equation(LeftSide::symbol, control_name(A), {(*optimal_)[A]});
+        for (std::size_t k = 0; k < others_.size(); ++k) {
+            const std::size_t A = others_[k];
+            Equation next = symbolic_.equation(LeftSide::symbol, control_name(A), {(*optimal_)[k]});
             for (const ControlBound& bound : control_.bounds) {
                 if (bound.control != A) continue;
                 Tree value = next.groups.empty() ? number(0) : next.groups[0].value;
@@ -156,12 +200,16 @@ class PontryaginDerivation {
     [[nodiscard]] EquationBlock maximal_hamiltonian() const
     {
         GiNaC::exmap inserted;
-        for (std::size_t A = 0; A < optimal_->size(); ++A) inserted[symbolic_.controls()[A]] = (*optimal_)[A];
+        for (std::size_t k = 0; k < others_.size(); ++k) inserted[symbolic_.controls()[others_[k]]] = (*optimal_)[k];
+        Sum terms = {rest_.subs(inserted, GiNaC::subs_options::no_pattern)};
+        for (const Direction& direction : directions_) {
+            terms.push_back(-direction.b);
+            terms.push_back(GiNaC::sqrt(direction.b * direction.b + direction.c * direction.c));
+        }
         return {"maximal Hamiltonian",
                 "H_max(x, μ) = H(x, μ, u(x, μ))",
                 R"(H_{\max}(x, \mu) = H(x, \mu, u(x, \mu)))",
-                {symbolic_.equation(LeftSide::symbol, "H_max",
-                                    {hamiltonian_.subs(inserted, GiNaC::subs_options::no_pattern)})}};
+                {symbolic_.equation(LeftSide::symbol, "H_max", {total(terms)})}};
     }
 
     [[nodiscard]] EquationBlock motion() const
@@ -182,10 +230,14 @@ class PontryaginDerivation {
 
     const Control& control_;
     bool maximal_; ///< proved
+    const std::vector<std::size_t>& angles_;
+    std::vector<std::size_t> others_; ///< the controls that are no angles
     SymbolicModel symbolic_;
     Sum sigma_; ///< sigma^a(t, x, u), shape (r)
     GiNaC::ex hamiltonian_;
-    std::optional<Sum> optimal_; ///< u^A(t, x, mu) without bounds
+    GiNaC::ex rest_; ///< H where the angles are 0
+    std::vector<Direction> directions_;
+    std::optional<Sum> optimal_; ///< u^A(t, x, mu) of the others, without bounds
 };
 
 } // namespace

@@ -12,9 +12,10 @@
 namespace lagen {
 
 /// Blocks: Hamiltonian, labels of the leaves where there are any, section of the controls, condition for the controls,
-/// where dH/du is affine in u with a regular matrix optimal controls and maximal Hamiltonian (stationary controls alone
-/// where `maximum` is not proved), kinematics, equations of motion, energy balance where it is not zero. Throws
-/// MathematicsError where the model has no controls, and where H has no maximum or no dH/du.
+/// optimal angles (verify/angle_controls.hpp), where dH/du is affine in u with a regular matrix optimal controls and
+/// maximal Hamiltonian (stationary controls alone where `maximum` is not proved), kinematics, equations of motion,
+/// energy balance where it is not zero. Throws MathematicsError where the model has no controls, and where H has no
+/// maximum or no dH/du.
 [[nodiscard]] EquationSet derive_pontryagin(const Model& model, const WrittenAlgebroid& algebroid,
                                             const ControlMaximum& maximum);
 

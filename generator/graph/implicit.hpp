@@ -16,6 +16,11 @@ struct Bracket {
     std::vector<std::optional<NodeId>> lower, upper; ///< shape (N), free of z
 };
 
+/// Unknowns that are angles: F_i = c_i cos z_i - b_i sin z_i vanishes where b_i cos z_i + c_i sin z_i is largest.
+struct Angles {
+    std::vector<NodeId> b, c; ///< shape (N), free of z
+};
+
 struct ImplicitBlock {
     std::string name;              ///< as in C++: "velocity"
     std::string documentation;     ///< the equations, e.g. "y with dL/dy^a = mu_a"
@@ -28,6 +33,11 @@ struct ImplicitBlock {
     MatrixStructure structure = MatrixStructure::general;
     /// Where it is there, z_i is the root of F_i in its interval, or the end next to it; there is no guess then.
     std::optional<Bracket> bracket = {};
+    /// Where it is there, z_i is the angle of (b_i, c_i) that is nearest to the guess.
+    std::optional<Angles> angles = {};
+    /// The z of the last step is the guess of the next one; `guess` is where a run begins. Where there are no `angles`,
+    /// dF/dz is negative definite at the z that is followed.
+    bool follows = false;
 };
 
 /// A block with its Jacobian, differentiated here, and its sizes; `inside` is empty.

@@ -201,6 +201,22 @@ class UnknownSolver {
     Point at_, start_;
 };
 
+/// The angle of (b, c), a whole number of turns away from its principal value.
+template <class Scalar>
+void find_angles(const Graph& graph, const ImplicitBlock& block, std::map<std::string, Scalar>& inputs)
+{
+    const std::vector<Scalar> guess = evaluate<Scalar>(graph, block.guess, inputs);
+    const std::vector<Scalar> b = evaluate<Scalar>(graph, block.angles->b, inputs);
+    const std::vector<Scalar> c = evaluate<Scalar>(graph, block.angles->c, inputs);
+    const Scalar turn = 2 * std::acos(Scalar(-1));
+    for (std::size_t i = 0; i < b.size(); ++i) {
+        if (b[i] == 0 && c[i] == 0)
+            throw MathematicsError("error: there are no " + block.name + ": " + block.documentation);
+        const Scalar angle = std::atan2(c[i], b[i]);
+        inputs[graph.input_name(block.unknowns[i])] = angle + turn * std::round((guess[i] - angle) / turn);
+    }
+}
+
 } // namespace
 
 template <class Scalar>
@@ -209,6 +225,8 @@ void solve_unknowns(const Graph& graph, std::span<const ImplicitBlock> blocks, s
     for (const ImplicitBlock& block : blocks) {
         if (block.bracket)
             solve_in_brackets(graph, block, inputs);
+        else if (block.angles)
+            find_angles(graph, block, inputs);
         else
             UnknownSolver<Scalar>(graph, block, inputs).run();
     }

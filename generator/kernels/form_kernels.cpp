@@ -265,6 +265,8 @@ class ModuleBuilder {
                 for (auto* ends : {&block.bracket->lower, &block.bracket->upper})
                     for (std::optional<NodeId>& end : *ends)
                         if (end) end = simplify(*graph_, std::vector<NodeId>{*end}, divisors).front();
+            if (block.angles)
+                for (auto* parts : {&block.angles->b, &block.angles->c}) *parts = simplify(*graph_, *parts, divisors);
             std::vector<NodeId> inner = block.residuals;
             for (const auto* more : {&block.jacobian, &block.inside})
                 inner.insert(inner.end(), more->begin(), more->end());

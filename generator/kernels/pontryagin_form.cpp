@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// H = mu_a sigma^a - cost,   xdot^i = rho^i_a sigma^a,   mudot_a = -(rho_a(H) + mu_c C^c_ab sigma^b)    [Martinez
-/// 2004] The controls solve dH/du = 0: linearly where that is affine in u, else by Newton's method. Between bounds each
-/// control has a part of H of its own that is strictly concave (verify/control_maximum.hpp): the maximum is the root
-/// of dH/du, or the bound next to it.
+/// 2004] Angles have a closed form (verify/angle_controls.hpp). The other controls solve dH/du = 0: linearly where
+/// that is affine in u, else by Newton's method. Between bounds each control has a part of H of its own that is
+/// strictly concave (verify/control_maximum.hpp): the maximum is the root of dH/du, or the bound next to it. Controls
+/// that are merely stationary are searched for where they were in the last step, and watched.
+#include "verify/angle_controls.hpp"
 #include "graph/differentiate.hpp"
 #include "graph/simplify.hpp"
 #include "kernels/formulation.hpp"
@@ -53,8 +55,7 @@ class PontryaginForm {
             "mudot_a = -(rho_a(H) + mu_c C^c_ab sigma^b), with the controls that solve dH/du = 0" +
                 std::string(control_.bounds.empty() ? "." : ", or are at the bound next to that."),
             "s and ds may be the same object."};
-        if (verified_.maximum.kind != ControlMaximum::Kind::maximal)
-            form.documentation.insert(form.documentation.end() - 1, stationary_controls);
+        if (!is_proved()) form.documentation.insert(form.documentation.end() - 1, stationary_controls);
         bind_names(form);
         add_kernels(form);
         return form;
@@ -63,25 +64,36 @@ class PontryaginForm {
   private:
     void differentiate()
     {
-        dH_du_ = gradient(graph_, hamiltonian_, u_);
         std::vector<NodeId> variables = system_.algebroid.x;
         variables.push_back(system_.time);
         dH_dx_ = gradient(graph_, hamiltonian_, variables);
         dH_dt_ = dH_dx_.back();
         dH_dx_.pop_back();
-        std::vector<NodeId> curvature = joined_rows(jacobian(graph_, dH_du_, u_));
+        const std::vector<NodeId> dH_du = gradient(graph_, hamiltonian_, u_);
+        const auto zeros = zeros_for(graph_, u_, verified_.maximum.angles);
+        others_ = other_controls(u_.size(), verified_.maximum.angles);
+        for (const std::size_t k : others_) {
+            rest_.push_back(u_[k]);
+            dH_drest_.push_back(dH_du[k]);
+        }
+        dH_drest_ = substitute(graph_, dH_drest_, zeros); // they stand apart from the angles
+        std::vector<NodeId> curvature = joined_rows(jacobian(graph_, dH_drest_, rest_));
         for (NodeId& entry : curvature) entry = graph_.negate(entry); // positive where H is concave
         std::vector<NodeId> divisors;
         curvature_ = simplify(graph_, curvature, divisors);
     }
 
-    [[nodiscard]] NodeId curvature(std::size_t k, std::size_t l) const { return curvature_[k * u_.size() + l]; }
+    [[nodiscard]] NodeId curvature(std::size_t k, std::size_t l) const { return curvature_[k * rest_.size() + l]; }
+    [[nodiscard]] bool is_proved() const { return verified_.maximum.kind == ControlMaximum::Kind::maximal; }
 
     void solve_controls()
     {
+        solution_ = u_;
+        if (!verified_.maximum.angles.empty()) find_angles();
+        if (rest_.empty()) return;
         // Where what must be positive has cancelled in dH/du, its root may lie where H is not defined.
-        const bool linear = !depends_on_any(graph_, curvature_, u_) &&
-                            (!control_.bounds.empty() || positive_operands(graph_, hamiltonian_, u_).empty());
+        const bool linear = is_proved() && !depends_on_any(graph_, curvature_, u_) &&
+                            (!control_.bounds.empty() || positive_operands(graph_, hamiltonian_, rest_).empty());
         if (linear) {
             solve_linearly();
             clip();
@@ -95,25 +107,59 @@ class PontryaginForm {
     /// Whether each dH/du_k holds no other control and falls with its own: then no step can miss the root.
     [[nodiscard]] bool stand_apart() const
     {
-        for (std::size_t k = 0; k < u_.size(); ++k)
-            for (std::size_t l = 0; l < u_.size(); ++l)
+        for (std::size_t k = 0; k < rest_.size(); ++k)
+            for (std::size_t l = 0; l < rest_.size(); ++l)
                 if (k != l && !graph_.is_zero(curvature(k, l))) return false;
-        return verified_.maximum.kind == ControlMaximum::Kind::maximal && !verified_.maximum.on_part;
+        return is_proved() && !verified_.maximum.on_part;
+    }
+
+    /// What [control] says of the k-th control, or else.
+    [[nodiscard]] NodeId guess_of(std::size_t k, NodeId otherwise)
+    {
+        if (control_.guess.empty() || !control_.guess[k]) return otherwise;
+        Binding names = system_names(model_, system_);
+        for (std::size_t a = 0; a < mu_.size(); ++a) names[model_.fibre.momenta[a].name] = mu_[a];
+        return Lowering(graph_, names)(control_.guess[k]);
+    }
+
+    void find_angles()
+    {
+        const std::vector<NodeId> slopes = gradient(graph_, hamiltonian_, u_);
+        std::vector<NodeId> unknowns, residuals, guess;
+        Angles angles;
+        for (const std::size_t k : verified_.maximum.angles) {
+            const AngleTerms terms = angle_terms(graph_, slopes[k], u_[k]);
+            angles.b.push_back(terms.b);
+            angles.c.push_back(terms.c);
+            unknowns.push_back(u_[k]);
+            residuals.push_back(graph_.subtract(graph_.multiply(terms.c, graph_.apply(Op::cos, u_[k])),
+                                                graph_.multiply(terms.b, graph_.apply(Op::sin, u_[k]))));
+            guess.push_back(guess_of(k, graph_.constant(0)));
+        }
+        implicit_.push_back(implicit_block(graph_, rest_.empty() ? "controls" : "angles",
+                                           "u where H = a + b cos u + c sin u is largest, as near as can be to the "
+                                           "guess.",
+                                           unknowns, residuals, guess, MatrixStructure::symmetric));
+        implicit_.back().angles = std::move(angles);
+        implicit_.back().follows = true;
     }
 
     void solve_linearly()
     {
-        const std::vector<NodeId> zeros(u_.size(), graph_.constant(0));
-        const std::vector<NodeId> right = substitute(graph_, dH_du_, replacements(u_, zeros));
-        solution_ = graph_.solve(curvature_, right, MatrixStructure::symmetric);
-        pivots_ = single_blocks(graph_, curvature_, u_.size());
+        const std::vector<NodeId> zeros(rest_.size(), graph_.constant(0));
+        const std::vector<NodeId> right = substitute(graph_, dH_drest_, replacements(rest_, zeros));
+        const std::vector<NodeId> solved = graph_.solve(curvature_, right, MatrixStructure::symmetric);
+        for (std::size_t k = 0; k < others_.size(); ++k) solution_[others_[k]] = solved[k];
+        pivots_ = single_blocks(graph_, curvature_, rest_.size());
     }
 
     void solve_by_newton()
     {
-        implicit_.push_back(gradient_block(graph_, "controls", "u with dH/du = 0.", u_, dH_du_, hamiltonian_,
+        implicit_.push_back(gradient_block(graph_, "controls", "u with dH/du = 0.", rest_, dH_drest_, hamiltonian_,
                                            verified_.maximum.newton_start));
-        solution_ = u_;
+        std::vector<NodeId>& guess = implicit_.back().guess;
+        for (std::size_t k = 0; k < others_.size(); ++k) guess[k] = guess_of(others_[k], guess[k]);
+        implicit_.back().follows = !is_proved();
     }
 
     /// Each control by itself: dH/du_k falls with u_k and holds no other control.
@@ -123,24 +169,23 @@ class PontryaginForm {
             graph_, "controls",
             control_.bounds.empty() ? "u with dH/du = 0."
                                     : "u with dH/du = 0, each between its bounds, or the bound next to it.",
-            u_, dH_du_, {}, MatrixStructure::symmetric);
+            rest_, dH_drest_, {}, MatrixStructure::symmetric);
         Bracket& bracket = block.bracket.emplace();
-        bracket.lower.resize(u_.size());
-        bracket.upper.resize(u_.size());
-        solution_ = u_;
+        bracket.lower.resize(rest_.size());
+        bracket.upper.resize(rest_.size());
         Lowering lower(graph_);
         for (const ControlBound& bound : control_.bounds) {
-            const std::size_t k = bound.control;
-            NodeId& u = solution_[k];
+            const auto k = static_cast<std::size_t>(std::ranges::find(others_, bound.control) - others_.begin());
+            NodeId& u = solution_[bound.control];
             if (bound.upper) {
                 const NodeId end = lower(bound.upper);
                 bracket.upper[k] = end;
-                u = graph_.select(graph_.apply(Op::greater_equal, u_[k], end), end, u);
+                u = graph_.select(graph_.apply(Op::greater_equal, rest_[k], end), end, u);
             }
             if (bound.lower) {
                 const NodeId end = lower(bound.lower);
                 bracket.lower[k] = end;
-                u = graph_.select(graph_.apply(Op::less_equal, u_[k], end), end, u);
+                u = graph_.select(graph_.apply(Op::less_equal, rest_[k], end), end, u);
             }
         }
         implicit_.push_back(std::move(block));
@@ -205,7 +250,7 @@ class PontryaginForm {
     {
         const std::vector<NodeId> values = at_controls({hamiltonian_, cost_, dH_dt_});
         Kernel controls = table_kernel(form, "controls", column("u", solution_));
-        if (verified_.maximum.kind != ControlMaximum::Kind::maximal) controls.documentation = {stationary_controls};
+        if (!is_proved()) controls.documentation = {stationary_controls};
         controls.entry_names = form.controls;
         form.kernels.push_back(std::move(controls));
         form.kernels.push_back(scalar_kernel(form, "hamiltonian", values[0]));
@@ -220,7 +265,9 @@ class PontryaginForm {
     const System& system_;
     std::vector<NodeId> mu_, u_, sigma_;
     NodeId cost_ = 0, hamiltonian_ = 0, dH_dt_ = 0;
-    std::vector<NodeId> dH_du_, dH_dx_, curvature_;
+    std::vector<std::size_t> others_;     ///< the controls that are no angles
+    std::vector<NodeId> rest_, dH_drest_; ///< their inputs, and the slopes of H in them
+    std::vector<NodeId> dH_dx_, curvature_;
     std::vector<NodeId> solution_; ///< u over the state, or the unknowns
     std::vector<NodeId> pivots_;
     std::vector<ImplicitBlock> implicit_;

@@ -180,6 +180,7 @@ struct Control {
     std::vector<ComponentEntry> sigma;
     Tree cost; ///< closed over t, x, u, parameters
     std::vector<ControlBound> bounds;
+    std::vector<Tree> guess; ///< of each control, over t, x, mu, parameters; null where none is given; or empty
     std::optional<ControlBoundary> boundary;
     SourceRange where;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// The [control] block: controls, the section sigma, the running cost, bounds.
+/// The [control] block: controls, the section sigma, the running cost, bounds, guesses.
 #include "model/components.hpp"
 #include "model/evaluate_tree.hpp"
 #include "model/read_values.hpp"
@@ -84,6 +84,31 @@ std::vector<ControlBound> read_bounds(const ModelReader& reader, const TomlEntry
     return out;
 }
 
+/// Where the search for the controls begins, a tree a control.
+std::vector<Tree> read_guess(const ModelReader& reader, const TomlEntry& block)
+{
+    const TableReader table(block.value, "'guess' of [control]");
+    const std::vector<Symbol>& controls = reader.model.control->controls;
+    std::vector<Tree> out(controls.size());
+    for (const TomlEntry& entry : block.value.entries) {
+        const ResolvedKey key =
+            require_key(controls, entry.key, "'guess' of [control]", "control", &reader.model.scope);
+        const std::string what = fmt::format("the guess of '{}'", key.name);
+        const ArrayValue closed =
+            reader.close_mechanical_array(read_array_expression(entry.value, what),
+                                          {Role::time, Role::parameter, Role::base, Role::momentum}, what, true);
+        const std::vector<Tree> values = fit_values(closed, key.shape, what, entry.value.where);
+        for (std::size_t k = 0; k < values.size(); ++k) {
+            Tree& guess = out[key.indices[k]];
+            if (guess)
+                throw ModelError(fmt::format("the guess of '{}' is given twice", controls[key.indices[k]].name),
+                                 entry.where(), "keep one of them");
+            guess = values[k];
+        }
+    }
+    return out;
+}
+
 } // namespace
 
 void declare_control(ModelReader& reader)
@@ -91,7 +116,7 @@ void declare_control(ModelReader& reader)
     const TomlEntry* block = reader.mechanics.control;
     if (block == nullptr) return;
     TableReader table(block->value, "[control]");
-    for (const char* key : {"controls", "sigma", "cost", "bounds", "boundary"}) (void)table.take(key);
+    for (const char* key : {"controls", "sigma", "cost", "bounds", "guess", "boundary"}) (void)table.take(key);
     table.finish();
     const TomlEntry& controls = require_entry(*block, "controls", "controls = [\"u1\", \"u2\"]");
     reader.model.control.emplace().where = block->where();
@@ -117,6 +142,7 @@ void read_control(ModelReader& reader)
     control.cost = reader.close_mechanical(read_expression(cost.value, "the cost"), roles, "the cost");
     TableReader table(block->value, "[control]");
     if (const TomlEntry* bounds = table.take("bounds")) control.bounds = read_bounds(reader, *bounds);
+    if (const TomlEntry* guess = table.take("guess")) control.guess = read_guess(reader, *guess);
     if (const TomlEntry* boundary = table.take("boundary")) control.boundary = read_boundary(reader, *boundary);
 }
 

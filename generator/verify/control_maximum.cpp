@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "verify/control_maximum.hpp"
 
+#include "verify/angle_controls.hpp"
 #include "verify/definite_squares.hpp"
 #include "verify/legendre_obstacle.hpp"
 #include "verify/regularity.hpp"
 #include "verify/smooth_controls.hpp"
+
+#include "graph/differentiate.hpp"
 
 #include <fmt/format.h>
 
@@ -22,7 +25,7 @@ class MaximumDecision {
   public:
     MaximumDecision(Graph& graph, const ControlProblem& control, const std::vector<NodeId>& mu,
                     const ProofSetting& setting, const ProofBudget& budget)
-        : graph_(graph), control_(control), setting_(setting), budget_(budget),
+        : graph_(graph), control_(control), mu_(mu), setting_(setting), budget_(budget),
           hamiltonian_(control_hamiltonian(graph, control, mu)),
           hessian_(fibre_hessian(graph, graph.negate(hamiltonian_), control.u)),
           proofs_(graph, control, setting, budget)
@@ -42,10 +45,33 @@ class MaximumDecision {
                                 "bang-bang control)",
                                 name_of(*linear)),
                     fmt::format("give the cost a term in which {} is strictly convex", name_of(*linear))};
-        return control_.bounded() ? between_bounds() : without_bounds();
+        std::vector<std::size_t> angles = find_angles(graph_, control_, hamiltonian_, parts_, setting_, budget_);
+        if (angles.empty()) return control_.bounded() ? between_bounds() : without_bounds();
+        ControlMaximum maximum = beside_angles(angles);
+        if (maximum.kind == Kind::maximal) maximum.reason = words_for(angles);
+        maximum.angles = std::move(angles);
+        return maximum;
     }
 
   private:
+    /// "H = a + b cos(th) + c sin(th) is largest at th = atan2(c, b), wherever b or c is not 0"
+    [[nodiscard]] std::string words_for(const std::vector<std::size_t>& angles) const
+    {
+        std::string text;
+        for (const std::size_t k : angles)
+            text += fmt::format("{0}H = a + b cos({1}) + c sin({1}) is largest at {1} = atan2(c, b)",
+                                text.empty() ? "" : "; ", name_of(k));
+        return text + ", wherever b or c is not 0";
+    }
+    /// Of the controls that are none of the angles.
+    [[nodiscard]] ControlMaximum beside_angles(const std::vector<std::size_t>& angles)
+    {
+        if (angles.size() == count()) return {Kind::maximal, {}, {}};
+        ControlProblem rest = without_angles(graph_, control_, angles);
+        rest.parts = substitute(graph_, control_.parts, zeros_for(graph_, control_.u, angles));
+        return MaximumDecision(graph_, rest, mu_, setting_, budget_).decide();
+    }
+
     [[nodiscard]] const std::string& name_of(std::size_t k) const { return graph_.input_name(control_.u[k]); }
     /// "d2H/du2", "d2H/d(u2)2", "d2H/dudw"
     [[nodiscard]] std::string second(std::size_t k, std::size_t l) const
@@ -153,6 +179,7 @@ class MaximumDecision {
 
     Graph& graph_;
     const ControlProblem& control_;
+    const std::vector<NodeId>& mu_;
     const ProofSetting& setting_;
     ProofBudget budget_;
     NodeId hamiltonian_;

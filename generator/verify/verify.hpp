@@ -50,16 +50,19 @@ struct Regularity {
 struct ControlMaximum {
     enum class Kind {
         absent,     ///< no control problem, or not asked
-        maximal,    ///< proved: dH/du = 0, or a bound, is the maximum of H
+        maximal,    ///< proved: the closed form, dH/du = 0, or a bound, is the maximum of H
         stationary, ///< no bounds: dH/du = 0 is solved, and is not proved to be a maximum
         unsolved,   ///< dH/du = 0 does not determine the controls, or not the maximum between bounds
         nonsmooth,  ///< there is no dH/du
         refuted,    ///< dH/du = 0 is certainly no maximum
     } kind = Kind::absent;
-    std::string reason; ///< "d2H/du2 < 0 was not proved"; empty where `maximal`
+    std::string reason; ///< "d2H/du2 < 0 was not proved"; where `maximal` what is known of angles, else empty
     std::string hint;
     bool on_part = false;                    ///< `maximal`, where H is defined on a convex set of controls alone
     std::vector<Rational> newton_start = {}; ///< u in that set, if 0 is not; else empty
+    /// Controls in which H = a + b cos u + c sin u, proved: their maximum is known in closed form, and stands apart
+    /// from what is said of the others, which `newton_start` is of too.
+    std::vector<std::size_t> angles = {};
 };
 
 /// What every text says of stationary controls.

@@ -218,6 +218,29 @@ TEST_CASE("controls of which no maximum is proved are called stationary, and a r
         "d2H/du2 > 0\nhint: H = mu_a sigma^a - cost is maximised: a cost is to be convex in the controls");
 }
 
+TEST_CASE("angles print in closed form, beside the other controls, and H with them")
+{
+    const std::string start = "name = \"boat\"\n[parameters]\nV = 1\n[base]\ncoordinates = [\"x\", \"y\"]\n"
+                              "[fibre]\nmomenta = [\"p\", \"q\"]\n[algebroid]\nkind = \"tangent\"\n[control]\n";
+    const EquationSet set = written::pontryagin(
+        (start + "controls = [\"w\", \"th\"]\nsigma = { v_x = \"V*cos(th) - y + w\", v_y = \"V*sin(th)\" }\n"
+                 "cost = \"w^2/2\"\n")
+            .c_str());
+    CHECK(formula(set, "optimal angles") ==
+          "H = a + b cos u + c sin u is largest at u = atan2(c, b), up to whole turns");
+    CHECK(text_of_block(set, "optimal angles") == "  th = atan2(V q, V p)\n");
+    CHECK(text_of_block(set, "optimal controls") == "  w = p\n");
+    CHECK(text_of_block(set, "maximal Hamiltonian") == "  H_max = p²/2 + √(V² p² + V² q²) - y p\n");
+    // Of the other control no formula is known.
+    const EquationSet open = written::pontryagin(
+        (start + "controls = [\"w\", \"th\"]\nsigma = { v_x = \"cos(th) + w\", v_y = \"sin(th)\" }\n"
+                 "cost = \"cosh(w)\"\n")
+            .c_str());
+    CHECK(text_of_block(open, "optimal angles") == "  th = atan2(q, p)\n");
+    CHECK_FALSE(has_block(open, "optimal controls"));
+    CHECK_FALSE(has_block(open, "maximal Hamiltonian"));
+}
+
 TEST_CASE("brackets of functions print in LaTeX and JSON")
 {
     const EquationSet set = written::hamilton(written::rotor);

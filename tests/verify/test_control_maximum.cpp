@@ -140,3 +140,60 @@ TEST_CASE("kinks, affine and dependent controls are named", "[maximum]")
           "dH/du = 0 does not determine the controls: d2H/du2 has rank 1, and 2 controls need rank 2");
     CHECK(of_two("(u + w)^4").kind == Kind::unsolved);
 }
+
+TEST_CASE("an angle in which H is a + b cos u + c sin u has its maximum in closed form, proved", "[maximum]")
+{
+    const auto on_circle = [](const std::string& sigma, const std::string& cost = "1") {
+        return maximum_of("controls = [\"u\"]\nsigma = { " + sigma + " }\ncost = \"" + cost + "\"\n");
+    };
+    const std::vector<std::pair<const char*, const char*>> proved = {
+        {"a = \"c*cos(u) - c*y/k\", b = \"c*sin(u)\"", "1"},
+        {"a = \"cos(u + 7*pi/12)\", b = \"sin(u + 7*pi/12)\"", "1"},
+        {"a = \"cos(k - u)\", b = \"x*y\"", "x^2 + t"},
+        {"a = \"x*sin(u + x)\"", "sin(u)*y"},
+        {"a = \"2*cos(u/2)^2\", b = \"2*sin(u/2)*cos(u/2)\"", "1"},
+        {"a = \"sqrt(x)*cos(u)\", b = \"log(y)\"", "1"}};
+    for (const auto& [sigma, cost] : proved) {
+        INFO(sigma << " at " << cost);
+        const ControlMaximum maximum = on_circle(sigma, cost);
+        CHECK(maximum.kind == Kind::maximal);
+        CHECK(maximum.angles == std::vector<std::size_t>{0});
+        CHECK(maximum.reason == "H = a + b cos(u) + c sin(u) is largest at u = atan2(c, b), wherever b or c is not 0");
+    }
+    const std::vector<std::pair<const char*, const char*>> others = {
+        {"a = \"cos(2*u)\"", "1"},      {"a = \"cos(u)\", b = \"sin(u)\"", "u^2/8"},
+        {"a = \"cos(u)\"", "cos(u)^2"}, {"a = \"u*cos(u)\"", "1"},
+        {"a = \"cos(k*u)\"", "1"},      {"a = \"cos(u)\"", "1/(2 + u)^2"}};
+    for (const auto& [sigma, cost] : others) {
+        INFO(sigma << " at " << cost);
+        CHECK(on_circle(sigma, cost).angles.empty());
+        CHECK(on_circle(sigma, cost).kind == Kind::stationary);
+    }
+}
+
+TEST_CASE("angles stand beside other controls of every kind, where they stand apart", "[maximum]")
+{
+    const auto of_sum = [](const std::string& a, const std::string& b, const std::string& cost,
+                           const std::string& bounds = "") {
+        return maximum_of("controls = [\"u\", \"w\"]\nsigma = { a = \"" + a + "\", b = \"" + b + "\" }\ncost = \"" +
+                          cost + "\"\n" + (bounds.empty() ? "" : "bounds = " + bounds + "\n"));
+    };
+    CHECK(of_sum("cos(u) + w", "sin(u)", "w^2").kind == Kind::maximal);
+    CHECK(of_sum("cos(u) + w", "sin(u)", "w^2").angles == std::vector<std::size_t>{0});
+    CHECK(of_sum("cos(u)", "x*cos(w)", "1").angles == std::vector<std::size_t>{0, 1});
+    CHECK(of_sum("u", "sin(w)", "cosh(u)", "{ u = [-1, 1] }").kind == Kind::maximal);
+    CHECK(of_sum("u", "sin(w)", "cosh(u)", "{ u = [-1, 1] }").angles == std::vector<std::size_t>{1});
+    CHECK(of_sum("cos(u)", "w", "-log(1 - w^2)").on_part);
+    const ControlMaximum half = of_sum("cos(u)", "w", "w^4 - w^2");
+    CHECK(half.kind == Kind::stationary);
+    CHECK(half.angles == std::vector<std::size_t>{0});
+    CHECK(half.reason == "d2H/du2 < 0 was not proved for all w");
+    CHECK(of_sum("cos(u)", "sin(u)", "-w^2").kind == Kind::refuted);
+    // Affine in one of them, and a bound on the angle.
+    CHECK(of_sum("cos(u)", "sin(u) + w", "1").kind == Kind::unsolved);
+    CHECK(of_sum("cos(u)", "w", "w^2", "{ u = [-1, 1] }").angles.empty());
+    // b is 1 for w > 0 and -1 for w < 0, though d2H/dudw = 0.
+    CHECK(of_sum("cos(u)*sqrt(w^2)/w", "sin(u)", "w^2").angles.empty());
+    // The size of a vector and its angle do not stand apart.
+    CHECK(of_sum("w*cos(u)", "w*sin(u)", "w^2").angles.empty());
+}

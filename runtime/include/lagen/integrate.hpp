@@ -31,9 +31,10 @@ namespace lagen {
 ///                 instead of into the result
 /// @return the last good state, what was counted and found, and a status. Statuses: ok, stopped_by_event, non_finite,
 ///         step_too_small, too_many_steps, left_domain, interrupted, invalid_input, not_separable, newton_diverged,
-///         and what the model answers (singular_mass_matrix). On failure the state is the one after the last accepted
-///         step; on left_domain the last point found inside. Values inside a step come from the method's dense output,
-///         or from a shorter step of the same method, so the sequence of steps does not depend on the rows.
+///         not_a_maximum, and what the model answers (singular_mass_matrix, singular_control). On failure the state is
+///         the one after the last accepted step; on left_domain the last point found inside. Values inside a step come
+///         from the method's dense output, or from a shorter step of the same method, so the sequence of steps does not
+///         depend on the rows.
 template <RightHandSide M, class Method, class Observer>
 Run<M> integrate(const M& model, const std::type_identity_t<typename M::State>& s,
                  std::type_identity_t<Interval<real_t<typename M::Scalar>>> span, const Method& method,

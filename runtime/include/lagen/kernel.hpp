@@ -128,6 +128,16 @@ concept HasJacobian = requires(const M& model, typename M::Scalar t, const typen
     M::jacobian_columns;
 };
 
+/// Unknowns that are followed along a run: `follow` takes those at (t, s) as the guess of the next search.
+template <class M>
+concept Follows = requires(M& model, typename M::Scalar t, const typename M::State& s)
+{
+    {
+        model.follow(t, s)
+    }
+    noexcept->std::same_as<status_t<typename M::Scalar>>;
+};
+
 /// A closed time interval; the end may lie before the start.
 template <class Scalar>
 struct Interval {

@@ -17,8 +17,10 @@ enum class Status : std::uint8_t {
     too_many_steps,
     stopped_by_event, ///< not a failure: an event with stop = true
     interrupted,
-    invalid_input, ///< a step, tolerance or interval that makes no sense (not positive, not finite)
-    not_separable, ///< a partitioned method was asked for, but xdot depends on x or ydot on y
+    invalid_input,    ///< a step, tolerance or interval that makes no sense (not positive, not finite)
+    not_separable,    ///< a partitioned method was asked for, but xdot depends on x or ydot on y
+    not_a_maximum,    ///< the controls that are followed are no maximum of H: d2H/du2 is not negative definite
+    singular_control, ///< H does not depend on a control: it has no maximum to be found at
 };
 
 /// True where the computation may go on or ended as asked.
@@ -41,6 +43,8 @@ enum class Status : std::uint8_t {
     case Status::interrupted: return "interrupted";
     case Status::invalid_input: return "invalid_input";
     case Status::not_separable: return "not_separable";
+    case Status::not_a_maximum: return "not_a_maximum";
+    case Status::singular_control: return "singular_control";
     }
     return "unknown";
 }

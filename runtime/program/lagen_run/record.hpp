@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace lagen::detail {
@@ -64,6 +65,7 @@ class DriveRecord {
 
     void row(double t, const State& s)
     {
+        follow(t, s);
         last_time_ = t;
         write(t, true);
         if constexpr (requires { model_.observables(t, s); }) {
@@ -79,6 +81,7 @@ class DriveRecord {
 
     void operator()(double t, const State& s)
     {
+        follow(t, s);
         std::size_t next = 0;
         if constexpr (HasEnergy<M>)
             drifts_[next++].see(static_cast<double>(model_.energy(t, s)));
@@ -112,6 +115,13 @@ class DriveRecord {
     }
 
   private:
+    /// Rows and steps come in the order of time, so that what the model follows is continuous in the rows. A failure
+    /// is the run's affair.
+    void follow(double t, const State& s) noexcept
+    {
+        if constexpr (Follows<M>) static_cast<void>(model_.follow(t, s));
+    }
+
     /// A value that is no finite number is an empty field.
     void write(double value, bool first)
     {
@@ -123,7 +133,7 @@ class DriveRecord {
         if (std::isfinite(value)) std::fprintf(out_, "%.17g", value);
     }
 
-    const M& model_;
+    std::conditional_t<Follows<M>, M, const M&> model_; ///< a copy where it learns what it follows
     std::vector<Column> columns_;
     bool binary_;
     std::FILE* out_;

@@ -15,6 +15,7 @@
 
 #include "lagen/integrate/control.hpp"
 #include "lagen/integrate/creeping.hpp"
+#include "lagen/integrate/follow.hpp"
 #include "lagen/integrate/lanes.hpp"
 #include "lagen/integrate/retract.hpp"
 #include "lagen/integrate/states.hpp"
@@ -138,7 +139,7 @@ class Integrator {
         auto status = StatusOf<Scalar>::good();
         if constexpr (requires { detail::check_finite(s_); }) status = detail::check_finite(s_);
         if constexpr (HasParameterStatus<M>) status = StatusOf<Scalar>::first(model_.parameter_status(), status);
-        status = StatusOf<Scalar>::first(status, accepted());
+        status = follow(StatusOf<Scalar>::first(status, accepted()), t_);
         if (is_pack<Scalar> || StatusOf<Scalar>::all_good(status))
             status = StatusOf<Scalar>::first(status, stepper_.begin(model_, t_, s_));
         if constexpr (adaptive && !chooses_lengths)
@@ -216,12 +217,13 @@ class Integrator {
             if (verdict != Status::ok) return fail(verdict, t1);
             if (retry_) return Status::ok;
         } else if constexpr (!is_pack<Scalar>) {
-            if (status != Status::ok) return fail(status, t1);
+            const Status verdict = follow(status, t1);
+            if (verdict != Status::ok) return fail(reason_of(verdict, h), t1);
         }
         t_ = t1;
         const auto ending = accepted();
         if constexpr (is_pack<Scalar>) {
-            const Status verdict = detail::settle<Scalar>(lanes_, StatusOf<Scalar>::first(status, ending));
+            const Status verdict = detail::settle<Scalar>(lanes_, follow(StatusOf<Scalar>::first(status, ending), t1));
             if (verdict != Status::ok) return fail(verdict, t1);
             detail::freeze<Scalar>(lanes_, from_, s_);
         }
@@ -241,6 +243,25 @@ class Integrator {
 
     /// What is asked at the start and behind every accepted step, at t_ and s_.
     [[gnu::always_inline]] status_t<Scalar> accepted() { return detail::domain_status(model_, t_, s_); }
+
+    /// Where `status` is good and s_ inside the domain, a model that searches for something follows it to (t, s_).
+    [[gnu::always_inline]] status_t<Scalar> follow(const status_t<Scalar>& status, const Real& t)
+    {
+        if constexpr (Follows<M>) {
+            const auto there = StatusOf<Scalar>::first(status, detail::domain_status(model_, t, s_));
+            if (is_pack<Scalar> || StatusOf<Scalar>::all_good(there))
+                return StatusOf<Scalar>::first(status, model_.follow(Scalar(t), s_));
+        }
+        return status;
+    }
+
+    /// Why a step of length h from (t_from_, from_) fails.
+    Status reason_of(Status failure, const Real& h) const noexcept
+    {
+        if constexpr (Follows<M> && !is_pack<Scalar>)
+            return detail::loss_of_maximum(failure, model_, t_from_, from_, h);
+        return failure;
+    }
 
     Status fail(Status reason, const Real& failed_at) noexcept
     {
@@ -293,6 +314,7 @@ class Integrator {
         if (status == Status::ok && error - error != Real(0)) status = Status::non_finite;
         const bool is_imprecise = status == Status::ok && error > Real(1);
         if (status == Status::ok && !is_imprecise) status = stepper_.finish(model_, t1, s_);
+        if (!is_imprecise) status = follow(status, t1);
         retry_ = is_imprecise || status != Status::ok;
         if (!retry_) {
             imprecise_ = false;
@@ -313,7 +335,9 @@ class Integrator {
             if (failed_length_ == Real(0)) failed_length_ = h;
             h_ = lengths().after_failure(size(h));
         }
-        return creeping_.creeps(t_, length_, steps_, rejected_) ? status : size_verdict(status, t1);
+        using std::sqrt;
+        const Status verdict = creeping_.creeps(t_, length_, steps_, rejected_) ? status : size_verdict(status, t1);
+        return is_imprecise ? verdict : reason_of(verdict, sqrt(epsilon()) * (forward_ ? length_ : Real(-length_)));
     }
 
     /// Whose lengths the next steps have.

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+/// Why a step failed whose model follows something: because the step was too long, or because what it follows ends.
+#pragma once
+
+#include "lagen/kernel.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace lagen::detail {
+
+/// What a step of length h from (t, s) that ended with `reason` failed of. Where a search failed, the model is followed
+/// along the tangent of the motion in steps as short as need be: not_a_maximum where they lead to no end of the step,
+/// since a maximum that is one can be followed as far as d2H/du2 is regular; else `reason`.
+template <Follows M>
+[[nodiscard]] Status loss_of_maximum(Status reason, const M& model, real_t<typename M::Scalar> t,
+                                     const typename M::State& s, real_t<typename M::Scalar> h) noexcept
+{
+    using Scalar = typename M::Scalar;
+    using Real = real_t<Scalar>;
+    using std::sqrt;
+    typename M::State rate;
+    if (reason != Status::newton_diverged || model.rhs(Scalar(t), s, rate) != Status::ok) return reason;
+    M ahead = model;
+    const Real shortest = sqrt(std::numeric_limits<Real>::epsilon());
+    Real done = Real(0);
+    for (Real part = Real(1); part > shortest;) {
+        const Real next = done + part < Real(1) ? done + part : Real(1);
+        const typename M::State there = s + (next * h) * rate;
+        const Status status = ahead.follow(Scalar(t + next * h), there);
+        if (status != Status::ok && status != Status::newton_diverged && status != Status::not_a_maximum) return reason;
+        if (status != Status::ok) {
+            part /= Real(2);
+            continue;
+        }
+        if (next >= Real(1)) return reason;
+        done = next;
+    }
+    return Status::not_a_maximum;
+}
+
+} // namespace lagen::detail
