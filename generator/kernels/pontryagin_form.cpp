@@ -117,9 +117,8 @@ class PontryaginForm {
     [[nodiscard]] NodeId guess_of(std::size_t k, NodeId otherwise)
     {
         if (control_.guess.empty() || !control_.guess[k]) return otherwise;
-        Binding names = system_names(model_, system_);
-        for (std::size_t a = 0; a < mu_.size(); ++a) names[model_.fibre.momenta[a].name] = mu_[a];
-        return Lowering(graph_, names)(control_.guess[k]);
+        Binding names = {{"t", system_.time}}; // other names are those of inputs
+        return Lowering(graph_, std::move(names))(control_.guess[k]);
     }
 
     void find_angles()

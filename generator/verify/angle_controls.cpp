@@ -25,7 +25,7 @@ bool is_angle(Graph& graph, const ControlProblem& control, std::size_t k, NodeId
     const NodeId third = derivative(graph, second, control.u[k]);
     if (graph.is_constant(third)) return false; // a polynomial in u
     // The other controls are as any state.
-    const ControlProblem alone{{control.u[k]}, control.sigma, control.cost, {std::nullopt}, {std::nullopt}};
+    const ControlProblem alone{{control.u[k]}, control.sigma, control.cost, {std::nullopt}, {std::nullopt}, {}};
     ControlProofs proofs(graph, alone, setting, budget);
     if (!proofs.zero(graph.add(third, slope)) || proofs.zero(second) || !proofs.partial_in(parts).empty()) return false;
     const AngleTerms terms = angle_terms(graph, slope, control.u[k]);

@@ -262,7 +262,7 @@ TEST_CASE("Casimirs and constraints have no holes either")
 TEST_CASE("terms that stand often in a Lagrangian are looked at once")
 {
     const auto begin = std::chrono::steady_clock::now();
-    const VerifiedAlgebroid verified =
+    const ModelReport verified =
         verified_text("[base]\ncoordinates = [\"x\"]\n[fibre]\ncoordinates = [\"v\"]\n[algebroid]\nkind = \"tangent\"\n"
                       "[lagrangian]\nL = \"v^2/2 + sum(i, 1, 10000, sum(j, 1, 10000, sum(k, 1, 10, x)))\"\n");
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
