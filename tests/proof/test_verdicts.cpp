@@ -14,9 +14,9 @@ using namespace lagen::test;
 
 namespace {
 
-class Dice {
+class Throws {
   public:
-    explicit Dice(std::uint64_t seed) : state_(seed * 6364136223846793005ULL + 99991) {}
+    explicit Throws(std::uint64_t seed) : state_(seed * 6364136223846793005ULL + 99991) {}
     int roll(int sides)
     {
         state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
@@ -98,7 +98,7 @@ const std::vector<Template>& templates()
 }
 
 /// Three different terms and a number from 2 to 6.
-std::array<std::string, 4> draw(Dice& dice)
+std::array<std::string, 4> draw(Throws& dice)
 {
     static const std::array<const char*, 10> terms{"x",     "y",         "(x + 2*y)",     "(x - y/2)", "(z - 3)",
                                                    "(x*y)", "(2*x + 1)", "(x - y + z/3)", "(x^2 - y)", "(1 + x*z)"};
@@ -134,7 +134,7 @@ struct Tally {
 };
 
 /// left - right made false: by a relative 1e-12 .. 1e-15, by a sign, or by a small term.
-std::string missed(const std::string& left, const std::string& right, Dice& dice)
+std::string missed(const std::string& left, const std::string& right, Throws& dice)
 {
     switch (dice.roll(4)) {
     case 0: return '(' + left + ")*(1 + 1/10^" + std::to_string(12 + dice.roll(4)) + ") - (" + right + ')';
@@ -153,7 +153,7 @@ TEST_CASE("random identities of every class are proved, their near misses refute
     for (std::uint64_t round = 0; round < rounds; ++round)
         for (std::size_t k = 0; k < templates().size(); ++k) {
             const Template& entry = templates()[k];
-            Dice dice(round * 1000 + k);
+            Throws dice(round * 1000 + k);
             const std::array<std::string, 4> terms = draw(dice);
             Statement statement{{"x", "y", "z"}, {}, {}, {}, {}};
             for (const std::string& text : entry.domain) statement.domain.push_back(filled(text, terms));
@@ -206,7 +206,7 @@ TEST_CASE("what holds on one branch only is refuted or left open, never proved")
     int refuted = 0, all = 0;
     for (std::uint64_t round = 0; round < 20; ++round)
         for (std::size_t k = 0; k < std::size(texts); ++k) {
-            Dice dice(round * 77 + k);
+            Throws dice(round * 77 + k);
             Problem problem({{"x", "y", "z"}, {}, {}, {}, {}});
             const std::string text = filled(texts[k], draw(dice));
             const Decision decision = problem.decide(text);

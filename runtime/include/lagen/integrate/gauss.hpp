@@ -261,7 +261,7 @@ class CollocationStepper {
         Real largest = Real(0), sum = Real(0);
         detail::for_lanes(scale_, [&]<int width>(detail::Width<width>, Eigen::Index lane) {
             using Slice = detail::Slice<State, width>;
-            Slice step{}, reach{}, all{};
+            Slice step = detail::uniform<State, width>(Real(0)), reach = step, all = step;
             detail::write_out<stages>([&](auto i) {
                 const Slice increment = load<width>(equations_.residuals[i], lane);
                 const Slice moved = load<width>(z[i], lane) + increment;
@@ -272,7 +272,7 @@ class CollocationStepper {
                 all += increment;
             });
             // Where everything is zero the quotient is, too.
-            const Slice least = Slice{} + std::numeric_limits<Real>::min();
+            const Slice least = detail::uniform<State, width>(std::numeric_limits<Real>::min());
             const Slice relative = step / (load<width>(scale_, lane) + reach + least);
             detail::store(steps_, lane, step);
             detail::store(relative_, lane, relative);
@@ -308,7 +308,7 @@ class CollocationStepper {
             using Slice = detail::Slice<State, width>;
             const Slice step = detail::load<width>(steps_, lane), least = detail::load<width>(least_, lane);
             const Slice more = detail::load<width>(rounds_, lane) + Real(1);
-            detail::store(rounds_, lane, step < least ? Slice{} : more);
+            detail::store(rounds_, lane, step < least ? detail::uniform<State, width>(Real(0)) : more);
             detail::store(least_, lane, step < least ? step : least);
         });
     }

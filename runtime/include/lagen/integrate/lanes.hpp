@@ -33,6 +33,16 @@ struct Pair {
 template <class Column, int width>
 using Slice = std::conditional_t<width == 2, Pair::type, typename Column::Scalar>;
 
+/// The same number in every lane; a scalar's default constructor need not make a number.
+template <class Column, int width>
+[[gnu::always_inline]] inline Slice<Column, width> uniform(const typename Column::Scalar& x) noexcept
+{
+    if constexpr (width == 2)
+        return Pair::type{x, x};
+    else
+        return x;
+}
+
 /// Lane `lane` of a column, or that lane and the next one.
 template <int width, class Column>
 [[gnu::always_inline]] inline Slice<Column, width> load(const Column& column, Eigen::Index lane) noexcept
