@@ -2,6 +2,7 @@
 /// The decision: normal form first (it is the proof and the residual's text), then certified points.
 #include "proof/decide.hpp"
 
+#include "proof/domain_signs.hpp"
 #include "proof/print_fraction.hpp"
 #include "proof/prove_by_cases.hpp"
 #include "proof/sample.hpp"
@@ -26,13 +27,6 @@ const char* to_text(ProofStatus status)
     return "undecided";
 }
 
-namespace {
-
-constexpr std::size_t many_divisors = 6;
-constexpr std::size_t most_signed_terms = 3000; ///< ten times what Ring::signs looks at
-
-} // namespace
-
 class ZeroDecider::State {
   public:
     State(const Graph& graph, ProofSetting setting, ProofBudget budget)
@@ -46,7 +40,10 @@ class ZeroDecider::State {
     [[nodiscard]] Decision decide(NodeId residual);
     [[nodiscard]] ProofStatus status(NodeId residual);
     [[nodiscard]] Decision confirm(NodeId residual, const std::string& argument);
-    [[nodiscard]] Signs signs(NodeId value);
+    [[nodiscard]] Signs signs(NodeId value) const
+    {
+        return domain_signs(graph_, setting_, constraints_, operands_, value, {budget_.terms, budget_.products});
+    }
     [[nodiscard]] std::optional<NamedPoint> sample_point();
     [[nodiscard]] Reevaluation reevaluate(NodeId residual, std::size_t points);
 
@@ -60,10 +57,6 @@ class ZeroDecider::State {
         std::string note;       ///< why there is no verdict from here
     };
 
-    [[nodiscard]] NormalForm normal_form(NodeId node, Angles angles = Angles::split) const
-    {
-        return {graph_, setting_, constraints_, node, operands_, {budget_.terms, budget_.products}, angles};
-    }
     [[nodiscard]] Algebra reduce(NodeId residual) const;
     [[nodiscard]] bool is_multiple(NodeId residual) const;
     [[nodiscard]] bool vanishes(NodeId residual, const Work& work) const;
@@ -84,6 +77,7 @@ class ZeroDecider::State {
 
 namespace {
 
+constexpr std::size_t many_divisors = 6;
 
 std::string joined(const std::string& a, const std::string& b)
 {
@@ -171,7 +165,7 @@ ZeroDecider::State::Algebra ZeroDecider::State::reduce(NodeId residual) const
         return result;
     }
     try {
-        NormalForm forms = normal_form(residual);
+        NormalForm forms(graph_, setting_, constraints_, residual, operands_, {budget_.terms, budget_.products});
         const Fraction form = forms.of(residual);
         result.form = print(forms.ring(), forms.readable(form));
         result.zero = form.is_zero() && (forms.condition().empty() || is_multiple(residual));
@@ -301,30 +295,6 @@ Decision ZeroDecider::State::confirm(NodeId residual, const std::string& argumen
     decision.normal_form = number(0);
     decision.evidence = argument;
     return decision;
-}
-
-Signs ZeroDecider::State::signs(NodeId value)
-{
-    // What is long has no sign that is found.
-    const Work work{std::min(budget_.terms, most_signed_terms), budget_.products};
-    const std::vector<SolvedConstraint> none;
-    std::vector<const std::vector<SolvedConstraint>*> sets{&constraints_};
-    // A constraint that is put in may hide a sign, as that of 2 + z^2 with z^2 = 1 - x^2 - y^2.
-    if (!constraints_.empty()) sets.push_back(&none);
-    Signs known;
-    for (const auto* constraints : sets)
-        for (const Angles angles : {Angles::split, Angles::whole}) {
-            try {
-                NormalForm forms(graph_, setting_, *constraints, value, operands_, work, angles);
-                const Fraction form = forms.of(value);
-                if (forms.condition().empty()) known = both(known, forms.ring().signs(form));
-            } catch (const BudgetExhausted&) { // nothing learnt
-            } catch (const VanishingDivisor&) {
-                return {};
-            }
-            if (known.negative + known.zero + known.positive <= 1) return known;
-        }
-    return known;
 }
 
 std::optional<NamedPoint> ZeroDecider::State::sample_point()

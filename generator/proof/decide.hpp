@@ -6,7 +6,7 @@
 /// Classes that are decided (proved where true):
 /// - rational functions; denominators may be any expressions that are not identically zero;
 /// - sin, cos, tan of sums of rational multiples of power products (multiples up to 256 times the common unit), sinh,
-///   cosh, tanh, exp, Stumpff functions; sin and cos of multiples of pi/12 as numbers, of others by their sums;
+///   cosh, tanh, exp, Stumpff functions; sin and cos of rational multiples of pi with denominators up to 60;
 /// - exp and log: products, quotients, powers, log of what is certainly positive or a square, sums of logarithms with
 ///   integer coefficients;
 /// - roots of any degree whose radicands factor, denest over one root, or cancel by norms and signs; |p|, min, max,

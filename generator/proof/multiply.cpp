@@ -165,6 +165,7 @@ Polynomial multiply(const Polynomial& p, const Polynomial& q, Work& work)
         // What later rows cancel is there until then: twice the budget leaves room for it.
         if (sum.size() > 2 * work.terms)
             throw BudgetExhausted("term budget of " + std::to_string(work.terms) + " exhausted");
+        if (sum.size() * limbs > most_sum_limbs) throw BudgetExhausted("the coefficients of a product exceed 128 MiB");
     }
     if (sum.size() > work.terms) throw BudgetExhausted("term budget of " + std::to_string(work.terms) + " exhausted");
     return sum.terms(variables);

@@ -78,9 +78,9 @@ TEST_CASE("cancelled terms are no terms of a product")
         above.push_back({Monomial(0, k), 1});
         below.push_back({Monomial(0, k), k % 2 == 0 ? 1 : -1});
     }
-    // (x^100 - 1)/(x - 1) * (1 - x^100)/(1 + x) = -(x^100 - 1)^2/(x^2 - 1)
+    // (x^100 - 1)/(x - 1) * (1 - x^100)/(1 + x) = -(x^100 - 1)^2/(x^2 - 1), even in x and of degree 198
     const Polynomial product = multiply(collect(above, work), collect(below, work), work);
-    CHECK(product.size() == 99);
+    CHECK(product.size() == 100);
     for (const Term& term : product) CHECK((term.monomial.is_one() || term.monomial.exponent(0) % 2 == 0));
 }
 

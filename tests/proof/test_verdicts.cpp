@@ -72,7 +72,7 @@ const std::vector<Template>& templates()
         {"root", "(8*x^2*y)^(1/3)", "2*x^(2/3)*y^(1/3)", positive},
         {"root", "sqrt(2 + 2*cos(P))", "2*abs(cos(P/2))", none},
         {"constant", "sqrt(k + 3 + 2*sqrt(3*k))*(1 + P^2)", "(sqrt(k) + sqrt(3))*(1 + P^2)", none},
-        {"constant", "sin(pi/12)*(1 + P^2)", "(sqrt(6) - sqrt(2))/4*(1 + P^2)", none},
+        {"constant", "sin(pi/8)*(1 + P^2)", "sqrt(2 - sqrt(2))/2*(1 + P^2)", none},
         {"constant", "(7 + 5*sqrt(2))^(1/3) + P^2", "1 + sqrt(2) + P^2", none},
         {"constant", "cos(pi/(k + 3))^2", "(1 + cos(2*pi/(k + 3)))/2", none},
         {"absolute", "abs(P*Q)", "abs(P)*abs(Q)", none},
