@@ -55,7 +55,8 @@ void load_unknowns(TextBlock& out, const BodyPart& part, const FunctionRequest& 
 bool solve_blocks(TextBlock& out, const Body& body, const FunctionRequest& request)
 {
     bool declared = false;
-    for (const ImplicitBlock* block : blocks_of(body, request.module)) {
+    const std::vector<const ImplicitBlock*> blocks = blocks_of(body, request.module);
+    for (const ImplicitBlock* block : blocks) {
         out.line(fmt::format("std::array<S, {}> solved_{};", block->unknowns.size(), block->name));
         const std::string call = fmt::format("solve_{}(t, s, solved_{})", block->name, block->name);
         if (!request.returns_status)
@@ -63,7 +64,8 @@ bool solve_blocks(TextBlock& out, const Body& body, const FunctionRequest& reque
         else if (declared)
             out.line(fmt::format("status = StatusOf<S>::first(status, {});", call));
         else
-            out.line(fmt::format("{} status = {};", body.has_status ? "auto" : "const auto", call));
+            out.line(
+                fmt::format("{} status = {};", body.has_status || blocks.size() > 1 ? "auto" : "const auto", call));
         declared = declared || request.returns_status;
     }
     return declared;

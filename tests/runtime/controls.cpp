@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// Angles in closed form, the watch over maxima that are not proved, and runs of models that follow their controls.
 #include <lagen/controls.hpp>
 #include <lagen/ensemble/pack.hpp>

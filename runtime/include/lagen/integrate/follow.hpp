@@ -9,12 +9,32 @@
 
 namespace lagen::detail {
 
+/// `status`, where it is good and `domain` (the status of the domain at (t, s)) too, joined with that of following.
+template <Follows M>
+[[nodiscard]] status_t<typename M::Scalar> followed(M& model, const status_t<typename M::Scalar>& status,
+                                                    const status_t<typename M::Scalar>& domain,
+                                                    real_t<typename M::Scalar> t, const typename M::State& s) noexcept
+{
+    using Scalar = typename M::Scalar;
+    using Lanes = StatusOf<Scalar>;
+    if (!is_pack<Scalar> && !Lanes::all_good(Lanes::first(status, domain))) return status;
+    return Lanes::first(status, model.follow(Scalar(t), s));
+}
+
 /// What a step of length h from (t, s) that ended with `reason` failed of. Where a search failed, the model is followed
 /// along the tangent of the motion in steps as short as need be: not_a_maximum where they lead to no end of the step,
 /// since a maximum that is one can be followed as far as d2H/du2 is regular; else `reason`.
+template <class M>
+[[nodiscard]] Status loss_of_maximum(Status reason, const M&, real_t<typename M::Scalar>, const typename M::State&,
+                                     real_t<typename M::Scalar>) noexcept
+{
+    return reason;
+}
+
 template <Follows M>
-[[nodiscard]] Status loss_of_maximum(Status reason, const M& model, real_t<typename M::Scalar> t,
-                                     const typename M::State& s, real_t<typename M::Scalar> h) noexcept
+requires(!is_pack<typename M::Scalar>) [[nodiscard]] Status
+    loss_of_maximum(Status reason, const M& model, real_t<typename M::Scalar> t, const typename M::State& s,
+                    real_t<typename M::Scalar> h) noexcept
 {
     using Scalar = typename M::Scalar;
     using Real = real_t<Scalar>;
@@ -37,6 +57,16 @@ template <Follows M>
         done = next;
     }
     return Status::not_a_maximum;
+}
+
+/// The same where steps of every length failed: a little ahead on the way to `end`.
+template <class M>
+[[nodiscard]] Status loss_ahead(Status reason, const M& model, real_t<typename M::Scalar> t, const typename M::State& s,
+                                real_t<typename M::Scalar> end) noexcept
+{
+    using std::sqrt;
+    using Real = real_t<typename M::Scalar>;
+    return loss_of_maximum(reason, model, t, s, sqrt(std::numeric_limits<Real>::epsilon()) * (end - t));
 }
 
 } // namespace lagen::detail
