@@ -8,7 +8,7 @@
 
 int main()
 {
-    using Top = lagen::models::heavy_top<double>;
+    using Top = lagen::models::heavy_top<double>; // or float, long double, a multiprecision type, a pack
     Top top;
     top.parameters.mgl = 2.0;
     Top::State s = Top::state({.g1 = 0.6, .g3 = 0.8}, {.w1 = 0.9, .w2 = -0.4, .w3 = 1.6});

@@ -147,7 +147,8 @@ TEST_CASE("A retraction that is the sum gives the bits of the sum")
     static_assert(moves_by_sums<Sum> && !moves_by_sums<Retracted>);
     const Eigen::Vector3d s(1, 0.5, -0.25);
     const auto check = [&](const auto& method) {
-        const auto a = integrate(Sum{}, s, {0.0, 2.0}, method), b = integrate(Retracted{}, s, {0.0, 2.0}, method);
+        const auto a = integrate(Sum{}, s, {0.0, 2.0}, method);
+        const auto b = integrate(Retracted{}, s, {0.0, 2.0}, method);
         CHECK(a.state == b.state);
         CHECK((a.state - s).norm() > 0.1);
     };
