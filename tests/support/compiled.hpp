@@ -66,10 +66,10 @@ void* operator new(std::size_t size) { ++allocations; if (void* p = std::malloc(
 void operator delete(void* p) noexcept { std::free(p); }
 void operator delete(void* p, std::size_t) noexcept { std::free(p); }
 static void check(bool good) { if (!good) std::printf("status\n"); }
-static void show(float x) { std::printf("%.9g\n", static_cast<double>(x)); }
-static void show(double x) { std::printf("%.17g\n", x); }
-static void show(long double x) { std::printf("%.17g\n", static_cast<double>(x)); }
-static void show(const lagen::Pack<double, 4>& x) { std::printf("%.17g\n", x[0] < x[3] || x[0] > x[3] ? 1e300 : x[0]); }
+[[maybe_unused]] static void show(float x) { std::printf("%.9g\n", static_cast<double>(x)); }
+[[maybe_unused]] static void show(double x) { std::printf("%.17g\n", x); }
+[[maybe_unused]] static void show(long double x) { std::printf("%.17g\n", static_cast<double>(x)); }
+[[maybe_unused]] static void show(const lagen::Pack<double, 4>& x) { std::printf("%.17g\n", x[0] < x[3] || x[0] > x[3] ? 1e300 : x[0]); }
 )";
 }
 
