@@ -9,7 +9,7 @@
 namespace lagen {
 namespace {
 
-constexpr double term_limit = 2000; ///< of numerator and denominator together
+constexpr double most_fraction_terms = 2000; ///< of numerator and denominator together
 
 /// A bound of the number of terms of numerator and denominator over a common denominator, before anything cancels.
 struct FractionTerms {
@@ -76,7 +76,7 @@ FractionTerms fraction_terms(const GiNaC::ex& e)
 
 bool has_short_fraction(const GiNaC::ex& expression)
 {
-    return fraction_terms(expression).total() <= term_limit;
+    return fraction_terms(expression).total() <= most_fraction_terms;
 }
 
 } // namespace lagen

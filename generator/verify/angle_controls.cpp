@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "verify/angle_controls.hpp"
 
-#include "verify/smooth_controls.hpp"
 #include "graph/differentiate.hpp"
+#include "verify/smooth_controls.hpp"
 
 #include <algorithm>
 
@@ -17,8 +17,8 @@ NodeId derivative(Graph& graph, NodeId f, NodeId u)
 
 /// Is u_k, for which dH/du_k is `slope`, an angle? H = a + b cos u_k + c sin u_k, where a, b and c are free of it, and
 /// b and c, which are read off, hold no other control.
-bool is_angle(Graph& graph, const ControlProblem& control, std::size_t k, NodeId slope, const std::vector<NodeId>& parts,
-              const ProofSetting& setting, const ProofBudget& budget)
+bool is_angle(Graph& graph, const ControlProblem& control, std::size_t k, NodeId slope,
+              const std::vector<NodeId>& parts, const ProofSetting& setting, const ProofBudget& budget)
 {
     if (control.lower[k] || control.upper[k]) return false;
     const NodeId second = derivative(graph, slope, control.u[k]);

@@ -32,6 +32,6 @@ struct AngleTerms {
 
 /// The problem of the other controls.
 [[nodiscard]] ControlProblem without_angles(Graph& graph, const ControlProblem& control,
-                                          const std::vector<std::size_t>& angles);
+                                            const std::vector<std::size_t>& angles);
 
 } // namespace lagen

@@ -2,9 +2,9 @@
 /// L taken apart into squares and products, and the elimination of the fibre coordinates.
 #include "verify/definite_squares.hpp"
 
-#include "proof/rational_matrix.hpp"
 #include "graph/differentiate.hpp"
 #include "graph/operators.hpp"
+#include "proof/rational_matrix.hpp"
 
 #include <algorithm>
 #include <map>

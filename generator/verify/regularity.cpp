@@ -170,8 +170,8 @@ void describe_singular(Regularity& result, Graph& graph, const ProofSetting& set
 {
     const std::vector<NodeId> determinants = determinants_of(minors);
     if (const auto values = substitute_where_defined(graph, determinants, defaults)) {
-        result.singular_everywhere = std::ranges::any_of(
-            *values, [&](NodeId value) { return valued.status(value) == ProofStatus::proved; });
+        result.singular_everywhere =
+            std::ranges::any_of(*values, [&](NodeId value) { return valued.status(value) == ProofStatus::proved; });
         if (!result.singular_everywhere) result.singular_at = singular_points(graph, there, valued.budget(), *values);
     }
     if (determinants.size() == minors.size())

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Normal forms become expressions where an algebroid is built, and tell assumptions apart: no two may be one tree, and
 /// none may stand for another.
-#include "verify/checking.hpp"
 #include "graph/differentiate.hpp"
 #include "graph/lower.hpp"
 #include "verify/checking.hpp"

@@ -59,14 +59,4 @@ requires(!is_pack<typename M::Scalar>) [[nodiscard]] Status
     return Status::not_a_maximum;
 }
 
-/// The same where steps of every length failed: a little ahead on the way to `end`.
-template <class M>
-[[nodiscard]] Status loss_ahead(Status reason, const M& model, real_t<typename M::Scalar> t, const typename M::State& s,
-                                real_t<typename M::Scalar> end) noexcept
-{
-    using std::sqrt;
-    using Real = real_t<typename M::Scalar>;
-    return loss_of_maximum(reason, model, t, s, sqrt(std::numeric_limits<Real>::epsilon()) * (end - t));
-}
-
 } // namespace lagen::detail

@@ -247,20 +247,14 @@ class Integrator {
     /// Where `status` is good and s_ inside the domain, a model that searches for something follows it to (t, s_).
     [[gnu::always_inline]] status_t<Scalar> follow(const status_t<Scalar>& status, const Real& t)
     {
-        if constexpr (Follows<M>) {
-            const auto there = StatusOf<Scalar>::first(status, detail::domain_status(model_, t, s_));
-            if (is_pack<Scalar> || StatusOf<Scalar>::all_good(there))
-                return StatusOf<Scalar>::first(status, model_.follow(Scalar(t), s_));
-        }
+        if constexpr (Follows<M>) return detail::followed(model_, status, detail::domain_status(model_, t, s_), t, s_);
         return status;
     }
 
     /// Why a step of length h from (t_from_, from_) fails.
     Status reason_of(Status failure, const Real& h) const noexcept
     {
-        if constexpr (Follows<M> && !is_pack<Scalar>)
-            return detail::loss_of_maximum(failure, model_, t_from_, from_, h);
-        return failure;
+        return detail::loss_of_maximum(failure, model_, t_from_, from_, h);
     }
 
     Status fail(Status reason, const Real& failed_at) noexcept

@@ -85,19 +85,4 @@ struct [[nodiscard]] Run {
     [[nodiscard]] explicit operator bool() const noexcept { return is_success(outcome); }
 };
 
-namespace detail {
-
-/// Whether times rise, or fall where the run is not `forward`, and none of them is NaN.
-template <class Times>
-[[nodiscard]] bool are_in_order(const Times& times, bool forward) noexcept
-{
-    for (std::size_t k = 0; k < times.size(); ++k) {
-        if (times[k] != times[k]) return false;
-        if (k > 0 && (forward ? times[k - 1] > times[k] : times[k - 1] < times[k])) return false;
-    }
-    return true;
-}
-
-} // namespace detail
-
 } // namespace lagen
