@@ -22,7 +22,7 @@ std::size_t cost(std::size_t arguments)
 
 const ParseLimits& closing_limits()
 {
-    static const ParseLimits limits{.height = deepest_closed};
+    static const ParseLimits limits{.product_degree = ParseLimits{}.degree, .height = deepest_closed};
     return limits;
 }
 

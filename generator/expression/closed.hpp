@@ -32,7 +32,7 @@ struct Closed {
 };
 using Value = std::shared_ptr<Closed>;
 
-/// The bounds of the parser; several definitions may stand inside one another.
+/// The bounds of the parser; several definitions may stand inside one another, and products grow beyond their texts.
 inline constexpr std::size_t deepest_closed = 2000;
 [[nodiscard]] const ParseLimits& closing_limits();
 

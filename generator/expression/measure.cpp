@@ -102,7 +102,7 @@ Measure measure_product(const TreeNode& node, std::span<const Measure> factors, 
         require_small(result.factor, node.where, limits);
         result.degree = std::min(result.degree + factor.degree, degree_ceiling);
     }
-    if (result.degree > limits.degree) degree_too_large("a product reaches", result, node.where, limits);
+    if (result.degree > limits.product_degree) degree_too_large("a product reaches", result, node.where, limits);
     return result;
 }
 
@@ -113,7 +113,7 @@ Measure measure_quotient(const TreeNode& node, const Measure& above, const Measu
                    .factor = below.factor == 0 ? above.factor : Rational(above.factor / below.factor),
                    .degree = std::min(above.degree + below.degree, degree_ceiling)};
     require_small(result.factor, node.where, limits);
-    if (result.degree > limits.degree) degree_too_large("a quotient reaches", result, node.where, limits);
+    if (result.degree > limits.product_degree) degree_too_large("a quotient reaches", result, node.where, limits);
     return result;
 }
 

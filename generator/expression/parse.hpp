@@ -5,6 +5,8 @@
 
 #include "expression/tree.hpp"
 
+#include <limits>
+
 namespace lagen {
 
 /// What one expression may cost. Every bound is named in the error that it causes.
@@ -16,7 +18,9 @@ struct ParseLimits {
     long exponent = 64;             ///< |n| of a constant integer exponent of a non-constant base
     std::size_t number_bits = 4096; ///< numerator and denominator of a constant
     long degree = 4096;             ///< total degree of nested powers: ((x^64)^64)^64 has degree 262144
-    std::size_t height = 1024;      ///< operations inside one another; a/b/c/d counts 3
+    long product_degree =
+        std::numeric_limits<long>::max(); ///< of products and quotients; of a text its length bounds it
+    std::size_t height = 1024;            ///< operations inside one another; a/b/c/d counts 3
 };
 
 /// Parses one expression. Decimals become exact rationals (0.1 is 1/10); constant sub-expressions of numbers are

@@ -336,15 +336,6 @@ const ProofBudget& ZeroDecider::budget() const
 {
     return state_->budget();
 }
-std::unique_ptr<ZeroDecider> ZeroDecider::make(const Graph& graph, ProofSetting setting, ProofBudget budget)
-{
-    try {
-        return std::make_unique<ZeroDecider>(graph, std::move(setting), budget);
-    } catch (const TriangularityError&) {
-        return nullptr;
-    }
-}
-
 ZeroDecider::~ZeroDecider() = default;
 
 Decision ZeroDecider::decide(NodeId residual) const

@@ -154,3 +154,16 @@ std::vector<SolvedConstraint> triangular_constraints(const Graph& graph, const P
 }
 
 } // namespace lagen::proof
+
+namespace lagen {
+
+std::unique_ptr<ZeroDecider> ZeroDecider::make(const Graph& graph, ProofSetting setting, ProofBudget budget)
+{
+    try {
+        return std::make_unique<ZeroDecider>(graph, std::move(setting), budget);
+    } catch (const TriangularityError&) {
+        return nullptr;
+    }
+}
+
+} // namespace lagen
