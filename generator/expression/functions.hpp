@@ -127,13 +127,11 @@ inline constexpr std::array function_rows_in_order{
     return function_rows_in_order[static_cast<std::size_t>(function)];
 }
 
-static_assert(
-    [] {
-        for (std::size_t k = 0; k < function_table().size(); ++k)
-            if (function_table()[k].function != static_cast<Function>(k)) return false;
-        return function_table().back().function == Function::cay;
-    }(),
-    "the rows stand in the order of the enumeration, whose last entry is cay");
+static_assert([] {
+    for (std::size_t k = 0; k < function_table().size(); ++k)
+        if (function_table()[k].function != static_cast<Function>(k)) return false;
+    return function_table().back().function == Function::cay;
+}()); // in the order of the enumeration, to its last entry
 
 [[nodiscard]] const FunctionEntry* find_function(std::string_view name); ///< nullptr where there is none; "tr" is trace
 /// A name that stands for something of the language where parentheses follow: a built-in function, sum, product.

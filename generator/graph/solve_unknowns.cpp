@@ -210,8 +210,7 @@ void find_angles(const Graph& graph, const ImplicitBlock& block, std::map<std::s
     const std::vector<Scalar> c = evaluate<Scalar>(graph, block.angles->c, inputs);
     const Scalar turn = 2 * std::acos(Scalar(-1));
     for (std::size_t i = 0; i < b.size(); ++i) {
-        if (b[i] == 0 && c[i] == 0)
-            throw MathematicsError("error: there are no " + block.name + ": " + block.documentation);
+        if (b[i] == 0 && c[i] == 0) throw MathematicsError("there are no " + block.name + ": " + block.documentation);
         const Scalar angle = std::atan2(c[i], b[i]);
         inputs[graph.input_name(block.unknowns[i])] = angle + turn * std::round((guess[i] - angle) / turn);
     }

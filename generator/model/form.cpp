@@ -39,13 +39,11 @@ constexpr std::array form_rows{
                  .rank = 0},
 };
 
-static_assert(
-    [] {
-        for (std::size_t k = 0; k < form_rows.size(); ++k)
-            if (form_rows[k].kind != static_cast<FormKind>(k) || form_rows[k].exists == nullptr) return false;
-        return form_rows.back().kind == FormKind::pontryagin;
-    }(),
-    "the rows stand in the order of the enumeration, whose last entry is pontryagin");
+static_assert([] {
+    for (std::size_t k = 0; k < form_rows.size(); ++k)
+        if (form_rows[k].kind != static_cast<FormKind>(k) || form_rows[k].exists == nullptr) return false;
+    return form_rows.back().kind == FormKind::pontryagin;
+}()); // in the order of the enumeration, to its last entry
 
 } // namespace
 

@@ -17,7 +17,9 @@ Fraction Elementary::error_function(const Fraction& a)
         Range range{End{false, -1, true}, End{false, 1, true}, !signs.zero};
         if (!signs.negative) range.low = End{false, 0, !signs.zero};
         if (!signs.positive) range.high = End{false, 0, !signs.zero};
-        Generator generator{"erf(" + to_text(ring_, a, longest_generator) + ')', range, 0, {}, -1, false};
+        const Printed argument = print(ring_, a, longest_generator);
+        Generator generator{"erf(" + argument.text + ")", range, 0, {}, -1, false};
+        generator.tree = call_of(Function::erf, {argument.tree});
         if (const auto value = ring_.value_of(a)) {
             generator.value = Ball();
             arb_hypgeom_erf(generator.value->get(), value->get(), 256);

@@ -73,7 +73,6 @@ constexpr std::array guards{
 
 /// Messages for which no model is known.
 constexpr std::array without_model{
-    "error: {} of model '{}' could not be derived: {}",
     "it could not be shown that the sections of the subbundle are linearly independent somewhere",
 };
 

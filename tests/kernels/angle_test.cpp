@@ -116,7 +116,7 @@ TEST_CASE("compiled angles and followed controls agree with the interpreter in f
     for (const std::string& text : {boat, two_angles, hills}) {
         cases.push_back({kernels_of_text(text), {}});
         for (const double p : {0.5, -3.0})
-            cases.back().points.push_back({{"t", 0.25}, {"k", 2}, {"x", 0.5}, {"y", 1.5}, {"p", p}, {"q", -0.75}});
+            cases.back().points.push_back({{"t", 0.25}, {"k", 2}, {"x", 0.5}, {"y", 1.5}, {"p", p}, {"q", 0.25}});
     }
     compare_compiled("angles", "g++", cases, 400);
     if (run_shell("clang++ --version").status == 0) compare_compiled("angles", "clang++", cases, 400);

@@ -123,7 +123,7 @@ TEST_CASE("constraints that are not triangular are refused with their number")
         Problem problem(statement);
         FAIL("accepted");
     } catch (const TriangularityError& error) {
-        CHECK(error.what() == expected);
+        CHECK(error.message() == expected);
         CHECK(error.index() == 1);
         CHECK(error.code() == ExitCode::refuted);
     }
@@ -131,7 +131,7 @@ TEST_CASE("constraints that are not triangular are refused with their number")
 
 TEST_CASE("a witness carries its values: exact where they are rational, else a decimal inside its enclosure")
 {
-    Problem problem({{"x", "y"}, {}, {"y^2 - 2 - x^2"}, {"y > 0", "x > 0"}, {}});
+    Problem problem({{"x", "y"}, {}, {"y^2 - 2"}, {"y > 0", "x > 0"}, {}});
     const Decision decision = problem.decide("x*y");
     REQUIRE(decision.witness);
     const PointValue& x = decision.witness->point[0].second;
@@ -139,7 +139,7 @@ TEST_CASE("a witness carries its values: exact where they are rational, else a d
     REQUIRE(x.exact);
     CHECK(x.decimal.empty());
     CHECK(to_text(x) == x.exact->get_str());
-    const Rational square = 2 + *x.exact * *x.exact;
+    const Rational square = 2;
     REQUIRE_FALSE(y.exact);
     CHECK(y.lower * y.lower < square);
     CHECK(square < y.upper * y.upper);

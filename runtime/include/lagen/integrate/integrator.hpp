@@ -53,7 +53,7 @@ class Integrator {
         status_ = begin();
     }
 
-    /// One step in the direction of the last one (the first one: forwards), of the length that the method asks for.
+    /// In the direction of the last step (the first one: forwards), of the length that the method asks for.
     Status step()
     {
         bounded_ = false;
@@ -218,7 +218,7 @@ class Integrator {
             if (retry_) return Status::ok;
         } else if constexpr (!is_pack<Scalar>) {
             const Status verdict = follow(status, t1);
-            if (verdict != Status::ok) return fail(reason_of(verdict, h), t1);
+            if (verdict != Status::ok) return fail(detail::loss_of_maximum(verdict, model_, t_from_, from_, h), t1);
         }
         t_ = t1;
         const auto ending = accepted();
@@ -249,12 +249,6 @@ class Integrator {
     {
         if constexpr (Follows<M>) return detail::followed(model_, status, detail::domain_status(model_, t, s_), t, s_);
         return status;
-    }
-
-    /// Why a step of length h from (t_from_, from_) fails.
-    Status reason_of(Status failure, const Real& h) const noexcept
-    {
-        return detail::loss_of_maximum(failure, model_, t_from_, from_, h);
     }
 
     Status fail(Status reason, const Real& failed_at) noexcept
@@ -331,7 +325,8 @@ class Integrator {
         }
         using std::sqrt;
         const Status verdict = creeping_.creeps(t_, length_, steps_, rejected_) ? status : size_verdict(status, t1);
-        return is_imprecise ? verdict : reason_of(verdict, sqrt(epsilon()) * (forward_ ? length_ : Real(-length_)));
+        const Real ahead = sqrt(epsilon()) * (forward_ ? length_ : Real(-length_));
+        return is_imprecise ? verdict : detail::loss_of_maximum(verdict, model_, t_from_, from_, ahead);
     }
 
     /// Whose lengths the next steps have.
