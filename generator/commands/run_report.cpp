@@ -126,9 +126,11 @@ std::string report_text(const RunOutcome& outcome)
     for (const EventReport& event : outcome.events)
         text += fmt::format("  event {} at t = {}\n", event.name, brief(event.time, 15));
     const bool failed = outcome.status != "ok" && outcome.status != "stopped_by_event";
-    if (const std::string reason = control_text(outcome.status); !reason.empty()) text += fmt::format("  {}\n", reason);
+    if (const std::string reason = control_text(outcome.status); !reason.empty())
+        text += fmt::format("  {}\n{}", reason, last_state(outcome));
+    else if (failed && outcome.steps != "0")
+        text += last_state(outcome);
     if (failed && outcome.steps == "0") return text + start_hint(outcome);
-    if (failed) text += last_state(outcome);
     for (const Drift& drift : outcome.invariants) {
         if (!std::isfinite(std::strtod(drift.initial.c_str(), nullptr))) {
             text += fmt::format("  {}: no finite number at the start\n", drift.name);

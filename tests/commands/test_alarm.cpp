@@ -38,7 +38,7 @@ TEST_CASE("an internal error inside a decision ends the command with exit code 5
     const std::string folder = fresh_folder();
     std::size_t alarms = 0;
     for (const std::string& model : demanding_models(folder))
-        for (const char* question : {"decide", "nonzero", "positive", "nonnegative"})
+        for (const char* question : {"decide", "status", "nonzero", "positive", "nonnegative"})
             for (int call_number = 1; call_number <= 400; call_number += call_number < 12 ? 1 : 29) {
                 const std::string alarm = std::string(question) + " " + std::to_string(call_number);
                 const Outcome outcome =

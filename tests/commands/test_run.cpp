@@ -45,8 +45,9 @@ double number(const json::Value& value)
 TEST_CASE("run --format json has exactly the members of the interface, and every number is %.17g")
 {
     const json::Value value = run({"oscillator.toml", "--at", "0,1/3,1"});
-    CHECK(value.keys == std::vector<std::string>{"model", "scene", "form", "method", "status", "t", "steps", "rejected",
-                                                 "rhs_calls", "seconds", "columns", "rows", "events", "invariants"});
+    CHECK(value.keys == std::vector<std::string>{"model", "scene", "form", "method", "status", "t", "state",
+                                                 "failed_at", "steps", "rejected", "rhs_calls", "seconds", "columns",
+                                                 "rows", "events", "invariants"});
     CHECK(value["model"].text == "oscillator");
     CHECK(value["scene"].text == "default");
     CHECK(value["form"].text == "lagrange");

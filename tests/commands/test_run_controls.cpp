@@ -108,7 +108,7 @@ TEST_CASE("an angle on which H does not depend ends a run")
     CHECK_THAT(outcome.err,
                Catch::Contains("thrust, scene coasting: singular_control at t = 0;") &&
                    Catch::Contains("\n  H does not depend on a control: b = c = 0 in a + b cos u + c sin u\n"
-                                   "  the last state: x = 0, y = 0, vx = 1, "));
+                                   "  the last good state is at t = 0: x = 0, y = 0, vx = 1, "));
 }
 
 TEST_CASE("a maximum that is lost ends the run at its time")
@@ -129,7 +129,7 @@ TEST_CASE("a maximum that is lost ends the run at its time")
     CHECK_THAT(told.err,
                Catch::Contains("fork, scene default: not_a_maximum at t = 1; ") &&
                    Catch::Contains("\n  the controls that were followed are no maximum of H any more: d2H/du2 is "
-                                   "not negative definite\n  the last state: x = 0.5, p = 0\n"));
+                                   "not negative definite\n  the last good state is at t = 1: x = 0.5, p = 0\n"));
     const ControlRun late = run_of("fork.toml", {"--scene", "late"});
     CHECK(late.outcome.code == 1);
     CHECK(late.status() == "not_a_maximum");

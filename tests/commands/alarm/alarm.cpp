@@ -10,6 +10,7 @@ namespace {
 
 using lagen::Decision;
 using lagen::NodeId;
+using lagen::ProofStatus;
 using lagen::ZeroDecider;
 
 void count(const char* question)
@@ -29,11 +30,17 @@ void count(const char* question)
 #pragma clang diagnostic ignored "-Wreturn-type-c-linkage"
 #endif
 extern "C" {
+ProofStatus __real__ZNK5lagen11ZeroDecider6statusEj(const ZeroDecider* decider, NodeId node);
 Decision __real__ZNK5lagen11ZeroDecider6decideEj(const ZeroDecider* decider, NodeId node);
 bool __real__ZNK5lagen11ZeroDecider14proves_nonzeroEj(const ZeroDecider* decider, NodeId node);
 bool __real__ZNK5lagen11ZeroDecider15proves_positiveEj(const ZeroDecider* decider, NodeId node);
 bool __real__ZNK5lagen11ZeroDecider18proves_nonnegativeEj(const ZeroDecider* decider, NodeId node);
 
+ProofStatus __wrap__ZNK5lagen11ZeroDecider6statusEj(const ZeroDecider* decider, NodeId node)
+{
+    count("status");
+    return __real__ZNK5lagen11ZeroDecider6statusEj(decider, node);
+}
 Decision __wrap__ZNK5lagen11ZeroDecider6decideEj(const ZeroDecider* decider, NodeId node)
 {
     count("decide");

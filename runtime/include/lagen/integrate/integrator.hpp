@@ -228,12 +228,8 @@ class Integrator {
             detail::freeze<Scalar>(lanes_, from_, s_);
         }
         fresh_ = true;
-        if constexpr (!is_pack<Scalar>) {
-            if (ending != Status::ok) {
-                failed_at_ = t1;
-                return ending;
-            }
-        }
+        if constexpr (!is_pack<Scalar>)
+            if (ending != Status::ok) return failed_at_ = t1, ending;
         ++steps_;
         lost_ = (t1 - t_from_) - increment;
         if (last) [[unlikely]]
