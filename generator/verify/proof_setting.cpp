@@ -26,8 +26,7 @@ std::vector<NodeId> defined_nodes(const System& system)
     append(nodes, system.partial_parts);
     std::erase_if(nodes, [&](NodeId node) { return system.graph.is_constant(node); });
     std::ranges::sort(nodes);
-    const auto repeated = std::ranges::unique(nodes);
-    nodes.erase(repeated.begin(), repeated.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     return nodes;
 }
 
