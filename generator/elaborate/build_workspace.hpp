@@ -32,10 +32,6 @@ class BuildWorkspace {
     [[nodiscard]] Graph& graph() { return graph_; }
     NodeId lower(const Tree& tree) { return lower_(tree); }
     [[nodiscard]] NodeId coordinate(std::size_t i) const { return x_.at(i); }
-    /// df/dx^i for all base coordinates where it is not zero by structure.
-    const Column& partials(NodeId f) { return partial_.of(f); }
-    /// rho_a(f) for the anchor column of a section.
-    NodeId along(const VectorField& anchor, NodeId f) { return partial_.along(anchor, f); }
     [[nodiscard]] BaseGradient& gradients() { return partial_; }
     /// The parts on the graph; the order of a pair that they leave out is the negative.
     [[nodiscard]] Algebroid lowered(const AlgebroidBlock& block, const BlockParts& parts);

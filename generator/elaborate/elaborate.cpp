@@ -54,7 +54,7 @@ class Elaboration {
         system_.time = graph_.input(free ? "t" : "time, which this model cannot name");
         for (const Parameter& parameter : model_.parameters)
             system_.parameters.push_back(graph_.input(parameter.symbol.name));
-        for (const Symbol& symbol : model_.base.coordinates) x_.push_back(graph_.input(symbol.name));
+        for (const Symbol& symbol : model_.base.coordinates) graph_.input(symbol.name);
     }
 
     void lower_structure()
@@ -160,7 +160,6 @@ class Elaboration {
     System system_;
     Graph& graph_;
     Lowering lower_;
-    std::vector<NodeId> x_;
 };
 
 } // namespace

@@ -64,11 +64,9 @@ class PontryaginForm {
   private:
     void differentiate()
     {
-        std::vector<NodeId> variables = system_.algebroid.x;
-        variables.push_back(system_.time);
-        dH_dx_ = gradient(graph_, hamiltonian_, variables);
-        dH_dt_ = dH_dx_.back();
-        dH_dx_.pop_back();
+        BaseSlopes slopes = base_slopes(graph_, system_, hamiltonian_);
+        dH_dx_ = std::move(slopes.x);
+        dH_dt_ = slopes.t;
         const std::vector<NodeId> dH_du = gradient(graph_, hamiltonian_, u_);
         const auto zeros = zeros_for(graph_, u_, verified_.maximum.angles);
         others_ = other_controls(u_.size(), verified_.maximum.angles);

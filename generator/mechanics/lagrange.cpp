@@ -9,11 +9,9 @@ LagrangianNodes lagrangian_nodes(Graph& graph, const System& system)
 {
     LagrangianNodes nodes;
     nodes.fibre = fibre_hessian(graph, *system.lagrangian, system.algebroid.y);
-    std::vector<NodeId> variables = system.algebroid.x;
-    variables.push_back(system.time);
-    nodes.dL_dx = gradient(graph, *system.lagrangian, variables);
-    nodes.dL_dt = nodes.dL_dx.back();
-    nodes.dL_dx.pop_back();
+    BaseSlopes slopes = base_slopes(graph, system, *system.lagrangian);
+    nodes.dL_dx = std::move(slopes.x);
+    nodes.dL_dt = slopes.t;
     nodes.energy = graph.subtract(contraction(graph, system.algebroid.y, nodes.fibre.momenta), *system.lagrangian);
     return nodes;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "mechanics/momentum_balance.hpp"
 
+#include "graph/differentiate.hpp"
+
 namespace lagen {
 namespace {
 
@@ -17,6 +19,16 @@ void subtract_brackets(Graph& graph, const Algebroid& algebroid, const MomentumB
 }
 
 } // namespace
+
+BaseSlopes base_slopes(Graph& graph, const System& system, NodeId f)
+{
+    std::vector<NodeId> variables = system.algebroid.x;
+    variables.push_back(system.time);
+    BaseSlopes slopes{gradient(graph, f, variables), 0};
+    slopes.t = slopes.x.back();
+    slopes.x.pop_back();
+    return slopes;
+}
 
 std::vector<NodeId> base_velocity(Graph& graph, const Algebroid& algebroid, const std::vector<NodeId>& y)
 {

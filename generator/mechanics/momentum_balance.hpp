@@ -16,6 +16,13 @@ struct MomentumBalance {
     std::vector<NodeId> forces; ///< Q_a, shape (r)
 };
 
+/// df/dx^i, shape (n), and df/dt at fixed y or mu, by one sweep.
+struct BaseSlopes {
+    std::vector<NodeId> x;
+    NodeId t = 0;
+};
+[[nodiscard]] BaseSlopes base_slopes(Graph& graph, const System& system, NodeId f);
+
 /// xdot^i = rho^i_a y^a, shape (n).
 [[nodiscard]] std::vector<NodeId> base_velocity(Graph& graph, const Algebroid& algebroid, const std::vector<NodeId>& y);
 

@@ -14,12 +14,10 @@ using Replacements = std::vector<std::pair<NodeId, NodeId>>;
 /// f = -H at fixed mu and u; y = sigma.
 MomentumBalance pontryagin_balance(Graph& graph, const System& system, NodeId hamiltonian)
 {
-    std::vector<NodeId> variables = system.algebroid.x;
-    variables.push_back(system.time);
+    BaseSlopes slopes = base_slopes(graph, system, graph.negate(hamiltonian));
     MomentumBalance balance;
-    balance.df_dx = gradient(graph, graph.negate(hamiltonian), variables);
-    balance.df_dt = balance.df_dx.back();
-    balance.df_dx.pop_back();
+    balance.df_dx = std::move(slopes.x);
+    balance.df_dt = slopes.t;
     balance.p = system.mu;
     balance.y = system.control->sigma;
     balance.forces.assign(system.r(), graph.constant(0));
