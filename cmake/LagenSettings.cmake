@@ -49,7 +49,7 @@ set(lagen_busy_rooms expression graph proof)
 
 function(lagen_room name)
   cmake_parse_arguments(PARSE_ARGV 1 ROOM "" "" "DEPENDS;LIBRARIES")
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
   list(TRANSFORM ROOM_DEPENDS PREPEND lagen_)
   if(sources)
     add_library(lagen_${name} STATIC ${sources})

@@ -4,8 +4,8 @@
 #include "content_hash.hpp"
 #include "emit/print_equations.hpp"
 #include "emit/print_header.hpp"
-#include "graph/lower.hpp"
-#include "graph/simplify.hpp"
+#include "graph/core/lower.hpp"
+#include "graph/simplify/simplify.hpp"
 #include "model/scene_form.hpp"
 #include "verify/control_maximum.hpp"
 

@@ -4,7 +4,7 @@
 /// Whether the two satisfy the structure equations is another question (algebroid/structure_equations.hpp).
 #pragma once
 
-#include "graph/graph.hpp"
+#include "graph/core/graph.hpp"
 
 namespace lagen {
 

@@ -2,7 +2,7 @@
 #include "algebroid/form.hpp"
 
 #include "algebroid/terms.hpp"
-#include "graph/differentiate.hpp"
+#include "graph/calculus/differentiate.hpp"
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 #include "algebroid/section.hpp"
 
 #include "algebroid/terms.hpp"
-#include "graph/differentiate.hpp"
+#include "graph/calculus/differentiate.hpp"
 
 namespace lagen {
 namespace {

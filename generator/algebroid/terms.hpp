@@ -2,7 +2,7 @@
 /// Terms of several sums at once, each under the free index that it belongs to.
 #pragma once
 
-#include "graph/graph.hpp"
+#include "graph/core/graph.hpp"
 
 #include <map>
 

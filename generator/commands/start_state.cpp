@@ -2,8 +2,8 @@
 #include "commands/start_state.hpp"
 
 #include "diagnostic.hpp"
-#include "graph/evaluate.hpp"
-#include "graph/solve_unknowns.hpp"
+#include "graph/core/evaluate.hpp"
+#include "graph/unknowns/solve_unknowns.hpp"
 #include "mechanics/hamilton.hpp"
 #include "model/form.hpp"
 

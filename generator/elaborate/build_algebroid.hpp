@@ -3,7 +3,7 @@
 #pragma once
 
 #include "algebroid/algebroid.hpp"
-#include "graph/lower.hpp"
+#include "graph/core/lower.hpp"
 #include "mechanics/written_algebroid.hpp"
 #include "model/model.hpp"
 

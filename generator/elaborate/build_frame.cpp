@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Frames e'_a = A_a^b e_b of an algebroid, and its prolongations.
 #include "elaborate/build_workspace.hpp"
-#include "graph/evaluate.hpp"
+#include "graph/core/evaluate.hpp"
 #include "proof/rational_matrix.hpp"
 
 namespace lagen {

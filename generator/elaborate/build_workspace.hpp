@@ -6,7 +6,7 @@
 #include "algebroid/section.hpp"
 #include "elaborate/build_algebroid.hpp"
 #include "expression/linear_algebra.hpp"
-#include "graph/determinant.hpp"
+#include "graph/calculus/determinant.hpp"
 #include "proof/decide.hpp"
 #include "proof/normal_form.hpp"
 #include "symbolic/ginac_door.hpp"

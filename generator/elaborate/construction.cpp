@@ -4,7 +4,7 @@
 
 #include "algebroid/structure_equations.hpp"
 #include "elaborate/build_workspace.hpp"
-#include "graph/operators.hpp"
+#include "graph/core/operators.hpp"
 #include "proof/almost_everywhere.hpp"
 
 #include <algorithm>

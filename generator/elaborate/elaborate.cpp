@@ -6,7 +6,7 @@
 #include "elaborate/lower_forms.hpp"
 #include "elaborate/model_trees.hpp"
 #include "elaborate/require_values.hpp"
-#include "graph/differentiate.hpp"
+#include "graph/calculus/differentiate.hpp"
 #include "proof/partial_parts.hpp"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 /// Stumpff functions of one argument are all named: they come from one call.
 #pragma once
 
-#include "graph/graph.hpp"
+#include "graph/core/graph.hpp"
 
 #include <limits>
 #include <map>

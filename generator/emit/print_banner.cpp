@@ -2,8 +2,8 @@
 #include "emit/print_banner.hpp"
 
 #include "emit/print_literal.hpp"
-#include "graph/operators.hpp"
-#include "graph/simplify.hpp"
+#include "graph/core/operators.hpp"
+#include "graph/simplify/simplify.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "emit/spell.hpp"
 
-#include "graph/operators.hpp"
+#include "graph/core/operators.hpp"
 
 #include <fmt/format.h>
 

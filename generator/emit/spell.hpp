@@ -3,7 +3,7 @@
 #pragma once
 
 #include "emit/print_literal.hpp"
-#include "graph/graph.hpp"
+#include "graph/core/graph.hpp"
 
 #include <optional>
 #include <set>

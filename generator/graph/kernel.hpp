@@ -2,7 +2,7 @@
 /// Kernels: named functions on a graph, as the header printer and the interpreter see them. No mechanics in here.
 #pragma once
 
-#include "graph/implicit.hpp"
+#include "graph/unknowns/implicit.hpp"
 
 #include <memory>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "kernels/form_kernels.hpp"
 
-#include "graph/differentiate.hpp"
+#include "graph/calculus/differentiate.hpp"
 #include "kernels/formulation.hpp"
 #include "kernels/kernel_table.hpp"
 #include "kernels/requested_kernels.hpp"

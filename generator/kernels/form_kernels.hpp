@@ -10,7 +10,7 @@
 #pragma once
 
 #include "graph/kernel.hpp"
-#include "graph/simplify.hpp"
+#include "graph/simplify/simplify.hpp"
 #include "model/model.hpp"
 #include "verify/verify.hpp"
 

@@ -6,8 +6,8 @@
 ///   pontryagin  state (x, mu):  the same with H = mu_a sigma^a - cost where u maximises it          [Martinez 2004]
 #pragma once
 
+#include "graph/core/lower.hpp"
 #include "graph/kernel.hpp"
-#include "graph/lower.hpp"
 #include "model/form.hpp"
 #include "verify/verify.hpp"
 

@@ -4,8 +4,8 @@
 /// that is affine in u, else by Newton's method. Between bounds each control has a part of H of its own that is
 /// strictly concave (verify/control_maximum.hpp): the maximum is the root of dH/du, or the bound next to it. Controls
 /// that are merely stationary are searched for where they were in the last step, and watched.
-#include "graph/differentiate.hpp"
-#include "graph/simplify.hpp"
+#include "graph/calculus/differentiate.hpp"
+#include "graph/simplify/simplify.hpp"
 #include "kernels/formulation.hpp"
 #include "mechanics/phase_motion.hpp"
 #include "verify/angle_controls.hpp"

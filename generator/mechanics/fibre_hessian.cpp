@@ -3,7 +3,7 @@
 #include "mechanics/fibre_hessian.hpp"
 
 #include "expression/linear_algebra.hpp"
-#include "graph/differentiate.hpp"
+#include "graph/calculus/differentiate.hpp"
 
 #include <algorithm>
 

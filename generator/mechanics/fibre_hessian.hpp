@@ -4,7 +4,7 @@
 #pragma once
 
 #include "algebroid/algebroid.hpp"
-#include "graph/determinant.hpp"
+#include "graph/calculus/determinant.hpp"
 
 #include <optional>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "mechanics/hamilton.hpp"
 
-#include "graph/differentiate.hpp"
-#include "graph/simplify.hpp"
+#include "graph/calculus/differentiate.hpp"
+#include "graph/simplify/simplify.hpp"
 
 namespace lagen {
 

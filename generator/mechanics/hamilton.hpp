@@ -5,7 +5,7 @@
 /// From L without forming H: y solves mu_a = dL/dy^a, and at that y dH/dx^i = -dL/dx^i, dH/dt = -dL/dt.
 #pragma once
 
-#include "graph/implicit.hpp"
+#include "graph/unknowns/implicit.hpp"
 #include "mechanics/lagrange.hpp"
 
 namespace lagen {

@@ -2,7 +2,7 @@
 /// Rates along Lagrange's equations on the graph. Names with a space cannot clash with identifiers of a model.
 #include "mechanics/lagrange_motion.hpp"
 
-#include "graph/differentiate.hpp"
+#include "graph/calculus/differentiate.hpp"
 
 #include <algorithm>
 

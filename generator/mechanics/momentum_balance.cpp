@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "mechanics/momentum_balance.hpp"
 
-#include "graph/differentiate.hpp"
+#include "graph/calculus/differentiate.hpp"
 
 namespace lagen {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "algebroid/form.hpp"
 #include "algebroid/structure_equations.hpp"
-#include "graph/lower.hpp"
+#include "graph/core/lower.hpp"
 #include "mechanics/written_algebroid.hpp"
 
 #include <functional>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "proof/almost_everywhere.hpp"
 
-#include "graph/differentiate.hpp"
-#include "graph/operators.hpp"
-#include "graph/substitute.hpp"
+#include "graph/calculus/differentiate.hpp"
+#include "graph/calculus/substitute.hpp"
+#include "graph/core/operators.hpp"
 #include "proof/rational_matrix.hpp"
 
 #include <algorithm>

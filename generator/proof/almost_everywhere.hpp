@@ -4,7 +4,7 @@
 /// be: |x| + x is zero on a half line.
 #pragma once
 
-#include "graph/operators.hpp"
+#include "graph/core/operators.hpp"
 #include "proof/decide.hpp"
 
 namespace lagen {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// min, max, sign, comparisons and if: by signs where these are known, else as free generators.
-#include "graph/operators.hpp"
+#include "graph/core/operators.hpp"
 #include "proof/normal_form.hpp"
 
 namespace lagen::proof {

@@ -4,7 +4,7 @@
 /// algebra; what neither decides is let pass.
 #pragma once
 
-#include "graph/lower.hpp"
+#include "graph/core/lower.hpp"
 
 #include <optional>
 #include <set>

@@ -20,7 +20,7 @@
 /// that are not triangular, what exceeds the budget.
 #pragma once
 
-#include "graph/graph.hpp"
+#include "graph/core/graph.hpp"
 #include "proof/point.hpp"
 
 #include <memory>

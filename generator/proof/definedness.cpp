@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// What the definedness of roots and logarithms says about the signs of their operands.
-#include "graph/operators.hpp"
+#include "graph/core/operators.hpp"
 #include "proof/normal_form.hpp"
 
 namespace lagen::proof {

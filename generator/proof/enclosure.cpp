@@ -3,7 +3,7 @@
 /// spreads to all that depends on it.
 #include "proof/enclosure.hpp"
 
-#include "graph/operators.hpp"
+#include "graph/core/operators.hpp"
 
 #include <arb_hypgeom.h>
 #include <arb_mat.h>

@@ -3,7 +3,7 @@
 /// rational.
 #pragma once
 
-#include "graph/graph.hpp"
+#include "graph/core/graph.hpp"
 
 #include <arb.h>
 

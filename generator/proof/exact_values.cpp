@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Exact rational evaluation, as far as every operation is rational at the point.
-#include "graph/operators.hpp"
+#include "graph/core/operators.hpp"
 #include "proof/enclosure.hpp"
 
 namespace lagen::proof {

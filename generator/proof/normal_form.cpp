@@ -2,7 +2,7 @@
 /// The walk over the graph: one ring element a node, in topological order.
 #include "proof/normal_form.hpp"
 
-#include "graph/operators.hpp"
+#include "graph/core/operators.hpp"
 #include "proof/print_fraction.hpp"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 /// Normal forms of graph nodes in the ring of one decision: the proof half of the zero decision.
 #pragma once
 
-#include "graph/graph.hpp"
+#include "graph/core/graph.hpp"
 #include "proof/decide.hpp"
 #include "proof/elementary.hpp"
 

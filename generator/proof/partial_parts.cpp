@@ -2,7 +2,7 @@
 /// The walk over the tree.
 #include "proof/partial_parts.hpp"
 
-#include "graph/operators.hpp"
+#include "graph/core/operators.hpp"
 
 #include <set>
 

@@ -2,7 +2,7 @@
 /// What must be defined although the graph no longer shows it: 0*log(-1 - x^2) is the node 0, and yet defined nowhere.
 #pragma once
 
-#include "graph/lower.hpp"
+#include "graph/core/lower.hpp"
 
 namespace lagen {
 

@@ -2,7 +2,7 @@
 /// The sequence of points and the test of regularity.
 #include "proof/sample.hpp"
 
-#include "graph/operators.hpp"
+#include "graph/core/operators.hpp"
 
 #include <algorithm>
 #include <array>

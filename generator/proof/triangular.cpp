@@ -3,7 +3,7 @@
 /// coordinates.
 #include "proof/triangular.hpp"
 
-#include "graph/operators.hpp"
+#include "graph/core/operators.hpp"
 #include "proof/print_fraction.hpp"
 
 #include <algorithm>

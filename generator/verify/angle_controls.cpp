@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "verify/angle_controls.hpp"
 
-#include "graph/differentiate.hpp"
+#include "graph/calculus/differentiate.hpp"
 #include "verify/smooth_controls.hpp"
 
 #include <algorithm>

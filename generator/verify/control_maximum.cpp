@@ -7,7 +7,7 @@
 #include "verify/regularity.hpp"
 #include "verify/smooth_controls.hpp"
 
-#include "graph/differentiate.hpp"
+#include "graph/calculus/differentiate.hpp"
 
 #include <fmt/format.h>
 

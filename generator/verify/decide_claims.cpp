@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The claims of a model, one kind after another, with names for people.
-#include "graph/differentiate.hpp"
+#include "graph/calculus/differentiate.hpp"
 #include "proof/partial_parts.hpp"
 #include "verify/claims.hpp"
 #include "verify/control_maximum.hpp"

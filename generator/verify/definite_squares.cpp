@@ -2,8 +2,8 @@
 /// L taken apart into squares and products, and the elimination of the fibre coordinates.
 #include "verify/definite_squares.hpp"
 
-#include "graph/differentiate.hpp"
-#include "graph/operators.hpp"
+#include "graph/calculus/differentiate.hpp"
+#include "graph/core/operators.hpp"
 #include "proof/rational_matrix.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "verify/kernel_vectors.hpp"
 
-#include "graph/lower.hpp"
+#include "graph/core/lower.hpp"
 #include "proof/rational_matrix.hpp"
 #include "verify/reduced_fraction.hpp"
 

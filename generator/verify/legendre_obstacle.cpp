@@ -2,11 +2,11 @@
 /// The set of fibre coordinates where L is smooth, condition by condition, and the sign of W there.
 #include "verify/legendre_obstacle.hpp"
 
-#include "graph/differentiate.hpp"
-#include "graph/evaluate.hpp"
-#include "graph/implicit.hpp"
-#include "graph/lower.hpp"
-#include "graph/operators.hpp"
+#include "graph/calculus/differentiate.hpp"
+#include "graph/core/evaluate.hpp"
+#include "graph/core/lower.hpp"
+#include "graph/core/operators.hpp"
+#include "graph/unknowns/implicit.hpp"
 #include "verify/definite_squares.hpp"
 #include "verify/regularity.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "verify/motion_divisors.hpp"
 
-#include "graph/differentiate.hpp"
-#include "graph/operators.hpp"
+#include "graph/calculus/differentiate.hpp"
+#include "graph/core/operators.hpp"
 
 #include <algorithm>
 #include <functional>

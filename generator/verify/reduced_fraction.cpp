@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "verify/reduced_fraction.hpp"
 
-#include "graph/lower.hpp"
+#include "graph/core/lower.hpp"
 
 namespace lagen {
 

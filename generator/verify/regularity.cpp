@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Rank, regularity and definiteness of W, block by block.
 #include "verify/regularity.hpp"
-#include "graph/differentiate.hpp"
-#include "graph/evaluate.hpp"
-#include "graph/operators.hpp"
+#include "graph/calculus/differentiate.hpp"
+#include "graph/core/evaluate.hpp"
+#include "graph/core/operators.hpp"
 #include "proof/almost_everywhere.hpp"
 #include "proof/rational_matrix.hpp"
 #include "verify/definite_squares.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "verify/singular_factors.hpp"
 
-#include "graph/differentiate.hpp"
-#include "graph/lower.hpp"
+#include "graph/calculus/differentiate.hpp"
+#include "graph/core/lower.hpp"
 #include "verify/reduced_fraction.hpp"
 
 #include <algorithm>

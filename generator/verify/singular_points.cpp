@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Slices of a model: one variable is zero, the rest of the setting stays.
 #include "verify/singular_points.hpp"
-#include "graph/differentiate.hpp"
+#include "graph/calculus/differentiate.hpp"
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 /// Divisions by an expression that is zero everywhere, also where algebra or the base constraints are needed to see it.
 #pragma once
 
-#include "graph/lower.hpp"
+#include "graph/core/lower.hpp"
 #include "verify/witness_point.hpp"
 
 #include <functional>

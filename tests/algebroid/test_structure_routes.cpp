@@ -4,7 +4,7 @@
 #include "random_sections.hpp"
 
 #include "algebroid/structure_equations.hpp"
-#include "graph/evaluate.hpp"
+#include "graph/core/evaluate.hpp"
 #include "model/read_model.hpp"
 #include "support/sanitized.hpp"
 #include "verify/random_algebroids.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "../support/compiled.hpp"
-#include "graph/operators.hpp"
+#include "graph/core/operators.hpp"
 #include "hand_built.hpp"
 
 #include <random>

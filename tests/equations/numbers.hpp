@@ -2,8 +2,8 @@
 /// Derived equations as numbers.
 #pragma once
 
-#include "graph/evaluate.hpp"
-#include "graph/lower.hpp"
+#include "graph/core/evaluate.hpp"
+#include "graph/core/lower.hpp"
 #include "notation/equation_set.hpp"
 
 #include <algorithm>

@@ -6,9 +6,9 @@
 #include "expression/parse.hpp"
 #include "expression/scope.hpp"
 #include "fuzz/harness.hpp"
-#include "graph/differentiate.hpp"
-#include "graph/evaluate.hpp"
-#include "graph/lower.hpp"
+#include "graph/calculus/differentiate.hpp"
+#include "graph/core/evaluate.hpp"
+#include "graph/core/lower.hpp"
 
 #include <set>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Sines and cosines of sums from those of the terms: where, and with what error.
-#include "graph/form.hpp"
 #include "graph/formulas.hpp"
-#include "graph/simplify.hpp"
+#include "graph/simplify/form.hpp"
+#include "graph/simplify/simplify.hpp"
 #include "support/tolerances.hpp"
 
 #include <catch2/catch.hpp>

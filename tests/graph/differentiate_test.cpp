@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Derivatives against central differences, forward against reverse, and higher orders.
-#include "graph/differentiate.hpp"
+#include "graph/calculus/differentiate.hpp"
 
-#include "graph/evaluate.hpp"
+#include "graph/core/evaluate.hpp"
+#include "graph/core/operators.hpp"
 #include "graph/formulas.hpp"
-#include "graph/operators.hpp"
 #include "support/tolerances.hpp"
 
 #include <catch2/catch.hpp>

@@ -3,8 +3,8 @@
 /// derivatives, as the kernels make them.
 #pragma once
 
-#include "graph/differentiate.hpp"
-#include "graph/graph.hpp"
+#include "graph/calculus/differentiate.hpp"
+#include "graph/core/graph.hpp"
 
 #include <string>
 #include <vector>

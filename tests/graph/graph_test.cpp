@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Hash-consing, local rules, bounds and texts of the graph.
-#include "graph/graph.hpp"
+#include "graph/core/graph.hpp"
 
-#include "graph/evaluate.hpp"
-#include "graph/operators.hpp"
-#include "graph/schedule.hpp"
+#include "graph/core/evaluate.hpp"
+#include "graph/core/operators.hpp"
+#include "graph/core/schedule.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Lowering of trees, and the way back.
-#include "graph/lower.hpp"
+#include "graph/core/lower.hpp"
 
 #include "expression/parse.hpp"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// What the rows of the operator table say of functions, against their values.
-#include "graph/differentiate.hpp"
-#include "graph/evaluate.hpp"
-#include "graph/implicit.hpp"
-#include "graph/operators.hpp"
+#include "graph/calculus/differentiate.hpp"
+#include "graph/core/evaluate.hpp"
+#include "graph/core/operators.hpp"
+#include "graph/unknowns/implicit.hpp"
 #include "support/tolerances.hpp"
 
 #include <catch2/catch.hpp>

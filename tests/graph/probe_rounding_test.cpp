@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Simplified forms keep the digits of what was written.
-#include "graph/probe_rounding.hpp"
+#include "graph/simplify/probe_rounding.hpp"
 
-#include "graph/evaluate.hpp"
+#include "graph/core/evaluate.hpp"
+#include "graph/core/rounded_sweep.hpp"
 #include "graph/formulas.hpp"
-#include "graph/rounded_sweep.hpp"
-#include "graph/simplify.hpp"
+#include "graph/simplify/simplify.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// What `simplify` tells of its work.
-#include "graph/simplify.hpp"
+#include "graph/simplify/simplify.hpp"
 
 #include "graph/formulas.hpp"
 

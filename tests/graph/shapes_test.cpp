@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Shapes that compilers like and hand-written code has: rows without common factors, cyclic rows alike, no terms that
 /// cancel.
-#include "graph/evaluate.hpp"
-#include "graph/form.hpp"
+#include "graph/core/evaluate.hpp"
 #include "graph/formulas.hpp"
-#include "graph/simplify.hpp"
+#include "graph/simplify/form.hpp"
+#include "graph/simplify/simplify.hpp"
 #include "support/tolerances.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The portfolio: same values, fewer operations, bounded effort.
-#include "graph/simplify.hpp"
+#include "graph/simplify/simplify.hpp"
 
-#include "graph/evaluate.hpp"
+#include "graph/core/evaluate.hpp"
 #include "graph/formulas.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Solving with W = d2L/dy2 through the terms of L, beside the dense factorisation.
-#include "graph/sparse_hessian.hpp"
+#include "graph/elimination/sparse_hessian.hpp"
 
-#include "graph/differentiate.hpp"
-#include "graph/evaluate.hpp"
-#include "graph/simplify.hpp"
+#include "graph/calculus/differentiate.hpp"
+#include "graph/core/evaluate.hpp"
+#include "graph/simplify/simplify.hpp"
 #include "support/tolerances.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Stumpff functions as nodes: values, the recurrence, derivatives, and the passes that must keep the order.
 #include "expression/evaluate_stumpff.hpp"
-#include "graph/differentiate.hpp"
-#include "graph/evaluate.hpp"
-#include "graph/simplify.hpp"
-#include "graph/substitute.hpp"
+#include "graph/calculus/differentiate.hpp"
+#include "graph/calculus/substitute.hpp"
+#include "graph/core/evaluate.hpp"
+#include "graph/simplify/simplify.hpp"
 #include "support/tolerances.hpp"
 
 #include <catch2/catch.hpp>

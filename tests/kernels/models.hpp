@@ -2,9 +2,9 @@
 /// Models from text and their kernels at points, through the interpreter.
 #pragma once
 
-#include "graph/differentiate.hpp"
-#include "graph/evaluate.hpp"
-#include "graph/solve_unknowns.hpp"
+#include "graph/calculus/differentiate.hpp"
+#include "graph/core/evaluate.hpp"
+#include "graph/unknowns/solve_unknowns.hpp"
 #include "model/read_model.hpp"
 #include "model/scene_form.hpp"
 #include "support/model_kernels.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Newton's method of the interpreter: the verdicts of the compiled one on unknowns of different sizes, beside a
 /// singularity, and where there is no root.
-#include "graph/solve_unknowns.hpp"
+#include "graph/unknowns/solve_unknowns.hpp"
 
 #include "diagnostic.hpp"
 

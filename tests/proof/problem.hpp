@@ -3,7 +3,7 @@
 #pragma once
 
 #include "expression/parse.hpp"
-#include "graph/lower.hpp"
+#include "graph/core/lower.hpp"
 #include "proof/decide.hpp"
 
 #include <memory>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The error function in the zero decision: odd, 0 at 0, between -1 and 1, and the derivative that it is defined by.
-#include "graph/differentiate.hpp"
+#include "graph/calculus/differentiate.hpp"
 #include "problem.hpp"
 
 #include <catch2/catch.hpp>

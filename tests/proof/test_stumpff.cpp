@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Stumpff functions in the zero decision: identities, their near misses, rotations, and arguments that vanish on a
 /// component.
-#include "graph/differentiate.hpp"
+#include "graph/calculus/differentiate.hpp"
 #include "problem.hpp"
 #include "proof/enclosure.hpp"
 #include "support/tolerances.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// End to end against data that share no code with lagen: model text -> verified algebroid -> kernels -> interpreter.
-#include "graph/evaluate.hpp"
-#include "graph/solve_unknowns.hpp"
+#include "graph/core/evaluate.hpp"
+#include "graph/unknowns/solve_unknowns.hpp"
 #include "model/read_model.hpp"
 #include "support/model_kernels.hpp"
 #include "support/reference_case.hpp"

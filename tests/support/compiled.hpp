@@ -5,8 +5,8 @@
 
 #include "emit/print_header.hpp"
 #include "golden.hpp"
-#include "graph/evaluate.hpp"
-#include "graph/solve_unknowns.hpp"
+#include "graph/core/evaluate.hpp"
+#include "graph/unknowns/solve_unknowns.hpp"
 
 #include <fmt/format.h>
 

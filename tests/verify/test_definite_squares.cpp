@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Definiteness by squares.
 #include "expression/parse.hpp"
-#include "graph/lower.hpp"
+#include "graph/core/lower.hpp"
 #include "verify/definite_squares.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Algebroids made of others: frames, products and prolongations, of inner tables and of files.
-#include "graph/differentiate.hpp"
-#include "graph/lower.hpp"
+#include "graph/calculus/differentiate.hpp"
+#include "graph/core/lower.hpp"
 #include "verify/checking.hpp"
 
 #include <catch2/catch.hpp>

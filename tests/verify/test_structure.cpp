@@ -3,7 +3,7 @@
 #include "verify/checking.hpp"
 
 #include "algebroid/structure_equations.hpp"
-#include "graph/evaluate.hpp"
+#include "graph/core/evaluate.hpp"
 #include "support/tolerances.hpp"
 #include "symbolic/ginac_door.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Normal forms become expressions where an algebroid is built, and tell assumptions apart: no two may be one tree, and
 /// none may stand for another.
-#include "graph/differentiate.hpp"
-#include "graph/lower.hpp"
+#include "graph/calculus/differentiate.hpp"
+#include "graph/core/lower.hpp"
 #include "verify/checking.hpp"
 
 #include <catch2/catch.hpp>

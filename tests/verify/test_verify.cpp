@@ -2,7 +2,7 @@
 /// Proofs looked at again at other points, counts of what is zero by structure, and divisions by zero in every block.
 #include "verify/checking.hpp"
 
-#include "graph/lower.hpp"
+#include "graph/core/lower.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Forward and reverse sweeps by the rules of the operator table, and the rules of linear solves.
+#include "graph/calculus/differentiate.hpp"
+
+#include "graph/core/operators.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace lagen {
+namespace {
+
+/// A solve node taken apart: z = A^-1 b.
+struct LinearSystem {
+    std::vector<NodeId> matrix; ///< n x n by rows
+    std::vector<NodeId> right;
+    std::vector<NodeId> solution;
+    MatrixStructure structure = MatrixStructure::general;
+
+    [[nodiscard]] std::size_t order() const { return right.size(); }
+    [[nodiscard]] std::vector<NodeId> transposed() const
+    {
+        std::vector<NodeId> result(matrix.size());
+        for (std::size_t i = 0; i < order(); ++i)
+            for (std::size_t j = 0; j < order(); ++j) result[j * order() + i] = matrix[i * order() + j];
+        return result;
+    }
+};
+
+LinearSystem system_of(Graph& graph, NodeId solve)
+{
+    LinearSystem system;
+    const auto operands = graph.operands(solve);
+    const auto entries = graph.operands(operands[0]);
+    system.matrix.assign(entries.begin(), entries.end());
+    system.right.assign(operands.begin() + 1, operands.end());
+    system.structure = static_cast<MatrixStructure>(graph.payload(operands[0]));
+    // The block is connected, so this finds the same nodes again.
+    system.solution = graph.solve(system.matrix, system.right, system.structure);
+    return system;
+}
+
+/// dz = A^-1 (db - dA z).
+std::vector<NodeId> solve_tangent(Graph& graph, const LinearSystem& system, const std::vector<NodeId>& tangents)
+{
+    const std::size_t n = system.order();
+    std::vector<NodeId> right;
+    for (std::size_t i = 0; i < n; ++i) {
+        NodeId sum = tangents[system.right[i]];
+        for (std::size_t j = 0; j < n; ++j)
+            sum = graph.subtract(sum, graph.multiply(tangents[system.matrix[i * n + j]], system.solution[j]));
+        right.push_back(sum);
+    }
+    return graph.solve(system.matrix, right, system.structure);
+}
+
+/// The scalar rule: sum over the operands of (d node / d operand) * tangent.
+NodeId node_tangent(Graph& graph, NodeId id, const std::vector<NodeId>& tangents)
+{
+    const auto rule = operator_of(graph.op(id)).contribution;
+    NodeId sum = graph.constant(0);
+    for (std::size_t k = 0; k < graph.operands(id).size(); ++k) {
+        const NodeId tangent = tangents[graph.operands(id)[k]];
+        if (!graph.is_zero(tangent)) sum = graph.add(sum, rule(graph, id, k, tangent));
+    }
+    return sum;
+}
+
+/// True for the nodes that depend on one of `inputs`; indexed by id.
+std::vector<bool> dependent_nodes(const Graph& graph, const std::vector<NodeId>& nodes, std::span<const NodeId> inputs)
+{
+    std::vector<bool> active(nodes.empty() ? 0 : std::size_t{nodes.back()} + 1, false);
+    for (const NodeId input : inputs)
+        if (input < active.size()) active[input] = true;
+    for (const NodeId id : nodes)
+        for (const NodeId operand : graph.operands(id))
+            if (active[operand]) active[id] = true;
+    return active;
+}
+
+/// The reverse sweep: adjoints by id; those of a solve's components wait as a vector by solve node.
+class ReverseSweep {
+  public:
+    ReverseSweep(Graph& graph, std::vector<bool> active)
+        : graph_(graph), zero_(graph.constant(0)), active_(std::move(active)), adjoints_(active_.size(), zero_)
+    {
+    }
+
+    void seed(NodeId output) { accumulate(output, graph_.constant(1)); }
+    [[nodiscard]] NodeId adjoint(NodeId id) const { return id < adjoints_.size() ? adjoints_[id] : zero_; }
+
+    void visit(NodeId id)
+    {
+        if (!active_[id]) return;
+        if (graph_.op(id) == Op::solve) return visit_solve(id);
+        const NodeId adjoint = adjoints_[id];
+        if (graph_.is_zero(adjoint)) return;
+        if (graph_.op(id) == Op::component) {
+            auto& waiting = solve_adjoints_[graph_.operands(id)[0]];
+            waiting.resize(graph_.operands(graph_.operands(id)[0]).size() - 1, zero_);
+            waiting[graph_.payload(id)] = adjoint;
+            return;
+        }
+        const auto rule = operator_of(graph_.op(id)).contribution;
+        for (std::size_t k = 0; k < graph_.operands(id).size(); ++k) {
+            const NodeId operand = graph_.operands(id)[k];
+            if (active_[operand]) accumulate(operand, rule(graph_, id, k, adjoint));
+        }
+    }
+
+  private:
+    void accumulate(NodeId id, NodeId value) { adjoints_[id] = graph_.add(adjoints_[id], value); }
+
+    /// lambda = A^-T zbar, bbar = lambda, Abar = -lambda z^T.
+    void visit_solve(NodeId id)
+    {
+        const auto waiting = solve_adjoints_.find(id);
+        if (waiting == solve_adjoints_.end()) return;
+        const LinearSystem system = system_of(graph_, id);
+        const std::size_t n = system.order();
+        const bool general = system.structure == MatrixStructure::general;
+        const auto lambda =
+            graph_.solve(general ? system.transposed() : system.matrix, waiting->second, system.structure);
+        for (std::size_t i = 0; i < n; ++i) {
+            if (active_[system.right[i]]) accumulate(system.right[i], lambda[i]);
+            for (std::size_t j = 0; j < n; ++j)
+                if (const NodeId entry = system.matrix[i * n + j]; active_[entry])
+                    accumulate(entry, graph_.negate(graph_.multiply(lambda[i], system.solution[j])));
+        }
+    }
+
+    Graph& graph_;
+    NodeId zero_;
+    std::vector<bool> active_;
+    std::vector<NodeId> adjoints_;
+    std::map<NodeId, std::vector<NodeId>> solve_adjoints_;
+};
+
+} // namespace
+
+std::vector<NodeId> directional(Graph& graph, std::span<const NodeId> outputs,
+                                std::span<const std::pair<NodeId, NodeId>> seeds)
+{
+    const auto nodes = reachable(graph, outputs);
+    const NodeId zero = graph.constant(0);
+    std::vector<NodeId> tangents(nodes.empty() ? 0 : std::size_t{nodes.back()} + 1, zero);
+    std::vector<NodeId> inputs;
+    for (const auto& [input, tangent] : seeds) inputs.push_back(input);
+    const auto active = dependent_nodes(graph, nodes, inputs);
+    std::map<NodeId, std::vector<NodeId>> solutions;
+    for (const auto& [input, tangent] : seeds)
+        if (input < tangents.size()) tangents[input] = tangent;
+    for (const NodeId id : nodes) {
+        if (!active[id] || std::ranges::find(inputs, id) != inputs.end()) continue;
+        const Op op = graph.op(id);
+        if (op == Op::solve)
+            solutions.emplace(id, solve_tangent(graph, system_of(graph, id), tangents));
+        else if (op == Op::component)
+            tangents[id] = solutions.at(graph.operands(id)[0])[graph.payload(id)];
+        else if (op != Op::factor)
+            tangents[id] = node_tangent(graph, id, tangents);
+    }
+    std::vector<NodeId> result;
+    for (const NodeId output : outputs) result.push_back(tangents[output]);
+    return result;
+}
+
+std::vector<NodeId> gradient(Graph& graph, NodeId output, std::span<const NodeId> inputs)
+{
+    const NodeId roots[] = {output};
+    const auto nodes = reachable(graph, roots);
+    ReverseSweep sweep(graph, dependent_nodes(graph, nodes, inputs));
+    sweep.seed(output);
+    // An input that is itself an inner node (a named quantity) keeps its adjoint and passes nothing on.
+    for (std::size_t k = nodes.size(); k-- > 0;)
+        if (std::ranges::find(inputs, nodes[k]) == inputs.end()) sweep.visit(nodes[k]);
+    std::vector<NodeId> result;
+    for (const NodeId input : inputs) result.push_back(sweep.adjoint(input));
+    return result;
+}
+
+std::vector<NodeId> joined_rows(const std::vector<std::vector<NodeId>>& rows)
+{
+    std::vector<NodeId> entries;
+    for (const std::vector<NodeId>& row : rows) entries.insert(entries.end(), row.begin(), row.end());
+    return entries;
+}
+
+std::vector<std::vector<NodeId>> jacobian(Graph& graph, std::span<const NodeId> outputs, std::span<const NodeId> inputs)
+{
+    std::vector<std::vector<NodeId>> result(outputs.size());
+    for (const NodeId input : inputs) {
+        const std::pair<NodeId, NodeId> seed[] = {{input, graph.constant(1)}};
+        const auto column = directional(graph, outputs, seed);
+        for (std::size_t r = 0; r < outputs.size(); ++r) result[r].push_back(column[r]);
+    }
+    return result;
+}
+
+} // namespace lagen

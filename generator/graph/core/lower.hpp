@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Closed trees to graph nodes and back.
+#pragma once
+
+#include "expression/tree.hpp"
+#include "graph/core/graph.hpp"
+
+#include <map>
+
+namespace lagen {
+
+/// What names stand for while lowering. A name that is absent becomes (or is) the graph input of that name.
+using Binding = std::map<std::string, NodeId>;
+
+/// Memoised by tree address, so shared definitions are lowered once.
+class Lowering {
+  public:
+    explicit Lowering(Graph& graph, Binding binding = {}) : graph_(graph), binding_(std::move(binding)) {}
+    /// Throws ModelError at the division where a divisor is the constant 0 after folding, or 0^0, 0^-n.
+    NodeId operator()(const Tree& tree);
+
+  private:
+    Graph& graph_;
+    Binding binding_;
+    std::map<const TreeNode*, NodeId> done_;
+    std::vector<Tree> alive_; ///< trees whose addresses are keys of done_
+};
+
+/// A node as a tree (shared nodes become shared trees). Solve components are refused (InternalError).
+[[nodiscard]] Tree to_tree(const Graph& graph, NodeId id);
+
+} // namespace lagen

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// What rows of the operator table have in common, by kind.
+#pragma once
+
+#include "graph/core/condition_rules.hpp"
+#include "graph/core/derivative_rules.hpp"
+
+namespace lagen::rules {
+
+inline constexpr double addition_latency = 4;
+inline constexpr double division_latency = 13;
+inline constexpr double root_latency = 20;
+inline constexpr double function_latency = 70; ///< sincos of a batch; others take no less
+
+constexpr Operator leaf(Op op, const char* name)
+{
+    return {.op = op, .name = name, .spelling = name, .word = name};
+}
+
+constexpr Operator linear_algebra(Op op, const char* name, int arity)
+{
+    return {.op = op,
+            .kind = OpKind::system,
+            .name = name,
+            .spelling = name,
+            .word = name,
+            .notation = Notation::block,
+            .arity = arity,
+            .smoothness = Smoothness::system};
+}
+
+/// Rows of arithmetic: sums, products, quotients, powers.
+constexpr Operator arithmetic(OpKind kind, Op op, const char* sign, const char* word, int precedence, Operator row)
+{
+    row.op = op;
+    row.kind = kind;
+    row.name = sign;
+    if (row.spelling[0] == 0) row.spelling = sign;
+    row.word = word;
+    row.precedence = precedence;
+    return row;
+}
+
+/// Rows of functions cannot leave out how smooth they are, nor where they are defined (null: everywhere).
+constexpr Operator function(Function f, Op op, Smoothness smoothness, Sense (*domain)(const Graph&, NodeId),
+                            Operator row)
+{
+    const FunctionEntry& entry = entry_of(f);
+    row.op = op;
+    row.kind = OpKind::function;
+    row.name = row.spelling = row.word = entry.name;
+    row.notation = Notation::call;
+    row.arity = row.arity != 0 ? row.arity : static_cast<int>(entry.arity);
+    row.function = f;
+    row.smoothness = smoothness;
+    row.domain = domain;
+    if (row.latency == 0) row.latency = function_latency;
+    return row;
+}
+
+constexpr Operator comparison(Comparison c, Op op, const char* word, Trichotomy holds, ScalarValues value,
+                              ExactValue exact)
+{
+    return {.op = op,
+            .kind = OpKind::comparison,
+            .name = spelling(c),
+            .spelling = spelling(c),
+            .word = word,
+            .notation = Notation::infix,
+            .arity = 2,
+            .precedence = 0,
+            .commutative = holds.below == holds.above,
+            .comparison = c,
+            .holds = holds,
+            .weight = 1,
+            .latency = function_latency,
+            .value = value,
+            .exact = exact,
+            .contribution = of_step,
+            .slope = slope_one,
+            .smoothness = Smoothness::stepped,
+            .condition = difference_of};
+}
+
+} // namespace lagen::rules

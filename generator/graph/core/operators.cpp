@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// The rows of the operator table.
+#include "graph/core/operators.hpp"
+
+#include "expression/evaluate_stumpff.hpp"
+#include "graph/core/operator_rows.hpp"
+
+#include <array>
+#include <cmath>
+#include <type_traits>
+
+namespace lagen {
+namespace {
+
+using namespace rules;
+
+/// x^n by squaring; 1 / x^-n for a negative n.
+template <class Scalar>
+Scalar integer_power(Scalar x, std::int32_t n)
+{
+    Scalar result = 1;
+    for (std::uint32_t rest = n < 0 ? 0U - static_cast<std::uint32_t>(n) : static_cast<std::uint32_t>(n); rest != 0;
+         rest >>= 1U, x *= x)
+        if ((rest & 1U) != 0) result *= x;
+    return n < 0 ? 1 / result : result;
+}
+
+template <class Lambda>
+constexpr ScalarValues values(Lambda value)
+{
+    return {value, value, value};
+}
+
+/// The value lambdas of the table; `x` are the operands, the return type is their scalar.
+#define LAGEN_VALUE(expression) values([](const auto* x, std::int32_t) { return expression; })
+#define LAGEN_CAST(integer)                                                                                            \
+    values([](const auto* x, std::int32_t) { return static_cast<std::remove_cvref_t<decltype(*x)>>(integer); })
+#define LAGEN_EXACT(expression) [](const Rational* x, std::int32_t, std::size_t) -> Exact { return expression; }
+
+/// A polynomial of some ten terms where |z| is small, else a sine and a cosine.
+constexpr double stumpff_weight = 25;
+
+using enum Smoothness;
+constexpr auto total = nullptr;
+
+constexpr std::array table{
+    leaf(Op::constant, "constant"),
+    leaf(Op::pi, "pi"),
+    leaf(Op::input, "input"),
+    arithmetic(OpKind::sum, Op::add, "+", "add", 1,
+               {.notation = Notation::infix,
+                .arity = 2,
+                .commutative = true,
+                .weight = 1,
+                .latency = addition_latency,
+                .value = LAGEN_VALUE(x[0] + x[1]),
+                .exact = LAGEN_EXACT(Rational(x[0] + x[1])),
+                .contribution = of_add}),
+    arithmetic(OpKind::sum, Op::subtract, "-", "subtract", 1,
+               {.notation = Notation::infix,
+                .arity = 2,
+                .weight = 1,
+                .latency = addition_latency,
+                .value = LAGEN_VALUE(x[0] - x[1]),
+                .exact = LAGEN_EXACT(Rational(x[0] - x[1])),
+                .contribution = of_subtract}),
+    arithmetic(OpKind::product, Op::multiply, "*", "multiply", 2,
+               {.notation = Notation::infix,
+                .arity = 2,
+                .commutative = true,
+                .weight = 1,
+                .latency = addition_latency,
+                .value = LAGEN_VALUE(x[0] * x[1]),
+                .exact = LAGEN_EXACT(Rational(x[0] * x[1])),
+                .contribution = of_multiply}),
+    arithmetic(OpKind::quotient, Op::divide, "/", "divide", 2,
+               {.notation = Notation::infix,
+                .arity = 2,
+                .weight = 6,
+                .latency = division_latency,
+                .value = LAGEN_VALUE(x[0] / x[1]),
+                .exact = LAGEN_EXACT(exact_quotient(x[0], x[1])),
+                .contribution = of_divide,
+                .domain = where<Sense::nonzero>,
+                .condition_operand = 1,
+                .vanishes_with_operand = true}),
+    arithmetic(OpKind::sum, Op::negate, "-", "negate", 3,
+               {.notation = Notation::prefix,
+                .arity = 1,
+                .weight = 1,
+                .value = LAGEN_VALUE(-x[0]),
+                .exact = LAGEN_EXACT(Rational(-x[0])),
+                .contribution = of_negate,
+                .vanishes_with_operand = true}),
+    arithmetic(OpKind::power, Op::power, "^", "power", 4,
+               {.notation = Notation::integer,
+                .arity = 1,
+                .weight = 1,
+                .value = values([](const auto* x, std::int32_t n) { return integer_power(x[0], n); }),
+                .exact = [](const Rational* x, std::int32_t n, std::size_t most) { return exact_power(x[0], n, most); },
+                .contribution = of_power,
+                .domain = where_power,
+                .condition_operand = 0,
+                .vanishes_with_operand = true}),
+    arithmetic(OpKind::function, Op::real_power, "^", "power", 4,
+               {.spelling = "pow",
+                .notation = Notation::infix,
+                .arity = 2,
+                .weight = 40,
+                .latency = function_latency,
+                .value = LAGEN_VALUE(std::pow(x[0], x[1])),
+                .exact = LAGEN_EXACT(exact_at(x[0], 1, 1)),
+                .contribution = of_real_power,
+                .slope = slope_of_real_power,
+                .smoothness = analytic,
+                .domain = where_real_power,
+                .condition_operand = 0}),
+    function(Function::sqrt, Op::sqrt, analytic, where<Sense::nonnegative>,
+             {.weight = 8,
+              .latency = root_latency,
+              .value = LAGEN_VALUE(std::sqrt(x[0])),
+              .exact = LAGEN_EXACT(exact_root(x[0])),
+              .contribution = of_sqrt,
+              .slope = slope_of_root,
+              .condition_operand = 0,
+              .vanishes_with_operand = true}),
+    function(Function::sin, Op::sin, meromorphic, total,
+             {.weight = 15,
+              .value = LAGEN_VALUE(std::sin(x[0])),
+              .exact = LAGEN_EXACT(exact_at(x[0], 0, 0)),
+              .contribution = of_sin,
+              .slope = slope_one}),
+    function(Function::cos, Op::cos, meromorphic, total,
+             {.weight = 15,
+              .value = LAGEN_VALUE(std::cos(x[0])),
+              .exact = LAGEN_EXACT(exact_at(x[0], 0, 1)),
+              .contribution = of_cos,
+              .slope = slope_one}),
+    function(Function::tan, Op::tan, meromorphic, where<Sense::nonzero>,
+             {.weight = 20,
+              .value = LAGEN_VALUE(std::tan(x[0])),
+              .exact = LAGEN_EXACT(exact_at(x[0], 0, 0)),
+              .contribution = of_tan,
+              .slope = slope_of_tan,
+              .condition = cosine_of}),
+    function(Function::asin, Op::asin, analytic, where<Sense::nonnegative>,
+             {.weight = 20,
+              .value = LAGEN_VALUE(std::asin(x[0])),
+              .exact = LAGEN_EXACT(exact_at(x[0], 0, 0)),
+              .contribution = of_asin,
+              .slope = slope_of_inverse_sine,
+              .condition = complement_of,
+              .vanishes_with_operand = true}),
+    function(Function::acos, Op::acos, analytic, where<Sense::nonnegative>,
+             {.weight = 20,
+              .value = LAGEN_VALUE(std::acos(x[0])),
+              .exact = LAGEN_EXACT(exact_at(x[0], 1, 0)),
+              .contribution = of_acos,
+              .slope = slope_of_inverse_sine,
+              .condition = complement_of}),
+    function(Function::atan, Op::atan, analytic, total,
+             {.weight = 20,
+              .value = LAGEN_VALUE(std::atan(x[0])),
+              .exact = LAGEN_EXACT(exact_at(x[0], 0, 0)),
+              .contribution = of_atan,
+              .slope = slope_one,
+              .vanishes_with_operand = true}),
+    function(Function::atan2, Op::atan2, cut, where<Sense::off_origin>,
+             {.weight = 25,
+              .value = LAGEN_VALUE(std::atan2(x[0], x[1])),
+              .exact = LAGEN_EXACT(x[1] > 0 ? exact_at(x[0], 0, 0) : std::nullopt),
+              .contribution = of_atan2}),
+    function(Function::sinh, Op::sinh, meromorphic, total,
+             {.weight = 20,
+              .value = LAGEN_VALUE(std::sinh(x[0])),
+              .exact = LAGEN_EXACT(exact_at(x[0], 0, 0)),
+              .contribution = of_sinh,
+              .slope = slope_of_sinh,
+              .vanishes_with_operand = true}),
+    function(Function::cosh, Op::cosh, meromorphic, total,
+             {.weight = 20,
+              .value = LAGEN_VALUE(std::cosh(x[0])),
+              .exact = LAGEN_EXACT(exact_at(x[0], 0, 1)),
+              .contribution = of_cosh,
+              .slope = slope_is_value}),
+    function(Function::tanh, Op::tanh, meromorphic, total,
+             {.weight = 20,
+              .value = LAGEN_VALUE(std::tanh(x[0])),
+              .exact = LAGEN_EXACT(exact_at(x[0], 0, 0)),
+              .contribution = of_tanh,
+              .slope = slope_one,
+              .vanishes_with_operand = true}),
+    function(Function::exp, Op::exp, meromorphic, total,
+             {.weight = 15,
+              .value = LAGEN_VALUE(std::exp(x[0])),
+              .exact = LAGEN_EXACT(exact_at(x[0], 0, 1)),
+              .contribution = of_exp,
+              .slope = slope_is_value}),
+    function(Function::log, Op::log, analytic, where<Sense::positive>,
+             {.weight = 15,
+              .value = LAGEN_VALUE(std::log(x[0])),
+              .exact = LAGEN_EXACT(exact_at(x[0], 1, 0)),
+              .contribution = of_log,
+              .slope = slope_of_log,
+              .condition_operand = 0}),
+    function(Function::abs, Op::abs, kinked, total,
+             {.weight = 1,
+              .value = LAGEN_VALUE(std::abs(x[0])),
+              .exact = LAGEN_EXACT(Rational(abs(x[0]))),
+              .contribution = of_abs,
+              .slope = slope_one,
+              .condition_operand = 0,
+              .vanishes_with_operand = true}),
+    function(Function::minimum, Op::minimum, kinked, total,
+             {.commutative = true,
+              .weight = 1,
+              .value = LAGEN_VALUE(x[0] <= x[1] ? x[0] : x[1]),
+              .exact = LAGEN_EXACT(x[0] <= x[1] ? x[0] : x[1]),
+              .contribution = of_minimum,
+              .slope = slope_one,
+              .condition = difference_of}),
+    function(Function::maximum, Op::maximum, kinked, total,
+             {.commutative = true,
+              .weight = 1,
+              .value = LAGEN_VALUE(x[0] >= x[1] ? x[0] : x[1]),
+              .exact = LAGEN_EXACT(x[0] >= x[1] ? x[0] : x[1]),
+              .contribution = of_maximum,
+              .slope = slope_one,
+              .condition = difference_of}),
+    function(Function::sign, Op::sign, stepped, total,
+             {.weight = 2,
+              .value = LAGEN_CAST((x[0] > 0) - (x[0] < 0)),
+              .exact = LAGEN_EXACT(Rational(sgn(x[0]))),
+              .contribution = of_step,
+              .slope = slope_one,
+              .condition_operand = 0,
+              .vanishes_with_operand = true}),
+    function(Function::stumpff, Op::stumpff, meromorphic, total,
+             {.arity = 1,
+              .weight = stumpff_weight,
+              .value = values(
+                  [](const auto* x, std::int32_t k) { return evaluate_stumpff(static_cast<unsigned>(k), x[0]); }),
+              .exact = [](const Rational* x, std::int32_t k, std::size_t) -> Exact {
+                  return sgn(x[0]) == 0 ? Exact(stumpff_at_zero(static_cast<unsigned>(k))) : std::nullopt;
+              },
+              .contribution = of_stumpff}),
+    function(Function::erf, Op::erf, meromorphic, total,
+             {.weight = 25,
+              .value = LAGEN_VALUE(std::erf(x[0])),
+              .exact = LAGEN_EXACT(exact_at(x[0], 0, 0)),
+              .contribution = of_erf,
+              .slope = slope_of_erf,
+              .vanishes_with_operand = true}),
+    comparison(Comparison::less, Op::less, "less", {.below = true}, LAGEN_CAST(x[0] < x[1]),
+               LAGEN_EXACT(exact_truth(x[0] < x[1]))),
+    comparison(Comparison::less_equal, Op::less_equal, "less_equal", {.below = true, .equal = true},
+               LAGEN_CAST(x[0] <= x[1]), LAGEN_EXACT(exact_truth(x[0] <= x[1]))),
+    comparison(Comparison::greater, Op::greater, "greater", {.above = true}, LAGEN_CAST(x[0] > x[1]),
+               LAGEN_EXACT(exact_truth(x[0] > x[1]))),
+    comparison(Comparison::greater_equal, Op::greater_equal, "greater_equal", {.equal = true, .above = true},
+               LAGEN_CAST(x[0] >= x[1]), LAGEN_EXACT(exact_truth(x[0] >= x[1]))),
+    comparison(Comparison::equal, Op::equal, "equal", {.equal = true}, LAGEN_CAST(x[0] == x[1]),
+               LAGEN_EXACT(exact_truth(x[0] == x[1]))),
+    comparison(Comparison::not_equal, Op::not_equal, "not_equal", {.below = true, .above = true},
+               LAGEN_CAST(x[0] != x[1]), LAGEN_EXACT(exact_truth(x[0] != x[1]))),
+    [] {
+        Operator row = function(Function::select, Op::select, chosen, total,
+                                {.weight = 1,
+                                 .value = LAGEN_VALUE(x[0] != 0 ? x[1] : x[2]),
+                                 .exact = LAGEN_EXACT(sgn(x[0]) != 0 ? x[1] : x[2]),
+                                 .contribution = of_select});
+        row.kind = OpKind::choice;
+        row.spelling = "select";
+        return row;
+    }(),
+    [] {
+        Operator row = linear_algebra(Op::factor, "factor", -1);
+        row.domain = where_regular;
+        return row;
+    }(),
+    linear_algebra(Op::solve, "solve", -1),
+    linear_algebra(Op::component, "component", 1),
+};
+
+#undef LAGEN_VALUE
+#undef LAGEN_CAST
+#undef LAGEN_EXACT
+
+consteval bool require(bool holds, const char* what)
+{
+    return holds ? true : throw what;
+}
+
+/// Every operation has its row, in order, and every row what an operation of its kind must have.
+consteval bool is_complete()
+{
+    for (std::size_t k = 0; k < table.size(); ++k) {
+        const Operator& row = table[k];
+        require(row.op == static_cast<Op>(k), "a row does not stand at the place of its operation");
+        if (row.kind == OpKind::leaf || row.kind == OpKind::system) continue;
+        require(row.value.in_float && row.value.in_double && row.value.in_long_double, "an operation without value");
+        require(row.exact != nullptr, "an operation without exact values");
+        require(row.contribution != nullptr, "an operation without derivative");
+        require(row.weight > 0, "an operation without cost");
+        const bool conditional =
+            row.smoothness == kinked || row.smoothness == stepped || (row.domain != nullptr && row.smoothness != cut);
+        require(!conditional || row.condition_operand >= 0 || row.condition != nullptr,
+                "an operation that is not smooth everywhere, without the condition under which it is");
+    }
+    return table.back().op == Op::component;
+}
+static_assert(is_complete());
+
+} // namespace
+
+std::span<const Operator> operator_table()
+{
+    return table;
+}
+
+const Operator& operator_of(Op op)
+{
+    return table[static_cast<std::size_t>(op)];
+}
+
+} // namespace lagen
