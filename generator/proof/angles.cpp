@@ -10,7 +10,6 @@ namespace lagen::proof {
 namespace {
 
 constexpr unsigned largest_multiple = 256; ///< of an angle; cos(256 u) has 129 terms
-constexpr unsigned finest_part = 60;       ///< of pi whose sine and cosine are algebraic numbers
 constexpr std::size_t most_parts = 64;     ///< terms of one argument: each brings generators of its own
 
 } // namespace
@@ -161,9 +160,6 @@ Elementary::SineCosine Elementary::pi_angle(const mpq_class& turns)
         const SineCosine twelfth = sum(fourth, minus_sixth);
         const SineCosine table[6] = {value, twelfth, sixth, fourth, third, sum(fourth, sixth)};
         value = table[twelfths.get_num().get_ui()];
-    } else if (rest != 0 && rest.get_den() <= finest_part &&
-               std::lcm(pi_parts_, static_cast<unsigned>(rest.get_den().get_ui())) <= finest_part) {
-        value = part_of_pi(rest);
     } else if (rest != 0) {
         const Part part{rest, pi()};
         const mpz_class multiple = multiple_of_unit(angle_units_, part, true);

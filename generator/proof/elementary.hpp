@@ -110,8 +110,6 @@ class Elementary {
     void make_generators(Unit& unit, const Fraction& atom, bool angle);
     [[nodiscard]] SineCosine multiple_angle(const Unit& unit, const mpz_class& multiple);
     [[nodiscard]] SineCosine pi_angle(const mpq_class& turns);
-    /// sin and cos of turns * pi, 0 < turns < 1/2.
-    [[nodiscard]] SineCosine part_of_pi(const mpq_class& turns);
     [[nodiscard]] SineCosine sum(const SineCosine& a, const SineCosine& b);
     [[nodiscard]] StumpffPair stumpff_pair(const Fraction& z);
     [[nodiscard]] StumpffPair repeated(const Family& family, const mpz_class& count);
@@ -142,7 +140,6 @@ class Elementary {
     Angles angles_;
     bool refined_ = false;
     int log_depth_ = 0;     ///< logarithms of relations that wait for one another
-    unsigned pi_parts_ = 1; ///< common denominator of the multiples of pi
     std::map<std::string, Unit> angle_units_;
     std::map<std::string, Unit> exponential_units_;
     std::map<std::string, Family> families_; ///< of Stumpff functions
