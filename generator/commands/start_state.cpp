@@ -6,6 +6,7 @@
 #include "graph/unknowns/solve_unknowns.hpp"
 #include "mechanics/hamilton.hpp"
 #include "model/form.hpp"
+#include "scene/values.hpp"
 
 #include <fmt/core.h>
 
@@ -15,8 +16,6 @@
 namespace lagen {
 
 namespace {
-
-using Values = std::map<std::string, long double>;
 
 /// value(z) = target for unknown lanes z, where `value` is the slope of `function`.
 struct Inversion {

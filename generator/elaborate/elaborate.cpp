@@ -7,7 +7,10 @@
 #include "elaborate/model_trees.hpp"
 #include "elaborate/require_values.hpp"
 #include "graph/calculus/differentiate.hpp"
+#include "graph/core/evaluate.hpp"
 #include "proof/partial_parts.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <set>
@@ -96,7 +99,22 @@ class Elaboration {
         for (const ControlBound& bound : model_.control->bounds) {
             if (bound.lower) control.lower[bound.control] = lower_(bound.lower);
             if (bound.upper) control.upper[bound.control] = lower_(bound.upper);
+            require_interval(bound);
         }
+    }
+
+    /// Bounds over parameters are compared where a scene gives them values.
+    void require_interval(const ControlBound& bound)
+    {
+        if (!bound.lower || !bound.upper) return;
+        if (!names_in(bound.lower).empty() || !names_in(bound.upper).empty()) return;
+        const NodeId sides[] = {lower_(bound.lower), lower_(bound.upper)};
+        const std::vector<long double> ends = evaluate<long double>(graph_, sides, {});
+        if (ends[0] < ends[1]) return;
+        throw ModelError(
+            fmt::format("the bounds of the control '{}' are {} and {}, where the first must be the smaller",
+                        model_.control->controls[bound.control].name, to_text(bound.lower), to_text(bound.upper)),
+            bound.where);
     }
 
     void lower_base()

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The [control] block: controls, the section sigma, the running cost, bounds, guesses.
 #include "model/components.hpp"
-#include "model/evaluate_tree.hpp"
 #include "model/read_values.hpp"
 #include "model/table_reader.hpp"
 
@@ -30,17 +29,6 @@ std::pair<const TomlValue*, const TomlValue*> ends_of(const TomlEntry& entry, co
                                                             : std::string(kind_text(value.kind));
     throw ModelError(fmt::format("{} are {}, where a lower and an upper bound are required", what, found), value.where,
                      fmt::format("write {} = [lower, upper]", entry.name()));
-}
-
-/// Bounds over parameters are compared where a scene gives them values.
-void require_interval(const ControlBound& bound, const std::string& name, const SourceRange& where)
-{
-    if (!bound.lower || !bound.upper) return;
-    if (!names_in(bound.lower).empty() || !names_in(bound.upper).empty()) return;
-    if (evaluate(bound.lower, {}).value < evaluate(bound.upper, {}).value) return;
-    throw ModelError(fmt::format("the bounds of the control '{}' are {} and {}, where the first must be the smaller",
-                                 name, to_text(bound.lower), to_text(bound.upper)),
-                     where);
 }
 
 /// "-inf" or "inf" for no bound, as text or as a number of TOML.
@@ -78,7 +66,6 @@ std::vector<ControlBound> read_bounds(const ModelReader& reader, const TomlEntry
             }
             if (!lower[k] && !upper[k]) continue; // no bounds at all
             out.push_back(ControlBound{key.indices[k], lower[k], upper[k], entry.where()});
-            require_interval(out.back(), name, entry.value.where);
         }
     }
     return out;

@@ -139,7 +139,7 @@ class Elementary {
     Ring& ring_;
     Angles angles_;
     bool refined_ = false;
-    int log_depth_ = 0;     ///< logarithms of relations that wait for one another
+    int log_depth_ = 0; ///< logarithms of relations that wait for one another
     std::map<std::string, Unit> angle_units_;
     std::map<std::string, Unit> exponential_units_;
     std::map<std::string, Family> families_; ///< of Stumpff functions

@@ -3,8 +3,8 @@
 #include "scene/evaluate_scene.hpp"
 
 #include "model/dependency_order.hpp"
-#include "model/evaluate_tree.hpp"
 #include "scene/project_start.hpp"
+#include "scene/values.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@ constexpr long double constraint_tolerance = 1e-10L;
 
 long double finite(const Tree& tree, const Values& values, const std::string& what, const SourceRange& where)
 {
-    const long double value = evaluate(tree, values).value;
+    const long double value = value_of(tree, values);
     if (std::isfinite(value)) return value;
     throw ModelError(fmt::format("{} is {}, where a finite number is required", what, static_cast<double>(value)),
                      tree->where.file ? tree->where : where);
@@ -39,7 +39,7 @@ Values parameter_values(const Model& model, const Scene& scene)
     Values values;
     for (const std::size_t k : dependency_order(trees, "parameters")) {
         const std::string what = fmt::format("the value of parameter '{}'", trees[k].name);
-        values[trees[k].name] = Dual{finite(trees[k].value, values, what, trees[k].where), 0};
+        values[trees[k].name] = finite(trees[k].value, values, what, trees[k].where);
     }
     return values;
 }
@@ -110,13 +110,13 @@ bool has_coordinate(const Model& model, const Tree& tree)
 void require_domain(const Model& model, const Scene& scene, const Values& values)
 {
     for (const Tree& condition : model.base.domain) {
-        if (evaluate(condition, values).value == 1) continue;
+        if (value_of(condition, values) == 1) continue;
         throw ModelError(
             fmt::format(
                 "the start of scene '{}' lies outside the domain: {} is required, but the left side is {:.6g} and "
                 "the right side {:.6g}",
-                scene.name, written(condition), static_cast<double>(evaluate(condition->arguments[0], values).value),
-                static_cast<double>(evaluate(condition->arguments[1], values).value)),
+                scene.name, written(condition), static_cast<double>(value_of(condition->arguments[0], values)),
+                static_cast<double>(value_of(condition->arguments[1], values))),
             scene.where, has_coordinate(model, condition) ? "correct the initial values" : "correct the parameters");
     }
 }
@@ -144,7 +144,7 @@ std::vector<NamedNumber> pick(const std::vector<Symbol>& symbols, const Values& 
     std::vector<NamedNumber> out;
     for (const Symbol& symbol : symbols) {
         const auto place = values.find(symbol.name);
-        out.emplace_back(symbol.name, place == values.end() ? 0.0L : place->second.value);
+        out.emplace_back(symbol.name, place == values.end() ? 0.0L : place->second);
     }
     return out;
 }
@@ -156,14 +156,14 @@ SceneValues evaluate_scene(const Model& model, const Scene& scene)
     SceneValues out;
     const Values parameters = parameter_values(model, scene);
     for (const Parameter& parameter : model.parameters) {
-        out.parameters.emplace_back(parameter.symbol.name, parameters.at(parameter.symbol.name).value);
+        out.parameters.emplace_back(parameter.symbol.name, parameters.at(parameter.symbol.name));
     }
     read_times(scene, parameters, out);
     Values values = parameters;
     std::set<std::string> given;
     for (const NamedTree& entry : scene.initial) {
         const std::string what = fmt::format("the initial value of '{}'", entry.name);
-        values[entry.name] = Dual{finite(entry.value, parameters, what, entry.where), 0};
+        values[entry.name] = finite(entry.value, parameters, what, entry.where);
         given.insert(entry.name);
     }
     require_constraints(model, scene, values);
@@ -178,7 +178,7 @@ SceneValues evaluate_scene(const Model& model, const Scene& scene)
         out.fibre = pick(fibre.coordinates, values);
     }
     for (const NamedTree& casimir : model.base.casimirs) {
-        out.casimirs.emplace_back(casimir.name, evaluate(casimir.value, values).value);
+        out.casimirs.emplace_back(casimir.name, value_of(casimir.value, values));
     }
     return out;
 }

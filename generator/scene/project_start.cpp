@@ -3,22 +3,18 @@
 #include "scene/project_start.hpp"
 
 #include "expression/linear_algebra.hpp"
+#include "graph/calculus/differentiate.hpp"
+#include "graph/core/evaluate.hpp"
+#include "graph/core/lower.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace lagen {
 
 namespace {
-
-long double term_sum(const Tree& constraint, const Values& values)
-{
-    if (constraint->kind != TreeKind::add) return 0;
-    long double sum = 0;
-    for (const Tree& term : constraint->arguments) sum += std::fabs(evaluate(term, values).value);
-    return sum;
-}
 
 /// One Newton step; false where the gradients are dependent.
 bool step(const Model& model, Values& values, const std::vector<ConstraintValue>& h)
@@ -37,7 +33,7 @@ bool step(const Model& model, Values& values, const std::vector<ConstraintValue>
     if (!factors.regular) return false;
     const std::vector<long double> lambda = substitute(factors, right);
     for (std::size_t i = 0; i < n; ++i) {
-        long double& x = values.at(model.base.coordinates[i].name).value;
+        long double& x = values.at(model.base.coordinates[i].name);
         for (std::size_t a = 0; a < h.size(); ++a) x -= h[a].gradient[i] * lambda[a];
     }
     return true;
@@ -45,20 +41,30 @@ bool step(const Model& model, Values& values, const std::vector<ConstraintValue>
 
 } // namespace
 
-std::vector<ConstraintValue> constraint_values(const Model& model, Values values)
+std::vector<ConstraintValue> constraint_values(const Model& model, const Values& values)
 {
+    Graph graph;
+    Lowering lower(graph);
+    std::vector<NodeId> coordinates;
+    std::vector<long double> x;
+    for (const Symbol& coordinate : model.base.coordinates) {
+        coordinates.push_back(graph.input(coordinate.name));
+        x.push_back(values.at(coordinate.name));
+    }
     std::vector<ConstraintValue> out;
     for (const Tree& constraint : model.base.constraints) {
-        ConstraintValue h;
-        h.value = evaluate(constraint, values).value;
-        for (const Symbol& coordinate : model.base.coordinates) {
-            Dual& x = values.at(coordinate.name);
-            x.derivative = 1;
-            h.gradient.push_back(evaluate(constraint, values).derivative);
-            x.derivative = 0;
-            h.scale += std::fabs(x.value * h.gradient.back());
-        }
-        h.scale = std::max(h.scale, term_sum(constraint, values));
+        std::vector<NodeId> nodes{lower(constraint)};
+        const std::vector<NodeId> slopes = gradient(graph, nodes[0], coordinates);
+        nodes.insert(nodes.end(), slopes.begin(), slopes.end());
+        if (constraint->kind == TreeKind::add)
+            for (const Tree& term : constraint->arguments) nodes.push_back(lower(term));
+        const std::vector<long double> found = evaluate<long double>(graph, nodes, values);
+        const auto terms = found.begin() + 1 + static_cast<std::ptrdiff_t>(x.size());
+        ConstraintValue h{found[0], 0, {found.begin() + 1, terms}};
+        for (std::size_t i = 0; i < x.size(); ++i) h.scale += std::fabs(x[i] * h.gradient[i]);
+        h.scale = std::max(h.scale, std::accumulate(terms, found.end(), 0.0L, [](long double sum, long double term) {
+                               return sum + std::fabs(term);
+                           }));
         out.push_back(std::move(h));
     }
     return out;

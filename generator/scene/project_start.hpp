@@ -2,8 +2,8 @@
 /// How far a start misses the base constraints, and the nearest way onto them.
 #pragma once
 
-#include "model/evaluate_tree.hpp"
 #include "model/model.hpp"
+#include "scene/values.hpp"
 
 #include <cmath>
 #include <vector>
@@ -22,8 +22,8 @@ struct ConstraintValue {
     }
 };
 
-/// One value a constraint. `values` binds parameters and base coordinates (derivatives zero).
-[[nodiscard]] std::vector<ConstraintValue> constraint_values(const Model& model, Values values);
+/// One value a constraint. `values` binds parameters and base coordinates.
+[[nodiscard]] std::vector<ConstraintValue> constraint_values(const Model& model, const Values& values);
 
 /// Moves the base coordinates of `values` onto the constraints by Newton steps of least Euclidean length; true where
 /// they were reached, to 1e-17 of their scale or as near as rounding lets them come.

@@ -58,7 +58,6 @@ bool is_message(const std::string& path, const SourceText& literal)
 /// Pieces of messages that never stand alone, and guards of a room against callers that the rooms before it rule out.
 constexpr std::array guards{
     " moving base coordinates, but the fibre has ",
-    "'{}' has no value here",
     "Error while parsing ",
     "a built-in quantity",
     "a vector has one entry at least",

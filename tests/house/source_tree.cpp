@@ -96,7 +96,7 @@ const Arrows& planned_arrows()
         {"elaborate", {"model", "mechanics", "symbolic", "proof"}},
         {"equations", {"model", "mechanics", "verify", "symbolic", "notation"}},
         {"kernels", {"model", "mechanics", "verify"}},
-        {"scene", {"model"}},
+        {"scene", {"model", "graph"}},
         {"pipeline", {"elaborate", "equations", "kernels", "advice", "scene", "emit"}},
         {"commands", {"pipeline"}},
         {"runtime", {}},
