@@ -9,6 +9,8 @@
 ///   equals        A - B = 0, by components (A, a, ..)
 ///   legendre      H(t, x, dL/dy) = y^a dL/dy^a - L                            (where both are given)
 ///   invariant     df/dt = 0 along the equations of motion of the model's default form
+/// Of tangency, casimir and invariant a proof says that the rate vanishes wherever the function and the motion are
+/// defined; where that leaves holes and jumps `Check::where` names them.
 #pragma once
 
 #include "mechanics/system.hpp"
@@ -23,6 +25,8 @@ struct Check {
     Decision decision;
     std::string hint;                         ///< may be empty
     std::optional<Reevaluation> reevaluation; ///< where it was asked for and there is a residual
+    std::vector<std::string> where = {}; ///< of what is constant along motions and proved: strict conditions, which the
+                                         ///< domain does not imply; it may change where a motion crosses them
 };
 
 enum class Verdict { valid, invalid, undecided };
