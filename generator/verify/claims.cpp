@@ -120,7 +120,8 @@ void Claims::decide_regularity(Report& report)
     report.regularity =
         lagen::decide_regularity(graph_, hessian, setting_, judge_->decider(), system_.parameter_values);
     report.regularity.of_hamiltonian = of_hamiltonian;
-    decide_legendre_transform(graph_, hessian, setting_, judge_->decider().budget(), report.regularity);
+    decide_legendre_transform(graph_, hessian, setting_, judge_->decider().budget(), system_.parameter_values,
+                              report.regularity);
 }
 
 } // namespace lagen
