@@ -148,6 +148,28 @@ CheckedModel load(const std::string& path, const std::vector<Setting>& settings,
     return checked;
 }
 
+std::vector<std::string> warnings_of(const CheckedModel& checked, const std::string& form)
+{
+    std::vector<std::string> warnings = checked.warnings;
+    std::string values;
+    for (const auto& [parameter, value] : checked.report.regularity.legendre_values)
+        values += fmt::format("{}{} = {}", values.empty() ? "" : ", ", checked.system.graph.input_name(parameter),
+                              to_text(checked.system.graph, value));
+    if (!values.empty() && is_form(form, FormKind::hamilton) && !checked.system.hamiltonian)
+        warnings.push_back(fmt::format("that the momenta fix the velocities is proved for {} alone", values));
+    return warnings;
+}
+
+void set_parameters(CheckedModel& checked, const std::vector<long double>& values)
+{
+    System& system = checked.system;
+    const Regularity& known = checked.report.regularity;
+    if (known.legendre_obstacle.empty() && known.legendre_values.empty()) return;
+    for (std::size_t k = 0; k < values.size(); ++k)
+        system.parameter_values[k].second = system.graph.constant(Rational(static_cast<double>(values[k])));
+    checked.report.regularity = verify_regularity(system);
+}
+
 Generated generate(const CheckedModel& checked, const GenerateRequest& request)
 {
     const Model& model = checked.model;
@@ -162,7 +184,7 @@ Generated generate(const CheckedModel& checked, const GenerateRequest& request)
     module.hash = hash_of(checked);
     module.regenerate = regenerate_command(checked, request, kernels.form,
                                            kernels.form == default_form(model) ? model.name : module.name);
-    module.warnings = checked.warnings;
+    module.warnings = warnings_of(checked, kernels.form);
     if (request.scene == nullptr)
         module.equations = readable_equations(checked, kernels.form);
     else

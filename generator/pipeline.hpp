@@ -28,6 +28,12 @@ struct CheckedModel {
 /// Reads and verifies; a refuted model throws MathematicsError unless `unchecked`.
 [[nodiscard]] CheckedModel load(const std::string& path, const std::vector<Setting>& settings, bool unchecked);
 
+/// `warnings`, and what holds of this form alone.
+[[nodiscard]] std::vector<std::string> warnings_of(const CheckedModel& checked, const std::string& form);
+
+/// Gives the parameters other values, in order of declaration, and decides anew what was not shown for all.
+void set_parameters(CheckedModel& checked, const std::vector<long double>& values);
+
 struct GenerateRequest {
     std::string form;              ///< empty: default_form(model)
     std::vector<std::string> only; ///< kernels; empty: all

@@ -54,8 +54,9 @@ ExitCode run_derive(Arguments arguments)
     if (options.has("form")) (void)options.choice("form", derivation_names());
     // A refuted model has equations too, and reading them may show why; they come with the warning.
     const CheckedModel checked = load(model_path(options.positional()[0]), options.settings(), true);
-    for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
     const std::string form = options.has("form") ? options.get("form") : default_form(checked.model);
+    const std::vector<std::string> warnings = warnings_of(checked, form);
+    for (const std::string& warning : warnings) write_standard_error(fmt::format("warning: {}\n", warning));
     if (is_form(form, FormKind::lagrange) && checked.report.regularity.kind == Regularity::Kind::degenerate)
         write_standard_error(
             "warning: the Lagrangian is degenerate: the accelerations are not determined by the equations\n");
@@ -63,7 +64,7 @@ ExitCode run_derive(Arguments arguments)
     const std::string text = marked(format == "text"    ? print_text(equations)
                                     : format == "latex" ? print_latex(equations)
                                                         : print_json(equations),
-                                    format, checked.warnings);
+                                    format, warnings);
     write_file(options.has("output") ? options.get("output") : "-", text.ends_with('\n') ? text : text + "\n");
     return ExitCode::done;
 }

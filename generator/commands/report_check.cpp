@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/report_check.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <array>
 #include <set>
@@ -207,6 +207,17 @@ std::string maximum_text(const Report& verified)
     return text;
 }
 
+/// "x != 0 and y > 0" of each check that is proved there alone.
+std::string where_text(const Report& verified, const std::string& kind)
+{
+    std::string text;
+    for (const Check& check : verified.checks)
+        if (check.name == kind && !check.where.empty())
+            text += fmt::format("  {:<16}{} where {}; may change where a motion crosses\n", "",
+                                fmt::join(check.indices, ", "), fmt::join(check.where, " and "));
+    return text;
+}
+
 template <class Values>
 void values_json(JsonWriter& json, const Values& values)
 {
@@ -233,6 +244,11 @@ void check_json(JsonWriter& json, const Check& check)
         values_json(json, check.decision.witness->point);
         json.key("value").value(check.decision.witness->value);
     }
+    if (!check.where.empty()) {
+        json.key("where").begin_array();
+        for (const std::string& condition : check.where) json.value(condition);
+        json.end_array();
+    }
     if (!check.decision.evidence.empty()) json.key("evidence").value(check.decision.evidence);
     if (!check.hint.empty()) json.key("hint").value(check.hint);
     verified_json(json, check.reevaluation);
@@ -246,6 +262,7 @@ std::string report_text(const std::string& model, const Report& verified)
     std::string text = fmt::format("{}: {}\n{}", model, to_text(verified.verdict), summary_text(verified));
     for (const std::string& kind : kinds_of(verified)) {
         text += fmt::format("  {:<16}{}\n", kind, counts_text(counts_of(verified, kind)));
+        text += where_text(verified, kind);
         if (kind == "maximum") text += maximum_text(verified);
     }
     for (const FormReport& form : verified.forms)

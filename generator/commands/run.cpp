@@ -165,8 +165,7 @@ ExitCode run_run(Arguments arguments)
     if (options.has("plot")) require_plot_format(options.get("plot"));
     if (options.has("output")) require_no_picture(options.get("output"));
 
-    const CheckedModel checked =
-        load(model_path(options.positional()[0]), options.settings(), options.has("unchecked"));
+    CheckedModel checked = load(model_path(options.positional()[0]), options.settings(), options.has("unchecked"));
     for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
     const Model& model = checked.model;
     const Scene scene = scene_of(options, model);
@@ -181,6 +180,7 @@ ExitCode run_run(Arguments arguments)
     if (!method.adaptive && options.has("tolerance"))
         write_standard_error(fmt::format("warning: --tolerance is not used: the steps of {} are fixed\n", method.name));
     const SceneValues values = evaluate_scene(model, scene);
+    set_parameters(checked, numbers(values.parameters, scene));
     GenerateRequest request;
     request.form = form;
     request.scene = &scene;

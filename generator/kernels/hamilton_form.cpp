@@ -46,6 +46,18 @@ void add_kernels(Graph& graph, const System& system, const HamiltonianNodes& ham
     form.kernels.push_back(hessian_kernel(graph, form, "hamiltonian_hessian", first));
 }
 
+/// |p - v| < 1e-12 |v| for each parameter p that y(x, mu) is proved to be unique for at the value v alone.
+void require_proved_values(Graph& graph, const Regularity& regularity, Formulation& form)
+{
+    const NodeId relative = graph.constant(Rational(1, 1'000'000'000'000));
+    for (const auto& [p, value] : regularity.legendre_values) {
+        const NodeId size = graph.is_zero(value) ? graph.constant(1) : graph.apply(Op::abs, value);
+        const NodeId distance = graph.apply(Op::abs, graph.subtract(p, value));
+        form.parameter_conditions.emplace_back(fmt::format("{} == {}", graph.input_name(p), to_text(graph, value)),
+                                               graph.subtract(graph.multiply(relative, size), distance));
+    }
+}
+
 } // namespace
 
 Formulation hamilton_form(Graph& graph, const System& system, const Report& report, const FormulationParts& parts)
@@ -54,6 +66,7 @@ Formulation hamilton_form(Graph& graph, const System& system, const Report& repo
     const MomentumBalance balance = hamilton_balance(graph, system, hamiltonian);
     Formulation form = empty_form(system, FormKind::hamilton, system.mu);
     form.implicit = hamiltonian.implicit;
+    if (!system.hamiltonian) require_proved_values(graph, report.regularity, form);
     if (parts.motion) {
         form.derivative = base_velocity(graph, system.algebroid, hamiltonian.y);
         const std::vector<NodeId> mudot = momentum_rates(graph, system.algebroid, balance);

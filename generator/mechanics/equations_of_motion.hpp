@@ -6,12 +6,19 @@
 
 namespace lagen {
 
+/// A node, and what it is called where it is too long to be read.
+struct NamedNode {
+    NodeId node;
+    std::string name;
+};
+
 /// A rate, or why there is none.
 struct Rate {
     std::optional<NodeId> value = {};
     std::string obstacle = {};
     bool for_every_control = false; ///< `value` contains controls that are not solved for, for the reason `obstacle`:
                                     ///< it is the rate where it vanishes for all of them, and says nothing otherwise
+    std::vector<NamedNode> divisors = {}; ///< determinants that must not vanish for `value` to be the rate
 };
 
 class EquationsOfMotion {

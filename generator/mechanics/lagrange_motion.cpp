@@ -52,7 +52,7 @@ std::vector<NodeId> LagrangeMotion::without_stand_ins(const std::vector<NodeId>&
 }
 
 /// f_y . ydot by Cramer's rule, a block of coupled coordinates at a time.
-std::optional<NodeId> LagrangeMotion::along_accelerations(const std::vector<NodeId>& f_y, std::string& obstacle)
+std::optional<NodeId> LagrangeMotion::along_accelerations(const std::vector<NodeId>& f_y, Rate& rate)
 {
     std::vector<NodeId> terms;
     for (const std::vector<std::size_t>& block : lagrangian_->fibre.blocks) {
@@ -60,16 +60,17 @@ std::optional<NodeId> LagrangeMotion::along_accelerations(const std::vector<Node
             std::any_of(block.begin(), block.end(), [&](std::size_t a) { return !graph_.is_zero(f_y[a]); });
         if (!used) continue;
         if (block.size() > determinant_limit) {
-            obstacle = "d2L/dy2 couples " + std::to_string(block.size()) + " fibre coordinates, more than the " +
-                       std::to_string(determinant_limit) + " that are solved for exactly";
+            rate.obstacle = "d2L/dy2 couples " + std::to_string(block.size()) + " fibre coordinates, more than the " +
+                            std::to_string(determinant_limit) + " that are solved for exactly";
             return {};
         }
         const NodeId determinant = minor_determinant(graph_, lagrangian_->fibre, block, block);
         if (graph_.is_zero(determinant)) {
-            obstacle =
+            rate.obstacle =
                 "the Lagrangian is degenerate, so that the equations of motion do not determine the accelerations";
             return {};
         }
+        rate.divisors.push_back({determinant, "det(d2L/dy2)"});
         std::vector<NodeId> right;
         for (const std::size_t a : block) right.push_back(force_[a]);
         std::vector<NodeId> numerator;
@@ -101,7 +102,7 @@ Rate LagrangeMotion::rate(NodeId f)
     plain = without_stand_ins(plain);
     Rate result;
     const std::optional<NodeId> accelerated =
-        along_accelerations(std::vector<NodeId>(plain.begin(), plain.end() - 1), result.obstacle);
+        along_accelerations(std::vector<NodeId>(plain.begin(), plain.end() - 1), result);
     if (accelerated) result.value = graph_.add(plain.back(), *accelerated);
     return result;
 }

@@ -22,7 +22,7 @@ class LagrangeMotion : public EquationsOfMotion {
 
   private:
     [[nodiscard]] std::vector<NodeId> without_stand_ins(const std::vector<NodeId>& nodes);
-    [[nodiscard]] std::optional<NodeId> along_accelerations(const std::vector<NodeId>& f_y, std::string& obstacle);
+    [[nodiscard]] std::optional<NodeId> along_accelerations(const std::vector<NodeId>& f_y, Rate& rate);
 
     Graph& graph_;
     const System& system_;

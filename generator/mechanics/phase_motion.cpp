@@ -34,16 +34,15 @@ void add_rates(Graph& graph, const System& system, const MomentumBalance& balanc
 
 /// u = -(d2H/du2)^-1 dH/du(u = 0) by Cramer's rule, a block of coupled controls at a time; nothing, with the reason,
 /// where the controls are not found in this way.
-Replacements controls_on_extremals(Graph& graph, NodeId hamiltonian, const ControlProblem& control,
-                                   std::string& obstacle)
+Replacements controls_on_extremals(Graph& graph, const ControlProblem& control, PhaseSystem& phase)
 {
-    const FibreHessian hessian = fibre_hessian(graph, hamiltonian, control.u);
+    const FibreHessian hessian = fibre_hessian(graph, phase.hamiltonian, control.u);
     if (control.bounded()) {
-        obstacle = "the controls are bounded, so that they are no smooth functions of x and mu";
+        phase.obstacle = "the controls are bounded, so that they are no smooth functions of x and mu";
         return {};
     }
     if (depends_on_any(graph, hessian.hessian, control.u)) {
-        obstacle = "dH/du is not affine in the controls, which are not solved for then";
+        phase.obstacle = "dH/du is not affine in the controls, which are not solved for then";
         return {};
     }
     Replacements zero;
@@ -54,12 +53,13 @@ Replacements controls_on_extremals(Graph& graph, NodeId hamiltonian, const Contr
         const NodeId determinant =
             block.size() > determinant_limit ? graph.constant(0) : minor_determinant(graph, hessian, block, block);
         if (graph.is_zero(determinant)) {
-            obstacle = block.size() > determinant_limit
-                           ? "d2H/du2 couples " + std::to_string(block.size()) + " controls, more than the " +
-                                 std::to_string(determinant_limit) + " that are solved for exactly"
-                           : "d2H/du2 is singular, so that dH/du = 0 does not determine the controls";
+            phase.obstacle = block.size() > determinant_limit
+                                 ? "d2H/du2 couples " + std::to_string(block.size()) + " controls, more than the " +
+                                       std::to_string(determinant_limit) + " that are solved for exactly"
+                                 : "d2H/du2 is singular, so that dH/du = 0 does not determine the controls";
             return {};
         }
+        phase.divisors.push_back({determinant, "det(d2H/du2)"});
         std::vector<NodeId> right;
         for (const std::size_t k : block) right.push_back(graph.negate(gradient[k]));
         for (std::size_t k = 0; k < block.size(); ++k)
@@ -96,7 +96,7 @@ PhaseSystem pontryagin_system(Graph& graph, const System& system)
     phase.y = control.sigma;
     phase.lagrangian = control.cost;
     phase.hamiltonian = control_hamiltonian(graph, control, phase.mu);
-    phase.found = controls_on_extremals(graph, phase.hamiltonian, control, phase.obstacle);
+    phase.found = controls_on_extremals(graph, control, phase);
     if (phase.found.empty()) phase.open = control.u;
     MomentumBalance balance = pontryagin_balance(graph, system, phase.hamiltonian);
     add_rates(graph, system, balance, phase);
@@ -151,7 +151,7 @@ Rate PhaseMotion::rate(NodeId f)
     const NodeId outputs[] = {f};
     const NodeId value = in_states(directional(graph_, outputs, seeds)[0]);
     if (has_open_control(value)) return {value, phase_.obstacle, true};
-    return {value, {}, false};
+    return {value, {}, false, phase_.divisors};
 }
 
 } // namespace lagen

@@ -18,6 +18,7 @@ struct PhaseSystem {
     std::vector<NodeId> xdot, mudot;              ///< shapes (n), (r)
     NodeId energy_rate = 0;                       ///< dH/dt
     std::vector<std::pair<NodeId, NodeId>> found; ///< controls with their values on extremals
+    std::vector<NamedNode> divisors;              ///< determinants that these values divide by
     std::vector<NodeId> open;                     ///< controls that are not solved for
     std::string obstacle;                         ///< why
 };

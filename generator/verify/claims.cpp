@@ -43,13 +43,14 @@ ProofSetting Claims::setting_of(std::vector<NodeId> defined) const
     return setting;
 }
 
-Continuity Claims::along_anchor()
+WhereConstant Claims::along_anchor()
 {
-    return {graph_, setting_of(system_.algebroid.entries()), judge_->decider().budget(), {}};
+    const auto conserved = [this](NodeId f) { return !depends_on_any(graph_, std::vector{f}, setting_.variables); };
+    return {graph_, setting_of(system_.algebroid.entries()), judge_->decider().budget(), conserved};
 }
 
 /// What the equations of the system's default form are made of, as it is written.
-Continuity Claims::along_motions(EquationsOfMotion& motion)
+WhereConstant Claims::along_motions(EquationsOfMotion& motion, const Regularity& regularity)
 {
     std::vector<NodeId> defined = system_.algebroid.entries();
     if (system_.control) {
@@ -60,14 +61,25 @@ Continuity Claims::along_motions(EquationsOfMotion& motion)
             defined.push_back(system_.lagrangian ? *system_.lagrangian : *system_.hamiltonian);
         defined.insert(defined.end(), system_.force_parts.begin(), system_.force_parts.end());
     }
-    const auto conserved = [this, &motion](NodeId f) {
+    const auto conserved = [this, &motion, &regularity](NodeId f) {
         const Rate rate = motion.rate(f);
-        return rate.value && judge_->decider().status(*rate.value) == ProofStatus::proved;
+        return rate.value && !rate.for_every_control && divisors_of(rate, regularity).empty() &&
+               judge_->decider().status(*rate.value) == ProofStatus::proved;
     };
-    Continuity continuity(graph_, setting_of(std::move(defined)), judge_->decider().budget(), conserved);
-    if (system_.lagrangian && !system_.control)
-        continuity.divisors().keep_momenta_finite(*system_.lagrangian, system_.algebroid.y);
-    return continuity;
+    return {graph_, setting_of(std::move(defined)), judge_->decider().budget(), conserved};
+}
+
+/// Those that a motion may meet.
+std::vector<NamedNode> Claims::divisors_of(const Rate& rate, const Regularity& regularity) const
+{
+    const bool regular = regularity.kind == Regularity::Kind::regular && !regularity.for_given_parameters;
+    if (regular && lagrangian_ && !system_.control) return {};
+    std::vector<NamedNode> divisors = rate.divisors;
+    std::erase_if(divisors, [this](const NamedNode& each) {
+        return !depends_on_any(graph_, std::vector{each.node}, setting_.variables) ||
+               judge_->decider().proves_nonzero(each.node);
+    });
+    return divisors;
 }
 
 void Claims::require_triangular_constraints()
@@ -108,7 +120,8 @@ void Claims::decide_regularity(Report& report)
     report.regularity =
         lagen::decide_regularity(graph_, hessian, setting_, judge_->decider(), system_.parameter_values);
     report.regularity.of_hamiltonian = of_hamiltonian;
-    decide_legendre_transform(graph_, hessian, setting_, judge_->decider().budget(), report.regularity);
+    decide_legendre_transform(graph_, hessian, setting_, judge_->decider().budget(), system_.parameter_values,
+                              report.regularity);
 }
 
 } // namespace lagen

@@ -6,8 +6,7 @@
 #include "mechanics/lagrange_motion.hpp"
 #include "mechanics/phase_motion.hpp"
 #include "verify/judge.hpp"
-#include "verify/jumps.hpp"
-#include "verify/verify.hpp"
+#include "verify/where_constant.hpp"
 
 #include <memory>
 
@@ -33,8 +32,9 @@ class Claims {
   private:
     [[nodiscard]] std::unique_ptr<EquationsOfMotion> equations_of_motion();
     [[nodiscard]] ProofSetting setting_of(std::vector<NodeId> defined) const;
-    [[nodiscard]] Continuity along_anchor();
-    [[nodiscard]] Continuity along_motions(EquationsOfMotion& motion);
+    [[nodiscard]] WhereConstant along_anchor();
+    [[nodiscard]] WhereConstant along_motions(EquationsOfMotion& motion, const Regularity& regularity);
+    [[nodiscard]] std::vector<NamedNode> divisors_of(const Rate& rate, const Regularity& regularity) const;
     void require_triangular_constraints();
     void refuse_zero_divisors(const ProofBudget& budget);
     void decide_by_construction(const ResidualList& list);

@@ -62,7 +62,7 @@ void Claims::decide_structure(Report& report)
     report.note = note_;
     report.trivial += list.trivial;
     decide_by_construction(list);
-    Continuity continuity = along_anchor();
+    WhereConstant where = along_anchor();
     for (const Residual& residual : list.residuals) {
         Check check = check_of(residual);
         check.decision = judge_->decide(residual.value);
@@ -70,7 +70,7 @@ void Claims::decide_structure(Report& report)
         if (check.name == "tangency" || check.name == "casimir") {
             const std::vector<NodeId>& functions =
                 check.name == "casimir" ? system_.functions.casimirs : system_.functions.constraints;
-            continuity.respect_jumps(check.decision, functions.at(residual.indices.back()));
+            where.restrict(check, {functions.at(residual.indices.back())});
         }
         check.reevaluation = judge_->reevaluate(residual.value);
         report.checks.push_back(std::move(check));
@@ -94,7 +94,7 @@ std::optional<NodeId> Claims::momentum_in(NodeId f, const Binding& names)
 void Claims::decide_invariants(Report& report, const std::vector<NamedTree>& extra)
 {
     const std::unique_ptr<EquationsOfMotion> motion = equations_of_motion();
-    Continuity continuity = along_motions(*motion);
+    WhereConstant where = along_motions(*motion, report.regularity);
     const Binding names = motion->names();
     Lowering lower(graph_, names);
     std::vector<NamedTree> claims = system_.written.invariants;
@@ -107,13 +107,14 @@ void Claims::decide_invariants(Report& report, const std::vector<NamedTree>& ext
             check.decision.evidence = rate.obstacle;
         } else {
             // d log(x)/dt = xdot/x is defined where log(x) is not: the claim is about points where f is.
-            ProofSetting setting = setting_;
-            setting.defined.push_back(motion->in_states(f));
+            std::vector<NodeId> functions{motion->in_states(f)};
             for (const NodeId part : partial_parts(graph_, lower, claim.value))
-                setting.defined.push_back(motion->in_states(part));
+                functions.push_back(motion->in_states(part));
+            ProofSetting setting = setting_;
+            setting.defined.insert(setting.defined.end(), functions.begin(), functions.end());
             Judge judge(graph_, setting, accessory_inputs(system_), points_, judge_->decider().budget());
             check.decision = judge.decide(*rate.value);
-            continuity.respect_jumps(check.decision, motion->in_states(f));
+            where.restrict(check, functions, divisors_of(rate, report.regularity));
             check.reevaluation = judge.reevaluate(*rate.value);
             if (rate.for_every_control && check.decision.status == ProofStatus::refuted) {
                 check.decision = Decision{};

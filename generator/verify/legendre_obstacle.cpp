@@ -7,6 +7,7 @@
 #include "graph/core/lower.hpp"
 #include "graph/core/operators.hpp"
 #include "graph/unknowns/implicit.hpp"
+#include "verify/at_values.hpp"
 #include "verify/definite_squares.hpp"
 #include "verify/regularity.hpp"
 
@@ -180,30 +181,59 @@ std::vector<Rational> newton_start(Graph& graph, const FibreHessian& hessian, co
     return is_defined ? std::vector<Rational>{} : start;
 }
 
-} // namespace
+/// An obstacle, or where Newton's method starts.
+struct Transform {
+    std::string obstacle;
+    std::vector<Rational> newton_start;
+};
 
-void decide_legendre_transform(Graph& graph, const FibreHessian& hessian, const ProofSetting& setting,
-                               const ProofBudget& budget, Regularity& regularity)
+Transform transform_of(Graph& graph, const FibreHessian& hessian, const ProofSetting& setting,
+                       const ProofBudget& budget, const Regularity& regularity)
 {
     const bool is_hamiltonian = regularity.of_hamiltonian;
     const std::string matrix = is_hamiltonian ? "d2H/dmu2" : "d2L/dy2";
     SmoothSet smooth(graph, hessian, setting, budget, is_hamiltonian ? "H" : "L");
-    regularity.legendre_obstacle = smooth.obstacle();
-    if (!smooth.obstacle().empty() || is_quadratic(graph, hessian, smooth)) return;
-    if (regularity.kind == Regularity::Kind::degenerate) {
-        regularity.legendre_obstacle = matrix + " is singular";
-        return;
-    }
+    if (!smooth.obstacle().empty()) return {smooth.obstacle(), {}};
+    if (is_quadratic(graph, hessian, smooth)) return {};
+    if (regularity.kind == Regularity::Kind::degenerate) return {matrix + " is singular", {}};
     // Anew: forces, which count for the verdict on W, may be defined for fewer velocities.
     const FibreHessian negative = fibre_hessian(graph, graph.negate(hessian.lagrangian), hessian.y);
     for (const FibreHessian* each : {&hessian, &negative})
-        if (proves_definite(graph, *each, smooth.setting(), smooth.decider())) {
-            regularity.newton_start = newton_start(graph, hessian, smooth.decider());
-            return;
+        if (proves_definite(graph, *each, smooth.setting(), smooth.decider()))
+            return {{}, newton_start(graph, hessian, smooth.decider())};
+    return {matrix + " is not shown to be definite", {}};
+}
+
+} // namespace
+
+void decide_legendre_transform(Graph& graph, const FibreHessian& hessian, const ProofSetting& setting,
+                               const ProofBudget& budget, const Replacements& values, Regularity& regularity)
+{
+    Transform transform = transform_of(graph, hessian, setting, budget, regularity);
+    const auto succeeds_for = [&](const Replacements& some) {
+        const std::optional<AtValues> there = at_values(graph, hessian, setting, budget, some);
+        if (!there || !there->decider->sample_point()) return false;
+        Transform here = transform_of(graph, there->hessian, there->setting, budget, regularity);
+        const bool succeeds = here.obstacle.empty();
+        if (succeeds) transform = std::move(here);
+        return succeeds;
+    };
+    if (!transform.obstacle.empty() && regularity.kind != Regularity::Kind::degenerate) {
+        std::vector<NodeId> roots = hessian.momenta;
+        roots.insert(roots.end(), setting.domain.begin(), setting.domain.end());
+        Replacements some = values;
+        std::erase_if(some, [&](const auto& each) { return !depends_on_any(graph, roots, std::vector{each.first}); });
+        if (!some.empty() && succeeds_for(some)) {
+            for (std::size_t k = some.size(); k-- > 0;) {
+                Replacements fewer = some;
+                fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(k));
+                if (succeeds_for(fewer)) some = std::move(fewer);
+            }
+            regularity.legendre_values = std::move(some);
         }
-    regularity.legendre_obstacle = matrix + (regularity.for_given_parameters && regularity.positive_definite
-                                                 ? " is shown to be definite for the parameter values of the file alone"
-                                                 : " is not shown to be definite");
+    }
+    regularity.legendre_obstacle = std::move(transform.obstacle);
+    regularity.newton_start = std::move(transform.newton_start);
 }
 
 std::optional<std::vector<Rational>> strictly_convex_start(Graph& graph, const FibreHessian& hessian,

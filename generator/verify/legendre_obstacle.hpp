@@ -11,10 +11,12 @@
 
 namespace lagen {
 
-/// Sets `legendre_obstacle` and `newton_start`; for all parameters, and of H over mu where `regularity` is of H. That a
-/// quadratic L is regular is for the rest of `regularity` to say.
+/// Sets `legendre_obstacle` and `newton_start`; for all parameters, else for `values` of as few of them as are needed,
+/// which `legendre_values` tells; of H over mu where `regularity` is of H. That a quadratic L is regular is for the
+/// rest of `regularity` to say.
 void decide_legendre_transform(Graph& graph, const FibreHessian& hessian, const ProofSetting& setting,
-                               const ProofBudget& budget, Regularity& regularity);
+                               const ProofBudget& budget, const std::vector<std::pair<NodeId, NodeId>>& values,
+                               Regularity& regularity);
 
 /// Where F is smooth with d2F/dy2 > 0 on the convex set of y where alone it is defined (and so has no minimum but where
 /// dF/dy = 0): a y of that set, for Newton's method to start from, empty for 0. Nothing where that is not shown.

@@ -6,6 +6,7 @@
 #include "graph/core/operators.hpp"
 #include "proof/almost_everywhere.hpp"
 #include "proof/rational_matrix.hpp"
+#include "verify/at_values.hpp"
 #include "verify/definite_squares.hpp"
 #include "verify/kernel_vectors.hpp"
 #include "verify/singular_factors.hpp"
@@ -17,7 +18,6 @@ namespace lagen {
 namespace {
 
 using Block = std::vector<std::size_t>;
-using Replacements = std::vector<std::pair<NodeId, NodeId>>;
 using Point = NamedPoint;
 
 /// For ranks, where a witness is usually all that is needed.
@@ -195,36 +195,12 @@ bool add_ranks(Graph& graph, const FibreHessian& hessian, const ZeroDecider& dec
     return true;
 }
 
-/// W, and what holds, where the parameters have the values of the file.
-struct AtDefaults {
-    ProofSetting setting;
-    FibreHessian hessian;
-    std::unique_ptr<ZeroDecider> decider;
-};
-
-/// Nothing where these values make something undefined, or leave constraints that are not triangular.
-std::optional<AtDefaults> at_defaults(Graph& graph, const FibreHessian& general, const ProofSetting& all,
-                                      const ProofBudget& budget, const Replacements& defaults)
-{
-    const NodeId lagrangian[] = {general.lagrangian};
-    const auto value = substitute_where_defined(graph, lagrangian, defaults);
-    auto entries = substitute_where_defined(graph, general.hessian, defaults);
-    auto setting = replaced(graph, all, defaults);
-    if (!value || !entries || !setting) return std::nullopt;
-    auto decider = ZeroDecider::make(graph, *setting, budget);
-    if (!decider) return std::nullopt;
-    AtDefaults there{std::move(*setting), general, std::move(decider)};
-    there.hessian.lagrangian = (*value)[0];
-    there.hessian.hessian = std::move(*entries);
-    return there;
-}
-
 /// Definite by squares where the parameters have the values of the file.
 bool is_definite_for(Graph& graph, const FibreHessian& hessian, const ProofSetting& setting, const ProofBudget& budget,
                      const Replacements& defaults)
 {
     if (defaults.empty()) return false;
-    const std::optional<AtDefaults> there = at_defaults(graph, hessian, setting, budget, defaults);
+    const std::optional<AtValues> there = at_values(graph, hessian, setting, budget, defaults);
     return there && proves_definite_by_squares(graph, there->hessian, *there->decider) &&
            there->decider->sample_point().has_value();
 }
@@ -249,7 +225,7 @@ bool is_regular_for(Graph& graph, const FibreHessian& hessian, const ProofSettin
                     const Replacements& defaults)
 {
     if (defaults.empty()) return true;
-    const std::optional<AtDefaults> there = at_defaults(graph, hessian, setting, budget, defaults);
+    const std::optional<AtValues> there = at_values(graph, hessian, setting, budget, defaults);
     return !there || is_regular_almost_everywhere(graph, there->hessian, there->setting, *there->decider);
 }
 
@@ -272,7 +248,7 @@ void decide_everywhere(Regularity& result, Graph& graph, const FibreHessian& hes
             describe_singular(result, graph, setting, decider, setting, defaults, minors);
         return;
     }
-    const std::optional<AtDefaults> there = at_defaults(graph, hessian, setting, decider.budget(), defaults);
+    const std::optional<AtValues> there = at_values(graph, hessian, setting, decider.budget(), defaults);
     if (!there) { // the claim for all parameters stands alone
         if (shown.regular) result.kind = Regularity::Kind::regular;
         return;

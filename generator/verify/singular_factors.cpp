@@ -3,7 +3,6 @@
 
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/lower.hpp"
-#include "verify/reduced_fraction.hpp"
 
 #include <algorithm>
 
@@ -44,6 +43,15 @@ void append_factors(std::vector<Tree>& factors, const Tree& tree)
 
 } // namespace
 
+std::optional<std::vector<Tree>> factors_of(Graph& graph, NodeId node, const Order& order, const ZeroDecider& decider)
+{
+    if (to_text(graph, node, longest_determinant).size() > longest_determinant) return std::nullopt;
+    std::vector<Tree> factors;
+    const Tree tree = to_tree(graph, node);
+    append_factors(factors, reduced_fraction(graph, node, tree, order, decider).value_or(tree));
+    return factors;
+}
+
 std::vector<std::string> singular_factors(Graph& graph, const ProofSetting& setting, const ZeroDecider& valued,
                                           const std::vector<std::pair<NodeId, NodeId>>& defaults,
                                           const std::vector<NodeId>& determinants)
@@ -52,11 +60,9 @@ std::vector<std::string> singular_factors(Graph& graph, const ProofSetting& sett
     const ZeroDecider decider(graph, setting, valued.budget());
     std::vector<std::string> texts;
     for (const NodeId determinant : determinants) {
-        if (to_text(graph, determinant, longest_determinant).size() > longest_determinant) return {};
-        std::vector<Tree> factors;
-        const Tree tree = to_tree(graph, determinant);
-        append_factors(factors, reduced_fraction(graph, determinant, tree, order, decider).value_or(tree));
-        for (const Tree& factor : factors) {
+        const auto factors = factors_of(graph, determinant, order, decider);
+        if (!factors) return {};
+        for (const Tree& factor : *factors) {
             const std::vector<NodeId> node = {Lowering(graph)(factor)};
             const auto there = substitute_where_defined(graph, node, defaults);
             if (there && valued.proves_nonzero((*there)[0])) continue;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Slices of a model: one variable is zero, the rest of the setting stays.
 #include "verify/singular_points.hpp"
-#include "graph/calculus/differentiate.hpp"
+
+#include "graph/calculus/substitute.hpp"
+#include "verify/at_values.hpp"
 
 #include <algorithm>
 
@@ -11,8 +13,6 @@ namespace {
 constexpr std::size_t point_limit = 8;
 /// One slice a variable is looked at: none may take long.
 constexpr ProofBudget slice_budget{.products = 200'000};
-
-using Replacements = std::vector<std::pair<NodeId, NodeId>>;
 
 /// A point of the slice `zero` where a determinant vanishes; it does on the whole slice. None where something is not
 /// defined on the slice, or the constraints are not triangular there.
@@ -31,21 +31,6 @@ std::optional<NamedPoint> singular_point(Graph& graph, const ProofSetting& setti
 }
 
 } // namespace
-
-std::optional<ProofSetting> replaced(Graph& graph, const ProofSetting& setting, const Replacements& values)
-{
-    ProofSetting result = setting;
-    for (const auto& [input, value] : values) {
-        std::erase(result.variables, input);
-        std::erase(result.parameters, input);
-    }
-    for (std::vector<NodeId>* nodes : {&result.constraints, &result.domain, &result.defined}) {
-        auto there = substitute_where_defined(graph, *nodes, values);
-        if (!there) return std::nullopt;
-        *nodes = std::move(*there);
-    }
-    return result;
-}
 
 std::vector<NamedPoint> singular_points(Graph& graph, const ProofSetting& setting, const ProofBudget& budget,
                                         const std::vector<NodeId>& determinants)

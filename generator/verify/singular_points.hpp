@@ -12,9 +12,4 @@ namespace lagen {
                                                       const ProofBudget& budget,
                                                       const std::vector<NodeId>& determinants);
 
-/// The setting with some of its inputs replaced; those are no variables or parameters any more. Nothing where a divisor
-/// becomes the constant 0.
-[[nodiscard]] std::optional<ProofSetting> replaced(Graph& graph, const ProofSetting& setting,
-                                                   const std::vector<std::pair<NodeId, NodeId>>& values);
-
 } // namespace lagen

@@ -74,4 +74,11 @@ Report verify(const System& system, const std::vector<NamedTree>& extra_invarian
     return report;
 }
 
+Regularity verify_regularity(const System& system)
+{
+    Report report;
+    Claims(system, 0, {}).decide_regularity(report);
+    return report.regularity;
+}
+
 } // namespace lagen

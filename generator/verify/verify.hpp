@@ -9,6 +9,8 @@
 ///   equals        A - B = 0, by components (A, a, ..)
 ///   legendre      H(t, x, dL/dy) = y^a dL/dy^a - L                            (where both are given)
 ///   invariant     df/dt = 0 along the equations of motion of the model's default form
+/// Of tangency, casimir and invariant a proof says that the rate vanishes wherever the function and the motion are
+/// defined; where that leaves holes and jumps `Check::where` names them.
 #pragma once
 
 #include "mechanics/system.hpp"
@@ -23,6 +25,8 @@ struct Check {
     Decision decision;
     std::string hint;                         ///< may be empty
     std::optional<Reevaluation> reevaluation; ///< where it was asked for and there is a residual
+    std::vector<std::string> where = {}; ///< of what is constant along motions and proved: strict conditions, which the
+                                         ///< domain does not imply; it may change where a motion crosses them
 };
 
 enum class Verdict { valid, invalid, undecided };
@@ -31,13 +35,15 @@ enum class Verdict { valid, invalid, undecided };
 /// Of the fibre Hessian W = d2L/dy2.
 struct Regularity {
     enum class Kind { regular, generically_regular, degenerate, absent, undecided } kind = Kind::absent;
-    std::size_t rank = 0;                ///< generic rank, by a witness
-    bool positive_definite = false;      ///< proved on the whole domain
-    bool for_given_parameters = false;   ///< `regular` and `positive_definite` rest on the parameter values of the file
-    bool of_hamiltonian = false;         ///< of d2H/dmu2, where the model has H and no L
-    std::string evidence;                ///< why `undecided`; may be empty
-    std::string legendre_obstacle;       ///< why y -> dL/dy is not shown to be one-to-one; empty where it is
-    std::vector<Rational> newton_start;  ///< a y where dL/dy is defined, if it is not at 0; else empty
+    std::size_t rank = 0;               ///< generic rank, by a witness
+    bool positive_definite = false;     ///< proved on the whole domain
+    bool for_given_parameters = false;  ///< `regular` and `positive_definite` rest on the parameter values of the file
+    bool of_hamiltonian = false;        ///< of d2H/dmu2, where the model has H and no L
+    std::string evidence;               ///< why `undecided`; may be empty
+    std::string legendre_obstacle;      ///< why y -> dL/dy is not shown to be one-to-one; empty where it is
+    std::vector<Rational> newton_start; ///< a y where dL/dy is defined, if it is not at 0; else empty
+    /// The parameters, with their values (nodes of the system's graph), for which alone that is shown; empty: for all.
+    std::vector<std::pair<NodeId, NodeId>> legendre_values;
     bool singular_everywhere = false;    ///< generically_regular, but det W = 0 for the parameter values of the file
     std::vector<NamedPoint> singular_at; ///< known singular points
     std::vector<std::string> singular_where; ///< where L is defined W is singular where one of these vanishes, for the
@@ -97,6 +103,9 @@ constexpr int reevaluation_digits = 60;
 /// `budget` leaves more undecided, sooner.
 [[nodiscard]] Report verify(const System& system, const std::vector<NamedTree>& extra_invariants = {},
                             std::size_t points = 0, const ProofBudget& budget = {});
+
+/// What `verify` says of the fibre Hessian, alone.
+[[nodiscard]] Regularity verify_regularity(const System& system);
 
 /// Of a subbundle: a check "involutive" (a, b) for each pair of sections, from its anchor equations.
 void append_involutive(Report& report, const System& system);

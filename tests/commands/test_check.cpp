@@ -173,3 +173,29 @@ TEST_CASE("--invariant decides a function from the command line, exactly")
     const Outcome outcome = call({"check", "kepler.toml", "--invariant", "x*p_v - y*p_u"});
     CHECK(outcome.code == 0); // momenta may stand there too
 }
+
+TEST_CASE("what jumps although its rate vanishes is valid, and says where it is proved")
+{
+    const std::vector<std::string> claims{
+        "check",       "oscillator.toml",  "--invariant", "energy",
+        "--invariant", "t - atan2(-v, x)", "--invariant", "abs(x*v)/(x*v) - 2*energy"};
+    const Outcome outcome = call(claims);
+    CHECK(outcome.code == 0);
+    CHECK(outcome.out ==
+          "oscillator: valid\n"
+          "  3 proved\n"
+          "  invariant       3 proved\n"
+          "                  t - atan2(-v, x) where v != 0; may change where a motion crosses\n"
+          "                  abs(x*v)/(x*v) - 2*energy where x != 0 and v != 0; may change where a motion "
+          "crosses\n"
+          "  regularity      regular, rank 1, positive definite\n");
+    std::vector<std::string> as_json = claims;
+    as_json.insert(as_json.end(), {"--format", "json"});
+    const json::Value value = json::parse(call(as_json).out);
+    CHECK(value["verdict"].text == "valid");
+    CHECK_FALSE(value["checks"][0].has("where"));
+    CHECK(value["checks"][1]["status"].text == "proved");
+    CHECK(value["checks"][1]["where"].texts() == std::vector<std::string>{"v != 0"});
+    CHECK(value["checks"][2]["where"].texts() == std::vector<std::string>{"x != 0", "v != 0"});
+    CHECK(value["checks"][2]["residual"].text == "0");
+}

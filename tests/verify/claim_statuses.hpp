@@ -17,12 +17,20 @@ inline Report verified_with(const std::string& text, const std::vector<std::stri
     return verify(model, closed);
 }
 
-/// The statuses of claims to be conserved, in their order, as "proved refuted ...".
+/// "proved where x != 0 and y > 0"
+inline std::string status_of(const Check& check)
+{
+    std::string text = to_text(check.decision.status);
+    for (std::size_t k = 0; k < check.where.size(); ++k) text += (k == 0 ? " where " : " and ") + check.where[k];
+    return text;
+}
+
+/// The statuses of claims to be conserved, in their order, as "proved, refuted, proved where x != 0".
 inline std::string statuses(const std::string& model, const std::vector<std::string>& claims)
 {
     std::string line;
     for (const Check& check : verified_with(model, claims).checks)
-        if (check.name == "invariant") line += (line.empty() ? "" : " ") + std::string(to_text(check.decision.status));
+        if (check.name == "invariant") line += (line.empty() ? "" : ", ") + status_of(check);
     return line;
 }
 

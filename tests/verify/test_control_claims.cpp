@@ -30,7 +30,7 @@ TEST_CASE("what the reference problems conserve is proved, and what they do not 
         std::vector<std::string> texts = {"hamiltonian", "energy"};
         for (const json::Value& invariant : file["invariants"].entries) texts.push_back(invariant["expr"].text);
         std::string expected;
-        for (std::size_t k = 0; k < texts.size(); ++k) expected += "proved ";
+        for (std::size_t k = 0; k < texts.size(); ++k) expected += "proved, ";
         texts.push_back(control.base.at(0));
         CHECK(statuses(model_text(control), texts) == expected + "refuted");
         claims += texts.size();
@@ -44,7 +44,7 @@ TEST_CASE("controls in a claim are those of the extremal")
     const std::string problem =
         controlled_plane("controls = [\"u\"]\nsigma = { a = \"u\", b = \"x\" }\ncost = \"u^2/2\"\n");
     CHECK(statuses(problem, {"u - p", "u + q*t", "u", "a - u", "b - x", "lagrangian - u^2/2", "energy"}) ==
-          "proved proved refuted proved proved proved proved");
+          "proved, proved, refuted, proved, proved, proved, proved");
 }
 
 TEST_CASE("coupled controls are solved for together")
@@ -53,14 +53,14 @@ TEST_CASE("coupled controls are solved for together")
                                                  "cost = \"u[1]^2 + u[1]*u[2] + u[2]^2 + k*u[1]\"\n");
     // p = 2 u1 + u2 + k, q = u1 + 2 u2
     CHECK(statuses(problem, {"3*u[1] - 2*p + q + 2*k", "3*u[2] - 2*q + p - k", "x - u[1]*t", "x"}) ==
-          "proved proved proved refuted");
+          "proved, proved, proved, refuted");
 }
 
 TEST_CASE("a cost of time leaves the Hamiltonian no invariant")
 {
     const std::string problem =
         controlled_plane("controls = [\"u\"]\nsigma = { a = \"u\" }\ncost = \"u^2/2 + x^2*cos(t)\"\n");
-    CHECK(statuses(problem, {"hamiltonian", "q"}) == "refuted proved");
+    CHECK(statuses(problem, {"hamiltonian", "q"}) == "refuted, proved");
 }
 
 TEST_CASE("with bounded controls only what holds for every control is proved, and nothing is refuted")
@@ -68,7 +68,7 @@ TEST_CASE("with bounded controls only what holds for every control is proved, an
     const std::string problem = controlled_plane(
         "controls = [\"u\"]\nsigma = { a = \"u\", b = \"x\" }\ncost = \"u^2/2\"\nbounds = { u = [-1, 1] }\n");
     const std::vector<std::string> claims = {"q", "p + q*t", "hamiltonian", "x", "u", "p"};
-    CHECK(statuses(problem, claims) == "proved proved proved undecided undecided refuted");
+    CHECK(statuses(problem, claims) == "proved, proved, proved, undecided, undecided, refuted");
     CHECK(first_obstacle(problem, claims) ==
           "the controls are bounded, so that they are no smooth functions of x and mu");
 }
