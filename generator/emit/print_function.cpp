@@ -11,12 +11,14 @@ namespace lagen {
 
 namespace {
 
-/// The blocks whose unknowns the body reads.
-std::vector<const ImplicitBlock*> blocks_of(const Body& body, const KernelModule& module)
+/// The blocks whose unknowns the body reads, but `own`.
+std::vector<const ImplicitBlock*> blocks_of(const Body& body, const KernelModule& module,
+                                            const ImplicitBlock* own = nullptr)
 {
     std::vector<const ImplicitBlock*> blocks;
     for (const ImplicitBlock& block : module.implicit)
-        if (std::ranges::any_of(block.unknowns, [&](NodeId id) { return reads(body, id); })) blocks.push_back(&block);
+        if (&block != own && std::ranges::any_of(block.unknowns, [&](NodeId id) { return reads(body, id); }))
+            blocks.push_back(&block);
     return blocks;
 }
 
@@ -26,36 +28,48 @@ bool loads(const BodyPart& part, NodeId id)
         part.lines, [&](const BodyLine& line) { return line.kind == BodyLine::Kind::load && line.index == id; });
 }
 
-/// The lanes, the direction and the unknowns that the part reads: before anything is stored, which may be in their
+std::vector<NodeId> inputs_of(const std::vector<Quantity>& quantities)
+{
+    std::vector<NodeId> inputs;
+    for (const Quantity& quantity : quantities) inputs.push_back(quantity.input);
+    return inputs;
+}
+
+/// `const S x = s[3], y = s[4];`: of the entries of `array` from `first` on, those that the part reads.
+void load_array(TextBlock& out, const BodyPart& part, const FunctionRequest& request, const std::vector<NodeId>& inputs,
+                const std::string& array, std::size_t first)
+{
+    std::vector<std::string> items;
+    for (std::size_t k = 0; k < inputs.size(); ++k)
+        if (loads(part, inputs[k]))
+            items.push_back(fmt::format("{} = {}[{}]", request.names.locals.inputs.at(inputs[k]), array, first + k));
+    if (!items.empty()) out.list("const S ", items, ";");
+}
+
+/// The lanes and the direction that the part reads: before anything is stored, which may be in their
 /// place.
 void load_state(TextBlock& out, const BodyPart& part, const FunctionRequest& request)
 {
     const KernelModule& module = request.module;
-    const auto define = [&](NodeId input, const std::string& value) {
-        if (loads(part, input)) out.line(fmt::format("const S {} = {};", request.names.locals.inputs.at(input), value));
-    };
-    std::size_t lane = 0;
-    for (const auto* group : {&module.base, &module.fibre})
-        for (const Quantity& quantity : *group) define(quantity.input, fmt::format("s[{}]", lane++));
-    if (request.reads_direction)
-        for (std::size_t k = 0; k < module.direction.size(); ++k)
-            define(module.direction[k].input, fmt::format("v[{}]", k));
+    std::size_t first = 0;
+    for (const auto* group : {&module.base, &module.fibre}) {
+        load_array(out, part, request, inputs_of(*group), "s", first);
+        first += group->size();
+    }
+    if (request.reads_direction) load_array(out, part, request, inputs_of(module.direction), "v", 0);
 }
 
 void load_unknowns(TextBlock& out, const BodyPart& part, const FunctionRequest& request)
 {
     for (const ImplicitBlock& block : request.module.implicit)
-        for (std::size_t k = 0; k < block.unknowns.size(); ++k)
-            if (loads(part, block.unknowns[k]))
-                out.line(fmt::format("const S {} = solved_{}[{}];", request.names.locals.inputs.at(block.unknowns[k]),
-                                     block.name, k));
+        load_array(out, part, request, block.unknowns, &block == request.own ? "unknowns" : "solved_" + block.name, 0);
 }
 
 /// Solves the implicit blocks that the body reads; answers whether a `status` was declared.
 bool solve_blocks(TextBlock& out, const Body& body, const FunctionRequest& request)
 {
     bool declared = false;
-    const std::vector<const ImplicitBlock*> blocks = blocks_of(body, request.module);
+    const std::vector<const ImplicitBlock*> blocks = blocks_of(body, request.module, request.own);
     for (const ImplicitBlock* block : blocks) {
         out.line(fmt::format("std::array<S, {}> solved_{};", block->unknowns.size(), block->name));
         const std::string call = fmt::format("solve_{}(t, s, solved_{})", block->name, block->name);
@@ -71,15 +85,22 @@ bool solve_blocks(TextBlock& out, const Body& body, const FunctionRequest& reque
     return declared;
 }
 
-/// All that the part reads at once: a compiler that finds loads between stores, which might overlap, packs neither.
+/// All that the part reads at once: a compiler that finds loads between stores, which might overlap, packs neither. By
+/// the names of all members where it reads most of them.
 void load_parameters(TextBlock& out, const BodyPart& part, const FunctionRequest& request)
 {
+    std::vector<std::string> members;
+    std::vector<std::string> items;
     for (std::size_t k = 0; k < request.module.parameters.size(); ++k) {
         const NodeId input = request.module.parameters[k].input;
+        members.push_back(request.names.locals.inputs.at(input));
         if (loads(part, input))
-            out.line(fmt::format("const S {} = parameters.{};", request.names.locals.inputs.at(input),
-                                 request.names.parameters[k]));
+            items.push_back(fmt::format("{} = parameters.{}", members.back(), request.names.parameters[k]));
     }
+    if (items.size() > 1 && 2 * items.size() >= members.size())
+        out.list("const auto [", members, "] = parameters;");
+    else
+        out.list("const S ", items, ";");
 }
 
 void print_part_lines(TextBlock& out, const BodyPart& part, const FunctionRequest& request)

@@ -19,6 +19,7 @@ struct FunctionRequest {
     std::string output;           ///< "State& ds": what the parts store to
     bool output_is_state = false; ///< may be the same object as the state that is read
     std::function<std::string(std::size_t, const std::string&)> store; ///< "ds[3] = w2 * w3;"
+    const ImplicitBlock* own = nullptr; ///< whose unknowns stand in an argument `unknowns`
 };
 
 [[nodiscard]] bool reads(const Body& body, NodeId id);

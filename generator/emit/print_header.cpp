@@ -206,7 +206,7 @@ std::string print_header(const KernelModule& module)
     out.blank();
     out.line("namespace lagen::models {");
     out.blank();
-    out.comment(module.title.empty() ? module.model : module.title);
+    out.comment(module.title.empty() ? module.model : comment_text(module.title));
     out.line("template <class S>");
     out.line(fmt::format("class {} {{", names.class_name));
     out.line("  public:");

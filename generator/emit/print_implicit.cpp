@@ -12,21 +12,10 @@ namespace {
 
 /// `array[k] = value;`
 FunctionRequest storing_to(const KernelModule& module, const ModuleNames& names,
-                           std::function<std::string(std::size_t, const std::string&)> store)
+                           std::function<std::string(std::size_t, const std::string&)> store,
+                           const ImplicitBlock* own = nullptr)
 {
-    return {module, names, "", false, false, "", false, std::move(store)};
-}
-
-/// The unknowns stand in the argument `unknowns`, not in a solved block.
-void load_own_unknowns(TextBlock& out, Body& body, const ModuleNames& names, const ImplicitBlock& block)
-{
-    for (std::size_t k = 0; k < block.unknowns.size(); ++k)
-        if (reads(body, block.unknowns[k]))
-            out.line(fmt::format("const S {} = unknowns[{}];", names.locals.inputs.at(block.unknowns[k]), k));
-    const auto is_own = [&](std::size_t id) { return std::ranges::count(block.unknowns, static_cast<NodeId>(id)) > 0; };
-    std::erase_if(body.inputs, is_own);
-    std::erase_if(body.parts.front().lines,
-                  [&](const BodyLine& line) { return line.kind == BodyLine::Kind::load && is_own(line.index); });
+    return {module, names, "", false, false, "", false, std::move(store), own};
 }
 
 /// A body in braces of its own, whose outputs are stored by `store`.
@@ -146,14 +135,17 @@ class ImplicitPrinter {
         out_.indent(1);
         const std::size_t conditions = block_.bracket ? 0 : block_.inside.size();
         if (conditions > 0) out_.line(fmt::format("std::array<S, {}> inside;", conditions));
-        load_own_unknowns(out_, iteration_, names_, block_);
         const std::pair<const char*, std::size_t> arrays[] = {
             {"residual", size_}, {"derivative", derivatives}, {"size", size_}, {"inside", conditions}};
-        print_lines(out_, iteration_, storing_to(module_, names_, [&arrays](std::size_t k, const std::string& value) {
-                        const auto* array = arrays;
-                        for (; k >= array->second; ++array) k -= array->second;
-                        return fmt::format("{}[{}] = {};", array->first, k, value);
-                    }));
+        print_lines(out_, iteration_,
+                    storing_to(
+                        module_, names_,
+                        [&arrays](std::size_t k, const std::string& value) {
+                            const auto* array = arrays;
+                            for (; k >= array->second; ++array) k -= array->second;
+                            return fmt::format("{}[{}] = {};", array->first, k, value);
+                        },
+                        &block_));
         if (conditions > 0) out_.line("require_positive(inside, residual);");
         out_.indent(-1);
         out_.line("});");
@@ -177,16 +169,19 @@ void follow_block(TextBlock& out, const KernelModule& module, const ModuleNames&
     const auto member = [&](std::size_t k) { return "guess." + names.guess.at(block.unknowns[k]); };
     std::string kept = "guess.{0} = number_or<S>({1}[{2}], guess.{0});";
     if (!block.angles) {
-        Body body = print_body({*module.graph, names.locals, block.jacobian, {}, names.moving, Checking::none, {}, 0});
+        const Body body =
+            print_body({*module.graph, names.locals, block.jacobian, {}, names.moving, Checking::none, {}, 0});
         out.line(fmt::format("const std::array<S, {}> from = {{{}}};", size, list_of(size, member)));
         out.line(fmt::format("const auto curvature = [&]([[maybe_unused]] const std::array<S, {}>& unknowns, "
                              "std::array<S, {}>& matrix) noexcept {{",
                              size, size * size));
         out.indent(1);
-        load_own_unknowns(out, body, names, block);
-        print_lines(out, body, storing_to(module, names, [](std::size_t k, const std::string& value) {
-                        return fmt::format("matrix[{}] = {};", k, value);
-                    }));
+        print_lines(
+            out, body,
+            storing_to(
+                module, names,
+                [](std::size_t k, const std::string& value) { return fmt::format("matrix[{}] = {};", k, value); },
+                &block));
         out.indent(-1);
         out.line("};");
         out.line(fmt::format("const auto same = is_same_maximum(from, {}, curvature);", solved));

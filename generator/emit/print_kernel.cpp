@@ -79,14 +79,20 @@ void print_entry_names(TextBlock& out, const Kernel& kernel)
                          kernel.name, joined(literals)));
 }
 
-/// By rows and by columns; which is better depends on the recursion behind them.
+/// By rows and by columns, from either end; which is best depends on the recursion behind them. The entries of a vector
+/// stand in their order.
 std::vector<std::vector<std::size_t>> arrangements_of(const KernelOutput& output)
 {
     if (output.columns < 2) return {};
     std::vector<std::size_t> by_columns(output.entries.size());
     std::iota(by_columns.begin(), by_columns.end(), std::size_t{0});
     std::ranges::stable_sort(by_columns, {}, [&](std::size_t k) { return output.entries[k].column; });
-    return {by_columns};
+    std::vector<std::vector<std::size_t>> orders = {by_columns};
+    std::vector<std::size_t> given(by_columns.size());
+    std::iota(given.begin(), given.end(), std::size_t{0});
+    orders.emplace_back(by_columns.rbegin(), by_columns.rend());
+    orders.emplace_back(given.rbegin(), given.rend());
+    return orders;
 }
 
 /// What all shapes of kernels have in common.
@@ -113,7 +119,7 @@ class KernelPrinter {
   private:
     [[nodiscard]] FunctionRequest request(const std::string& output) const
     {
-        FunctionRequest request{module_, names_, kernel_.name, false, false, output, false, {}};
+        FunctionRequest request{module_, names_, kernel_.name, false, false, output, false, {}, nullptr};
         return request;
     }
 
@@ -279,9 +285,11 @@ void print_parameter_status(TextBlock& out, const KernelModule& module, const Mo
     open_block(out, "[[nodiscard]] status_t<S> parameter_status() const noexcept");
     if (has_status && !body.has_status) out.line("auto status = StatusOf<S>::good();");
     print_lines(out, body,
-                {module, names, "parameter_status", true, false, "", false, [](std::size_t, const std::string& value) {
+                {module, names, "parameter_status", true, false, "", false,
+                 [](std::size_t, const std::string& value) {
                      return fmt::format("StatusOf<S>::fail(status, !({} > S(0)), Status::left_domain);", value);
-                 }});
+                 },
+                 nullptr});
     out.line(has_status ? "return status;" : "return StatusOf<S>::good();");
     close_block(out);
 }

@@ -65,6 +65,7 @@ struct KernelModule {
     std::string regenerate;             ///< the command that makes this header again
     std::vector<std::string> warnings;  ///< e.g. that the model was not proved
     std::vector<std::string> equations; ///< the equations in UTF-8, a line each, for the banner
+    std::string derive;                 ///< the command that prints all of them
     std::shared_ptr<Graph> graph;
     NodeId time = 0; ///< the input t
     std::vector<Quantity> parameters;

@@ -87,6 +87,50 @@ TEST_CASE("the same module gives the same bytes", "[emit]")
     CHECK(print_header(pendulum_module()).size() > 1000);
 }
 
+TEST_CASE("an equation stands whole in a banner, or is left out with the command that prints it", "[emit]")
+{
+    KernelModule module = product_module();
+    module.derive = "lagen derive product.toml";
+    module.regenerate += std::string(300, 'x');
+    const std::string longest(200, 'a');
+    module.equations = {"motion:",  "  x = 1", "      + 2", "  y = " + longest, "  z = 3", "      + " + longest,
+                        "      + 4"};
+    std::string text = print_header(module);
+    CHECK(text.find("///   motion:\n///     x = 1\n///         + 2\n"
+                    "///     (2 equations are too long to stand here: lagen derive product.toml prints them)\n///\n") !=
+          std::string::npos);
+    module.equations = {"  y = " + longest, "  z = " + longest.substr(6)};
+    text = print_header(module);
+    CHECK(text.find("///     (one equation is too long to stand here: lagen derive product.toml prints it)\n"
+                    "///     z = " +
+                    longest.substr(6) + "\n") != std::string::npos);
+    CHECK(text.find(module.regenerate + "\n") != std::string::npos);
+}
+
+TEST_CASE("the entries of a vector are stored in their order, the members of a struct are loaded by its names",
+          "[emit]")
+{
+    KernelModule module = empty_module("ordered");
+    Graph& g = *module.graph;
+    module.parameters = {declare(g, "a"), declare(g, "b"), declare(g, "unread")};
+    std::vector<NodeId> sums{module.parameters[0].input};
+    std::vector<NodeId> products;
+    for (int k = 0; k < 20; ++k) { // late values first: the order of least pressure is another one
+        module.base.push_back(declare(g, "x" + std::to_string(k)));
+        sums.push_back(g.add(g.multiply(sums.back(), module.base.back().input), module.parameters[1].input));
+    }
+    for (std::size_t k = sums.size() - 1; k > 0; --k) products.push_back(g.multiply(sums[k], sums[k - 1]));
+    module.kernels = {vector_kernel("f", products)};
+    const std::string text = print_header(module);
+    std::size_t at = text.find("const auto [a, b, unread] = parameters;\n");
+    CHECK(at != std::string::npos);
+    for (std::size_t k = 0; k < products.size(); ++k) {
+        const std::size_t next = text.find("result[" + std::to_string(k) + "] = ", at);
+        CHECK(next != std::string::npos);
+        at = next;
+    }
+}
+
 TEST_CASE("names that C++ cannot bear are altered and stay distinct", "[emit]")
 {
     CHECK(cpp_names({"class", "I", "y0", "S", "t", "x", "theta_1"}) ==
@@ -107,8 +151,6 @@ TEST_CASE("shared terms avoid the names of the model", "[emit]")
     module.kernels = {
         vector_kernel("rhs", {graph.multiply(root, module.base[2].input), root, shared}, KernelShape::right_hand_side)};
     const std::string text = print_header(module);
-    CHECK(text.find("const S s_ = s[1];\n") != std::string::npos);
-    CHECK(text.find("const S ds_ = s[2];\n") != std::string::npos);
+    CHECK(text.find("const S w0 = s[0], s_ = s[1], ds_ = s[2];\n") != std::string::npos);
     CHECK(text.find("const S u0 = w0 + s_;\n") != std::string::npos);
-    CHECK(text.find("const S w0 = s[0];\n") != std::string::npos);
 }
