@@ -13,13 +13,6 @@ namespace lagen {
 
 namespace {
 
-std::vector<NodeId> outputs_of(const Kernel& kernel)
-{
-    std::vector<NodeId> nodes;
-    for (const KernelEntry& entry : kernel.output.entries) nodes.push_back(entry.node);
-    return nodes;
-}
-
 std::string count_text(double count)
 {
     return count < 1e9 ? fmt::format("{:.0f}", count) : fmt::format("{:.1e}", count);
@@ -33,7 +26,7 @@ void print_counts(TextBlock& out, const KernelModule& module)
     out.comment(fmt::format("  {:<14}{:>7}{:>7}{:>7}{:>11}{:>8}{:>13}", "kernel", "+ -", "*", "/", "functions",
                             "solves", "written out"));
     for (const Kernel& kernel : module.kernels) {
-        const std::vector<NodeId> outputs = outputs_of(kernel);
+        const std::vector<NodeId> outputs = nodes_of(kernel);
         const OperationCount count = count_operations(*module.graph, outputs);
         out.comment(fmt::format("  {:<14}{:>7}{:>7}{:>7}{:>11}{:>8}{:>13}", kernel.name, count.additions,
                                 count.multiplications, count.divisions, count.functions, count.solves,
@@ -41,23 +34,19 @@ void print_counts(TextBlock& out, const KernelModule& module)
     }
 }
 
-void print_quantities(TextBlock& out, const std::string& heading,
-                      const std::vector<const std::vector<Quantity>*>& groups, bool with_lanes)
+/// One a line, behind the lane of the state where they are lanes.
+void print_quantities(TextBlock& out, const std::string& heading, const std::vector<Quantity>& quantities, bool lanes)
 {
-    std::size_t lane = 0;
-    bool first = true;
-    for (const auto* group : groups)
-        for (const Quantity& quantity : *group) {
-            if (first) {
-                out.comment("");
-                out.comment(heading);
-                first = false;
-            }
-            std::string line = with_lanes ? fmt::format("  s[{}] {}", lane++, quantity.name) : "  " + quantity.name;
-            if (!quantity.unit.empty()) line += " [" + quantity.unit + "]";
-            if (!quantity.text.empty()) line += ": " + comment_text(quantity.text);
-            out.comment(line);
-        }
+    if (quantities.empty()) return;
+    out.comment("");
+    out.comment(heading);
+    for (std::size_t k = 0; k < quantities.size(); ++k) {
+        const Quantity& quantity = quantities[k];
+        std::string line = lanes ? fmt::format("  s[{}] {}", k, quantity.name) : "  " + quantity.name;
+        if (!quantity.unit.empty()) line += " [" + quantity.unit + "]";
+        if (!quantity.text.empty()) line += ": " + comment_text(quantity.text);
+        out.comment(line);
+    }
 }
 
 constexpr std::size_t longest_line = 200; ///< bytes of a line of equations
@@ -123,8 +112,8 @@ void print_banner(TextBlock& out, const KernelModule& module)
     for (const std::string& warning : module.warnings) out.comment("WARNING: " + warning);
     print_equations(out, module);
     print_counts(out, module);
-    print_quantities(out, "Parameters:", {&module.parameters}, false);
-    print_quantities(out, "State:", {&module.base, &module.fibre}, true);
+    print_quantities(out, "Parameters:", module.parameters, false);
+    print_quantities(out, "State:", lanes_of(module), true);
 }
 
 } // namespace lagen

@@ -11,15 +11,27 @@ namespace lagen {
 
 namespace {
 
-/// The blocks whose unknowns the body reads, but `own`.
-std::vector<const ImplicitBlock*> blocks_of(const Body& body, const KernelModule& module,
-                                            const ImplicitBlock* own = nullptr)
+/// The blocks whose unknowns the body reads and does not find in an argument.
+std::vector<const ImplicitBlock*> blocks_of(const Body& body, const FunctionRequest& request)
 {
+    const auto is_given = [&](NodeId id) {
+        return std::ranges::any_of(request.inputs, [id](const KernelInput& input) {
+            return std::ranges::find(input.entries, id, &Quantity::input) != input.entries.end();
+        });
+    };
     std::vector<const ImplicitBlock*> blocks;
-    for (const ImplicitBlock& block : module.implicit)
-        if (&block != own && std::ranges::any_of(block.unknowns, [&](NodeId id) { return reads(body, id); }))
+    for (const ImplicitBlock& block : request.module.implicit)
+        if (std::ranges::any_of(block.unknowns, [&](NodeId id) { return reads(body, id) && !is_given(id); }))
             blocks.push_back(&block);
     return blocks;
+}
+
+/// The name of the argument with this role, from which implicit blocks are solved.
+const std::string& name_of(const FunctionRequest& request, ArrayRole role)
+{
+    const auto found = std::ranges::find(request.inputs, role, &KernelInput::role);
+    if (found == request.inputs.end()) throw InternalError(request.name + " reads unknowns that it cannot solve for");
+    return found->name;
 }
 
 bool loads(const BodyPart& part, NodeId id)
@@ -28,51 +40,60 @@ bool loads(const BodyPart& part, NodeId id)
         part.lines, [&](const BodyLine& line) { return line.kind == BodyLine::Kind::load && line.index == id; });
 }
 
-std::vector<NodeId> inputs_of(const std::vector<Quantity>& quantities)
-{
-    std::vector<NodeId> inputs;
-    for (const Quantity& quantity : quantities) inputs.push_back(quantity.input);
-    return inputs;
-}
-
-/// `const S x = s[3], y = s[4];`: of the entries of `array` from `first` on, those that the part reads.
-void load_array(TextBlock& out, const BodyPart& part, const FunctionRequest& request, const std::vector<NodeId>& inputs,
-                const std::string& array, std::size_t first)
+/// `const S x = s[3], y = s[4];`: of `count` entries from `first` on, those that the part reads.
+void load_entries(TextBlock& out, const BodyPart& part, const FunctionRequest& request, std::size_t first,
+                  std::size_t count, const std::function<std::pair<NodeId, std::string>(std::size_t)>& entry)
 {
     std::vector<std::string> items;
-    for (std::size_t k = 0; k < inputs.size(); ++k)
-        if (loads(part, inputs[k]))
-            items.push_back(fmt::format("{} = {}[{}]", request.names.locals.inputs.at(inputs[k]), array, first + k));
+    for (std::size_t k = first; k < first + count; ++k)
+        if (const auto [id, place] = entry(k); loads(part, id))
+            items.push_back(fmt::format("{} = {}", request.names.locals.inputs.at(id), place));
     if (!items.empty()) out.list("const S ", items, ";");
 }
 
-/// The lanes and the direction that the part reads: before anything is stored, which may be in their
-/// place.
-void load_state(TextBlock& out, const BodyPart& part, const FunctionRequest& request)
+/// The entries of the arguments that the part reads, a group of lanes or a row a line: before anything is stored, which
+/// may be in their place.
+void load_inputs(TextBlock& out, const BodyPart& part, const FunctionRequest& request)
 {
-    const KernelModule& module = request.module;
-    std::size_t first = 0;
-    for (const auto* group : {&module.base, &module.fibre}) {
-        load_array(out, part, request, inputs_of(*group), "s", first);
-        first += group->size();
+    for (const KernelInput& input : request.inputs) {
+        if (input.shape.rank == 0) continue;
+        std::vector<std::size_t> rows(input.shape.rank == 1 ? 1 : input.shape.rows,
+                                      input.shape.rank == 1 ? input.shape.rows : input.shape.columns);
+        if (has_lanes(input.role)) {
+            rows.clear();
+            for (const LaneGroup& group : request.module.groups) rows.push_back(group.lanes.size());
+        }
+        std::size_t first = 0;
+        for (const std::size_t count : rows) {
+            load_entries(out, part, request, first, count, [&](std::size_t k) {
+                const std::string place =
+                    input.shape.rank == 1
+                        ? fmt::format("{}[{}]", input.name, k)
+                        : fmt::format("{}({}, {})", input.name, k / input.shape.columns, k % input.shape.columns);
+                return std::pair{input.entries[k].input, place};
+            });
+            first += count;
+        }
     }
-    if (request.reads_direction) load_array(out, part, request, inputs_of(module.direction), "v", 0);
 }
 
-void load_unknowns(TextBlock& out, const BodyPart& part, const FunctionRequest& request)
+void load_unknowns(TextBlock& out, const Body& body, const BodyPart& part, const FunctionRequest& request)
 {
-    for (const ImplicitBlock& block : request.module.implicit)
-        load_array(out, part, request, block.unknowns, &block == request.own ? "unknowns" : "solved_" + block.name, 0);
+    for (const ImplicitBlock* block : blocks_of(body, request))
+        load_entries(out, part, request, 0, block->unknowns.size(), [&](std::size_t k) {
+            return std::pair{block->unknowns[k], fmt::format("solved_{}[{}]", block->name, k)};
+        });
 }
 
 /// Solves the implicit blocks that the body reads; answers whether a `status` was declared.
 bool solve_blocks(TextBlock& out, const Body& body, const FunctionRequest& request)
 {
     bool declared = false;
-    const std::vector<const ImplicitBlock*> blocks = blocks_of(body, request.module, request.own);
+    const std::vector<const ImplicitBlock*> blocks = blocks_of(body, request);
     for (const ImplicitBlock* block : blocks) {
         out.line(fmt::format("std::array<S, {}> solved_{};", block->unknowns.size(), block->name));
-        const std::string call = fmt::format("solve_{}(t, s, solved_{})", block->name, block->name);
+        const std::string call = fmt::format("solve_{0}({1}, {2}, solved_{0})", block->name,
+                                             name_of(request, ArrayRole::time), name_of(request, ArrayRole::state));
         if (!request.returns_status)
             out.line(fmt::format("static_cast<void>({});", call));
         else if (declared)
@@ -128,27 +149,37 @@ std::string part_name(const FunctionRequest& request, std::size_t part)
     return fmt::format("{}_part_{}", request.name, part + 1);
 }
 
+/// May stand in the place of an output, which is written before all of it has been read.
+bool is_overwritten(const KernelInput& input, const FunctionRequest& request)
+{
+    return has_lanes(input.role) && std::ranges::any_of(request.outputs, &OutputArgument::overlaps);
+}
+
 /// "S t, const State& s, ..., std::array<S, 12>& work, State& ds"; without types the arguments of a call.
 std::string part_arguments(const Body& body, const FunctionRequest& request, bool types)
 {
-    std::string text = types ? "[[maybe_unused]] S t, [[maybe_unused]] const State& s" : "t, ";
-    if (!types) text += request.output_is_state ? "at" : "s";
+    std::vector<std::string> arguments;
     const auto add = [&](const std::string& type, const std::string& name) {
-        text += types ? ", [[maybe_unused]] " + type + " " + name : ", " + name;
+        arguments.push_back(types ? "[[maybe_unused]] " + type + " " + name : name);
     };
-    if (request.reads_direction) add("const State&", types || !request.output_is_state ? "v" : "along");
-    for (const ImplicitBlock* block : blocks_of(body, request.module))
+    for (const KernelInput& input : request.inputs)
+        add(type_of(input), !types && is_overwritten(input, request) ? copy_of(input) : input.name);
+    for (const ImplicitBlock* block : blocks_of(body, request))
         add(fmt::format("const std::array<S, {}>&", block->unknowns.size()), "solved_" + block->name);
     add(fmt::format("std::array<S, {}>&", body.workspace), "work");
-    const std::size_t name = request.output.rfind(' ') + 1;
-    add(request.output.substr(0, name - 1), request.output.substr(name));
-    return text;
+    for (const OutputArgument& output : request.outputs) add(output.type + "&", output.name);
+    return joined(arguments);
 }
 
 void call_parts(TextBlock& out, const Body& body, const FunctionRequest& request)
 {
-    if (request.output_is_state) out.line("const State at = s; // the output may stand in the place of the state");
-    if (request.output_is_state && request.reads_direction) out.line("const State along = v;");
+    bool told = false;
+    for (const KernelInput& input : request.inputs) {
+        if (!is_overwritten(input, request)) continue;
+        out.line(fmt::format("const State {} = {};{}", copy_of(input), input.name,
+                             told ? "" : " // an output may stand in its place"));
+        told = true;
+    }
     out.line(fmt::format("std::array<S, {}> work;", body.workspace));
     for (std::size_t k = 0; k < body.parts.size(); ++k) {
         const std::string call = fmt::format("{}({})", part_name(request, k), part_arguments(body, request, false));
@@ -163,12 +194,9 @@ bool reads(const Body& body, NodeId id)
     return std::ranges::binary_search(body.inputs, id);
 }
 
-bool reads_lane(const Body& body, const KernelModule& module)
+bool reads(const Body& body, const KernelInput& input)
 {
-    const auto any = [&](const std::vector<Quantity>& group) {
-        return std::ranges::any_of(group, [&](const Quantity& q) { return reads(body, q.input); });
-    };
-    return any(module.base) || any(module.fibre);
+    return std::ranges::any_of(input.entries, [&](const Quantity& entry) { return reads(body, entry.input); });
 }
 
 std::string maybe_unused(bool used)
@@ -176,11 +204,26 @@ std::string maybe_unused(bool used)
     return used ? "" : "[[maybe_unused]] ";
 }
 
-std::string state_arguments(const Body& body, const KernelModule& module)
+std::string type_of(const KernelInput& input)
 {
-    const bool whole = body.parts.size() > 1 || !blocks_of(body, module).empty();
-    return fmt::format("{}S t, {}const State& s", maybe_unused(whole || reads(body, module.time)),
-                       maybe_unused(whole || reads_lane(body, module)));
+    if (input.shape.rank == 0) return "S";
+    if (has_lanes(input.role)) return "const State&";
+    return fmt::format("const Eigen::Matrix<S, {}, {}>&", input.shape.rows, input.shape.columns);
+}
+
+std::string arguments_of(const Body& body, const FunctionRequest& request)
+{
+    const bool cut = body.parts.size() > 1;
+    const bool solves = !blocks_of(body, request).empty();
+    std::vector<std::string> arguments;
+    for (const KernelInput& input : request.inputs) {
+        const bool point = input.role == ArrayRole::time || input.role == ArrayRole::state;
+        arguments.push_back(fmt::format("{}{} {}", maybe_unused(cut || (solves && point) || reads(body, input)),
+                                        type_of(input), input.name));
+    }
+    for (const OutputArgument& output : request.outputs)
+        arguments.push_back(fmt::format("{}{}& {}", maybe_unused(output.used), output.type, output.name));
+    return joined(arguments);
 }
 
 void open_block(TextBlock& out, const std::string& signature)
@@ -210,8 +253,8 @@ void print_parts(TextBlock& out, const Body& body, const FunctionRequest& reques
                    fmt::format("[[gnu::noinline]] {} {}({}) const noexcept", part.has_status ? "status_t<S>" : "void",
                                part_name(request, k), part_arguments(body, request, true)));
         print_usings(out, body);
-        load_state(out, part, request);
-        load_unknowns(out, part, request);
+        load_inputs(out, part, request);
+        load_unknowns(out, body, part, request);
         if (part.has_status) out.line("auto status = StatusOf<S>::good();");
         print_part_lines(out, part, request);
         if (part.has_status) out.line("return status;");
@@ -227,12 +270,12 @@ bool print_lines(TextBlock& out, const Body& body, const FunctionRequest& reques
 {
     const bool whole = body.parts.size() == 1;
     if (whole) print_usings(out, body);
-    if (whole) load_state(out, body.parts[0], request);
+    if (whole) load_inputs(out, body.parts[0], request);
     bool declared = solve_blocks(out, body, request);
     if (body.has_status && !declared) out.line("auto status = StatusOf<S>::good();");
     declared = declared || body.has_status;
     if (!whole) return call_parts(out, body, request), declared;
-    load_unknowns(out, body.parts[0], request);
+    load_unknowns(out, body, body.parts[0], request);
     print_part_lines(out, body.parts[0], request);
     return declared;
 }
