@@ -125,8 +125,7 @@ class double_integrator_pontryagin {
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
         const S v = s[1];
-        const S mu_x = s[2];
-        const S mu_v = s[3];
+        const S mu_x = s[2], mu_v = s[3];
         ds[0] = v;
         const S u_max = parameters.u_max;
         const S w0 = -u_max;
@@ -154,8 +153,7 @@ class double_integrator_pontryagin {
     [[nodiscard]] S hamiltonian([[maybe_unused]] S t, const State& s) const noexcept
     {
         const S v = s[1];
-        const S mu_x = s[2];
-        const S mu_v = s[3];
+        const S mu_x = s[2], mu_v = s[3];
         const S u_max = parameters.u_max;
         const S w0 = -u_max;
         const S w1 = select(mu_v > w0, mu_v, w0);

@@ -125,10 +125,7 @@ class double_pendulum {
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
         auto status = StatusOf<S>::good();
-        const S m1 = parameters.m1;
-        const S m2 = parameters.m2;
-        const S l1 = parameters.l1;
-        const S l2 = parameters.l2;
+        const auto [m1, m2, l1, l2, g] = parameters;
         StatusOf<S>::fail(status, !(m1 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, m2 == S(0), Status::singular_mass_matrix);
         StatusOf<S>::fail(status, !(m2 > S(0)), Status::left_domain);
@@ -146,18 +143,12 @@ class double_pendulum {
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
         using std::abs;
-        const S a = s[0];
-        const S b = s[1];
-        const S u = s[2];
-        const S v = s[3];
+        const S a = s[0], b = s[1];
+        const S u = s[2], v = s[3];
         auto status = StatusOf<S>::good();
         ds[0] = u;
         ds[1] = v;
-        const S m1 = parameters.m1;
-        const S m2 = parameters.m2;
-        const S l1 = parameters.l1;
-        const S l2 = parameters.l2;
-        const S g = parameters.g;
+        const auto [m1, m2, l1, l2, g] = parameters;
         const S w0 = m1 + m2;
         const S w1 = w0 * l1;
         const S w2 = m2 * l2;
@@ -184,12 +175,8 @@ class double_pendulum {
     {
         Eigen::Matrix<S, 2, 2> result;
         using std::cos;
-        const S a = s[0];
-        const S b = s[1];
-        const S m1 = parameters.m1;
-        const S m2 = parameters.m2;
-        const S l1 = parameters.l1;
-        const S l2 = parameters.l2;
+        const S a = s[0], b = s[1];
+        const auto [m1, m2, l1, l2, g] = parameters;
         result(0, 0) = (m1 + m2) * (l1 * l1);
         const S w0 = m2 * l2;
         const S w1 = l1 * w0 * cos(a - b);
@@ -204,15 +191,10 @@ class double_pendulum {
     {
         Eigen::Matrix<S, 2, 1> result;
         using std::cos;
-        const S a = s[0];
-        const S b = s[1];
-        const S u = s[2];
-        const S v = s[3];
+        const S a = s[0], b = s[1];
+        const S u = s[2], v = s[3];
         const S w0 = cos(a - b);
-        const S m1 = parameters.m1;
-        const S m2 = parameters.m2;
-        const S l1 = parameters.l1;
-        const S l2 = parameters.l2;
+        const auto [m1, m2, l1, l2, g] = parameters;
         const S w1 = m2 * l2;
         const S w2 = l1 * u;
         result[0] = l1 * (w1 * w0 * v + (m1 + m2) * w2);
@@ -223,15 +205,9 @@ class double_pendulum {
     /// E = y^a p_a - L.
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S a = s[0];
-        const S b = s[1];
-        const S u = s[2];
-        const S v = s[3];
-        const S m1 = parameters.m1;
-        const S m2 = parameters.m2;
-        const S l1 = parameters.l1;
-        const S l2 = parameters.l2;
-        const S g = parameters.g;
+        const S a = s[0], b = s[1];
+        const S u = s[2], v = s[3];
+        const auto [m1, m2, l1, l2, g] = parameters;
         const S w0 = m2 * l2;
         const S w1 = w0 * v;
         const S w2 = l1 * u;
@@ -245,16 +221,10 @@ class double_pendulum {
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S a = s[0];
-        const S b = s[1];
-        const S u = s[2];
-        const S v = s[3];
+        const S a = s[0], b = s[1];
+        const S u = s[2], v = s[3];
         const auto [sines, cosines] = sincos<S, 3>({a, b, a - b});
-        const S m1 = parameters.m1;
-        const S m2 = parameters.m2;
-        const S l1 = parameters.l1;
-        const S l2 = parameters.l2;
-        const S g = parameters.g;
+        const auto [m1, m2, l1, l2, g] = parameters;
         const S w0 = S(2) * g;
         const S w1 = l1 * u;
         const S w2 = m2 * l2 * (w0 * cosines[1] + v * (l2 * v + S(2) * cosines[2] * w1)) + (m1 + m2) * l1 * (u * w1 + w0
@@ -267,11 +237,9 @@ class double_pendulum {
     [[nodiscard]] Eigen::Matrix<S, 4, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 4, 1> result;
-        const S a = s[0];
-        const S b = s[1];
+        const S a = s[0], b = s[1];
         const auto [sines, cosines] = sincos<S, 2>({a, b});
-        const S l1 = parameters.l1;
-        const S l2 = parameters.l2;
+        const S l1 = parameters.l1, l2 = parameters.l2;
         const S w0 = l1 * sines[0];
         result[0] = w0;
         const S w1 = l1 * cosines[0];
@@ -299,17 +267,11 @@ class double_pendulum {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 10>& values) const noexcept
     {
-        const S a = s[0];
-        const S b = s[1];
-        const S u = s[2];
-        const S v = s[3];
+        const S a = s[0], b = s[1];
+        const S u = s[2], v = s[3];
         values[0] = S(1);
         values[1] = S(1);
-        const S m1 = parameters.m1;
-        const S m2 = parameters.m2;
-        const S l1 = parameters.l1;
-        const S l2 = parameters.l2;
-        const S g = parameters.g;
+        const auto [m1, m2, l1, l2, g] = parameters;
         const S w0 = (m1 + m2) * l1;
         const S w1 = l1 * w0;
         const S w2 = m2 * l2;

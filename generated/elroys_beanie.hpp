@@ -129,9 +129,7 @@ class elroys_beanie {
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
         auto status = StatusOf<S>::good();
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S M = parameters.M;
+        const auto [I1, I2, M, k] = parameters;
         StatusOf<S>::fail(status, !(I1 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, !(I2 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, M == S(0), Status::singular_mass_matrix);
@@ -150,14 +148,9 @@ class elroys_beanie {
     {
         using std::sin;
         const S ps = s[0];
-        const S d = s[1];
-        const S W = s[2];
-        const S v1 = s[3];
-        const S v2 = s[4];
+        const S d = s[1], W = s[2], v1 = s[3], v2 = s[4];
         ds[0] = d;
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S k = parameters.k;
+        const auto [I1, I2, M, k] = parameters;
         const S w0 = I1 + I2;
         ds[1] = -w0 * k * sin(ps) / (I1 * I2);
         ds[2] = S(0);
@@ -172,9 +165,7 @@ class elroys_beanie {
             noexcept
     {
         Eigen::Matrix<S, 4, 4> result = Eigen::Matrix<S, 4, 4>::Zero();
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S M = parameters.M;
+        const auto [I1, I2, M, k] = parameters;
         const S w0 = I1 + I2;
         result(1, 1) = w0;
         result(0, 0) = I1 * I2 / w0;
@@ -187,13 +178,8 @@ class elroys_beanie {
     [[nodiscard]] Eigen::Matrix<S, 4, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 4, 1> result;
-        const S d = s[1];
-        const S W = s[2];
-        const S v1 = s[3];
-        const S v2 = s[4];
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S M = parameters.M;
+        const S d = s[1], W = s[2], v1 = s[3], v2 = s[4];
+        const auto [I1, I2, M, k] = parameters;
         const S w0 = I1 + I2;
         result[0] = I1 * I2 * d / w0;
         result[1] = w0 * W;
@@ -207,14 +193,8 @@ class elroys_beanie {
     {
         using std::cos;
         const S ps = s[0];
-        const S d = s[1];
-        const S W = s[2];
-        const S v1 = s[3];
-        const S v2 = s[4];
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S M = parameters.M;
-        const S k = parameters.k;
+        const S d = s[1], W = s[2], v1 = s[3], v2 = s[4];
+        const auto [I1, I2, M, k] = parameters;
         const S w0 = I1 + I2;
         return k * (S(1) - cos(ps)) + S(0.5) * (w0 * (W * W) + (M * (v1 * v1 + v2 * v2) + I1 * I2 * (d * d) / w0));
     }
@@ -224,14 +204,8 @@ class elroys_beanie {
     {
         using std::cos;
         const S ps = s[0];
-        const S d = s[1];
-        const S W = s[2];
-        const S v1 = s[3];
-        const S v2 = s[4];
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S M = parameters.M;
-        const S k = parameters.k;
+        const S d = s[1], W = s[2], v1 = s[3], v2 = s[4];
+        const auto [I1, I2, M, k] = parameters;
         const S w0 = I1 + I2;
         return S(0.5) * (w0 * (W * W) + (M * (v1 * v1 + v2 * v2) + I1 * I2 * (d * d) / w0)) + k * (cos(ps) - S(1));
     }
@@ -241,12 +215,8 @@ class elroys_beanie {
     [[nodiscard]] Eigen::Matrix<S, 2, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 2, 1> result;
-        const S W = s[2];
-        const S v1 = s[3];
-        const S v2 = s[4];
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S M = parameters.M;
+        const S W = s[2], v1 = s[3], v2 = s[4];
+        const auto [I1, I2, M, k] = parameters;
         result[0] = (I1 + I2) * W;
         result[1] = M * M * (v1 * v1 + v2 * v2);
         return result;
@@ -261,14 +231,9 @@ class elroys_beanie {
     {
         using std::cos;
         const S ps = s[0];
-        const S d = s[1];
-        const S W = s[2];
-        const S v1 = s[3];
-        const S v2 = s[4];
+        const S d = s[1], W = s[2], v1 = s[3], v2 = s[4];
         values[0] = S(1);
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S k = parameters.k;
+        const auto [I1, I2, M, k] = parameters;
         const S w0 = I1 + I2;
         values[1] = -w0 * k * cos(ps) / (I1 * I2);
         values[2] = S(0);

@@ -112,8 +112,7 @@ class half_plane {
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
         const S y = s[1];
-        const S a = s[2];
-        const S b = s[3];
+        const S a = s[2], b = s[3];
         ds[0] = y * a;
         ds[1] = y * b;
         ds[2] = a * b;
@@ -135,8 +134,7 @@ class half_plane {
     [[nodiscard]] Eigen::Matrix<S, 2, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 2, 1> result;
-        const S a = s[2];
-        const S b = s[3];
+        const S a = s[2], b = s[3];
         result[0] = a;
         result[1] = b;
         return result;
@@ -145,16 +143,14 @@ class half_plane {
     /// E = y^a p_a - L.
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S a = s[2];
-        const S b = s[3];
+        const S a = s[2], b = s[3];
         return S(0.5) * (a * a + b * b);
     }
 
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S a = s[2];
-        const S b = s[3];
+        const S a = s[2], b = s[3];
         return S(0.5) * (a * a + b * b);
     }
 
@@ -184,10 +180,8 @@ class half_plane {
     [[nodiscard]] Eigen::Matrix<S, 2, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 2, 1> result;
-        const S x = s[0];
-        const S y = s[1];
-        const S a = s[2];
-        const S b = s[3];
+        const S x = s[0], y = s[1];
+        const S a = s[2], b = s[3];
         const S w0 = a / y;
         result[0] = w0;
         result[1] = b + x * w0;
@@ -212,8 +206,7 @@ class half_plane {
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 7>& values) const noexcept
     {
         const S y = s[1];
-        const S a = s[2];
-        const S b = s[3];
+        const S a = s[2], b = s[3];
         values[0] = a;
         values[5] = a;
         values[1] = y;

@@ -115,8 +115,7 @@ class half_plane_control_pontryagin {
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
         const S y = s[1];
-        const S mu1 = s[2];
-        const S mu2 = s[3];
+        const S mu1 = s[2], mu2 = s[3];
         const S w0 = y * mu1;
         ds[0] = y * w0;
         const S w1 = y * mu2;
@@ -132,8 +131,7 @@ class half_plane_control_pontryagin {
     {
         Eigen::Matrix<S, 2, 1> result;
         const S y = s[1];
-        const S mu1 = s[2];
-        const S mu2 = s[3];
+        const S mu1 = s[2], mu2 = s[3];
         result[0] = y * mu1;
         result[1] = y * mu2;
         return result;
@@ -143,8 +141,7 @@ class half_plane_control_pontryagin {
     [[nodiscard]] S hamiltonian([[maybe_unused]] S t, const State& s) const noexcept
     {
         const S y = s[1];
-        const S mu1 = s[2];
-        const S mu2 = s[3];
+        const S mu1 = s[2], mu2 = s[3];
         return S(0.5) * (y * y) * (mu1 * mu1 + mu2 * mu2);
     }
 
@@ -152,8 +149,7 @@ class half_plane_control_pontryagin {
     [[nodiscard]] S cost([[maybe_unused]] S t, const State& s) const noexcept
     {
         const S y = s[1];
-        const S mu1 = s[2];
-        const S mu2 = s[3];
+        const S mu1 = s[2], mu2 = s[3];
         return S(0.5) * (y * y) * (mu1 * mu1 + mu2 * mu2);
     }
 
@@ -172,10 +168,8 @@ class half_plane_control_pontryagin {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S x = s[0];
-        const S y = s[1];
-        const S mu1 = s[2];
-        const S mu2 = s[3];
+        const S x = s[0], y = s[1];
+        const S mu1 = s[2], mu2 = s[3];
         result[0] = x + y * mu2 / mu1;
         return result;
     }
@@ -185,10 +179,8 @@ class half_plane_control_pontryagin {
     [[nodiscard]] Eigen::Matrix<S, 2, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 2, 1> result;
-        const S x = s[0];
-        const S y = s[1];
-        const S mu1 = s[2];
-        const S mu2 = s[3];
+        const S x = s[0], y = s[1];
+        const S mu1 = s[2], mu2 = s[3];
         result[0] = mu1;
         result[1] = y * mu2 + x * mu1;
         return result;
@@ -202,8 +194,7 @@ class half_plane_control_pontryagin {
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 7>& values) const noexcept
     {
         const S y = s[1];
-        const S mu1 = s[2];
-        const S mu2 = s[3];
+        const S mu1 = s[2], mu2 = s[3];
         const S w0 = S(2) * y;
         const S w1 = w0 * mu1;
         values[0] = w1;

@@ -123,11 +123,8 @@ class heisenberg_control_pontryagin {
     /// s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        const S x = s[0];
-        const S y = s[1];
-        const S mu1 = s[3];
-        const S mu2 = s[4];
-        const S mu3 = s[5];
+        const S x = s[0], y = s[1];
+        const S mu1 = s[3], mu2 = s[4], mu3 = s[5];
         ds[0] = mu1;
         ds[1] = mu2;
         ds[2] = S(0.5) * (x * mu2 - y * mu1);
@@ -142,8 +139,7 @@ class heisenberg_control_pontryagin {
     [[nodiscard]] Eigen::Matrix<S, 2, 1> controls([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 2, 1> result;
-        const S mu1 = s[3];
-        const S mu2 = s[4];
+        const S mu1 = s[3], mu2 = s[4];
         result[0] = mu1;
         result[1] = mu2;
         return result;
@@ -152,16 +148,14 @@ class heisenberg_control_pontryagin {
     /// H = mu_a sigma^a - cost at these controls.
     [[nodiscard]] S hamiltonian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S mu1 = s[3];
-        const S mu2 = s[4];
+        const S mu1 = s[3], mu2 = s[4];
         return S(0.5) * (mu1 * mu1 + mu2 * mu2);
     }
 
     /// The running cost.
     [[nodiscard]] S cost([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S mu1 = s[3];
-        const S mu2 = s[4];
+        const S mu1 = s[3], mu2 = s[4];
         return S(0.5) * (mu1 * mu1 + mu2 * mu2);
     }
 
@@ -171,8 +165,7 @@ class heisenberg_control_pontryagin {
     {
         Eigen::Matrix<S, 1, 1> result;
         using arithmetic::sqrt;
-        const S mu1 = s[3];
-        const S mu2 = s[4];
+        const S mu1 = s[3], mu2 = s[4];
         result[0] = sqrt(mu1 * mu1 + mu2 * mu2);
         return result;
     }
@@ -182,11 +175,8 @@ class heisenberg_control_pontryagin {
     [[nodiscard]] Eigen::Matrix<S, 3, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 3, 1> result;
-        const S x = s[0];
-        const S y = s[1];
-        const S mu1 = s[3];
-        const S mu2 = s[4];
-        const S mu3 = s[5];
+        const S x = s[0], y = s[1];
+        const S mu1 = s[3], mu2 = s[4], mu3 = s[5];
         result[0] = mu3;
         result[1] = mu1 + y * mu3;
         result[2] = mu2 - x * mu3;
@@ -200,11 +190,8 @@ class heisenberg_control_pontryagin {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 10>& values) const noexcept
     {
-        const S x = s[0];
-        const S y = s[1];
-        const S mu1 = s[3];
-        const S mu2 = s[4];
-        const S mu3 = s[5];
+        const S x = s[0], y = s[1];
+        const S mu1 = s[3], mu2 = s[4], mu3 = s[5];
         values[0] = S(1);
         values[1] = S(1);
         values[2] = S(0.5) * mu2;

@@ -109,10 +109,8 @@ class henon_heiles {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        const S x = s[0];
-        const S y = s[1];
-        const S u = s[2];
-        const S v = s[3];
+        const S x = s[0], y = s[1];
+        const S u = s[2], v = s[3];
         ds[0] = u;
         ds[1] = v;
         ds[2] = S(2) * x * (S(-0.5) - y);
@@ -134,8 +132,7 @@ class henon_heiles {
     [[nodiscard]] Eigen::Matrix<S, 2, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 2, 1> result;
-        const S u = s[2];
-        const S v = s[3];
+        const S u = s[2], v = s[3];
         result[0] = u;
         result[1] = v;
         return result;
@@ -144,10 +141,8 @@ class henon_heiles {
     /// E = y^a p_a - L.
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S x = s[0];
-        const S y = s[1];
-        const S u = s[2];
-        const S v = s[3];
+        const S x = s[0], y = s[1];
+        const S u = s[2], v = s[3];
         const S w0 = x * x;
         const S w1 = y * y;
         return S(1) / S(3) * y * (S(3) * w0 - w1) + S(0.5) * (v * v + (u * u + (w0 + w1)));
@@ -156,10 +151,8 @@ class henon_heiles {
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S x = s[0];
-        const S y = s[1];
-        const S u = s[2];
-        const S v = s[3];
+        const S x = s[0], y = s[1];
+        const S u = s[2], v = s[3];
         const S w0 = y * y;
         const S w1 = x * x;
         return S(1) / S(3) * y * (w0 - S(3) * w1) + S(0.5) * (u * u + v * v - w1 - w0);
@@ -170,8 +163,7 @@ class henon_heiles {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S x = s[0];
-        const S y = s[1];
+        const S x = s[0], y = s[1];
         const S w0 = x * x;
         result[0] = S(0.5) * w0 + S(1) / S(6) * y * (S(6) * w0 + y * (S(3) - S(2) * y));
         return result;
@@ -182,8 +174,7 @@ class henon_heiles {
     [[nodiscard]] Eigen::Matrix<S, 2, 1> events([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 2, 1> result;
-        const S x = s[0];
-        const S y = s[1];
+        const S x = s[0], y = s[1];
         result[0] = x;
         result[1] = x * x + y * y - S(4);
         return result;
@@ -196,8 +187,7 @@ class henon_heiles {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 6>& values) const noexcept
     {
-        const S x = s[0];
-        const S y = s[1];
+        const S x = s[0], y = s[1];
         values[0] = S(1);
         values[1] = S(1);
         const S w0 = S(2) * y;

@@ -127,10 +127,8 @@ class kepler {
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
         using arithmetic::sqrt;
-        const S x = s[0];
-        const S y = s[1];
-        const S u = s[2];
-        const S v = s[3];
+        const S x = s[0], y = s[1];
+        const S u = s[2], v = s[3];
         ds[0] = u;
         ds[1] = v;
         const S w0 = x * x + y * y;
@@ -155,8 +153,7 @@ class kepler {
     [[nodiscard]] Eigen::Matrix<S, 2, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 2, 1> result;
-        const S u = s[2];
-        const S v = s[3];
+        const S u = s[2], v = s[3];
         result[0] = u;
         result[1] = v;
         return result;
@@ -166,10 +163,8 @@ class kepler {
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
         using arithmetic::sqrt;
-        const S x = s[0];
-        const S y = s[1];
-        const S u = s[2];
-        const S v = s[3];
+        const S x = s[0], y = s[1];
+        const S u = s[2], v = s[3];
         const S k = parameters.k;
         return S(0.5) * (u * u + v * v) - k / sqrt(x * x + y * y);
     }
@@ -178,10 +173,8 @@ class kepler {
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
         using arithmetic::sqrt;
-        const S x = s[0];
-        const S y = s[1];
-        const S u = s[2];
-        const S v = s[3];
+        const S x = s[0], y = s[1];
+        const S u = s[2], v = s[3];
         const S k = parameters.k;
         return k / sqrt(x * x + y * y) + S(0.5) * (u * u + v * v);
     }
@@ -191,8 +184,7 @@ class kepler {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> domain([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S x = s[0];
-        const S y = s[1];
+        const S x = s[0], y = s[1];
         result[0] = x * x + y * y;
         return result;
     }
@@ -203,8 +195,7 @@ class kepler {
     {
         Eigen::Matrix<S, 1, 1> result;
         using arithmetic::sqrt;
-        const S x = s[0];
-        const S y = s[1];
+        const S x = s[0], y = s[1];
         result[0] = sqrt(x * x + y * y);
         return result;
     }
@@ -215,10 +206,8 @@ class kepler {
     {
         Eigen::Matrix<S, 3, 1> result;
         using arithmetic::sqrt;
-        const S x = s[0];
-        const S y = s[1];
-        const S u = s[2];
-        const S v = s[3];
+        const S x = s[0], y = s[1];
+        const S u = s[2], v = s[3];
         const S w0 = x * v - y * u;
         result[0] = w0;
         const S k = parameters.k;
@@ -233,10 +222,8 @@ class kepler {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> events([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S x = s[0];
-        const S y = s[1];
-        const S u = s[2];
-        const S v = s[3];
+        const S x = s[0], y = s[1];
+        const S u = s[2], v = s[3];
         result[0] = x * u + y * v;
         return result;
     }
@@ -249,8 +236,7 @@ class kepler {
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 6>& values) const noexcept
     {
         using arithmetic::sqrt;
-        const S x = s[0];
-        const S y = s[1];
+        const S x = s[0], y = s[1];
         values[0] = S(1);
         values[1] = S(1);
         const S w0 = y * y;

@@ -110,8 +110,7 @@ class pendulum {
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
         auto status = StatusOf<S>::good();
-        const S m = parameters.m;
-        const S l = parameters.l;
+        const auto [m, l, g] = parameters;
         StatusOf<S>::fail(status, !(m > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, !(l > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, m * (l * l) == S(0), Status::singular_mass_matrix);
@@ -128,8 +127,7 @@ class pendulum {
         const S th = s[0];
         const S w = s[1];
         ds[0] = w;
-        const S l = parameters.l;
-        const S g = parameters.g;
+        const auto [m, l, g] = parameters;
         ds[1] = -g * sin(th) / l;
         return StatusOf<S>::good();
     }
@@ -139,8 +137,7 @@ class pendulum {
             noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S m = parameters.m;
-        const S l = parameters.l;
+        const auto [m, l, g] = parameters;
         result(0, 0) = m * (l * l);
         return result;
     }
@@ -150,8 +147,7 @@ class pendulum {
     {
         Eigen::Matrix<S, 1, 1> result;
         const S w = s[1];
-        const S m = parameters.m;
-        const S l = parameters.l;
+        const auto [m, l, g] = parameters;
         result[0] = m * (l * l) * w;
         return result;
     }
@@ -162,9 +158,7 @@ class pendulum {
         using std::cos;
         const S th = s[0];
         const S w = s[1];
-        const S m = parameters.m;
-        const S l = parameters.l;
-        const S g = parameters.g;
+        const auto [m, l, g] = parameters;
         return S(0.5) * m * l * (l * (w * w) + S(2) * g * (S(1) - cos(th)));
     }
 
@@ -174,9 +168,7 @@ class pendulum {
         using std::cos;
         const S th = s[0];
         const S w = s[1];
-        const S m = parameters.m;
-        const S l = parameters.l;
-        const S g = parameters.g;
+        const auto [m, l, g] = parameters;
         return S(0.5) * m * l * (l * (w * w) + S(2) * g * (cos(th) - S(1)));
     }
 
@@ -187,9 +179,7 @@ class pendulum {
         Eigen::Matrix<S, 3, 1> result;
         const S th = s[0];
         const auto [sin_th, cos_th] = sincos<S>(th);
-        const S m = parameters.m;
-        const S l = parameters.l;
-        const S g = parameters.g;
+        const auto [m, l, g] = parameters;
         result[0] = l * sin_th;
         result[1] = -l * cos_th;
         result[2] = m * g * l * (S(1) - cos_th);
@@ -216,8 +206,7 @@ class pendulum {
         using std::cos;
         const S th = s[0];
         values[0] = S(1);
-        const S l = parameters.l;
-        const S g = parameters.g;
+        const auto [m, l, g] = parameters;
         values[1] = -g * cos(th) / l;
     }
 

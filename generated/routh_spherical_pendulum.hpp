@@ -114,8 +114,7 @@ class routh_spherical_pendulum {
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
         auto status = StatusOf<S>::good();
-        const S m = parameters.m;
-        const S l = parameters.l;
+        const auto [m, l, g, c] = parameters;
         StatusOf<S>::fail(status, !(m > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, !(l > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, m * (l * l) == S(0), Status::singular_mass_matrix);
@@ -131,10 +130,7 @@ class routh_spherical_pendulum {
         const S th = s[0];
         const S w = s[1];
         ds[0] = w;
-        const S m = parameters.m;
-        const S l = parameters.l;
-        const S g = parameters.g;
-        const S c = parameters.c;
+        const auto [m, l, g, c] = parameters;
         const S w0 = S(1) / (m * (l * l));
         const auto [sin_th, cos_th] = sincos<S>(th);
         ds[1] = w0 * (w0 * (c * c) * cos_th / (sin_th * sin_th * sin_th) - m * l * g * sin_th);
@@ -146,8 +142,7 @@ class routh_spherical_pendulum {
             noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S m = parameters.m;
-        const S l = parameters.l;
+        const auto [m, l, g, c] = parameters;
         result(0, 0) = m * (l * l);
         return result;
     }
@@ -157,8 +152,7 @@ class routh_spherical_pendulum {
     {
         Eigen::Matrix<S, 1, 1> result;
         const S w = s[1];
-        const S m = parameters.m;
-        const S l = parameters.l;
+        const auto [m, l, g, c] = parameters;
         result[0] = m * (l * l) * w;
         return result;
     }
@@ -169,10 +163,7 @@ class routh_spherical_pendulum {
         const S th = s[0];
         const S w = s[1];
         const auto [sin_th, cos_th] = sincos<S>(th);
-        const S m = parameters.m;
-        const S l = parameters.l;
-        const S g = parameters.g;
-        const S c = parameters.c;
+        const auto [m, l, g, c] = parameters;
         return S(0.5) * (c * c / (m * (l * l) * (sin_th * sin_th)) + m * l * (l * (w * w) - S(2) * g * cos_th));
     }
 
@@ -182,10 +173,7 @@ class routh_spherical_pendulum {
         const S th = s[0];
         const S w = s[1];
         const auto [sin_th, cos_th] = sincos<S>(th);
-        const S m = parameters.m;
-        const S l = parameters.l;
-        const S g = parameters.g;
-        const S c = parameters.c;
+        const auto [m, l, g, c] = parameters;
         return S(0.5) * (m * l * (l * (w * w) + S(2) * g * cos_th) - c * c / (m * (l * l) * (sin_th * sin_th)));
     }
 
@@ -208,9 +196,7 @@ class routh_spherical_pendulum {
         using std::sin;
         const S th = s[0];
         const S w0 = sin(th);
-        const S m = parameters.m;
-        const S l = parameters.l;
-        const S c = parameters.c;
+        const auto [m, l, g, c] = parameters;
         result[0] = c / (m * (l * l) * (w0 * w0));
         return result;
     }
@@ -224,10 +210,7 @@ class routh_spherical_pendulum {
     {
         const S th = s[0];
         values[0] = S(1);
-        const S m = parameters.m;
-        const S l = parameters.l;
-        const S g = parameters.g;
-        const S c = parameters.c;
+        const auto [m, l, g, c] = parameters;
         const S w0 = S(1) / (m * (l * l));
         const auto [sin_th, cos_th] = sincos<S>(th);
         const S w1 = S(1) / sin_th;

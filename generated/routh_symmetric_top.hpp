@@ -133,10 +133,7 @@ class routh_symmetric_top {
         const S th = s[0];
         const S w = s[1];
         ds[0] = w;
-        const S I1 = parameters.I1;
-        const S mgl = parameters.mgl;
-        const S pph = parameters.pph;
-        const S pps = parameters.pps;
+        const auto [I1, I3, mgl, pph, pps] = parameters;
         const S w0 = S(1) / I1;
         const auto [sin_th, cos_th] = sincos<S>(th);
         const S w1 = S(1) / sin_th;
@@ -171,10 +168,7 @@ class routh_symmetric_top {
         const S th = s[0];
         const S w = s[1];
         const auto [sin_th, cos_th] = sincos<S>(th);
-        const S I1 = parameters.I1;
-        const S mgl = parameters.mgl;
-        const S pph = parameters.pph;
-        const S pps = parameters.pps;
+        const auto [I1, I3, mgl, pph, pps] = parameters;
         const S w0 = pph - pps * cos_th;
         return mgl * cos_th + S(0.5) * (I1 * (w * w) + w0 * w0 / (I1 * (sin_th * sin_th)));
     }
@@ -185,10 +179,7 @@ class routh_symmetric_top {
         const S th = s[0];
         const S w = s[1];
         const auto [sin_th, cos_th] = sincos<S>(th);
-        const S I1 = parameters.I1;
-        const S mgl = parameters.mgl;
-        const S pph = parameters.pph;
-        const S pps = parameters.pps;
+        const auto [I1, I3, mgl, pph, pps] = parameters;
         const S w0 = pph - pps * cos_th;
         return S(0.5) * (I1 * (w * w) - w0 * w0 / (I1 * (sin_th * sin_th))) - mgl * cos_th;
     }
@@ -211,9 +202,7 @@ class routh_symmetric_top {
         Eigen::Matrix<S, 1, 1> result;
         const S th = s[0];
         const auto [sin_th, cos_th] = sincos<S>(th);
-        const S I1 = parameters.I1;
-        const S pph = parameters.pph;
-        const S pps = parameters.pps;
+        const auto [I1, I3, mgl, pph, pps] = parameters;
         result[0] = (pph - pps * cos_th) / (I1 * (sin_th * sin_th));
         return result;
     }
@@ -227,10 +216,7 @@ class routh_symmetric_top {
     {
         const S th = s[0];
         values[0] = S(1);
-        const S I1 = parameters.I1;
-        const S mgl = parameters.mgl;
-        const S pph = parameters.pph;
-        const S pps = parameters.pps;
+        const auto [I1, I3, mgl, pph, pps] = parameters;
         const S w0 = S(1) / I1;
         const auto [sin_th, cos_th] = sincos<S>(th);
         const S w1 = S(1) / sin_th;

@@ -121,8 +121,7 @@ class spherical_pendulum {
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
         auto status = StatusOf<S>::good();
-        const S m = parameters.m;
-        const S l = parameters.l;
+        const auto [m, l, g] = parameters;
         StatusOf<S>::fail(status, !(m > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, !(l > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, m * (l * l) == S(0), Status::singular_mass_matrix);
@@ -136,16 +135,13 @@ class spherical_pendulum {
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
         const S th = s[0];
-        const S w = s[2];
-        const S v = s[3];
+        const S w = s[2], v = s[3];
         auto status = StatusOf<S>::good();
         ds[0] = w;
         ds[1] = v;
         const auto [sin_th, cos_th] = sincos<S>(th);
         const S w0 = cos_th * v;
-        const S m = parameters.m;
-        const S l = parameters.l;
-        const S g = parameters.g;
+        const auto [m, l, g] = parameters;
         ds[2] = sin_th * (v * w0 - g / l);
         ds[3] = -S(2) * w * w0 / sin_th;
         StatusOf<S>::fail(status, m * (l * l) * (sin_th * sin_th) == S(0), Status::singular_mass_matrix);
@@ -158,8 +154,7 @@ class spherical_pendulum {
         Eigen::Matrix<S, 2, 2> result = Eigen::Matrix<S, 2, 2>::Zero();
         using std::sin;
         const S th = s[0];
-        const S m = parameters.m;
-        const S l = parameters.l;
+        const auto [m, l, g] = parameters;
         const S w0 = m * (l * l);
         result(0, 0) = w0;
         const S w1 = sin(th);
@@ -173,10 +168,8 @@ class spherical_pendulum {
         Eigen::Matrix<S, 2, 1> result;
         using std::sin;
         const S th = s[0];
-        const S w = s[2];
-        const S v = s[3];
-        const S m = parameters.m;
-        const S l = parameters.l;
+        const S w = s[2], v = s[3];
+        const auto [m, l, g] = parameters;
         const S w0 = m * (l * l);
         result[0] = w0 * w;
         const S w1 = sin(th);
@@ -188,12 +181,9 @@ class spherical_pendulum {
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
         const S th = s[0];
-        const S w = s[2];
-        const S v = s[3];
+        const S w = s[2], v = s[3];
         const auto [sin_th, cos_th] = sincos<S>(th);
-        const S m = parameters.m;
-        const S l = parameters.l;
-        const S g = parameters.g;
+        const auto [m, l, g] = parameters;
         return S(0.5) * m * l * (l * (w * w + sin_th * sin_th * (v * v)) - S(2) * g * cos_th);
     }
 
@@ -201,12 +191,9 @@ class spherical_pendulum {
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
         const S th = s[0];
-        const S w = s[2];
-        const S v = s[3];
+        const S w = s[2], v = s[3];
         const auto [sin_th, cos_th] = sincos<S>(th);
-        const S m = parameters.m;
-        const S l = parameters.l;
-        const S g = parameters.g;
+        const auto [m, l, g] = parameters;
         return S(0.5) * m * l * (l * (w * w + sin_th * sin_th * (v * v)) + S(2) * g * cos_th);
     }
 
@@ -242,8 +229,7 @@ class spherical_pendulum {
         const S th = s[0];
         const S v = s[3];
         const S w0 = sin(th);
-        const S m = parameters.m;
-        const S l = parameters.l;
+        const auto [m, l, g] = parameters;
         result[0] = m * (l * l) * (w0 * w0) * v;
         return result;
     }
@@ -256,13 +242,11 @@ class spherical_pendulum {
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 7>& values) const noexcept
     {
         const S th = s[0];
-        const S w = s[2];
-        const S v = s[3];
+        const S w = s[2], v = s[3];
         values[0] = S(1);
         values[1] = S(1);
         const auto [sin_th, cos_th] = sincos<S>(th);
-        const S l = parameters.l;
-        const S g = parameters.g;
+        const auto [m, l, g] = parameters;
         values[2] = (cos_th * cos_th - sin_th * sin_th) * (v * v) - g * cos_th / l;
         values[3] = S(2) * sin_th * cos_th * v;
         const S w0 = cos_th / sin_th;

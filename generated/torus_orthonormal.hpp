@@ -116,8 +116,7 @@ class torus_orthonormal {
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
         auto status = StatusOf<S>::good();
-        const S R = parameters.R;
-        const S r = parameters.r;
+        const auto [R, r] = parameters;
         StatusOf<S>::fail(status, !(r > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, !(R - r > S(0)), Status::left_domain);
         return status;
@@ -130,10 +129,8 @@ class torus_orthonormal {
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
         const S th = s[0];
-        const S a = s[2];
-        const S b = s[3];
-        const S R = parameters.R;
-        const S r = parameters.r;
+        const S a = s[2], b = s[3];
+        const auto [R, r] = parameters;
         ds[0] = a / r;
         const auto [sin_th, cos_th] = sincos<S>(th);
         const S w0 = b / (R + r * cos_th);
@@ -158,8 +155,7 @@ class torus_orthonormal {
     [[nodiscard]] Eigen::Matrix<S, 2, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 2, 1> result;
-        const S a = s[2];
-        const S b = s[3];
+        const S a = s[2], b = s[3];
         result[0] = a;
         result[1] = b;
         return result;
@@ -168,16 +164,14 @@ class torus_orthonormal {
     /// E = y^a p_a - L.
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S a = s[2];
-        const S b = s[3];
+        const S a = s[2], b = s[3];
         return S(0.5) * (a * a + b * b);
     }
 
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S a = s[2];
-        const S b = s[3];
+        const S a = s[2], b = s[3];
         return S(0.5) * (a * a + b * b);
     }
 
@@ -189,8 +183,7 @@ class torus_orthonormal {
         using std::cos;
         const S th = s[0];
         const S b = s[3];
-        const S R = parameters.R;
-        const S r = parameters.r;
+        const auto [R, r] = parameters;
         result[0] = (R + r * cos(th)) * b;
         return result;
     }
@@ -203,10 +196,8 @@ class torus_orthonormal {
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 8>& values) const noexcept
     {
         const S th = s[0];
-        const S a = s[2];
-        const S b = s[3];
-        const S R = parameters.R;
-        const S r = parameters.r;
+        const S a = s[2], b = s[3];
+        const auto [R, r] = parameters;
         values[0] = S(1) / r;
         const auto [sin_th, cos_th] = sincos<S>(th);
         const S w0 = S(1) / (R + r * cos_th);

@@ -141,9 +141,7 @@ class unicycle_pontryagin {
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
         const S h = s[2];
-        const S mu1 = s[3];
-        const S mu2 = s[4];
-        const S mu3 = s[5];
+        const S mu1 = s[3], mu2 = s[4], mu3 = s[5];
         const auto [sin_h, cos_h] = sincos<S>(h);
         ds[0] = cos_h * mu1;
         ds[1] = sin_h * mu1;
@@ -161,8 +159,7 @@ class unicycle_pontryagin {
     [[nodiscard]] Eigen::Matrix<S, 2, 1> controls([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 2, 1> result;
-        const S mu1 = s[3];
-        const S mu2 = s[4];
+        const S mu1 = s[3], mu2 = s[4];
         result[0] = mu1;
         const S kap = parameters.kap;
         result[1] = mu2 / kap;
@@ -172,8 +169,7 @@ class unicycle_pontryagin {
     /// H = mu_a sigma^a - cost at these controls.
     [[nodiscard]] S hamiltonian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S mu1 = s[3];
-        const S mu2 = s[4];
+        const S mu1 = s[3], mu2 = s[4];
         const S kap = parameters.kap;
         return S(0.5) * (mu1 * mu1 + mu2 * mu2 / kap);
     }
@@ -181,8 +177,7 @@ class unicycle_pontryagin {
     /// The running cost.
     [[nodiscard]] S cost([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S mu1 = s[3];
-        const S mu2 = s[4];
+        const S mu1 = s[3], mu2 = s[4];
         const S kap = parameters.kap;
         return S(0.5) * (mu1 * mu1 + mu2 * mu2 / kap);
     }
@@ -194,8 +189,7 @@ class unicycle_pontryagin {
     {
         Eigen::Matrix<S, 3, 1> result;
         const S h = s[2];
-        const S mu1 = s[3];
-        const S mu3 = s[5];
+        const S mu1 = s[3], mu3 = s[5];
         result[0] = mu1 * mu1 + mu3 * mu3;
         const auto [sin_h, cos_h] = sincos<S>(h);
         result[1] = cos_h * mu1 - sin_h * mu3;
@@ -211,9 +205,7 @@ class unicycle_pontryagin {
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 11>& values) const noexcept
     {
         const S h = s[2];
-        const S mu1 = s[3];
-        const S mu2 = s[4];
-        const S mu3 = s[5];
+        const S mu1 = s[3], mu2 = s[4], mu3 = s[5];
         const auto [sin_h, cos_h] = sincos<S>(h);
         values[3] = sin_h;
         values[0] = -sin_h * mu1;

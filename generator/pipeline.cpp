@@ -47,11 +47,11 @@ bool is_readable(const System& system)
 }
 
 /// For the head of the header; equations that are too long for a person do not keep a machine from its kernels.
-std::vector<std::string> readable_equations(const CheckedModel& checked, const std::string& form)
+std::vector<std::string> readable_equations(const CheckedModel& checked, const std::string& form,
+                                            const std::string& command)
 {
     if (!is_readable(checked.system))
-        return {fmt::format("The equations are too long to be written out here: lagen derive {} prints them.",
-                            std::filesystem::path(checked.model.file->name).filename().string())};
+        return {fmt::format("The equations are too long to be written out here: {} prints them.", command)};
     try {
         return lines_of(print_text(derive(form, checked.model, checked.system, checked.report)));
     } catch (const MathematicsError& error) {
@@ -93,18 +93,25 @@ std::string shell_word(std::string text)
     return quoted + "'";
 }
 
+/// `lagen VERB FILE` with what was set, and the form where it is not the model's own.
+std::string command_on(const CheckedModel& checked, const char* verb, const std::string& form)
+{
+    const std::string file = std::filesystem::path(checked.model.file->name).filename().string();
+    std::string command = fmt::format("lagen {} {}", verb, shell_word(file));
+    for (const Setting& setting : checked.settings)
+        command += " --set " + shell_word(setting.name + "=" + setting.value.text);
+    if (form != default_form(checked.model)) command += " --form " + form;
+    return command;
+}
+
 /// With every option that changes the header; files by their names alone, so that the bytes are the same in every
 /// folder. `name` is that of the header where the request has none.
 std::string regenerate_command(const CheckedModel& checked, const GenerateRequest& request,
                                const std::string& kernels_form, const std::string& name)
 {
-    const std::string file = std::filesystem::path(checked.model.file->name).filename().string();
-    std::string command = "lagen generate " + shell_word(file);
-    for (const Setting& setting : checked.settings)
-        command += " --set " + shell_word(setting.name + "=" + setting.value.text);
+    std::string command = command_on(checked, "generate", kernels_form);
     std::string only;
     for (const std::string& kernel : request.only) only += (only.empty() ? "" : ",") + kernel;
-    if (kernels_form != default_form(checked.model)) command += " --form " + kernels_form;
     if (!only.empty()) command += " --only " + shell_word(only);
     if (checked.unchecked && checked.report.verdict == Verdict::invalid) command += " --unchecked";
     const std::string output = std::filesystem::path(request.output).filename().string();
@@ -184,9 +191,10 @@ Generated generate(const CheckedModel& checked, const GenerateRequest& request)
     module.hash = hash_of(checked);
     module.regenerate = regenerate_command(checked, request, kernels.form,
                                            kernels.form == default_form(model) ? model.name : module.name);
+    module.derive = command_on(checked, "derive", kernels.form);
     module.warnings = warnings_of(checked, kernels.form);
     if (request.scene == nullptr)
-        module.equations = readable_equations(checked, kernels.form);
+        module.equations = readable_equations(checked, kernels.form, module.derive);
     else
         forget_values(module);
     generated.header = print_header(module);

@@ -72,8 +72,8 @@ std::string module_json(const Generated& generated)
     for (const std::string& warning : module.warnings) json.value(warning);
     json.end_array().key("kernels").begin_array();
     for (const Kernel& kernel : module.kernels) {
-        json.begin_object().key("name").value(kernel.name).key("rows").value(kernel.output.rows);
-        json.key("columns").value(kernel.output.columns).end_object();
+        json.begin_object().key("name").value(kernel.name).key("rows").value(kernel.outputs[0].shape.rows);
+        json.key("columns").value(kernel.outputs[0].shape.columns).end_object();
     }
     json.end_array().key("header").value(generated.header).end_object();
     return json.text() + "\n";

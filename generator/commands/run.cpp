@@ -199,8 +199,7 @@ ExitCode run_run(Arguments arguments)
         outcome.searches = outcome.searches || (block.follows && !block.angles);
     outcome.table.columns = {"t"};
     for (const TableColumn& column : input.columns) outcome.table.columns.push_back(column.name);
-    for (const std::vector<Quantity>* group : {&generated.module.base, &generated.module.fibre})
-        for (const Quantity& quantity : *group) outcome.state.emplace_back(quantity.name, "");
+    for (const Quantity& lane : lanes_of(generated.module)) outcome.state.emplace_back(lane.name, "");
     integrate_scene(compiled.program, input, outcome);
     if (options.has("output")) write_file(options.get("output"), to_csv(outcome.table));
     if (options.has("plot"))

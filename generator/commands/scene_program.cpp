@@ -87,7 +87,7 @@ void read_line(const std::string& key, const std::string& value, RunOutcome& out
 /// The column of an entry of the module's observables.
 TableColumn observable(const KernelModule& module, const std::string& name)
 {
-    const std::vector<std::string>& names = kernel_named(module, "observables").entry_names;
+    const std::vector<std::string>& names = kernel_named(module, "observables").outputs[0].entry_names;
     const auto entry = std::ranges::find(names, name);
     if (entry == names.end()) throw InternalError(fmt::format("'{}' is missing among the observables", name));
     return {name, false, static_cast<std::size_t>(entry - names.begin())};
@@ -106,13 +106,12 @@ std::string program_text(const std::string& name, const MethodEntry& method)
 std::vector<TableColumn> columns_of(const KernelModule& module, const Scene& scene)
 {
     std::vector<std::string> states;
-    for (const std::vector<Quantity>* group : {&module.base, &module.fibre})
-        for (const Quantity& quantity : *group) states.push_back(quantity.name);
+    for (const Quantity& lane : lanes_of(module)) states.push_back(lane.name);
     std::vector<TableColumn> columns;
     if (!scene.observe) {
         for (std::size_t k = 0; k < states.size(); ++k) columns.push_back({states[k], true, k});
         if (has_kernel(module, "controls"))
-            for (const std::string& name : kernel_named(module, "controls").entry_names)
+            for (const std::string& name : kernel_named(module, "controls").outputs[0].entry_names)
                 columns.push_back(observable(module, name));
         return columns;
     }

@@ -3,6 +3,8 @@
 
 #include "emit/print_header.hpp"
 
+#include <algorithm>
+
 namespace lagen {
 
 namespace {
@@ -21,8 +23,6 @@ std::set<std::string> class_scope_names(const KernelModule& module, const std::s
                                 "status",
                                 "select",
                                 "work",
-                                "at",
-                                "along",
                                 "result",
                                 "parameters",
                                 "parameter",
@@ -30,8 +30,6 @@ std::set<std::string> class_scope_names(const KernelModule& module, const std::s
                                 "state_names",
                                 "parameter_names",
                                 "dimension",
-                                "base_dimension",
-                                "fibre_dimension",
                                 "model_name",
                                 "model_hash",
                                 "status_t",
@@ -47,8 +45,11 @@ std::set<std::string> class_scope_names(const KernelModule& module, const std::s
     for (const Kernel& kernel : module.kernels) {
         names.insert(kernel.name);
         for (const char* suffix : {"_names", "_rows", "_columns", "_values"}) names.insert(kernel.name + suffix);
+        for (const KernelInput& input : kernel.inputs) names.insert({input.name, copy_of(input)});
+        if (returns_value(kernel)) continue;
+        for (const KernelOutput& output : kernel.outputs) names.insert(output.name);
     }
-    if (!module.direction.empty()) names.insert({"v", "dv"});
+    for (const LaneGroup& group : module.groups) names.insert(group.role + "_dimension");
     if (!module.implicit.empty())
         names.insert({"z", "newton", "bracket", "lower", "upper", "unknowns", "residual", "derivative", "size",
                       "inside", "require_positive"});
@@ -62,67 +63,91 @@ std::set<std::string> class_scope_names(const KernelModule& module, const std::s
     return names;
 }
 
-/// Loads of inputs inside functions: the member's name, with a '_' where it would hide something.
-void name_locals(const std::vector<Quantity>& quantities, const std::vector<std::string>& members, LocalNames& locals)
+/// Inputs inside functions: the member's name, with a '_' where it would hide something.
+void name_local(NodeId input, std::string name, LocalNames& locals)
 {
-    for (std::size_t k = 0; k < quantities.size(); ++k) {
-        std::string name = members[k];
-        while (locals.taken.contains(name)) name += name.back() == '_' ? "1_" : "_";
-        locals.taken.insert(name);
-        locals.inputs[quantities[k].input] = name;
+    while (locals.taken.contains(name)) name += name.back() == '_' ? "1_" : "_";
+    locals.taken.insert(name);
+    locals.inputs[input] = std::move(name);
+}
+
+/// Locals for the unknowns of implicit blocks.
+void name_unknowns(const KernelModule& module, ModuleNames& names)
+{
+    std::vector<NodeId> unknowns;
+    std::vector<std::string> texts;
+    for (const ImplicitBlock& block : module.implicit)
+        for (const NodeId id : block.unknowns) {
+            unknowns.push_back(id);
+            texts.push_back(module.graph->input_name(id));
+        }
+    const std::vector<std::string> members = cpp_names(texts);
+    for (std::size_t k = 0; k < unknowns.size(); ++k) {
+        names.guess[unknowns[k]] = members[k];
+        name_local(unknowns[k], members[k], names.locals);
     }
 }
 
-/// Locals for the unknowns of implicit blocks and for the entries of a direction.
-void name_unknowns(const KernelModule& module, ModuleNames& names)
+/// Locals for what kernels read beside the lanes of the module: a number is the argument itself.
+void name_arguments(const KernelModule& module, LocalNames& locals)
 {
-    std::vector<Quantity> unknowns;
-    for (const ImplicitBlock& block : module.implicit)
-        for (const NodeId id : block.unknowns) unknowns.push_back({module.graph->input_name(id), "", "", id});
-    std::vector<std::string> texts;
-    for (const Quantity& unknown : unknowns) {
-        texts.push_back(unknown.name);
-        names.moving.push_back(unknown.input);
-    }
-    const std::vector<std::string> members = cpp_names(texts);
-    for (std::size_t k = 0; k < unknowns.size(); ++k) names.guess[unknowns[k].input] = members[k];
-    name_locals(unknowns, members, names.locals);
-    std::vector<std::string> tangents;
-    for (const std::vector<std::string>* group : {&names.base, &names.fibre})
-        for (const std::string& member : *group) tangents.push_back("d_" + member);
-    if (!module.direction.empty()) name_locals(module.direction, tangents, names.locals);
-    for (const Quantity& quantity : module.direction) names.moving.push_back(quantity.input);
+    for (const Kernel& kernel : module.kernels)
+        for (const KernelInput& input : kernel.inputs) {
+            std::vector<std::string> texts;
+            for (const Quantity& entry : input.entries) texts.push_back(entry.name);
+            const std::vector<std::string> spelled = cpp_names(texts);
+            for (std::size_t k = 0; k < texts.size(); ++k) {
+                const NodeId id = input.entries[k].input;
+                if (locals.inputs.contains(id)) continue;
+                if (input.shape.rank == 0)
+                    locals.inputs[id] = input.name;
+                else
+                    name_local(id, spelled[k], locals);
+            }
+        }
 }
 
 } // namespace
 
 ModuleNames name_module(const KernelModule& module)
 {
+    std::vector<const std::vector<Quantity>*> lists = {&module.parameters};
+    for (const LaneGroup& group : module.groups) lists.push_back(&group.lanes);
     std::vector<std::string> all;
-    for (const auto* group : {&module.parameters, &module.base, &module.fibre})
-        for (const Quantity& quantity : *group) all.push_back(quantity.name);
+    for (const auto* list : lists)
+        for (const Quantity& quantity : *list) all.push_back(quantity.name);
     const std::vector<std::string> spelled = cpp_names(all);
     ModuleNames names;
     names.class_name = cpp_names({module.name}).front();
-    auto next = spelled.begin();
-    const auto take = [&](std::size_t count) {
-        const auto first = next;
-        next += static_cast<std::ptrdiff_t>(count);
-        return std::vector<std::string>(first, next);
-    };
-    names.parameters = take(module.parameters.size());
-    names.base = take(module.base.size());
-    names.fibre = take(module.fibre.size());
     names.locals.taken = class_scope_names(module, names.class_name);
     names.locals.inputs[module.time] = "t";
-    names.moving.push_back(module.time);
-    for (const auto* group : {&module.base, &module.fibre})
-        for (const Quantity& quantity : *group) names.moving.push_back(quantity.input);
-    name_locals(module.parameters, names.parameters, names.locals);
-    name_locals(module.base, names.base, names.locals);
-    name_locals(module.fibre, names.fibre, names.locals);
+    auto next = spelled.begin();
+    for (const auto* list : lists) {
+        const auto first = next;
+        next += static_cast<std::ptrdiff_t>(list->size());
+        (list == &module.parameters ? names.parameters : names.groups.emplace_back()).assign(first, next);
+        for (std::size_t k = 0; k < list->size(); ++k)
+            name_local((*list)[k].input, first[static_cast<std::ptrdiff_t>(k)], names.locals);
+    }
     name_unknowns(module, names);
+    name_arguments(module, names.locals);
+    const auto is_parameter = [&](NodeId id) {
+        return std::ranges::any_of(module.parameters,
+                                   [id](const Quantity& parameter) { return parameter.input == id; });
+    };
+    for (const NodeId id : module.graph->inputs())
+        if (!is_parameter(id)) names.moving.push_back(id);
     return names;
+}
+
+std::string copy_of(const KernelInput& input)
+{
+    return input.name + "_before";
+}
+
+bool returns_value(const Kernel& kernel)
+{
+    return !kernel.checks && kernel.outputs.size() == 1 && !kernel.outputs[0].sparse;
 }
 
 } // namespace lagen

@@ -9,14 +9,19 @@ namespace lagen {
 
 struct ModuleNames {
     std::string class_name;
-    std::vector<std::string> parameters; ///< members of Parameters
-    std::vector<std::string> base;       ///< members of Base
-    std::vector<std::string> fibre;      ///< members of the second group
-    std::map<NodeId, std::string> guess; ///< members of Guess, by the unknown that is followed
+    std::vector<std::string> parameters;          ///< members of Parameters
+    std::vector<std::vector<std::string>> groups; ///< members of the structs of lanes
+    std::map<NodeId, std::string> guess;          ///< members of Guess, by the unknown that is followed
     LocalNames locals;
-    std::vector<NodeId> moving; ///< time and state lanes, and what is solved for over them
+    std::vector<NodeId> moving; ///< every input but the parameters: those that change during a run
 };
 
 [[nodiscard]] ModuleNames name_module(const KernelModule& module);
+
+/// The local copy of a state that an output may overwrite while it is read.
+[[nodiscard]] std::string copy_of(const KernelInput& input);
+
+/// Whether the kernel, as a function, returns its output; else it writes to references.
+[[nodiscard]] bool returns_value(const Kernel& kernel);
 
 } // namespace lagen

@@ -219,7 +219,6 @@ std::vector<BodyStep> order_body(const Graph& graph, const BodyPlan& plan, const
     const std::vector<std::uint32_t> registers = registers_needed(graph, plan);
     std::vector<std::vector<std::size_t>> orders = roots.arrangements;
     orders.insert(orders.begin(), given);
-    for (std::size_t k = orders.size(); k-- > 0;) orders.emplace_back(orders[k].rbegin(), orders[k].rend());
     const auto consider = [&](std::vector<BodyStep> steps) {
         const Pressure found = pressure_of(graph, plan, steps);
         if (found.is_below(best_pressure)) best = std::move(steps), best_pressure = found;

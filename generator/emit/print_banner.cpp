@@ -7,16 +7,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace lagen {
 
 namespace {
-
-std::vector<NodeId> outputs_of(const Kernel& kernel)
-{
-    std::vector<NodeId> nodes;
-    for (const KernelEntry& entry : kernel.output.entries) nodes.push_back(entry.node);
-    return nodes;
-}
 
 std::string count_text(double count)
 {
@@ -31,7 +26,7 @@ void print_counts(TextBlock& out, const KernelModule& module)
     out.comment(fmt::format("  {:<14}{:>7}{:>7}{:>7}{:>11}{:>8}{:>13}", "kernel", "+ -", "*", "/", "functions",
                             "solves", "written out"));
     for (const Kernel& kernel : module.kernels) {
-        const std::vector<NodeId> outputs = outputs_of(kernel);
+        const std::vector<NodeId> outputs = nodes_of(kernel);
         const OperationCount count = count_operations(*module.graph, outputs);
         out.comment(fmt::format("  {:<14}{:>7}{:>7}{:>7}{:>11}{:>8}{:>13}", kernel.name, count.additions,
                                 count.multiplications, count.divisions, count.functions, count.solves,
@@ -39,23 +34,55 @@ void print_counts(TextBlock& out, const KernelModule& module)
     }
 }
 
-void print_quantities(TextBlock& out, const std::string& heading,
-                      const std::vector<const std::vector<Quantity>*>& groups, bool with_lanes)
+/// One a line, behind the lane of the state where they are lanes.
+void print_quantities(TextBlock& out, const std::string& heading, const std::vector<Quantity>& quantities, bool lanes)
 {
-    std::size_t lane = 0;
-    bool first = true;
-    for (const auto* group : groups)
-        for (const Quantity& quantity : *group) {
-            if (first) {
-                out.comment("");
-                out.comment(heading);
-                first = false;
-            }
-            std::string line = with_lanes ? fmt::format("  s[{}] {}", lane++, quantity.name) : "  " + quantity.name;
-            if (!quantity.unit.empty()) line += " [" + quantity.unit + "]";
-            if (!quantity.text.empty()) line += ": " + quantity.text;
-            out.comment(line);
+    if (quantities.empty()) return;
+    out.comment("");
+    out.comment(heading);
+    for (std::size_t k = 0; k < quantities.size(); ++k) {
+        const Quantity& quantity = quantities[k];
+        std::string line = lanes ? fmt::format("  s[{}] {}", k, quantity.name) : "  " + quantity.name;
+        if (!quantity.unit.empty()) line += " [" + quantity.unit + "]";
+        if (!quantity.text.empty()) line += ": " + comment_text(quantity.text);
+        out.comment(line);
+    }
+}
+
+constexpr std::size_t longest_line = 200; ///< bytes of a line of equations
+
+std::size_t indentation_of(const std::string& line)
+{
+    return std::min(line.find_first_not_of(' '), line.size());
+}
+
+/// Each equation whole, or left out where a line of it is too long. Its further lines stand to the right of its first.
+void print_equations(TextBlock& out, const KernelModule& module)
+{
+    if (module.equations.empty()) return;
+    out.comment("");
+    std::size_t left_out = 0;
+    const auto tell = [&] {
+        if (left_out == 1)
+            out.comment(fmt::format("    (one equation is too long to stand here: {} prints it)", module.derive));
+        if (left_out > 1)
+            out.comment(
+                fmt::format("    ({} equations are too long to stand here: {} prints them)", left_out, module.derive));
+        left_out = 0;
+    };
+    for (auto line = module.equations.begin(); line != module.equations.end();) {
+        const auto first = line++;
+        const std::size_t margin = indentation_of(*first);
+        if (margin > 0)
+            while (line != module.equations.end() && !line->empty() && indentation_of(*line) > margin) ++line;
+        if (std::any_of(first, line, [](const std::string& each) { return each.size() > longest_line; })) {
+            ++left_out;
+            continue;
         }
+        tell();
+        for (auto each = first; each != line; ++each) out.comment(each->empty() ? "" : "  " + *each);
+    }
+    tell();
 }
 
 } // namespace
@@ -83,13 +110,10 @@ void print_banner(TextBlock& out, const KernelModule& module)
     out.comment("  " + module.regenerate);
     out.comment("This file is yours to use under the MIT licence, whatever the licence of the generator.");
     for (const std::string& warning : module.warnings) out.comment("WARNING: " + warning);
-    if (!module.equations.empty()) {
-        out.comment("");
-        for (const std::string& equation : module.equations) out.comment(equation.empty() ? "" : "  " + equation);
-    }
+    print_equations(out, module);
     print_counts(out, module);
-    print_quantities(out, "Parameters:", {&module.parameters}, false);
-    print_quantities(out, "State:", {&module.base, &module.fibre}, true);
+    print_quantities(out, "Parameters:", module.parameters, false);
+    print_quantities(out, "State:", lanes_of(module), true);
 }
 
 } // namespace lagen

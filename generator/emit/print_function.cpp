@@ -11,13 +11,27 @@ namespace lagen {
 
 namespace {
 
-/// The blocks whose unknowns the body reads.
-std::vector<const ImplicitBlock*> blocks_of(const Body& body, const KernelModule& module)
+/// The blocks whose unknowns the body reads and does not find in an argument.
+std::vector<const ImplicitBlock*> blocks_of(const Body& body, const FunctionRequest& request)
 {
+    const auto is_given = [&](NodeId id) {
+        return std::ranges::any_of(request.inputs, [id](const KernelInput& input) {
+            return std::ranges::find(input.entries, id, &Quantity::input) != input.entries.end();
+        });
+    };
     std::vector<const ImplicitBlock*> blocks;
-    for (const ImplicitBlock& block : module.implicit)
-        if (std::ranges::any_of(block.unknowns, [&](NodeId id) { return reads(body, id); })) blocks.push_back(&block);
+    for (const ImplicitBlock& block : request.module.implicit)
+        if (std::ranges::any_of(block.unknowns, [&](NodeId id) { return reads(body, id) && !is_given(id); }))
+            blocks.push_back(&block);
     return blocks;
+}
+
+/// The name of the argument with this role, from which implicit blocks are solved.
+const std::string& name_of(const FunctionRequest& request, ArrayRole role)
+{
+    const auto found = std::ranges::find(request.inputs, role, &KernelInput::role);
+    if (found == request.inputs.end()) throw InternalError(request.name + " reads unknowns that it cannot solve for");
+    return found->name;
 }
 
 bool loads(const BodyPart& part, NodeId id)
@@ -26,39 +40,60 @@ bool loads(const BodyPart& part, NodeId id)
         part.lines, [&](const BodyLine& line) { return line.kind == BodyLine::Kind::load && line.index == id; });
 }
 
-/// The lanes, the direction and the unknowns that the part reads: before anything is stored, which may be in their
-/// place.
-void load_state(TextBlock& out, const BodyPart& part, const FunctionRequest& request)
+/// `const S x = s[3], y = s[4];`: of `count` entries from `first` on, those that the part reads.
+void load_entries(TextBlock& out, const BodyPart& part, const FunctionRequest& request, std::size_t first,
+                  std::size_t count, const std::function<std::pair<NodeId, std::string>(std::size_t)>& entry)
 {
-    const KernelModule& module = request.module;
-    const auto define = [&](NodeId input, const std::string& value) {
-        if (loads(part, input)) out.line(fmt::format("const S {} = {};", request.names.locals.inputs.at(input), value));
-    };
-    std::size_t lane = 0;
-    for (const auto* group : {&module.base, &module.fibre})
-        for (const Quantity& quantity : *group) define(quantity.input, fmt::format("s[{}]", lane++));
-    if (request.reads_direction)
-        for (std::size_t k = 0; k < module.direction.size(); ++k)
-            define(module.direction[k].input, fmt::format("v[{}]", k));
+    std::vector<std::string> items;
+    for (std::size_t k = first; k < first + count; ++k)
+        if (const auto [id, place] = entry(k); loads(part, id))
+            items.push_back(fmt::format("{} = {}", request.names.locals.inputs.at(id), place));
+    if (!items.empty()) out.list("const S ", items, ";");
 }
 
-void load_unknowns(TextBlock& out, const BodyPart& part, const FunctionRequest& request)
+/// The entries of the arguments that the part reads, a group of lanes or a row a line: before anything is stored, which
+/// may be in their place.
+void load_inputs(TextBlock& out, const BodyPart& part, const FunctionRequest& request)
 {
-    for (const ImplicitBlock& block : request.module.implicit)
-        for (std::size_t k = 0; k < block.unknowns.size(); ++k)
-            if (loads(part, block.unknowns[k]))
-                out.line(fmt::format("const S {} = solved_{}[{}];", request.names.locals.inputs.at(block.unknowns[k]),
-                                     block.name, k));
+    for (const KernelInput& input : request.inputs) {
+        if (input.shape.rank == 0) continue;
+        std::vector<std::size_t> rows(input.shape.rank == 1 ? 1 : input.shape.rows,
+                                      input.shape.rank == 1 ? input.shape.rows : input.shape.columns);
+        if (has_lanes(input.role)) {
+            rows.clear();
+            for (const LaneGroup& group : request.module.groups) rows.push_back(group.lanes.size());
+        }
+        std::size_t first = 0;
+        for (const std::size_t count : rows) {
+            load_entries(out, part, request, first, count, [&](std::size_t k) {
+                const std::string place =
+                    input.shape.rank == 1
+                        ? fmt::format("{}[{}]", input.name, k)
+                        : fmt::format("{}({}, {})", input.name, k / input.shape.columns, k % input.shape.columns);
+                return std::pair{input.entries[k].input, place};
+            });
+            first += count;
+        }
+    }
+}
+
+void load_unknowns(TextBlock& out, const Body& body, const BodyPart& part, const FunctionRequest& request)
+{
+    for (const ImplicitBlock* block : blocks_of(body, request))
+        load_entries(out, part, request, 0, block->unknowns.size(), [&](std::size_t k) {
+            return std::pair{block->unknowns[k], fmt::format("solved_{}[{}]", block->name, k)};
+        });
 }
 
 /// Solves the implicit blocks that the body reads; answers whether a `status` was declared.
 bool solve_blocks(TextBlock& out, const Body& body, const FunctionRequest& request)
 {
     bool declared = false;
-    const std::vector<const ImplicitBlock*> blocks = blocks_of(body, request.module);
+    const std::vector<const ImplicitBlock*> blocks = blocks_of(body, request);
     for (const ImplicitBlock* block : blocks) {
         out.line(fmt::format("std::array<S, {}> solved_{};", block->unknowns.size(), block->name));
-        const std::string call = fmt::format("solve_{}(t, s, solved_{})", block->name, block->name);
+        const std::string call = fmt::format("solve_{0}({1}, {2}, solved_{0})", block->name,
+                                             name_of(request, ArrayRole::time), name_of(request, ArrayRole::state));
         if (!request.returns_status)
             out.line(fmt::format("static_cast<void>({});", call));
         else if (declared)
@@ -71,15 +106,22 @@ bool solve_blocks(TextBlock& out, const Body& body, const FunctionRequest& reque
     return declared;
 }
 
-/// All that the part reads at once: a compiler that finds loads between stores, which might overlap, packs neither.
+/// All that the part reads at once: a compiler that finds loads between stores, which might overlap, packs neither. By
+/// the names of all members where it reads most of them.
 void load_parameters(TextBlock& out, const BodyPart& part, const FunctionRequest& request)
 {
+    std::vector<std::string> members;
+    std::vector<std::string> items;
     for (std::size_t k = 0; k < request.module.parameters.size(); ++k) {
         const NodeId input = request.module.parameters[k].input;
+        members.push_back(request.names.locals.inputs.at(input));
         if (loads(part, input))
-            out.line(fmt::format("const S {} = parameters.{};", request.names.locals.inputs.at(input),
-                                 request.names.parameters[k]));
+            items.push_back(fmt::format("{} = parameters.{}", members.back(), request.names.parameters[k]));
     }
+    if (items.size() > 1 && 2 * items.size() >= members.size())
+        out.list("const auto [", members, "] = parameters;");
+    else
+        out.list("const S ", items, ";");
 }
 
 void print_part_lines(TextBlock& out, const BodyPart& part, const FunctionRequest& request)
@@ -107,27 +149,37 @@ std::string part_name(const FunctionRequest& request, std::size_t part)
     return fmt::format("{}_part_{}", request.name, part + 1);
 }
 
+/// May stand in the place of an output, which is written before all of it has been read.
+bool is_overwritten(const KernelInput& input, const FunctionRequest& request)
+{
+    return has_lanes(input.role) && std::ranges::any_of(request.outputs, &OutputArgument::overlaps);
+}
+
 /// "S t, const State& s, ..., std::array<S, 12>& work, State& ds"; without types the arguments of a call.
 std::string part_arguments(const Body& body, const FunctionRequest& request, bool types)
 {
-    std::string text = types ? "[[maybe_unused]] S t, [[maybe_unused]] const State& s" : "t, ";
-    if (!types) text += request.output_is_state ? "at" : "s";
+    std::vector<std::string> arguments;
     const auto add = [&](const std::string& type, const std::string& name) {
-        text += types ? ", [[maybe_unused]] " + type + " " + name : ", " + name;
+        arguments.push_back(types ? "[[maybe_unused]] " + type + " " + name : name);
     };
-    if (request.reads_direction) add("const State&", types || !request.output_is_state ? "v" : "along");
-    for (const ImplicitBlock* block : blocks_of(body, request.module))
+    for (const KernelInput& input : request.inputs)
+        add(type_of(input), !types && is_overwritten(input, request) ? copy_of(input) : input.name);
+    for (const ImplicitBlock* block : blocks_of(body, request))
         add(fmt::format("const std::array<S, {}>&", block->unknowns.size()), "solved_" + block->name);
     add(fmt::format("std::array<S, {}>&", body.workspace), "work");
-    const std::size_t name = request.output.rfind(' ') + 1;
-    add(request.output.substr(0, name - 1), request.output.substr(name));
-    return text;
+    for (const OutputArgument& output : request.outputs) add(output.type + "&", output.name);
+    return joined(arguments);
 }
 
 void call_parts(TextBlock& out, const Body& body, const FunctionRequest& request)
 {
-    if (request.output_is_state) out.line("const State at = s; // the output may stand in the place of the state");
-    if (request.output_is_state && request.reads_direction) out.line("const State along = v;");
+    bool told = false;
+    for (const KernelInput& input : request.inputs) {
+        if (!is_overwritten(input, request)) continue;
+        out.line(fmt::format("const State {} = {};{}", copy_of(input), input.name,
+                             told ? "" : " // an output may stand in its place"));
+        told = true;
+    }
     out.line(fmt::format("std::array<S, {}> work;", body.workspace));
     for (std::size_t k = 0; k < body.parts.size(); ++k) {
         const std::string call = fmt::format("{}({})", part_name(request, k), part_arguments(body, request, false));
@@ -142,12 +194,9 @@ bool reads(const Body& body, NodeId id)
     return std::ranges::binary_search(body.inputs, id);
 }
 
-bool reads_lane(const Body& body, const KernelModule& module)
+bool reads(const Body& body, const KernelInput& input)
 {
-    const auto any = [&](const std::vector<Quantity>& group) {
-        return std::ranges::any_of(group, [&](const Quantity& q) { return reads(body, q.input); });
-    };
-    return any(module.base) || any(module.fibre);
+    return std::ranges::any_of(input.entries, [&](const Quantity& entry) { return reads(body, entry.input); });
 }
 
 std::string maybe_unused(bool used)
@@ -155,11 +204,26 @@ std::string maybe_unused(bool used)
     return used ? "" : "[[maybe_unused]] ";
 }
 
-std::string state_arguments(const Body& body, const KernelModule& module)
+std::string type_of(const KernelInput& input)
 {
-    const bool whole = body.parts.size() > 1 || !blocks_of(body, module).empty();
-    return fmt::format("{}S t, {}const State& s", maybe_unused(whole || reads(body, module.time)),
-                       maybe_unused(whole || reads_lane(body, module)));
+    if (input.shape.rank == 0) return "S";
+    if (has_lanes(input.role)) return "const State&";
+    return fmt::format("const Eigen::Matrix<S, {}, {}>&", input.shape.rows, input.shape.columns);
+}
+
+std::string arguments_of(const Body& body, const FunctionRequest& request)
+{
+    const bool cut = body.parts.size() > 1;
+    const bool solves = !blocks_of(body, request).empty();
+    std::vector<std::string> arguments;
+    for (const KernelInput& input : request.inputs) {
+        const bool point = input.role == ArrayRole::time || input.role == ArrayRole::state;
+        arguments.push_back(fmt::format("{}{} {}", maybe_unused(cut || (solves && point) || reads(body, input)),
+                                        type_of(input), input.name));
+    }
+    for (const OutputArgument& output : request.outputs)
+        arguments.push_back(fmt::format("{}{}& {}", maybe_unused(output.used), output.type, output.name));
+    return joined(arguments);
 }
 
 void open_block(TextBlock& out, const std::string& signature)
@@ -189,8 +253,8 @@ void print_parts(TextBlock& out, const Body& body, const FunctionRequest& reques
                    fmt::format("[[gnu::noinline]] {} {}({}) const noexcept", part.has_status ? "status_t<S>" : "void",
                                part_name(request, k), part_arguments(body, request, true)));
         print_usings(out, body);
-        load_state(out, part, request);
-        load_unknowns(out, part, request);
+        load_inputs(out, part, request);
+        load_unknowns(out, body, part, request);
         if (part.has_status) out.line("auto status = StatusOf<S>::good();");
         print_part_lines(out, part, request);
         if (part.has_status) out.line("return status;");
@@ -206,12 +270,12 @@ bool print_lines(TextBlock& out, const Body& body, const FunctionRequest& reques
 {
     const bool whole = body.parts.size() == 1;
     if (whole) print_usings(out, body);
-    if (whole) load_state(out, body.parts[0], request);
+    if (whole) load_inputs(out, body.parts[0], request);
     bool declared = solve_blocks(out, body, request);
     if (body.has_status && !declared) out.line("auto status = StatusOf<S>::good();");
     declared = declared || body.has_status;
     if (!whole) return call_parts(out, body, request), declared;
-    load_unknowns(out, body.parts[0], request);
+    load_unknowns(out, body, body.parts[0], request);
     print_part_lines(out, body.parts[0], request);
     return declared;
 }

@@ -7,27 +7,36 @@
 #include "emit/text_block.hpp"
 
 #include <functional>
+#include <span>
 
 namespace lagen {
+
+struct OutputArgument {
+    std::string type; ///< "State"
+    std::string name; ///< "ds"
+    bool used = true;
+    bool overlaps = false; ///< may be the same object as a state or a tangent that is read
+};
 
 struct FunctionRequest {
     const KernelModule& module;
     const ModuleNames& names;
-    std::string name;             ///< of the member function
-    bool returns_status = false;  ///< else implicit blocks say by NaN that they found nothing
-    bool reads_direction = false; ///< has an argument `v`
-    std::string output;           ///< "State& ds": what the parts store to
-    bool output_is_state = false; ///< may be the same object as the state that is read
+    std::string name;            ///< of the member function
+    bool returns_status = false; ///< else implicit blocks say by NaN that they found nothing
+    std::span<const KernelInput> inputs = {};
+    std::vector<OutputArgument> outputs = {};                          ///< what the parts store to
     std::function<std::string(std::size_t, const std::string&)> store; ///< "ds[3] = w2 * w3;"
 };
 
 [[nodiscard]] bool reads(const Body& body, NodeId id);
-/// A lane of the state, or an unknown of an implicit block, which is found from the state.
-[[nodiscard]] bool reads_lane(const Body& body, const KernelModule& module);
-
-/// "S t, const State& s" with what the body leaves unread marked.
-[[nodiscard]] std::string state_arguments(const Body& body, const KernelModule& module);
+[[nodiscard]] bool reads(const Body& body, const KernelInput& input);
 [[nodiscard]] std::string maybe_unused(bool used);
+
+/// The type of an argument: S, State, std::array or a matrix of Eigen.
+[[nodiscard]] std::string type_of(const KernelInput& input);
+
+/// "S t, const State& s, State& ds" with what the body leaves unread marked.
+[[nodiscard]] std::string arguments_of(const Body& body, const FunctionRequest& request);
 
 /// An opening brace under `signature`, and a closing one.
 void open_block(TextBlock& out, const std::string& signature);

@@ -2,6 +2,7 @@
 #include "emit/print_header.hpp"
 
 #include "emit/print_banner.hpp"
+#include "emit/print_function.hpp"
 #include "emit/print_kernel.hpp"
 #include "emit/spell.hpp"
 
@@ -73,67 +74,57 @@ void print_parameters(TextBlock& out, const KernelModule& module, const ModuleNa
     out.line("} parameters;");
 }
 
-void print_group(TextBlock& out, const std::string& type, const std::vector<Quantity>& quantities,
-                 const std::vector<std::string>& members, const std::string& text)
+void print_group(TextBlock& out, const LaneGroup& group, const std::vector<std::string>& members)
 {
-    if (quantities.empty()) return;
+    if (group.lanes.empty()) return;
     out.blank();
-    out.comment(text);
-    out.line(fmt::format("struct {} {{", type));
-    print_members(out, members, std::vector<std::string>(members.size(), "S(0)"), quantities);
+    out.comment(group.text);
+    out.line(fmt::format("struct {} {{", group.type));
+    print_members(out, members, std::vector<std::string>(members.size(), "S(0)"), group.lanes);
     out.line("};");
 }
 
-/// state(base, fibre), with the group that is empty left out.
+/// state(base, fibre), with groups that are empty left out.
 void print_state(TextBlock& out, const KernelModule& module, const ModuleNames& names)
 {
-    const auto define = [&](const std::string& signature, bool base, bool fibre) {
-        out.blank();
-        out.comment("A state by names; members left out are zero.");
-        out.line(fmt::format("[[nodiscard]] static State state({}) noexcept", signature));
-        out.line("{");
-        out.indent(1);
-        out.line("State s;");
-        std::size_t lane = 0;
-        for (const std::string& member : names.base)
-            out.line(fmt::format("s[{}] = {};", lane++, base ? "base." + member : "S(0)"));
-        for (const std::string& member : names.fibre)
-            out.line(fmt::format("s[{}] = {};", lane++, fibre ? "fibre." + member : "S(0)"));
-        out.line("return s;");
-        out.indent(-1);
-        out.line("}");
-    };
-    const bool has_base = !module.base.empty();
-    const bool has_fibre = !module.fibre.empty();
-    if (has_base && has_fibre) define(fmt::format("const Base& base, const {}& fibre", module.fibre_name), true, true);
-    if (has_base && !has_fibre) define("const Base& base", true, false);
-    if (!has_base && has_fibre) define(fmt::format("const {}& fibre", module.fibre_name), false, true);
+    std::vector<std::string> arguments;
+    for (const LaneGroup& group : module.groups)
+        if (!group.lanes.empty()) arguments.push_back(fmt::format("const {}& {}", group.type, group.role));
+    if (arguments.empty()) return;
+    out.blank();
+    out.comment("A state by names; members left out are zero.");
+    open_block(out, fmt::format("[[nodiscard]] static State state({}) noexcept", joined(arguments)));
+    out.line("State s;");
+    std::size_t lane = 0;
+    for (std::size_t k = 0; k < module.groups.size(); ++k)
+        for (const std::string& member : names.groups[k])
+            out.line(fmt::format("s[{}] = {}.{};", lane++, module.groups[k].role, member));
+    out.line("return s;");
+    close_block(out);
 }
 
-std::string name_array(const std::string& array, const std::vector<const std::vector<Quantity>*>& groups)
+std::string name_array(const std::string& array, const std::vector<Quantity>& quantities)
 {
     std::vector<std::string> literals;
-    for (const auto* group : groups)
-        for (const Quantity& quantity : *group) literals.push_back(string_literal(quantity.name));
+    for (const Quantity& quantity : quantities) literals.push_back(string_literal(quantity.name));
     return fmt::format("static constexpr std::array<const char*, {}> {} = {{{}}};", literals.size(), array,
                        joined(literals));
 }
 
 void print_constants(TextBlock& out, const KernelModule& module)
 {
-    const std::size_t n = module.base.size();
-    const std::size_t r = module.fibre.size();
+    const std::vector<Quantity> lanes = lanes_of(module);
     out.line("using Scalar = S;");
     out.comment("Lanes of State: base coordinates, then the others.");
-    out.line(fmt::format("static constexpr int dimension = {};", n + r));
-    out.line(fmt::format("static constexpr int base_dimension = {};", n));
-    out.line(fmt::format("static constexpr int fibre_dimension = {};", r));
-    out.line(fmt::format("using State = Eigen::Matrix<S, {}, 1>;", n + r));
+    out.line(fmt::format("static constexpr int dimension = {};", lanes.size()));
+    for (const LaneGroup& group : module.groups)
+        out.line(fmt::format("static constexpr int {}_dimension = {};", group.role, group.lanes.size()));
+    out.line(fmt::format("using State = Eigen::Matrix<S, {}, 1>;", lanes.size()));
     out.blank();
     out.line(fmt::format("static constexpr const char* model_name = {};", string_literal(module.model)));
     out.line(fmt::format("static constexpr const char* model_hash = {};", string_literal(module.hash)));
-    out.line(name_array("state_names", {&module.base, &module.fibre}));
-    out.line(name_array("parameter_names", {&module.parameters}));
+    out.line(name_array("state_names", lanes));
+    out.line(name_array("parameter_names", module.parameters));
 }
 
 /// Parameters by number, for programs that know them by parameter_names only.
@@ -159,7 +150,7 @@ bool needs_stumpff(const KernelModule& module)
 {
     std::vector<NodeId> roots = module.parameter_defaults;
     for (const Kernel& kernel : module.kernels)
-        for (const KernelEntry& entry : kernel.output.entries) roots.push_back(entry.node);
+        for (const NodeId id : nodes_of(kernel)) roots.push_back(id);
     return std::ranges::any_of(reachable(*module.graph, roots),
                                [&](NodeId id) { return module.graph->op(id) == Op::stumpff; });
 }
@@ -176,8 +167,7 @@ std::string print_header(const KernelModule& module)
     print_parameters(kernels, module, names);
     print_parameter_access(kernels, names);
     print_guess(kernels, module, names);
-    print_group(kernels, "Base", module.base, names.base, "Base coordinates, the first lanes of State.");
-    print_group(kernels, module.fibre_name, module.fibre, names.fibre, "The other lanes of State.");
+    for (std::size_t k = 0; k < module.groups.size(); ++k) print_group(kernels, module.groups[k], names.groups[k]);
     print_state(kernels, module, names);
     print_parameter_status(kernels, module, names, needs);
     for (const ImplicitBlock& block : module.implicit) print_implicit(kernels, module, names, block, needs);
@@ -206,7 +196,7 @@ std::string print_header(const KernelModule& module)
     out.blank();
     out.line("namespace lagen::models {");
     out.blank();
-    out.comment(module.title.empty() ? module.model : module.title);
+    out.comment(module.title.empty() ? module.model : comment_text(module.title));
     out.line("template <class S>");
     out.line(fmt::format("class {} {{", names.class_name));
     out.line("  public:");

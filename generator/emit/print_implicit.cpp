@@ -10,32 +10,12 @@ namespace lagen {
 
 namespace {
 
-/// `array[k] = value;`
-FunctionRequest storing_to(const KernelModule& module, const ModuleNames& names,
-                           std::function<std::string(std::size_t, const std::string&)> store)
+/// The array of the unknowns that Newton's method asks about.
+KernelInput unknowns_of(const KernelModule& module, const ImplicitBlock& block)
 {
-    return {module, names, "", false, false, "", false, std::move(store)};
-}
-
-/// The unknowns stand in the argument `unknowns`, not in a solved block.
-void load_own_unknowns(TextBlock& out, Body& body, const ModuleNames& names, const ImplicitBlock& block)
-{
-    for (std::size_t k = 0; k < block.unknowns.size(); ++k)
-        if (reads(body, block.unknowns[k]))
-            out.line(fmt::format("const S {} = unknowns[{}];", names.locals.inputs.at(block.unknowns[k]), k));
-    const auto is_own = [&](std::size_t id) { return std::ranges::count(block.unknowns, static_cast<NodeId>(id)) > 0; };
-    std::erase_if(body.inputs, is_own);
-    std::erase_if(body.parts.front().lines,
-                  [&](const BodyLine& line) { return line.kind == BodyLine::Kind::load && is_own(line.index); });
-}
-
-/// A body in braces of its own, whose outputs are stored by `store`.
-void print_scope(TextBlock& out, const KernelModule& module, const ModuleNames& names, const Body& body,
-                 std::function<std::string(std::size_t, const std::string&)> store)
-{
-    open_block(out, "");
-    print_lines(out, body, storing_to(module, names, std::move(store)));
-    close_block(out);
+    KernelInput input{"unknowns", ArrayRole::value, {1, block.unknowns.size(), 1}, {}};
+    for (const NodeId id : block.unknowns) input.entries.push_back({module.graph->input_name(id), {}, {}, id});
+    return input;
 }
 
 std::string list_of(std::size_t count, const std::function<std::string(std::size_t)>& entry)
@@ -49,7 +29,8 @@ std::string list_of(std::size_t count, const std::function<std::string(std::size
 class ImplicitPrinter {
   public:
     ImplicitPrinter(TextBlock& out, const KernelModule& module, const ModuleNames& names, const ImplicitBlock& block)
-        : out_(out), module_(module), names_(names), block_(block), size_(block.unknowns.size())
+        : out_(out), module_(module), names_(names), block_(block), size_(block.unknowns.size()),
+          inputs_(point_inputs(module))
     {
         std::vector<NodeId> start = block.guess;
         if (block.bracket)
@@ -69,6 +50,7 @@ class ImplicitPrinter {
         }
         start_ = body_of(start);
         iteration_ = body_of(inner);
+        inputs_.push_back(unknowns_of(module, block));
     }
 
     void print()
@@ -82,12 +64,12 @@ class ImplicitPrinter {
                            "not finite."
                          : "By Newton's method; answers newton_diverged, and NaN in z, where it finds no solution to "
                            "round-off.");
-        const bool reads_time = reads(start_, module_.time) || reads(iteration_, module_.time);
-        const bool reads_lanes = reads_lane(start_, module_) || reads_lane(iteration_, module_);
-        open_block(out_,
-                   fmt::format("[[nodiscard]] status_t<S> solve_{}({}S t, {}const State& s, std::array<S, {}>& z) "
-                               "const noexcept",
-                               block_.name, maybe_unused(reads_time), maybe_unused(reads_lanes), size_));
+        std::vector<std::string> arguments;
+        for (const KernelInput& input : std::span(inputs_).first(2))
+            arguments.push_back(maybe_unused(reads(start_, input) || reads(iteration_, input)) + type_of(input) + " " +
+                                input.name);
+        open_block(out_, fmt::format("[[nodiscard]] status_t<S> solve_{}({}, std::array<S, {}>& z) const noexcept",
+                                     block_.name, joined(arguments), size_));
         block_.bracket ? print_bounds() : print_guess();
         block_.angles ? print_angles() : print_iteration();
         close_block(out_);
@@ -99,9 +81,22 @@ class ImplicitPrinter {
         return print_body({*module_.graph, names_.locals, outputs, {}, names_.moving, Checking::none, {}, 0});
     }
 
+    /// Before the search, in braces of its own.
+    void print_scope(const Body& body, std::function<std::string(std::size_t, const std::string&)> store)
+    {
+        open_block(out_, "");
+        print_lines(out_, body, request(std::move(store)));
+        close_block(out_);
+    }
+
+    [[nodiscard]] FunctionRequest request(std::function<std::string(std::size_t, const std::string&)> store) const
+    {
+        return {module_, names_, "solve_" + block_.name, false, inputs_, {}, std::move(store)};
+    }
+
     void print_guess()
     {
-        print_scope(out_, module_, names_, start_, [this](std::size_t k, const std::string& value) {
+        print_scope(start_, [this](std::size_t k, const std::string& value) {
             if (!block_.follows) return fmt::format("z[{}] = {};", k, value);
             return fmt::format("z[{}] = number_or<S>(guess.{}, {});", k, names_.guess.at(block_.unknowns[k]), value);
         });
@@ -110,7 +105,7 @@ class ImplicitPrinter {
     void print_angles()
     {
         out_.line(fmt::format("std::array<S, {}> b, c;", size_));
-        print_scope(out_, module_, names_, iteration_, [this](std::size_t k, const std::string& value) {
+        print_scope(iteration_, [this](std::size_t k, const std::string& value) {
             return fmt::format("{}[{}] = {};", k < size_ ? "b" : "c", k % size_, value);
         });
         out_.line("return nearest_angles(b, c, z);");
@@ -131,7 +126,7 @@ class ImplicitPrinter {
                                           is_lower ? "-" : ""));
             }
         }
-        print_scope(out_, module_, names_, start_, [&places](std::size_t k, const std::string& value) {
+        print_scope(start_, [&places](std::size_t k, const std::string& value) {
             return fmt::format("{} = {};", places[k], value);
         });
     }
@@ -146,10 +141,9 @@ class ImplicitPrinter {
         out_.indent(1);
         const std::size_t conditions = block_.bracket ? 0 : block_.inside.size();
         if (conditions > 0) out_.line(fmt::format("std::array<S, {}> inside;", conditions));
-        load_own_unknowns(out_, iteration_, names_, block_);
         const std::pair<const char*, std::size_t> arrays[] = {
             {"residual", size_}, {"derivative", derivatives}, {"size", size_}, {"inside", conditions}};
-        print_lines(out_, iteration_, storing_to(module_, names_, [&arrays](std::size_t k, const std::string& value) {
+        print_lines(out_, iteration_, request([&arrays](std::size_t k, const std::string& value) {
                         const auto* array = arrays;
                         for (; k >= array->second; ++array) k -= array->second;
                         return fmt::format("{}[{}] = {};", array->first, k, value);
@@ -164,7 +158,8 @@ class ImplicitPrinter {
     const ModuleNames& names_;
     const ImplicitBlock& block_;
     std::size_t size_;
-    Body start_;     ///< the guess, or the ends of the bracket
+    std::vector<KernelInput> inputs_; ///< t, s, unknowns
+    Body start_;                      ///< the guess, or the ends of the bracket
     Body iteration_; ///< residuals, then the Jacobian, sizes and conditions; of a bracket the Jacobian's diagonal, no
                      ///< conditions; of angles b, then c
 };
@@ -177,16 +172,19 @@ void follow_block(TextBlock& out, const KernelModule& module, const ModuleNames&
     const auto member = [&](std::size_t k) { return "guess." + names.guess.at(block.unknowns[k]); };
     std::string kept = "guess.{0} = number_or<S>({1}[{2}], guess.{0});";
     if (!block.angles) {
-        Body body = print_body({*module.graph, names.locals, block.jacobian, {}, names.moving, Checking::none, {}, 0});
+        const Body body =
+            print_body({*module.graph, names.locals, block.jacobian, {}, names.moving, Checking::none, {}, 0});
         out.line(fmt::format("const std::array<S, {}> from = {{{}}};", size, list_of(size, member)));
         out.line(fmt::format("const auto curvature = [&]([[maybe_unused]] const std::array<S, {}>& unknowns, "
                              "std::array<S, {}>& matrix) noexcept {{",
                              size, size * size));
         out.indent(1);
-        load_own_unknowns(out, body, names, block);
-        print_lines(out, body, storing_to(module, names, [](std::size_t k, const std::string& value) {
-                        return fmt::format("matrix[{}] = {};", k, value);
-                    }));
+        std::vector<KernelInput> inputs = point_inputs(module);
+        inputs.push_back(unknowns_of(module, block));
+        print_lines(out, body,
+                    {module, names, "follow", false, inputs, {}, [](std::size_t k, const std::string& value) {
+                         return fmt::format("matrix[{}] = {};", k, value);
+                     }});
         out.indent(-1);
         out.line("};");
         out.line(fmt::format("const auto same = is_same_maximum(from, {}, curvature);", solved));

@@ -20,195 +20,205 @@ constexpr std::size_t longest_comment = 100; ///< bytes of a line of conditions
 /// Beyond this many rows or columns no dense Jacobian is offered: Eigen keeps fixed-size matrices on the stack.
 constexpr std::size_t largest_dense = 32;
 
-std::vector<NodeId> outputs_of(const Kernel& kernel)
-{
-    std::vector<NodeId> nodes;
-    for (const KernelEntry& entry : kernel.output.entries) nodes.push_back(entry.node);
-    return nodes;
-}
-
-void print_documentation(TextBlock& out, const Kernel& kernel)
-{
-    for (const std::string& line : kernel.documentation) out.comment(line);
-}
-
 bool is_full(const KernelOutput& output)
 {
-    return output.entries.size() == output.rows * output.columns;
+    return output.entries.size() == output.shape.rows * output.shape.columns;
 }
 
-void print_pattern(TextBlock& out, const Kernel& kernel)
+std::string matrix_type(const ArrayShape& shape)
 {
-    std::vector<std::string> rows;
-    std::vector<std::string> columns;
-    for (const KernelEntry& entry : kernel.output.entries) {
-        rows.push_back(std::to_string(entry.row));
-        columns.push_back(std::to_string(entry.column));
-    }
-    out.comment(fmt::format("Where the entries of {}_values stand, by rows, counted from 0.", kernel.name));
-    out.line(
-        fmt::format("static constexpr std::array<int, {}> {}_rows = {{{}}};", rows.size(), kernel.name, joined(rows)));
-    out.line(fmt::format("static constexpr std::array<int, {}> {}_columns = {{{}}};", rows.size(), kernel.name,
-                         joined(columns)));
-    out.blank();
+    return fmt::format("Eigen::Matrix<S, {}, {}>", shape.rows, shape.columns);
 }
 
-void print_dense(TextBlock& out, const Kernel& kernel)
+std::string type_of(const KernelOutput& output, bool by_value)
 {
-    const std::string type = fmt::format("Eigen::Matrix<S, {}, {}>", kernel.output.rows, kernel.output.columns);
-    const std::size_t count = kernel.output.entries.size();
-    out.blank();
-    out.comment(fmt::format("The same as a dense matrix, shape ({}, {}).", kernel.output.rows, kernel.output.columns));
-    open_block(out, fmt::format("[[nodiscard]] {} {}(S t, const State& s) const noexcept", type, kernel.name));
-    out.line(fmt::format("std::array<S, {}> values;", count));
-    out.line(fmt::format("{}_values(t, s, values);", kernel.name));
-    out.line(fmt::format("{} result = {}::Zero();", type, type));
-    if (count > 0)
-        out.line(fmt::format("for (std::size_t k = 0; k < {}; ++k) result({}_rows[k], {}_columns[k]) = values[k];",
-                             count, kernel.name, kernel.name));
-    out.line("return result;");
-    close_block(out);
+    if (output.sparse) return fmt::format("std::array<S, {}>", output.entries.size());
+    if (output.shape.rank == 0) return "S";
+    return has_lanes(output.role) && !by_value ? "State" : matrix_type(output.shape);
 }
 
-void print_entry_names(TextBlock& out, const Kernel& kernel)
+/// The place of the entry `k` of an output that is called `name`.
+std::string place_of(const KernelOutput& output, const std::string& name, std::size_t k)
 {
-    if (kernel.entry_names.empty()) return;
-    std::vector<std::string> literals;
-    for (const std::string& name : kernel.entry_names) literals.push_back(string_literal(name));
-    out.line(fmt::format("static constexpr std::array<const char*, {}> {}_names = {{{}}};", literals.size(),
-                         kernel.name, joined(literals)));
+    if (output.sparse) return fmt::format("{}[{}]", name, k);
+    const KernelEntry& entry = output.entries[k];
+    if (output.shape.rank == 0) return name;
+    return output.shape.rank == 1 ? fmt::format("{}[{}]", name, entry.row)
+                                  : fmt::format("{}({}, {})", name, entry.row, entry.column);
 }
 
-/// By rows and by columns; which is better depends on the recursion behind them.
-std::vector<std::vector<std::size_t>> arrangements_of(const KernelOutput& output)
+/// By rows and by columns, from either end; which is best depends on the recursion behind them. The entries of a vector
+/// stand in their order.
+std::vector<std::vector<std::size_t>> arrangements_of(const Kernel& kernel)
 {
-    if (output.columns < 2) return {};
-    std::vector<std::size_t> by_columns(output.entries.size());
-    std::iota(by_columns.begin(), by_columns.end(), std::size_t{0});
-    std::ranges::stable_sort(by_columns, {}, [&](std::size_t k) { return output.entries[k].column; });
-    return {by_columns};
+    if (kernel.outputs.size() != 1 || kernel.outputs[0].shape.columns < 2) return {};
+    const std::vector<KernelEntry>& entries = kernel.outputs[0].entries;
+    std::vector<std::size_t> given(entries.size());
+    std::iota(given.begin(), given.end(), std::size_t{0});
+    std::vector<std::size_t> by_columns = given;
+    std::ranges::stable_sort(by_columns, {}, [&](std::size_t k) { return entries[k].column; });
+    return {by_columns, {by_columns.rbegin(), by_columns.rend()}, {given.rbegin(), given.rend()}};
 }
 
-/// What all shapes of kernels have in common.
+/// A kernel as a function, by the rule of graph/kernel.hpp.
 class KernelPrinter {
   public:
     KernelPrinter(TextBlock& out, const KernelModule& module, const ModuleNames& names, const Kernel& kernel,
                   const Body& body)
-        : out_(out), module_(module), names_(names), kernel_(kernel), body_(body)
+        : out_(out), kernel_(kernel), body_(body),
+          returned_(returns_value(kernel)), request_{module,        names, kernel.name, kernel.checks.has_value(),
+                                                     kernel.inputs, {},    {}}
     {
+        if (is_sparse()) request_.name += "_values";
+        for (const KernelOutput& output : kernel.outputs) {
+            const bool used = output.shape.rows > 0 && !(output.sparse && output.entries.empty());
+            request_.outputs.push_back({type_of(output, returned_), returned_ ? "result" : output.name, used,
+                                        has_lanes(output.role) && !returned_});
+        }
+        request_.store = [this](std::size_t k, const std::string& value) { return store(k, value); };
     }
 
     void print()
     {
-        switch (kernel_.shape) {
-        case KernelShape::right_hand_side:
-        case KernelShape::directional: return print_derivative();
-        case KernelShape::scalar: return print_scalar();
-        case KernelShape::vector:
-        case KernelShape::matrix: return print_array();
-        case KernelShape::sparse: return print_sparse();
-        }
+        for (const KernelOutput& output : kernel_.outputs) print_constants(output);
+        print_parts(out_, body_, request_);
+        for (const std::string& line : kernel_.documentation) out_.comment(line);
+        open_block(out_, signature());
+        begin_outputs();
+        const bool has_status = print_lines(out_, body_, request_);
+        end_outputs();
+        if (kernel_.checks) out_.line(has_status ? "return status;" : "return StatusOf<S>::good();");
+        if (returned_ && !returns_at_once()) out_.line("return result;");
+        close_block(out_);
+        if (is_sparse()) print_dense();
     }
 
   private:
-    [[nodiscard]] FunctionRequest request(const std::string& output) const
+    [[nodiscard]] bool is_sparse() const { return kernel_.outputs.size() == 1 && kernel_.outputs[0].sparse; }
+
+    /// A number of a whole body.
+    [[nodiscard]] bool returns_at_once() const
     {
-        FunctionRequest request{module_, names_, kernel_.name, false, false, output, false, {}};
-        return request;
+        return returned_ && kernel_.outputs[0].shape.rank == 0 && body_.parts.size() == 1;
     }
 
-    [[nodiscard]] std::string arguments() const { return state_arguments(body_, module_); }
-
-    /// Of the state, or of a perturbation of it along v.
-    void print_derivative()
+    [[nodiscard]] std::string signature() const
     {
-        const bool directional = kernel_.shape == KernelShape::directional;
-        const std::string& target = kernel_.output.name;
-        FunctionRequest function = request("State& " + target);
-        function.returns_status = function.output_is_state = true;
-        function.reads_direction = directional;
-        function.store = [&](std::size_t k, const std::string& value) {
-            return fmt::format("{}[{}] = {};", target, kernel_.output.entries[k].row, value);
-        };
-        print_parts(out_, body_, function);
-        print_documentation(out_, kernel_);
-        const bool reads_v =
-            body_.parts.size() > 1 ||
-            std::ranges::any_of(module_.direction, [&](const Quantity& entry) { return reads(body_, entry.input); });
-        open_block(out_, fmt::format("[[nodiscard]] status_t<S> {}({}, {}{}State& {}) const noexcept", kernel_.name,
-                                     arguments(), directional ? maybe_unused(reads_v) + "const State& v, " : "",
-                                     maybe_unused(kernel_.output.rows > 0), target));
-        const bool has_status = print_lines(out_, body_, function);
-        std::vector<bool> written(kernel_.output.rows, false);
-        for (const KernelEntry& entry : kernel_.output.entries) written[entry.row] = true;
-        for (std::size_t row = 0; row < written.size(); ++row)
-            if (!written[row]) out_.line(fmt::format("{}[{}] = S(0);", target, row));
-        out_.line(has_status ? "return status;" : "return StatusOf<S>::good();");
-        close_block(out_);
+        FunctionRequest arguments = request_;
+        if (returned_) arguments.outputs.clear();
+        const std::string type = kernel_.checks ? "[[nodiscard]] status_t<S>"
+                                 : returned_    ? "[[nodiscard]] " + request_.outputs[0].type
+                                                : "void";
+        return fmt::format("{} {}({}) const noexcept", type, request_.name, arguments_of(body_, arguments));
     }
 
-    void print_scalar()
+    [[nodiscard]] std::string store(std::size_t k, const std::string& value) const
     {
-        const bool whole = body_.parts.size() == 1;
-        FunctionRequest function = request("S& result");
-        function.store = [&](std::size_t, const std::string& value) {
-            return fmt::format("{} {};", whole ? "return" : "result =", value);
-        };
-        print_parts(out_, body_, function);
-        print_documentation(out_, kernel_);
-        open_block(out_, fmt::format("[[nodiscard]] S {}({}) const noexcept", kernel_.name, arguments()));
-        if (!whole) out_.line("S result;");
-        print_lines(out_, body_, function);
-        if (kernel_.output.entries.empty()) out_.line("return S(0);");
-        if (!whole) out_.line("return result;");
-        close_block(out_);
+        if (returns_at_once()) return fmt::format("return {};", value);
+        std::size_t output = 0;
+        for (; k >= kernel_.outputs[output].entries.size(); ++output) k -= kernel_.outputs[output].entries.size();
+        return fmt::format("{} = {};", place_of(kernel_.outputs[output], request_.outputs[output].name, k), value);
     }
 
-    /// A column or a matrix by value.
-    void print_array()
+    /// Where the entries of a sparse output stand, and the names of those of a vector.
+    void print_constants(const KernelOutput& output)
     {
-        const KernelOutput& output = kernel_.output;
-        const bool column = kernel_.shape == KernelShape::vector;
-        const std::string type = fmt::format("Eigen::Matrix<S, {}, {}>", output.rows, column ? 1 : output.columns);
-        FunctionRequest function = request(type + "& result");
-        function.store = [&](std::size_t k, const std::string& value) {
-            const KernelEntry& entry = output.entries[k];
-            return column ? fmt::format("result[{}] = {};", entry.row, value)
-                          : fmt::format("result({}, {}) = {};", entry.row, entry.column, value);
-        };
-        print_parts(out_, body_, function);
-        print_documentation(out_, kernel_);
-        open_block(out_, fmt::format("[[nodiscard]] {} {}({}) const noexcept", type, kernel_.name, arguments()));
-        out_.line(is_full(output) ? type + " result;" : fmt::format("{} result = {}::Zero();", type, type));
-        print_lines(out_, body_, function);
+        const std::string name = kernel_.outputs.size() == 1 ? kernel_.name : kernel_.name + "_" + output.name;
+        if (!output.entry_names.empty()) {
+            std::vector<std::string> literals;
+            for (const std::string& entry : output.entry_names) literals.push_back(string_literal(entry));
+            out_.line(fmt::format("static constexpr std::array<const char*, {}> {}_names = {{{}}};", literals.size(),
+                                  name, joined(literals)));
+        }
+        if (!output.sparse) return;
+        std::vector<std::string> rows;
+        std::vector<std::string> columns;
+        for (const KernelEntry& entry : output.entries) {
+            rows.push_back(std::to_string(entry.row));
+            columns.push_back(std::to_string(entry.column));
+        }
+        out_.comment(fmt::format("Where the entries of {} stand, by rows, counted from 0.",
+                                 is_sparse() ? request_.name : output.name));
+        for (const auto& [suffix, places] : {std::pair("rows", rows), std::pair("columns", columns)})
+            out_.line(fmt::format("static constexpr std::array<int, {}> {}_{} = {{{}}};", places.size(), name, suffix,
+                                  joined(places)));
+        out_.blank();
+    }
+
+    /// Zeros in arrays of which some entries are not written; those of a state wait until it has been read.
+    void begin_outputs()
+    {
+        for (std::size_t k = 0; k < kernel_.outputs.size(); ++k) {
+            const KernelOutput& output = kernel_.outputs[k];
+            const auto& [type, name, used, overlaps] = request_.outputs[k];
+            const bool zeros = !overlaps && !output.sparse && !is_full(output);
+            if (returns_at_once()) continue;
+            if (returned_)
+                out_.line(!zeros                   ? fmt::format("{} {};", type, name)
+                          : output.shape.rank == 0 ? fmt::format("{} {} = S(0);", type, name)
+                                                   : fmt::format("{0} {1} = {0}::Zero();", type, name));
+            else if (zeros)
+                out_.line(output.shape.rank == 0 ? name + " = S(0);" : name + ".setZero();");
+        }
+    }
+
+    void end_outputs()
+    {
+        if (returns_at_once() && kernel_.outputs[0].entries.empty()) out_.line("return S(0);");
+        for (std::size_t k = 0; k < kernel_.outputs.size(); ++k) {
+            const KernelOutput& output = kernel_.outputs[k];
+            if (!request_.outputs[k].overlaps) continue;
+            std::vector<bool> written(output.shape.rows, false);
+            for (const KernelEntry& entry : output.entries) written[entry.row] = true;
+            for (std::size_t row = 0; row < written.size(); ++row)
+                if (!written[row]) out_.line(fmt::format("{}[{}] = S(0);", output.name, row));
+        }
+    }
+
+    /// The sparse output as a matrix, where that is small.
+    void print_dense()
+    {
+        const KernelOutput& output = kernel_.outputs[0];
+        if (output.shape.rows > largest_dense || output.shape.columns > largest_dense) return;
+        const std::string type = matrix_type(output.shape);
+        std::vector<std::string> types;
+        std::vector<std::string> names;
+        for (const KernelInput& input : kernel_.inputs) {
+            types.push_back(type_of(input) + " " + input.name);
+            names.push_back(input.name);
+        }
+        out_.blank();
+        out_.comment(
+            fmt::format("The same as a dense matrix, shape ({}, {}).", output.shape.rows, output.shape.columns));
+        open_block(out_, fmt::format("[[nodiscard]] {} {}({}) const noexcept", type, kernel_.name, joined(types)));
+        out_.line(fmt::format("{} values;", request_.outputs[0].type));
+        out_.line(fmt::format("{}({}, values);", request_.name, joined(names)));
+        out_.line(fmt::format("{0} result = {0}::Zero();", type));
+        if (!output.entries.empty())
+            out_.line(fmt::format("for (std::size_t k = 0; k < {0}; ++k) result({1}_rows[k], {1}_columns[k]) = "
+                                  "values[k];",
+                                  output.entries.size(), kernel_.name));
         out_.line("return result;");
         close_block(out_);
     }
 
-    void print_sparse()
-    {
-        const std::size_t count = kernel_.output.entries.size();
-        print_pattern(out_, kernel_);
-        FunctionRequest function = request(fmt::format("std::array<S, {}>& values", count));
-        function.name += "_values";
-        function.store = [](std::size_t k, const std::string& value) {
-            return fmt::format("values[{}] = {};", k, value);
-        };
-        print_parts(out_, body_, function);
-        print_documentation(out_, kernel_);
-        open_block(out_, fmt::format("void {}({}, {}std::array<S, {}>& values) const noexcept", function.name,
-                                     arguments(), maybe_unused(count > 0), count));
-        print_lines(out_, body_, function);
-        close_block(out_);
-        if (kernel_.output.rows <= largest_dense && kernel_.output.columns <= largest_dense) print_dense(out_, kernel_);
-    }
-
     TextBlock& out_;
-    const KernelModule& module_;
-    const ModuleNames& names_;
     const Kernel& kernel_;
     const Body& body_;
+    bool returned_; ///< the output, by value
+    FunctionRequest request_;
 };
+
+/// What the kernels of a module are, for the documentation of what they have in common.
+const char* noun_of(ModuleKind kind)
+{
+    switch (kind) {
+    case ModuleKind::vector_field: return "the right-hand side";
+    case ModuleKind::step: return "a step";
+    case ModuleKind::boundary_problem: return "the boundary problem";
+    }
+    throw InternalError("a module of no kind");
+}
 
 /// "left_domain unless a > 0, b > 0.", broken between conditions.
 void print_conditions(TextBlock& out, const std::vector<std::string>& conditions)
@@ -229,22 +239,13 @@ void print_conditions(TextBlock& out, const std::vector<std::string>& conditions
 void print_kernel(TextBlock& out, const KernelModule& module, const ModuleNames& names, const Kernel& kernel,
                   KernelNeeds& needs)
 {
-    const std::vector<NodeId> outputs = outputs_of(kernel);
-    const bool has_status = kernel.shape == KernelShape::right_hand_side || kernel.shape == KernelShape::directional;
-    LocalNames locals = names.locals;
-    locals.taken.insert(kernel.output.name);
-    BodyRequest request{*module.graph,
-                        locals,
-                        outputs,
-                        kernel.pivots,
-                        names.moving,
-                        has_status ? Checking::state : Checking::none,
-                        arrangements_of(kernel.output),
-                        longest_part};
-    const Body body = print_body(request);
+    const std::vector<NodeId> outputs = nodes_of(kernel);
+    const std::vector<NodeId> pivots = kernel.checks ? kernel.checks->pivots : std::vector<NodeId>{};
+    const Body body =
+        print_body({*module.graph, names.locals, outputs, pivots, names.moving,
+                    kernel.checks ? Checking::state : Checking::none, arrangements_of(kernel), longest_part});
     needs.linear = needs.linear || body.has_status || body.has_pivoting;
     out.blank();
-    print_entry_names(out, kernel);
     KernelPrinter(out, module, names, kernel, body).print();
 }
 
@@ -256,9 +257,9 @@ void print_parameter_status(TextBlock& out, const KernelModule& module, const Mo
         if (!moves[id] && std::ranges::find(checked, id) == checked.end()) checked.push_back(id);
     };
     for (const Kernel& kernel : module.kernels) {
-        if (kernel.shape != KernelShape::right_hand_side) continue;
-        for (const NodeId id : kernel.pivots) add(id);
-        for (const NodeId id : reachable(*module.graph, outputs_of(kernel)))
+        if (!kernel.checks) continue;
+        for (const NodeId id : kernel.checks->pivots) add(id);
+        for (const NodeId id : reachable(*module.graph, nodes_of(kernel)))
             if (module.graph->op(id) == Op::factor) add(id);
     }
     std::vector<NodeId> conditions;
@@ -272,16 +273,17 @@ void print_parameter_status(TextBlock& out, const KernelModule& module, const Mo
     needs.linear = needs.linear || body.has_status || body.has_pivoting;
     const bool has_status = body.has_status || !conditions.empty();
     out.blank();
-    out.comment("What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a "
-                "divisor");
+    out.comment(fmt::format("What of {} depends on the parameters alone: singular_mass_matrix where a matrix or a "
+                            "divisor",
+                            noun_of(module.kind)));
     out.comment("made of them has no inverse. Call it once after the parameters are set; integrate() does.");
     print_conditions(out, texts);
     open_block(out, "[[nodiscard]] status_t<S> parameter_status() const noexcept");
     if (has_status && !body.has_status) out.line("auto status = StatusOf<S>::good();");
-    print_lines(out, body,
-                {module, names, "parameter_status", true, false, "", false, [](std::size_t, const std::string& value) {
-                     return fmt::format("StatusOf<S>::fail(status, !({} > S(0)), Status::left_domain);", value);
-                 }});
+    print_lines(out, body, {module, names, "parameter_status", true, {}, {}, [](std::size_t, const std::string& value) {
+                                return fmt::format("StatusOf<S>::fail(status, !({} > S(0)), Status::left_domain);",
+                                                   value);
+                            }});
     out.line(has_status ? "return status;" : "return StatusOf<S>::good();");
     close_block(out);
 }

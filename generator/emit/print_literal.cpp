@@ -72,22 +72,28 @@ Spelling print_pi()
     return {"(S(3.141592653589793) + S(1.2246467991473532e-16))", 5};
 }
 
-std::string comment_text(std::string_view text)
+std::string plain_text(std::string_view text)
 {
     std::string result;
-    for (const char c : text.substr(0, 200)) {
+    for (const char c : text) {
         const bool control = static_cast<unsigned char>(c) < 0x20U || c == 0x7f;
         const char kept = control ? ' ' : c == '\\' ? '/' : c;
         const char last = result.empty() ? '\0' : result.back();
         if ((last == '?' && kept == '?') || (last == '*' && kept == '/')) result += ' ';
         result += kept;
     }
+    while (!result.empty() && result.back() == ' ') result.pop_back();
+    return result;
+}
+
+std::string comment_text(std::string_view text)
+{
+    std::string result = plain_text(text.substr(0, 200));
     if (text.size() > 200) { // not in the middle of a character
         while (!result.empty() && (static_cast<unsigned char>(result.back()) & 0xc0U) == 0x80U) result.pop_back();
         if (!result.empty() && static_cast<unsigned char>(result.back()) >= 0xc0U) result.pop_back();
         result += "...";
     }
-    while (!result.empty() && result.back() == ' ') result.pop_back();
     return result;
 }
 

@@ -19,8 +19,11 @@ struct Spelling {
 /// pi to 107 bits as the sum of two doubles.
 [[nodiscard]] Spelling print_pi();
 
-/// One line of user text that may stand in a // comment: control characters become spaces, a backslash becomes '/',
-/// "??" and "*/" are pulled apart, cut at 200 bytes.
+/// One line of text that may stand in a // comment: control characters become spaces, a backslash becomes '/', "??"
+/// and "*/" are pulled apart.
+[[nodiscard]] std::string plain_text(std::string_view text);
+
+/// The same of a user's description, cut at 200 bytes.
 [[nodiscard]] std::string comment_text(std::string_view text);
 
 /// The text as a C++ string literal with its quotes.

@@ -46,9 +46,26 @@ void TextBlock::line(std::string_view text)
     }
 }
 
+void TextBlock::list(std::string_view prefix, const std::vector<std::string>& items, std::string_view suffix)
+{
+    const std::size_t indentation = 4 * static_cast<std::size_t>(level_);
+    std::string row(prefix);
+    std::size_t used = indentation;
+    for (std::size_t k = 0; k < items.size(); ++k) {
+        const std::string item = items[k] + (k + 1 < items.size() ? "," : std::string(suffix));
+        if (used + row.size() + 1 + item.size() > width && k > 0) {
+            text_.append(used, ' ').append(row) += '\n';
+            used = indentation + 8;
+            row.clear();
+        }
+        row += (k > 0 && !row.empty() ? " " : "") + item;
+    }
+    text_.append(used, ' ').append(row) += '\n';
+}
+
 void TextBlock::comment(std::string_view text)
 {
-    const std::string clean = comment_text(text);
+    const std::string clean = plain_text(text);
     text_.append(4 * static_cast<std::size_t>(level_), ' ') += clean.empty() ? "///\n" : "/// " + clean + "\n";
 }
 

@@ -15,8 +15,10 @@ class TextBlock {
     /// One line; a longer one is broken at spaces outside of string literals, its continuation eight columns further
     /// right.
     void line(std::string_view text);
+    /// `prefix`, the items with ", " between them, `suffix`; a longer line is broken between items only.
+    void list(std::string_view prefix, const std::vector<std::string>& items, std::string_view suffix);
     void blank() { text_ += '\n'; }
-    /// `/// text`, sanitised by comment_text; an empty text gives a bare `///`.
+    /// `/// text`, sanitised by plain_text; an empty text gives a bare `///`.
     void comment(std::string_view text);
     [[nodiscard]] const std::string& text() const { return text_; }
 

@@ -5,10 +5,42 @@
 #include "graph/unknowns/implicit.hpp"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace lagen {
+
+/// A named quantity of a module: a parameter, a lane of the state, an entry of an input.
+struct Quantity {
+    std::string name; ///< in the model; the header alters what C++ cannot bear
+    std::string text; ///< what it is; may be empty
+    std::string unit; ///< may be empty
+    NodeId input = 0; ///< its input node
+};
+
+/// The extent of a number (rank 0), a column (rank 1) or a matrix (rank 2).
+struct ArrayShape {
+    int rank = 0;
+    std::size_t rows = 1;
+    std::size_t columns = 1;
+};
+
+/// What an array is to a kernel. A state and a tangent (a rate, a perturbation) have an entry a lane of the module.
+enum class ArrayRole { time, state, tangent, value };
+
+[[nodiscard]] inline bool has_lanes(ArrayRole role)
+{
+    return role == ArrayRole::state || role == ArrayRole::tangent;
+}
+
+/// An argument that a kernel reads. Parameters are none: they belong to the module.
+struct KernelInput {
+    std::string name; ///< as in C++: "t", "s", "xk1", "h"
+    ArrayRole role = ArrayRole::value;
+    ArrayShape shape;
+    std::vector<Quantity> entries; ///< by rows
+};
 
 /// One entry of an output array.
 struct KernelEntry {
@@ -17,42 +49,52 @@ struct KernelEntry {
     NodeId node = 0;
 };
 
-/// An array that a kernel writes. Entries that are not listed are zero. Rows and columns count from 0.
+/// An array that a kernel computes. Entries that are not listed are zero. Rows and columns count from 0.
 struct KernelOutput {
     std::string name; ///< as in C++ ("ds", "values")
-    std::size_t rows = 1;
-    std::size_t columns = 1;
+    ArrayShape shape;
     std::vector<KernelEntry> entries; ///< by rows
+    ArrayRole role = ArrayRole::value;
+    bool sparse = false; ///< given by its entries, with constexpr arrays of their rows and columns
+    std::vector<std::string> entry_names = {}; ///< of a vector (observables, ..): constexpr NAME_names; may be empty
 };
 
-/// What a kernel returns and takes, in C++.
-enum class KernelShape {
-    right_hand_side, ///< Status rhs(Scalar t, const State& s, State& ds) const noexcept
-    scalar,          ///< Scalar NAME(Scalar t, const State& s) const noexcept
-    vector,          ///< Eigen::Matrix<Scalar, rows, 1> NAME(t, s)
-    matrix,          ///< Eigen::Matrix<Scalar, rows, columns> NAME(t, s)
-    sparse,          ///< void NAME(t, s, values) with constexpr NAME_rows / NAME_columns arrays
-    directional,     ///< Status NAME(t, s, const State& v, State& dv): linear in v, KernelModule::direction
-};
-
-/// A function of (t, state, parameters) with one output.
-struct Kernel {
-    std::string name; ///< as in C++: "rhs", "energy", "momentum", ...
-    KernelShape shape = KernelShape::scalar;
-    KernelOutput output;
-    std::vector<std::string> documentation; ///< lines of its docstring: formula, shape, index order, units
-    /// Names of the entries of a vector (observables, events, ...); emitted as constexpr NAME_names; may be empty.
-    std::vector<std::string> entry_names;
-    /// Divisors that are 1 x 1 blocks of a matrix: where one vanishes the kernel answers singular_mass_matrix.
+/// What a kernel looks at beside its factorisations: divisors that are 1 x 1 blocks of a matrix. Where one of either
+/// has no inverse it answers singular_mass_matrix.
+struct KernelChecks {
     std::vector<NodeId> pivots;
 };
 
-/// A named quantity of a module: parameter or state lane.
-struct Quantity {
-    std::string name; ///< in the model; the header alters what C++ cannot bear
-    std::string text; ///< what it is; may be empty
-    std::string unit; ///< may be empty
-    NodeId input = 0; ///< its input node
+/// A function of its inputs and of the parameters. In C++ one rule makes its signature of it:
+///   with checks                       status_t<S> NAME(inputs, outputs by reference)
+///   without, one output, not sparse   its value: S, a column or a matrix
+///   else                              void NAME(inputs, outputs by reference)
+/// An output may stand in the place of a state or a tangent that is read. A kernel of one sparse output is called
+/// NAME_values; NAME gives the same as a dense matrix, where that is small.
+struct Kernel {
+    std::string name; ///< as in C++: "rhs", "energy", "momentum", ...
+    std::vector<KernelInput> inputs;
+    std::vector<KernelOutput> outputs;
+    std::optional<KernelChecks> checks = {};
+    std::vector<std::string> documentation = {}; ///< lines of its docstring: formula, shape, index order, units
+};
+
+/// The nodes of all entries of all outputs.
+[[nodiscard]] std::vector<NodeId> nodes_of(const Kernel& kernel);
+
+/// Lanes of State that stand together, a struct in C++.
+struct LaneGroup {
+    std::string type; ///< of the struct: "Base", "Fibre", "Momenta"
+    std::string role; ///< "base", "fibre": its argument of state(), and ROLE_dimension
+    std::string text; ///< what the struct is
+    std::vector<Quantity> lanes;
+};
+
+/// What the kernels of a module say together.
+enum class ModuleKind {
+    vector_field,     ///< rhs(t, s) is the rate of s
+    step,             ///< a residual of two states vanishes for a step of a discrete motion
+    boundary_problem, ///< residuals at both ends of an interval
 };
 
 /// Everything that one generated class holds.
@@ -65,19 +107,24 @@ struct KernelModule {
     std::string regenerate;             ///< the command that makes this header again
     std::vector<std::string> warnings;  ///< e.g. that the model was not proved
     std::vector<std::string> equations; ///< the equations in UTF-8, a line each, for the banner
+    std::string derive;                 ///< the command that prints all of them
     std::shared_ptr<Graph> graph;
     NodeId time = 0; ///< the input t
     std::vector<Quantity> parameters;
     std::vector<NodeId> parameter_defaults; ///< closed nodes without inputs, one a parameter
     /// Conditions on the parameters alone, as text, with a node each that is positive where it holds.
     std::vector<std::pair<std::string, NodeId>> parameter_conditions;
-    std::vector<Quantity> base;          ///< first lanes of State
-    std::vector<Quantity> fibre;         ///< the other lanes (fibre coordinates, or momenta)
-    std::string fibre_name = "Fibre";    ///< the struct of the second group
-    std::vector<Quantity> direction;     ///< inputs of a vector v beside the state, a lane each; may be empty
-    std::vector<ImplicitBlock> implicit; ///< unknowns of the kernels, in the order in which they are solved
+    ModuleKind kind = ModuleKind::vector_field;
+    std::vector<LaneGroup> groups;       ///< of the lanes of State, in their order
+    std::vector<ImplicitBlock> implicit; ///< unknowns of the kernels at (t, s), in the order in which they are solved
     std::vector<Kernel> kernels;
 };
+
+/// The lanes of State.
+[[nodiscard]] std::vector<Quantity> lanes_of(const KernelModule& module);
+
+/// `t` and `s`, the arguments of every kernel at a time and a state.
+[[nodiscard]] std::vector<KernelInput> point_inputs(const KernelModule& module);
 
 [[nodiscard]] bool has_kernel(const KernelModule& module, const std::string& name);
 /// Throws InternalError where the module has none of that name.

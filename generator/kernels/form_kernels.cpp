@@ -79,11 +79,13 @@ class ModuleBuilder {
         module_.time = form_.time;
         for (std::size_t k = 0; k < model_.parameters.size(); ++k)
             module_.parameters.push_back(quantity(model_.parameters[k].symbol, form_.parameters[k]));
+        LaneGroup base{"Base", "base", "Base coordinates, the first lanes of State.", {}};
         for (std::size_t i = 0; i < form_.x.size(); ++i)
-            module_.base.push_back(quantity(model_.base.coordinates[i], form_.x[i]));
+            base.lanes.push_back(quantity(model_.base.coordinates[i], form_.x[i]));
+        LaneGroup fibre{form_.form->lane_group, "fibre", "The other lanes of State.", {}};
         for (std::size_t a = 0; a < form_.lanes.size(); ++a)
-            module_.fibre.push_back(quantity(lane_symbol(a), form_.lanes[a]));
-        module_.fibre_name = form_.form->lane_group;
+            fibre.lanes.push_back(quantity(lane_symbol(a), form_.lanes[a]));
+        module_.groups = {std::move(base), std::move(fibre)};
         module_.implicit = form_.implicit;
         module_.parameter_conditions = form_.parameter_conditions;
         for (const auto& [parameter, value] : system_.parameter_values) module_.parameter_defaults.push_back(value);
@@ -94,29 +96,33 @@ class ModuleBuilder {
         return (form_.form->momenta ? model_.fibre.momenta : model_.fibre.coordinates)[a];
     }
 
-    /// Adds a kernel with its entries and pivots simplified together.
+    /// Adds a kernel at (t, s) with its entries and pivots simplified together.
     void add(Kernel kernel)
     {
-        std::vector<NodeId> outputs;
-        for (const KernelEntry& entry : kernel.output.entries) outputs.push_back(entry.node);
-        outputs.insert(outputs.end(), kernel.pivots.begin(), kernel.pivots.end());
+        std::vector<KernelInput> inputs = point_inputs(module_);
+        kernel.inputs.insert(kernel.inputs.begin(), inputs.begin(), inputs.end());
+        std::vector<NodeId> outputs = nodes_of(kernel);
+        if (kernel.checks) outputs.insert(outputs.end(), kernel.checks->pivots.begin(), kernel.checks->pivots.end());
         std::vector<NodeId> divisors;
         SimplifyReport report;
         outputs = simplify(*graph_, outputs, divisors, request_.reports != nullptr ? &report : nullptr);
         if (request_.reports != nullptr) request_.reports->push_back({kernel.name, std::move(report)});
-        for (std::size_t k = 0; k < kernel.output.entries.size(); ++k) kernel.output.entries[k].node = outputs[k];
-        for (std::size_t k = 0; k < kernel.pivots.size(); ++k)
-            kernel.pivots[k] = outputs[kernel.output.entries.size() + k];
-        if (kernel.shape == KernelShape::right_hand_side)
+        auto next = outputs.begin();
+        for (KernelOutput& output : kernel.outputs)
+            for (KernelEntry& entry : output.entries) entry.node = *next++;
+        if (kernel.checks) {
+            std::vector<NodeId>& pivots = kernel.checks->pivots;
+            pivots.assign(next, outputs.end());
             for (const NodeId divisor : divisors)
-                if (std::ranges::find(kernel.pivots, divisor) == kernel.pivots.end()) kernel.pivots.push_back(divisor);
+                if (std::ranges::find(pivots, divisor) == pivots.end()) pivots.push_back(divisor);
+        }
         module_.kernels.push_back(std::move(kernel));
     }
 
     void add_right_hand_side()
     {
         Kernel kernel = table_kernel(form_, "rhs", column("ds", form_.derivative));
-        kernel.pivots = form_.pivots;
+        kernel.checks->pivots = form_.pivots;
         kernel.documentation = form_.documentation;
         add(std::move(kernel));
     }
@@ -138,7 +144,7 @@ class ModuleBuilder {
     void add_named(const std::string& name, const std::vector<NodeId>& values, std::vector<std::string> names)
     {
         Kernel kernel = table_kernel(form_, name, column(name, values));
-        kernel.entry_names = std::move(names);
+        kernel.outputs[0].entry_names = std::move(names);
         add(std::move(kernel));
     }
 
@@ -167,9 +173,7 @@ class ModuleBuilder {
         for (const NamedTree& entry : *request_.scene->observe) {
             const auto known = [&](const auto& other) { return other.first == entry.name; };
             const auto lane = [&](const Quantity& other) { return other.name == entry.name; };
-            if (std::ranges::any_of(trees, known) || std::ranges::any_of(module_.base, lane) ||
-                std::ranges::any_of(module_.fibre, lane))
-                continue;
+            if (std::ranges::any_of(trees, known) || std::ranges::any_of(lanes_of(module_), lane)) continue;
             trees.emplace_back(entry.name, entry.value);
         }
         return trees;
@@ -178,8 +182,7 @@ class ModuleBuilder {
     [[nodiscard]] bool depends_on_parameters_alone(std::initializer_list<NodeId> nodes) const
     {
         std::vector<NodeId> moving = {module_.time};
-        for (const std::vector<Quantity>* lanes : {&module_.base, &module_.fibre})
-            for (const Quantity& lane : *lanes) moving.push_back(lane.input);
+        for (const Quantity& lane : lanes_of(module_)) moving.push_back(lane.input);
         return !depends_on_any(*graph_, std::vector<NodeId>(nodes), moving);
     }
 
@@ -245,14 +248,17 @@ class ModuleBuilder {
     void add_variational()
     {
         std::vector<std::pair<NodeId, NodeId>> seeds;
+        KernelInput along{"v", ArrayRole::tangent, {1, state_of(form_).size(), 1}, {}};
         for (const NodeId lane : state_of(form_)) {
-            const NodeId input = graph_->input("tangent of " + graph_->input_name(lane));
-            module_.direction.push_back({graph_->input_name(lane), {}, {}, input});
-            seeds.emplace_back(lane, input);
+            const std::string& name = graph_->input_name(lane);
+            along.entries.push_back({"d_" + name, {}, {}, graph_->input("tangent of " + name)});
+            seeds.emplace_back(lane, along.entries.back().input);
         }
         const std::vector<NodeId> tangent =
             directional(*graph_, form_.derivative, seeds_through(*graph_, form_.implicit, std::move(seeds)));
-        add(table_kernel(form_, "variational", column("dv", tangent)));
+        Kernel kernel = table_kernel(form_, "variational", column("dv", tangent));
+        kernel.inputs = {std::move(along)};
+        add(std::move(kernel));
     }
 
     /// Residuals, Jacobian and guess of each block, simplified together.

@@ -68,7 +68,7 @@ std::vector<NodeId> single_blocks(const Graph& graph, const std::vector<NodeId>&
 
 KernelOutput column(std::string name, const std::vector<NodeId>& values)
 {
-    KernelOutput output{std::move(name), values.size(), 1, {}};
+    KernelOutput output{std::move(name), {1, values.size(), 1}, {}};
     for (std::size_t k = 0; k < values.size(); ++k) output.entries.push_back({k, 0, values[k]});
     return output;
 }
@@ -76,7 +76,7 @@ KernelOutput column(std::string name, const std::vector<NodeId>& values)
 KernelOutput matrix(const Graph& graph, std::string name, std::size_t rows, std::size_t columns,
                     const std::vector<NodeId>& values)
 {
-    KernelOutput output{std::move(name), rows, columns, {}};
+    KernelOutput output{std::move(name), {2, rows, columns}, {}};
     for (std::size_t k = 0; k < values.size(); ++k)
         if (!graph.is_zero(values[k])) output.entries.push_back({k / columns, k % columns, values[k]});
     return output;
@@ -92,8 +92,14 @@ std::vector<NodeId> state_of(const Formulation& form)
 Kernel table_kernel(const Formulation& form, const std::string& name, KernelOutput output)
 {
     const KernelRow& row = kernel_row(name, form.form->kind);
-    const std::string text = fmt::format(fmt::runtime(row.documentation), output.rows, output.columns);
-    return {name, row.shape, std::move(output), {text}, {}, {}};
+    output.shape.rank = row.output.rank;
+    output.role = row.output.role;
+    output.sparse = row.output.sparse;
+    Kernel kernel{.name = name, .inputs = {}, .outputs = {}};
+    kernel.documentation = {fmt::format(fmt::runtime(row.documentation), output.shape.rows, output.shape.columns)};
+    kernel.outputs.push_back(std::move(output));
+    if (row.output.checked) kernel.checks.emplace();
+    return kernel;
 }
 
 Kernel scalar_kernel(const Formulation& form, const std::string& name, NodeId value)

@@ -65,7 +65,7 @@ void require_regular_lagrangian(const System& system, const Regularity& regulari
                                   const std::vector<NodeId>& values);
 /// The lanes of the state: x, then the others.
 [[nodiscard]] std::vector<NodeId> state_of(const Formulation& form);
-/// A kernel as its row in the table of kernels says.
+/// A kernel at (t, s) as its row in the table of kernels says; its inputs are not there yet.
 [[nodiscard]] Kernel table_kernel(const Formulation& form, const std::string& name, KernelOutput output);
 [[nodiscard]] Kernel scalar_kernel(const Formulation& form, const std::string& name, NodeId value);
 /// The derivatives of `first` = df/ds with respect to the state, through the implicit blocks.

@@ -248,7 +248,7 @@ class PontryaginForm {
         const std::vector<NodeId> values = at_controls({hamiltonian_, cost_, dH_dt_});
         Kernel controls = table_kernel(form, "controls", column("u", solution_));
         if (!is_proved()) controls.documentation = {stationary_controls};
-        controls.entry_names = form.controls;
+        controls.outputs[0].entry_names = form.controls;
         form.kernels.push_back(std::move(controls));
         form.kernels.push_back(scalar_kernel(form, "hamiltonian", values[0]));
         if (!graph_.is_zero(values[2])) form.kernels.push_back(scalar_kernel(form, "power", values[2]));

@@ -38,10 +38,10 @@ KernelModule operators_module()
     Graph& g = *module.graph;
     module.parameters = {declare(g, "I"), declare(g, "y0")};
     module.parameter_defaults = {g.apply(Op::sqrt, g.constant(2)), g.divide(g.pi(), g.constant(3))};
-    module.base = {declare(g, "class"), declare(g, "θ"), declare(g, "energy")};
-    const NodeId a = module.base[0].input;
-    const NodeId b = module.base[1].input;
-    const NodeId c = g.add(g.power(module.base[2].input, 2), g.constant(Rational(1, 10)));
+    base_of(module) = {declare(g, "class"), declare(g, "θ"), declare(g, "energy")};
+    const NodeId a = base_of(module)[0].input;
+    const NodeId b = base_of(module)[1].input;
+    const NodeId c = g.add(g.power(base_of(module)[2].input, 2), g.constant(Rational(1, 10)));
     std::vector<NodeId> values;
     for (const Operator& row : operator_table()) {
         if (row.kind != OpKind::function || row.arity != 1 || row.op == Op::stumpff) continue;
@@ -62,8 +62,8 @@ KernelModule operators_module()
             values.push_back(g.select(g.apply(row.op, a, b), c, g.apply(row.op, a, g.constant(0))));
     values.push_back(g.multiply(g.pi(), g.subtract(a, g.multiply(g.constant(Rational(-1, 7)), g.subtract(b, c)))));
     values.push_back(g.subtract(module.parameters[0].input, g.multiply(module.parameters[1].input, module.time)));
-    module.kernels = {vector_kernel("values_of", values),
-                      scalar_kernel("energy", g.negate(g.multiply(g.negate(a), c)))};
+    module.kernels = {vector_kernel(module, "values_of", values),
+                      scalar_kernel(module, "energy", g.negate(g.multiply(g.negate(a), c)))};
     return module;
 }
 
@@ -72,12 +72,12 @@ KernelModule batches_module()
 {
     KernelModule module = empty_module("batches");
     Graph& g = *module.graph;
-    for (const char* name : {"x", "y", "z", "sines", "roots"}) module.base.push_back(declare(g, name));
+    for (const char* name : {"x", "y", "z", "sines", "roots"}) base_of(module).push_back(declare(g, name));
     std::vector<NodeId> values;
     std::vector<NodeId> sums;
-    for (std::size_t k = 0; k < module.base.size(); ++k) {
-        const NodeId x = module.base[k].input;
-        const NodeId y = module.base[(k + 1) % module.base.size()].input;
+    for (std::size_t k = 0; k < base_of(module).size(); ++k) {
+        const NodeId x = base_of(module)[k].input;
+        const NodeId y = base_of(module)[(k + 1) % base_of(module).size()].input;
         const NodeId inner = g.add(g.apply(Op::sin, x), g.apply(Op::cos, g.multiply(g.constant(100), y)));
         const NodeId square = g.add(g.power(x, 2), g.add(g.power(y, 2), g.constant(Rational(1, 100))));
         const NodeId cube = g.divide(g.constant(1), g.multiply(square, g.apply(Op::sqrt, square)));
@@ -85,7 +85,7 @@ KernelModule batches_module()
         sums.push_back(g.add(cube, g.apply(Op::sin, inner)));
     }
     values.push_back(g.apply(Op::sqrt, g.power(g.sum(sums), 2)));
-    module.kernels = {vector_kernel("values_of", values), scalar_kernel("total", g.sum(sums))};
+    module.kernels = {vector_kernel(module, "values_of", values), scalar_kernel(module, "total", g.sum(sums))};
     return module;
 }
 

@@ -22,26 +22,41 @@ inline KernelModule empty_module(const std::string& name)
     module.regenerate = "lagen generate " + name + ".toml";
     module.graph = std::make_shared<Graph>();
     module.time = module.graph->input("t");
+    module.groups = {{"Base", "base", "Base coordinates, the first lanes of State.", {}},
+                     {"Fibre", "fibre", "The other lanes of State.", {}}};
     return module;
 }
 
-inline Kernel scalar_kernel(const std::string& name, NodeId value)
+inline std::vector<Quantity>& base_of(KernelModule& module)
 {
-    Kernel kernel;
-    kernel.name = name;
-    kernel.output = {name, 1, 1, {{0, 0, value}}};
-    return kernel;
+    return module.groups[0].lanes;
 }
 
-inline Kernel vector_kernel(const std::string& name, const std::vector<NodeId>& values,
-                            KernelShape shape = KernelShape::vector)
+inline std::vector<Quantity>& fibre_of(KernelModule& module)
 {
-    Kernel kernel;
-    kernel.name = name;
-    kernel.shape = shape;
-    kernel.output.name = shape == KernelShape::right_hand_side ? "ds" : name;
-    kernel.output.rows = values.size();
-    for (std::size_t k = 0; k < values.size(); ++k) kernel.output.entries.push_back({k, 0, values[k]});
+    return module.groups[1].lanes;
+}
+
+/// A kernel at (t, s) of one output.
+inline Kernel scalar_kernel(const KernelModule& module, const std::string& name, NodeId value)
+{
+    return {.name = name, .inputs = point_inputs(module), .outputs = {{name, {}, {{0, 0, value}}}}};
+}
+
+inline Kernel vector_kernel(const KernelModule& module, const std::string& name, const std::vector<NodeId>& values)
+{
+    KernelOutput output{name, {1, values.size(), 1}, {}};
+    for (std::size_t k = 0; k < values.size(); ++k) output.entries.push_back({k, 0, values[k]});
+    return {.name = name, .inputs = point_inputs(module), .outputs = {output}};
+}
+
+/// A right-hand side: it answers a status.
+inline Kernel rate_kernel(const KernelModule& module, const std::string& name, const std::vector<NodeId>& rates)
+{
+    Kernel kernel = vector_kernel(module, name, rates);
+    kernel.outputs[0].name = "ds";
+    kernel.outputs[0].role = ArrayRole::tangent;
+    kernel.checks.emplace();
     return kernel;
 }
 
@@ -51,9 +66,9 @@ inline KernelModule product_module()
     KernelModule module = empty_module("product");
     Graph& graph = *module.graph;
     module.title = "Sine times y";
-    module.base = {declare(graph, "x"), declare(graph, "y")};
-    module.kernels = {
-        scalar_kernel("f", graph.multiply(graph.apply(Op::sin, module.base[0].input), module.base[1].input))};
+    base_of(module) = {declare(graph, "x"), declare(graph, "y")};
+    module.kernels = {scalar_kernel(
+        module, "f", graph.multiply(graph.apply(Op::sin, base_of(module)[0].input), base_of(module)[1].input))};
     return module;
 }
 
@@ -67,25 +82,25 @@ inline KernelModule pendulum_module()
     module.parameters = {declare(graph, "m", "mass", "kg"), declare(graph, "l", "length", "m"),
                          declare(graph, "g", "gravity", "m/s^2")};
     module.parameter_defaults = {graph.constant(1), graph.constant(Rational(1, 2)), graph.constant(Rational(981, 100))};
-    module.base = {declare(graph, "th", "angle from the lowest point", "rad")};
-    module.fibre = {declare(graph, "v", "angular velocity", "rad/s")};
+    base_of(module) = {declare(graph, "th", "angle from the lowest point", "rad")};
+    fibre_of(module) = {declare(graph, "v", "angular velocity", "rad/s")};
     const NodeId m = module.parameters[0].input;
     const NodeId l = module.parameters[1].input;
     const NodeId g = module.parameters[2].input;
-    const NodeId th = module.base[0].input;
-    const NodeId v = module.fibre[0].input;
+    const NodeId th = base_of(module)[0].input;
+    const NodeId v = fibre_of(module)[0].input;
     const NodeId inertia = graph.multiply(m, graph.power(l, 2));
     const NodeId weight = graph.multiply(graph.multiply(m, g), l);
     const NodeId torque = graph.negate(graph.multiply(weight, graph.apply(Op::sin, th)));
-    Kernel rhs = vector_kernel("rhs", {v, graph.divide(torque, inertia)}, KernelShape::right_hand_side);
+    Kernel rhs = rate_kernel(module, "rhs", {v, graph.divide(torque, inertia)});
     rhs.documentation = {"The equations of motion, ds = (thdot, vdot)."};
-    rhs.pivots = {inertia};
+    rhs.checks->pivots = {inertia};
     const NodeId kinetic = graph.divide(graph.multiply(inertia, graph.power(v, 2)), graph.constant(2));
     const NodeId potential = graph.negate(graph.multiply(weight, graph.apply(Op::cos, th)));
-    module.kernels = {rhs, scalar_kernel("energy", graph.add(kinetic, potential))};
+    module.kernels = {rhs, scalar_kernel(module, "energy", graph.add(kinetic, potential))};
     Kernel tip = vector_kernel(
-        "tip", {graph.multiply(l, graph.apply(Op::sin, th)), graph.multiply(l, graph.apply(Op::cos, th))});
-    tip.entry_names = {"tip x", "tip y"};
+        module, "tip", {graph.multiply(l, graph.apply(Op::sin, th)), graph.multiply(l, graph.apply(Op::cos, th))});
+    tip.outputs[0].entry_names = {"tip x", "tip y"};
     module.kernels.push_back(tip);
     return module;
 }
@@ -104,18 +119,18 @@ inline KernelModule solve_module(const std::string& name, const std::vector<std:
         for (std::size_t j = 0; j < n; ++j) {
             const bool mirrored = structure != MatrixStructure::general && j > i;
             if (mirrored || !pattern[i][j]) continue;
-            module.base.push_back(declare(graph, "a" + std::to_string(i) + "_" + std::to_string(j)));
-            matrix[i * n + j] = module.base.back().input;
-            if (structure != MatrixStructure::general) matrix[j * n + i] = module.base.back().input;
+            base_of(module).push_back(declare(graph, "a" + std::to_string(i) + "_" + std::to_string(j)));
+            matrix[i * n + j] = base_of(module).back().input;
+            if (structure != MatrixStructure::general) matrix[j * n + i] = base_of(module).back().input;
         }
     for (std::size_t i = 0; i < n; ++i) {
-        module.fibre.push_back(declare(graph, "b" + std::to_string(i)));
-        right[i] = module.fibre.back().input;
+        fibre_of(module).push_back(declare(graph, "b" + std::to_string(i)));
+        right[i] = fibre_of(module).back().input;
     }
     const std::vector<NodeId> z = graph.solve(matrix, right, structure);
-    std::vector<NodeId> lanes(module.base.size(), graph.constant(0));
+    std::vector<NodeId> lanes(base_of(module).size(), graph.constant(0));
     lanes.insert(lanes.end(), z.begin(), z.end());
-    module.kernels = {vector_kernel("rhs", lanes, KernelShape::right_hand_side)};
+    module.kernels = {rate_kernel(module, "rhs", lanes)};
     return module;
 }
 

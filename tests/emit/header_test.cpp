@@ -37,9 +37,9 @@ TEST_CASE("text of the user cannot break out of a comment or a string", "[emit]"
 {
     KernelModule module = product_module();
     module.title = "evil\n#error one\r\\";
-    module.base[0].text = "*/ int x; \?\?/ \\";
-    module.base[0].unit = "m\n";
-    module.kernels[0].entry_names = {"a\"b\\n"};
+    base_of(module)[0].text = "*/ int x; \?\?/ \\";
+    base_of(module)[0].unit = "m\n";
+    module.kernels[0].outputs[0].entry_names = {"a\"b\\n"};
     const std::string text = print_header(module);
     CHECK(text.find("\n#error") == std::string::npos);
     CHECK(text.find('\\' + std::string("\n")) == std::string::npos);
@@ -53,9 +53,10 @@ TEST_CASE("Stumpff functions of one argument are one call, and their header is i
 {
     KernelModule module = empty_module("turning");
     Graph& g = *module.graph;
-    module.base = {declare(g, "x"), declare(g, "stumpff")};
-    const NodeId z = g.multiply(module.base[0].input, module.base[1].input);
-    module.kernels = {vector_kernel("f", {g.stumpff(1, z), g.stumpff(3, z)}), scalar_kernel("h", g.stumpff(2, z))};
+    base_of(module) = {declare(g, "x"), declare(g, "stumpff")};
+    const NodeId z = g.multiply(base_of(module)[0].input, base_of(module)[1].input);
+    module.kernels = {vector_kernel(module, "f", {g.stumpff(1, z), g.stumpff(3, z)}),
+                      scalar_kernel(module, "h", g.stumpff(2, z))};
     const std::string text = print_header(module);
     CHECK(text.find("#include \"lagen/stumpff.hpp\"\n") != std::string::npos);
     CHECK(text.find("const S w0 = x * stumpff_;\n        const auto w1 = stumpff_orders<1, 3, S>(w0);\n") !=
@@ -70,9 +71,9 @@ TEST_CASE("square roots are the runtime's, and headers are included where their 
 {
     KernelModule module = empty_module("rooted");
     Graph& g = *module.graph;
-    module.base = {declare(g, "x"), declare(g, "square_roots")};
-    const NodeId sum = g.add(module.base[0].input, module.base[1].input);
-    module.kernels = {scalar_kernel("f", g.apply(Op::sqrt, sum))};
+    base_of(module) = {declare(g, "x"), declare(g, "square_roots")};
+    const NodeId sum = g.add(base_of(module)[0].input, base_of(module)[1].input);
+    module.kernels = {scalar_kernel(module, "f", g.apply(Op::sqrt, sum))};
     const std::string text = print_header(module);
     CHECK(text.find("#include \"lagen/roots.hpp\"\n") != std::string::npos);
     CHECK(text.find("using arithmetic::sqrt;\n") != std::string::npos);
@@ -85,6 +86,50 @@ TEST_CASE("the same module gives the same bytes", "[emit]")
 {
     CHECK(print_header(pendulum_module()) == print_header(pendulum_module()));
     CHECK(print_header(pendulum_module()).size() > 1000);
+}
+
+TEST_CASE("an equation stands whole in a banner, or is left out with the command that prints it", "[emit]")
+{
+    KernelModule module = product_module();
+    module.derive = "lagen derive product.toml";
+    module.regenerate += std::string(300, 'x');
+    const std::string longest(200, 'a');
+    module.equations = {"motion:",  "  x = 1", "      + 2", "  y = " + longest, "  z = 3", "      + " + longest,
+                        "      + 4"};
+    std::string text = print_header(module);
+    CHECK(text.find("///   motion:\n///     x = 1\n///         + 2\n"
+                    "///     (2 equations are too long to stand here: lagen derive product.toml prints them)\n///\n") !=
+          std::string::npos);
+    module.equations = {"  y = " + longest, "  z = " + longest.substr(6)};
+    text = print_header(module);
+    CHECK(text.find("///     (one equation is too long to stand here: lagen derive product.toml prints it)\n"
+                    "///     z = " +
+                    longest.substr(6) + "\n") != std::string::npos);
+    CHECK(text.find(module.regenerate + "\n") != std::string::npos);
+}
+
+TEST_CASE("the entries of a vector are stored in their order, the members of a struct are loaded by its names",
+          "[emit]")
+{
+    KernelModule module = empty_module("ordered");
+    Graph& g = *module.graph;
+    module.parameters = {declare(g, "a"), declare(g, "b"), declare(g, "unread")};
+    std::vector<NodeId> sums{module.parameters[0].input};
+    std::vector<NodeId> products;
+    for (int k = 0; k < 20; ++k) { // late values first: the order of least pressure is another one
+        base_of(module).push_back(declare(g, "x" + std::to_string(k)));
+        sums.push_back(g.add(g.multiply(sums.back(), base_of(module).back().input), module.parameters[1].input));
+    }
+    for (std::size_t k = sums.size() - 1; k > 0; --k) products.push_back(g.multiply(sums[k], sums[k - 1]));
+    module.kernels = {vector_kernel(module, "f", products)};
+    const std::string text = print_header(module);
+    std::size_t at = text.find("const auto [a, b, unread] = parameters;\n");
+    CHECK(at != std::string::npos);
+    for (std::size_t k = 0; k < products.size(); ++k) {
+        const std::size_t next = text.find("result[" + std::to_string(k) + "] = ", at);
+        CHECK(next != std::string::npos);
+        at = next;
+    }
 }
 
 TEST_CASE("names that C++ cannot bear are altered and stay distinct", "[emit]")
@@ -101,14 +146,11 @@ TEST_CASE("shared terms avoid the names of the model", "[emit]")
 {
     KernelModule module = empty_module("clash");
     Graph& graph = *module.graph;
-    module.base = {declare(graph, "w0"), declare(graph, "s"), declare(graph, "ds")};
-    const NodeId shared = graph.add(module.base[0].input, module.base[1].input);
+    base_of(module) = {declare(graph, "w0"), declare(graph, "s"), declare(graph, "ds")};
+    const NodeId shared = graph.add(base_of(module)[0].input, base_of(module)[1].input);
     const NodeId root = graph.apply(Op::sqrt, shared);
-    module.kernels = {
-        vector_kernel("rhs", {graph.multiply(root, module.base[2].input), root, shared}, KernelShape::right_hand_side)};
+    module.kernels = {rate_kernel(module, "rhs", {graph.multiply(root, base_of(module)[2].input), root, shared})};
     const std::string text = print_header(module);
-    CHECK(text.find("const S s_ = s[1];\n") != std::string::npos);
-    CHECK(text.find("const S ds_ = s[2];\n") != std::string::npos);
+    CHECK(text.find("const S w0 = s[0], s_ = s[1], ds_ = s[2];\n") != std::string::npos);
     CHECK(text.find("const S u0 = w0 + s_;\n") != std::string::npos);
-    CHECK(text.find("const S w0 = s[0];\n") != std::string::npos);
 }

@@ -16,13 +16,11 @@ KernelModule module_with_jacobian()
     KernelModule module = pendulum_module();
     Graph& g = *module.graph;
     const NodeId ratio = g.divide(module.parameters[2].input, module.parameters[1].input);
-    Kernel kernel;
     module.parameter_conditions = {{"l > 0", module.parameters[1].input}};
-    kernel.name = "jacobian";
-    kernel.shape = KernelShape::sparse;
-    kernel.output = {"values", 2, 2, {{0, 1, g.constant(1)}}};
-    kernel.output.entries.push_back({1, 0, g.negate(g.multiply(ratio, g.apply(Op::cos, module.base[0].input)))});
-    module.kernels.push_back(kernel);
+    KernelOutput values{"values", {2, 2, 2}, {{0, 1, g.constant(1)}}};
+    values.sparse = true;
+    values.entries.push_back({1, 0, g.negate(g.multiply(ratio, g.apply(Op::cos, base_of(module)[0].input)))});
+    module.kernels.push_back({.name = "jacobian", .inputs = point_inputs(module), .outputs = {values}});
     return module;
 }
 

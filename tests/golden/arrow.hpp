@@ -99,17 +99,8 @@ class arrow {
 
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        const S a0_0 = s[0];
-        const S a1_0 = s[1];
-        const S a1_1 = s[2];
-        const S a2_0 = s[3];
-        const S a2_2 = s[4];
-        const S a3_0 = s[5];
-        const S a3_3 = s[6];
-        const S b0 = s[7];
-        const S b1 = s[8];
-        const S b2 = s[9];
-        const S b3 = s[10];
+        const S a0_0 = s[0], a1_0 = s[1], a1_1 = s[2], a2_0 = s[3], a2_2 = s[4], a3_0 = s[5], a3_3 = s[6];
+        const S b0 = s[7], b1 = s[8], b2 = s[9], b3 = s[10];
         auto status = StatusOf<S>::good();
         ds[0] = S(0);
         ds[1] = S(0);

@@ -84,12 +84,8 @@ class closed_form {
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
         using std::abs;
-        const S a0_0 = s[0];
-        const S a0_1 = s[1];
-        const S a1_0 = s[2];
-        const S a1_1 = s[3];
-        const S b0 = s[4];
-        const S b1 = s[5];
+        const S a0_0 = s[0], a0_1 = s[1], a1_0 = s[2], a1_1 = s[3];
+        const S b0 = s[4], b1 = s[5];
         auto status = StatusOf<S>::good();
         ds[0] = S(0);
         ds[1] = S(0);

@@ -89,8 +89,7 @@ class pendulum {
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
         auto status = StatusOf<S>::good();
-        const S m = parameters.m;
-        const S l = parameters.l;
+        const auto [m, l, g] = parameters;
         StatusOf<S>::fail(status, m * (l * l) == S(0), Status::singular_mass_matrix);
         return status;
     }
@@ -102,9 +101,7 @@ class pendulum {
         const S th = s[0];
         const S v = s[1];
         ds[0] = v;
-        const S m = parameters.m;
-        const S l = parameters.l;
-        const S g = parameters.g;
+        const auto [m, l, g] = parameters;
         ds[1] = -m * g * l * sin(th) / (m * (l * l));
         return StatusOf<S>::good();
     }
@@ -114,9 +111,7 @@ class pendulum {
         using std::cos;
         const S th = s[0];
         const S v = s[1];
-        const S m = parameters.m;
-        const S l = parameters.l;
-        const S g = parameters.g;
+        const auto [m, l, g] = parameters;
         return m * (l * l) * (v * v) / S(2) - m * g * l * cos(th);
     }
 

@@ -93,15 +93,8 @@ class pivoted {
 
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        const S a0_0 = s[0];
-        const S a1_0 = s[1];
-        const S a1_1 = s[2];
-        const S a2_0 = s[3];
-        const S a2_1 = s[4];
-        const S a2_2 = s[5];
-        const S b0 = s[6];
-        const S b1 = s[7];
-        const S b2 = s[8];
+        const S a0_0 = s[0], a1_0 = s[1], a1_1 = s[2], a2_0 = s[3], a2_1 = s[4], a2_2 = s[5];
+        const S b0 = s[6], b1 = s[7], b2 = s[8];
         auto status = StatusOf<S>::good();
         ds[0] = S(0);
         ds[1] = S(0);

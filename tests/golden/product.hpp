@@ -67,8 +67,7 @@ class product {
     [[nodiscard]] S f([[maybe_unused]] S t, const State& s) const noexcept
     {
         using std::sin;
-        const S x = s[0];
-        const S y = s[1];
+        const S x = s[0], y = s[1];
         return sin(x) * y;
     }
 };

@@ -85,7 +85,7 @@ TEST_CASE("the derivative of an angle is that of atan2", "[kernels]")
     const double square = 0.6 * 0.6 + 0.3 * 0.3, sine = 0.3 / std::sqrt(square);
     bool seen = false;
     for (std::size_t k = 0; k < values.size(); ++k) {
-        const KernelEntry& entry = jacobian.output.entries[k];
+        const KernelEntry& entry = jacobian.outputs[0].entries[k];
         if (entry.row != 0 || entry.column != 3) continue;
         seen = true; // d(2 cos th)/dq = -2 sin th * p/(p^2 + q^2)
         CHECK(values[k] == Approx(-2 * sine * 0.6 / square).epsilon(1e-13));

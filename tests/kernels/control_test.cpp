@@ -228,7 +228,7 @@ TEST_CASE("derivatives through bounded controls are those of the root inside, an
         const std::vector<double> values = values_of(module, "jacobian", {{"t", 0}, {"x", x}, {"p", p}});
         const Kernel& jacobian = find_kernel(module, "jacobian");
         for (std::size_t k = 0; k < values.size(); ++k) {
-            const KernelEntry& entry = jacobian.output.entries[k];
+            const KernelEntry& entry = jacobian.outputs[0].entries[k];
             const std::vector<double> up = entry.column == 0 ? rate(x + step, p) : rate(x, p + step);
             const std::vector<double> down = entry.column == 0 ? rate(x - step, p) : rate(x, p - step);
             CHECK(std::abs(values[k] - (up[entry.row] - down[entry.row]) / (2 * step)) <=

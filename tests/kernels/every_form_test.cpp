@@ -17,8 +17,7 @@ std::vector<std::pair<NodeId, NodeId>> along_the_motion(const KernelModule& modu
     const std::vector<NodeId> rhs = nodes_of(find_kernel(module, "rhs"));
     std::vector<std::pair<NodeId, NodeId>> seeds{{module.time, module.graph->constant(1)}};
     std::size_t lane = 0;
-    for (const auto* group : {&module.base, &module.fibre})
-        for (const Quantity& quantity : *group) seeds.emplace_back(quantity.input, rhs[lane++]);
+    for (const Quantity& quantity : lanes_of(module)) seeds.emplace_back(quantity.input, rhs[lane++]);
     return seeds_through(*module.graph, module.implicit, std::move(seeds));
 }
 
@@ -70,10 +69,10 @@ TEST_CASE("the Hamiltonian form moves as the Lagrangian form does", "[kernels]")
         const Values point = random_point(lagrange, 5);
         Values other = point;
         const std::vector<double> momenta = values_of(lagrange, "momentum", point);
-        for (std::size_t a = 0; a < momenta.size(); ++a) other[hamilton.fibre[a].name] = momenta[a];
+        for (std::size_t a = 0; a < momenta.size(); ++a) other[hamilton.groups[1].lanes[a].name] = momenta[a];
         const std::vector<double> velocity = values_of(hamilton, "velocity", other);
         for (std::size_t a = 0; a < momenta.size(); ++a)
-            CHECK(std::abs(velocity[a] - point.at(lagrange.fibre[a].name)) <=
+            CHECK(std::abs(velocity[a] - point.at(lagrange.groups[1].lanes[a].name)) <=
                   tolerance::roundoff(4096) * (1 + largest(velocity)));
         // d/dt p(x, y) along the Lagrangian motion is mudot.
         Graph& graph = *lagrange.graph;
@@ -82,7 +81,7 @@ TEST_CASE("the Hamiltonian form moves as the Lagrangian form does", "[kernels]")
         const std::vector<double> expected = evaluate<double>(graph, rate, point);
         const std::vector<double> ds = values_of(hamilton, "rhs", other);
         for (std::size_t a = 0; a < expected.size(); ++a)
-            CHECK(std::abs(ds[hamilton.base.size() + a] - expected[a]) <=
+            CHECK(std::abs(ds[hamilton.groups[0].lanes.size() + a] - expected[a]) <=
                   tolerance::roundoff(1U << 16U) * (1 + largest(expected) + largest(ds)));
         ++compared;
     }
@@ -97,12 +96,11 @@ TEST_CASE("the Jacobian of every form of every model agrees with central differe
             const Kernel& jacobian = find_kernel(module, "jacobian");
             const Values point = random_point(module, 11);
             std::vector<std::string> lanes;
-            for (const auto* group : {&module.base, &module.fibre})
-                for (const Quantity& quantity : *group) lanes.push_back(quantity.name);
+            for (const Quantity& quantity : lanes_of(module)) lanes.push_back(quantity.name);
             const std::vector<double> values = values_of(module, "jacobian", point);
             std::vector<std::vector<double>> dense(lanes.size(), std::vector<double>(lanes.size(), 0.0));
             for (std::size_t k = 0; k < values.size(); ++k)
-                dense[jacobian.output.entries[k].row][jacobian.output.entries[k].column] = values[k];
+                dense[jacobian.outputs[0].entries[k].row][jacobian.outputs[0].entries[k].column] = values[k];
             const double h = 1e-4;
             for (std::size_t column = 0; column < lanes.size(); ++column) {
                 const auto at = [&](double steps) {

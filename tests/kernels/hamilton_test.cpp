@@ -293,12 +293,13 @@ TEST_CASE("the variational equations are the Jacobian times a vector", "[kernels
         const KernelModule module = module_of(text, form, {"rhs", "jacobian", "variational"});
         Values point{{"t", 0.25}, {"m", 2}, {"x", 0.5}, {"p_v_x", 0.75}, {"v_x", 0.6}};
         const std::vector<double> v{0.3, -1.25};
-        for (std::size_t k = 0; k < 2; ++k) point[module.graph->input_name(module.direction[k].input)] = v[k];
+        for (std::size_t k = 0; k < 2; ++k)
+            point[module.graph->input_name(find_kernel(module, "variational").inputs[2].entries[k].input)] = v[k];
         std::vector<double> expected(2, 0.0);
         const Kernel& jacobian = find_kernel(module, "jacobian");
         const std::vector<double> values = values_of(module, "jacobian", point);
         for (std::size_t k = 0; k < values.size(); ++k)
-            expected[jacobian.output.entries[k].row] += values[k] * v[jacobian.output.entries[k].column];
+            expected[jacobian.outputs[0].entries[k].row] += values[k] * v[jacobian.outputs[0].entries[k].column];
         check_close(values_of(module, "variational", point), expected);
         CHECK(std::abs(expected[1]) > 0.05);
     }

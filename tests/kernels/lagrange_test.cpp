@@ -89,11 +89,11 @@ TEST_CASE("momenta, energy and lagrangian are names in observables, invariants a
     };
     CHECK(close(values_of(module, "energy", p)[0], kinetic + potential));
     CHECK(close(values_of(module, "lagrangian", p)[0], kinetic - potential));
-    CHECK(find_kernel(module, "observables").entry_names == std::vector<std::string>{"p3", "total"});
+    CHECK(find_kernel(module, "observables").outputs[0].entry_names == std::vector<std::string>{"p3", "total"});
     CHECK(close(values_of(module, "observables", p)[0], p.at("I3") * p.at("w3")));
     CHECK(close(values_of(module, "observables", p)[1], 3 * kinetic - potential));
     CHECK(close(values_of(module, "events", p)[0], p.at("g3") - p.at("I3") * p.at("w3")));
-    CHECK(find_kernel(module, "invariants").entry_names == std::vector<std::string>{"area"});
+    CHECK(find_kernel(module, "invariants").outputs[0].entry_names == std::vector<std::string>{"area"});
 }
 
 TEST_CASE("a domain becomes values that are positive inside", "[kernels]")
@@ -104,7 +104,8 @@ TEST_CASE("a domain becomes values that are positive inside", "[kernels]")
     p["g2"] = 2;
     p["g3"] = 0.5;
     CHECK(values_of(module, "domain", p) == std::vector<double>{2.5, 2, 9});
-    CHECK(find_kernel(module, "domain").entry_names == std::vector<std::string>{"g3 > -2", "g1 < 3", "g2 != 5"});
+    CHECK(find_kernel(module, "domain").outputs[0].entry_names ==
+          std::vector<std::string>{"g3 > -2", "g1 < 3", "g2 != 5"});
     CHECK(values_of(module, "constraints", p) == std::vector<double>{4.25});
 }
 
@@ -112,13 +113,13 @@ TEST_CASE("the mass matrix of the heavy top is its three moments, the divisors o
 {
     const KernelModule module = kernels_of_text(heavy_top);
     const Kernel& mass = find_kernel(module, "mass_matrix");
-    REQUIRE(mass.output.entries.size() == 3);
+    REQUIRE(mass.outputs[0].entries.size() == 3);
     for (std::size_t a = 0; a < 3; ++a) {
-        CHECK(mass.output.entries[a].row == a);
-        CHECK(mass.output.entries[a].column == a);
+        CHECK(mass.outputs[0].entries[a].row == a);
+        CHECK(mass.outputs[0].entries[a].column == a);
     }
     CHECK(values_of(module, "mass_matrix", {{"I1", 2}, {"I2", 3}, {"I3", 5}}) == std::vector<double>{2, 3, 5});
-    CHECK(find_kernel(module, "rhs").pivots == nodes_of(mass));
+    CHECK(find_kernel(module, "rhs").checks->pivots == nodes_of(mass));
     CHECK(module.parameter_defaults.size() == 5);
     CHECK(evaluate<double>(*module.graph, module.parameter_defaults, {}) == std::vector<double>{1, 2, 3, 4.9, 9.8});
 }
@@ -127,9 +128,10 @@ TEST_CASE("what the rows of the double pendulum are divided by are divisors of i
 {
     const KernelModule module = kernels_of(read_model(std::string(LAGEN_SOURCE_DIR) + "/models/double_pendulum.toml"));
     std::vector<std::string> names;
-    for (const NodeId pivot : find_kernel(module, "rhs").pivots) names.push_back(module.graph->input_name(pivot));
+    for (const NodeId pivot : find_kernel(module, "rhs").checks->pivots)
+        names.push_back(module.graph->input_name(pivot));
     CHECK(names == std::vector<std::string>{"m2", "l1", "l2"});
-    CHECK(find_kernel(module, "jacobian").pivots.empty());
+    CHECK(find_kernel(module, "jacobian").checks->pivots.empty());
 }
 
 TEST_CASE("a bracket listed as [b, a] is the negative of [a, b]", "[kernels]")
@@ -177,5 +179,5 @@ L = "exp(t)*v_x^2/2"
     const std::vector<double> ds = values_of(module, "rhs", {{"t", 0.3}, {"x", 1}, {"v_x", 2}});
     CHECK(ds[0] == 2);
     CHECK(std::abs(ds[1] + 2) <= tolerance::roundoff(4));
-    CHECK(find_kernel(module, "rhs").pivots.size() == 1);
+    CHECK(find_kernel(module, "rhs").checks->pivots.size() == 1);
 }

@@ -37,13 +37,6 @@ inline const Kernel& find_kernel(const KernelModule& module, const std::string& 
     return module.kernels.front();
 }
 
-inline std::vector<NodeId> nodes_of(const Kernel& kernel)
-{
-    std::vector<NodeId> nodes;
-    for (const KernelEntry& entry : kernel.output.entries) nodes.push_back(entry.node);
-    return nodes;
-}
-
 using Values = std::map<std::string, double>;
 
 inline std::vector<double> values_of(const KernelModule& module, const std::string& kernel, const Values& point)
@@ -63,8 +56,7 @@ inline Values random_point(const KernelModule& module, unsigned seed)
         Values point;
         for (const NodeId input : module.graph->inputs())
             point[module.graph->input_name(input)] = 0.5 + static_cast<double>(random()) / 4294967295.0;
-        for (const auto* group : {&module.base, &module.fibre})
-            for (const Quantity& lane : *group) point[lane.name] *= scale;
+        for (const Quantity& lane : lanes_of(module)) point[lane.name] *= scale;
         std::vector<NodeId> conditions;
         for (const auto& [text, node] : module.parameter_conditions) conditions.push_back(node);
         const std::vector<double> margins = evaluate<double>(*module.graph, conditions, point);

@@ -91,7 +91,7 @@ TEST_CASE("conditions on parameters alone are no part of the domain kernel", "[k
         "test.toml",
         "name = \"bounded\"\n[parameters]\na = 1\nb = 3\n[base]\ncoordinates = [\"x\"]\ndomain = [\"a < b\", "
         "\"x < b\", \"a != 0\"]\n[algebroid]\nkind = \"tangent\"\n[lagrangian]\nL = \"v_x^2/2\"\n"));
-    CHECK(find_kernel(module, "domain").entry_names == std::vector<std::string>{"x < b"});
+    CHECK(find_kernel(module, "domain").outputs[0].entry_names == std::vector<std::string>{"x < b"});
     REQUIRE(module.parameter_conditions.size() == 2);
     std::vector<NodeId> nodes;
     for (const auto& [text, node] : module.parameter_conditions) nodes.push_back(node);
@@ -104,10 +104,12 @@ TEST_CASE("conditions on parameters alone are no part of the domain kernel", "[k
 TEST_CASE("events of all scenes are distinct, those of one scene bear their own names", "[kernels]")
 {
     const Model model = read_model_text("test.toml", oscillator);
-    CHECK(find_kernel(kernels_of(model), "events").entry_names == std::vector<std::string>{"zero", "same", "b.zero"});
+    CHECK(find_kernel(kernels_of(model), "events").outputs[0].entry_names ==
+          std::vector<std::string>{"zero", "same", "b.zero"});
     KernelRequest request;
     request.scene = &model.scenes[1];
-    CHECK(find_kernel(kernels_of(model, request), "events").entry_names == std::vector<std::string>{"zero", "same"});
+    CHECK(find_kernel(kernels_of(model, request), "events").outputs[0].entry_names ==
+          std::vector<std::string>{"zero", "same"});
 }
 
 TEST_CASE("what a scene observes beyond lanes and observables joins the observables", "[kernels]")
@@ -116,7 +118,7 @@ TEST_CASE("what a scene observes beyond lanes and observables joins the observab
     KernelRequest request;
     request.scene = &model.scenes[0];
     const KernelModule module = kernels_of(model, request);
-    CHECK(find_kernel(module, "observables").entry_names == std::vector<std::string>{"double_x", "energy"});
+    CHECK(find_kernel(module, "observables").outputs[0].entry_names == std::vector<std::string>{"double_x", "energy"});
     CHECK(values_of(module, "observables", {{"x", 3}, {"v_x", 4}}) == std::vector<double>{6, 12.5});
 }
 

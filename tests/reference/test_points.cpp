@@ -29,18 +29,17 @@ std::vector<Scalar> kernel_values(const KernelModule& module, const std::string&
     };
     for (std::size_t k = 0; k < module.parameters.size(); ++k)
         set(module.parameters[k], reference.parameters[k].second);
-    for (std::size_t i = 0; i < module.base.size(); ++i) set(module.base[i], state[i]);
-    for (std::size_t a = 0; a < module.fibre.size(); ++a) set(module.fibre[a], state[module.base.size() + a]);
+    const std::vector<Quantity> lanes = lanes_of(module);
+    for (std::size_t k = 0; k < lanes.size(); ++k) set(lanes[k], state[k]);
     solve_unknowns(*module.graph, module.implicit, inputs);
 
     const auto kernel = std::find_if(module.kernels.begin(), module.kernels.end(),
                                      [&](const Kernel& candidate) { return candidate.name == name; });
     REQUIRE(kernel != module.kernels.end());
-    std::vector<NodeId> nodes;
-    for (const KernelEntry& entry : kernel->output.entries) nodes.push_back(entry.node);
-    const std::vector<Scalar> found = evaluate<Scalar>(*module.graph, nodes, inputs);
-    std::vector<Scalar> values(kernel->output.rows, Scalar(0));
-    for (std::size_t k = 0; k < nodes.size(); ++k) values.at(kernel->output.entries[k].row) = found[k];
+    const std::vector<Scalar> found = evaluate<Scalar>(*module.graph, nodes_of(*kernel), inputs);
+    const KernelOutput& output = kernel->outputs[0];
+    std::vector<Scalar> values(output.shape.rows, Scalar(0));
+    for (std::size_t k = 0; k < found.size(); ++k) values.at(output.entries[k].row) = found[k];
     return values;
 }
 

@@ -33,25 +33,23 @@ inline std::string hex_literal(double value)
 
 inline std::string call_text(const Kernel& kernel)
 {
-    const std::size_t count = kernel.output.entries.size();
-    switch (kernel.shape) {
-    case KernelShape::right_hand_side: {
-        std::string text = "typename M::State ds; check(lagen::StatusOf<S>::all_good(m.rhs(t, s, ds)));";
-        for (const KernelEntry& entry : kernel.output.entries) text += fmt::format(" show(ds[{}]);", entry.row);
+    const KernelOutput& output = kernel.outputs[0];
+    if (kernel.checks) {
+        std::string text =
+            fmt::format("typename M::State ds; check(lagen::StatusOf<S>::all_good(m.{}(t, s, ds)));", kernel.name);
+        for (const KernelEntry& entry : output.entries) text += fmt::format(" show(ds[{}]);", entry.row);
         return text;
     }
-    case KernelShape::scalar: return fmt::format("show(m.{}(t, s));", kernel.name);
-    case KernelShape::sparse: {
+    if (output.sparse) {
+        const std::size_t count = output.entries.size();
         std::string text = fmt::format("std::array<S, {}> v; m.{}_values(t, s, v);", count, kernel.name);
         text += fmt::format(" static_assert(M::{0}_rows.size() == {1} && M::{0}_columns.size() == {1});", kernel.name,
                             count);
         return text + " for (const S& value : v) show(value);";
     }
-    default: break;
-    }
+    if (output.shape.rank == 0) return fmt::format("show(m.{}(t, s));", kernel.name);
     std::string text = fmt::format("const auto v = m.{}(t, s);", kernel.name);
-    for (const KernelEntry& entry : kernel.output.entries)
-        text += fmt::format(" show(v({}, {}));", entry.row, entry.column);
+    for (const KernelEntry& entry : output.entries) text += fmt::format(" show(v({}, {}));", entry.row, entry.column);
     return text;
 }
 
@@ -101,9 +99,8 @@ inline std::string program_text(const std::vector<CompiledCase>& cases, const st
                 text +=
                     fmt::format("        m.parameter({}) = {};\n", k, hex_literal(point.at(module.parameters[k].name)));
             std::size_t lane = 0;
-            for (const auto* group : {&module.base, &module.fibre})
-                for (const Quantity& quantity : *group)
-                    text += fmt::format("        s[{}] = {};\n", lane++, hex_literal(point.at(quantity.name)));
+            for (const Quantity& quantity : lanes_of(module))
+                text += fmt::format("        s[{}] = {};\n", lane++, hex_literal(point.at(quantity.name)));
             text += "        check(lagen::StatusOf<S>::all_good(m.parameter_status()));\n";
             for (const Kernel& kernel : module.kernels) text += "        { " + call_text(kernel) + " }\n";
             text += "    }\n";
@@ -124,11 +121,10 @@ inline std::vector<double> expected_values(const std::vector<CompiledCase>& case
     for (const CompiledCase& one : cases)
         for (const Point& point : one.points)
             for (const Kernel& kernel : one.module.kernels) {
-                std::vector<NodeId> nodes;
-                for (const KernelEntry& entry : kernel.output.entries) nodes.push_back(entry.node);
                 Point inputs = point;
                 solve_unknowns(*one.module.graph, one.module.implicit, inputs);
-                for (const double value : evaluate<double>(*one.module.graph, nodes, inputs)) values.push_back(value);
+                for (const double value : evaluate<double>(*one.module.graph, nodes_of(kernel), inputs))
+                    values.push_back(value);
             }
     return values;
 }
