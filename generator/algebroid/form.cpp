@@ -126,7 +126,8 @@ ExteriorForm differential(BaseGradient& partial, const Algebroid& algebroid, con
             partial.append_along(derivative, algebroid.anchor[a], value);
             for (const NodeId term : derivative) components.add(joined({a}, index), term);
         }
-        // w e^{a1} ^ .. ^ d e^{ak} ^ ..: d e^{ak} has degree 2 and is moved to the front, past k forms.
+        // w e^{a1} ^ .. ^ d e^{ak} ^ ..: d passes k forms of degree 1, each with a sign; d e^{ak} moves to the front
+        // without one.
         for (std::size_t k = 0; k < index.size(); ++k) {
             FormIndex rest = index;
             rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(k));

@@ -37,7 +37,7 @@ std::string list_text(const Items& items, Print print)
 std::string control_text(const std::string& status)
 {
     if (status == "not_a_maximum")
-        return "the controls that were followed are no maximum of H any more: d2H/du2 is not negative definite";
+        return "no maximum of H is found from the controls before, or from the guess: d2H/du2 is not negative definite";
     if (status == "singular_control") return "H does not depend on a control: b = c = 0 in a + b cos u + c sin u";
     return {};
 }

@@ -25,7 +25,7 @@ class FormLowering {
             forms_.push_back(claim.form);
         }
         for (std::size_t k = 0; k < forms.size(); ++k)
-            if (forms[k].equals) claims[k].equals = value_of(*forms[k].equals);
+            if (forms[k].equals) claims[k].equals = value_of(*forms[k].equals, claims[k].equals_parts);
         return claims;
     }
 
@@ -43,16 +43,19 @@ class FormLowering {
         return form;
     }
 
-    ExteriorForm value_of(const FormExpression& expression)
+    ExteriorForm value_of(const FormExpression& expression, std::vector<NodeId>& used)
     {
         std::vector<ExteriorForm> parts;
-        for (const FormExpression& part : expression.parts) parts.push_back(value_of(part));
+        for (const FormExpression& part : expression.parts) parts.push_back(value_of(part, used));
         switch (expression.kind) {
-        case FormExpression::Kind::form: return forms_[expression.form];
-        case FormExpression::Kind::function: return function_form(lower_(expression.function));
+        case FormExpression::Kind::form:
+            for (const auto& [index, value] : forms_[expression.form].components)
+                if (!graph_.is_constant(value)) used.push_back(value);
+            return forms_[expression.form];
+        case FormExpression::Kind::function: return function_form(lowered(expression.function, used));
         case FormExpression::Kind::negative: return product(graph_, graph_.constant(-1), parts[0]);
         case FormExpression::Kind::differential: return differential(partial_, algebroid_, parts[0]);
-        case FormExpression::Kind::contraction: return contraction(graph_, section_of(expression), parts[0]);
+        case FormExpression::Kind::contraction: return contraction(graph_, section_of(expression, used), parts[0]);
         case FormExpression::Kind::sum:
         case FormExpression::Kind::wedge: break;
         }
@@ -63,11 +66,20 @@ class FormLowering {
         return result;
     }
 
-    Section section_of(const FormExpression& expression)
+    NodeId lowered(const Tree& function, std::vector<NodeId>& used)
+    {
+        const std::vector<NodeId> parts = partial_parts(graph_, lower_, function);
+        used.insert(used.end(), parts.begin(), parts.end());
+        const NodeId node = lower_(function);
+        if (!graph_.is_constant(node)) used.push_back(node);
+        return node;
+    }
+
+    Section section_of(const FormExpression& expression, std::vector<NodeId>& used)
     {
         Section section;
         for (std::size_t a = 0; a < expression.section.size(); ++a)
-            if (const NodeId value = lower_(expression.section[a]); !graph_.is_zero(value))
+            if (const NodeId value = lowered(expression.section[a], used); !graph_.is_zero(value))
                 section.push_back({a, value});
         return section;
     }

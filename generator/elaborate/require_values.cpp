@@ -32,8 +32,15 @@ class ModelValues {
         for (const ArrayValue& matrix : block.representation) add(matrix.entries);
         for (const AlgebroidBlock& inner : block.of) add(inner);
     }
+    void add(const FormExpression& expression)
+    {
+        add(expression.function);
+        add(expression.section);
+        for (const FormExpression& part : expression.parts) add(part);
+    }
     void add(const Control& control)
     {
+        add(control.guess);
         add(control.sigma);
         add(control.cost);
         for (const ControlBound& bound : control.bounds) add(std::vector{bound.lower, bound.upper});
@@ -78,7 +85,10 @@ void require_values(const Model& model)
     if (model.control) values.add(*model.control);
     values.add(model.observables);
     values.add(model.invariants);
-    for (const NamedForm& form : model.forms) values.add(form.components);
+    for (const NamedForm& form : model.forms) {
+        values.add(form.components);
+        if (form.equals) values.add(*form.equals);
+    }
     for (const Scene& scene : model.scenes) values.add(scene);
 }
 

@@ -7,8 +7,8 @@
 namespace lagen {
 
 /// Throws ModelError where a constant part of an expression of the model has no real value, as log(0):
-/// in rho, C, constraints, domain, Casimirs, L, H, forces, R, sigma, cost, bounds, observables, invariants, parameters
-/// and scenes (see proof/constant_values.hpp).
+/// in rho, C, constraints, domain, Casimirs, L, H, forces, R, sigma, cost, bounds, guesses, forms, observables,
+/// invariants, parameters and scenes (see proof/constant_values.hpp).
 void require_values(const Model& model);
 
 /// Likewise of claims from the command line.

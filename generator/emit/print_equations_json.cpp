@@ -52,7 +52,9 @@ void write_equation(JsonWriter& json, const Equation& equation)
     write_left(json, equation);
     if (equation.relation != Relation::equal)
         json.key("relation").value(equation.relation == Relation::at_least ? "at_least" : "at_most");
-    const bool of_forms = equation.left == LeftSide::differential || equation.left == LeftSide::form;
+    const bool of_forms =
+        equation.left == LeftSide::differential || equation.left == LeftSide::form ||
+        std::ranges::any_of(equation.groups, [](const TermGroup& group) { return !group.basis.empty(); });
     if (!of_forms) json.key("right").value(right_text(equation));
     json.key("groups").begin_array();
     for (const TermGroup& group : equation.groups) {

@@ -20,7 +20,7 @@ std::vector<std::string> derivation_names()
 EquationSet derive(const std::string& form, const Model& model, const System& system, const Report& report)
 {
     const WrittenAlgebroid& algebroid = system.written.algebroid;
-    if (form == "exterior") return derive_exterior(model, algebroid);
+    if (form == "exterior") return derive_exterior(model, system);
     switch (form_named(form).kind) {
     case FormKind::lagrange: return derive_lagrange(model, algebroid, report.regularity);
     case FormKind::hamilton: return derive_hamilton(model, algebroid, report.regularity);

@@ -2,6 +2,7 @@
 #include "equations/exterior.hpp"
 
 #include "equations/symbolic_model.hpp"
+#include "graph/core/lower.hpp"
 
 namespace lagen {
 namespace {
@@ -15,8 +16,39 @@ void append(const SymbolicModel& symbolic, Equation& equation, const GiNaC::ex& 
     }
 }
 
-EquationSet derive(const Model& model, const WrittenAlgebroid& algebroid)
+/// symbol = w_{a1..ap} e^{a1} ^ .. ^ e^{ap}
+Equation equation_of(SymbolicModel& symbolic, LeftSide left, const std::string& symbol, const Graph& graph,
+                     const ExteriorForm& form)
 {
+    Equation equation{left, symbol, {}, {}};
+    for (const auto& [indices, value] : form.components) {
+        std::vector<std::string> basis;
+        for (const std::size_t a : indices) basis.push_back(symbolic.algebroid().fibre[a].name);
+        append(symbolic, equation, symbolic.lower(to_tree(graph, value)), std::move(basis));
+    }
+    return equation;
+}
+
+/// Each form of the model and its differential.
+EquationBlock forms_of(SymbolicModel& symbolic, const System& system)
+{
+    Graph graph = system.graph;
+    BaseGradient partial(graph, system.algebroid.x);
+    EquationBlock block{"forms of the model and their differentials",
+                        "dω = ρ_a(ω_I) e^a∧e^I + ω_I de^I",
+                        R"(d\omega = \rho_a(\omega_I)\, e^a \wedge e^I + \omega_I\, de^I)",
+                        {}};
+    for (const FormClaim& claim : system.forms) {
+        block.equations.push_back(equation_of(symbolic, LeftSide::symbol, claim.name, graph, claim.form));
+        const ExteriorForm differential = lagen::differential(partial, system.algebroid, claim.form);
+        block.equations.push_back(equation_of(symbolic, LeftSide::differential, claim.name, graph, differential));
+    }
+    return block;
+}
+
+EquationSet derive(const Model& model, const System& system)
+{
+    const WrittenAlgebroid& algebroid = system.written.algebroid;
     SymbolicModel symbolic(model, algebroid, {});
     const auto name_of = [&](std::size_t a) { return algebroid.fibre[a].name; };
     EquationBlock functions{"differentials of the coordinates", "dx^i = ρ^i_a e^a", R"(dx^i = \rho^i_a\, e^a)", {}};
@@ -38,14 +70,15 @@ EquationSet derive(const Model& model, const WrittenAlgebroid& algebroid)
     }
     EquationSet set = symbolic.empty_set("exterior");
     set.blocks = {functions, forms};
+    if (!system.forms.empty()) set.blocks.push_back(forms_of(symbolic, system));
     return set;
 }
 
 } // namespace
 
-EquationSet derive_exterior(const Model& model, const WrittenAlgebroid& algebroid)
+EquationSet derive_exterior(const Model& model, const System& system)
 {
-    return derived(model, "the exterior differentials", [&] { return derive(model, algebroid); });
+    return derived(model, "the exterior differentials", [&] { return derive(model, system); });
 }
 
 } // namespace lagen

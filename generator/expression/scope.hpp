@@ -52,6 +52,7 @@ class Scope {
 
     /// A declared symbol or entry of a family.
     [[nodiscard]] bool has_symbol(const std::string& name) const;
+    [[nodiscard]] bool has_definition(const std::string& name) const { return find_definition(name) != nullptr; }
     /// The shape of a declared family, nullptr where there is none.
     [[nodiscard]] const Shape* find_family(const std::string& name) const;
     [[nodiscard]] std::optional<long> find_size(const std::string& name) const;

@@ -51,11 +51,24 @@ std::vector<NodeId> momentum_rates(Graph& graph, const Algebroid& algebroid, con
     return pdot;
 }
 
+namespace {
+
+/// C^c_ba is -C^c_ab as the graph writes it: what was completed from one order of the pair.
+bool is_antisymmetric(Graph& graph, const Column& ab, const Column& ba)
+{
+    return std::ranges::equal(ab, ba, [&](const ColumnEntry& x, const ColumnEntry& y) {
+        return x.index == y.index && (graph.negate(x.value) == y.value || graph.negate(y.value) == x.value);
+    });
+}
+
+} // namespace
+
 NodeId energy_rate(Graph& graph, const Algebroid& algebroid, const MomentumBalance& balance)
 {
     NodeId rate = graph.subtract(contraction(graph, balance.forces, balance.y), balance.df_dt);
     for (std::size_t a = 0; a < algebroid.r(); ++a)
         for (std::size_t b = a; b < algebroid.r(); ++b) {
+            if (a != b && is_antisymmetric(graph, algebroid.C(a, b), algebroid.C(b, a))) continue;
             const Column both = a == b ? algebroid.C(a, a) : sum(graph, algebroid.C(a, b), algebroid.C(b, a));
             for (const ColumnEntry& C : both) {
                 const NodeId factors[] = {balance.p[C.index], C.value, balance.y[a], balance.y[b]};

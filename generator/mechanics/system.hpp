@@ -44,6 +44,7 @@ struct FormClaim {
     bool closed = false;                ///< claimed: d of it is zero
     std::optional<ExteriorForm> equals; ///< claimed
     std::vector<NodeId> partial_parts;  ///< of its components as they are written
+    std::vector<NodeId> equals_parts;   ///< the functions in `equals`, and their partial parts
 };
 
 /// The trees that the nodes were lowered from, for what asks how something is written and where.

@@ -13,11 +13,22 @@ namespace {
 
 using Kind = FormExpression::Kind;
 
+constexpr std::size_t most_components = 5000; ///< of one form; a wedge product makes products of pairs of them
+
 class FormReader {
   public:
     FormReader(const ModelReader& reader, const std::string& what) : reader_(reader), what_(what) {}
 
     [[nodiscard]] FormExpression read(const Tree& tree) const
+    {
+        FormExpression result = read_any(tree);
+        require_few_components(result.degree, reader_.model.fibre.coordinates.size(), "a part of " + what_,
+                               tree->where);
+        return result;
+    }
+
+  private:
+    [[nodiscard]] FormExpression read_any(const Tree& tree) const
     {
         switch (tree->kind) {
         case TreeKind::name:
@@ -38,7 +49,6 @@ class FormReader {
         }
     }
 
-  private:
     [[nodiscard]] std::optional<std::size_t> form_called(const std::string& name) const
     {
         const std::vector<NamedForm>& forms = reader_.model.forms;
@@ -47,8 +57,18 @@ class FormReader {
         return static_cast<std::size_t>(found - forms.begin());
     }
 
+    void require_function(const Tree& tree, const std::string& what) const
+    {
+        for (const std::string& name : names_in(tree))
+            if (form_called(name))
+                throw ModelError(
+                    fmt::format("{} has the form '{}' where a function is required", what, name), tree->where,
+                    "forms are added, multiplied by functions, and stand in d(A), wedge(A, B) and i(w, A)");
+    }
+
     [[nodiscard]] FormExpression function(const Tree& tree) const
     {
+        require_function(tree, what_);
         FormExpression result;
         result.function = reader_.close(tree, {Role::parameter, Role::base}, what_);
         return result;
@@ -116,6 +136,7 @@ class FormReader {
     [[nodiscard]] FormExpression application(const Tree& tree) const
     {
         const std::size_t count = tree->arguments.size();
+        if (reader_.model.scope.has_definition(tree->name)) return function(tree); // of the model
         if (tree->name == "d") {
             require_arguments(tree, count == 1, "d(A) is the exterior differential of a form or of a function");
             return unary(Kind::differential, read(tree->arguments[0]));
@@ -154,7 +175,12 @@ class FormReader {
             return components;
         }
         const std::string what = "the section of " + what_;
+        require_function(tree, what);
         const ArrayValue value = reader_.close_array(tree, {Role::parameter, Role::base}, what);
+        if (value.shape.rank == Rank::scalar)
+            throw ModelError(
+                fmt::format("{} is one number or function, where {} components are required", what, fibre.size()),
+                tree->where, "i(w, A) has the name of a fibre coordinate, i([f, g, ..], A) all components");
         return fit_values(value, {Rank::vector, fibre.size(), 1}, what, tree->where);
     }
 
@@ -163,6 +189,18 @@ class FormReader {
 };
 
 } // namespace
+
+void require_few_components(std::size_t degree, std::size_t rank, const std::string& what, const SourceRange& where)
+{
+    std::size_t count = 1;
+    for (std::size_t k = 0; k < std::min(degree, rank - std::min(degree, rank)); ++k) {
+        count = count * (rank - k) / (k + 1);
+        if (count > most_components)
+            throw ModelError(fmt::format("{} has degree {} over {} fibre coordinates, which is more than {} components",
+                                         what, degree, rank, most_components),
+                             where);
+    }
+}
 
 FormExpression read_form_expression(const ModelReader& reader, const Tree& tree, const std::string& what)
 {

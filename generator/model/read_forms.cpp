@@ -85,6 +85,7 @@ NamedForm read_form(const ModelReader& reader, const TomlEntry& block)
         throw ModelError(fmt::format("the form '{}' has no degree", form.name), block.where(), example);
     form.degree = static_cast<std::size_t>(
         read_count(degree->value, fmt::format("the degree of the form '{}'", form.name), 0, static_cast<long>(r)));
+    require_few_components(form.degree, r, fmt::format("the form '{}'", form.name), degree->value.where);
     read_components(reader, form, block);
     if (const TomlEntry* closed = entry("closed")) {
         form.closed = read_flag(closed->value, fmt::format("'closed' of the form '{}'", form.name));

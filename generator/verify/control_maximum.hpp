@@ -3,7 +3,7 @@
 /// solve dH/du = 0: a maximum where H is smooth and d2H/du2 < 0 for all u, or on the convex set of u where alone it is
 /// defined. With bounds lo <= u <= hi the maximum is the
 /// root of dH/du, or the bound next to it, where H is separable, and smooth and strictly concave on the interval.
-/// Angles (geometry/angle_controls.hpp) have their maximum in closed form, and the other controls stand apart from
+/// Angles (verify/angle_controls.hpp) have their maximum in closed form, and the other controls stand apart from
 /// them.
 ///                                                              [Pontryagin, Boltyanskii, Gamkrelidze, Mishchenko 1962]
 #pragma once

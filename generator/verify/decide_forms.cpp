@@ -28,7 +28,8 @@ ProofStatus status_of(const std::vector<Check>& checks)
 
 } // namespace
 
-/// A check for each component of `residual`, at points where the form is defined.
+/// A check for each component of `residual`, at points where the form, and what it is said to equal, is defined as
+/// written.
 std::vector<Check> Claims::vanishing(const std::string& name, const FormClaim& claim, const ExteriorForm& residual,
                                      std::size_t& trivial)
 {
@@ -36,8 +37,13 @@ std::vector<Check> Claims::vanishing(const std::string& name, const FormClaim& c
     for (const auto& [index, value] : claim.form.components)
         if (!graph_.is_constant(value)) setting.defined.push_back(value);
     setting.defined.insert(setting.defined.end(), claim.partial_parts.begin(), claim.partial_parts.end());
+    if (name == "equals")
+        setting.defined.insert(setting.defined.end(), claim.equals_parts.begin(), claim.equals_parts.end());
     Judge judge(graph_, setting, accessory_inputs(system_), points_, judge_->decider().budget());
     std::vector<Check> checks;
+    if (residual.components.empty() && !setting.defined.empty())
+        if (Decision zero = judge.decide(graph_.constant(0)); zero.status != ProofStatus::proved)
+            checks.push_back({name, {claim.name}, std::move(zero), {}, {}});
     for (const auto& [index, value] : residual.components) {
         Check check{name, {claim.name}, judge.decide(value), {}, judge.reevaluate(value)};
         for (const std::size_t a : index) check.indices.push_back(graph_.input_name(system_.algebroid.y[a]));

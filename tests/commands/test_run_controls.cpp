@@ -126,10 +126,10 @@ TEST_CASE("a maximum that is lost ends the run at its time")
         CHECK(run.value["state"]["p"].text == "0");
     }
     const Outcome told = call({"run", "fork.toml"});
-    CHECK_THAT(told.err,
-               Catch::Contains("fork, scene default: not_a_maximum at t = 1; ") &&
-                   Catch::Contains("\n  the controls that were followed are no maximum of H any more: d2H/du2 is "
-                                   "not negative definite\n  the last good state is at t = 1: x = 0.5, p = 0\n"));
+    CHECK_THAT(told.err, Catch::Contains("fork, scene default: not_a_maximum at t = 1; ") &&
+                             Catch::Contains(
+                                 "\n  no maximum of H is found from the controls before, or from the guess: d2H/du2 is "
+                                 "not negative definite\n  the last good state is at t = 1: x = 0.5, p = 0\n"));
     const ControlRun late = run_of("fork.toml", {"--scene", "late"});
     CHECK(late.outcome.code == 1);
     CHECK(late.status() == "not_a_maximum");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// dx^i and de^a as they are printed.
-#include "elaborate/build_algebroid.hpp"
+#include "elaborate/elaborate.hpp"
 #include "emit/print_equations.hpp"
 #include "equations/exterior.hpp"
 #include "model/read_model.hpp"
@@ -14,7 +14,7 @@ namespace {
 EquationSet exterior_of(const std::string& name)
 {
     const Model model = read_model(LAGEN_SOURCE_DIR "/models/" + name + ".toml", {});
-    return derive_exterior(model, build_algebroid(model));
+    return derive_exterior(model, elaborate(model));
 }
 
 } // namespace

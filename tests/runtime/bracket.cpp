@@ -95,6 +95,27 @@ TEST_CASE("an open interval is searched outwards, and has a status where there i
     CHECK(std::isnan(undefined.z));
 }
 
+TEST_CASE("a function that only tends to zero has no root where it underflows", "[bracket]")
+{
+    // H = p u - exp(u) at p = 0, u - sqrt(1 + u^2), u - log(cosh(u)): no maximum.
+    const auto falling = [](double u) { return -std::exp(u); };
+    CHECK(root_of(-infinite, infinite, falling, falling).status == Status::newton_diverged);
+    CHECK(root_of(-infinite, 1.0, falling, falling).status == Status::newton_diverged);
+    CHECK(root_of(
+              -infinite, infinite, [](double u) { return 1 - u / std::sqrt(1 + u * u); },
+              [](double u) { return -std::pow(1 + u * u, -1.5); })
+              .status == Status::newton_diverged);
+    CHECK(root_of(
+              -infinite, infinite, [](double u) { return 1 - std::tanh(u); },
+              [](double u) { return -1 / (std::cosh(u) * std::cosh(u)); })
+              .status == Status::newton_diverged);
+    // A root where the search begins is one, and the end of an interval too.
+    const auto cubic = [](double u) { return -u * u * u; };
+    const auto slope = [](double u) { return -3 * u * u; };
+    CHECK(root_of(-infinite, infinite, cubic, slope).z == 0);
+    CHECK(root_of(0.0, infinite, cubic, slope).z == 0);
+}
+
 TEST_CASE("an interval may be as wide as its scalar, and a root as small", "[bracket]")
 {
     const auto quartic = [](auto p, auto lower, auto upper) { // of u^4/4 + u^2/2: p = u^3 + u

@@ -213,3 +213,22 @@ TEST_CASE("the branch of the start is followed as long as it is a maximum", "[co
     REQUIRE(back.status() == Status::ok);
     CHECK(back.state[0] == Approx((1 - std::pow(4.0, 1.5)) / 1.5).epsilon(1e-10));
 }
+
+TEST_CASE("a model with tangents follows the controls of its model", "[controls]")
+{
+    using Plain = Line<Fold>;
+    struct Linear : Plain {
+        Status variational(double, const Eigen::Vector2d&, const Eigen::Vector2d&, Eigen::Vector2d& dv) const noexcept
+        {
+            dv.setZero();
+            return Status::ok;
+        }
+    };
+    using Tangents = WithTangents<Linear, 1>;
+    static_assert(Follows<Plain> && Follows<Tangents>);
+    const auto all = Tangents::state(Eigen::Vector2d(0, 0), Eigen::Vector2d(1, 0));
+    const auto run = integrate(Tangents{}, all, {0.0, 0.9}, Dop853{.tolerance = 1e-12});
+    REQUIRE(run.status() == Status::ok);
+    CHECK(run.state[0] == Approx((1 - std::pow(0.1, 1.5)) / 1.5).epsilon(1e-10));
+    CHECK(integrate(Tangents{}, all, {0.0, 3.0}, Dop853{.tolerance = 1e-10}).status() == Status::not_a_maximum);
+}

@@ -135,6 +135,26 @@ TEST_CASE("A run may turn round: back at the start, the state is there")
     });
 }
 
+TEST_CASE("A move of no length leaves the direction as it is")
+{
+    for_methods([](const auto& method) {
+        Integrator integrator(Pendulum{}, start, 0, method);
+        REQUIRE(integrator.advance_to(-0.5) == Status::ok);
+        REQUIRE(integrator.advance_to(integrator.t()) == Status::ok);
+        REQUIRE(integrator.step() == Status::ok);
+        CHECK(integrator.t() < -0.5);
+    });
+}
+
+TEST_CASE("A time that overflows ends the steps")
+{
+    Integrator integrator(Pendulum{}, Pendulum::State(0, 0), 0, Euler{.step = 1e308});
+    REQUIRE(integrator.step() == Status::ok);
+    CHECK(integrator.step() == Status::non_finite);
+    CHECK(integrator.t() == 1e308);
+    CHECK(integrator.state() == Pendulum::State(0, 0));
+}
+
 TEST_CASE("A step cut short by advance_to leaves the length of the next ones alone")
 {
     Integrator integrator(Pendulum{}, start, 0, Dop853{.tolerance = 1e-8});

@@ -134,6 +134,24 @@ TEST_CASE("A retraction may be a member of the model; the integrator, rows and v
     CHECK(integrator.at(-0.9).q.angularDistance(integrator.state().q) > 1e-3);
 }
 
+/// The same with a quaternion as the state, which has a scalar and no entries.
+struct Quaternion {
+    using Scalar = double;
+    using State = Eigen::Quaterniond;
+    using Tangent = Eigen::Vector3d;
+    static constexpr int dimension = 3;
+
+    Status rhs(double t, const State& s, Tangent& ds) const noexcept { return Turning{}.rhs(t, {s}, ds); }
+    static State retract(const State& s, const Tangent& delta) { return turned(s, delta); }
+};
+
+TEST_CASE("A quaternion may be the state")
+{
+    const auto run = integrate(Quaternion{}, start.q, {0.0, 1.0}, Rk4{.step = 0.01});
+    CHECK(run.status() == Status::ok);
+    CHECK(run.state.coeffs() == integrate(Turning{}, start, {0.0, 1.0}, Rk4{.step = 0.01}).state.q.coeffs());
+}
+
 TEST_CASE("What is made of sums is refused for a state with a retraction")
 {
     const auto dense = integrate(Turning{}, start, {0.0, 1.0}, Rk4{.step = 0.01}, {.dense = true});

@@ -80,7 +80,8 @@ class BracketSolver {
     }
 
     /// Moves `moving` towards `end`, twice as far each time, until F has the sign that it must have there; `other`
-    /// follows, so that the root stays between the two. False where the end itself is the solution.
+    /// follows, so that the root stays between the two. A zero inside is not enough: a function that only tends to zero
+    /// may underflow. False where the end itself is the solution.
     bool grow(Scalar& moving, Scalar& other, Scalar end, int sign)
     {
         Scalar step = std::max(Scalar(1), std::abs(moving));
@@ -88,9 +89,9 @@ class BracketSolver {
             const Sample here = sample(moving);
             if (std::isnan(here.slope)) fail();
             const bool at_end = std::isfinite(end) && moving == end;
-            if ((here.known || at_end) && here.slope * static_cast<Scalar>(sign) >= 0) return true;
-            if (at_end) return false;
-            if (here.known) other = moving;
+            if ((here.known || at_end) && here.slope * static_cast<Scalar>(sign) > 0) return true;
+            if (at_end) return here.slope == 0;
+            if (here.known && here.slope != 0) other = moving;
             moving = sign > 0 ? std::max({moving - step, end, -most}) : std::min({moving + step, end, most});
         }
         fail();

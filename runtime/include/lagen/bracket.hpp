@@ -62,7 +62,7 @@ class Brackets {
     }
 
     /// Moves low ends down (sign 1) or high ends up (sign -1) until the function has that sign there; the end itself is
-    /// the solution where it has not.
+    /// the solution where it has not. A zero inside is not enough: a function that only tends to zero may underflow.
     void grow(const Unknowns& ends, Real sign) noexcept
     {
         using std::abs;
@@ -82,11 +82,13 @@ class Brackets {
                 const Mask at_end = both<Mask>(abs(ends[i]) <= most, !(S(sign) * moving[i] > S(sign) * ends[i]));
                 failed_ = either<Mask>(failed_, both<Mask>(open[i], !is_number(residual_[i])));
                 const Mask usable = either<Mask>(is_known(i), at_end);
-                const Mask beyond = both<Mask>(usable, S(sign) * residual_[i] >= S(0));
+                const Mask zero = both<Mask>(residual_[i] >= S(0), residual_[i] <= S(0));
+                const Mask beyond =
+                    both<Mask>(usable, either<Mask>(S(sign) * residual_[i] > S(0), both<Mask>(at_end, zero)));
                 const Mask ended = both<Mask>(both<Mask>(open[i], at_end), !beyond);
                 done_[i] = either<Mask>(done_[i], ended);
                 open[i] = both<Mask>(open[i], !either<Mask>(either<Mask>(beyond, failed_), ended));
-                other[i] = select(both<Mask>(open[i], usable), moving[i], other[i]);
+                other[i] = select(both<Mask>(open[i], both<Mask>(usable, !zero)), moving[i], other[i]);
                 const S next = moving[i] - S(sign) * width[i];
                 const S limit = select(abs(ends[i]) <= most, ends[i], S(-sign) * most);
                 const S within = select(S(sign) * next > S(sign) * limit, next, limit);

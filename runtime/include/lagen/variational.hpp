@@ -111,6 +111,10 @@ struct WithTangents : detail::EventNames<M>,
     {
         return model.parameter_status();
     }
+    [[nodiscard]] auto follow(Scalar t, const State& all) noexcept requires Follows<M>
+    {
+        return model.follow(t, point(all));
+    }
     [[nodiscard]] auto domain(Scalar t, const State& all) const noexcept requires HasDomain<M>
     {
         return model.domain(t, point(all));

@@ -137,7 +137,7 @@ class Integrator {
     {
         if (t_ - t_ != Real(0) || !step_is_valid()) return Status::invalid_input;
         auto status = StatusOf<Scalar>::good();
-        if constexpr (requires { detail::check_finite(s_); }) status = detail::check_finite(s_);
+        if constexpr (requires { s_[0]; }) status = detail::check_finite(s_);
         if constexpr (HasParameterStatus<M>) status = StatusOf<Scalar>::first(model_.parameter_status(), status);
         status = follow(StatusOf<Scalar>::first(status, accepted()), t_);
         if (is_pack<Scalar> || StatusOf<Scalar>::all_good(status))
@@ -165,7 +165,7 @@ class Integrator {
         if (length - length != Real(0)) return false;
         bounded_ = true;
         end_ = end;
-        forward_ = !(length < Real(0));
+        if (length != Real(0)) forward_ = length > Real(0);
         length_ = size(length);
         reach_ = std::max<Real>(size(t_), size(end));
         if constexpr (!adaptive) near_ = h_ + Real(8) * epsilon() * reach_;
@@ -211,6 +211,8 @@ class Integrator {
         Real t1 = t_ + increment;
         if (last) [[unlikely]]
             t1 = end_;
+        if (t1 - t1 != Real(0)) [[unlikely]]
+            return fail(Status::non_finite, t1);
         const auto status = stepper_.attempt(model_, t_from_, from_, h, s_);
         if constexpr (adaptive) {
             const Status verdict = judge(status, h, t1);
