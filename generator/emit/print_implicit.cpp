@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "emit/print_function.hpp"
 #include "emit/print_kernel.hpp"
+#include "emit/spell.hpp"
 
 #include <fmt/format.h>
 
@@ -75,10 +76,18 @@ class ImplicitPrinter {
         close_block(out_);
     }
 
+    /// Of the functions that the search calls.
+    [[nodiscard]] Includes includes() const
+    {
+        Includes all = includes_of(start_);
+        all.merge(includes_of(iteration_));
+        return all;
+    }
+
   private:
     [[nodiscard]] Body body_of(const std::vector<NodeId>& outputs) const
     {
-        return print_body({*module_.graph, names_.locals, outputs, {}, names_.moving, Checking::none, {}, 0});
+        return write_body({*module_.graph, names_.locals, outputs, {}, names_.moving, Checking::none, {}, 0});
     }
 
     /// Before the search, in braces of its own.
@@ -173,7 +182,7 @@ void follow_block(TextBlock& out, const KernelModule& module, const ModuleNames&
     std::string kept = "guess.{0} = number_or<S>({1}[{2}], guess.{0});";
     if (!block.angles) {
         const Body body =
-            print_body({*module.graph, names.locals, block.jacobian, {}, names.moving, Checking::none, {}, 0});
+            write_body({*module.graph, names.locals, block.jacobian, {}, names.moving, Checking::none, {}, 0});
         out.line(fmt::format("const std::array<S, {}> from = {{{}}};", size, list_of(size, member)));
         out.line(fmt::format("const auto curvature = [&]([[maybe_unused]] const std::array<S, {}>& unknowns, "
                              "std::array<S, {}>& matrix) noexcept {{",
@@ -244,12 +253,14 @@ void print_follow(TextBlock& out, const KernelModule& module, const ModuleNames&
 }
 
 void print_implicit(TextBlock& out, const KernelModule& module, const ModuleNames& names, const ImplicitBlock& block,
-                    KernelNeeds& needs)
+                    Includes& includes)
 {
-    needs.controls = needs.controls || block.follows;
-    if (!block.angles) (block.bracket ? needs.bracket : needs.linear) = true;
-    needs.newton = needs.newton || !(block.bracket || block.angles);
-    ImplicitPrinter(out, module, names, block).print();
+    if (block.follows) includes.insert("lagen/controls.hpp");
+    if (block.bracket) includes.insert("lagen/bracket.hpp");
+    if (!block.bracket && !block.angles) includes.merge(Includes{"lagen/linear.hpp", "lagen/newton.hpp"});
+    ImplicitPrinter printer(out, module, names, block);
+    printer.print();
+    includes.merge(printer.includes());
 }
 
 } // namespace lagen
