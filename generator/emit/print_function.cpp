@@ -185,7 +185,8 @@ void call_parts(TextBlock& out, const Body& body, const FunctionRequest& request
     out.line(fmt::format("std::array<S, {}> work;", body.workspace));
     for (std::size_t k = 0; k < body.parts.size(); ++k) {
         const std::string call = fmt::format("{}({})", part_name(request, k), part_arguments(body, request, false));
-        out.line(has_checks(body.parts[k]) ? fmt::format("status = StatusOf<S>::first(status, {});", call) : call + ";");
+        out.line(has_checks(body.parts[k]) ? fmt::format("status = StatusOf<S>::first(status, {});", call)
+                                           : call + ";");
     }
 }
 

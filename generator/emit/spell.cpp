@@ -153,8 +153,7 @@ Spelling spell(const Expression& expression)
         if (expression.op == Op::pi) return print_pi();
         return {expression.entry ? fmt::format("{}[{}]", expression.name, *expression.entry) : expression.name, 5};
     case OpKind::sum: return spell_sum(expression);
-    case OpKind::product:
-        return {at_least(2, expression.operands[0]) + " * " + at_least(3, expression.operands[1]), 2};
+    case OpKind::product: return {at_least(2, expression.operands[0]) + " * " + at_least(3, expression.operands[1]), 2};
     case OpKind::quotient:
         return {at_least(2, expression.operands[0]) + " / " + at_least(3, expression.operands[1]), 2};
     case OpKind::power: return spell_power(expression);

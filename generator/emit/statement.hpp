@@ -14,8 +14,8 @@ namespace lagen {
 
 /// An operator of the operator table on its operands.
 struct Expression {
-    Op op = Op::input;                     ///< constant: `value`; input: the variable `name`
-    std::uint32_t payload = 0;             ///< the exponent of a power, the order of a Stumpff function
+    Op op = Op::input;         ///< constant: `value`; input: the variable `name`
+    std::uint32_t payload = 0; ///< the exponent of a power, the order of a Stumpff function
     Rational value = {};
     std::string name = {};
     std::optional<std::size_t> entry = {}; ///< of the array `name`

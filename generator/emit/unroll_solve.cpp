@@ -78,8 +78,7 @@ UnrolledFactor unroll_closed_form(const SolveContext& context, NodeId id, std::s
     for (const NodeId entry : context.graph.operands(id)) factor.entries.push_back(entry_of(context, entry));
     const Term diagonal = product(factor.entries[0], factor.entries[3]);
     const Term other = product(factor.entries[1], factor.entries[2]);
-    const Expression determinant =
-        define(context, fmt::format("det{}", number), or_zero(difference(diagonal, other)));
+    const Expression determinant = define(context, fmt::format("det{}", number), or_zero(difference(diagonal, other)));
     if (check && is_definite(context, id)) { // the diagonal product is positive and the larger one
         check_divisor(context, 2, determinant, or_zero(diagonal));
     } else if (check) {
@@ -89,7 +88,8 @@ UnrolledFactor unroll_closed_form(const SolveContext& context, NodeId id, std::s
                                         : size_of(determinant));
     }
     if (solved)
-        factor.whole = define(context, fmt::format("inv_det{}", number), operation(Op::divide, literal(1), determinant));
+        factor.whole =
+            define(context, fmt::format("inv_det{}", number), operation(Op::divide, literal(1), determinant));
     return factor;
 }
 
@@ -162,9 +162,8 @@ std::vector<Expression> solve_pivoted(const SolveContext& context, const Unrolle
                                       std::span<const NodeId> right, std::size_t number)
 {
     const std::string name = context.fresh(fmt::format("z{}", number));
-    context.add({.kind = Statement::Kind::solve,
-                 .names = {name, factor.whole.name},
-                 .expressions = all_of(context, right)});
+    context.add(
+        {.kind = Statement::Kind::solve, .names = {name, factor.whole.name}, .expressions = all_of(context, right)});
     std::vector<Expression> result;
     for (std::size_t k = 0; k < factor.order; ++k) result.push_back(variable(name, k));
     return result;
@@ -197,7 +196,8 @@ std::vector<Expression> solve_ldlt(const SolveContext& context, const UnrolledFa
         for (std::size_t k = 0; k < i; ++k)
             if (factor.l[i][k] && f[k]) products.emplace_back(*factor.l[i][k], *f[k]);
         f[i] = b[factor.elimination[i]];
-        if (!products.empty()) f[i] = define(context, fmt::format("f{}_{}", number, i), *minus_products(f[i], products));
+        if (!products.empty())
+            f[i] = define(context, fmt::format("f{}_{}", number, i), *minus_products(f[i], products));
     }
     std::vector<bool> needed(n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -251,8 +251,7 @@ UnrolledFactor unroll_factor(const SolveContext& context, NodeId id, std::size_t
 {
     const std::size_t n = order_of(context.graph, id);
     if (n == 2) return unroll_closed_form(context, id, number, check, solved);
-    if (is_definite(context, id) && n <= largest_written_out)
-        return unroll_ldlt(context, id, n, number, check, solved);
+    if (is_definite(context, id) && n <= largest_written_out) return unroll_ldlt(context, id, n, number, check, solved);
     return unroll_pivoted(context, id, n, number, check);
 }
 

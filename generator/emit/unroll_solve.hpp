@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Factorisations and solutions as statements: 2 x 2 in closed form, L D L^T up to order 16 where definiteness is proved
-/// (zero pattern respected, order of elimination chosen for least fill), pivoted LU from the runtime otherwise.
+/// Factorisations and solutions as statements: 2 x 2 in closed form, L D L^T up to order 16 where definiteness is
+/// proved (zero pattern respected, order of elimination chosen for least fill), pivoted LU from the runtime otherwise.
 /// Cofactors are never used beyond order 2: they lose all digits at condition numbers where elimination keeps them.
 #pragma once
 
@@ -32,8 +32,8 @@ struct SolveContext {
     std::function<std::string(const std::string&)> fresh; ///< a name that nobody uses, from a wish
 };
 
-/// The statements of the factorisation `id`. With `check` it fails where the matrix is singular; `solved` is false where
-/// only the check is wanted.
+/// The statements of the factorisation `id`. With `check` it fails where the matrix is singular; `solved` is false
+/// where only the check is wanted.
 [[nodiscard]] UnrolledFactor unroll_factor(const SolveContext& context, NodeId id, std::size_t number, bool check,
                                            bool solved);
 

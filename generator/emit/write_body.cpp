@@ -147,7 +147,8 @@ class BodyWriter {
         name_entries(batch.values, name);
     }
 
-    /// The sines and cosines of one batch: sin_x and cos_x of one angle x that is an input, two further terms of another.
+    /// The sines and cosines of one batch: sin_x and cos_x of one angle x that is an input, two further terms of
+    /// another.
     void define_angles(const Batch& batch, std::vector<Expression> angles)
     {
         const bool several = angles.size() > 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// The statements of one generated function: inputs loaded into locals, named terms, factorisations, and the expressions
-/// of the outputs, each as soon as it is known.
+/// The statements of one generated function: inputs loaded into locals, named terms, factorisations, and the
+/// expressions of the outputs, each as soon as it is known.
 #pragma once
 
 #include "emit/statement.hpp"

@@ -34,8 +34,7 @@ std::string in_c(const Expression& e)
     }
     default: break;
     }
-    if (e.operands.size() == 2)
-        return fmt::format("({} {} {})", operand(0), operator_of(e.op).spelling, operand(1));
+    if (e.operands.size() == 2) return fmt::format("({} {} {})", operand(0), operator_of(e.op).spelling, operand(1));
     return fmt::format("{}({})", operator_of(e.op).spelling, operand(0));
 }
 
@@ -101,16 +100,18 @@ std::vector<double> run_in_c(const Graph& graph, const std::vector<NodeId>& outp
         names.inputs[id] = graph.input_name(id);
         names.taken.insert(graph.input_name(id));
     }
-    const Body body =
-        write_body({graph, names, outputs, {}, graph.inputs(), Checking::state, {}, longest_part});
+    const Body body = write_body({graph, names, outputs, {}, graph.inputs(), Checking::state, {}, longest_part});
     CHECK((body.parts.size() > 1) == (longest_part > 0));
     std::string text = body_in_c(body, graph);
     text += "int main(void)\n{\n    const double in[] = {";
     for (const NodeId id : graph.inputs()) text += fmt::format("{:a}, ", point.at(graph.input_name(id)));
-    text += fmt::format("}};\n    double out[{}], work[{}];\n    int failed = 0;\n", outputs.size(), body.workspace + 1);
-    for (std::size_t k = 0; k < body.parts.size(); ++k) text += fmt::format("    failed |= part{}(in, out, work);\n", k);
-    text += fmt::format("    printf(\"%d\\n\", failed);\n    for (int k = 0; k < {}; ++k) printf(\"%.17g\\n\", out[k]);\n",
-                        outputs.size());
+    text +=
+        fmt::format("}};\n    double out[{}], work[{}];\n    int failed = 0;\n", outputs.size(), body.workspace + 1);
+    for (std::size_t k = 0; k < body.parts.size(); ++k)
+        text += fmt::format("    failed |= part{}(in, out, work);\n", k);
+    text +=
+        fmt::format("    printf(\"%d\\n\", failed);\n    for (int k = 0; k < {}; ++k) printf(\"%.17g\\n\", out[k]);\n",
+                    outputs.size());
     const std::string where = std::string(LAGEN_BINARY_DIR) + "/compiled/plain_c";
     std::filesystem::create_directories(where);
     write_text(where + "/main.c", text + "    return 0;\n}\n");
@@ -128,9 +129,8 @@ std::vector<double> run_in_c(const Graph& graph, const std::vector<NodeId>& outp
 
 TEST_CASE("another printer makes C of a kernel with batches and a factorisation, whole and in parts", "[emit][compile]")
 {
-    KernelModule module =
-        solve_module("solved", std::vector<std::vector<bool>>(4, std::vector<bool>(4, true)),
-                     MatrixStructure::positive_definite);
+    KernelModule module = solve_module("solved", std::vector<std::vector<bool>>(4, std::vector<bool>(4, true)),
+                                       MatrixStructure::positive_definite);
     Graph& g = *module.graph;
     std::vector<NodeId> outputs = nodes_of(module.kernels[0]);
     outputs.erase(outputs.begin(), outputs.begin() + 10);
@@ -144,7 +144,8 @@ TEST_CASE("another printer makes C of a kernel with batches and a factorisation,
     std::map<std::string, double> point;
     for (const NodeId id : g.inputs()) {
         const std::string& name = g.input_name(id);
-        point[name] = 0.25 + 0.0625 * static_cast<double>(point.size()) + (name[0] == 'a' && name[1] == name[3] ? 4 : 0);
+        point[name] =
+            0.25 + 0.0625 * static_cast<double>(point.size()) + (name[0] == 'a' && name[1] == name[3] ? 4 : 0);
     }
     const std::vector<double> expected = evaluate<double>(g, outputs, point);
     for (const std::size_t longest : {0U, 8U}) {

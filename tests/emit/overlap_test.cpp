@@ -32,7 +32,7 @@ struct TwoChains {
                 steps.push_back(make_step(graph, plan, BodyStep::Kind::define, id));
                 if (chain == &pivots) steps.push_back(make_step(graph, plan, BodyStep::Kind::check, id));
             }
-        for (std::size_t k = 0; k < outputs.size(); ++k) 
+        for (std::size_t k = 0; k < outputs.size(); ++k)
             steps.push_back(make_step(graph, plan, BodyStep::Kind::store, outputs[k], k));
     }
 
