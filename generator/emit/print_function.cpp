@@ -40,49 +40,46 @@ bool loads(const BodyPart& part, NodeId id)
         part, [&](const Statement& each) { return each.kind == Statement::Kind::load && each.node == id; });
 }
 
-/// `const S x = s[3], y = s[4];`: of `count` entries from `first` on, those that the part reads.
-void load_entries(TextBlock& out, const BodyPart& part, const FunctionRequest& request, std::size_t first,
-                  std::size_t count, const std::function<std::pair<NodeId, std::string>(std::size_t)>& entry)
+/// Lanes are loaded by groups, a matrix by rows.
+std::vector<std::size_t> rows_of(const KernelInput& input, const KernelModule& module)
 {
-    std::vector<std::string> items;
-    for (std::size_t k = first; k < first + count; ++k)
-        if (const auto [id, place] = entry(k); loads(part, id))
-            items.push_back(fmt::format("{} = {}", request.names.locals.inputs.at(id), place));
-    if (!items.empty()) out.list("const S ", items, ";");
+    if (input.shape.rank == 2) return std::vector<std::size_t>(input.shape.rows, input.shape.columns);
+    if (!has_lanes(input.role)) return {input.entries.size()};
+    std::vector<std::size_t> rows;
+    for (const LaneGroup& group : module.groups) rows.push_back(group.lanes.size());
+    return rows;
 }
 
-/// The entries of the arguments that the part reads, a group of lanes or a row a line: before anything is stored, which
-/// may be in their place.
+/// `const S x = s[3], y = s[4];`: the entries that the part reads, a row a line.
+void load_input(TextBlock& out, const BodyPart& part, const FunctionRequest& request, const KernelInput& input)
+{
+    if (input.shape.rank == 0) return;
+    std::size_t k = 0;
+    for (const std::size_t count : rows_of(input, request.module)) {
+        std::vector<std::string> items;
+        for (const std::size_t end = k + count; k < end; ++k) {
+            const NodeId id = input.entries[k].input;
+            if (!loads(part, id)) continue;
+            const std::size_t columns = input.shape.columns;
+            items.push_back(fmt::format("{} = {}", request.names.locals.inputs.at(id),
+                                        input.shape.rank == 1
+                                            ? fmt::format("{}[{}]", input.name, k)
+                                            : fmt::format("{}({}, {})", input.name, k / columns, k % columns)));
+        }
+        if (!items.empty()) out.list("const S ", items, ";");
+    }
+}
+
+/// What the part reads of the arguments: before anything is stored, which may be in their place.
 void load_inputs(TextBlock& out, const BodyPart& part, const FunctionRequest& request)
 {
-    for (const KernelInput& input : request.inputs) {
-        if (input.shape.rank == 0) continue;
-        std::vector<std::size_t> rows(input.shape.rank == 1 ? 1 : input.shape.rows,
-                                      input.shape.rank == 1 ? input.shape.rows : input.shape.columns);
-        if (has_lanes(input.role)) {
-            rows.clear();
-            for (const LaneGroup& group : request.module.groups) rows.push_back(group.lanes.size());
-        }
-        std::size_t first = 0;
-        for (const std::size_t count : rows) {
-            load_entries(out, part, request, first, count, [&](std::size_t k) {
-                const std::string place =
-                    input.shape.rank == 1
-                        ? fmt::format("{}[{}]", input.name, k)
-                        : fmt::format("{}({}, {})", input.name, k / input.shape.columns, k % input.shape.columns);
-                return std::pair{input.entries[k].input, place};
-            });
-            first += count;
-        }
-    }
+    for (const KernelInput& input : request.inputs) load_input(out, part, request, input);
 }
 
 void load_unknowns(TextBlock& out, const Body& body, const BodyPart& part, const FunctionRequest& request)
 {
     for (const ImplicitBlock* block : blocks_of(body, request))
-        load_entries(out, part, request, 0, block->unknowns.size(), [&](std::size_t k) {
-            return std::pair{block->unknowns[k], fmt::format("solved_{}[{}]", block->name, k)};
-        });
+        load_input(out, part, request, unknowns_of(*block, "solved_" + block->name));
 }
 
 /// Solves the implicit blocks that the body reads; answers whether a `status` was declared.
@@ -205,6 +202,13 @@ bool reads(const Body& body, const KernelInput& input)
 std::string maybe_unused(bool used)
 {
     return used ? "" : "[[maybe_unused]] ";
+}
+
+KernelInput unknowns_of(const ImplicitBlock& block, std::string name)
+{
+    KernelInput input{std::move(name), ArrayRole::value, {1, block.unknowns.size(), 1}, {}};
+    for (const NodeId id : block.unknowns) input.entries.push_back({{}, {}, {}, id});
+    return input;
 }
 
 std::string type_of(const KernelInput& input)
