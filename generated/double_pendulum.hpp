@@ -302,10 +302,10 @@ class double_pendulum {
         values[3] = z2_0;
         const S w17 = -S(2) * w11;
         const S z3_0 = (-w4 * w17) * inv_det0;
-        const S z3_1 = (w1 * w17) * inv_det0;
+        const S z3_1 = w1 * w17 * inv_det0;
         values[4] = z3_0;
         const S w18 = w11 + w8 * (v + (v - u));
-        const S z4_0 = (w5 * w18) * inv_det0;
+        const S z4_0 = w5 * w18 * inv_det0;
         const S z4_1 = (-w4 * w18) * inv_det0;
         values[5] = z4_0;
         values[6] = z1_1;

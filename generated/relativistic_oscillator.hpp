@@ -270,11 +270,11 @@ class relativistic_oscillator {
         values[4] = z2_0;
         const S w18 = -w10;
         const S z3_0 = (-w6 * w18) * inv_det0;
-        const S z3_1 = (w4 * w18) * inv_det0;
+        const S z3_1 = w4 * w18 * inv_det0;
         values[7] = z3_1;
         values[3] = z3_0;
         const S w19 = -k;
-        const S z4_0 = (w8 * w19) * inv_det0;
+        const S z4_0 = w8 * w19 * inv_det0;
         const S z4_1 = (-w6 * w19) * inv_det0;
         values[6] = z4_1;
         values[2] = z4_0;

@@ -16,13 +16,12 @@ constexpr std::size_t largest_whole = 5;
 
 class Cutter {
   public:
-    Cutter(const Graph& graph, const BodyPlan& plan, const std::vector<BodyStep>& steps)
+    Cutter(const Graph& graph, const std::vector<BodyStep>& steps)
         : graph_(graph), steps_(steps), born_(graph.size(), 0), last_(graph.size(), 0)
     {
         for (std::size_t k = 0; k < steps.size(); ++k) {
-            effects_.push_back(effects_of(graph, plan, steps[k]));
-            for (const NodeId id : effects_.back().defines) born_[id] = k;
-            for (const NodeId id : effects_.back().reads) last_[id] = k;
+            for (const NodeId id : steps[k].defines) born_[id] = k;
+            for (const NodeId id : steps[k].needs) last_[id] = k;
         }
     }
 
@@ -66,8 +65,8 @@ class Cutter {
         std::vector<std::size_t> crossing(steps_.size() + 1, 0);
         std::vector<std::size_t> enter(steps_.size() + 1, 0);
         std::vector<std::size_t> leave(steps_.size() + 1, 0);
-        for (const StepEffects& effects : effects_)
-            for (const NodeId id : effects.defines) {
+        for (const BodyStep& step : steps_)
+            for (const NodeId id : step.defines) {
                 if (last_[id] <= born_[id]) continue;
                 const std::size_t weight = graph_.op(id) == Op::factor ? forbidden : 1;
                 enter[born_[id] + 1] += weight;
@@ -85,14 +84,14 @@ class Cutter {
         std::vector<BodyStep> result;
         std::set<NodeId> known;
         for (std::size_t k = begin; k < end; ++k) {
-            for (const NodeId id : effects_[k].reads) {
+            for (const NodeId id : steps_[k].needs) {
                 if (!known.insert(id).second) continue;
                 if (graph_.op(id) == Op::input) result.push_back({BodyStep::Kind::load, id, 0});
                 if (const auto place = place_of_.find(id); place != place_of_.end())
                     result.push_back({BodyStep::Kind::recall, id, place->second});
             }
             result.push_back(steps_[k]);
-            for (const NodeId id : effects_[k].defines) {
+            for (const NodeId id : steps_[k].defines) {
                 known.insert(id);
                 if (last_[id] >= end) result.push_back({BodyStep::Kind::keep, id, new_place(id)});
             }
@@ -127,7 +126,6 @@ class Cutter {
 
     const Graph& graph_;
     const std::vector<BodyStep>& steps_;
-    std::vector<StepEffects> effects_;
     std::vector<std::size_t> born_; ///< by node: the step that computes it
     std::vector<std::size_t> last_; ///< by node: the last step that reads it
     std::map<NodeId, std::size_t> place_of_;
@@ -137,9 +135,9 @@ class Cutter {
 
 } // namespace
 
-CutBody cut_body(const Graph& graph, const BodyPlan& plan, const std::vector<BodyStep>& steps, std::size_t longest)
+CutBody cut_body(const Graph& graph, const std::vector<BodyStep>& steps, std::size_t longest)
 {
-    return Cutter(graph, plan, steps).cut(longest);
+    return Cutter(graph, steps).cut(longest);
 }
 
 } // namespace lagen

@@ -14,7 +14,6 @@ struct CutBody {
 
 /// Parts of about `longest` steps or fewer, cut where few values are alive and never between a factorisation and a
 /// solution by it. A body of up to five times that is left whole; 0 for `longest`: always.
-[[nodiscard]] CutBody cut_body(const Graph& graph, const BodyPlan& plan, const std::vector<BodyStep>& steps,
-                               std::size_t longest);
+[[nodiscard]] CutBody cut_body(const Graph& graph, const std::vector<BodyStep>& steps, std::size_t longest);
 
 } // namespace lagen

@@ -4,44 +4,50 @@
 #include "emit/print_header.hpp"
 
 #include <algorithm>
+#include <string_view>
 
 namespace lagen {
 
 namespace {
 
-/// Names that mean something inside every member function.
+/// Names that mean something inside every member function of every class.
+constexpr std::string_view class_scope[] = {
+    "S",
+    "Scalar",
+    "State",
+    "t",
+    "s",
+    "ds",
+    "values",
+    "status",
+    "select",
+    "work",
+    "result",
+    "parameters",
+    "parameter",
+    "state",
+    "state_names",
+    "parameter_names",
+    "dimension",
+    "model_name",
+    "model_hash",
+    "status_t",
+    "parameter_status",
+    "singular_tolerance",
+    "PivotedLu",
+    "sincos",
+    "arithmetic",
+    "square_roots",
+    "reciprocals",
+    "stumpff",
+    "stumpff_orders",
+};
+
+/// These, and those of this class.
 std::set<std::string> class_scope_names(const KernelModule& module, const std::string& class_name)
 {
-    std::set<std::string> names{class_name,
-                                "S",
-                                "Scalar",
-                                "State",
-                                "t",
-                                "s",
-                                "ds",
-                                "values",
-                                "status",
-                                "select",
-                                "work",
-                                "result",
-                                "parameters",
-                                "parameter",
-                                "state",
-                                "state_names",
-                                "parameter_names",
-                                "dimension",
-                                "model_name",
-                                "model_hash",
-                                "status_t",
-                                "parameter_status",
-                                "singular_tolerance",
-                                "PivotedLu",
-                                "sincos",
-                                "arithmetic",
-                                "square_roots",
-                                "reciprocals",
-                                "stumpff",
-                                "stumpff_orders"};
+    std::set<std::string> names(std::begin(class_scope), std::end(class_scope));
+    names.insert(class_name);
     for (const Kernel& kernel : module.kernels) {
         names.insert(kernel.name);
         for (const char* suffix : {"_names", "_rows", "_columns", "_values"}) names.insert(kernel.name + suffix);

@@ -2,7 +2,7 @@
 /// The C++ names of everything in a module, as members and inside functions.
 #pragma once
 
-#include "emit/print_body.hpp"
+#include "emit/write_body.hpp"
 #include "graph/kernel.hpp"
 
 namespace lagen {

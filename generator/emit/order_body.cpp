@@ -105,10 +105,14 @@ class Walk {
     }
     void finish(NodeId id)
     {
-        if (plan_.named[id] && !is_placed(id)) steps_.push_back({BodyStep::Kind::define, id, 0});
-        if (std::ranges::binary_search(checks_, id)) steps_.push_back({BodyStep::Kind::check, id, 0});
+        if (plan_.named[id] && !is_placed(id)) place(BodyStep::Kind::define, id);
+        if (std::ranges::binary_search(checks_, id)) place(BodyStep::Kind::check, id);
         if (const auto stores = stores_.find(id); stores != stores_.end())
-            for (const std::size_t k : stores->second) steps_.push_back({BodyStep::Kind::store, id, k});
+            for (const std::size_t k : stores->second) place(BodyStep::Kind::store, id, k);
+    }
+    void place(BodyStep::Kind kind, NodeId id, std::size_t index = 0)
+    {
+        steps_.push_back(make_step(graph_, plan_, kind, id, index));
     }
     /// By the statement of another node of its batch or family.
     bool is_placed(NodeId id)
@@ -135,32 +139,31 @@ class Walk {
 
 } // namespace
 
-StepEffects effects_of(const Graph& graph, const BodyPlan& plan, const BodyStep& step)
+BodyStep make_step(const Graph& graph, const BodyPlan& plan, BodyStep::Kind kind, NodeId id, std::size_t index)
 {
-    StepEffects effects;
-    const NodeId id = step.node;
-    if (step.kind != BodyStep::Kind::define) {
-        add_reads(graph, plan, id, effects.reads);
-        return effects;
+    BodyStep step{kind, id, index};
+    if (kind != BodyStep::Kind::define) {
+        add_reads(graph, plan, id, step.needs);
+        return step;
     }
     if (const auto found = plan.batch_of.find(id); found != plan.batch_of.end()) {
         const Batch& batch = plan.batches[found->second];
         for (const std::vector<NodeId>* side : {&batch.values, &batch.cosines})
             for (const NodeId value : *side)
-                if (value != no_node) effects.defines.push_back(value);
-        for (const NodeId argument : batch.arguments) add_reads(graph, plan, argument, effects.reads);
-        return effects;
+                if (value != no_node) step.defines.push_back(value);
+        for (const NodeId argument : batch.arguments) add_reads(graph, plan, argument, step.needs);
+        return step;
     }
-    effects.defines.push_back(id);
-    if (graph.op(id) == Op::stumpff) effects.defines = plan.family_of(graph, id);
+    step.defines.push_back(id);
+    if (graph.op(id) == Op::stumpff) step.defines = plan.family_of(graph, id);
     if (graph.op(id) == Op::solve) {
         if (const auto components = plan.users.find(id); components != plan.users.end())
-            effects.defines.insert(effects.defines.end(), components->second.begin(), components->second.end());
+            step.defines.insert(step.defines.end(), components->second.begin(), components->second.end());
         // A closed form reads the entries of the matrix again.
-        for (const NodeId entry : graph.operands(graph.operands(id)[0])) add_reads(graph, plan, entry, effects.reads);
+        for (const NodeId entry : graph.operands(graph.operands(id)[0])) add_reads(graph, plan, entry, step.needs);
     }
-    for (const NodeId operand : graph.operands(id)) add_reads(graph, plan, operand, effects.reads);
-    return effects;
+    for (const NodeId operand : graph.operands(id)) add_reads(graph, plan, operand, step.needs);
+    return step;
 }
 
 namespace {
@@ -179,23 +182,20 @@ struct Pressure {
     }
 };
 
-Pressure pressure_of(const Graph& graph, const BodyPlan& plan, const std::vector<BodyStep>& steps)
+Pressure pressure_of(const Graph& graph, const std::vector<BodyStep>& steps)
 {
     std::vector<std::size_t> last(graph.size(), 0);
-    std::vector<StepEffects> effects;
-    for (const BodyStep& step : steps) {
-        effects.push_back(effects_of(graph, plan, step));
-        for (const NodeId id : effects.back().reads) last[id] = effects.size();
-    }
+    for (std::size_t k = 0; k < steps.size(); ++k)
+        for (const NodeId id : steps[k].needs) last[id] = k + 1;
     std::size_t live = 0;
     Pressure pressure;
     std::vector<bool> alive(graph.size(), false);
     for (std::size_t k = 0; k < steps.size(); ++k) {
-        for (const NodeId id : effects[k].defines)
+        for (const NodeId id : steps[k].defines)
             if (last[id] > k + 1 && !alive[id]) alive[id] = true, ++live;
         pressure.most = std::max(pressure.most, live);
         pressure.sum += live;
-        for (const NodeId id : effects[k].reads)
+        for (const NodeId id : steps[k].needs)
             if (alive[id] && last[id] == k + 1) alive[id] = false, --live;
     }
     return pressure;
@@ -214,13 +214,13 @@ std::vector<BodyStep> order_body(const Graph& graph, const BodyPlan& plan, const
     std::vector<std::size_t> given(roots.outputs.size());
     std::iota(given.begin(), given.end(), std::size_t{0});
     std::vector<BodyStep> best = walked(given, nullptr);
-    Pressure best_pressure = pressure_of(graph, plan, best);
+    Pressure best_pressure = pressure_of(graph, best);
     if (best_pressure.most <= enough_registers) return best;
     const std::vector<std::uint32_t> registers = registers_needed(graph, plan);
     std::vector<std::vector<std::size_t>> orders = roots.arrangements;
     orders.insert(orders.begin(), given);
     const auto consider = [&](std::vector<BodyStep> steps) {
-        const Pressure found = pressure_of(graph, plan, steps);
+        const Pressure found = pressure_of(graph, steps);
         if (found.is_below(best_pressure)) best = std::move(steps), best_pressure = found;
     };
     for (const std::vector<std::size_t>& order : orders) {

@@ -18,15 +18,13 @@ struct BodyStep {
     } kind = Kind::define;
     NodeId node = 0;
     std::size_t index = 0;
+    std::vector<NodeId> defines = {}; ///< nodes that get a name by it
+    std::vector<NodeId> needs = {};   ///< nodes with a name (inputs too) that it reads
 };
 
-/// What a step computes and what it reads, as nodes that have a name (inputs too).
-struct StepEffects {
-    std::vector<NodeId> defines;
-    std::vector<NodeId> reads;
-};
-
-[[nodiscard]] StepEffects effects_of(const Graph& graph, const BodyPlan& plan, const BodyStep& step);
+/// A step of the kind define, check or store with what it defines and needs.
+[[nodiscard]] BodyStep make_step(const Graph& graph, const BodyPlan& plan, BodyStep::Kind kind, NodeId node,
+                                 std::size_t index = 0);
 
 /// Roots of a body: the outputs, and divisors to be checked where they are computed.
 struct BodyRoots {

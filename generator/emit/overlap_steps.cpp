@@ -53,7 +53,7 @@ class Clock {
         : graph_(graph), plan_(plan), born_(graph.size(), no_step)
     {
         for (std::size_t k = 0; k < steps.size(); ++k)
-            for (const NodeId id : effects_of(graph, plan, steps[k]).defines) born_[id] = k;
+            for (const NodeId id : steps[k].defines) born_[id] = k;
         for (const BodyStep& step : steps) timings_.push_back(timing_of(step));
     }
 
@@ -69,7 +69,7 @@ class Clock {
         const bool computes = step.kind == BodyStep::Kind::define || !plan_.named[step.node];
         if (step.kind != BodyStep::Kind::check && computes) add_own(step.node, timing);
         if (timing.waits.empty())
-            for (const NodeId id : effects_of(graph_, plan_, step).reads) wait(id, timing.latency, timing);
+            for (const NodeId id : step.needs) wait(id, timing.latency, timing);
         return timing;
     }
 
@@ -213,7 +213,7 @@ std::vector<BodyStep> overlap_steps(const Graph& graph, const BodyPlan& plan, st
     const double after = time_of(timings, order);
     if (after > (1 - least_gain) * before) return steps;
     std::vector<BodyStep> result;
-    for (const std::size_t k : order) result.push_back(steps[k]);
+    for (const std::size_t k : order) result.push_back(std::move(steps[k]));
     return result;
 }
 

@@ -37,52 +37,49 @@ const std::string& name_of(const FunctionRequest& request, ArrayRole role)
 bool loads(const BodyPart& part, NodeId id)
 {
     return std::ranges::any_of(
-        part.lines, [&](const BodyLine& line) { return line.kind == BodyLine::Kind::load && line.index == id; });
+        part, [&](const Statement& each) { return each.kind == Statement::Kind::load && each.node == id; });
 }
 
-/// `const S x = s[3], y = s[4];`: of `count` entries from `first` on, those that the part reads.
-void load_entries(TextBlock& out, const BodyPart& part, const FunctionRequest& request, std::size_t first,
-                  std::size_t count, const std::function<std::pair<NodeId, std::string>(std::size_t)>& entry)
+/// Lanes are loaded by groups, a matrix by rows.
+std::vector<std::size_t> rows_of(const KernelInput& input, const KernelModule& module)
 {
-    std::vector<std::string> items;
-    for (std::size_t k = first; k < first + count; ++k)
-        if (const auto [id, place] = entry(k); loads(part, id))
-            items.push_back(fmt::format("{} = {}", request.names.locals.inputs.at(id), place));
-    if (!items.empty()) out.list("const S ", items, ";");
+    if (input.shape.rank == 2) return std::vector<std::size_t>(input.shape.rows, input.shape.columns);
+    if (!has_lanes(input.role)) return {input.entries.size()};
+    std::vector<std::size_t> rows;
+    for (const LaneGroup& group : module.groups) rows.push_back(group.lanes.size());
+    return rows;
 }
 
-/// The entries of the arguments that the part reads, a group of lanes or a row a line: before anything is stored, which
-/// may be in their place.
+/// `const S x = s[3], y = s[4];`: the entries that the part reads, a row a line.
+void load_input(TextBlock& out, const BodyPart& part, const FunctionRequest& request, const KernelInput& input)
+{
+    if (input.shape.rank == 0) return;
+    std::size_t k = 0;
+    for (const std::size_t count : rows_of(input, request.module)) {
+        std::vector<std::string> items;
+        for (const std::size_t end = k + count; k < end; ++k) {
+            const NodeId id = input.entries[k].input;
+            if (!loads(part, id)) continue;
+            const std::size_t columns = input.shape.columns;
+            items.push_back(fmt::format("{} = {}", request.names.locals.inputs.at(id),
+                                        input.shape.rank == 1
+                                            ? fmt::format("{}[{}]", input.name, k)
+                                            : fmt::format("{}({}, {})", input.name, k / columns, k % columns)));
+        }
+        if (!items.empty()) out.list("const S ", items, ";");
+    }
+}
+
+/// What the part reads of the arguments: before anything is stored, which may be in their place.
 void load_inputs(TextBlock& out, const BodyPart& part, const FunctionRequest& request)
 {
-    for (const KernelInput& input : request.inputs) {
-        if (input.shape.rank == 0) continue;
-        std::vector<std::size_t> rows(input.shape.rank == 1 ? 1 : input.shape.rows,
-                                      input.shape.rank == 1 ? input.shape.rows : input.shape.columns);
-        if (has_lanes(input.role)) {
-            rows.clear();
-            for (const LaneGroup& group : request.module.groups) rows.push_back(group.lanes.size());
-        }
-        std::size_t first = 0;
-        for (const std::size_t count : rows) {
-            load_entries(out, part, request, first, count, [&](std::size_t k) {
-                const std::string place =
-                    input.shape.rank == 1
-                        ? fmt::format("{}[{}]", input.name, k)
-                        : fmt::format("{}({}, {})", input.name, k / input.shape.columns, k % input.shape.columns);
-                return std::pair{input.entries[k].input, place};
-            });
-            first += count;
-        }
-    }
+    for (const KernelInput& input : request.inputs) load_input(out, part, request, input);
 }
 
 void load_unknowns(TextBlock& out, const Body& body, const BodyPart& part, const FunctionRequest& request)
 {
     for (const ImplicitBlock* block : blocks_of(body, request))
-        load_entries(out, part, request, 0, block->unknowns.size(), [&](std::size_t k) {
-            return std::pair{block->unknowns[k], fmt::format("solved_{}[{}]", block->name, k)};
-        });
+        load_input(out, part, request, unknowns_of(*block, "solved_" + block->name));
 }
 
 /// Solves the implicit blocks that the body reads; answers whether a `status` was declared.
@@ -100,7 +97,7 @@ bool solve_blocks(TextBlock& out, const Body& body, const FunctionRequest& reque
             out.line(fmt::format("status = StatusOf<S>::first(status, {});", call));
         else
             out.line(
-                fmt::format("{} status = {};", body.has_status || blocks.size() > 1 ? "auto" : "const auto", call));
+                fmt::format("{} status = {};", has_checks(body) || blocks.size() > 1 ? "auto" : "const auto", call));
         declared = declared || request.returns_status;
     }
     return declared;
@@ -124,24 +121,26 @@ void load_parameters(TextBlock& out, const BodyPart& part, const FunctionRequest
         out.list("const S ", items, ";");
 }
 
-void print_part_lines(TextBlock& out, const BodyPart& part, const FunctionRequest& request)
+void print_statements(TextBlock& out, const BodyPart& part, const FunctionRequest& request)
 {
-    const auto is_parameter = [&](std::size_t id) {
+    const auto is_parameter = [&](NodeId id) {
         return std::ranges::any_of(request.module.parameters, [&](const Quantity& q) { return q.input == id; });
     };
     bool loaded = false; // not before the first use: they need no register until then
-    for (const BodyLine& line : part.lines) {
-        if (line.kind == BodyLine::Kind::statement) out.line(line.text);
-        if (line.kind == BodyLine::Kind::store) out.line(request.store(line.index, line.text));
-        if (line.kind != BodyLine::Kind::load || loaded || !is_parameter(line.index)) continue;
-        load_parameters(out, part, request);
-        loaded = true;
+    for (const Statement& statement : part) {
+        if (statement.kind == Statement::Kind::load) {
+            if (!loaded && is_parameter(statement.node)) loaded = (load_parameters(out, part, request), true);
+        } else if (statement.kind == Statement::Kind::store) {
+            out.line(request.store(statement.index, spell(statement.expressions[0]).text));
+        } else {
+            for (const std::string& line : spell(statement)) out.line(line);
+        }
     }
 }
 
 void print_usings(TextBlock& out, const Body& body)
 {
-    for (const std::string& function : body.functions) out.line(using_declaration(function));
+    for (const std::string& declaration : using_declarations(body)) out.line(declaration);
 }
 
 std::string part_name(const FunctionRequest& request, std::size_t part)
@@ -183,7 +182,8 @@ void call_parts(TextBlock& out, const Body& body, const FunctionRequest& request
     out.line(fmt::format("std::array<S, {}> work;", body.workspace));
     for (std::size_t k = 0; k < body.parts.size(); ++k) {
         const std::string call = fmt::format("{}({})", part_name(request, k), part_arguments(body, request, false));
-        out.line(body.parts[k].has_status ? fmt::format("status = StatusOf<S>::first(status, {});", call) : call + ";");
+        out.line(has_checks(body.parts[k]) ? fmt::format("status = StatusOf<S>::first(status, {});", call)
+                                           : call + ";");
     }
 }
 
@@ -202,6 +202,13 @@ bool reads(const Body& body, const KernelInput& input)
 std::string maybe_unused(bool used)
 {
     return used ? "" : "[[maybe_unused]] ";
+}
+
+KernelInput unknowns_of(const ImplicitBlock& block, std::string name)
+{
+    KernelInput input{std::move(name), ArrayRole::value, {1, block.unknowns.size(), 1}, {}};
+    for (const NodeId id : block.unknowns) input.entries.push_back({{}, {}, {}, id});
+    return input;
 }
 
 std::string type_of(const KernelInput& input)
@@ -250,14 +257,14 @@ void print_parts(TextBlock& out, const Body& body, const FunctionRequest& reques
         if (k > 0) out.blank();
         out.comment(fmt::format("Part {} of {} of {}.", k + 1, body.parts.size(), request.name));
         open_block(out,
-                   fmt::format("[[gnu::noinline]] {} {}({}) const noexcept", part.has_status ? "status_t<S>" : "void",
+                   fmt::format("[[gnu::noinline]] {} {}({}) const noexcept", has_checks(part) ? "status_t<S>" : "void",
                                part_name(request, k), part_arguments(body, request, true)));
         print_usings(out, body);
         load_inputs(out, part, request);
         load_unknowns(out, body, part, request);
-        if (part.has_status) out.line("auto status = StatusOf<S>::good();");
-        print_part_lines(out, part, request);
-        if (part.has_status) out.line("return status;");
+        if (has_checks(part)) out.line("auto status = StatusOf<S>::good();");
+        print_statements(out, part, request);
+        if (has_checks(part)) out.line("return status;");
         close_block(out);
     }
     out.indent(-1);
@@ -272,11 +279,11 @@ bool print_lines(TextBlock& out, const Body& body, const FunctionRequest& reques
     if (whole) print_usings(out, body);
     if (whole) load_inputs(out, body.parts[0], request);
     bool declared = solve_blocks(out, body, request);
-    if (body.has_status && !declared) out.line("auto status = StatusOf<S>::good();");
-    declared = declared || body.has_status;
+    if (has_checks(body) && !declared) out.line("auto status = StatusOf<S>::good();");
+    declared = declared || has_checks(body);
     if (!whole) return call_parts(out, body, request), declared;
     load_unknowns(out, body, body.parts[0], request);
-    print_part_lines(out, body.parts[0], request);
+    print_statements(out, body.parts[0], request);
     return declared;
 }
 

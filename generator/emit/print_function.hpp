@@ -32,6 +32,9 @@ struct FunctionRequest {
 [[nodiscard]] bool reads(const Body& body, const KernelInput& input);
 [[nodiscard]] std::string maybe_unused(bool used);
 
+/// The unknowns of a block as an array.
+[[nodiscard]] KernelInput unknowns_of(const ImplicitBlock& block, std::string name);
+
 /// The type of an argument: S, State, std::array or a matrix of Eigen.
 [[nodiscard]] std::string type_of(const KernelInput& input);
 

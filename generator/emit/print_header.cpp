@@ -47,28 +47,34 @@ void print_members(TextBlock& out, const std::vector<std::string>& names, const 
     out.indent(-1);
 }
 
-std::string default_value(const KernelModule& module, NodeId node)
+std::string default_value(const KernelModule& module, NodeId node, Includes& includes)
 {
     if (module.graph->is_constant(node)) return print_literal(module.graph->value(node)).text;
     const LocalNames none;
     const NodeId outputs[] = {node};
-    const Body body = print_body({*module.graph, none, outputs, {}, {}, Checking::none});
+    const Body body = write_body({*module.graph, none, outputs, {}, {}, Checking::none});
+    includes.merge(includes_of(body));
     std::string text = "[] { ";
-    for (const std::string& function : body.functions) text += using_declaration(function) + " ";
-    for (const BodyLine& line : body.parts.front().lines)
-        text += line.kind == BodyLine::Kind::store ? "return S(" + line.text + "); " : line.text + " ";
+    for (const std::string& declaration : using_declarations(body)) text += declaration + " ";
+    for (const Statement& statement : body.parts.front()) {
+        if (statement.kind == Statement::Kind::store)
+            text += "return S(" + spell(statement.expressions[0]).text + "); ";
+        else
+            for (const std::string& line : spell(statement)) text += line + " ";
+    }
     return text + "}()";
 }
 
-void print_parameters(TextBlock& out, const KernelModule& module, const ModuleNames& names)
+void print_parameters(TextBlock& out, const KernelModule& module, const ModuleNames& names, Includes& includes)
 {
     out.blank();
     out.comment("Physical parameters with the defaults of the model.");
     if (names.parameters.empty()) return out.line("struct Parameters {} parameters;");
     std::vector<std::string> values;
     for (std::size_t k = 0; k < module.parameters.size(); ++k)
-        values.push_back(k < module.parameter_defaults.size() ? default_value(module, module.parameter_defaults[k])
-                                                              : "S(0)");
+        values.push_back(k < module.parameter_defaults.size()
+                             ? default_value(module, module.parameter_defaults[k], includes)
+                             : "S(0)");
     out.line("struct Parameters {");
     print_members(out, names.parameters, values, module.parameters);
     out.line("} parameters;");
@@ -145,49 +151,31 @@ void print_parameter_access(TextBlock& out, const ModuleNames& names)
     out.line("}");
 }
 
-/// Does a kernel or a default value call Stumpff functions?
-bool needs_stumpff(const KernelModule& module)
-{
-    std::vector<NodeId> roots = module.parameter_defaults;
-    for (const Kernel& kernel : module.kernels)
-        for (const NodeId id : nodes_of(kernel)) roots.push_back(id);
-    return std::ranges::any_of(reachable(*module.graph, roots),
-                               [&](NodeId id) { return module.graph->op(id) == Op::stumpff; });
-}
-
 } // namespace
 
 std::string print_header(const KernelModule& module)
 {
     const ModuleNames names = name_module(module);
-    KernelNeeds needs;
+    Includes includes;
     TextBlock kernels;
     kernels.indent(1);
     print_constants(kernels, module);
-    print_parameters(kernels, module, names);
+    print_parameters(kernels, module, names, includes);
     print_parameter_access(kernels, names);
     print_guess(kernels, module, names);
     for (std::size_t k = 0; k < module.groups.size(); ++k) print_group(kernels, module.groups[k], names.groups[k]);
     print_state(kernels, module, names);
-    print_parameter_status(kernels, module, names, needs);
-    for (const ImplicitBlock& block : module.implicit) print_implicit(kernels, module, names, block, needs);
+    print_parameter_status(kernels, module, names, includes);
+    for (const ImplicitBlock& block : module.implicit) print_implicit(kernels, module, names, block, includes);
     print_follow(kernels, module, names);
-    for (const Kernel& kernel : module.kernels) print_kernel(kernels, module, names, kernel, needs);
+    for (const Kernel& kernel : module.kernels) print_kernel(kernels, module, names, kernel, includes);
 
     TextBlock out;
     print_banner(out, module);
     out.line("#pragma once");
     out.blank();
     out.line("#include \"lagen/kernel.hpp\"");
-    if (needs.bracket) out.line("#include \"lagen/bracket.hpp\"");
-    if (needs.controls) out.line("#include \"lagen/controls.hpp\"");
-    if (needs.linear) out.line("#include \"lagen/linear.hpp\"");
-    if (needs.newton) out.line("#include \"lagen/newton.hpp\"");
-    const auto calls = [&](const char* name) { return kernels.text().find(name) != std::string::npos; };
-    if (calls("arithmetic::sqrt") || calls("square_roots<S") || calls("reciprocals<S"))
-        out.line("#include \"lagen/roots.hpp\"");
-    if (calls("sincos<S")) out.line("#include \"lagen/sincos.hpp\"");
-    if (needs_stumpff(module)) out.line("#include \"lagen/stumpff.hpp\"");
+    for (const std::string& include : includes) out.line(fmt::format("#include \"{}\"", include));
     out.blank();
     for (const char* header : {"Eigen/Core", "array", "cmath", "cstddef"}) {
         out.line(fmt::format("#include <{}>", header));

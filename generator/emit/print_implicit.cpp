@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "emit/print_function.hpp"
 #include "emit/print_kernel.hpp"
+#include "emit/spell.hpp"
 
 #include <fmt/format.h>
 
@@ -9,21 +10,6 @@
 namespace lagen {
 
 namespace {
-
-/// The array of the unknowns that Newton's method asks about.
-KernelInput unknowns_of(const KernelModule& module, const ImplicitBlock& block)
-{
-    KernelInput input{"unknowns", ArrayRole::value, {1, block.unknowns.size(), 1}, {}};
-    for (const NodeId id : block.unknowns) input.entries.push_back({module.graph->input_name(id), {}, {}, id});
-    return input;
-}
-
-std::string list_of(std::size_t count, const std::function<std::string(std::size_t)>& entry)
-{
-    std::vector<std::string> entries;
-    for (std::size_t k = 0; k < count; ++k) entries.push_back(entry(k));
-    return joined(entries);
-}
 
 /// solve_NAME() of one block.
 class ImplicitPrinter {
@@ -50,7 +36,7 @@ class ImplicitPrinter {
         }
         start_ = body_of(start);
         iteration_ = body_of(inner);
-        inputs_.push_back(unknowns_of(module, block));
+        inputs_.push_back(unknowns_of(block, "unknowns"));
     }
 
     void print()
@@ -75,10 +61,18 @@ class ImplicitPrinter {
         close_block(out_);
     }
 
+    /// Of the functions that the search calls.
+    [[nodiscard]] Includes includes() const
+    {
+        Includes all = includes_of(start_);
+        all.merge(includes_of(iteration_));
+        return all;
+    }
+
   private:
     [[nodiscard]] Body body_of(const std::vector<NodeId>& outputs) const
     {
-        return print_body({*module_.graph, names_.locals, outputs, {}, names_.moving, Checking::none, {}, 0});
+        return write_body({*module_.graph, names_.locals, outputs, {}, names_.moving, Checking::none, {}, 0});
     }
 
     /// Before the search, in braces of its own.
@@ -169,18 +163,19 @@ void follow_block(TextBlock& out, const KernelModule& module, const ModuleNames&
 {
     const std::size_t size = block.unknowns.size();
     const std::string solved = "solved_" + block.name;
-    const auto member = [&](std::size_t k) { return "guess." + names.guess.at(block.unknowns[k]); };
+    std::vector<std::string> members;
+    for (const NodeId id : block.unknowns) members.push_back("guess." + names.guess.at(id));
     std::string kept = "guess.{0} = number_or<S>({1}[{2}], guess.{0});";
     if (!block.angles) {
         const Body body =
-            print_body({*module.graph, names.locals, block.jacobian, {}, names.moving, Checking::none, {}, 0});
-        out.line(fmt::format("const std::array<S, {}> from = {{{}}};", size, list_of(size, member)));
+            write_body({*module.graph, names.locals, block.jacobian, {}, names.moving, Checking::none, {}, 0});
+        out.line(fmt::format("const std::array<S, {}> from = {{{}}};", size, joined(members)));
         out.line(fmt::format("const auto curvature = [&]([[maybe_unused]] const std::array<S, {}>& unknowns, "
                              "std::array<S, {}>& matrix) noexcept {{",
                              size, size * size));
         out.indent(1);
         std::vector<KernelInput> inputs = point_inputs(module);
-        inputs.push_back(unknowns_of(module, block));
+        inputs.push_back(unknowns_of(block, "unknowns"));
         print_lines(out, body,
                     {module, names, "follow", false, inputs, {}, [](std::size_t k, const std::string& value) {
                          return fmt::format("matrix[{}] = {};", k, value);
@@ -244,12 +239,14 @@ void print_follow(TextBlock& out, const KernelModule& module, const ModuleNames&
 }
 
 void print_implicit(TextBlock& out, const KernelModule& module, const ModuleNames& names, const ImplicitBlock& block,
-                    KernelNeeds& needs)
+                    Includes& includes)
 {
-    needs.controls = needs.controls || block.follows;
-    if (!block.angles) (block.bracket ? needs.bracket : needs.linear) = true;
-    needs.newton = needs.newton || !(block.bracket || block.angles);
-    ImplicitPrinter(out, module, names, block).print();
+    if (block.follows) includes.insert("lagen/controls.hpp");
+    if (block.bracket) includes.insert("lagen/bracket.hpp");
+    if (!block.bracket && !block.angles) includes.merge(Includes{"lagen/linear.hpp", "lagen/newton.hpp"});
+    ImplicitPrinter printer(out, module, names, block);
+    printer.print();
+    includes.merge(printer.includes());
 }
 
 } // namespace lagen

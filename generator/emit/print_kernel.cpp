@@ -2,6 +2,7 @@
 #include "emit/print_kernel.hpp"
 
 #include "emit/print_function.hpp"
+#include "emit/spell.hpp"
 
 #include <fmt/format.h>
 
@@ -237,19 +238,19 @@ void print_conditions(TextBlock& out, const std::vector<std::string>& conditions
 } // namespace
 
 void print_kernel(TextBlock& out, const KernelModule& module, const ModuleNames& names, const Kernel& kernel,
-                  KernelNeeds& needs)
+                  Includes& includes)
 {
     const std::vector<NodeId> outputs = nodes_of(kernel);
     const std::vector<NodeId> pivots = kernel.checks ? kernel.checks->pivots : std::vector<NodeId>{};
     const Body body =
-        print_body({*module.graph, names.locals, outputs, pivots, names.moving,
+        write_body({*module.graph, names.locals, outputs, pivots, names.moving,
                     kernel.checks ? Checking::state : Checking::none, arrangements_of(kernel), longest_part});
-    needs.linear = needs.linear || body.has_status || body.has_pivoting;
+    includes.merge(includes_of(body));
     out.blank();
     KernelPrinter(out, module, names, kernel, body).print();
 }
 
-void print_parameter_status(TextBlock& out, const KernelModule& module, const ModuleNames& names, KernelNeeds& needs)
+void print_parameter_status(TextBlock& out, const KernelModule& module, const ModuleNames& names, Includes& includes)
 {
     const std::vector<bool> moves = depends_on(*module.graph, names.moving);
     std::vector<NodeId> checked;
@@ -269,9 +270,10 @@ void print_parameter_status(TextBlock& out, const KernelModule& module, const Mo
         texts.push_back(text);
     }
     const Body body =
-        print_body({*module.graph, names.locals, conditions, checked, names.moving, Checking::parameters});
-    needs.linear = needs.linear || body.has_status || body.has_pivoting;
-    const bool has_status = body.has_status || !conditions.empty();
+        write_body({*module.graph, names.locals, conditions, checked, names.moving, Checking::parameters});
+    includes.merge(includes_of(body));
+    const bool checks = has_checks(body);
+    const bool has_status = checks || !conditions.empty();
     out.blank();
     out.comment(fmt::format("What of {} depends on the parameters alone: singular_mass_matrix where a matrix or a "
                             "divisor",
@@ -279,7 +281,7 @@ void print_parameter_status(TextBlock& out, const KernelModule& module, const Mo
     out.comment("made of them has no inverse. Call it once after the parameters are set; integrate() does.");
     print_conditions(out, texts);
     open_block(out, "[[nodiscard]] status_t<S> parameter_status() const noexcept");
-    if (has_status && !body.has_status) out.line("auto status = StatusOf<S>::good();");
+    if (has_status && !checks) out.line("auto status = StatusOf<S>::good();");
     print_lines(out, body, {module, names, "parameter_status", true, {}, {}, [](std::size_t, const std::string& value) {
                                 return fmt::format("StatusOf<S>::fail(status, !({} > S(0)), Status::left_domain);",
                                                    value);

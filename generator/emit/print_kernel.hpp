@@ -5,18 +5,15 @@
 #include "emit/module_names.hpp"
 #include "emit/text_block.hpp"
 
+#include <set>
+
 namespace lagen {
 
-/// What the functions printed so far need from elsewhere.
-struct KernelNeeds {
-    bool linear = false;   ///< lagen/linear.hpp
-    bool newton = false;   ///< lagen/newton.hpp
-    bool bracket = false;  ///< lagen/bracket.hpp
-    bool controls = false; ///< lagen/controls.hpp
-};
+/// The headers of the runtime that the functions printed so far need: "lagen/linear.hpp", ...
+using Includes = std::set<std::string>;
 
 void print_kernel(TextBlock& out, const KernelModule& module, const ModuleNames& names, const Kernel& kernel,
-                  KernelNeeds& needs);
+                  Includes& includes);
 
 /// Guess, with a member an unknown that is followed along a run; nothing where there is none.
 void print_guess(TextBlock& out, const KernelModule& module, const ModuleNames& names);
@@ -26,9 +23,9 @@ void print_follow(TextBlock& out, const KernelModule& module, const ModuleNames&
 /// solve_NAME(): the unknowns of a block at a state, by Newton's method, between its bounds where it has a bracket, in
 /// closed form where they are angles.
 void print_implicit(TextBlock& out, const KernelModule& module, const ModuleNames& names, const ImplicitBlock& block,
-                    KernelNeeds& needs);
+                    Includes& includes);
 
 /// parameter_status(): the factorisations and divisors of all kernels that depend on parameters alone.
-void print_parameter_status(TextBlock& out, const KernelModule& module, const ModuleNames& names, KernelNeeds& needs);
+void print_parameter_status(TextBlock& out, const KernelModule& module, const ModuleNames& names, Includes& includes);
 
 } // namespace lagen

@@ -5,9 +5,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdlib>
-#include <utility>
 
 namespace lagen {
 
@@ -16,6 +14,12 @@ namespace {
 std::string enclose(const Spelling& spelling, int precedence)
 {
     return spelling.precedence >= precedence ? spelling.text : "(" + spelling.text + ")";
+}
+
+/// In parentheses unless it binds at least as tightly as `precedence`.
+std::string at_least(int precedence, const Expression& expression)
+{
+    return enclose(spell(expression), precedence);
 }
 
 bool is_comparison(Op op)
@@ -29,168 +33,192 @@ bool is_choice(Op op)
     return op == Op::select || op == Op::sign || op == Op::minimum || op == Op::maximum || is_comparison(op);
 }
 
-/// b * b * .. * b, at most four factors; the fourth power is the square of the square.
-Spelling repeated(const std::string& base, int count)
+/// A call of a function that has the name that the operator table gives it.
+bool is_plain_function(Op op)
 {
-    if (count == 1) return {base, 5};
-    if (count == 2) return {fmt::format("{0} * {0}", base), 2};
-    if (count == 3) return {fmt::format("{0} * {0} * {0}", base), 2};
-    return {fmt::format("({0} * {0}) * ({0} * {0})", base), 2};
+    return kind_of(op) == OpKind::function && !is_choice(op) && op != Op::stumpff;
 }
 
-} // namespace
-
-Speller::Speller(const Graph& graph) : graph_(graph), names_(graph.size()), latest_(graph.size())
+/// b * b * .. * b, at most four factors; the fourth power is the square of the square. Longer chains are statements of
+/// their own; the base has a name.
+Spelling spell_power(const Expression& power)
 {
-    for (NodeId id = 0; id < graph.size(); ++id) {
-        latest_[id] = graph.op(id) == Op::input ? id : 0;
-        for (const NodeId operand : graph.operands(id)) latest_[id] = std::max(latest_[id], latest_[operand]);
-    }
+    const auto exponent = static_cast<std::int32_t>(power.payload);
+    const std::string base = at_least(5, power.operands[0]);
+    Spelling result{base, 5};
+    if (const int count = std::abs(exponent); count == 4)
+        result = {fmt::format("({0} * {0}) * ({0} * {0})", base), 2};
+    else
+        for (int k = 1; k < count; ++k) result = {result.text + " * " + base, 2};
+    if (exponent > 0) return result;
+    return {"S(1) / " + enclose(result, 3), 2};
 }
 
-std::string Speller::call(const std::string& function)
+/// The spelling of -x where a sign stands in front of it already, and nothing otherwise.
+std::optional<Spelling> negated(const Expression& x)
 {
-    functions_.insert(function);
-    return function;
-}
-
-std::string Speller::at_least(int precedence, NodeId id)
-{
-    return enclose((*this)(id), precedence);
-}
-
-Spelling Speller::operator()(NodeId id)
-{
-    if (has_name(id)) return {names_[id], 5};
-    return operation(id);
-}
-
-Spelling Speller::operation(NodeId id)
-{
-    const std::span<const NodeId> operand = graph_.operands(id);
-    const Op op = graph_.op(id);
-    switch (kind_of(op)) {
-    case OpKind::leaf:
-        if (op == Op::input) break;
-        return op == Op::pi ? print_pi() : print_literal(graph_.value(id));
-    case OpKind::sum:
-        if (op == Op::negate) return {"-" + at_least(2, operand[0]), 1};
-        return op == Op::add ? add(operand[0], operand[1]) : subtract(operand[0], operand[1]);
-    case OpKind::product: return multiply(operand[0], operand[1]);
-    case OpKind::quotient: return {at_least(2, operand[0]) + " / " + at_least(3, operand[1]), 2};
-    case OpKind::power: return power(operand[0], static_cast<std::int32_t>(graph_.payload(id)));
-    case OpKind::comparison: return comparison(id);
-    case OpKind::choice: return choice(id);
-    case OpKind::function: return function(id);
-    case OpKind::system: throw InternalError("linear algebra inside an expression");
-    }
-    throw InternalError("an input without a local name: " + graph_.input_name(id));
-}
-
-/// Numbers stand in front, then what depends on the earlier inputs (parameters before coordinates); a product goes on
-/// from its left end, without parentheses. Multiplication commutes bit for bit.
-Spelling Speller::multiply(NodeId a, NodeId b)
-{
-    const auto chain = [&](NodeId id) { return graph_.op(id) == Op::multiply && !has_name(id); };
-    if (graph_.is_constant(b) && !graph_.is_constant(a))
-        std::swap(a, b);
-    else if (!graph_.is_constant(a) && (chain(a) == chain(b) ? latest_[b] < latest_[a] : chain(b)))
-        std::swap(a, b);
-    return {at_least(2, a) + " * " + at_least(3, b), 2};
-}
-
-/// a + b with signs drawn out, so that "+ -" never stands in the text; -a + b is b - a, bit for bit.
-Spelling Speller::add(NodeId a, NodeId b)
-{
-    if (const auto minus = negated(b)) return {at_least(1, a) + " - " + enclose(*minus, 2), 1};
-    if (const auto minus = negated(a)) return {at_least(1, b) + " - " + enclose(*minus, 2), 1};
-    return {at_least(1, a) + " + " + at_least(2, b), 1};
-}
-
-Spelling Speller::subtract(NodeId a, NodeId b)
-{
-    if (const auto minus = negated(b)) return {at_least(1, a) + " + " + enclose(*minus, 2), 1};
-    return {at_least(1, a) + " - " + at_least(2, b), 1};
-}
-
-/// The spelling of -node where a sign stands in front of it already, and nothing otherwise.
-std::optional<Spelling> Speller::negated(NodeId id)
-{
-    if (has_name(id)) return std::nullopt;
-    const std::span<const NodeId> operand = graph_.operands(id);
-    const Op op = graph_.op(id);
-    if (op == Op::constant && graph_.value(id) < 0) return print_literal(-graph_.value(id));
-    if (op == Op::negate) return (*this)(operand[0]);
-    if (op != Op::multiply && op != Op::divide) return std::nullopt;
-    NodeId a = operand[0];
-    NodeId b = operand[1];
-    if (op == Op::multiply && graph_.is_constant(b)) std::swap(a, b);
-    const std::string sign = op == Op::multiply ? " * " : " / ";
+    if (x.op == Op::constant && x.value < 0) return print_literal(-x.value);
+    if (x.op == Op::negate) return spell(x.operands[0]);
+    if (x.op != Op::multiply && x.op != Op::divide) return std::nullopt;
+    const Expression& a = x.operands[0];
+    const Expression& b = x.operands[1];
+    const char* sign = x.op == Op::multiply ? " * " : " / ";
     if (const auto minus = negated(a)) return Spelling{enclose(*minus, 2) + sign + at_least(3, b), 2};
     if (const auto minus = negated(b)) return Spelling{at_least(2, a) + sign + enclose(*minus, 3), 2};
     return std::nullopt;
 }
 
-/// Longer chains are statements of their own; the base has a name.
-Spelling Speller::power(NodeId base, int exponent)
+/// With signs drawn out, so that "+ -" never stands in the text; -a + b is b - a, bit for bit.
+Spelling spell_sum(const Expression& sum)
 {
-    const Spelling positive = repeated(at_least(5, base), std::abs(exponent));
-    if (exponent > 0) return positive;
-    return {"S(1) / " + enclose(positive, 3), 2};
-}
-
-/// S(..): a scalar with expression templates has another type for every sum.
-Spelling Speller::choice(NodeId id)
-{
-    const std::span<const NodeId> operand = graph_.operands(id);
-    const auto value = [&](std::size_t k) {
-        const std::string text = (*this)(operand[k]).text;
-        const bool plain = has_name(operand[k]) || is_choice(graph_.op(operand[k])) ||
-                           (graph_.is_constant(operand[k]) && print_literal(graph_.value(operand[k])).precedence == 5);
-        return plain && text.front() != '(' ? text : "S(" + text + ")";
-    };
-    return {fmt::format("select({}, {}, {})", condition(operand[0]).text, value(1), value(2)), 5};
-}
-
-Spelling Speller::function(NodeId id)
-{
-    const std::span<const NodeId> operand = graph_.operands(id);
-    const Op op = graph_.op(id);
-    const auto text = [&](std::size_t k) { return (*this)(operand[k]).text; };
-    if (op == Op::minimum || op == Op::maximum)
-        return {fmt::format("select({0} {2} {1}, {0}, {1})", at_least(1, operand[0]), at_least(1, operand[1]),
-                            op == Op::minimum ? '<' : '>'),
-                5};
-    if (op == Op::sign) {
-        const std::string x = at_least(1, operand[0]);
-        return {fmt::format("select({0} > S(0), S(1), select({0} < S(0), S(-1), S(0)))", x), 5};
-    }
-    if (op == Op::stumpff) return {fmt::format("stumpff<{}, S>({})", graph_.payload(id), text(0)), 5};
-    const std::string name = call(operator_of(op).spelling);
-    if (operand.size() == 1) return {fmt::format("{}({})", name, text(0)), 5};
-    return {fmt::format("{}({}, {})", name, text(0), text(1)), 5};
+    if (sum.op == Op::negate) return {"-" + at_least(2, sum.operands[0]), 1};
+    const Expression& a = sum.operands[0];
+    const Expression& b = sum.operands[1];
+    const bool add = sum.op == Op::add;
+    if (const auto minus = negated(b)) return {at_least(1, a) + (add ? " - " : " + ") + enclose(*minus, 2), 1};
+    if (const auto minus = add ? negated(a) : std::nullopt) return {at_least(1, b) + " - " + enclose(*minus, 2), 1};
+    return {at_least(1, a) + (add ? " + " : " - ") + at_least(2, b), 1};
 }
 
 /// A mask: the comparison itself, or "is not zero".
-Spelling Speller::condition(NodeId id)
+std::string condition(const Expression& expression)
 {
-    if (has_name(id) || !is_comparison(graph_.op(id))) return {at_least(1, id) + " != S(0)", 0};
-    const std::span<const NodeId> operand = graph_.operands(id);
-    return {
-        fmt::format("{} {} {}", at_least(1, operand[0]), operator_of(graph_.op(id)).spelling, at_least(1, operand[1])),
-        0};
+    if (!is_comparison(expression.op)) return at_least(1, expression) + " != S(0)";
+    return fmt::format("{} {} {}", at_least(1, expression.operands[0]), operator_of(expression.op).spelling,
+                       at_least(1, expression.operands[1]));
 }
 
-/// A comparison as a number.
-Spelling Speller::comparison(NodeId id)
+/// S(..): a scalar with expression templates has another type for every sum.
+Spelling spell_choice(const Expression& choice)
 {
-    return {fmt::format("select({}, S(1), S(0))", condition(id).text), 5};
+    const auto value = [&](std::size_t k) {
+        const Expression& operand = choice.operands[k];
+        const Spelling spelling = spell(operand);
+        const bool plain = operand.is_variable() || is_choice(operand.op) ||
+                           (operand.op == Op::constant && spelling.precedence == 5 && spelling.text.front() != '(');
+        return plain ? spelling.text : "S(" + spelling.text + ")";
+    };
+    return {fmt::format("select({}, {}, {})", condition(choice.operands[0]), value(1), value(2)), 5};
+}
+
+Spelling spell_function(const Expression& call)
+{
+    if (call.op == Op::minimum || call.op == Op::maximum)
+        return {fmt::format("select({0} {2} {1}, {0}, {1})", at_least(1, call.operands[0]),
+                            at_least(1, call.operands[1]), call.op == Op::minimum ? '<' : '>'),
+                5};
+    if (call.op == Op::sign)
+        return {fmt::format("select({0} > S(0), S(1), select({0} < S(0), S(-1), S(0)))", at_least(1, call.operands[0])),
+                5};
+    if (call.op == Op::stumpff)
+        return {fmt::format("stumpff<{}, S>({})", call.payload, spell(call.operands[0]).text), 5};
+    std::string arguments;
+    for (const Expression& operand : call.operands) arguments += (arguments.empty() ? "" : ", ") + spell(operand).text;
+    return {fmt::format("{}({})", operator_of(call.op).spelling, arguments), 5};
+}
+
+/// "a, b, c".
+std::string list_of(const std::vector<Expression>& expressions)
+{
+    std::string text;
+    for (const Expression& each : expressions) text += (text.empty() ? "" : ", ") + spell(each).text;
+    return text;
+}
+
+std::string spell_check(const Statement& check)
+{
+    std::string failure = at_least(1, check.expressions[0]);
+    if (check.expressions.size() == 1)
+        failure += " == S(0)";
+    else
+        failure += fmt::format(" <= singular_tolerance<S>({}) * {}", check.index, at_least(3, check.expressions[1]));
+    return fmt::format("StatusOf<S>::fail(status, {}, Status::singular_mass_matrix);", failure);
+}
+
+std::vector<std::string> spell_factor(const Statement& factor)
+{
+    const std::string call = fmt::format("{}.factor({{{}}})", factor.names[0], list_of(factor.expressions));
+    return {fmt::format("PivotedLu<S, {}> {};", factor.index, factor.names[0]),
+            factor.checked ? fmt::format("StatusOf<S>::fail(status, {}, Status::singular_mass_matrix);", call)
+                           : fmt::format("static_cast<void>({});", call)};
+}
+
+} // namespace
+
+Spelling spell(const Expression& expression)
+{
+    switch (kind_of(expression.op)) {
+    case OpKind::leaf:
+        if (expression.op == Op::constant) return print_literal(expression.value);
+        if (expression.op == Op::pi) return print_pi();
+        return {expression.entry ? fmt::format("{}[{}]", expression.name, *expression.entry) : expression.name, 5};
+    case OpKind::sum: return spell_sum(expression);
+    case OpKind::product: return {at_least(2, expression.operands[0]) + " * " + at_least(3, expression.operands[1]), 2};
+    case OpKind::quotient:
+        return {at_least(2, expression.operands[0]) + " / " + at_least(3, expression.operands[1]), 2};
+    case OpKind::power: return spell_power(expression);
+    case OpKind::comparison: return {fmt::format("select({}, S(1), S(0))", condition(expression)), 5};
+    case OpKind::choice: return spell_choice(expression);
+    case OpKind::function: return spell_function(expression);
+    case OpKind::system: break;
+    }
+    throw InternalError("linear algebra inside an expression");
+}
+
+std::vector<std::string> spell(const Statement& statement)
+{
+    using Kind = Statement::Kind;
+    const auto& names = statement.names;
+    const auto argument = [&] { return spell(statement.expressions[0]).text; };
+    const auto call = [&](const char* function) {
+        return fmt::format("{}<S, {}>({{{}}})", function, statement.expressions.size(), list_of(statement.expressions));
+    };
+    switch (statement.kind) {
+    case Kind::define: return {fmt::format("const S {} = {};", names[0], argument())};
+    case Kind::angles:
+        return {fmt::format("const auto [{}, {}] = {};", names[0], names[1],
+                            statement.expressions.size() > 1 ? call("sincos") : "sincos<S>(" + argument() + ")")};
+    case Kind::roots: return {fmt::format("const auto {} = {};", names[0], call("square_roots"))};
+    case Kind::reciprocals: return {fmt::format("const auto {} = {};", names[0], call("reciprocals"))};
+    case Kind::stumpff:
+        return {fmt::format("const auto {} = stumpff_orders<{}, {}, S>({});", names[0], statement.index, statement.last,
+                            argument())};
+    case Kind::factor: return spell_factor(statement);
+    case Kind::solve:
+        return {fmt::format("const std::array<S, {}> {} = {}.solve({{{}}});", statement.expressions.size(), names[0],
+                            names[1], list_of(statement.expressions))};
+    case Kind::check: return {spell_check(statement)};
+    case Kind::keep: return {fmt::format("work[{}] = {};", statement.index, argument())};
+    case Kind::recall: return {fmt::format("const S {} = work[{}];", names[0], statement.index)};
+    case Kind::load:
+    case Kind::store: break;
+    }
+    throw InternalError("a load or a store outside of a function");
 }
 
 /// The square root of the runtime sets no errno, see runtime/include/lagen/roots.hpp.
-std::string using_declaration(const std::string& function)
+std::vector<std::string> using_declarations(const Body& body)
 {
-    return fmt::format("using {}::{};", function == "sqrt" ? "arithmetic" : "std", function);
+    std::set<std::string> functions;
+    for (const Op op : operators_in(body))
+        if (is_plain_function(op)) functions.insert(operator_of(op).spelling);
+    std::vector<std::string> declarations;
+    for (const std::string& function : functions)
+        declarations.push_back(fmt::format("using {}::{};", function == "sqrt" ? "arithmetic" : "std", function));
+    return declarations;
+}
+
+std::set<std::string> includes_of(const Body& body)
+{
+    using Kind = Statement::Kind;
+    const std::set<Op> operators = operators_in(body);
+    std::set<std::string> includes;
+    if (has_checks(body) || contains(body, Kind::factor)) includes.insert("lagen/linear.hpp");
+    if (operators.contains(Op::sqrt) || contains(body, Kind::roots) || contains(body, Kind::reciprocals))
+        includes.insert("lagen/roots.hpp");
+    if (contains(body, Kind::angles)) includes.insert("lagen/sincos.hpp");
+    if (operators.contains(Op::stumpff) || contains(body, Kind::stumpff)) includes.insert("lagen/stumpff.hpp");
+    return includes;
 }
 
 } // namespace lagen

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Operations that one call computes together: which they are, in which order, and how they are called.
-#include "emit/print_body.hpp"
+#include "emit/spell.hpp"
+#include "emit/write_body.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -16,10 +17,15 @@ std::vector<std::string> lines(const Graph& graph, const std::vector<NodeId>& ou
         names.inputs[id] = graph.input_name(id);
         names.taken.insert(graph.input_name(id));
     }
-    const Body body = print_body({graph, names, outputs, {}, {}, Checking::none});
+    const Body body = write_body({graph, names, outputs, {}, {}, Checking::none});
     std::vector<std::string> text;
-    for (const BodyLine& line : body.parts.front().lines)
-        if (line.kind != BodyLine::Kind::load) text.push_back(line.text);
+    for (const Statement& statement : body.parts.front()) {
+        if (statement.kind == Statement::Kind::load) continue;
+        if (statement.kind == Statement::Kind::store)
+            text.push_back(spell(statement.expressions[0]).text);
+        else
+            for (const std::string& line : spell(statement)) text.push_back(line);
+    }
     return text;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// What `select` is given has the scalar's own type: scalars with expression templates have one for every sum.
+#include "emit/node_expressions.hpp"
 #include "emit/spell.hpp"
 
 #include <catch2/catch.hpp>
@@ -14,10 +15,10 @@ TEST_CASE("the branches of a selection are scalars, not expressions")
     const NodeId less = g.apply(Op::less, a, b);
     const auto text = [&](NodeId x, NodeId y) {
         const NodeId choice = g.select(less, x, y);
-        Speller spell(g); // knows the nodes that are there
-        spell.name(a, "a");
-        spell.name(b, "b");
-        return spell(choice).text;
+        NodeExpressions expressions(g); // knows the nodes that are there
+        expressions.name(a, variable("a"));
+        expressions.name(b, variable("b"));
+        return spell(expressions(choice)).text;
     };
     CHECK(text(a, g.constant(2)) == "select(a < b, a, S(2))");
     CHECK(text(g.add(a, b), g.constant(Rational(1, 3))) == "select(a < b, S(a + b), S(S(1) / S(3)))");

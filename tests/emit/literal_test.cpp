@@ -3,8 +3,8 @@
 
 #include "emit/json.hpp"
 #include "emit/order_body.hpp"
-#include "emit/print_solve.hpp"
 #include "emit/spell.hpp"
+#include "emit/unroll_solve.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -28,9 +28,9 @@ namespace {
 
 std::string spelled(Graph& graph, NodeId id)
 {
-    Speller spell(graph);
-    for (const NodeId input : graph.inputs()) spell.name(input, graph.input_name(input));
-    return spell(id).text;
+    NodeExpressions expressions(graph);
+    for (const NodeId input : graph.inputs()) expressions.name(input, variable(graph.input_name(input)));
+    return spell(expressions(id)).text;
 }
 
 } // namespace

@@ -131,7 +131,7 @@ TEST_CASE("what the rows of the double pendulum are divided by are divisors of i
     for (const NodeId pivot : find_kernel(module, "rhs").checks->pivots)
         names.push_back(module.graph->input_name(pivot));
     CHECK(names == std::vector<std::string>{"m2", "l1", "l2"});
-    CHECK(find_kernel(module, "jacobian").checks->pivots.empty());
+    CHECK(!find_kernel(module, "jacobian").checks);
 }
 
 TEST_CASE("a bracket listed as [b, a] is the negative of [a, b]", "[kernels]")

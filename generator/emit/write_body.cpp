@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "emit/write_body.hpp"
+
+#include "emit/cut_body.hpp"
+#include "emit/unroll_solve.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace lagen {
+
+namespace {
+
+/// "w", unless a name of the model is w with digits behind it; then the next that is free of such names.
+std::string choose_prefix(const std::set<std::string>& taken)
+{
+    const auto clashes = [&](const std::string& prefix) {
+        return std::ranges::any_of(taken, [&](const std::string& name) {
+            return name.size() > prefix.size() && name.starts_with(prefix) &&
+                   std::isdigit(static_cast<unsigned char>(name[prefix.size()])) != 0;
+        });
+    };
+    std::string prefix = "w";
+    for (const char* candidate : {"w", "u", "q", "k", "term", "shared"}) {
+        prefix = candidate;
+        if (!clashes(prefix)) return prefix;
+    }
+    while (clashes(prefix)) prefix += "_term";
+    return prefix;
+}
+
+class BodyWriter {
+  public:
+    explicit BodyWriter(const BodyRequest& request)
+        : request_(request), graph_(request.graph), expressions_(request.graph), taken_(request.names.taken),
+          prefix_(choose_prefix(request.names.taken)), moves_(depends_on(request.graph, request.moving))
+    {
+    }
+
+    Body write()
+    {
+        std::vector<NodeId> roots(request_.outputs.begin(), request_.outputs.end());
+        for (const NodeId pivot : request_.pivots)
+            if (is_checked(pivot)) roots.push_back(pivot); // a factorisation is checked where it stands
+        plan_ = plan_body(graph_, roots);
+        name_inputs();
+        const std::vector<BodyStep> steps =
+            order_body(graph_, plan_,
+                       {request_.outputs, std::span(roots).subspan(request_.outputs.size()), request_.arrangements});
+        const CutBody cut = cut_body(graph_, steps, request_.longest_part);
+        body_.workspace = cut.workspace;
+        for (const std::vector<BodyStep>& part : cut.parts) {
+            body_.parts.emplace_back();
+            for (const BodyStep& step : part) write_step(step);
+        }
+        return std::move(body_);
+    }
+
+  private:
+    using Kind = Statement::Kind;
+
+    [[nodiscard]] bool is_checked(NodeId id) const
+    {
+        if (request_.checking == Checking::none || graph_.is_constant(id)) return false;
+        return moves_[id] == (request_.checking == Checking::state);
+    }
+
+    std::string fresh(const std::string& wish)
+    {
+        std::string name = wish;
+        while (!taken_.insert(name).second) name += '_';
+        return name;
+    }
+
+    std::string next_term() { return fresh(prefix_ + std::to_string(terms_++)); }
+
+    void name_inputs()
+    {
+        for (const NodeId id : graph_.inputs()) {
+            if (!plan_.used[id]) continue;
+            expressions_.name(id, variable(request_.names.inputs.at(id)));
+            body_.inputs.push_back(id);
+        }
+    }
+
+    void add(Statement statement) { body_.parts.back().push_back(std::move(statement)); }
+
+    void write_step(const BodyStep& step)
+    {
+        switch (step.kind) {
+        case BodyStep::Kind::load: return add({.kind = Kind::load, .node = step.node});
+        case BodyStep::Kind::define: return define_node(step.node);
+        case BodyStep::Kind::check:
+            if (graph_.op(step.node) != Op::factor)
+                add({.kind = Kind::check, .expressions = {expressions_(step.node)}});
+            return;
+        case BodyStep::Kind::store:
+            return add({.kind = Kind::store, .expressions = {expressions_(step.node)}, .index = step.index});
+        case BodyStep::Kind::keep:
+            return add({.kind = Kind::keep, .expressions = {expressions_(step.node)}, .index = step.index});
+        case BodyStep::Kind::recall: return recall(step);
+        }
+    }
+
+    /// Under its own name, where it has one (and is no entry of an array).
+    void recall(const BodyStep& step)
+    {
+        const Expression known = expressions_(step.node);
+        const std::string name = known.is_variable() && !known.entry ? known.name : next_term();
+        add({.kind = Kind::recall, .names = {name}, .index = step.index});
+        expressions_.name(step.node, variable(name));
+    }
+
+    Expression define(Expression value)
+    {
+        const std::string name = next_term();
+        add({.kind = Kind::define, .names = {name}, .expressions = {std::move(value)}});
+        return variable(name);
+    }
+
+    void define_node(NodeId id)
+    {
+        if (graph_.op(id) == Op::factor) return define_factor(id);
+        if (graph_.op(id) == Op::solve) return define_solution(id);
+        if (graph_.op(id) == Op::stumpff && define_family(id)) return;
+        if (const auto batch = plan_.batch_of.find(id); batch != plan_.batch_of.end())
+            return define_batch(plan_.batches[batch->second]);
+        expressions_.name(id, define(needs_chain(graph_, id) ? chain(id) : expressions_.operation(id)));
+    }
+
+    void name_entries(const std::vector<NodeId>& nodes, const std::string& array)
+    {
+        for (std::size_t k = 0; k < nodes.size(); ++k)
+            if (nodes[k] != no_node) expressions_.name(nodes[k], variable(array, k));
+    }
+
+    void define_batch(const Batch& batch)
+    {
+        std::vector<Expression> arguments;
+        for (const NodeId argument : batch.arguments) arguments.push_back(expressions_(argument));
+        if (batch.kind == Batch::Kind::angles) return define_angles(batch, std::move(arguments));
+        const bool roots = batch.kind == Batch::Kind::roots;
+        const std::string name = fresh(roots ? "roots" : "inverses");
+        add({.kind = roots ? Kind::roots : Kind::reciprocals, .names = {name}, .expressions = std::move(arguments)});
+        name_entries(batch.values, name);
+    }
+
+    /// The sines and cosines of one batch: sin_x and cos_x of one angle x that is an input, two further terms of
+    /// another.
+    void define_angles(const Batch& batch, std::vector<Expression> angles)
+    {
+        const bool several = angles.size() > 1;
+        const NodeId angle = batch.arguments[0];
+        const bool input = graph_.op(angle) == Op::input;
+        const auto name_of = [&](const char* function, const char* array) {
+            if (several) return fresh(array);
+            return input ? fresh(std::string(function) + request_.names.inputs.at(angle)) : next_term();
+        };
+        const std::string sine = name_of("sin_", "sines");
+        const std::string cosine = name_of("cos_", "cosines");
+        add({.kind = Kind::angles, .names = {sine, cosine}, .expressions = std::move(angles)});
+        if (several) {
+            name_entries(batch.values, sine);
+            return name_entries(batch.cosines, cosine);
+        }
+        expressions_.name(batch.values[0], variable(sine));
+        expressions_.name(batch.cosines[0], variable(cosine));
+    }
+
+    /// The Stumpff functions of one argument, an entry an order; false where this one stands alone.
+    bool define_family(NodeId id)
+    {
+        const std::vector<NodeId> family = plan_.family_of(graph_, id);
+        if (family.size() < 2) return false;
+        const auto [lowest, highest] =
+            std::ranges::minmax_element(family, {}, [&](NodeId node) { return graph_.payload(node); });
+        const std::uint32_t first = graph_.payload(*lowest);
+        const std::string name = next_term();
+        add({.kind = Kind::stumpff,
+             .names = {name},
+             .expressions = {expressions_(graph_.operands(id)[0])},
+             .index = first,
+             .last = graph_.payload(*highest)});
+        for (const NodeId node : family) expressions_.name(node, variable(name, graph_.payload(node) - first));
+        return true;
+    }
+
+    /// b^n by squares, a statement each; answers the last product.
+    Expression chain(NodeId id)
+    {
+        const auto exponent = static_cast<std::int32_t>(graph_.payload(id));
+        auto rest = static_cast<std::uint32_t>(exponent < 0 ? -static_cast<std::int64_t>(exponent) : exponent);
+        Expression square = expressions_(graph_.operands(id)[0]);
+        std::optional<Expression> product;
+        for (; rest > 0; rest >>= 1U) {
+            if ((rest & 1U) != 0) product = product ? operation(Op::multiply, *product, square) : square;
+            if (rest == 1) break;
+            square = define(operation(Op::multiply, square, square));
+        }
+        return exponent > 0 ? *product : operation(Op::divide, literal(1), *product);
+    }
+
+    [[nodiscard]] SolveContext context()
+    {
+        return {graph_, expressions_, [this](Statement statement) { add(std::move(statement)); },
+                [this](const std::string& wish) { return fresh(wish); }};
+    }
+
+    void define_factor(NodeId id)
+    {
+        factors_[id] = unroll_factor(context(), id, factors_.size(), is_checked(id), plan_.users.contains(id));
+    }
+
+    void define_solution(NodeId id)
+    {
+        const std::size_t n = graph_.operands(id).size() - 1;
+        std::vector<NodeId> components(n, id);
+        std::vector<bool> wanted(n, false);
+        const auto users = plan_.users.find(id);
+        for (const NodeId user : users == plan_.users.end() ? std::vector<NodeId>{} : users->second) {
+            wanted[graph_.payload(user)] = true;
+            components[graph_.payload(user)] = user;
+        }
+        const UnrolledFactor& factor = factors_.at(graph_.operands(id)[0]);
+        const std::vector<Expression> values = unroll_solution(context(), factor, id, solves_++, wanted);
+        for (std::size_t k = 0; k < n; ++k)
+            if (wanted[k]) expressions_.name(components[k], values[k]);
+    }
+
+    const BodyRequest& request_;
+    const Graph& graph_;
+    NodeExpressions expressions_;
+    std::set<std::string> taken_;
+    std::string prefix_;
+    std::vector<bool> moves_;
+    BodyPlan plan_;
+    Body body_;
+    std::map<NodeId, UnrolledFactor> factors_;
+    std::size_t terms_ = 0;
+    std::size_t solves_ = 0;
+};
+
+} // namespace
+
+Body write_body(const BodyRequest& request)
+{
+    return BodyWriter(request).write();
+}
+
+} // namespace lagen
