@@ -98,17 +98,15 @@ std::string summary_of(const KernelReport& kernel)
     OperationRows rows(kernel.kernel + ", as written", report.written);
     const Passes search = search_of(report);
     const Passes form = passes_of_kept(search);
-    const bool angles = !form.empty() && form[0].of_added_angles;
     bool shown = false;
     for (const PassReport& pass : search) {
-        if (pass.stage == Stage::angles_added && angles) rows.add("  angles added", pass.after);
         if (pass.stage != Stage::pass || shown || form.empty() || pass.form != form[0].form) continue;
         rows.add("  " + pass.form, form[0].before);
         for (const PassReport& each : form) rows.add("    " + each.pass, each.after);
         shown = true;
     }
     for (const PassReport& pass : search)
-        if (pass.stage != Stage::pass && pass.stage != Stage::angles_added) rows.add("  " + pass.form, pass.after);
+        if (pass.stage != Stage::pass) rows.add("  " + pass.form, pass.after);
     rows.print("  kept", report.kept);
     return rows.text() + costliest_text(report);
 }

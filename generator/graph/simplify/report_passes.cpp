@@ -52,7 +52,6 @@ const char* to_text(Stage stage)
 {
     switch (stage) {
     case Stage::pass: return "one pass";
-    case Stage::angles_added: return "angles added";
     case Stage::lightest: return "the lightest form that keeps its digits";
     case Stage::mixed: return "outputs of several forms";
     case Stage::eliminated: return "solved through the terms of a Hessian";

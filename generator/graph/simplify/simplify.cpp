@@ -1,26 +1,20 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// The portfolio: several forms of the same outputs, weighed; the cheapest is kept.
+/// The portfolio: the outputs go through every strategy of graph/simplify/passes.cpp, the lightest form is kept.
 #include "graph/simplify/simplify.hpp"
 
 #include "graph/elimination/cut_solves.hpp"
-#include "graph/simplify/form.hpp"
+#include "graph/simplify/passes.hpp"
 #include "graph/simplify/probe_rounding.hpp"
 
 #include <algorithm>
-#include <optional>
+#include <map>
+#include <set>
 
 namespace lagen {
 namespace {
 
 /// Beyond this the outputs stay as they are: the passes are quadratic in places.
 constexpr std::size_t largest_graph = 200'000;
-
-/// Pairs of terms that stand in one sum of a form: the passes that look for shared ones take about a second for so
-/// many. Forms with more are left out, but for the nested one, whose sums are short.
-constexpr std::size_t largest_pairs = 20'000;
-
-/// Beyond this many nodes only the nested form is made.
-constexpr std::size_t largest_flattened_graph = 5'000;
 
 /// A form that is so many times heavier as written is not simplified to be compared.
 constexpr double hopeless = 4;
@@ -29,200 +23,136 @@ constexpr double hopeless = 4;
 /// only where it saves this part of the weight.
 constexpr double least_gain = 0.05;
 
-/// Sharing works on what factoring leaves and the other way round, so both orders compete.
-enum class Order { factor_then_share, share_then_factor, share_only };
-
-struct Pass {
-    const char* name;
-    void (*apply)(Form&);
-};
-
-std::vector<Pass> passes_of(Order order)
+/// What has been made so far; a form is counted in a copy of the graph, which stays as it would be without the question.
+OperationCount count_of(const Work& work)
 {
-    std::vector<Pass> passes;
-    const Pass draw{"factors drawn out", draw_out_factors};
-    const Pass share_terms{"term pairs shared", share_term_pairs};
-    const Pass share_factors{"factor pairs shared", share_factor_pairs};
-    if (order == Order::share_then_factor) passes = {share_terms, draw};
-    if (order == Order::factor_then_share) passes = {draw};
-    passes.insert(passes.end(), {share_factors,
-                                 share_terms,
-                                 {"reciprocals shared", share_reciprocals},
-                                 share_factors,
-                                 {"single products put back", inline_single_products},
-                                 {"signs absorbed", absorb_signs}});
-    return passes;
-}
-
-const char* name_of(Order order)
-{
-    switch (order) {
-    case Order::factor_then_share: return "factored, shared";
-    case Order::share_then_factor: return "shared, factored";
-    case Order::share_only: return "shared";
-    }
-    return "";
-}
-
-const char* name_of(ExpansionMode expansion)
-{
-    switch (expansion) {
-    case ExpansionMode::nested: return "nested";
-    case ExpansionMode::none: return "flattened";
-    case ExpansionMode::monomials: return "monomials expanded";
-    case ExpansionMode::all: return "expanded";
-    }
-    return "";
-}
-
-/// The operations of a form; in a copy of the graph, which stays as it would be without the question.
-OperationCount count_of(const Form& form, const Graph& graph)
-{
-    Graph copy = graph;
-    const std::vector<NodeId> outputs = rebuild(form, copy);
+    if (!work.form) return count_operations(work.graph, work.outputs);
+    Graph copy = work.graph;
+    const std::vector<NodeId> outputs = rebuild(*work.form, copy);
     return count_operations(copy, outputs);
 }
 
-std::size_t pairs_of(const Form& form)
+std::vector<NodeId> factors_of(const Graph& graph, const std::vector<NodeId>& outputs)
 {
-    std::size_t pairs = 0;
-    for (const Place& place : live_places(form)) {
-        const std::size_t terms = at(form, place).size();
-        pairs += terms * (terms - std::min<std::size_t>(terms, 1)) / 2;
-    }
-    return pairs;
+    std::vector<NodeId> factors = reachable(graph, outputs);
+    std::erase_if(factors, [&](NodeId id) { return graph.op(id) != Op::factor; });
+    return factors;
 }
 
-std::optional<Form> collected(const Graph& graph, std::span<const NodeId> outputs, ExpansionMode expansion)
-{
-    std::optional<Form> form;
-    try {
-        form = collect(graph, outputs, expansion);
-        if (expansion != ExpansionMode::nested && pairs_of(*form) > largest_pairs) return {};
-        Form shorter = *form;
-        cancel_terms(shorter);
-        return shorter;
-    } catch (const FormRefused&) {
-        return form; // too large to collect (nothing), or to look for terms that cancel
-    }
-}
+/// What a strategy made of the outputs.
+struct Candidate {
+    std::vector<NodeId> outputs;
+    std::vector<NodeId> source; ///< what was read as polynomials: the written outputs, or these with angles added
+};
 
-/// The candidates, and what those with divided rows were divided by. A divisor of one is zero only where the matrix is
-/// singular as written, so all of them may be asked for whenever one is needed.
-struct Portfolio {
-    Portfolio(Graph& owner, const std::vector<NodeId>& written, SimplifyReport* listener)
-        : graph(owner), candidates{written}, report(listener)
+/// The written outputs and what every strategy makes of them.
+class Portfolio {
+  public:
+    Portfolio(Graph& graph, const std::vector<NodeId>& written, SimplifyReport* report) : graph_(graph), report_(report)
     {
-        undivided = factors_of(written);
+        keep({written, written}, {});
+        for (const Choices strategy : strategies()) attempt(strategy);
+        give_back_digits();
     }
 
-    /// Forms of `outputs`, which have the values of the written ones, in every expansion of the list.
-    void add_forms(const std::vector<NodeId>& outputs, const std::vector<ExpansionMode>& expansions,
-                   bool of_added_angles)
+    [[nodiscard]] const std::vector<Candidate>& candidates() const { return candidates_; }
+
+    /// What rows of the matrices in `outputs` were divided by. A divisor of one is zero only where the matrix is
+    /// singular as written, so all of them may be asked for whenever one is needed.
+    [[nodiscard]] std::vector<NodeId> divisors_of(const std::vector<NodeId>& outputs) const
     {
-        const std::size_t known = candidates.size();
-        of_added_angles_ = of_added_angles;
-        for (const ExpansionMode expansion : expansions) add_forms(outputs, expansion);
-        give_back_digits(outputs, known);
+        const bool divided = !std::ranges::includes(undivided_, factors_of(graph_, outputs));
+        return divided ? std::vector<NodeId>(divisors_.begin(), divisors_.end()) : std::vector<NodeId>{};
     }
-
-    /// Do the outputs contain a matrix whose rows were divided?
-    [[nodiscard]] bool has_divided(const std::vector<NodeId>& outputs) const
-    {
-        return !std::ranges::includes(undivided, factors_of(outputs));
-    }
-
-    Graph& graph;
-    std::vector<std::vector<NodeId>> candidates;
-    std::vector<NodeId> divisors;
-    std::vector<NodeId> undivided; ///< factorisations of the candidates with rows as they were, ascending
-    SimplifyReport* report;        ///< may be null
 
   private:
-    void add_forms(const std::vector<NodeId>& outputs, ExpansionMode expansion)
+    void attempt(Choices strategy)
     {
-        const auto form = collected(graph, outputs, expansion);
-        if (!form) return;
-        for (const Order order : {Order::factor_then_share, Order::share_then_factor, Order::share_only})
-            for (const bool divided : {false, true})
-                attempt(*form, order, divided,
-                        std::string(of_added_angles_ ? "angles added, " : "") + name_of(expansion) +
-                            (divided ? ", rows divided, " : ", ") + name_of(order));
-    }
-
-    /// Outputs of the candidates from `first` on that lose digits become those of `outputs` again.
-    void give_back_digits(const std::vector<NodeId>& outputs, std::size_t first)
-    {
-        const bool alone = std::all_of(candidates.begin() + static_cast<std::ptrdiff_t>(first), candidates.end(),
-                                       [&](const auto& candidate) { return candidate == outputs; });
-        if (alone) return;
-        note(undivided, factors_of(outputs));
-        const RoundingProbe probe(graph, outputs);
-        for (std::size_t c = first; c < candidates.size(); ++c) {
-            const std::vector<bool> keeps = probe.keeps_digits(candidates[c]);
-            for (std::size_t k = 0; k < outputs.size(); ++k)
-                if (!keeps[k]) candidates[c][k] = outputs[k];
-        }
-    }
-
-    [[nodiscard]] std::vector<NodeId> factors_of(const std::vector<NodeId>& outputs) const
-    {
-        std::vector<NodeId> factors = reachable(graph, outputs);
-        std::erase_if(factors, [this](NodeId id) { return graph.op(id) != Op::factor; });
-        return factors;
-    }
-
-    void improve(Form& form, Order order, const std::string& label)
-    {
-        OperationCount before;
-        if (report != nullptr) before = count_of(form, graph);
-        for (const Pass& pass : passes_of(order)) {
-            pass.apply(form);
-            if (report == nullptr) continue;
-            const OperationCount after = count_of(form, graph);
-            report->passes.push_back({label, pass.name, before, after, Stage::pass, of_added_angles_});
-            before = after;
-        }
-    }
-
-    void attempt(const Form& written, Order order, bool divided, const std::string& label)
-    {
+        const auto first = std::ranges::find_if(passes(), [](const Pass& p) { return p.works_on != WorksOn::nodes; });
+        const auto readings = static_cast<std::size_t>(first - passes().begin());
         try {
-            Form form = written;
-            if (divided && divide_rows(form) == 0) return;
-            improve(form, order, label);
-            std::vector<NodeId> outputs = rebuild(form, graph);
-            const std::vector<NodeId> appended(outputs.begin() + static_cast<std::ptrdiff_t>(written.roots.size()),
-                                               outputs.end());
-            outputs.resize(written.roots.size());
-            note(divided ? divisors : undivided, divided ? appended : factors_of(outputs));
-            candidates.push_back(std::move(outputs));
+            std::optional<Work> work = read(strategy, passes().first(readings));
+            if (!work || !run(*work, strategy, passes().subspan(readings))) return;
+            std::vector<NodeId> outputs = rebuild(*work->form, graph_);
+            const auto written = outputs.begin() + static_cast<std::ptrdiff_t>(work->outputs.size());
+            const std::vector<NodeId> divisors(written, outputs.end());
+            outputs.erase(written, outputs.end());
+            keep({std::move(outputs), work->outputs}, divisors);
         } catch (const FormRefused&) {    // too large in this form
         } catch (const DivisionByZero&) { // a divisor vanishes identically: the outputs stay as written
         }
     }
 
-    static void note(std::vector<NodeId>& sorted, const std::vector<NodeId>& more)
+    /// The outputs read as polynomials, once for all strategies that do so in one way; nothing where that is refused.
+    const std::optional<Work>& read(Choices strategy, std::span<const Pass> readings)
     {
-        sorted.insert(sorted.end(), more.begin(), more.end());
-        std::ranges::sort(sorted);
-        sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+        Choices chosen = in_every_strategy;
+        for (const Pass& pass : readings) chosen |= pass.choice & strategy;
+        const auto [place, fresh] = read_.try_emplace(chosen);
+        if (Work work{graph_, candidates_[0].outputs, {}}; fresh && run(work, strategy, readings))
+            place->second.emplace(std::move(work));
+        return place->second;
     }
 
-    bool of_added_angles_ = false; ///< of the forms that are made now
+    /// False where a guard says no.
+    bool run(Work& work, Choices strategy, std::span<const Pass> part)
+    {
+        OperationCount before;
+        if (report_ != nullptr) before = count_of(work);
+        for (const Pass& pass : part) {
+            if (!runs(pass, strategy)) continue;
+            if (pass.guard != nullptr && !pass.guard(work)) return false;
+            pass.apply(work);
+            if (report_ == nullptr) continue;
+            const OperationCount after = count_of(work);
+            report_->passes.push_back({name_of(strategy), pass.name, before, after});
+            before = after;
+        }
+        return true;
+    }
+
+    void keep(Candidate candidate, const std::vector<NodeId>& divisors)
+    {
+        divisors_.insert(divisors.begin(), divisors.end());
+        for (const auto* outputs : {&candidate.source, &candidate.outputs}) {
+            const std::vector<NodeId> factors = factors_of(graph_, *outputs);
+            if (outputs == &candidate.source || divisors.empty()) undivided_.insert(factors.begin(), factors.end());
+        }
+        candidates_.push_back(std::move(candidate));
+    }
+
+    /// Outputs that lose digits become those of the source again.
+    void give_back_digits()
+    {
+        std::map<std::vector<NodeId>, RoundingProbe> probes;
+        for (auto& [outputs, source] : candidates_) {
+            if (outputs == source) continue;
+            const auto probe = probes.try_emplace(source, graph_, source).first;
+            const std::vector<bool> keeps = probe->second.keeps_digits(outputs);
+            for (std::size_t k = 0; k < outputs.size(); ++k)
+                if (!keeps[k]) outputs[k] = source[k];
+        }
+    }
+
+    Graph& graph_;
+    SimplifyReport* report_; ///< may be null
+    std::map<Choices, std::optional<Work>> read_;
+    std::vector<Candidate> candidates_;
+    std::set<NodeId> divisors_;
+    std::set<NodeId> undivided_; ///< factorisations with rows as they were
 };
 
 /// Replaces single outputs of `best` by another candidate's where that makes the whole lighter.
-void mix(const Graph& graph, std::vector<NodeId>& best, double& weight,
-         const std::vector<std::vector<NodeId>>& candidates)
+void mix(const Graph& graph, std::vector<NodeId>& best, const std::vector<Candidate>& candidates)
 {
     constexpr std::size_t largest_effort = 2'000'000; // nodes visited
     if (best.size() * candidates.size() * reachable(graph, best).size() > largest_effort) return;
+    double weight = count_operations(graph, best).weight;
     for (std::size_t k = 0; k < best.size(); ++k)
-        for (const auto& candidate : candidates) {
+        for (const Candidate& candidate : candidates) {
             const NodeId kept = best[k];
-            if (candidate[k] == kept) continue;
-            best[k] = candidate[k];
+            if (candidate.outputs[k] == kept) continue;
+            best[k] = candidate.outputs[k];
             const double tried = count_operations(graph, best).weight;
             if (tried < weight)
                 weight = tried;
@@ -231,45 +161,28 @@ void mix(const Graph& graph, std::vector<NodeId>& best, double& weight,
         }
 }
 
-std::vector<ExpansionMode> expansions_for(std::size_t nodes)
-{
-    if (nodes > largest_flattened_graph) return {ExpansionMode::nested};
-    return {ExpansionMode::none, ExpansionMode::monomials, ExpansionMode::all, ExpansionMode::nested};
-}
-
-void tell(SimplifyReport* report, const Graph& graph, Stage stage, const OperationCount& before,
-          const std::vector<NodeId>& outputs)
+void tell(SimplifyReport* report, const Graph& graph, Stage stage, const std::vector<NodeId>& before,
+          const std::vector<NodeId>& after)
 {
     if (report != nullptr)
-        report->passes.push_back({to_text(stage), "", before, count_operations(graph, outputs), stage});
+        report->passes.push_back(
+            {to_text(stage), "", count_operations(graph, before), count_operations(graph, after), stage});
 }
 
 /// The forms of the outputs whose linear systems stay nodes.
 std::vector<NodeId> simplify_pieces(Graph& graph, std::span<const NodeId> outputs, std::vector<NodeId>& divisors,
                                     SimplifyReport* report)
 {
-    std::vector<NodeId> best(outputs.begin(), outputs.end());
-    const std::size_t size = reachable(graph, outputs).size();
-    if (size > largest_graph) return best;
-    const OperationCount written = count_operations(graph, best);
-    double weight = written.weight;
-    Portfolio portfolio(graph, best, report);
-    portfolio.add_forms(best, expansions_for(size), false);
-    if (const auto added = add_angles(graph, outputs); added != best) {
-        tell(report, graph, Stage::angles_added, written, added);
-        portfolio.add_forms(added, {ExpansionMode::none, ExpansionMode::nested}, true);
-    }
-    for (const auto& candidate : portfolio.candidates) {
-        const double tried = count_operations(graph, candidate).weight;
-        if (tried < weight) {
-            weight = tried;
-            best = candidate;
-        }
-    }
+    const std::vector<NodeId> written(outputs.begin(), outputs.end());
+    if (reachable(graph, outputs).size() > largest_graph) return written;
+    const Portfolio portfolio(graph, written, report);
+    std::vector<NodeId> best = std::ranges::min_element(portfolio.candidates(), {}, [&](const Candidate& candidate) {
+                                   return count_operations(graph, candidate.outputs).weight;
+                               })->outputs;
     tell(report, graph, Stage::lightest, written, best);
-    mix(graph, best, weight, portfolio.candidates);
+    mix(graph, best, portfolio.candidates());
     tell(report, graph, Stage::mixed, written, best);
-    if (portfolio.has_divided(best)) divisors = portfolio.divisors;
+    divisors = portfolio.divisors_of(best);
     return best;
 }
 
@@ -281,10 +194,9 @@ std::vector<NodeId> eliminated(Graph& graph, std::span<const NodeId> outputs, st
     if (cut.pieces().empty()) return {};
     const std::vector<NodeId> pieces = simplify_pieces(graph, cut.pieces(), pivots, report);
     std::vector<NodeId> joined = cut.join(pieces, pivots);
-    if (!joined.empty()) tell(report, graph, Stage::eliminated, count_operations(graph, outputs), joined);
+    if (!joined.empty()) tell(report, graph, Stage::eliminated, {outputs.begin(), outputs.end()}, joined);
     return joined;
 }
-
 std::vector<NodeId> choose_form(Graph& graph, std::span<const NodeId> outputs, std::vector<NodeId>& divisors,
                                 SimplifyReport* report)
 {

@@ -39,22 +39,20 @@ struct OperationCount {
 
 /// What a line of a report is about: one pass over a form of the portfolio, or outputs that are finished.
 enum class Stage {
-    pass,         ///< one pass over one form
-    angles_added, ///< the outputs with products of sines and cosines as sums of angles, before their forms
-    lightest,     ///< the lightest form that keeps its digits
-    mixed,        ///< outputs of several forms: the end of a search
-    eliminated,   ///< solved through the terms of a Hessian: the end of a search that another may follow
+    pass,       ///< one pass over one form
+    lightest,   ///< the lightest form that keeps its digits
+    mixed,      ///< outputs of several forms: the end of a search
+    eliminated, ///< solved through the terms of a Hessian: the end of a search that another may follow
 };
 [[nodiscard]] const char* to_text(Stage stage);
 
 /// What one pass made of one form of the portfolio, or a stage of the outputs.
 struct PassReport {
-    std::string form; ///< "flattened, factored, shared": what was done to the outputs before; of a stage its text
-    std::string pass; ///< "shared factor pairs"; empty of a stage
+    std::string form; ///< "flattened, shared, factored": the choices of the strategy; of a stage its text
+    std::string pass; ///< "factor pairs shared"; empty of a stage
     OperationCount before;
     OperationCount after;
     Stage stage = Stage::pass;
-    bool of_added_angles = false; ///< a form of the outputs of the stage `angles_added`
 };
 
 /// A named term of the result with the operations that it adds to those of the terms in it.
