@@ -105,6 +105,28 @@ const Arrows& planned_arrows()
     return arrows;
 }
 
+const Arrows& planned_folder_arrows()
+{
+    static const Arrows arrows{
+        {"graph/core", {}},
+        {"graph/calculus", {"graph/core"}},
+        {"graph/unknowns", {"graph/calculus"}},
+        {"graph/elimination", {"graph/calculus"}},
+        {"graph/simplify", {"graph/elimination"}},
+        {"graph/kernel", {"graph/simplify", "graph/unknowns"}},
+    };
+    return arrows;
+}
+
+std::string folder_of(const std::string& path)
+{
+    const std::string room = room_of(path) + "/";
+    const auto of_room = [&](const auto& arrow) { return arrow.first.starts_with(room); };
+    if (std::none_of(planned_folder_arrows().begin(), planned_folder_arrows().end(), of_room)) return "";
+    const std::string inside = path.substr(path.find(room) + room.size());
+    return room + inside.substr(0, inside.find_first_of("/."));
+}
+
 std::set<std::string> reachable_rooms(const Arrows& arrows, const std::string& room)
 {
     std::set<std::string> reached;

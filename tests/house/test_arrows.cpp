@@ -38,6 +38,21 @@ std::vector<std::string> backward_includes(const std::vector<SourceText>& files,
     return found;
 }
 
+/// The same for the folders inside of rooms.
+std::vector<std::string> backward_folder_includes(const std::vector<SourceText>& files)
+{
+    std::vector<std::string> found;
+    for (const SourceText& file : files) {
+        const std::set<std::string> allowed = reachable_rooms(planned_folder_arrows(), folder_of(file.path));
+        for (const Include& include : includes_of(file)) {
+            const std::string target = "generator/" + include.target;
+            if (include.quoted && room_of(target) == room_of(file.path) && !allowed.contains(folder_of(target)))
+                found.push_back(file.path + ":" + std::to_string(include.line) + " includes \"" + include.target + "\"");
+        }
+    }
+    return found;
+}
+
 /// A library's headers and the rooms that may know it.
 struct Library {
     const char* pattern; ///< of the include's target
@@ -114,10 +129,32 @@ TEST_CASE("a backward include is found")
                                    "generator/emit/json.cpp:1 includes \"lagen/status.hpp\" of runtime"});
 }
 
+TEST_CASE("every include between the folders of a room follows an arrow of the room")
+{
+    const std::vector<SourceText> files = cpp_files(read_tree({"generator"}));
+    CHECK(backward_folder_includes(files) == std::vector<std::string>{});
+    std::set<std::string> folders;
+    for (const SourceText& file : files)
+        if (const std::string folder = folder_of(file.path); !folder.empty()) folders.insert(folder);
+    std::set<std::string> planned;
+    for (const auto& [folder, targets] : planned_folder_arrows()) planned.insert(folder);
+    CHECK(folders == planned);
+
+    const SourceText backward{
+        "generator/graph/core/graph.cpp",
+        {"#include \"graph/core/graph.hpp\"", "#include \"graph/simplify/form.hpp\"", "#include \"diagnostic.hpp\""}};
+    const SourceText forward{"generator/graph/kernel.hpp", {"#include \"graph/unknowns/implicit.hpp\""}};
+    const SourceText other{"generator/emit/json.cpp", {"#include \"graph/kernel.hpp\""}};
+    CHECK(backward_folder_includes({backward, forward, other}) ==
+          std::vector<std::string>{
+              "generator/graph/core/graph.cpp:2 includes \"graph/simplify/form.hpp\""});
+}
+
 TEST_CASE("the arrows of the house have no cycle")
 {
-    for (const auto& [room, targets] : planned_arrows())
-        for (const std::string& target : targets) CHECK_FALSE(reachable_rooms(planned_arrows(), target).contains(room));
+    for (const Arrows& arrows : {planned_arrows(), planned_folder_arrows()})
+        for (const auto& [room, targets] : arrows)
+            for (const std::string& target : targets) CHECK_FALSE(reachable_rooms(arrows, target).contains(room));
 }
 
 TEST_CASE("a library is known only to the rooms that stand on it")

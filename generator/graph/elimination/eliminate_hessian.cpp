@@ -160,7 +160,7 @@ class Eliminator {
     }
 
     /// `y` acts through `heads` alone (see heads_of()), one or two of `terms`: m (g + e y)^2 leaves nothing behind, two
-    /// terms leave a square (graph/eliminate_pair.hpp). False where the pivot is the constant 0.
+    /// terms leave a square (graph/elimination/eliminate_pair.hpp). False where the pivot is the constant 0.
     bool eliminate_through_heads(const std::vector<std::size_t>& heads, const std::vector<std::size_t>& terms,
                                  std::size_t y)
     {

@@ -87,15 +87,17 @@ constexpr Pass table[] = {
     {"signs absorbed", WorksOn::polynomials, every, nullptr, rewrite_form<absorb_signs>},
 };
 
+/// Of the 36 that the choices make, those without which an output of the models, the reference sets or the chains of 2
+/// to 16 links weighs 3 % more.
 constexpr Choices choices[] = {
-    flattened | factored,
     flattened | terms_shared | factored,
     flattened,
     monomials_expanded | factored,
     monomials_expanded,
+    expanded | factored,
+    expanded | rows_divided | factored,
     expanded | terms_shared | factored,
-    expanded | rows_divided | terms_shared | factored,
-    nested | terms_shared | factored,
+    nested | factored,
     nested,
     angles_added | flattened,
 };
