@@ -80,7 +80,7 @@ TEST_CASE("closed sums are opened where their terms cancel")
     const NodeId M = g.add(m, g.input("n"));
     const NodeId product = g.multiply(g.multiply(M, v), g.subtract(u, v));
     const std::vector<NodeId> force{g.subtract(product, g.multiply(g.multiply(M, u), v))};
-    CHECK(shape_texts(g, simplify(g, force)) == std::vector<std::string>{"-(m + n)*v^2"});
+    CHECK(shape_texts(g, simplify(g, force)) == std::vector<std::string>{"-v^2*(m + n)"});
 }
 
 TEST_CASE("cyclic equations have cyclic products and no subtracted sums")
@@ -100,8 +100,7 @@ TEST_CASE("cyclic equations have cyclic products and no subtracted sums")
         const NodeId torque = g.subtract(g.multiply(e[j], d[l]), g.multiply(e[l], d[j]));
         rows.push_back(g.subtract(euler, g.multiply(k, torque)));
     }
-    // The text reads products from the right: (b - c)*y is multiplied by z, (c - a)*z by x, (a - b)*x by y.
-    CHECK(shape_texts(g, simplify(g, rows)) == std::vector<std::string>{"k*(h*q - f*r) + z*y*(b - c)",
-                                                                        "k*(e*r - h*p) + x*z*(c - a)",
-                                                                        "k*(f*p - e*q) + y*x*(a - b)"});
+    CHECK(shape_texts(g, simplify(g, rows)) == std::vector<std::string>{"k*(h*q - f*r) + (b - c)*y*z",
+                                                                        "k*(e*r - h*p) + (c - a)*z*x",
+                                                                        "k*(f*p - e*q) + (a - b)*x*y"});
 }

@@ -50,9 +50,9 @@ TEST_CASE("like terms are collected and common factors drawn out")
     Graph g;
     const auto top = test::heavy_top(g);
     const auto simple = simplify(g, top);
-    CHECK(texts(g, simple) == std::vector<std::string>{"g2*w3 - w2*g3", "w1*g3 - g1*w3", "g1*w2 - w1*g2",
-                                                       "(g2*mgl + (I2 - I3)*w2*w3)/I1", "((I3 - I1)*w1*w3 - g1*mgl)/I2",
-                                                       "(I1 - I2)*w1*w2/I3"});
+    CHECK(texts(g, simple) == std::vector<std::string>{"g2*w3 - g3*w2", "g3*w1 - g1*w3", "g1*w2 - g2*w1",
+                                                       "(mgl*g2 + w2*w3*(I2 - I3))/I1", "(w1*w3*(I3 - I1) - mgl*g1)/I2",
+                                                       "w1*w2*(I1 - I2)/I3"});
     check_same_values(g, top, simple);
 }
 
@@ -70,7 +70,7 @@ TEST_CASE("Kepler's accelerations share one root and one division")
     const NodeId x = other.input("x");
     const NodeId u = other.add(other.power(x, 2), a);
     const std::vector<NodeId> quotient{other.divide(u, other.apply(Op::sqrt, u))};
-    CHECK(texts(other, simplify(other, quotient)) == std::vector<std::string>{"sqrt(a + x^2)"});
+    CHECK(texts(other, simplify(other, quotient)) == std::vector<std::string>{"sqrt(x^2 + a)"});
 }
 
 TEST_CASE("the double pendulum needs fewer operations than as written, mass matrix and right side included")

@@ -47,7 +47,8 @@ std::vector<std::string> backward_folder_includes(const std::vector<SourceText>&
         for (const Include& include : includes_of(file)) {
             const std::string target = "generator/" + include.target;
             if (include.quoted && room_of(target) == room_of(file.path) && !allowed.contains(folder_of(target)))
-                found.push_back(file.path + ":" + std::to_string(include.line) + " includes \"" + include.target + "\"");
+                found.push_back(file.path + ":" + std::to_string(include.line) + " includes \"" + include.target +
+                                "\"");
         }
     }
     return found;
@@ -146,8 +147,7 @@ TEST_CASE("every include between the folders of a room follows an arrow of the r
     const SourceText forward{"generator/graph/kernel.hpp", {"#include \"graph/unknowns/implicit.hpp\""}};
     const SourceText other{"generator/emit/json.cpp", {"#include \"graph/kernel.hpp\""}};
     CHECK(backward_folder_includes({backward, forward, other}) ==
-          std::vector<std::string>{
-              "generator/graph/core/graph.cpp:2 includes \"graph/simplify/form.hpp\""});
+          std::vector<std::string>{"generator/graph/core/graph.cpp:2 includes \"graph/simplify/form.hpp\""});
 }
 
 TEST_CASE("the arrows of the house have no cycle")

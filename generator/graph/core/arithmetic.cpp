@@ -47,7 +47,7 @@ NodeId Graph::add(NodeId a, NodeId b)
     if (ops_[a] == Op::negate) return subtract(b, operands(a)[0]);
     if (is_negative(*this, b)) return subtract(a, constant(Rational(-value(b))));
     if (is_negative(*this, a)) return subtract(b, constant(Rational(-value(a))));
-    const NodeId pair[] = {std::min(a, b), std::max(a, b)};
+    const NodeId pair[] = {a, b};
     return intern(Op::add, pair, 0);
 }
 
@@ -90,7 +90,7 @@ NodeId Graph::multiply(NodeId a, NodeId b)
                 const NodeId rest = operands(b)[1 - k];
                 return multiply(constant(Rational(value(a) * value(inner))), rest);
             }
-    const NodeId pair[] = {std::min(a, b), std::max(a, b)};
+    const NodeId pair[] = {a, b};
     return intern(Op::multiply, pair, 0);
 }
 

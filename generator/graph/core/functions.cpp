@@ -53,7 +53,6 @@ NodeId Graph::apply(Op op, NodeId a, NodeId b)
         if (const auto known = exact_value(op, both, 0, any_length)) return constant(*known);
     }
     if ((op == Op::minimum || op == Op::maximum) && a == b) return a;
-    if (operator_of(op).commutative && a > b) std::swap(a, b);
     const NodeId pair[] = {a, b};
     return intern(op, pair, 0);
 }

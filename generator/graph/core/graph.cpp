@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Leaves, hash-consing and reading of the graph. Arithmetic, functions and linear algebra have their own files.
 #include "graph/core/graph.hpp"
+#include "graph/core/operators.hpp"
 
 #include <algorithm>
 
@@ -21,13 +22,21 @@ class Hash {
 
 NodeId Graph::intern(Op op, std::span<const NodeId> operands, std::uint32_t payload)
 {
+    const bool commutes = operator_of(op).commutative;
     Hash hash;
     hash.mix(static_cast<std::uint32_t>(op));
     hash.mix(payload);
-    for (const NodeId id : operands) hash.mix(id);
+    if (commutes) {
+        hash.mix(std::min(operands[0], operands[1]));
+        hash.mix(std::max(operands[0], operands[1]));
+    } else {
+        for (const NodeId id : operands) hash.mix(id);
+    }
     for (auto [it, end] = table_.equal_range(hash.value()); it != end; ++it) {
         const NodeId id = it->second;
-        if (ops_[id] == op && payloads_[id] == payload && std::ranges::equal(this->operands(id), operands)) return id;
+        if (ops_[id] != op || payloads_[id] != payload) continue;
+        const auto held = this->operands(id);
+        if (commutes ? std::ranges::is_permutation(held, operands) : std::ranges::equal(held, operands)) return id;
     }
     const auto id = static_cast<NodeId>(ops_.size());
     if (ops_.size() >= UINT32_MAX - 1) throw InternalError("the graph is full: more than 2^32 nodes");

@@ -88,8 +88,8 @@ class Graph {
     NodeId input(const std::string& name); ///< the same name is the same node
 
     // Operations. Each applies the exact local rules that hold everywhere the operands are defined (x + 0, 1 * x,
-    // constants folded exactly, -(-x), x - x, x + x = 2 x, x * x = x^2, a sign pulled out of products, operands of
-    // commutative operations ordered by id, 0 * x = 0), then interns.
+    // constants folded exactly, -(-x), x - x, x + x = 2 x, x * x = x^2, a sign pulled out of products, 0 * x = 0), then
+    // interns. Terms and factors keep the order in which they were first written; a number is the first factor.
     NodeId add(NodeId a, NodeId b);
     NodeId subtract(NodeId a, NodeId b);
     NodeId multiply(NodeId a, NodeId b);

@@ -29,10 +29,7 @@ std::string leaf_text(const Graph& graph, NodeId id)
 void expand(const Graph& graph, NodeId id, std::vector<Piece>& pieces)
 {
     const Operator& entry = operator_of(graph.op(id));
-    const auto stored = graph.operands(id);
-    std::vector<NodeId> operands(stored.begin(), stored.end());
-    // Products are ordered by creation; a reader wants the number first.
-    if (entry.op == Op::multiply && graph.is_constant(operands[1])) std::swap(operands[0], operands[1]);
+    const auto operands = graph.operands(id);
     switch (entry.notation) {
     case Notation::leaf: break;
     case Notation::prefix:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Outputs whose linear systems with a remembered Hessian are taken out: what is left is simplified as always, and the
-/// elimination (graph/elimination/sparse_hessian.hpp) is put between the pieces as it is, since no pass could improve it.
+/// elimination (graph/elimination/sparse_hessian.hpp) is put between the pieces as it is, since no pass could improve
+/// it.
 #pragma once
 
 #include "graph/elimination/sparse_hessian.hpp"

@@ -82,7 +82,6 @@ constexpr Pass table[] = {
     {"factor pairs shared", WorksOn::polynomials, every, nullptr, rewrite_form<share_factor_pairs>},
     {"term pairs shared", WorksOn::polynomials, every, nullptr, rewrite_form<share_term_pairs>},
     {"reciprocals shared", WorksOn::polynomials, every, nullptr, rewrite_form<share_reciprocals>},
-    {"factor pairs shared", WorksOn::polynomials, every, nullptr, rewrite_form<share_factor_pairs>},
     {"single products put back", WorksOn::polynomials, every, nullptr, rewrite_form<inline_single_products>},
     {"signs absorbed", WorksOn::polynomials, every, nullptr, rewrite_form<absorb_signs>},
 };

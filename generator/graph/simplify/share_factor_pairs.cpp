@@ -51,7 +51,7 @@ class Monomials {
     {
         const auto [entry, fresh] = uses_.try_emplace(monomial);
         entry->second.push_back(place);
-        if (fresh) enter(entry->first);
+        if (fresh) count(entry->first, true);
     }
 
     /// Removes the monomial; answers its places.
@@ -59,7 +59,7 @@ class Monomials {
     {
         const auto found = uses_.find(monomial);
         if (found == uses_.end()) return {};
-        leave(found->first);
+        count(found->first, false);
         std::vector<Place> places = std::move(found->second);
         uses_.erase(found);
         return places;
@@ -91,24 +91,17 @@ class Monomials {
         }
     };
 
-    void enter(const Monomial& monomial)
+    /// Counts the monomial among the holders of its pairs, or no more.
+    void count(const Monomial& monomial, bool present)
     {
         if (!indexed_) return;
         for (const FactorPair& pair : pairs_of(monomial)) {
             std::set<Monomial>& found = holders_[pair];
             if (found.size() > 1) ranks_.erase({found.size(), pair});
-            found.insert(monomial);
-            if (found.size() > 1) ranks_.insert({found.size(), pair});
-        }
-    }
-
-    void leave(const Monomial& monomial)
-    {
-        if (!indexed_) return;
-        for (const FactorPair& pair : pairs_of(monomial)) {
-            std::set<Monomial>& found = holders_[pair];
-            if (found.size() > 1) ranks_.erase({found.size(), pair});
-            found.erase(monomial);
+            if (present)
+                found.insert(monomial);
+            else
+                found.erase(monomial);
             if (found.size() > 1) ranks_.insert({found.size(), pair});
         }
     }

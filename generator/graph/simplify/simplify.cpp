@@ -23,7 +23,8 @@ constexpr double hopeless = 4;
 /// only where it saves this part of the weight.
 constexpr double least_gain = 0.05;
 
-/// What has been made so far; a form is counted in a copy of the graph, which stays as it would be without the question.
+/// What has been made so far; a form is counted in a copy of the graph, which stays as it would be without the
+/// question.
 OperationCount count_of(const Work& work)
 {
     if (!work.form) return count_operations(work.graph, work.outputs);

@@ -29,12 +29,12 @@ struct OperationCount {
 /// only: rational algebra, sqrt(a)^2 = a, sin^2 + cos^2 = 1, sums of angles. The values agree wherever the original is
 /// defined; where it is not (0/0 from x/x), the result may be. A shared reciprocal narrows the range: x/w is x * (1/w)
 /// where several terms need it, so that a divisor below 1/max (6e-309 in double, 3e-39 in float) overflows.
-/// Careful forms survive: an output takes a new form only where that does not lose digits (graph/simplify/probe_rounding.hpp).
-/// Cheap candidates that lose digits near a cancellation are (a - b)^2 multiplied out or 2 x (y + 1/2) as x + 2 x y;
-/// among the models of models/ the check refuses such forms for the double pendulum and for Henon-Heiles. Same outputs,
-/// same graph, same result; outputs that reach more than 50,000 nodes stay as they are. Linear systems whose matrix is
-/// a remembered Hessian (Graph::remember_hessian) may be solved through its terms, where that costs less
-/// (graph/elimination/sparse_hessian.hpp).
+/// Careful forms survive: an output takes a new form only where that does not lose digits
+/// (graph/simplify/probe_rounding.hpp). Cheap candidates that lose digits near a cancellation are (a - b)^2 multiplied
+/// out or 2 x (y + 1/2) as x + 2 x y; among the models of models/ the check refuses such forms for the double pendulum
+/// and for Henon-Heiles. Same outputs, same graph, same result; outputs that reach more than 50,000 nodes stay as they
+/// are. Linear systems whose matrix is a remembered Hessian (Graph::remember_hessian) may be solved through its terms,
+/// where that costs less (graph/elimination/sparse_hessian.hpp).
 [[nodiscard]] std::vector<NodeId> simplify(Graph& graph, std::span<const NodeId> outputs);
 
 /// What a line of a report is about: one pass over a form of the portfolio, or outputs that are finished.
