@@ -163,23 +163,23 @@ class attitude_pontryagin {
         const S mu1 = s[4];
         const S mu2 = s[5];
         const S mu3 = s[6];
+        const S w0 = S(0.5) * q1;
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        const S w0 = mu1 / I1;
-        const S w1 = S(0.5) * q1;
-        const S w2 = mu2 / I2;
-        const S w3 = S(0.5) * q2;
-        const S w4 = mu3 / I3;
-        const S w5 = S(0.5) * q3;
-        ds[0] = -(w1 * w0 + w3 * w2 + w5 * w4);
+        const S w1 = mu1 / I1;
+        const S w2 = S(0.5) * q2;
+        const S w3 = mu2 / I2;
+        const S w4 = S(0.5) * q3;
+        const S w5 = mu3 / I3;
+        ds[0] = -(w0 * w1 + w2 * w3 + w4 * w5);
         const S w6 = S(0.5) * q0;
-        ds[1] = w6 * w0 + w3 * w4 - w5 * w2;
-        ds[2] = w6 * w2 + w5 * w0 - w1 * w4;
-        ds[3] = w6 * w4 + w1 * w2 - w3 * w0;
-        ds[4] = mu2 * w4 - w2 * mu3;
-        ds[5] = w0 * mu3 - mu1 * w4;
-        ds[6] = mu1 * w2 - w0 * mu2;
+        ds[1] = w6 * w1 + w2 * w5 - w4 * w3;
+        ds[2] = w6 * w3 + w4 * w1 - w0 * w5;
+        ds[3] = w6 * w5 + w0 * w3 - w2 * w1;
+        ds[4] = mu2 * w5 - w3 * mu3;
+        ds[5] = w1 * mu3 - mu1 * w5;
+        ds[6] = mu1 * w3 - w1 * mu2;
         return StatusOf<S>::good();
     }
 
@@ -243,7 +243,7 @@ class attitude_pontryagin {
         const S mu1 = s[4];
         const S mu2 = s[5];
         const S mu3 = s[6];
-        result[0] = mu3 * mu3 + (mu1 * mu1 + mu2 * mu2);
+        result[0] = mu1 * mu1 + mu2 * mu2 + mu3 * mu3;
         return result;
     }
 

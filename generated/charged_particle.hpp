@@ -145,9 +145,9 @@ class charged_particle {
         const S b1 = parameters.b1;
         const S b2 = parameters.b2;
         const S k = parameters.k;
-        const S w0 = (b2 * (y * y) + (b0 + b1 * x)) * q;
+        const S w0 = (b0 + b1 * x + b2 * (y * y)) * q;
         ds[2] = v * w0 - k * x;
-        ds[3] = -(u * w0 + k * y);
+        ds[3] = -(k * y + u * w0);
         ds[4] = S(0);
         return StatusOf<S>::good();
     }
@@ -185,7 +185,7 @@ class charged_particle {
         const S v = s[3];
         const S q = s[4];
         const S k = parameters.k;
-        return S(0.5) * (q * q + (v * v + (u * u + k * (y * y + x * x))));
+        return S(0.5) * (k * (x * x + y * y) + u * u + v * v + q * q);
     }
 
     /// L(t, x, y).
@@ -197,7 +197,7 @@ class charged_particle {
         const S v = s[3];
         const S q = s[4];
         const S k = parameters.k;
-        return S(0.5) * (q * q + (u * u + v * v) - k * (y * y + x * x));
+        return S(0.5) * (u * u + v * v + q * q - k * (x * x + y * y));
     }
 
     static constexpr std::array<const char*, 1> observables_names = {"field"};
@@ -210,7 +210,7 @@ class charged_particle {
         const S b0 = parameters.b0;
         const S b1 = parameters.b1;
         const S b2 = parameters.b2;
-        result[0] = b2 * (y * y) + (b0 + b1 * x);
+        result[0] = b0 + b1 * x + b2 * (y * y);
         return result;
     }
 
@@ -226,7 +226,7 @@ class charged_particle {
         const S q = s[4];
         result[0] = q;
         const S k = parameters.k;
-        result[1] = S(0.5) * (v * v + (u * u + k * (y * y + x * x)));
+        result[1] = S(0.5) * (k * (x * x + y * y) + u * u + v * v);
         return result;
     }
 
@@ -252,7 +252,7 @@ class charged_particle {
         values[2] = v * w0 - k;
         const S w1 = S(2) * y * b2 * q;
         values[3] = v * w1;
-        const S w2 = b2 * (y * y) + (b0 + b1 * x);
+        const S w2 = b0 + b1 * x + b2 * (y * y);
         const S w3 = w2 * q;
         values[4] = w3;
         values[5] = w2 * v;

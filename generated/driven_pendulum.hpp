@@ -194,7 +194,7 @@ class driven_pendulum {
         const S w = s[1];
         const S I_ = parameters.I_;
         const S mgl = parameters.mgl;
-        return mgl * cos(th) + S(0.5) * I_ * (w * w);
+        return S(0.5) * I_ * (w * w) + mgl * cos(th);
     }
 
     static constexpr std::array<const char*, 2> observables_names = {"turns", "power"};

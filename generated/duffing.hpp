@@ -133,7 +133,7 @@ class duffing {
         ds[1] = S(0);
         ds[2] = S(0);
         const S m = parameters.m;
-        ds[3] = -q * (k + q * q * c) / m;
+        ds[3] = -q * (q * q * c + k) / m;
         return StatusOf<S>::good();
     }
 
@@ -189,7 +189,7 @@ class duffing {
         const S q = s[0];
         const S k = s[1];
         const S c = s[2];
-        result[0] = -q * (k + q * q * c);
+        result[0] = -q * (q * q * c + k);
         return result;
     }
 
@@ -214,13 +214,13 @@ class duffing {
         const S k = s[1];
         const S c = s[2];
         values[0] = S(1);
-        const S w0 = q * q;
         const S m = parameters.m;
-        const S w1 = S(1) / m;
-        values[1] = -w1 * (k + S(3) * w0 * c);
-        const S w2 = w1 * q;
+        const S w0 = S(1) / m;
+        const S w1 = q * q;
+        values[1] = -w0 * (S(3) * w1 * c + k);
+        const S w2 = w0 * q;
         values[2] = -w2;
-        values[3] = -w0 * w2;
+        values[3] = -w1 * w2;
     }
 
     /// The same as a dense matrix, shape (4, 4).

@@ -226,7 +226,7 @@ class heavy_top {
         const S e1 = parameters.e1;
         const S e2 = parameters.e2;
         const S e3 = parameters.e3;
-        return mgl * (e3 * g3 + (e1 * g1 + e2 * g2)) + S(0.5) * (I3 * (w3 * w3) + (I1 * (w1 * w1) + I2 * (w2 * w2)));
+        return mgl * (e1 * g1 + e2 * g2 + e3 * g3) + S(0.5) * (I1 * (w1 * w1) + I2 * (w2 * w2) + I3 * (w3 * w3));
     }
 
     /// L(t, x, y).
@@ -245,7 +245,7 @@ class heavy_top {
         const S e1 = parameters.e1;
         const S e2 = parameters.e2;
         const S e3 = parameters.e3;
-        return S(0.5) * (I3 * (w3 * w3) + (I1 * (w1 * w1) + I2 * (w2 * w2))) - mgl * (e3 * g3 + (e1 * g1 + e2 * g2));
+        return S(0.5) * (I1 * (w1 * w1) + I2 * (w2 * w2) + I3 * (w3 * w3)) - mgl * (e1 * g1 + e2 * g2 + e3 * g3);
     }
 
     static constexpr std::array<const char*, 1> constraints_names = {"g1^2 + g2^2 + g3^2 - 1"};
@@ -256,7 +256,7 @@ class heavy_top {
         const S g1 = s[0];
         const S g2 = s[1];
         const S g3 = s[2];
-        result[0] = g3 * g3 + (g1 * g1 + g2 * g2) - S(1);
+        result[0] = g1 * g1 + g2 * g2 + g3 * g3 - S(1);
         return result;
     }
 
@@ -271,7 +271,7 @@ class heavy_top {
         const S e1 = parameters.e1;
         const S e2 = parameters.e2;
         const S e3 = parameters.e3;
-        result[0] = e3 * g3 + (e1 * g1 + e2 * g2);
+        result[0] = e1 * g1 + e2 * g2 + e3 * g3;
         return result;
     }
 
@@ -289,7 +289,7 @@ class heavy_top {
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        result[0] = I3 * w3 * g3 + (I1 * w1 * g1 + I2 * w2 * g2);
+        result[0] = I1 * w1 * g1 + I2 * w2 * g2 + I3 * w3 * g3;
         return result;
     }
 
@@ -307,7 +307,7 @@ class heavy_top {
         const S e1 = parameters.e1;
         const S e2 = parameters.e2;
         const S e3 = parameters.e3;
-        result[0] = e3 * (g1 * w2 - g2 * w1) + (e1 * (g2 * w3 - g3 * w2) + e2 * (g3 * w1 - g1 * w3));
+        result[0] = e1 * (g2 * w3 - g3 * w2) + e2 * (g3 * w1 - g1 * w3) + e3 * (g1 * w2 - g2 * w1);
         return result;
     }
 

@@ -259,8 +259,8 @@ class heavy_top_prolongation {
         const S e1 = parameters.e1;
         const S e2 = parameters.e2;
         const S e3 = parameters.e3;
-        return mgl * (e3 * g3 + (e1 * g1 + e2 * g2)) + S(0.5) * (V_w3 * V_w3 + (V_w2 * V_w2 + (V_w1 * V_w1 + (X_w3 *
-                X_w3 + (X_w1 * X_w1 + X_w2 * X_w2)))));
+        return mgl * (e1 * g1 + e2 * g2 + e3 * g3) + S(0.5) * (X_w1 * X_w1 + X_w2 * X_w2 + X_w3 * X_w3 + V_w1 * V_w1 +
+                V_w2 * V_w2 + V_w3 * V_w3);
     }
 
     /// L(t, x, y).
@@ -279,8 +279,8 @@ class heavy_top_prolongation {
         const S e1 = parameters.e1;
         const S e2 = parameters.e2;
         const S e3 = parameters.e3;
-        return S(0.5) * (V_w3 * V_w3 + (V_w2 * V_w2 + (V_w1 * V_w1 + (X_w3 * X_w3 + (X_w1 * X_w1 + X_w2 * X_w2))))) -
-                mgl * (e3 * g3 + (e1 * g1 + e2 * g2));
+        return S(0.5) * (X_w1 * X_w1 + X_w2 * X_w2 + X_w3 * X_w3 + V_w1 * V_w1 + V_w2 * V_w2 + V_w3 * V_w3) - mgl * (e1
+                * g1 + e2 * g2 + e3 * g3);
     }
 
     static constexpr std::array<const char*, 1> constraints_names = {"g1^2 + g2^2 + g3^2 - 1"};
@@ -291,7 +291,7 @@ class heavy_top_prolongation {
         const S g1 = s[0];
         const S g2 = s[1];
         const S g3 = s[2];
-        result[0] = g3 * g3 + (g1 * g1 + g2 * g2) - S(1);
+        result[0] = g1 * g1 + g2 * g2 + g3 * g3 - S(1);
         return result;
     }
 

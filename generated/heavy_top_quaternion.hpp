@@ -170,7 +170,6 @@ class heavy_top_quaternion {
         ds[1] = S(0.5) * (q0 * w1 + q2 * w3 - q3 * w2);
         ds[2] = S(0.5) * (q0 * w2 + q3 * w1 - q1 * w3);
         ds[3] = S(0.5) * (q0 * w3 + q1 * w2 - q2 * w1);
-        const S u0 = q2 * q3 + q0 * q1;
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
@@ -178,12 +177,13 @@ class heavy_top_quaternion {
         const S e1 = parameters.e1;
         const S e2 = parameters.e2;
         const S e3 = parameters.e3;
-        const S u1 = S(2) * e3;
+        const S u0 = S(2) * e3;
+        const S u1 = q2 * q3 + q0 * q1;
         const S u2 = q0 * q0 + q3 * q3 - q1 * q1 - q2 * q2;
-        ds[4] = ((I2 - I3) * w2 * w3 + mgl * (u1 * u0 - e2 * u2)) / I1;
+        ds[4] = (mgl * (u0 * u1 - e2 * u2) + (I2 - I3) * w2 * w3) / I1;
         const S u3 = q0 * q2 - q1 * q3;
-        ds[5] = ((I3 - I1) * w3 * w1 + mgl * (e1 * u2 + u1 * u3)) / I2;
-        ds[6] = ((I1 - I2) * w1 * w2 - S(2) * mgl * (e1 * u0 + e2 * u3)) / I3;
+        ds[5] = (mgl * (e1 * u2 + u0 * u3) + (I3 - I1) * w3 * w1) / I2;
+        ds[6] = ((I1 - I2) * w1 * w2 - S(2) * mgl * (e1 * u1 + e2 * u3)) / I3;
         return StatusOf<S>::good();
     }
 
@@ -236,7 +236,7 @@ class heavy_top_quaternion {
         const S e3 = parameters.e3;
         const S u0 = e3 * (q1 * q1 + q2 * q2 - q0 * q0 - q3 * q3) + S(2) * (e1 * (q0 * q2 - q1 * q3) - e2 * (q2 * q3 +
                 q0 * q1));
-        return S(0.5) * (I3 * (w3 * w3) + (I1 * (w1 * w1) + I2 * (w2 * w2))) - mgl * u0;
+        return S(0.5) * (I1 * (w1 * w1) + I2 * (w2 * w2) + I3 * (w3 * w3)) - mgl * u0;
     }
 
     /// L(t, x, y).
@@ -258,7 +258,7 @@ class heavy_top_quaternion {
         const S e3 = parameters.e3;
         const S u0 = e3 * (q1 * q1 + q2 * q2 - q0 * q0 - q3 * q3) + S(2) * (e1 * (q0 * q2 - q1 * q3) - e2 * (q2 * q3 +
                 q0 * q1));
-        return S(0.5) * (I3 * (w3 * w3) + (I1 * (w1 * w1) + I2 * (w2 * w2))) + mgl * u0;
+        return mgl * u0 + S(0.5) * (I1 * (w1 * w1) + I2 * (w2 * w2) + I3 * (w3 * w3));
     }
 
     static constexpr std::array<const char*, 1> invariants_names = {"area"};
@@ -358,23 +358,23 @@ class heavy_top_quaternion {
         const S u23 = u13 * (I2 - I3);
         values[28] = u23 * w3;
         values[29] = u23 * w2;
-        const S u24 = e1 * q0;
-        const S u25 = S(1) / I2;
-        const S u26 = S(2) * (u25 * mgl);
-        values[30] = u26 * (u24 + u21);
+        const S u24 = S(1) / I2;
+        const S u25 = S(2) * (u24 * mgl);
+        const S u26 = e1 * q0;
+        values[30] = u25 * (u26 + u21);
         const S u27 = e1 * q1;
-        values[31] = -u26 * (u27 + u20);
+        values[31] = -u25 * (u27 + u20);
         const S u28 = e1 * q2;
-        values[32] = u26 * (u18 - u28);
+        values[32] = u25 * (u18 - u28);
         const S u29 = e1 * q3;
-        values[33] = u26 * (u29 - u15);
-        const S u30 = u25 * (I1 - I3);
+        values[33] = u25 * (u29 - u15);
+        const S u30 = u24 * (I1 - I3);
         values[34] = -u30 * w3;
         values[35] = -u30 * w1;
         const S u31 = S(1) / I3;
         const S u32 = S(2) * (u31 * mgl);
         values[36] = -u32 * (u27 + u19);
-        values[37] = u32 * (u22 - u24);
+        values[37] = u32 * (u22 - u26);
         values[38] = -u32 * (u29 + u16);
         values[39] = u32 * (u17 - u28);
         const S u33 = (I1 - I2) * u31;

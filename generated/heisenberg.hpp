@@ -165,7 +165,7 @@ class heisenberg {
         const S v1 = s[3];
         const S v2 = s[4];
         const S v3 = s[5];
-        return S(0.5) * (v3 * v3 + (v1 * v1 + v2 * v2));
+        return S(0.5) * (v1 * v1 + v2 * v2 + v3 * v3);
     }
 
     /// L(t, x, y).
@@ -174,7 +174,7 @@ class heisenberg {
         const S v1 = s[3];
         const S v2 = s[4];
         const S v3 = s[5];
-        return S(0.5) * (v3 * v3 + (v1 * v1 + v2 * v2));
+        return S(0.5) * (v1 * v1 + v2 * v2 + v3 * v3);
     }
 
     static constexpr std::array<const char*, 1> observables_names = {"radius"};

@@ -247,8 +247,8 @@ class kirchhoff {
         const S m1 = parameters.m1;
         const S m2 = parameters.m2;
         const S m3 = parameters.m3;
-        const S u0 = m3 * (v3 * v3) + (m2 * (v2 * v2) + (m1 * (v1 * v1) + (J3 * (w3 * w3) + (J1 * (w1 * w1) + J2 * (w2 *
-                w2)))));
+        const S u0 = J1 * (w1 * w1) + J2 * (w2 * w2) + J3 * (w3 * w3) + m1 * (v1 * v1) + m2 * (v2 * v2) + m3 * (v3 *
+                v3);
         return S(0.5) * u0;
     }
 
@@ -267,8 +267,8 @@ class kirchhoff {
         const S m1 = parameters.m1;
         const S m2 = parameters.m2;
         const S m3 = parameters.m3;
-        const S u0 = m3 * (v3 * v3) + (m2 * (v2 * v2) + (m1 * (v1 * v1) + (J3 * (w3 * w3) + (J1 * (w1 * w1) + J2 * (w2 *
-                w2)))));
+        const S u0 = J1 * (w1 * w1) + J2 * (w2 * w2) + J3 * (w3 * w3) + m1 * (v1 * v1) + m2 * (v2 * v2) + m3 * (v3 *
+                v3);
         return S(0.5) * u0;
     }
 
@@ -289,11 +289,11 @@ class kirchhoff {
         const S m1 = parameters.m1;
         const S m2 = parameters.m2;
         const S m3 = parameters.m3;
-        const S u0 = m3 * v3;
-        const S u1 = m1 * v1;
-        const S u2 = m2 * v2;
-        result[0] = u0 * u0 + (u1 * u1 + u2 * u2);
-        result[1] = J1 * w1 * u1 + J2 * w2 * u2 + J3 * w3 * u0;
+        const S u0 = m1 * v1;
+        const S u1 = m2 * v2;
+        const S u2 = m3 * v3;
+        result[0] = u0 * u0 + u1 * u1 + u2 * u2;
+        result[1] = J1 * w1 * u0 + J2 * w2 * u1 + J3 * w3 * u2;
         return result;
     }
 

@@ -196,7 +196,7 @@ class kovalevskaya {
         const S w3 = s[5];
         const S J = parameters.J;
         const S mgl = parameters.mgl;
-        return mgl * g1 + S(0.5) * J * (w3 * w3 + S(2) * (w1 * w1 + w2 * w2));
+        return S(0.5) * J * (w3 * w3 + S(2) * (w1 * w1 + w2 * w2)) + mgl * g1;
     }
 
     /// L(t, x, y).
@@ -219,7 +219,7 @@ class kovalevskaya {
         const S g1 = s[0];
         const S g2 = s[1];
         const S g3 = s[2];
-        result[0] = g3 * g3 + (g1 * g1 + g2 * g2) - S(1);
+        result[0] = g1 * g1 + g2 * g2 + g3 * g3 - S(1);
         return result;
     }
 
@@ -248,7 +248,7 @@ class kovalevskaya {
         const S mgl = parameters.mgl;
         result[0] = J * (g3 * w3 + S(2) * (g1 * w1 + g2 * w2));
         const S u0 = mgl / J;
-        const S u1 = w2 * w2 + u0 * g1 - w1 * w1;
+        const S u1 = u0 * g1 + w2 * w2 - w1 * w1;
         const S u2 = u0 * g2 - S(2) * w1 * w2;
         result[1] = u1 * u1 + u2 * u2;
         return result;

@@ -157,10 +157,10 @@ class lagrange_top {
         const S I1 = parameters.I1;
         const S I3 = parameters.I3;
         const S mgl = parameters.mgl;
-        const S u0 = (I1 - I3) * w3;
-        const S u1 = S(1) / I1;
-        ds[3] = u1 * (mgl * g2 + w2 * u0);
-        ds[4] = -u1 * (mgl * g1 + w1 * u0);
+        const S u0 = S(1) / I1;
+        const S u1 = (I1 - I3) * w3;
+        ds[3] = u0 * (mgl * g2 + w2 * u1);
+        ds[4] = -u0 * (mgl * g1 + w1 * u1);
         ds[5] = S(0);
         return StatusOf<S>::good();
     }
@@ -227,7 +227,7 @@ class lagrange_top {
         const S g1 = s[0];
         const S g2 = s[1];
         const S g3 = s[2];
-        result[0] = g3 * g3 + (g1 * g1 + g2 * g2) - S(1);
+        result[0] = g1 * g1 + g2 * g2 + g3 * g3 - S(1);
         return result;
     }
 

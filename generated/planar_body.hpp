@@ -179,7 +179,7 @@ class planar_body {
         const S J = parameters.J;
         const S m1 = parameters.m1;
         const S m2 = parameters.m2;
-        return S(0.5) * (m2 * (v2 * v2) + (J * (w * w) + m1 * (v1 * v1)));
+        return S(0.5) * (J * (w * w) + m1 * (v1 * v1) + m2 * (v2 * v2));
     }
 
     /// L(t, x, y).
@@ -191,7 +191,7 @@ class planar_body {
         const S J = parameters.J;
         const S m1 = parameters.m1;
         const S m2 = parameters.m2;
-        return S(0.5) * (m2 * (v2 * v2) + (J * (w * w) + m1 * (v1 * v1)));
+        return S(0.5) * (J * (w * w) + m1 * (v1 * v1) + m2 * (v2 * v2));
     }
 
     static constexpr std::array<const char*, 1> invariants_names = {"momentum_squared"};

@@ -212,7 +212,7 @@ class plate_ball_pontryagin {
         const S q1 = s[4];
         const S q2 = s[5];
         const S q3 = s[6];
-        result[0] = q3 * q3 + (q1 * q1 + q2 * q2);
+        result[0] = q1 * q1 + q2 * q2 + q3 * q3;
         const S R = parameters.R;
         const S w0 = S(1) / R;
         result[1] = mu_x + w0 * q2;

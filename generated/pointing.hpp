@@ -223,7 +223,7 @@ class pointing_pontryagin {
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
         const S k = parameters.k;
-        return S(0.5) * (mu1 * mu1 / I1 + mu2 * mu2 / I2 + mu3 * mu3 / I3) + S(1) / S(5) * k * (S(3) * g1 + S(4) * g3);
+        return S(1) / S(5) * k * (S(3) * g1 + S(4) * g3) + S(0.5) * (mu1 * mu1 / I1 + mu2 * mu2 / I2 + mu3 * mu3 / I3);
     }
 
     static constexpr std::array<const char*, 1> constraints_names = {"g1^2 + g2^2 + g3^2 - 1"};
@@ -234,7 +234,7 @@ class pointing_pontryagin {
         const S g1 = s[0];
         const S g2 = s[1];
         const S g3 = s[2];
-        result[0] = g3 * g3 + (g1 * g1 + g2 * g2) - S(1);
+        result[0] = g1 * g1 + g2 * g2 + g3 * g3 - S(1);
         return result;
     }
 
@@ -249,7 +249,7 @@ class pointing_pontryagin {
         const S mu1 = s[3];
         const S mu2 = s[4];
         const S mu3 = s[5];
-        result[0] = g3 * mu3 + (g1 * mu1 + g2 * mu2);
+        result[0] = g1 * mu1 + g2 * mu2 + g3 * mu3;
         return result;
     }
 

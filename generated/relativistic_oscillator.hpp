@@ -146,9 +146,9 @@ class relativistic_oscillator {
         const S w2 = m / sqrt(w1);
         const S w3 = w2 / w1;
         const S w4 = u * w3;
-        const S w5 = w2 + u * w4;
+        const S w5 = u * w4 + w2;
         const S w6 = v * w4;
-        const S w7 = w2 + w0 * w3;
+        const S w7 = w0 * w3 + w2;
         const S det0 = w5 * w7 - w6 * w6;
         StatusOf<S>::fail(status, det0 <= singular_tolerance<S>(2) * (w5 * w7), Status::singular_mass_matrix);
         const S inv_det0 = S(1) / det0;
@@ -174,11 +174,11 @@ class relativistic_oscillator {
         const S w2 = m / sqrt(w1);
         const S w3 = w2 / w1;
         const S w4 = u * w3;
-        result(0, 0) = w2 + u * w4;
+        result(0, 0) = u * w4 + w2;
         const S w5 = v * w4;
         result(0, 1) = w5;
         result(1, 0) = w5;
-        result(1, 1) = w2 + w0 * w3;
+        result(1, 1) = w0 * w3 + w2;
         return result;
     }
 
@@ -209,7 +209,7 @@ class relativistic_oscillator {
         const S m = parameters.m;
         const S k = parameters.k;
         const S ratio = parameters.ratio;
-        return m * (w1 + w0 / w1) + S(0.5) * k * (x * x + ratio * (y * y));
+        return m * (w0 / w1 + w1) + S(0.5) * k * (x * x + ratio * (y * y));
     }
 
     /// L(t, x, y).
@@ -262,10 +262,10 @@ class relativistic_oscillator {
         const S ratio = parameters.ratio;
         const S w3 = m / sqrt(w0);
         const S w4 = (S(1) + u * w2) * w3;
-        const S w5 = w1 * w3;
+        const S w5 = w3 * w1;
         const S w6 = u * v * w5;
         const S w7 = v * w1;
-        const S w8 = w3 * (S(1) + v * w7);
+        const S w8 = (S(1) + v * w7) * w3;
         const S det0 = w4 * w8 - w6 * w6;
         const S inv_det0 = S(1) / det0;
         const S w9 = -k * x;
@@ -276,13 +276,13 @@ class relativistic_oscillator {
         const S w12 = u * z0_0;
         const S w13 = v * z0_1;
         const S w14 = w12 + w13;
-        const S w15 = -w5 * (u * (z0_1 + S(3) * w14 * w7) + v * z0_0);
-        const S w16 = -w5 * (w12 + S(3) * v * (z0_1 + w7 * w14));
+        const S w15 = -(u * (z0_1 + S(3) * w14 * w7) + v * z0_0) * w5;
+        const S w16 = -(w12 + S(3) * v * (z0_1 + w14 * w7)) * w5;
         const S z1_0 = (w8 * w15 - w6 * w16) * inv_det0;
         const S z1_1 = (w4 * w16 - w6 * w15) * inv_det0;
         values[9] = z1_1;
         values[5] = z1_0;
-        const S w17 = -w5 * (w13 + S(3) * u * (z0_0 + w2 * w14));
+        const S w17 = -(S(3) * u * (z0_0 + w14 * w2) + w13) * w5;
         const S z2_0 = (w8 * w17 - w6 * w15) * inv_det0;
         const S z2_1 = (w4 * w15 - w6 * w17) * inv_det0;
         values[8] = z2_1;

@@ -180,7 +180,7 @@ class rigid_body {
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        return S(0.5) * (I3 * (w3 * w3) + (I1 * (w1 * w1) + I2 * (w2 * w2)));
+        return S(0.5) * (I1 * (w1 * w1) + I2 * (w2 * w2) + I3 * (w3 * w3));
     }
 
     /// L(t, x, y).
@@ -192,7 +192,7 @@ class rigid_body {
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        return S(0.5) * (I3 * (w3 * w3) + (I1 * (w1 * w1) + I2 * (w2 * w2)));
+        return S(0.5) * (I1 * (w1 * w1) + I2 * (w2 * w2) + I3 * (w3 * w3));
     }
 
     static constexpr std::array<const char*, 1> invariants_names = {"momentum_squared"};
@@ -206,10 +206,10 @@ class rigid_body {
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        const S u0 = I3 * w3;
-        const S u1 = I1 * w1;
-        const S u2 = I2 * w2;
-        result[0] = u0 * u0 + (u1 * u1 + u2 * u2);
+        const S u0 = I1 * w1;
+        const S u1 = I2 * w2;
+        const S u2 = I3 * w3;
+        result[0] = u0 * u0 + u1 * u1 + u2 * u2;
         return result;
     }
 

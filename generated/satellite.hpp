@@ -176,7 +176,7 @@ class satellite {
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        const S u1 = k / (u0 * sqrt(u0));
+        const S u1 = k / (sqrt(u0) * u0);
         ds[2] = -x * u1;
         ds[3] = -y * u1;
         ds[4] = (I2 - I3) * w2 * w3 / I1;
@@ -236,8 +236,7 @@ class satellite {
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        return S(0.5) * (v * v + (u * u + (I3 * (w3 * w3) + (I1 * (w1 * w1) + I2 * (w2 * w2))))) - k / sqrt(x * x + y *
-                y);
+        return S(0.5) * (I1 * (w1 * w1) + I2 * (w2 * w2) + I3 * (w3 * w3) + u * u + v * v) - k / sqrt(x * x + y * y);
     }
 
     /// L(t, x, y).
@@ -255,8 +254,7 @@ class satellite {
         const S I1 = parameters.I1;
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
-        return k / sqrt(x * x + y * y) + S(0.5) * (v * v + (u * u + (I3 * (w3 * w3) + (I1 * (w1 * w1) + I2 * (w2 *
-                w2)))));
+        return k / sqrt(x * x + y * y) + S(0.5) * (I1 * (w1 * w1) + I2 * (w2 * w2) + I3 * (w3 * w3) + u * u + v * v);
     }
 
     static constexpr std::array<const char*, 1> domain_names = {"x^2 + y^2 > 0"};
@@ -305,7 +303,7 @@ class satellite {
         const S I2 = parameters.I2;
         const S I3 = parameters.I3;
         const S u3 = k * u2 / sqrt(u1);
-        const S u4 = u2 * u3;
+        const S u4 = u3 * u2;
         const S u5 = x * u4;
         values[2] = S(3) * x * u5 - u3;
         const S u6 = S(3) * y * u5;

@@ -139,13 +139,13 @@ class torus {
         ds[0] = u;
         ds[1] = v;
         const auto [sin_th, cos_th] = sincos<S>(th);
-        const S w0 = sin_th * v;
         const S R = parameters.R;
         const S r = parameters.r;
-        const S w1 = R + r * cos_th;
-        ds[2] = -w1 * v * w0 / r;
-        ds[3] = S(2) * r * u * w0 / w1;
-        StatusOf<S>::fail(status, w1 * w1 == S(0), Status::singular_mass_matrix);
+        const S w0 = R + r * cos_th;
+        const S w1 = sin_th * v;
+        ds[2] = -w0 * v * w1 / r;
+        ds[3] = S(2) * r * u * w1 / w0;
+        StatusOf<S>::fail(status, w0 * w0 == S(0), Status::singular_mass_matrix);
         return status;
     }
 
@@ -252,14 +252,14 @@ class torus {
         const auto [sin_th, cos_th] = sincos<S>(th);
         const S R = parameters.R;
         const S r = parameters.r;
-        const S w0 = cos_th + R / r;
+        const S w0 = R / r + cos_th;
         values[2] = (sin_th * sin_th - cos_th * w0) * (v * v);
         const S w1 = sin_th * v;
         values[3] = -S(2) * w0 * w1;
         const S w2 = S(1) / (R + r * cos_th);
         const S w3 = r * w2;
         const S w4 = w3 * u;
-        values[4] = S(2) * (r + R * cos_th) * w2 * w4 * v;
+        values[4] = S(2) * (R * cos_th + r) * w2 * w4 * v;
         values[5] = S(2) * w3 * w1;
         values[6] = S(2) * sin_th * w4;
     }
