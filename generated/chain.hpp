@@ -25,7 +25,7 @@
 ///              + l[1] l[3] (m[3] + m[4]) w[1] sin(a[1]) sin(a[3]) + l[1] l[3] (m[3] + m[4]) w[1] cos(a[1]) cos(a[3])
 ///              + l[2] l[3] (m[3] + m[4]) w[2] sin(a[2]) sin(a[3]) + l[2] l[3] (m[3] + m[4]) w[2] cos(a[2]) cos(a[3])
 ///              + l[3]² (m[3] + m[4]) w[3]
-///     (one equation is too long to stand here: lagen derive chain.toml prints it)
+///     p_w[4] = m[4] l[4] (l[1] w[1] sin(a[1]) sin(a[4]) + l[1] w[1] cos(a[1]) cos(a[4]) + l[2] w[2] sin(a[2]) sin(a[4]) + l[2] w[2] cos(a[2]) cos(a[4]) + l[3] w[3] sin(a[3]) sin(a[4]) + l[3] w[3] cos(a[...
 ///
 ///   equations of motion (momentum form):  ṗ_a = ρ_a(L) - p_c C^c_ab y^b
 ///     ṗ_w[1] = m[4] l[1] l[4] w[1] w[4] sin(a[4]) cos(a[1]) + l[1] l[2] (m[2] + m[3] + m[4]) w[1] w[2] sin(a[2]) cos(a[1])
@@ -40,11 +40,32 @@
 ///              + l[2] l[3] (m[3] + m[4]) w[2] w[3] sin(a[2]) cos(a[3]) - m[4] l[3] l[4] w[3] w[4] sin(a[3]) cos(a[4])
 ///              - l[1] l[3] (m[3] + m[4]) w[1] w[3] sin(a[3]) cos(a[1])
 ///              - l[2] l[3] (m[3] + m[4]) w[2] w[3] sin(a[3]) cos(a[2]) - l[3] g (m[3] + m[4]) sin(a[3])
-///     (one equation is too long to stand here: lagen derive chain.toml prints it)
+///     ṗ_w[4] = m[4] l[4] (l[1] w[1] w[4] sin(a[1]) cos(a[4]) - l[1] w[1] w[4] sin(a[4]) cos(a[1]) + l[2] w[2] w[4] sin(a[2]) cos(a[4]) - l[2] w[2] w[4] sin(a[4]) cos(a[2]) + l[3] w[3] w[4] sin(a[3]) c...
 ///
 ///   equations of motion (acceleration form):
 ///     W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - ∂²L/∂y^a∂t - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
-///     (4 equations are too long to stand here: lagen derive chain.toml prints them)
+///     l[1]² (m[1] + m[2] + m[3] + m[4]) d/dt w[1] + l[1] l[2] (m[2] + m[3] + m[4]) (sin(a[1]) sin(a[2]) + cos(a[1]) cos(a[2])) d/dt w[2] + l[1] l[3] (m[3] + m[4]) (sin(a[1]) sin(a[3]) + cos(a[1]) cos(a...
+///                                                                    + l[1] l[2] (m[2] + m[3] + m[4]) w[2]² sin(a[2]) cos(a[1])
+///                                                                    + l[1] l[3] (m[3] + m[4]) w[3]² sin(a[3]) cos(a[1])
+///                                                                    - m[4] l[1] l[4] w[4]² sin(a[1]) cos(a[4])
+///                                                                    - l[1] l[2] (m[2] + m[3] + m[4]) w[2]² sin(a[1]) cos(a[2])
+///                                                                    - l[1] l[3] (m[3] + m[4]) w[3]² sin(a[1]) cos(a[3])
+///                                                                    - l[1] g (m[1] + m[2] + m[3] + m[4]) sin(a[1])
+///     l[1] l[2] (m[2] + m[3] + m[4]) (sin(a[1]) sin(a[2]) + cos(a[1]) cos(a[2])) d/dt w[1] + l[2]² (m[2] + m[3] + m[4]) d/dt w[2] + l[2] l[3] (m[3] + m[4]) (sin(a[2]) sin(a[3]) + cos(a[2]) cos(a[3])) d...
+///                                                                    + l[1] l[2] (m[2] + m[3] + m[4]) w[1]² sin(a[1]) cos(a[2])
+///                                                                    + l[2] l[3] (m[3] + m[4]) w[3]² sin(a[3]) cos(a[2])
+///                                                                    - m[4] l[2] l[4] w[4]² sin(a[2]) cos(a[4])
+///                                                                    - l[1] l[2] (m[2] + m[3] + m[4]) w[1]² sin(a[2]) cos(a[1])
+///                                                                    - l[2] l[3] (m[3] + m[4]) w[3]² sin(a[2]) cos(a[3])
+///                                                                    - l[2] g (m[2] + m[3] + m[4]) sin(a[2])
+///     l[1] l[3] (m[3] + m[4]) (sin(a[1]) sin(a[3]) + cos(a[1]) cos(a[3])) d/dt w[1] + l[2] l[3] (m[3] + m[4]) (sin(a[2]) sin(a[3]) + cos(a[2]) cos(a[3])) d/dt w[2] + l[3]² (m[3] + m[4]) d/dt w[3] + m[4...
+///                                                                    + l[1] l[3] (m[3] + m[4]) w[1]² sin(a[1]) cos(a[3])
+///                                                                    + l[2] l[3] (m[3] + m[4]) w[2]² sin(a[2]) cos(a[3])
+///                                                                    - m[4] l[3] l[4] w[4]² sin(a[3]) cos(a[4])
+///                                                                    - l[1] l[3] (m[3] + m[4]) w[1]² sin(a[3]) cos(a[1])
+///                                                                    - l[2] l[3] (m[3] + m[4]) w[2]² sin(a[3]) cos(a[2])
+///                                                                    - l[3] g (m[3] + m[4]) sin(a[3])
+///     m[4] l[1] l[4] (sin(a[1]) sin(a[4]) + cos(a[1]) cos(a[4])) d/dt w[1] + m[4] l[2] l[4] (sin(a[2]) sin(a[4]) + cos(a[2]) cos(a[4])) d/dt w[2] + m[4] l[3] l[4] (sin(a[3]) sin(a[4]) + cos(a[3]) cos(a[...
 ///
 ///   energy:  E = y^a p_a - L
 ///     E = m[4] l[1] l[4] w[1] w[4] sin(a[1]) sin(a[4]) + m[4] l[1] l[4] w[1] w[4] cos(a[1]) cos(a[4])
@@ -179,7 +200,14 @@ class chain {
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
         auto status = StatusOf<S>::good();
-        const auto [m_1, m_2, m_3, m_4, l_1, l_2, l_3, l_4, g] = parameters;
+        const S m_1 = parameters.m_1;
+        const S m_2 = parameters.m_2;
+        const S m_3 = parameters.m_3;
+        const S m_4 = parameters.m_4;
+        const S l_1 = parameters.l_1;
+        const S l_2 = parameters.l_2;
+        const S l_3 = parameters.l_3;
+        const S l_4 = parameters.l_4;
         StatusOf<S>::fail(status, !(m_1 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, !(m_2 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, !(m_3 > S(0)), Status::left_domain);
@@ -197,80 +225,94 @@ class chain {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        const S a_1 = s[0], a_2 = s[1], a_3 = s[2], a_4 = s[3];
-        const S w_1 = s[4], w_2 = s[5], w_3 = s[6], w_4 = s[7];
+        const S a_1 = s[0];
+        const S a_2 = s[1];
+        const S a_3 = s[2];
+        const S a_4 = s[3];
+        const S w_1 = s[4];
+        const S w_2 = s[5];
+        const S w_3 = s[6];
+        const S w_4 = s[7];
         auto status = StatusOf<S>::good();
         ds[0] = w_1;
         ds[1] = w_2;
         ds[2] = w_3;
         ds[3] = w_4;
-        const auto [m_1, m_2, m_3, m_4, l_1, l_2, l_3, l_4, g] = parameters;
+        const S m_1 = parameters.m_1;
+        const S m_2 = parameters.m_2;
+        const S m_3 = parameters.m_3;
+        const S m_4 = parameters.m_4;
+        const S l_1 = parameters.l_1;
+        const S l_2 = parameters.l_2;
+        const S l_3 = parameters.l_3;
+        const S l_4 = parameters.l_4;
+        const S g = parameters.g;
         const S w0 = m_3 + m_4;
         const S w1 = m_2 + w0;
-        const S w2 = m_1 + w1;
-        const S w3 = w2 * (l_1 * l_1);
         const auto [sines, cosines] = sincos<S, 4>({a_1, a_2, a_3, a_4});
-        const S w4 = l_2 * cosines[1];
-        const S w5 = l_1 * cosines[0];
+        const S w2 = l_1 * cosines[0];
+        const S w3 = l_2 * cosines[1];
+        const S w4 = l_2 * sines[1];
+        const S w5 = w1 * w4;
         const S w6 = l_1 * sines[0];
-        const S w7 = l_2 * sines[1];
-        const S w8 = w1 * w7;
-        const S w9 = w1 * w5 * w4 + w6 * w8;
-        const S w10 = l_3 * sines[2];
+        const S w7 = w1 * w2 * w3 + w6 * w5;
+        const S w8 = l_3 * sines[2];
+        const S w9 = w0 * w8;
+        const S w10 = l_3 * cosines[2];
         const S w11 = w0 * w10;
-        const S w12 = l_3 * cosines[2];
-        const S w13 = w0 * w12;
-        const S w14 = w6 * w11 + w5 * w13;
-        const S w15 = m_4 * l_4;
-        const S w16 = w15 * sines[3];
-        const S w17 = w15 * cosines[3];
-        const S w18 = w6 * w16 + w5 * w17;
-        const S w19 = w1 * (l_2 * l_2);
-        const S w20 = w7 * w11 + w4 * w13;
-        const S w21 = w7 * w16 + w4 * w17;
-        const S w22 = w0 * (l_3 * l_3);
-        const S w23 = w10 * w16 + w12 * w17;
-        const S w24 = l_4 * w15;
-        StatusOf<S>::fail(status, w3 <= singular_tolerance<S>(4) * w3, Status::singular_mass_matrix);
-        const S r0_0 = S(1) / w3;
-        const S l0_1_0 = w9 * r0_0;
-        const S l0_2_0 = w14 * r0_0;
-        const S l0_3_0 = w18 * r0_0;
-        const S v0_1_1 = w19 - l0_1_0 * w9;
-        const S v0_2_1 = w20 - l0_2_0 * w9;
-        const S v0_3_1 = w21 - l0_3_0 * w9;
-        StatusOf<S>::fail(status, v0_1_1 <= singular_tolerance<S>(4) * w19, Status::singular_mass_matrix);
+        const S w12 = w6 * w9 + w2 * w11;
+        const S w13 = m_4 * l_4;
+        const S w14 = w13 * sines[3];
+        const S w15 = w13 * cosines[3];
+        const S w16 = w6 * w14 + w2 * w15;
+        const S w17 = w4 * w9 + w3 * w11;
+        const S w18 = w4 * w14 + w3 * w15;
+        const S w19 = w8 * w14 + w10 * w15;
+        const S w20 = m_1 + w1;
+        const S w21 = w20 * (l_1 * l_1);
+        const S w22 = w1 * (l_2 * l_2);
+        const S w23 = w0 * (l_3 * l_3);
+        const S w24 = l_4 * w13;
+        StatusOf<S>::fail(status, w21 <= singular_tolerance<S>(4) * w21, Status::singular_mass_matrix);
+        const S r0_0 = S(1) / w21;
+        const S l0_1_0 = w7 * r0_0;
+        const S l0_2_0 = w12 * r0_0;
+        const S l0_3_0 = w16 * r0_0;
+        const S v0_1_1 = w22 - l0_1_0 * w7;
+        const S v0_2_1 = w17 - l0_2_0 * w7;
+        const S v0_3_1 = w18 - l0_3_0 * w7;
+        StatusOf<S>::fail(status, v0_1_1 <= singular_tolerance<S>(4) * w22, Status::singular_mass_matrix);
         const S r0_1 = S(1) / v0_1_1;
         const S l0_2_1 = v0_2_1 * r0_1;
         const S l0_3_1 = v0_3_1 * r0_1;
-        const S v0_2_2 = w22 - l0_2_0 * w14 - l0_2_1 * v0_2_1;
-        const S v0_3_2 = w23 - l0_3_0 * w14 - l0_3_1 * v0_2_1;
-        StatusOf<S>::fail(status, v0_2_2 <= singular_tolerance<S>(4) * w22, Status::singular_mass_matrix);
+        const S v0_2_2 = w23 - l0_2_0 * w12 - l0_2_1 * v0_2_1;
+        const S v0_3_2 = w19 - l0_3_0 * w12 - l0_3_1 * v0_2_1;
+        StatusOf<S>::fail(status, v0_2_2 <= singular_tolerance<S>(4) * w23, Status::singular_mass_matrix);
         const S r0_2 = S(1) / v0_2_2;
         const S l0_3_2 = v0_3_2 * r0_2;
-        const S v0_3_3 = w24 - l0_3_0 * w18 - l0_3_1 * v0_3_1 - l0_3_2 * v0_3_2;
+        const S v0_3_3 = w24 - l0_3_0 * w16 - l0_3_1 * v0_3_1 - l0_3_2 * v0_3_2;
         StatusOf<S>::fail(status, v0_3_3 <= singular_tolerance<S>(4) * w24, Status::singular_mass_matrix);
         const S r0_3 = S(1) / v0_3_3;
         const S w25 = w_1 * w_1;
-        const S w26 = m_1 * w25;
-        const S w27 = w_2 * w_2;
-        const S w28 = w6 * w25 + w7 * w27;
-        const S w29 = w_3 * w_3;
-        const S w30 = w28 + w10 * w29;
-        const S w31 = l_4 * (w_4 * w_4);
-        const S w32 = sines[3] * w31 + w30;
-        const S w33 = m_3 * w30 + m_4 * w32;
-        const S w34 = m_2 * w28 + w33;
-        const S w35 = w5 * w25 + w4 * w27;
-        const S w36 = w35 + w12 * w29;
-        const S w37 = cosines[3] * w31 + w36;
+        const S w26 = w_2 * w_2;
+        const S w27 = w6 * w25 + w4 * w26;
+        const S w28 = w_3 * w_3;
+        const S w29 = w8 * w28 + w27;
+        const S w30 = l_4 * (w_4 * w_4);
+        const S w31 = sines[3] * w30 + w29;
+        const S w32 = m_3 * w29 + m_4 * w31;
+        const S w33 = m_2 * w27 + w32;
+        const S w34 = m_1 * w25;
+        const S w35 = w2 * w25 + w3 * w26;
+        const S w36 = w10 * w28 + w35;
+        const S w37 = cosines[3] * w30 + w36;
         const S w38 = m_3 * w36 + m_4 * w37;
         const S w39 = m_2 * w35 + w38;
-        const S w40 = w5 * (w6 * w26 + w34) - w2 * g * w6 - w6 * (w5 * w26 + w39);
-        const S w41 = w4 * w34 - g * w8 - w7 * w39;
-        const S w42 = g * w10;
-        const S w43 = w12 * w33 - m_3 * w42 - m_4 * w42 - w10 * w38;
-        const S w44 = w17 * w32 - g * w16 - w16 * w37;
+        const S w40 = w2 * (w6 * w34 + w33) - w20 * g * w6 - w6 * (w2 * w34 + w39);
+        const S w41 = w3 * w33 - g * w5 - w4 * w39;
+        const S w42 = g * w8;
+        const S w43 = w10 * w32 - m_3 * w42 - m_4 * w42 - w8 * w38;
+        const S w44 = w15 * w31 - g * w14 - w14 * w37;
         const S f0_1 = w41 - l0_1_0 * w40;
         const S f0_2 = w43 - l0_2_0 * w40 - l0_2_1 * f0_1;
         const S f0_3 = w44 - l0_3_0 * w40 - l0_3_1 * f0_1 - l0_3_2 * f0_2;
@@ -289,13 +331,23 @@ class chain {
     [[nodiscard]] Eigen::Matrix<S, 4, 4> mass_matrix([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 4, 4> result;
-        const S a_1 = s[0], a_2 = s[1], a_3 = s[2], a_4 = s[3];
-        const auto [m_1, m_2, m_3, m_4, l_1, l_2, l_3, l_4, g] = parameters;
+        const S a_1 = s[0];
+        const S a_2 = s[1];
+        const S a_3 = s[2];
+        const S a_4 = s[3];
+        const S m_1 = parameters.m_1;
+        const S m_2 = parameters.m_2;
+        const S m_3 = parameters.m_3;
+        const S m_4 = parameters.m_4;
+        const S l_1 = parameters.l_1;
+        const S l_2 = parameters.l_2;
+        const S l_3 = parameters.l_3;
+        const S l_4 = parameters.l_4;
         const S w0 = m_3 + m_4;
         const S w1 = m_2 + w0;
         result(0, 0) = (m_1 + w1) * (l_1 * l_1);
-        const auto [sines, cosines] = sincos<S, 4>({a_1, a_2, a_3, a_4});
         const S w2 = w1 * l_2;
+        const auto [sines, cosines] = sincos<S, 4>({a_1, a_2, a_3, a_4});
         const S w3 = l_1 * w2 * (cosines[0] * cosines[1] + sines[0] * sines[1]);
         result(0, 1) = w3;
         result(1, 0) = w3;
@@ -326,88 +378,129 @@ class chain {
     [[nodiscard]] Eigen::Matrix<S, 4, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 4, 1> result;
-        const S a_1 = s[0], a_2 = s[1], a_3 = s[2], a_4 = s[3];
-        const S w_1 = s[4], w_2 = s[5], w_3 = s[6], w_4 = s[7];
-        const auto [m_1, m_2, m_3, m_4, l_1, l_2, l_3, l_4, g] = parameters;
+        const S a_1 = s[0];
+        const S a_2 = s[1];
+        const S a_3 = s[2];
+        const S a_4 = s[3];
+        const S w_1 = s[4];
+        const S w_2 = s[5];
+        const S w_3 = s[6];
+        const S w_4 = s[7];
+        const S m_1 = parameters.m_1;
+        const S m_2 = parameters.m_2;
+        const S m_3 = parameters.m_3;
+        const S m_4 = parameters.m_4;
+        const S l_1 = parameters.l_1;
+        const S l_2 = parameters.l_2;
+        const S l_3 = parameters.l_3;
+        const S l_4 = parameters.l_4;
         const S w0 = l_1 * w_1;
         const auto [sines, cosines] = sincos<S, 4>({a_1, a_2, a_3, a_4});
         const S w1 = l_2 * w_2;
         const S w2 = cosines[0] * w0 + cosines[1] * w1;
         const S w3 = l_3 * w_3;
-        const S w4 = w2 + cosines[2] * w3;
+        const S w4 = cosines[2] * w3 + w2;
         const S w5 = l_4 * w_4;
-        const S w6 = w4 + cosines[3] * w5;
-        const S w7 = m_3 * w4 + m_4 * w6;
-        const S w8 = w7 + m_2 * w2;
-        const S w9 = m_1 * w0;
-        const S w10 = sines[0] * w0 + sines[1] * w1;
-        const S w11 = w10 + sines[2] * w3;
-        const S w12 = w11 + sines[3] * w5;
-        const S w13 = m_3 * w11 + m_4 * w12;
-        const S w14 = w13 + m_2 * w10;
-        result[0] = l_1 * (cosines[0] * (w8 + cosines[0] * w9) + sines[0] * (w14 + sines[0] * w9));
-        result[1] = l_2 * (cosines[1] * w8 + sines[1] * w14);
-        result[2] = l_3 * (cosines[2] * w7 + sines[2] * w13);
-        result[3] = m_4 * l_4 * (cosines[3] * w6 + sines[3] * w12);
+        const S w6 = cosines[3] * w5 + w4;
+        const S w7 = sines[0] * w0 + sines[1] * w1;
+        const S w8 = sines[2] * w3 + w7;
+        const S w9 = sines[3] * w5 + w8;
+        result[3] = m_4 * l_4 * (cosines[3] * w6 + sines[3] * w9);
+        const S w10 = m_3 * w4 + m_4 * w6;
+        const S w11 = m_3 * w8 + m_4 * w9;
+        result[2] = l_3 * (cosines[2] * w10 + sines[2] * w11);
+        const S w12 = m_2 * w2 + w10;
+        const S w13 = m_2 * w7 + w11;
+        result[1] = l_2 * (cosines[1] * w12 + sines[1] * w13);
+        const S w14 = m_1 * w0;
+        result[0] = l_1 * (cosines[0] * (cosines[0] * w14 + w12) + sines[0] * (sines[0] * w14 + w13));
         return result;
     }
 
     /// E = y^a p_a - L.
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S a_1 = s[0], a_2 = s[1], a_3 = s[2], a_4 = s[3];
-        const S w_1 = s[4], w_2 = s[5], w_3 = s[6], w_4 = s[7];
-        const auto [m_1, m_2, m_3, m_4, l_1, l_2, l_3, l_4, g] = parameters;
-        const S w0 = l_4 * w_4;
+        const S a_1 = s[0];
+        const S a_2 = s[1];
+        const S a_3 = s[2];
+        const S a_4 = s[3];
+        const S w_1 = s[4];
+        const S w_2 = s[5];
+        const S w_3 = s[6];
+        const S w_4 = s[7];
+        const S m_1 = parameters.m_1;
+        const S m_2 = parameters.m_2;
+        const S m_3 = parameters.m_3;
+        const S m_4 = parameters.m_4;
+        const S l_1 = parameters.l_1;
+        const S l_2 = parameters.l_2;
+        const S l_3 = parameters.l_3;
+        const S l_4 = parameters.l_4;
+        const S g = parameters.g;
+        const S w0 = l_1 * w_1;
         const auto [sines, cosines] = sincos<S, 4>({a_1, a_2, a_3, a_4});
-        const S w1 = l_1 * w_1;
-        const S w2 = l_2 * w_2;
-        const S w3 = cosines[0] * w1 + cosines[1] * w2;
-        const S w4 = l_3 * w_3;
-        const S w5 = w3 + cosines[2] * w4;
-        const S w6 = w5 + cosines[3] * w0;
-        const S w7 = sines[0] * w1 + sines[1] * w2;
-        const S w8 = w7 + sines[2] * w4;
-        const S w9 = w8 + sines[3] * w0;
-        const S w10 = m_3 * w5 + m_4 * w6;
-        const S w11 = w10 + m_2 * w3;
-        const S w12 = m_1 * w1;
-        const S w13 = m_3 * w8 + m_4 * w9;
-        const S w14 = w13 + m_2 * w7;
-        const S w15 = m_4 * (cosines[3] * w6 + sines[3] * w9) * w0 + w1 * (cosines[0] * (w11 + cosines[0] * w12) +
-                sines[0] * (w14 + sines[0] * w12)) + w2 * (cosines[1] * w11 + sines[1] * w14);
+        const S w1 = l_2 * w_2;
+        const S w2 = cosines[0] * w0 + cosines[1] * w1;
+        const S w3 = l_3 * w_3;
+        const S w4 = cosines[2] * w3 + w2;
+        const S w5 = l_4 * w_4;
+        const S w6 = cosines[3] * w5 + w4;
+        const S w7 = m_3 * w4 + m_4 * w6;
+        const S w8 = m_2 * w2 + w7;
+        const S w9 = m_1 * w0;
+        const S w10 = sines[0] * w0 + sines[1] * w1;
+        const S w11 = sines[2] * w3 + w10;
+        const S w12 = sines[3] * w5 + w11;
+        const S w13 = m_3 * w11 + m_4 * w12;
+        const S w14 = m_2 * w10 + w13;
+        const S w15 = m_4 * (cosines[3] * w6 + sines[3] * w12) * w5 + w0 * (cosines[0] * (cosines[0] * w9 + w8) +
+                sines[0] * (sines[0] * w9 + w14)) + w1 * (cosines[1] * w8 + sines[1] * w14);
         const S w16 = l_1 * cosines[0];
         const S w17 = w16 + l_2 * cosines[1];
-        const S w18 = l_3 * cosines[2] + w17;
-        const S w19 = w15 + w4 * (cosines[2] * w10 + sines[2] * w13) - g * (m_4 * (l_4 * cosines[3] + w18) + (m_3 * w18
-                + (m_1 * w16 + m_2 * w17)));
-        const S w20 = m_2 * (w3 * w3 + w7 * w7) + m_3 * (w5 * w5 + w8 * w8) + m_4 * (w6 * w6 + w9 * w9) + w1 * w12;
+        const S w18 = w17 + l_3 * cosines[2];
+        const S w19 = w15 + w3 * (cosines[2] * w7 + sines[2] * w13) - g * (m_1 * w16 + m_2 * w17 + m_3 * w18 + m_4 *
+                (w18 + l_4 * cosines[3]));
+        const S w20 = m_2 * (w2 * w2 + w10 * w10) + m_3 * (w4 * w4 + w11 * w11) + m_4 * (w6 * w6 + w12 * w12) + w0 * w9;
         return w19 - S(0.5) * w20;
     }
 
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S a_1 = s[0], a_2 = s[1], a_3 = s[2], a_4 = s[3];
-        const S w_1 = s[4], w_2 = s[5], w_3 = s[6], w_4 = s[7];
-        const auto [m_1, m_2, m_3, m_4, l_1, l_2, l_3, l_4, g] = parameters;
+        const S a_1 = s[0];
+        const S a_2 = s[1];
+        const S a_3 = s[2];
+        const S a_4 = s[3];
+        const S w_1 = s[4];
+        const S w_2 = s[5];
+        const S w_3 = s[6];
+        const S w_4 = s[7];
+        const S m_1 = parameters.m_1;
+        const S m_2 = parameters.m_2;
+        const S m_3 = parameters.m_3;
+        const S m_4 = parameters.m_4;
+        const S l_1 = parameters.l_1;
+        const S l_2 = parameters.l_2;
+        const S l_3 = parameters.l_3;
+        const S l_4 = parameters.l_4;
+        const S g = parameters.g;
         const S w0 = l_1 * w_1;
         const auto [sines, cosines] = sincos<S, 4>({a_1, a_2, a_3, a_4});
         const S w1 = l_2 * w_2;
         const S w2 = cosines[0] * w0 + cosines[1] * w1;
         const S w3 = sines[0] * w0 + sines[1] * w1;
         const S w4 = l_3 * w_3;
-        const S w5 = w2 + cosines[2] * w4;
-        const S w6 = w3 + sines[2] * w4;
+        const S w5 = cosines[2] * w4 + w2;
+        const S w6 = sines[2] * w4 + w3;
         const S w7 = l_4 * w_4;
-        const S w8 = w5 + cosines[3] * w7;
-        const S w9 = w6 + sines[3] * w7;
+        const S w8 = cosines[3] * w7 + w5;
+        const S w9 = sines[3] * w7 + w6;
         const S w10 = m_1 * l_1;
         const S w11 = m_2 * (w2 * w2 + w3 * w3) + m_3 * (w5 * w5 + w6 * w6) + m_4 * (w8 * w8 + w9 * w9) + w10 * w_1 *
                 w0;
         const S w12 = l_1 * cosines[0] + l_2 * cosines[1];
-        const S w13 = l_3 * cosines[2] + w12;
-        return g * (m_4 * (l_4 * cosines[3] + w13) + (m_2 * w12 + m_3 * w13) + w10 * cosines[0]) + S(0.5) * w11;
+        const S w13 = w12 + l_3 * cosines[2];
+        return g * (m_2 * w12 + m_3 * w13 + m_4 * (w13 + l_4 * cosines[3]) + w10 * cosines[0]) + S(0.5) * w11;
     }
 
     static constexpr std::array<const char*, 2> observables_names = {"tip[1]", "tip[2]"};
@@ -415,11 +508,17 @@ class chain {
     [[nodiscard]] Eigen::Matrix<S, 2, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 2, 1> result;
-        const S a_1 = s[0], a_2 = s[1], a_3 = s[2], a_4 = s[3];
+        const S a_1 = s[0];
+        const S a_2 = s[1];
+        const S a_3 = s[2];
+        const S a_4 = s[3];
         const auto [sines, cosines] = sincos<S, 4>({a_1, a_2, a_3, a_4});
-        const S l_1 = parameters.l_1, l_2 = parameters.l_2, l_3 = parameters.l_3, l_4 = parameters.l_4;
-        result[0] = l_4 * sines[3] + (l_3 * sines[2] + (l_1 * sines[0] + l_2 * sines[1]));
-        result[1] = -(l_4 * cosines[3] + (l_3 * cosines[2] + (l_1 * cosines[0] + l_2 * cosines[1])));
+        const S l_1 = parameters.l_1;
+        const S l_2 = parameters.l_2;
+        const S l_3 = parameters.l_3;
+        const S l_4 = parameters.l_4;
+        result[0] = l_1 * sines[0] + l_2 * sines[1] + l_3 * sines[2] + l_4 * sines[3];
+        result[1] = -(l_1 * cosines[0] + l_2 * cosines[1] + l_3 * cosines[2] + l_4 * cosines[3]);
         return result;
     }
 
@@ -432,17 +531,31 @@ class chain {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 36>& values) const noexcept
     {
-        const S a_1 = s[0], a_2 = s[1], a_3 = s[2], a_4 = s[3];
-        const S w_1 = s[4], w_2 = s[5], w_3 = s[6], w_4 = s[7];
-        const auto [m_1, m_2, m_3, m_4, l_1, l_2, l_3, l_4, g] = parameters;
+        const S a_1 = s[0];
+        const S a_2 = s[1];
+        const S a_3 = s[2];
+        const S a_4 = s[3];
+        const S w_1 = s[4];
+        const S w_2 = s[5];
+        const S w_3 = s[6];
+        const S w_4 = s[7];
+        const S m_1 = parameters.m_1;
+        const S m_2 = parameters.m_2;
+        const S m_3 = parameters.m_3;
+        const S m_4 = parameters.m_4;
+        const S l_1 = parameters.l_1;
+        const S l_2 = parameters.l_2;
+        const S l_3 = parameters.l_3;
+        const S l_4 = parameters.l_4;
+        const S g = parameters.g;
         const S w0 = m_3 + m_4;
         const S w1 = m_4 * l_4;
         const S w2 = m_2 + w0;
         const auto [sines, cosines] = sincos<S, 4>({a_1, a_2, a_3, a_4});
         const S w3 = l_1 * w_1;
         const S w4 = l_2 * w_2;
-        const S w5 = w0 * l_3;
-        const S w6 = w_3 * w_3;
+        const S w5 = w_3 * w_3;
+        const S w6 = w0 * l_3;
         const S w7 = l_1 * w1;
         const S w8 = l_2 * w1;
         const S w9 = w2 * l_2;
@@ -450,10 +563,10 @@ class chain {
         const S w11 = l_4 * w1;
         const S w12 = w_1 * w3;
         const S w13 = w_2 * w4;
-        const S w14 = l_1 * w5;
-        const S w15 = l_2 * w5;
-        const S w16 = m_1 + w2;
-        const S w17 = l_3 * w5;
+        const S w14 = m_1 + w2;
+        const S w15 = l_1 * w6;
+        const S w16 = l_2 * w6;
+        const S w17 = l_3 * w6;
         const S w18 = l_1 * w9;
         const S w19 = cosines[0] * cosines[1] + sines[0] * sines[1];
         const S w20 = cosines[0] * cosines[2] + sines[0] * sines[2];
@@ -461,16 +574,16 @@ class chain {
         const S w22 = cosines[1] * cosines[2] + sines[1] * sines[2];
         const S w23 = cosines[1] * cosines[3] + sines[1] * sines[3];
         const S w24 = cosines[2] * cosines[3] + sines[2] * sines[3];
-        const S w25 = w16 * (l_1 * l_1);
+        const S w25 = w14 * (l_1 * l_1);
         const S w26 = l_2 * w9;
         const S w27 = w18 * w19;
-        const S w28 = w14 * w20;
+        const S w28 = w15 * w20;
         const S w29 = w7 * w21;
-        const S w30 = w15 * w22;
+        const S w30 = w16 * w22;
         const S w31 = w8 * w23;
         const S w32 = w10 * w24;
         const S w33 = w_4 * w_4;
-        const S w34 = l_3 * w6;
+        const S w34 = l_3 * w5;
         const S w35 = cosines[0] * w12 + cosines[1] * w13;
         const S w36 = l_4 * w33;
         const S w37 = cosines[2] * w34 + w35;
@@ -484,7 +597,7 @@ class chain {
         const S w41 = cosines[3] * w36 + w37;
         const S w42 = sines[0] * w12 + sines[1] * w13;
         const S w43 = cosines[0] * sines[1] - sines[0] * cosines[1];
-        const S w44 = S(2) * w5;
+        const S w44 = S(2) * w6;
         const S w45 = cosines[0] * sines[2] - sines[0] * cosines[2];
         const S w46 = cosines[0] * sines[3] - sines[0] * cosines[3];
         const S w47 = m_1 * w12;
@@ -519,11 +632,11 @@ class chain {
         const S w60 = g + w41;
         const S w61 = -w44 * w50 * w4;
         const S w62 = -w40 * w49 * w4;
-        const S w63 = S(2) * w14 * w45 * w_3;
+        const S w63 = S(2) * w15 * w45 * w_3;
         const S w64 = m_2 * w42 + w59;
-        const S w65 = w16 * g + (cosines[0] * w47 + w57);
+        const S w65 = w14 * g + (cosines[0] * w47 + w57);
         const S w66 = S(2) * (w10 * w51);
-        const S w67 = S(2) * w15 * w50 * w_3;
+        const S w67 = S(2) * w16 * w50 * w_3;
         const S w68 = S(2) * w7 * w46 * w_4;
         const S w69 = sines[0] * w47 + w64;
         const S w70 = S(2) * w8 * w49 * w_4;
@@ -591,22 +704,22 @@ class chain {
         const S w82 = w51 * z2_2;
         const S w83 = w50 * z2_2;
         const S w84 = w18 * (w19 * w38 - w43 * z2_0);
-        const S w85 = w14 * (w20 * w38 - w45 * z2_0);
+        const S w85 = w15 * (w20 * w38 - w45 * z2_0);
         const S w86 = w7 * (w21 * w38 - w46 * z2_0);
         const S w87 = w18 * (w19 * w39 + w79);
-        const S w88 = l_1 * (w16 * w12 - cosines[0] * w65 - sines[0] * w69 - w46 * w77 - w5 * w78 - w9 * w79);
-        const S w89 = w15 * (w22 * w39 - w50 * z2_1);
+        const S w88 = l_1 * (w14 * w12 - cosines[0] * w65 - sines[0] * w69 - w46 * w77 - w6 * w78 - w9 * w79);
+        const S w89 = w16 * (w22 * w39 - w50 * z2_1);
         const S w90 = w8 * (w23 * w39 - w49 * z2_1);
-        const S w91 = w14 * (w20 * w6 + w78);
-        const S w92 = w15 * (w22 * w6 + w83);
-        const S w93 = w10 * (w24 * w6 - w82);
+        const S w91 = w15 * (w20 * w5 + w78);
+        const S w92 = w16 * (w22 * w5 + w83);
+        const S w93 = w10 * (w24 * w5 - w82);
         const S w94 = w7 * (w21 * w33 + w46 * z2_3);
         const S w95 = w8 * (w23 * w33 + w49 * z2_3);
         const S w96 = w10 * (w24 * w33 + w51 * z2_3);
-        const S w97 = l_2 * (w2 * (w13 + w43 * w80 - g * cosines[1]) - cosines[1] * w57 - sines[1] * w64 - w49 * w77 -
-                w5 * w83);
-        const S w98 = w1 * (w36 + (l_3 * w82 + w46 * w80 + w49 * w81) - cosines[3] * w60 - sines[3] * w53);
-        const S w99 = l_3 * (w0 * (w34 + (w45 * w80 + w50 * w81) - g * cosines[2]) - cosines[2] * w52 - sines[2] * w59 -
+        const S w97 = l_2 * (w2 * (w43 * w80 + w13 - g * cosines[1]) - cosines[1] * w57 - sines[1] * w64 - w49 * w77 -
+                w6 * w83);
+        const S w98 = w1 * (l_3 * w82 + w46 * w80 + w49 * w81 + w36 - cosines[3] * w60 - sines[3] * w53);
+        const S w99 = l_3 * (w0 * (w45 * w80 + w50 * w81 + w34 - g * cosines[2]) - cosines[2] * w52 - sines[2] * w59 -
                 w51 * w77);
         const S f5_1 = w84 - l0_1_0 * w88;
         const S f5_2 = w85 - l0_2_0 * w88 - l0_2_1 * f5_1;

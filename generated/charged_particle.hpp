@@ -134,14 +134,20 @@ class charged_particle {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        const S x = s[0], y = s[1];
-        const S u = s[2], v = s[3], q = s[4];
+        const S x = s[0];
+        const S y = s[1];
+        const S u = s[2];
+        const S v = s[3];
+        const S q = s[4];
         ds[0] = u;
         ds[1] = v;
-        const auto [b0, b1, b2, k] = parameters;
-        const S w0 = (b2 * (y * y) + (b0 + b1 * x)) * q;
+        const S b0 = parameters.b0;
+        const S b1 = parameters.b1;
+        const S b2 = parameters.b2;
+        const S k = parameters.k;
+        const S w0 = (b0 + b1 * x + b2 * (y * y)) * q;
         ds[2] = v * w0 - k * x;
-        ds[3] = -(u * w0 + k * y);
+        ds[3] = -(k * y + u * w0);
         ds[4] = S(0);
         return StatusOf<S>::good();
     }
@@ -161,7 +167,9 @@ class charged_particle {
     [[nodiscard]] Eigen::Matrix<S, 3, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 3, 1> result;
-        const S u = s[2], v = s[3], q = s[4];
+        const S u = s[2];
+        const S v = s[3];
+        const S q = s[4];
         result[0] = u;
         result[1] = v;
         result[2] = q;
@@ -171,19 +179,25 @@ class charged_particle {
     /// E = y^a p_a - L.
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S x = s[0], y = s[1];
-        const S u = s[2], v = s[3], q = s[4];
+        const S x = s[0];
+        const S y = s[1];
+        const S u = s[2];
+        const S v = s[3];
+        const S q = s[4];
         const S k = parameters.k;
-        return S(0.5) * (q * q + (v * v + (u * u + k * (y * y + x * x))));
+        return S(0.5) * (k * (x * x + y * y) + u * u + v * v + q * q);
     }
 
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S x = s[0], y = s[1];
-        const S u = s[2], v = s[3], q = s[4];
+        const S x = s[0];
+        const S y = s[1];
+        const S u = s[2];
+        const S v = s[3];
+        const S q = s[4];
         const S k = parameters.k;
-        return S(0.5) * (q * q + (u * u + v * v) - k * (y * y + x * x));
+        return S(0.5) * (u * u + v * v + q * q - k * (x * x + y * y));
     }
 
     static constexpr std::array<const char*, 1> observables_names = {"field"};
@@ -191,9 +205,12 @@ class charged_particle {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S x = s[0], y = s[1];
-        const auto [b0, b1, b2, k] = parameters;
-        result[0] = b2 * (y * y) + (b0 + b1 * x);
+        const S x = s[0];
+        const S y = s[1];
+        const S b0 = parameters.b0;
+        const S b1 = parameters.b1;
+        const S b2 = parameters.b2;
+        result[0] = b0 + b1 * x + b2 * (y * y);
         return result;
     }
 
@@ -202,11 +219,14 @@ class charged_particle {
     [[nodiscard]] Eigen::Matrix<S, 2, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 2, 1> result;
-        const S x = s[0], y = s[1];
-        const S u = s[2], v = s[3], q = s[4];
+        const S x = s[0];
+        const S y = s[1];
+        const S u = s[2];
+        const S v = s[3];
+        const S q = s[4];
         result[0] = q;
         const S k = parameters.k;
-        result[1] = S(0.5) * (v * v + (u * u + k * (y * y + x * x)));
+        result[1] = S(0.5) * (k * (x * x + y * y) + u * u + v * v);
         return result;
     }
 
@@ -217,16 +237,22 @@ class charged_particle {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 10>& values) const noexcept
     {
-        const S x = s[0], y = s[1];
-        const S u = s[2], v = s[3], q = s[4];
+        const S x = s[0];
+        const S y = s[1];
+        const S u = s[2];
+        const S v = s[3];
+        const S q = s[4];
         values[0] = S(1);
         values[1] = S(1);
-        const auto [b0, b1, b2, k] = parameters;
+        const S b0 = parameters.b0;
+        const S b1 = parameters.b1;
+        const S b2 = parameters.b2;
+        const S k = parameters.k;
         const S w0 = b1 * q;
         values[2] = v * w0 - k;
         const S w1 = S(2) * y * b2 * q;
         values[3] = v * w1;
-        const S w2 = b2 * (y * y) + (b0 + b1 * x);
+        const S w2 = b0 + b1 * x + b2 * (y * y);
         const S w3 = w2 * q;
         values[4] = w3;
         values[5] = w2 * v;

@@ -130,7 +130,7 @@ class double_integrator_pontryagin {
         const S u_max = parameters.u_max;
         const S w0 = -u_max;
         const S w1 = select(mu_v > w0, mu_v, w0);
-        ds[1] = select(u_max < w1, u_max, w1);
+        ds[1] = select(w1 < u_max, w1, u_max);
         ds[2] = S(0);
         ds[3] = -mu_x;
         return StatusOf<S>::good();
@@ -145,7 +145,7 @@ class double_integrator_pontryagin {
         const S u_max = parameters.u_max;
         const S w0 = -u_max;
         const S w1 = select(mu_v > w0, mu_v, w0);
-        result[0] = select(u_max < w1, u_max, w1);
+        result[0] = select(w1 < u_max, w1, u_max);
         return result;
     }
 
@@ -157,7 +157,7 @@ class double_integrator_pontryagin {
         const S u_max = parameters.u_max;
         const S w0 = -u_max;
         const S w1 = select(mu_v > w0, mu_v, w0);
-        const S w2 = select(u_max < w1, u_max, w1);
+        const S w2 = select(w1 < u_max, w1, u_max);
         return v * mu_x + S(0.5) * w2 * (S(2) * mu_v - w2);
     }
 
@@ -168,7 +168,7 @@ class double_integrator_pontryagin {
         const S u_max = parameters.u_max;
         const S w0 = -u_max;
         const S w1 = select(mu_v > w0, mu_v, w0);
-        const S w2 = select(u_max < w1, u_max, w1);
+        const S w2 = select(w1 < u_max, w1, u_max);
         return S(0.5) * (w2 * w2);
     }
 
@@ -193,7 +193,7 @@ class double_integrator_pontryagin {
         values[0] = S(1);
         const S u_max = parameters.u_max;
         const S w0 = -u_max;
-        values[1] = select(u_max <= select(mu_v > w0, mu_v, w0), S(0), select(mu_v >= w0, S(1), S(0)));
+        values[1] = select(select(mu_v > w0, mu_v, w0) <= u_max, select(mu_v >= w0, S(1), S(0)), S(0));
         values[2] = S(-1);
     }
 

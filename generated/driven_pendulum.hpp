@@ -135,7 +135,11 @@ class driven_pendulum {
         const S th = s[0];
         const S w = s[1];
         ds[0] = w;
-        const auto [I_, mgl, b, A, Omega] = parameters;
+        const S I_ = parameters.I_;
+        const S mgl = parameters.mgl;
+        const S b = parameters.b;
+        const S A = parameters.A;
+        const S Omega = parameters.Omega;
         ds[1] = (A * cos(t * Omega) - mgl * sin(th) - b * w) / I_;
         return StatusOf<S>::good();
     }
@@ -166,7 +170,8 @@ class driven_pendulum {
         using std::cos;
         const S th = s[0];
         const S w = s[1];
-        const S I_ = parameters.I_, mgl = parameters.mgl;
+        const S I_ = parameters.I_;
+        const S mgl = parameters.mgl;
         return S(0.5) * I_ * (w * w) - mgl * cos(th);
     }
 
@@ -175,7 +180,9 @@ class driven_pendulum {
     {
         using std::cos;
         const S w = s[1];
-        const auto [I_, mgl, b, A, Omega] = parameters;
+        const S b = parameters.b;
+        const S A = parameters.A;
+        const S Omega = parameters.Omega;
         return w * (A * cos(t * Omega) - b * w);
     }
 
@@ -185,8 +192,9 @@ class driven_pendulum {
         using std::cos;
         const S th = s[0];
         const S w = s[1];
-        const S I_ = parameters.I_, mgl = parameters.mgl;
-        return mgl * cos(th) + S(0.5) * I_ * (w * w);
+        const S I_ = parameters.I_;
+        const S mgl = parameters.mgl;
+        return S(0.5) * I_ * (w * w) + mgl * cos(th);
     }
 
     static constexpr std::array<const char*, 2> observables_names = {"turns", "power"};
@@ -198,7 +206,9 @@ class driven_pendulum {
         const S th = s[0];
         const S w = s[1];
         result[0] = S(0.5) * th / (S(3.141592653589793) + S(1.2246467991473532e-16));
-        const auto [I_, mgl, b, A, Omega] = parameters;
+        const S b = parameters.b;
+        const S A = parameters.A;
+        const S Omega = parameters.Omega;
         result[1] = w * (A * cos(t * Omega) - b * w);
         return result;
     }
@@ -226,7 +236,9 @@ class driven_pendulum {
         using std::cos;
         const S th = s[0];
         values[0] = S(1);
-        const auto [I_, mgl, b, A, Omega] = parameters;
+        const S I_ = parameters.I_;
+        const S mgl = parameters.mgl;
+        const S b = parameters.b;
         const S w0 = S(1) / I_;
         values[1] = -w0 * mgl * cos(th);
         values[2] = -w0 * b;

@@ -125,13 +125,15 @@ class duffing {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        const S q = s[0], k = s[1], c = s[2];
+        const S q = s[0];
+        const S k = s[1];
+        const S c = s[2];
         const S v = s[3];
         ds[0] = v;
         ds[1] = S(0);
         ds[2] = S(0);
         const S m = parameters.m;
-        ds[3] = -q * (k + q * q * c) / m;
+        ds[3] = -q * (q * q * c + k) / m;
         return StatusOf<S>::good();
     }
 
@@ -158,7 +160,9 @@ class duffing {
     /// E = y^a p_a - L.
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S q = s[0], k = s[1], c = s[2];
+        const S q = s[0];
+        const S k = s[1];
+        const S c = s[2];
         const S v = s[3];
         const S w0 = q * q;
         const S m = parameters.m;
@@ -168,7 +172,9 @@ class duffing {
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S q = s[0], k = s[1], c = s[2];
+        const S q = s[0];
+        const S k = s[1];
+        const S c = s[2];
         const S v = s[3];
         const S w0 = q * q;
         const S m = parameters.m;
@@ -180,8 +186,10 @@ class duffing {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S q = s[0], k = s[1], c = s[2];
-        result[0] = -q * (k + q * q * c);
+        const S q = s[0];
+        const S k = s[1];
+        const S c = s[2];
+        result[0] = -q * (q * q * c + k);
         return result;
     }
 
@@ -202,15 +210,17 @@ class duffing {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 4>& values) const noexcept
     {
-        const S q = s[0], k = s[1], c = s[2];
+        const S q = s[0];
+        const S k = s[1];
+        const S c = s[2];
         values[0] = S(1);
-        const S w0 = q * q;
         const S m = parameters.m;
-        const S w1 = S(1) / m;
-        values[1] = -w1 * (k + S(3) * w0 * c);
-        const S w2 = w1 * q;
+        const S w0 = S(1) / m;
+        const S w1 = q * q;
+        values[1] = -w0 * (S(3) * w1 * c + k);
+        const S w2 = w0 * q;
         values[2] = -w2;
-        values[3] = -w0 * w2;
+        values[3] = -w1 * w2;
     }
 
     /// The same as a dense matrix, shape (4, 4).

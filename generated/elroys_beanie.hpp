@@ -196,7 +196,7 @@ class elroys_beanie {
         const S d = s[1], W = s[2], v1 = s[3], v2 = s[4];
         const auto [I1, I2, M, k] = parameters;
         const S w0 = I1 + I2;
-        return k * (S(1) - cos(ps)) + S(0.5) * (w0 * (W * W) + (M * (v1 * v1 + v2 * v2) + I1 * I2 * (d * d) / w0));
+        return k * (S(1) - cos(ps)) + S(0.5) * (I1 * I2 * (d * d) / w0 + M * (v1 * v1 + v2 * v2) + w0 * (W * W));
     }
 
     /// L(t, x, y).
@@ -207,7 +207,7 @@ class elroys_beanie {
         const S d = s[1], W = s[2], v1 = s[3], v2 = s[4];
         const auto [I1, I2, M, k] = parameters;
         const S w0 = I1 + I2;
-        return S(0.5) * (w0 * (W * W) + (M * (v1 * v1 + v2 * v2) + I1 * I2 * (d * d) / w0)) + k * (cos(ps) - S(1));
+        return k * (cos(ps) - S(1)) + S(0.5) * (I1 * I2 * (d * d) / w0 + M * (v1 * v1 + v2 * v2) + w0 * (W * W));
     }
 
     static constexpr std::array<const char*, 2> invariants_names = {"spin", "momentum_squared"};

@@ -117,7 +117,9 @@ class gyrostat {
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
         auto status = StatusOf<S>::good();
-        const auto [I1, I2, I3, b1, b2, b3] = parameters;
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
         StatusOf<S>::fail(status, I1 == S(0), Status::singular_mass_matrix);
         StatusOf<S>::fail(status, !(I1 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, I2 == S(0), Status::singular_mass_matrix);
@@ -133,12 +135,19 @@ class gyrostat {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        const S w1 = s[0], w2 = s[1], w3 = s[2];
-        const auto [I1, I2, I3, b1, b2, b3] = parameters;
-        const S u0 = b2 + I2 * w2;
-        const S u1 = b3 + I3 * w3;
+        const S w1 = s[0];
+        const S w2 = s[1];
+        const S w3 = s[2];
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
+        const S b1 = parameters.b1;
+        const S b2 = parameters.b2;
+        const S b3 = parameters.b3;
+        const S u0 = I2 * w2 + b2;
+        const S u1 = I3 * w3 + b3;
         ds[0] = (u0 * w3 - w2 * u1) / I1;
-        const S u2 = b1 + I1 * w1;
+        const S u2 = I1 * w1 + b1;
         ds[1] = (w1 * u1 - u2 * w3) / I2;
         ds[2] = (u2 * w2 - w1 * u0) / I3;
         return StatusOf<S>::good();
@@ -149,7 +158,9 @@ class gyrostat {
             noexcept
     {
         Eigen::Matrix<S, 3, 3> result = Eigen::Matrix<S, 3, 3>::Zero();
-        const auto [I1, I2, I3, b1, b2, b3] = parameters;
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
         result(0, 0) = I1;
         result(1, 1) = I2;
         result(2, 2) = I3;
@@ -160,28 +171,46 @@ class gyrostat {
     [[nodiscard]] Eigen::Matrix<S, 3, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 3, 1> result;
-        const S w1 = s[0], w2 = s[1], w3 = s[2];
-        const auto [I1, I2, I3, b1, b2, b3] = parameters;
-        result[0] = b1 + I1 * w1;
-        result[1] = b2 + I2 * w2;
-        result[2] = b3 + I3 * w3;
+        const S w1 = s[0];
+        const S w2 = s[1];
+        const S w3 = s[2];
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
+        const S b1 = parameters.b1;
+        const S b2 = parameters.b2;
+        const S b3 = parameters.b3;
+        result[0] = I1 * w1 + b1;
+        result[1] = I2 * w2 + b2;
+        result[2] = I3 * w3 + b3;
         return result;
     }
 
     /// E = y^a p_a - L.
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S w1 = s[0], w2 = s[1], w3 = s[2];
-        const auto [I1, I2, I3, b1, b2, b3] = parameters;
-        return S(0.5) * (I3 * (w3 * w3) + (I1 * (w1 * w1) + I2 * (w2 * w2)));
+        const S w1 = s[0];
+        const S w2 = s[1];
+        const S w3 = s[2];
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
+        return S(0.5) * (I1 * (w1 * w1) + I2 * (w2 * w2) + I3 * (w3 * w3));
     }
 
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S w1 = s[0], w2 = s[1], w3 = s[2];
-        const auto [I1, I2, I3, b1, b2, b3] = parameters;
-        return S(0.5) * (I3 * (w3 * w3) + (I1 * (w1 * w1) + I2 * (w2 * w2))) + (b3 * w3 + (b1 * w1 + b2 * w2));
+        const S w1 = s[0];
+        const S w2 = s[1];
+        const S w3 = s[2];
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
+        const S b1 = parameters.b1;
+        const S b2 = parameters.b2;
+        const S b3 = parameters.b3;
+        return b1 * w1 + b2 * w2 + b3 * w3 + S(0.5) * (I1 * (w1 * w1) + I2 * (w2 * w2) + I3 * (w3 * w3));
     }
 
     static constexpr std::array<const char*, 1> invariants_names = {"momentum_squared"};
@@ -189,12 +218,19 @@ class gyrostat {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S w1 = s[0], w2 = s[1], w3 = s[2];
-        const auto [I1, I2, I3, b1, b2, b3] = parameters;
-        const S u0 = b3 + I3 * w3;
-        const S u1 = b1 + I1 * w1;
-        const S u2 = b2 + I2 * w2;
-        result[0] = u0 * u0 + (u1 * u1 + u2 * u2);
+        const S w1 = s[0];
+        const S w2 = s[1];
+        const S w3 = s[2];
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
+        const S b1 = parameters.b1;
+        const S b2 = parameters.b2;
+        const S b3 = parameters.b3;
+        const S u0 = I1 * w1 + b1;
+        const S u1 = I2 * w2 + b2;
+        const S u2 = I3 * w3 + b3;
+        result[0] = u0 * u0 + u1 * u1 + u2 * u2;
         return result;
     }
 
@@ -205,20 +241,27 @@ class gyrostat {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 6>& values) const noexcept
     {
-        const S w1 = s[0], w2 = s[1], w3 = s[2];
-        const auto [I1, I2, I3, b1, b2, b3] = parameters;
-        const S u0 = I2 - I3;
-        const S u1 = S(1) / I1;
-        values[0] = u1 * (u0 * w3 - b3);
-        values[1] = u1 * (b2 + u0 * w2);
-        const S u2 = I3 - I1;
-        const S u3 = S(1) / I2;
-        values[2] = u3 * (b3 + u2 * w3);
-        values[3] = u3 * (u2 * w1 - b1);
-        const S u4 = I1 - I2;
-        const S u5 = S(1) / I3;
-        values[4] = u5 * (u4 * w2 - b2);
-        values[5] = u5 * (b1 + u4 * w1);
+        const S w1 = s[0];
+        const S w2 = s[1];
+        const S w3 = s[2];
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
+        const S b1 = parameters.b1;
+        const S b2 = parameters.b2;
+        const S b3 = parameters.b3;
+        const S u0 = S(1) / I1;
+        const S u1 = I2 - I3;
+        values[0] = u0 * (u1 * w3 - b3);
+        values[1] = u0 * (b2 + u1 * w2);
+        const S u2 = S(1) / I2;
+        const S u3 = I3 - I1;
+        values[2] = u2 * (b3 + u3 * w3);
+        values[3] = u2 * (u3 * w1 - b1);
+        const S u4 = S(1) / I3;
+        const S u5 = I1 - I2;
+        values[4] = u4 * (u5 * w2 - b2);
+        values[5] = u4 * (b1 + u5 * w1);
     }
 
     /// The same as a dense matrix, shape (3, 3).

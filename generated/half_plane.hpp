@@ -184,7 +184,7 @@ class half_plane {
         const S a = s[2], b = s[3];
         const S w0 = a / y;
         result[0] = w0;
-        result[1] = b + x * w0;
+        result[1] = x * w0 + b;
         return result;
     }
 

@@ -121,7 +121,7 @@ class half_plane_control_pontryagin {
         const S w1 = y * mu2;
         ds[1] = y * w1;
         ds[2] = S(0);
-        ds[3] = -(mu2 * w1 + mu1 * w0);
+        ds[3] = -(w1 * mu2 + w0 * mu1);
         return StatusOf<S>::good();
     }
 
@@ -182,7 +182,7 @@ class half_plane_control_pontryagin {
         const S x = s[0], y = s[1];
         const S mu1 = s[2], mu2 = s[3];
         result[0] = mu1;
-        result[1] = y * mu2 + x * mu1;
+        result[1] = x * mu1 + y * mu2;
         return result;
     }
 

@@ -163,7 +163,9 @@ class heavy_top_euler {
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
         auto status = StatusOf<S>::good();
-        const S I1 = parameters.I1, I2 = parameters.I2, I3 = parameters.I3;
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
         StatusOf<S>::fail(status, !(I1 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, !(I2 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, !(I3 > S(0)), Status::left_domain);
@@ -176,8 +178,11 @@ class heavy_top_euler {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        const S th = s[1], ps = s[2];
-        const S dph = s[3], dth = s[4], dps = s[5];
+        const S th = s[1];
+        const S ps = s[2];
+        const S dph = s[3];
+        const S dth = s[4];
+        const S dps = s[5];
         auto status = StatusOf<S>::good();
         ds[0] = dph;
         ds[1] = dth;
@@ -185,7 +190,13 @@ class heavy_top_euler {
         const auto [sines, cosines] = sincos<S, 2>({th, ps});
         const S w0 = sines[1] * sines[1];
         const S w1 = cosines[1] * cosines[1];
-        const auto [I1, I2, I3, mgl, e1, e2, e3] = parameters;
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
+        const S mgl = parameters.mgl;
+        const S e1 = parameters.e1;
+        const S e2 = parameters.e2;
+        const S e3 = parameters.e3;
         const S w2 = I1 * w0 + I2 * w1;
         const S w3 = I3 * cosines[0];
         const S w4 = sines[0] * sines[0] * w2 + cosines[0] * w3;
@@ -230,11 +241,14 @@ class heavy_top_euler {
     [[nodiscard]] Eigen::Matrix<S, 3, 3> mass_matrix([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 3, 3> result = Eigen::Matrix<S, 3, 3>::Zero();
-        const S th = s[1], ps = s[2];
+        const S th = s[1];
+        const S ps = s[2];
         const auto [sines, cosines] = sincos<S, 2>({th, ps});
         const S w0 = sines[1] * sines[1];
         const S w1 = cosines[1] * cosines[1];
-        const S I1 = parameters.I1, I2 = parameters.I2, I3 = parameters.I3;
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
         result(2, 2) = I3;
         const S w2 = I3 * cosines[0];
         result(0, 2) = w2;
@@ -251,14 +265,19 @@ class heavy_top_euler {
     [[nodiscard]] Eigen::Matrix<S, 3, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 3, 1> result;
-        const S th = s[1], ps = s[2];
-        const S dph = s[3], dth = s[4], dps = s[5];
+        const S th = s[1];
+        const S ps = s[2];
+        const S dph = s[3];
+        const S dth = s[4];
+        const S dps = s[5];
         const auto [sines, cosines] = sincos<S, 2>({th, ps});
         const S w0 = sines[0] * dph;
-        const S I1 = parameters.I1, I2 = parameters.I2, I3 = parameters.I3;
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
         const S w1 = I1 * (sines[1] * w0 + cosines[1] * dth);
         const S w2 = I2 * (cosines[1] * w0 - sines[1] * dth);
-        const S w3 = I3 * (dps + cosines[0] * dph);
+        const S w3 = I3 * (cosines[0] * dph + dps);
         result[2] = w3;
         result[0] = sines[0] * (sines[1] * w1 + cosines[1] * w2) + cosines[0] * w3;
         result[1] = cosines[1] * w1 - sines[1] * w2;
@@ -268,16 +287,25 @@ class heavy_top_euler {
     /// E = y^a p_a - L.
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S th = s[1], ps = s[2];
-        const S dph = s[3], dth = s[4], dps = s[5];
+        const S th = s[1];
+        const S ps = s[2];
+        const S dph = s[3];
+        const S dth = s[4];
+        const S dps = s[5];
         const auto [sines, cosines] = sincos<S, 2>({th, ps});
         const S w0 = sines[0] * dph;
         const S w1 = sines[1] * w0 + cosines[1] * dth;
-        const auto [I1, I2, I3, mgl, e1, e2, e3] = parameters;
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
+        const S mgl = parameters.mgl;
+        const S e1 = parameters.e1;
+        const S e2 = parameters.e2;
+        const S e3 = parameters.e3;
         const S w2 = I1 * w1;
         const S w3 = cosines[1] * w0 - sines[1] * dth;
         const S w4 = I2 * w3;
-        const S w5 = dps + cosines[0] * dph;
+        const S w5 = cosines[0] * dph + dps;
         const S w6 = I3 * w5;
         const S w7 = mgl * (e3 * cosines[0] + sines[0] * (e1 * sines[1] + e2 * cosines[1])) + dph * (sines[0] *
                 (sines[1] * w2 + cosines[1] * w4) + cosines[0] * w6) + dth * (cosines[1] * w2 - sines[1] * w4);
@@ -287,15 +315,24 @@ class heavy_top_euler {
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S th = s[1], ps = s[2];
-        const S dph = s[3], dth = s[4], dps = s[5];
+        const S th = s[1];
+        const S ps = s[2];
+        const S dph = s[3];
+        const S dth = s[4];
+        const S dps = s[5];
         const auto [sines, cosines] = sincos<S, 2>({th, ps});
-        const S w0 = dps + cosines[0] * dph;
-        const S w1 = sines[0] * dph;
-        const S w2 = sines[1] * w1 + cosines[1] * dth;
-        const S w3 = cosines[1] * w1 - sines[1] * dth;
-        const auto [I1, I2, I3, mgl, e1, e2, e3] = parameters;
-        return S(0.5) * (I3 * (w0 * w0) + (I1 * (w2 * w2) + I2 * (w3 * w3))) - mgl * (e3 * cosines[0] + sines[0] * (e1 *
+        const S w0 = sines[0] * dph;
+        const S w1 = sines[1] * w0 + cosines[1] * dth;
+        const S w2 = cosines[1] * w0 - sines[1] * dth;
+        const S w3 = cosines[0] * dph + dps;
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
+        const S mgl = parameters.mgl;
+        const S e1 = parameters.e1;
+        const S e2 = parameters.e2;
+        const S e3 = parameters.e3;
+        return S(0.5) * (I1 * (w1 * w1) + I2 * (w2 * w2) + I3 * (w3 * w3)) - mgl * (e3 * cosines[0] + sines[0] * (e1 *
                 sines[1] + e2 * cosines[1]));
     }
 
@@ -315,12 +352,17 @@ class heavy_top_euler {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S th = s[1], ps = s[2];
-        const S dph = s[3], dth = s[4], dps = s[5];
+        const S th = s[1];
+        const S ps = s[2];
+        const S dph = s[3];
+        const S dth = s[4];
+        const S dps = s[5];
         const auto [sines, cosines] = sincos<S, 2>({th, ps});
         const S w0 = sines[0] * dph;
-        const S I1 = parameters.I1, I2 = parameters.I2, I3 = parameters.I3;
-        result[0] = I3 * cosines[0] * (dps + cosines[0] * dph) + sines[0] * (I2 * cosines[1] * (cosines[1] * w0 -
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
+        result[0] = I3 * cosines[0] * (cosines[0] * dph + dps) + sines[0] * (I2 * cosines[1] * (cosines[1] * w0 -
                 sines[1] * dth) + I1 * sines[1] * (sines[1] * w0 + cosines[1] * dth));
         return result;
     }
@@ -332,22 +374,31 @@ class heavy_top_euler {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 18>& values) const noexcept
     {
-        const S th = s[1], ps = s[2];
-        const S dph = s[3], dth = s[4], dps = s[5];
+        const S th = s[1];
+        const S ps = s[2];
+        const S dph = s[3];
+        const S dth = s[4];
+        const S dps = s[5];
         values[0] = S(1);
         values[1] = S(1);
         values[2] = S(1);
         const auto [sines, cosines] = sincos<S, 2>({th, ps});
         const S w0 = sines[1] * sines[1];
         const S w1 = cosines[1] * cosines[1];
-        const auto [I1, I2, I3, mgl, e1, e2, e3] = parameters;
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
+        const S mgl = parameters.mgl;
+        const S e1 = parameters.e1;
+        const S e2 = parameters.e2;
+        const S e3 = parameters.e3;
         const S w2 = I2 * w1;
         const S w3 = I1 * w0 + w2;
         const S w4 = I3 * cosines[0];
         const S w5 = sines[0] * sines[0] * w3 + cosines[0] * w4;
         const S w6 = I1 - I2;
         const S w7 = w6 * sines[1];
-        const S w8 = cosines[1] * w7;
+        const S w8 = w7 * cosines[1];
         const S w9 = sines[0] * w8;
         const S w10 = I1 * w1 + I2 * w0;
         const S r0_0 = S(1) / w10;
@@ -359,29 +410,29 @@ class heavy_top_euler {
         const S r0_2 = S(1) / v0_2_2;
         const S w11 = w6 * (w0 - w1);
         const S w12 = I3 + w11;
-        const S w13 = cosines[0] * dph;
-        const S w14 = I3 - w3;
-        const S w15 = S(2) * w14;
-        const S w16 = w15 * w13;
+        const S w13 = I3 - w3;
+        const S w14 = S(2) * w13;
+        const S w15 = cosines[0] * dph;
+        const S w16 = w14 * w15;
         const S w17 = w12 * dps + w16;
         const S w18 = sines[0] * w17;
         const S w19 = cosines[0] * dth;
-        const S w20 = w8 * dps;
-        const S w21 = sines[0] * dph;
-        const S w22 = sines[0] * w21;
-        const S w23 = dth * (w18 - w8 * w19) - S(2) * w22 * w20;
-        const S w24 = dth * dps;
-        const S w25 = mgl * cosines[0];
-        const S w26 = e1 * w25;
-        const S w27 = w11 - I3;
-        const S w28 = w27 * dps;
-        const S w29 = w28 - w14 * w13;
+        const S w20 = sines[0] * dph;
+        const S w21 = sines[0] * w20;
+        const S w22 = w8 * dps;
+        const S w23 = dth * (w18 - w8 * w19) - S(2) * w21 * w22;
+        const S w24 = w11 - I3;
+        const S w25 = w24 * dps;
+        const S w26 = w25 - w13 * w15;
+        const S w27 = dth * dps;
+        const S w28 = mgl * cosines[0];
+        const S w29 = e1 * w28;
         const S w30 = e2 * cosines[1];
-        const S w31 = sines[1] * (S(2) * w6 * cosines[1] * w24 - w26) + sines[0] * (mgl * e3 + dph * w29) - w25 * w30;
+        const S w31 = sines[0] * (mgl * e3 + dph * w26) + sines[1] * (S(2) * w6 * cosines[1] * w27 - w29) - w28 * w30;
         const S w32 = mgl * (e2 * sines[1] - e1 * cosines[1]);
-        const S w33 = w27 * dth;
+        const S w33 = w24 * dth;
         const S w34 = w8 * dth;
-        const S w35 = sines[0] * (w32 + dph * (w8 * w21 - w33)) - dth * w34;
+        const S w35 = sines[0] * (w32 + dph * (w8 * w20 - w33)) - dth * w34;
         const S f0_1 = w23 - l0_1_0 * w31;
         const S f0_2 = w35 - l0_2_1 * f0_1;
         const S z0_2 = f0_2 * r0_2;
@@ -390,17 +441,17 @@ class heavy_top_euler {
         const S w36 = S(2) * sines[0];
         const S w37 = cosines[1] * dph;
         const S w38 = w37 * dps;
-        const S w39 = w36 * (sines[1] * (I1 * (S(2) * w38 + sines[1] * z0_0) - S(2) * I2 * w38) + (w2 - I3) * z0_0) + w8
+        const S w39 = w36 * (sines[1] * (I1 * (sines[1] * z0_0 + S(2) * w38) - S(2) * I2 * w38) + (w2 - I3) * z0_0) + w8
                 * z0_1 - dth * w17;
-        const S w40 = sines[0] * (I3 * z0_2 + dth * (w34 - w15 * w21)) - cosines[0] * w39;
+        const S w40 = sines[0] * (I3 * z0_2 + dth * (w34 - w14 * w20)) - cosines[0] * w39;
         const S w41 = e1 * sines[1] + w30;
-        const S w42 = mgl * (e3 * cosines[0] + sines[0] * w41) + dph * (cosines[0] * w29 + w14 * w22) - cosines[0] * w8
+        const S w42 = mgl * (e3 * cosines[0] + sines[0] * w41) + dph * (cosines[0] * w26 + w13 * w21) - cosines[0] * w8
                 * z0_0;
-        const S w43 = S(2) * w8;
-        const S w44 = w43 * w21;
-        const S w45 = w44 - w33;
-        const S w46 = sines[0] * z0_0;
-        const S w47 = cosines[0] * (w32 + dph * w45) + I3 * w46;
+        const S w43 = sines[0] * z0_0;
+        const S w44 = S(2) * w8;
+        const S w45 = w44 * w20;
+        const S w46 = w45 - w33;
+        const S w47 = I3 * w43 + cosines[0] * (w32 + dph * w46);
         const S f1_1 = w40 - l0_1_0 * w42;
         const S f1_2 = w47 - l0_2_1 * f1_1;
         const S z1_2 = f1_2 * r0_2;
@@ -408,31 +459,31 @@ class heavy_top_euler {
         const S z1_1 = w42 * r0_0 - l0_1_0 * z1_0;
         values[3] = z1_0;
         const S w48 = w11 * dth;
-        const S w49 = w6 * (S(2) * w21 * dps + z0_1);
-        const S w50 = w19 * w48 - sines[0] * (sines[1] * (S(2) * cosines[1] * (S(2) * dth * (w6 * (w13 - dps)) + w6 *
-                w46) - sines[1] * w49) + w1 * w49);
-        const S w51 = e2 * w25 + sines[0] * (S(2) * w37 * (w6 * (w13 + S(2) * dps)) + w7 * z0_0) - S(2) * (w6 *
-                (sines[1] * w24 - cosines[1] * z0_1));
-        const S w52 = sines[1] * w51 + cosines[1] * (w6 * (S(2) * w24 - w46) * cosines[1] - w26);
-        const S w53 = dth * w48 + sines[0] * (mgl * w41 - dph * (w11 * w21 + S(4) * w34));
+        const S w49 = w6 * (S(2) * w20 * dps + z0_1);
+        const S w50 = w19 * w48 - sines[0] * (sines[1] * (S(2) * cosines[1] * (S(2) * dth * (w6 * (w15 - dps)) + w6 *
+                w43) - sines[1] * w49) + w1 * w49);
+        const S w51 = e2 * w28 + sines[0] * (w7 * z0_0 + S(2) * w37 * (w6 * (w15 + S(2) * dps))) - S(2) * (w6 *
+                (sines[1] * w27 - cosines[1] * z0_1));
+        const S w52 = sines[1] * w51 + cosines[1] * (w6 * (S(2) * w27 - w43) * cosines[1] - w29);
+        const S w53 = dth * w48 + sines[0] * (mgl * w41 - dph * (w11 * w20 + S(4) * w34));
         const S f2_1 = w50 - l0_1_0 * w52;
         const S f2_2 = w53 - l0_2_1 * f2_1;
         const S z2_2 = f2_2 * r0_2;
         const S z2_0 = f2_1 * r0_1 - l0_2_1 * z2_2;
         const S z2_1 = w52 * r0_0 - l0_1_0 * z2_0;
         values[4] = z2_0;
-        const S w54 = w36 * (w14 * w19 - sines[0] * w20);
-        const S w55 = sines[0] * (w28 - w16);
-        const S w56 = sines[0] * w45;
+        const S w54 = w36 * (w13 * w19 - sines[0] * w22);
+        const S w55 = sines[0] * (w25 - w16);
+        const S w56 = sines[0] * w46;
         const S f3_1 = w54 - l0_1_0 * w55;
         const S f3_2 = w56 - l0_2_1 * f3_1;
         const S z3_2 = f3_2 * r0_2;
         const S z3_0 = f3_1 * r0_1 - l0_2_1 * z3_2;
         const S z3_1 = w55 * r0_0 - l0_1_0 * z3_0;
         values[5] = z3_0;
-        const S w57 = w18 - w43 * w19;
-        const S w58 = S(2) * w20;
-        const S w59 = w27 * w21 + S(2) * w34;
+        const S w57 = w18 - w44 * w19;
+        const S w58 = S(2) * w22;
+        const S w59 = w24 * w20 + S(2) * w34;
         const S w60 = -w59;
         const S f4_1 = w57 - l0_1_0 * w58;
         const S f4_2 = w60 - l0_2_1 * f4_1;
@@ -440,7 +491,7 @@ class heavy_top_euler {
         const S z4_0 = f4_1 * r0_1 - l0_2_1 * z4_2;
         const S z4_1 = w58 * r0_0 - l0_1_0 * z4_0;
         values[6] = z4_0;
-        const S w61 = sines[0] * (w12 * dth - w44);
+        const S w61 = sines[0] * (w12 * dth - w45);
         const S f5_1 = w61 - l0_1_0 * w59;
         const S f5_2 = -l0_2_1 * f5_1;
         const S z5_2 = f5_2 * r0_2;

@@ -145,7 +145,7 @@ class henon_heiles {
         const S u = s[2], v = s[3];
         const S w0 = x * x;
         const S w1 = y * y;
-        return S(1) / S(3) * y * (S(3) * w0 - w1) + S(0.5) * (v * v + (u * u + (w0 + w1)));
+        return S(1) / S(3) * y * (S(3) * w0 - w1) + S(0.5) * (w0 + w1 + u * u + v * v);
     }
 
     /// L(t, x, y).

@@ -136,8 +136,11 @@ class hyperboloids {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        const S x = s[0], y = s[1], z = s[2];
-        const S a = s[3], b = s[4];
+        const S x = s[0];
+        const S y = s[1];
+        const S z = s[2];
+        const S a = s[3];
+        const S b = s[4];
         const S w0 = z * b;
         ds[0] = x * w0 - y * a;
         ds[1] = x * a + y * w0;
@@ -145,13 +148,15 @@ class hyperboloids {
         const S w2 = y * y;
         const S w3 = w1 + w2;
         ds[2] = w3 * b;
-        const auto [m, k, c] = parameters;
+        const S m = parameters.m;
+        const S k = parameters.k;
+        const S c = parameters.c;
         const S w4 = m * w3;
         ds[3] = (c * y - S(2) * w4 * a * w0) / w4;
         const S w5 = k * w3;
         const S w6 = z * z;
         const S w7 = w1 + S(2) * w2;
-        const S w8 = c * x + (w5 + m * ((w2 * (w6 + S(3) * w2) + w1 * (w6 + S(3) * w7)) * (b * b) - w3 * (a * a)));
+        const S w8 = m * ((w1 * (w6 + S(3) * w7) + w2 * (S(3) * w2 + w6)) * (b * b) - w3 * (a * a)) + w5 + c * x;
         ds[4] = (w5 - z * w8) / (m * (w1 * (w6 + w7) + w2 * (w2 + w6)));
         return StatusOf<S>::good();
     }
@@ -160,13 +165,15 @@ class hyperboloids {
     [[nodiscard]] Eigen::Matrix<S, 2, 2> mass_matrix([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 2, 2> result;
-        const S x = s[0], y = s[1], z = s[2];
+        const S x = s[0];
+        const S y = s[1];
+        const S z = s[2];
         const S w0 = x * x + y * y;
         const S m = parameters.m;
         result(0, 0) = m * w0;
         result(0, 1) = S(0);
         result(1, 0) = S(0);
-        result(1, 1) = w0 * (w0 + z * z) * m;
+        result(1, 1) = w0 * (z * z + w0) * m;
         return result;
     }
 
@@ -174,42 +181,55 @@ class hyperboloids {
     [[nodiscard]] Eigen::Matrix<S, 2, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 2, 1> result;
-        const S x = s[0], y = s[1], z = s[2];
-        const S a = s[3], b = s[4];
+        const S x = s[0];
+        const S y = s[1];
+        const S z = s[2];
+        const S a = s[3];
+        const S b = s[4];
         const S w0 = x * x + y * y;
         const S m = parameters.m;
         result[0] = m * w0 * a;
-        result[1] = w0 * (w0 + z * z) * m * b;
+        result[1] = w0 * (z * z + w0) * m * b;
         return result;
     }
 
     /// E = y^a p_a - L.
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S x = s[0], y = s[1], z = s[2];
-        const S a = s[3], b = s[4];
-        const S w0 = b * b;
-        const S w1 = y * y;
+        const S x = s[0];
+        const S y = s[1];
+        const S z = s[2];
+        const S a = s[3];
+        const S b = s[4];
+        const S w0 = y * y;
+        const S w1 = b * b;
         const S w2 = x * x;
         const S w3 = z * z;
-        const auto [m, k, c] = parameters;
-        const S w4 = x * (c + m * x * w1 * w0) + S(0.5) * (m * ((w2 + w1) * (a * a) + (w1 * (w1 + w3) + w2 * (w2 + w3))
-                * w0) + k * (S(1) + w3));
+        const S m = parameters.m;
+        const S k = parameters.k;
+        const S c = parameters.c;
+        const S w4 = x * (m * x * w0 * w1 + c) + S(0.5) * (m * ((w2 + w0) * (a * a) + (w2 * (w2 + w3) + w0 * (w0 + w3))
+                * w1) + k * (S(1) + w3));
         return w4 - k * z;
     }
 
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S x = s[0], y = s[1], z = s[2];
-        const S a = s[3], b = s[4];
-        const S w0 = z * b;
-        const S w1 = x * a + y * w0;
-        const S w2 = x * w0 - y * a;
-        const S w3 = x * x + y * y;
+        const S x = s[0];
+        const S y = s[1];
+        const S z = s[2];
+        const S a = s[3];
+        const S b = s[4];
+        const S w0 = x * x + y * y;
+        const S w1 = z * b;
+        const S w2 = x * w1 - y * a;
+        const S w3 = x * a + y * w1;
         const S w4 = S(1) - z;
-        const auto [m, k, c] = parameters;
-        return S(0.5) * (m * (w1 * w1 + (w2 * w2 + w3 * w3 * (b * b))) - k * (w4 * w4)) - c * x;
+        const S m = parameters.m;
+        const S k = parameters.k;
+        const S c = parameters.c;
+        return S(0.5) * (m * (w0 * w0 * (b * b) + w2 * w2 + w3 * w3) - k * (w4 * w4)) - c * x;
     }
 
     static constexpr std::array<const char*, 1> domain_names = {"x^2 + y^2 > 0"};
@@ -217,7 +237,8 @@ class hyperboloids {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> domain([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S x = s[0], y = s[1];
+        const S x = s[0];
+        const S y = s[1];
         result[0] = x * x + y * y;
         return result;
     }
@@ -227,7 +248,9 @@ class hyperboloids {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S x = s[0], y = s[1], z = s[2];
+        const S x = s[0];
+        const S y = s[1];
+        const S z = s[2];
         result[0] = x * x + y * y - z * z;
         return result;
     }
@@ -241,50 +264,55 @@ class hyperboloids {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 23>& values) const noexcept
     {
-        const S x = s[0], y = s[1], z = s[2];
-        const S a = s[3], b = s[4];
-        const S w0 = z * b;
-        values[0] = w0;
-        values[6] = w0;
-        const S w1 = y * y;
-        const S w2 = z * z;
+        const S x = s[0];
+        const S y = s[1];
+        const S z = s[2];
+        const S a = s[3];
+        const S b = s[4];
+        const S w0 = y * y;
         values[8] = x;
-        const S w3 = x * x;
-        const S w4 = w3 + S(2) * w1;
-        const S w5 = w1 * (w2 + S(3) * w1) + w3 * (w2 + S(3) * w4);
-        const S w6 = w2 + w4;
-        const auto [m, k, c] = parameters;
-        const S w7 = m * (w3 * w6 + w1 * (w1 + w2));
-        values[22] = -S(2) * m * w5 * w0 / w7;
+        const S w1 = x * x;
+        const S w2 = w1 + S(2) * w0;
+        const S w3 = z * z;
+        const S w4 = w1 * (w3 + S(3) * w2) + w0 * (S(3) * w0 + w3);
+        const S w5 = z * b;
+        values[0] = w5;
+        values[6] = w5;
+        const S w6 = w3 + w2;
+        const S m = parameters.m;
+        const S k = parameters.k;
+        const S c = parameters.c;
+        const S w7 = m * (w1 * w6 + w0 * (w0 + w3));
+        values[22] = -S(2) * m * w4 * w5 / w7;
         const S w8 = S(2) * z;
-        values[5] = a;
-        const S w9 = w3 + w1;
+        const S w9 = w1 + w0;
         values[12] = w9;
         const S w10 = m * w9;
+        values[5] = a;
         const S w11 = w10 * a;
         const S w12 = w8 * w11;
         values[21] = w12 / w7;
-        const S w13 = a * a;
-        const S w14 = k * w9;
-        const S w15 = b * b;
-        const S w16 = c * x + w14;
-        const S w17 = (w14 - z * (m * (w5 * w15 - w9 * w13) + w16)) / w7;
+        const S w13 = b * b;
+        const S w14 = a * a;
+        const S w15 = k * w9;
+        const S w16 = w15 + c * x;
+        const S w17 = (w15 - z * (m * (w4 * w13 - w9 * w14) + w16)) / w7;
         const S w18 = y * b;
         values[7] = w18;
-        const S w19 = w3 * (w13 - w8 * w17 - S(3) * w6 * w15) - w1 * (S(3) * (w18 * w18) + z * (S(3) * b * w0 + S(2) *
-                w17) - w13);
+        const S w19 = w1 * (w14 - w8 * w17 - S(3) * w6 * w13) - w0 * (z * (S(3) * b * w5 + S(2) * w17) + S(3) * (w18 *
+                w18) - w14);
         values[20] = (m * w19 - w16) / w7;
-        const S w20 = S(2) * y;
-        const S w21 = k * (S(1) - z) - m * (z * ((w2 + S(6) * w9) * w15 + z * w17 - w13) + S(2) * w9 * w17);
-        values[19] = w20 * w21 / w7;
+        const S w20 = k * (S(1) - z) - m * (z * (z * w17 + (w3 + S(6) * w9) * w13 - w14) + S(2) * w9 * w17);
+        const S w21 = S(2) * y;
+        values[19] = w21 * w20 / w7;
         const S w22 = S(2) * x;
-        values[18] = (w22 * w21 - c * z) / w7;
+        values[18] = (w22 * w20 - c * z) / w7;
         values[17] = -w12 / w10;
-        values[16] = -S(2) * w10 * w0 / w10;
+        values[16] = -S(2) * w10 * w5 / w10;
         const S w23 = S(2) * w11;
         values[15] = -w23 * b / w10;
-        const S w24 = m * (S(2) * a * w0 + (c * y - w23 * w0) / w10);
-        values[14] = (c - w20 * w24) / w10;
+        const S w24 = m * (S(2) * a * w5 + (c * y - w23 * w5) / w10);
+        values[14] = (c - w21 * w24) / w10;
         values[13] = -w22 * w24 / w10;
         values[11] = S(2) * w18;
         values[10] = w22 * b;

@@ -133,7 +133,7 @@ class kepler {
         ds[1] = v;
         const S w0 = x * x + y * y;
         const S k = parameters.k;
-        const S w1 = k / (w0 * sqrt(w0));
+        const S w1 = k / (sqrt(w0) * w0);
         ds[2] = -x * w1;
         ds[3] = -y * w1;
         return StatusOf<S>::good();
@@ -213,7 +213,7 @@ class kepler {
         const S k = parameters.k;
         const S w1 = k / sqrt(x * x + y * y);
         result[1] = v * w0 - x * w1;
-        result[2] = -(u * w0 + y * w1);
+        result[2] = -(y * w1 + u * w0);
         return result;
     }
 
@@ -244,7 +244,7 @@ class kepler {
         const S w2 = S(1) / w1;
         const S k = parameters.k;
         const S w3 = k * w2 / sqrt(w1);
-        const S w4 = w2 * w3;
+        const S w4 = w3 * w2;
         const S w5 = x * w4;
         values[2] = S(3) * x * w5 - w3;
         const S w6 = S(3) * y * w5;

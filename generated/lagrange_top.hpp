@@ -130,7 +130,8 @@ class lagrange_top {
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
         auto status = StatusOf<S>::good();
-        const auto [I1, I3, mgl] = parameters;
+        const S I1 = parameters.I1;
+        const S I3 = parameters.I3;
         StatusOf<S>::fail(status, I1 == S(0), Status::singular_mass_matrix);
         StatusOf<S>::fail(status, !(I1 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, I3 == S(0), Status::singular_mass_matrix);
@@ -144,16 +145,22 @@ class lagrange_top {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        const S g1 = s[0], g2 = s[1], g3 = s[2];
-        const S w1 = s[3], w2 = s[4], w3 = s[5];
+        const S g1 = s[0];
+        const S g2 = s[1];
+        const S g3 = s[2];
+        const S w1 = s[3];
+        const S w2 = s[4];
+        const S w3 = s[5];
         ds[0] = g2 * w3 - g3 * w2;
         ds[1] = g3 * w1 - g1 * w3;
         ds[2] = g1 * w2 - g2 * w1;
-        const auto [I1, I3, mgl] = parameters;
-        const S u0 = (I1 - I3) * w3;
-        const S u1 = S(1) / I1;
-        ds[3] = u1 * (mgl * g2 + w2 * u0);
-        ds[4] = -u1 * (mgl * g1 + w1 * u0);
+        const S I1 = parameters.I1;
+        const S I3 = parameters.I3;
+        const S mgl = parameters.mgl;
+        const S u0 = S(1) / I1;
+        const S u1 = (I1 - I3) * w3;
+        ds[3] = u0 * (mgl * g2 + w2 * u1);
+        ds[4] = -u0 * (mgl * g1 + w1 * u1);
         ds[5] = S(0);
         return StatusOf<S>::good();
     }
@@ -163,7 +170,8 @@ class lagrange_top {
             noexcept
     {
         Eigen::Matrix<S, 3, 3> result = Eigen::Matrix<S, 3, 3>::Zero();
-        const auto [I1, I3, mgl] = parameters;
+        const S I1 = parameters.I1;
+        const S I3 = parameters.I3;
         result(0, 0) = I1;
         result(1, 1) = I1;
         result(2, 2) = I3;
@@ -174,8 +182,11 @@ class lagrange_top {
     [[nodiscard]] Eigen::Matrix<S, 3, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 3, 1> result;
-        const S w1 = s[3], w2 = s[4], w3 = s[5];
-        const auto [I1, I3, mgl] = parameters;
+        const S w1 = s[3];
+        const S w2 = s[4];
+        const S w3 = s[5];
+        const S I1 = parameters.I1;
+        const S I3 = parameters.I3;
         result[0] = I1 * w1;
         result[1] = I1 * w2;
         result[2] = I3 * w3;
@@ -186,8 +197,12 @@ class lagrange_top {
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
         const S g3 = s[2];
-        const S w1 = s[3], w2 = s[4], w3 = s[5];
-        const auto [I1, I3, mgl] = parameters;
+        const S w1 = s[3];
+        const S w2 = s[4];
+        const S w3 = s[5];
+        const S I1 = parameters.I1;
+        const S I3 = parameters.I3;
+        const S mgl = parameters.mgl;
         return mgl * g3 + S(0.5) * (I1 * (w1 * w1 + w2 * w2) + I3 * (w3 * w3));
     }
 
@@ -195,8 +210,12 @@ class lagrange_top {
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
         const S g3 = s[2];
-        const S w1 = s[3], w2 = s[4], w3 = s[5];
-        const auto [I1, I3, mgl] = parameters;
+        const S w1 = s[3];
+        const S w2 = s[4];
+        const S w3 = s[5];
+        const S I1 = parameters.I1;
+        const S I3 = parameters.I3;
+        const S mgl = parameters.mgl;
         return S(0.5) * (I1 * (w1 * w1 + w2 * w2) + I3 * (w3 * w3)) - mgl * g3;
     }
 
@@ -205,8 +224,10 @@ class lagrange_top {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> constraints([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S g1 = s[0], g2 = s[1], g3 = s[2];
-        result[0] = g3 * g3 + (g1 * g1 + g2 * g2) - S(1);
+        const S g1 = s[0];
+        const S g2 = s[1];
+        const S g3 = s[2];
+        result[0] = g1 * g1 + g2 * g2 + g3 * g3 - S(1);
         return result;
     }
 
@@ -227,9 +248,14 @@ class lagrange_top {
     [[nodiscard]] Eigen::Matrix<S, 2, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 2, 1> result;
-        const S g1 = s[0], g2 = s[1], g3 = s[2];
-        const S w1 = s[3], w2 = s[4], w3 = s[5];
-        const auto [I1, I3, mgl] = parameters;
+        const S g1 = s[0];
+        const S g2 = s[1];
+        const S g3 = s[2];
+        const S w1 = s[3];
+        const S w2 = s[4];
+        const S w3 = s[5];
+        const S I1 = parameters.I1;
+        const S I3 = parameters.I3;
         const S u0 = I3 * w3;
         result[1] = u0;
         result[0] = I1 * (g1 * w1 + g2 * w2) + g3 * u0;
@@ -244,8 +270,12 @@ class lagrange_top {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 20>& values) const noexcept
     {
-        const S g1 = s[0], g2 = s[1], g3 = s[2];
-        const S w1 = s[3], w2 = s[4], w3 = s[5];
+        const S g1 = s[0];
+        const S g2 = s[1];
+        const S g3 = s[2];
+        const S w1 = s[3];
+        const S w2 = s[4];
+        const S w3 = s[5];
         values[0] = w3;
         values[8] = w2;
         values[1] = -w2;
@@ -258,7 +288,9 @@ class lagrange_top {
         values[7] = -g1;
         values[9] = -w1;
         values[10] = -g2;
-        const auto [I1, I3, mgl] = parameters;
+        const S I1 = parameters.I1;
+        const S I3 = parameters.I3;
+        const S mgl = parameters.mgl;
         const S u0 = S(1) / I1;
         const S u1 = u0 * mgl;
         values[12] = u1;

@@ -138,7 +138,9 @@ class pointing_pontryagin {
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
         auto status = StatusOf<S>::good();
-        const auto [I1, I2, I3, k] = parameters;
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
         StatusOf<S>::fail(status, I1 == S(0), Status::singular_mass_matrix);
         StatusOf<S>::fail(status, !(I1 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, I2 == S(0), Status::singular_mass_matrix);
@@ -153,9 +155,16 @@ class pointing_pontryagin {
     /// s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        const S g1 = s[0], g2 = s[1], g3 = s[2];
-        const S mu1 = s[3], mu2 = s[4], mu3 = s[5];
-        const auto [I1, I2, I3, k] = parameters;
+        const S g1 = s[0];
+        const S g2 = s[1];
+        const S g3 = s[2];
+        const S mu1 = s[3];
+        const S mu2 = s[4];
+        const S mu3 = s[5];
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
+        const S k = parameters.k;
         const S w0 = mu3 / I3;
         const S w1 = mu2 / I2;
         ds[0] = g2 * w0 - g3 * w1;
@@ -175,8 +184,12 @@ class pointing_pontryagin {
     [[nodiscard]] Eigen::Matrix<S, 3, 1> controls([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 3, 1> result;
-        const S mu1 = s[3], mu2 = s[4], mu3 = s[5];
-        const auto [I1, I2, I3, k] = parameters;
+        const S mu1 = s[3];
+        const S mu2 = s[4];
+        const S mu3 = s[5];
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
         result[0] = mu1 / I1;
         result[1] = mu2 / I2;
         result[2] = mu3 / I3;
@@ -186,19 +199,31 @@ class pointing_pontryagin {
     /// H = mu_a sigma^a - cost at these controls.
     [[nodiscard]] S hamiltonian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S g1 = s[0], g3 = s[2];
-        const S mu1 = s[3], mu2 = s[4], mu3 = s[5];
-        const auto [I1, I2, I3, k] = parameters;
+        const S g1 = s[0];
+        const S g3 = s[2];
+        const S mu1 = s[3];
+        const S mu2 = s[4];
+        const S mu3 = s[5];
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
+        const S k = parameters.k;
         return S(0.5) * (mu1 * mu1 / I1 + mu2 * mu2 / I2 + mu3 * mu3 / I3) - S(1) / S(5) * k * (S(3) * g1 + S(4) * g3);
     }
 
     /// The running cost.
     [[nodiscard]] S cost([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S g1 = s[0], g3 = s[2];
-        const S mu1 = s[3], mu2 = s[4], mu3 = s[5];
-        const auto [I1, I2, I3, k] = parameters;
-        return S(0.5) * (mu1 * mu1 / I1 + mu2 * mu2 / I2 + mu3 * mu3 / I3) + S(1) / S(5) * k * (S(3) * g1 + S(4) * g3);
+        const S g1 = s[0];
+        const S g3 = s[2];
+        const S mu1 = s[3];
+        const S mu2 = s[4];
+        const S mu3 = s[5];
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
+        const S k = parameters.k;
+        return S(1) / S(5) * k * (S(3) * g1 + S(4) * g3) + S(0.5) * (mu1 * mu1 / I1 + mu2 * mu2 / I2 + mu3 * mu3 / I3);
     }
 
     static constexpr std::array<const char*, 1> constraints_names = {"g1^2 + g2^2 + g3^2 - 1"};
@@ -206,8 +231,10 @@ class pointing_pontryagin {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> constraints([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S g1 = s[0], g2 = s[1], g3 = s[2];
-        result[0] = g3 * g3 + (g1 * g1 + g2 * g2) - S(1);
+        const S g1 = s[0];
+        const S g2 = s[1];
+        const S g3 = s[2];
+        result[0] = g1 * g1 + g2 * g2 + g3 * g3 - S(1);
         return result;
     }
 
@@ -216,9 +243,13 @@ class pointing_pontryagin {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S g1 = s[0], g2 = s[1], g3 = s[2];
-        const S mu1 = s[3], mu2 = s[4], mu3 = s[5];
-        result[0] = g3 * mu3 + (g1 * mu1 + g2 * mu2);
+        const S g1 = s[0];
+        const S g2 = s[1];
+        const S g3 = s[2];
+        const S mu1 = s[3];
+        const S mu2 = s[4];
+        const S mu3 = s[5];
+        result[0] = g1 * mu1 + g2 * mu2 + g3 * mu3;
         return result;
     }
 
@@ -231,9 +262,16 @@ class pointing_pontryagin {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 22>& values) const noexcept
     {
-        const S g1 = s[0], g2 = s[1], g3 = s[2];
-        const S mu1 = s[3], mu2 = s[4], mu3 = s[5];
-        const auto [I1, I2, I3, k] = parameters;
+        const S g1 = s[0];
+        const S g2 = s[1];
+        const S g3 = s[2];
+        const S mu1 = s[3];
+        const S mu2 = s[4];
+        const S mu3 = s[5];
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
+        const S k = parameters.k;
         const S w0 = S(1) / I3;
         const S w1 = w0 * mu3;
         values[0] = w1;

@@ -131,20 +131,24 @@ class relativistic_oscillator {
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
         using arithmetic::sqrt;
-        const S x = s[0], y = s[1];
-        const S u = s[2], v = s[3];
+        const S x = s[0];
+        const S y = s[1];
+        const S u = s[2];
+        const S v = s[3];
         auto status = StatusOf<S>::good();
         ds[0] = u;
         ds[1] = v;
         const S w0 = v * v;
         const S w1 = S(1) - u * u - w0;
-        const auto [m, k, ratio] = parameters;
+        const S m = parameters.m;
+        const S k = parameters.k;
+        const S ratio = parameters.ratio;
         const S w2 = m / sqrt(w1);
         const S w3 = w2 / w1;
         const S w4 = u * w3;
-        const S w5 = w2 + u * w4;
+        const S w5 = u * w4 + w2;
         const S w6 = v * w4;
-        const S w7 = w2 + w0 * w3;
+        const S w7 = w0 * w3 + w2;
         const S det0 = w5 * w7 - w6 * w6;
         StatusOf<S>::fail(status, det0 <= singular_tolerance<S>(2) * (w5 * w7), Status::singular_mass_matrix);
         const S inv_det0 = S(1) / det0;
@@ -162,18 +166,19 @@ class relativistic_oscillator {
     {
         Eigen::Matrix<S, 2, 2> result;
         using arithmetic::sqrt;
-        const S u = s[2], v = s[3];
+        const S u = s[2];
+        const S v = s[3];
         const S w0 = v * v;
         const S w1 = S(1) - u * u - w0;
         const S m = parameters.m;
         const S w2 = m / sqrt(w1);
         const S w3 = w2 / w1;
         const S w4 = u * w3;
-        result(0, 0) = w2 + u * w4;
+        result(0, 0) = u * w4 + w2;
         const S w5 = v * w4;
         result(0, 1) = w5;
         result(1, 0) = w5;
-        result(1, 1) = w2 + w0 * w3;
+        result(1, 1) = w0 * w3 + w2;
         return result;
     }
 
@@ -182,7 +187,8 @@ class relativistic_oscillator {
     {
         Eigen::Matrix<S, 2, 1> result;
         using arithmetic::sqrt;
-        const S u = s[2], v = s[3];
+        const S u = s[2];
+        const S v = s[3];
         const S m = parameters.m;
         const S w0 = m / sqrt(S(1) - u * u - v * v);
         result[0] = u * w0;
@@ -194,21 +200,29 @@ class relativistic_oscillator {
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
         using arithmetic::sqrt;
-        const S x = s[0], y = s[1];
-        const S u = s[2], v = s[3];
+        const S x = s[0];
+        const S y = s[1];
+        const S u = s[2];
+        const S v = s[3];
         const S w0 = u * u + v * v;
         const S w1 = sqrt(S(1) - w0);
-        const auto [m, k, ratio] = parameters;
-        return m * (w1 + w0 / w1) + S(0.5) * k * (x * x + ratio * (y * y));
+        const S m = parameters.m;
+        const S k = parameters.k;
+        const S ratio = parameters.ratio;
+        return m * (w0 / w1 + w1) + S(0.5) * k * (x * x + ratio * (y * y));
     }
 
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
         using arithmetic::sqrt;
-        const S x = s[0], y = s[1];
-        const S u = s[2], v = s[3];
-        const auto [m, k, ratio] = parameters;
+        const S x = s[0];
+        const S y = s[1];
+        const S u = s[2];
+        const S v = s[3];
+        const S m = parameters.m;
+        const S k = parameters.k;
+        const S ratio = parameters.ratio;
         return -(m * sqrt(S(1) - u * u - v * v) + S(0.5) * k * (x * x + ratio * (y * y)));
     }
 
@@ -218,7 +232,8 @@ class relativistic_oscillator {
     {
         Eigen::Matrix<S, 2, 1> result;
         using arithmetic::sqrt;
-        const S u = s[2], v = s[3];
+        const S u = s[2];
+        const S v = s[3];
         const S w0 = u * u + v * v;
         result[0] = sqrt(w0);
         result[1] = S(1) / sqrt(S(1) - w0);
@@ -233,20 +248,24 @@ class relativistic_oscillator {
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 10>& values) const noexcept
     {
         using arithmetic::sqrt;
-        const S x = s[0], y = s[1];
-        const S u = s[2], v = s[3];
+        const S x = s[0];
+        const S y = s[1];
+        const S u = s[2];
+        const S v = s[3];
         values[0] = S(1);
         values[1] = S(1);
         const S w0 = S(1) - u * u - v * v;
         const S w1 = S(1) / w0;
         const S w2 = u * w1;
-        const auto [m, k, ratio] = parameters;
+        const S m = parameters.m;
+        const S k = parameters.k;
+        const S ratio = parameters.ratio;
         const S w3 = m / sqrt(w0);
         const S w4 = (S(1) + u * w2) * w3;
-        const S w5 = w1 * w3;
+        const S w5 = w3 * w1;
         const S w6 = u * v * w5;
         const S w7 = v * w1;
-        const S w8 = w3 * (S(1) + v * w7);
+        const S w8 = (S(1) + v * w7) * w3;
         const S det0 = w4 * w8 - w6 * w6;
         const S inv_det0 = S(1) / det0;
         const S w9 = -k * x;
@@ -257,24 +276,24 @@ class relativistic_oscillator {
         const S w12 = u * z0_0;
         const S w13 = v * z0_1;
         const S w14 = w12 + w13;
-        const S w15 = -w5 * (u * (z0_1 + S(3) * w14 * w7) + v * z0_0);
-        const S w16 = -w5 * (w12 + S(3) * v * (z0_1 + w7 * w14));
+        const S w15 = -(u * (z0_1 + S(3) * w14 * w7) + v * z0_0) * w5;
+        const S w16 = -(w12 + S(3) * v * (z0_1 + w14 * w7)) * w5;
         const S z1_0 = (w8 * w15 - w6 * w16) * inv_det0;
         const S z1_1 = (w4 * w16 - w6 * w15) * inv_det0;
         values[9] = z1_1;
         values[5] = z1_0;
-        const S w17 = -w5 * (w13 + S(3) * u * (z0_0 + w2 * w14));
+        const S w17 = -(S(3) * u * (z0_0 + w14 * w2) + w13) * w5;
         const S z2_0 = (w8 * w17 - w6 * w15) * inv_det0;
         const S z2_1 = (w4 * w15 - w6 * w17) * inv_det0;
         values[8] = z2_1;
         values[4] = z2_0;
         const S w18 = -w10;
         const S z3_0 = (-w6 * w18) * inv_det0;
-        const S z3_1 = w4 * w18 * inv_det0;
+        const S z3_1 = (w4 * w18) * inv_det0;
         values[7] = z3_1;
         values[3] = z3_0;
         const S w19 = -k;
-        const S z4_0 = w8 * w19 * inv_det0;
+        const S z4_0 = (w8 * w19) * inv_det0;
         const S z4_1 = (-w6 * w19) * inv_det0;
         values[6] = z4_1;
         values[2] = z4_0;

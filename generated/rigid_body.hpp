@@ -111,7 +111,9 @@ class rigid_body {
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
         auto status = StatusOf<S>::good();
-        const auto [I1, I2, I3] = parameters;
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
         StatusOf<S>::fail(status, I1 == S(0), Status::singular_mass_matrix);
         StatusOf<S>::fail(status, !(I1 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, I2 == S(0), Status::singular_mass_matrix);
@@ -127,8 +129,12 @@ class rigid_body {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        const S w1 = s[0], w2 = s[1], w3 = s[2];
-        const auto [I1, I2, I3] = parameters;
+        const S w1 = s[0];
+        const S w2 = s[1];
+        const S w3 = s[2];
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
         ds[0] = (I2 - I3) * w2 * w3 / I1;
         ds[1] = (I3 - I1) * w3 * w1 / I2;
         ds[2] = (I1 - I2) * w1 * w2 / I3;
@@ -140,7 +146,9 @@ class rigid_body {
             noexcept
     {
         Eigen::Matrix<S, 3, 3> result = Eigen::Matrix<S, 3, 3>::Zero();
-        const auto [I1, I2, I3] = parameters;
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
         result(0, 0) = I1;
         result(1, 1) = I2;
         result(2, 2) = I3;
@@ -151,8 +159,12 @@ class rigid_body {
     [[nodiscard]] Eigen::Matrix<S, 3, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 3, 1> result;
-        const S w1 = s[0], w2 = s[1], w3 = s[2];
-        const auto [I1, I2, I3] = parameters;
+        const S w1 = s[0];
+        const S w2 = s[1];
+        const S w3 = s[2];
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
         result[0] = I1 * w1;
         result[1] = I2 * w2;
         result[2] = I3 * w3;
@@ -162,17 +174,25 @@ class rigid_body {
     /// E = y^a p_a - L.
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S w1 = s[0], w2 = s[1], w3 = s[2];
-        const auto [I1, I2, I3] = parameters;
-        return S(0.5) * (I3 * (w3 * w3) + (I1 * (w1 * w1) + I2 * (w2 * w2)));
+        const S w1 = s[0];
+        const S w2 = s[1];
+        const S w3 = s[2];
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
+        return S(0.5) * (I1 * (w1 * w1) + I2 * (w2 * w2) + I3 * (w3 * w3));
     }
 
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S w1 = s[0], w2 = s[1], w3 = s[2];
-        const auto [I1, I2, I3] = parameters;
-        return S(0.5) * (I3 * (w3 * w3) + (I1 * (w1 * w1) + I2 * (w2 * w2)));
+        const S w1 = s[0];
+        const S w2 = s[1];
+        const S w3 = s[2];
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
+        return S(0.5) * (I1 * (w1 * w1) + I2 * (w2 * w2) + I3 * (w3 * w3));
     }
 
     static constexpr std::array<const char*, 1> invariants_names = {"momentum_squared"};
@@ -180,12 +200,16 @@ class rigid_body {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S w1 = s[0], w2 = s[1], w3 = s[2];
-        const auto [I1, I2, I3] = parameters;
-        const S u0 = I3 * w3;
-        const S u1 = I1 * w1;
-        const S u2 = I2 * w2;
-        result[0] = u0 * u0 + (u1 * u1 + u2 * u2);
+        const S w1 = s[0];
+        const S w2 = s[1];
+        const S w3 = s[2];
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
+        const S u0 = I1 * w1;
+        const S u1 = I2 * w2;
+        const S u2 = I3 * w3;
+        result[0] = u0 * u0 + u1 * u1 + u2 * u2;
         return result;
     }
 
@@ -206,8 +230,12 @@ class rigid_body {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 6>& values) const noexcept
     {
-        const S w1 = s[0], w2 = s[1], w3 = s[2];
-        const auto [I1, I2, I3] = parameters;
+        const S w1 = s[0];
+        const S w2 = s[1];
+        const S w3 = s[2];
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
         const S u0 = (I2 - I3) / I1;
         values[0] = u0 * w3;
         values[1] = u0 * w2;

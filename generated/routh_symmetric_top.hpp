@@ -136,9 +136,9 @@ class routh_symmetric_top {
         const auto [I1, I3, mgl, pph, pps] = parameters;
         const S w0 = S(1) / I1;
         const auto [sin_th, cos_th] = sincos<S>(th);
-        const S w1 = S(1) / sin_th;
-        const S w2 = pph - pps * cos_th;
-        ds[1] = w0 * (mgl * sin_th - w2 * (pps - cos_th * w2 * (w1 * w1)) * w0 * w1);
+        const S w1 = pph - pps * cos_th;
+        const S w2 = S(1) / sin_th;
+        ds[1] = w0 * (mgl * sin_th - w1 * (pps - cos_th * w1 * (w2 * w2)) * w0 * w2);
         return StatusOf<S>::good();
     }
 
@@ -170,7 +170,7 @@ class routh_symmetric_top {
         const auto [sin_th, cos_th] = sincos<S>(th);
         const auto [I1, I3, mgl, pph, pps] = parameters;
         const S w0 = pph - pps * cos_th;
-        return mgl * cos_th + S(0.5) * (I1 * (w * w) + w0 * w0 / (I1 * (sin_th * sin_th)));
+        return mgl * cos_th + S(0.5) * (w0 * w0 / (I1 * (sin_th * sin_th)) + I1 * (w * w));
     }
 
     /// L(t, x, y).
@@ -219,10 +219,10 @@ class routh_symmetric_top {
         const auto [I1, I3, mgl, pph, pps] = parameters;
         const S w0 = S(1) / I1;
         const auto [sin_th, cos_th] = sincos<S>(th);
-        const S w1 = S(1) / sin_th;
-        const S w2 = w1 * w1;
-        const S w3 = pph - pps * cos_th;
-        values[1] = w0 * (mgl * cos_th + w0 * (w2 * (w3 * (pps - cos_th * w3 * w2) * (S(3) * cos_th) - w3 * w3) - pps *
+        const S w1 = pph - pps * cos_th;
+        const S w2 = S(1) / sin_th;
+        const S w3 = w2 * w2;
+        values[1] = w0 * (mgl * cos_th + w0 * ((S(3) * cos_th * (w1 * (pps - cos_th * w1 * w3)) - w1 * w1) * w3 - pps *
                 pps));
     }
 

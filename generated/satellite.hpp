@@ -143,7 +143,9 @@ class satellite {
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
         auto status = StatusOf<S>::good();
-        const auto [k, eccentricity, I1, I2, I3] = parameters;
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
         StatusOf<S>::fail(status, I1 == S(0), Status::singular_mass_matrix);
         StatusOf<S>::fail(status, !(I1 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, I2 == S(0), Status::singular_mass_matrix);
@@ -160,13 +162,21 @@ class satellite {
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
         using arithmetic::sqrt;
-        const S x = s[0], y = s[1];
-        const S u = s[2], v = s[3], w1 = s[4], w2 = s[5], w3 = s[6];
+        const S x = s[0];
+        const S y = s[1];
+        const S u = s[2];
+        const S v = s[3];
+        const S w1 = s[4];
+        const S w2 = s[5];
+        const S w3 = s[6];
         ds[0] = u;
         ds[1] = v;
         const S u0 = x * x + y * y;
-        const auto [k, eccentricity, I1, I2, I3] = parameters;
-        const S u1 = k / (u0 * sqrt(u0));
+        const S k = parameters.k;
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
+        const S u1 = k / (sqrt(u0) * u0);
         ds[2] = -x * u1;
         ds[3] = -y * u1;
         ds[4] = (I2 - I3) * w2 * w3 / I1;
@@ -182,7 +192,9 @@ class satellite {
         Eigen::Matrix<S, 5, 5> result = Eigen::Matrix<S, 5, 5>::Zero();
         result(0, 0) = S(1);
         result(1, 1) = S(1);
-        const auto [k, eccentricity, I1, I2, I3] = parameters;
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
         result(2, 2) = I1;
         result(3, 3) = I2;
         result(4, 4) = I3;
@@ -193,10 +205,16 @@ class satellite {
     [[nodiscard]] Eigen::Matrix<S, 5, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 5, 1> result;
-        const S u = s[2], v = s[3], w1 = s[4], w2 = s[5], w3 = s[6];
+        const S u = s[2];
+        const S v = s[3];
+        const S w1 = s[4];
+        const S w2 = s[5];
+        const S w3 = s[6];
         result[0] = u;
         result[1] = v;
-        const auto [k, eccentricity, I1, I2, I3] = parameters;
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
         result[2] = I1 * w1;
         result[3] = I2 * w2;
         result[4] = I3 * w3;
@@ -207,22 +225,36 @@ class satellite {
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
         using arithmetic::sqrt;
-        const S x = s[0], y = s[1];
-        const S u = s[2], v = s[3], w1 = s[4], w2 = s[5], w3 = s[6];
-        const auto [k, eccentricity, I1, I2, I3] = parameters;
-        return S(0.5) * (v * v + (u * u + (I3 * (w3 * w3) + (I1 * (w1 * w1) + I2 * (w2 * w2))))) - k / sqrt(x * x + y *
-                y);
+        const S x = s[0];
+        const S y = s[1];
+        const S u = s[2];
+        const S v = s[3];
+        const S w1 = s[4];
+        const S w2 = s[5];
+        const S w3 = s[6];
+        const S k = parameters.k;
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
+        return S(0.5) * (I1 * (w1 * w1) + I2 * (w2 * w2) + I3 * (w3 * w3) + u * u + v * v) - k / sqrt(x * x + y * y);
     }
 
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
         using arithmetic::sqrt;
-        const S x = s[0], y = s[1];
-        const S u = s[2], v = s[3], w1 = s[4], w2 = s[5], w3 = s[6];
-        const auto [k, eccentricity, I1, I2, I3] = parameters;
-        return k / sqrt(x * x + y * y) + S(0.5) * (v * v + (u * u + (I3 * (w3 * w3) + (I1 * (w1 * w1) + I2 * (w2 *
-                w2)))));
+        const S x = s[0];
+        const S y = s[1];
+        const S u = s[2];
+        const S v = s[3];
+        const S w1 = s[4];
+        const S w2 = s[5];
+        const S w3 = s[6];
+        const S k = parameters.k;
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
+        return k / sqrt(x * x + y * y) + S(0.5) * (I1 * (w1 * w1) + I2 * (w2 * w2) + I3 * (w3 * w3) + u * u + v * v);
     }
 
     static constexpr std::array<const char*, 1> domain_names = {"x^2 + y^2 > 0"};
@@ -230,7 +262,8 @@ class satellite {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> domain([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S x = s[0], y = s[1];
+        const S x = s[0];
+        const S y = s[1];
         result[0] = x * x + y * y;
         return result;
     }
@@ -241,7 +274,8 @@ class satellite {
     {
         Eigen::Matrix<S, 1, 1> result;
         using arithmetic::sqrt;
-        const S x = s[0], y = s[1];
+        const S x = s[0];
+        const S y = s[1];
         result[0] = sqrt(x * x + y * y);
         return result;
     }
@@ -254,16 +288,22 @@ class satellite {
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 12>& values) const noexcept
     {
         using arithmetic::sqrt;
-        const S x = s[0], y = s[1];
-        const S w1 = s[4], w2 = s[5], w3 = s[6];
+        const S x = s[0];
+        const S y = s[1];
+        const S w1 = s[4];
+        const S w2 = s[5];
+        const S w3 = s[6];
         values[0] = S(1);
         values[1] = S(1);
         const S u0 = y * y;
         const S u1 = x * x + u0;
         const S u2 = S(1) / u1;
-        const auto [k, eccentricity, I1, I2, I3] = parameters;
+        const S k = parameters.k;
+        const S I1 = parameters.I1;
+        const S I2 = parameters.I2;
+        const S I3 = parameters.I3;
         const S u3 = k * u2 / sqrt(u1);
-        const S u4 = u2 * u3;
+        const S u4 = u3 * u2;
         const S u5 = x * u4;
         values[2] = S(3) * x * u5 - u3;
         const S u6 = S(3) * y * u5;

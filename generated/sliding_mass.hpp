@@ -134,7 +134,10 @@ class sliding_mass {
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
         auto status = StatusOf<S>::good();
-        const auto [J1, J2, J3, m, d0, k] = parameters;
+        const S J1 = parameters.J1;
+        const S J2 = parameters.J2;
+        const S J3 = parameters.J3;
+        const S m = parameters.m;
         StatusOf<S>::fail(status, !(J1 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, !(J2 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, !(J3 > S(0)), Status::left_domain);
@@ -149,38 +152,46 @@ class sliding_mass {
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
         const S s_ = s[0];
-        const S v = s[1], w1 = s[2], w2 = s[3], w3 = s[4];
+        const S v = s[1];
+        const S w1 = s[2];
+        const S w2 = s[3];
+        const S w3 = s[4];
         auto status = StatusOf<S>::good();
         ds[0] = v;
-        const auto [J1, J2, J3, m, d0, k] = parameters;
+        const S J1 = parameters.J1;
+        const S J2 = parameters.J2;
+        const S J3 = parameters.J3;
+        const S m = parameters.m;
+        const S d0 = parameters.d0;
+        const S k = parameters.k;
         const S u0 = m * d0;
-        const S u1 = m * s_;
-        const S u2 = s_ * u1;
-        const S u3 = d0 * u0;
-        const S u4 = u2 + (J1 + u3);
+        const S u1 = d0 * u0;
+        const S u2 = m * s_;
+        const S u3 = s_ * u2;
+        const S u4 = J1 + u1 + u3;
         const S det0 = m * u4 - u0 * u0;
         StatusOf<S>::fail(status, det0 <= singular_tolerance<S>(2) * (m * u4), Status::singular_mass_matrix);
         const S inv_det0 = S(1) / det0;
-        const S u5 = u1 * w1;
+        const S u5 = u2 * w1;
         const S u6 = d0 * w3 - s_ * w2;
         const S u7 = m * u6;
         const S u8 = k * (S(1) - s_) + w1 * u5 - w2 * u7;
-        const S u9 = J2 * w2 - u1 * u6;
+        const S u9 = J2 * w2 - u2 * u6;
         const S u10 = J3 * w3 + u0 * u6;
         const S u11 = w3 * u9 - S(2) * v * u5 - w2 * u10;
         const S z0_0 = (u4 * u8 - u0 * u11) * inv_det0;
         const S z0_1 = (m * u11 - u0 * u8) * inv_det0;
         ds[1] = z0_0;
         ds[2] = z0_1;
-        const S u12 = J2 + u2;
-        const S u13 = -d0 * u1;
-        const S u14 = J3 + u3;
+        const S u12 = J2 + u3;
+        const S u13 = -d0 * u2;
+        const S u14 = J3 + u1;
         const S det1 = u12 * u14 - u13 * u13;
         StatusOf<S>::fail(status, det1 <= singular_tolerance<S>(2) * (u12 * u14), Status::singular_mass_matrix);
         const S inv_det1 = S(1) / det1;
         const S u15 = J1 * w1 + s_ * u5 + u0 * (v + d0 * w1);
         const S u16 = v * w2;
-        const S u17 = v * u7 + w1 * u10 - u15 * w3 - u1 * u16;
+        const S u17 = v * u7 + w1 * u10 - u15 * w3 - u2 * u16;
         const S u18 = u15 * w2 + u0 * u16 - w1 * u9;
         const S z1_0 = (u14 * u17 - u13 * u18) * inv_det1;
         const S z1_1 = (u12 * u18 - u13 * u17) * inv_det1;
@@ -194,19 +205,23 @@ class sliding_mass {
     {
         Eigen::Matrix<S, 4, 4> result = Eigen::Matrix<S, 4, 4>::Zero();
         const S s_ = s[0];
-        const auto [J1, J2, J3, m, d0, k] = parameters;
+        const S J1 = parameters.J1;
+        const S J2 = parameters.J2;
+        const S J3 = parameters.J3;
+        const S m = parameters.m;
+        const S d0 = parameters.d0;
         result(0, 0) = m;
         const S u0 = m * d0;
         result(0, 1) = u0;
         result(1, 0) = u0;
-        const S u1 = d0 * u0;
-        const S u2 = m * (s_ * s_);
-        result(1, 1) = u1 + (J1 + u2);
-        result(2, 2) = J2 + u2;
+        const S u1 = m * (s_ * s_);
+        const S u2 = d0 * u0;
+        result(1, 1) = J1 + u1 + u2;
+        result(2, 2) = J2 + u1;
         const S u3 = -u0 * s_;
         result(2, 3) = u3;
         result(3, 2) = u3;
-        result(3, 3) = J3 + u1;
+        result(3, 3) = J3 + u2;
         return result;
     }
 
@@ -215,8 +230,15 @@ class sliding_mass {
     {
         Eigen::Matrix<S, 4, 1> result;
         const S s_ = s[0];
-        const S v = s[1], w1 = s[2], w2 = s[3], w3 = s[4];
-        const auto [J1, J2, J3, m, d0, k] = parameters;
+        const S v = s[1];
+        const S w1 = s[2];
+        const S w2 = s[3];
+        const S w3 = s[4];
+        const S J1 = parameters.J1;
+        const S J2 = parameters.J2;
+        const S J3 = parameters.J3;
+        const S m = parameters.m;
+        const S d0 = parameters.d0;
         const S u0 = v + d0 * w1;
         result[0] = m * u0;
         result[1] = J1 * w1 + m * (d0 * u0 + s_ * s_ * w1);
@@ -230,14 +252,21 @@ class sliding_mass {
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
         const S s_ = s[0];
-        const S v = s[1], w1 = s[2], w2 = s[3], w3 = s[4];
-        const S u0 = w3 * w3;
-        const S u1 = w1 * w1;
-        const S u2 = w2 * w2;
+        const S v = s[1];
+        const S w1 = s[2];
+        const S w2 = s[3];
+        const S w3 = s[4];
+        const S u0 = w1 * w1;
+        const S u1 = w2 * w2;
+        const S u2 = w3 * w3;
         const S u3 = s_ * s_;
-        const auto [J1, J2, J3, m, d0, k] = parameters;
-        const S u4 = J3 * u0 + (J1 * u1 + J2 * u2) + m * (v * v + (d0 * d0 * (u1 + u0) + u3 * (u1 + u2))) + k * (S(1) +
-                u3);
+        const S J1 = parameters.J1;
+        const S J2 = parameters.J2;
+        const S J3 = parameters.J3;
+        const S m = parameters.m;
+        const S d0 = parameters.d0;
+        const S k = parameters.k;
+        const S u4 = J1 * u0 + J2 * u1 + J3 * u2 + m * (d0 * d0 * (u0 + u2) + u3 * (u0 + u1) + v * v) + k * (S(1) + u3);
         return m * d0 * (v * w1 - s_ * w2 * w3) + S(0.5) * u4 - k * s_;
     }
 
@@ -245,14 +274,21 @@ class sliding_mass {
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
         const S s_ = s[0];
-        const S v = s[1], w1 = s[2], w2 = s[3], w3 = s[4];
+        const S v = s[1];
+        const S w1 = s[2];
+        const S w2 = s[3];
+        const S w3 = s[4];
         const S u0 = w1 * w1;
-        const auto [J1, J2, J3, m, d0, k] = parameters;
-        const S u1 = v + d0 * w1;
-        const S u2 = d0 * w3 - s_ * w2;
+        const S J1 = parameters.J1;
+        const S J2 = parameters.J2;
+        const S J3 = parameters.J3;
+        const S m = parameters.m;
+        const S d0 = parameters.d0;
+        const S k = parameters.k;
+        const S u1 = d0 * w3 - s_ * w2;
+        const S u2 = v + d0 * w1;
         const S u3 = S(1) - s_;
-        const S u4 = J3 * (w3 * w3) + (J1 * u0 + J2 * (w2 * w2)) + m * (u1 * u1 + (u2 * u2 + s_ * s_ * u0)) - k * (u3 *
-                u3);
+        const S u4 = J1 * u0 + J2 * (w2 * w2) + J3 * (w3 * w3) + m * (s_ * s_ * u0 + u1 * u1 + u2 * u2) - k * (u3 * u3);
         return S(0.5) * u4;
     }
 
@@ -262,8 +298,15 @@ class sliding_mass {
     {
         Eigen::Matrix<S, 1, 1> result;
         const S s_ = s[0];
-        const S v = s[1], w1 = s[2], w2 = s[3], w3 = s[4];
-        const auto [J1, J2, J3, m, d0, k] = parameters;
+        const S v = s[1];
+        const S w1 = s[2];
+        const S w2 = s[3];
+        const S w3 = s[4];
+        const S J1 = parameters.J1;
+        const S J2 = parameters.J2;
+        const S J3 = parameters.J3;
+        const S m = parameters.m;
+        const S d0 = parameters.d0;
         const S u0 = J1 * w1 + m * (d0 * (v + d0 * w1) + s_ * s_ * w1);
         const S u1 = m * (d0 * w3 - s_ * w2);
         const S u2 = J2 * w2 - s_ * u1;
@@ -282,17 +325,25 @@ class sliding_mass {
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 21>& values) const noexcept
     {
         const S s_ = s[0];
-        const S v = s[1], w1 = s[2], w2 = s[3], w3 = s[4];
+        const S v = s[1];
+        const S w1 = s[2];
+        const S w2 = s[3];
+        const S w3 = s[4];
         values[0] = S(1);
         const S u0 = w2 * w2;
-        const auto [J1, J2, J3, m, d0, k] = parameters;
+        const S J1 = parameters.J1;
+        const S J2 = parameters.J2;
+        const S J3 = parameters.J3;
+        const S m = parameters.m;
+        const S d0 = parameters.d0;
+        const S k = parameters.k;
         const S u1 = d0 * (u0 - w3 * w3);
         const S u2 = w2 * w3;
         const S u3 = S(2) * v;
         const S u4 = d0 * u2;
         const S u5 = w1 * w1 + u0;
-        const S u6 = m * (s_ * (u1 + s_ * u2 - u3 * w1) - d0 * u4) + (J2 - J3) * u2 - d0 * (k * (S(1) - s_) + m * (s_ *
-                u5 - u4));
+        const S u6 = m * (s_ * (u1 + s_ * u2 - u3 * w1) - d0 * u4) + (J2 - J3) * u2 - d0 * (m * (s_ * u5 - u4) + k *
+                (S(1) - s_));
         const S u7 = m * s_;
         const S u8 = s_ * u7;
         const S u9 = S(1) / (J1 + u8);
@@ -306,7 +357,7 @@ class sliding_mass {
         const S u15 = u9 * u14;
         values[2] = d0 * u15;
         const S u16 = u9 * (u13 * v + d0 * u14);
-        values[3] = d0 * u16 + u12 * u14;
+        values[3] = u12 * u14 + d0 * u16;
         const S u17 = m * d0;
         const S u18 = d0 * u17;
         const S u19 = J2 - u18;
@@ -322,31 +373,31 @@ class sliding_mass {
         const S u27 = u17 * w2;
         const S u28 = u9 * (u21 * w2 - u23 * w3 + d0 * u27);
         values[10] = u28;
-        values[5] = -(d0 * u28 + u12 * u27);
+        values[5] = -(u12 * u27 + d0 * u28);
         values[7] = -u15;
         values[8] = -u16;
         const S u29 = u20 - J1;
         const S u30 = u29 * w3 - u22 * w2;
         const S u31 = v * w2;
-        const S u32 = S(2) * u17;
-        const S u33 = J1 - u19;
-        const S u34 = u22 * w3 + u33 * w2;
-        const S u35 = u32 * u31 + w1 * u34;
+        const S u32 = J1 - u19;
+        const S u33 = u32 * w2 + u22 * w3;
+        const S u34 = S(2) * u17;
+        const S u35 = w1 * u33 + u34 * u31;
         const S u36 = S(1) / (J3 + u18);
         const S u37 = u17 * u36;
-        const S u38 = S(1) / (J2 + (m - u36 * (u17 * u17)) * s_ * s_);
+        const S u38 = S(1) / (J2 + (m - u17 * u17 * u36) * s_ * s_);
         const S u39 = u38 * (w1 * u30 - u13 * u31 + u37 * u35 * s_);
         const S u40 = u37 * s_;
         const S u41 = w1 * w3 + u39;
         const S u42 = u17 * u41;
-        const S u43 = u38 * (m * (d0 * (u36 * u35 + u40 * u39 - w1 * w2) - S(2) * (u31 + s_ * u41)) + u37 * u42 * s_);
+        const S u43 = u38 * (m * (d0 * (u36 * u35 + u40 * u39 - w1 * w2) - S(2) * (s_ * u41 + u31)) + u37 * u42 * s_);
         values[11] = u43;
-        const S u44 = u32 * w2;
+        const S u44 = u34 * w2;
         const S u45 = u38 * (u37 * u44 * s_ - u13 * w2);
         values[12] = u45;
-        const S u46 = u38 * (u30 + u37 * u34 * s_);
+        const S u46 = u38 * (u30 + u37 * u33 * s_);
         values[13] = u46;
-        const S u47 = u32 * v + u33 * w1;
+        const S u47 = u34 * v + u32 * w1;
         const S u48 = u38 * (u37 * u47 * s_ - u7 * (d0 * w1 + u3));
         values[14] = u48;
         const S u49 = u22 * w1;
@@ -354,7 +405,7 @@ class sliding_mass {
         values[15] = u50;
         values[16] = u36 * u42 + u40 * u43;
         values[17] = u36 * u44 + u40 * u45;
-        values[18] = u36 * u34 + u40 * u46;
+        values[18] = u36 * u33 + u40 * u46;
         values[19] = u36 * u47 + u40 * u48;
         values[20] = u36 * u49 + u40 * u50;
     }

@@ -131,8 +131,11 @@ class spherical_pendulum_meridian {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        const S x = s[0], y = s[1], z = s[2];
-        const S a = s[3], b = s[4];
+        const S x = s[0];
+        const S y = s[1];
+        const S z = s[2];
+        const S a = s[3];
+        const S b = s[4];
         const S w0 = z * b;
         ds[0] = x * w0 - y * a;
         ds[1] = x * a + y * w0;
@@ -143,7 +146,7 @@ class spherical_pendulum_meridian {
         const S w4 = w3 * a;
         ds[3] = -S(2) * w4 * w0 / w3;
         const S w5 = z * z;
-        const S w6 = w1 * (w5 + (w1 + S(2) * w2)) + w2 * (w2 + w5);
+        const S w6 = w1 * (w1 + S(2) * w2 + w5) + w2 * (w2 + w5);
         const S g = parameters.g;
         ds[4] = (g * w3 + z * (a * w4 - w6 * (b * b))) / w6;
         return StatusOf<S>::good();
@@ -153,7 +156,9 @@ class spherical_pendulum_meridian {
     [[nodiscard]] Eigen::Matrix<S, 2, 2> mass_matrix([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 2, 2> result;
-        const S x = s[0], y = s[1], z = s[2];
+        const S x = s[0];
+        const S y = s[1];
+        const S z = s[2];
         const S w0 = x * x + y * y;
         const S m = parameters.m;
         result(0, 0) = m * w0;
@@ -167,8 +172,11 @@ class spherical_pendulum_meridian {
     [[nodiscard]] Eigen::Matrix<S, 2, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 2, 1> result;
-        const S x = s[0], y = s[1], z = s[2];
-        const S a = s[3], b = s[4];
+        const S x = s[0];
+        const S y = s[1];
+        const S z = s[2];
+        const S a = s[3];
+        const S b = s[4];
         const S w0 = x * x + y * y;
         const S m = parameters.m;
         result[0] = m * w0 * a;
@@ -179,26 +187,34 @@ class spherical_pendulum_meridian {
     /// E = y^a p_a - L.
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S x = s[0], y = s[1], z = s[2];
-        const S a = s[3], b = s[4];
+        const S x = s[0];
+        const S y = s[1];
+        const S z = s[2];
+        const S a = s[3];
+        const S b = s[4];
         const S w0 = x * x;
-        const S w1 = z * z;
-        const S w2 = y * y;
-        const auto [m, g] = parameters;
-        const S w3 = (w0 * (w1 + (w0 + S(2) * w2)) + w2 * (w2 + w1)) * (b * b) + ((w0 + w2) * (a * a) + S(2) * g * z);
+        const S w1 = y * y;
+        const S w2 = z * z;
+        const S m = parameters.m;
+        const S g = parameters.g;
+        const S w3 = S(2) * g * z + (w0 + w1) * (a * a) + (w0 * (w0 + S(2) * w1 + w2) + w1 * (w1 + w2)) * (b * b);
         return S(0.5) * m * w3;
     }
 
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S x = s[0], y = s[1], z = s[2];
-        const S a = s[3], b = s[4];
+        const S x = s[0];
+        const S y = s[1];
+        const S z = s[2];
+        const S a = s[3];
+        const S b = s[4];
         const S w0 = x * x;
-        const S w1 = z * z;
-        const S w2 = y * y;
-        const auto [m, g] = parameters;
-        const S w3 = (w0 * (w1 + (w0 + S(2) * w2)) + w2 * (w2 + w1)) * (b * b) + (w0 + w2) * (a * a) - S(2) * g * z;
+        const S w1 = y * y;
+        const S w2 = z * z;
+        const S m = parameters.m;
+        const S g = parameters.g;
+        const S w3 = (w0 + w1) * (a * a) + (w0 * (w0 + S(2) * w1 + w2) + w1 * (w1 + w2)) * (b * b) - S(2) * g * z;
         return S(0.5) * m * w3;
     }
 
@@ -207,7 +223,8 @@ class spherical_pendulum_meridian {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> domain([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S x = s[0], y = s[1];
+        const S x = s[0];
+        const S y = s[1];
         result[0] = x * x + y * y;
         return result;
     }
@@ -217,7 +234,8 @@ class spherical_pendulum_meridian {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S x = s[0], y = s[1];
+        const S x = s[0];
+        const S y = s[1];
         const S a = s[3];
         const S m = parameters.m;
         result[0] = m * (x * x + y * y) * a;
@@ -233,47 +251,50 @@ class spherical_pendulum_meridian {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 23>& values) const noexcept
     {
-        const S x = s[0], y = s[1], z = s[2];
-        const S a = s[3], b = s[4];
-        const S w0 = z * b;
-        values[0] = w0;
-        values[6] = w0;
+        const S x = s[0];
+        const S y = s[1];
+        const S z = s[2];
+        const S a = s[3];
+        const S b = s[4];
+        const S w0 = y * y;
         values[8] = x;
         const S w1 = x * x;
-        const S w2 = z * z;
-        const S w3 = y * y;
-        const S w4 = w1 + S(2) * w3;
-        const S w5 = w1 * (w2 + w4) + w3 * (w3 + w2);
-        values[22] = -S(2) * w5 * w0 / w5;
-        const S w6 = w1 + w3;
+        const S w2 = w1 + S(2) * w0;
+        const S w3 = z * z;
+        const S w4 = w1 * (w2 + w3) + w0 * (w0 + w3);
+        const S w5 = z * b;
+        values[0] = w5;
+        values[6] = w5;
+        values[22] = -S(2) * w4 * w5 / w4;
+        const S w6 = S(2) * z;
+        const S w7 = w1 + w0;
         values[5] = a;
-        const S w7 = w6 * a;
-        const S w8 = S(2) * z;
-        const S w9 = w8 * w7;
-        values[21] = w9 / w5;
-        const S w10 = a * a;
-        const S w11 = b * b;
+        const S w8 = w7 * a;
+        const S w9 = w6 * w8;
+        values[21] = w9 / w4;
+        const S w10 = b * b;
         const S g = parameters.g;
-        const S w12 = (g * w6 + z * (a * w7 - w5 * w11)) / w5;
+        const S w11 = (g * w7 + z * (a * w8 - w4 * w10)) / w4;
+        const S w12 = a * a;
         const S w13 = y * b;
         values[7] = w13;
-        const S w14 = w1 * (w10 - w8 * w12 - (w4 + S(3) * w2) * w11) - w3 * (w13 * w13 + z * (S(3) * b * w0 + S(2) *
-                w12) - w10);
-        values[20] = w14 / w5;
-        const S w15 = S(2) * y;
-        const S w16 = S(2) * w6;
-        const S w17 = g - z * ((w2 + w16) * w11 + z * w12 - w10) - w16 * w12;
-        values[19] = w15 * w17 / w5;
+        const S w14 = w1 * (w12 - w6 * w11 - (S(3) * w3 + w2) * w10) - w0 * (z * (S(3) * b * w5 + S(2) * w11) + w13 *
+                w13 - w12);
+        values[20] = w14 / w4;
+        const S w15 = S(2) * w7;
+        const S w16 = g - z * (z * w11 + (w3 + w15) * w10 - w12) - w15 * w11;
+        const S w17 = S(2) * y;
+        values[19] = w17 * w16 / w4;
         const S w18 = S(2) * x;
-        values[18] = w18 * w17 / w5;
-        values[17] = -w9 / w6;
-        values[16] = -w16 * w0 / w6;
-        const S w19 = S(2) * w7;
-        values[15] = -w19 * b / w6;
-        const S w20 = w19 * w0 / w6 - S(2) * a * w0;
-        values[14] = w15 * w20 / w6;
-        values[13] = w18 * w20 / w6;
-        values[12] = -w6;
+        values[18] = w18 * w16 / w4;
+        values[17] = -w9 / w7;
+        values[16] = -w15 * w5 / w7;
+        const S w19 = S(2) * w8;
+        values[15] = -w19 * b / w7;
+        const S w20 = w19 * w5 / w7 - S(2) * a * w5;
+        values[14] = w17 * w20 / w7;
+        values[13] = w18 * w20 / w7;
+        values[12] = -w7;
         values[11] = -S(2) * w13;
         values[10] = -w18 * b;
         values[9] = y * z;

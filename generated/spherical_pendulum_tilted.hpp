@@ -134,8 +134,11 @@ class spherical_pendulum_tilted {
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
         using std::abs;
-        const S x = s[0], y = s[1], z = s[2];
-        const S a = s[3], b = s[4];
+        const S x = s[0];
+        const S y = s[1];
+        const S z = s[2];
+        const S a = s[3];
+        const S b = s[4];
         auto status = StatusOf<S>::good();
         const S w0 = z * a;
         ds[0] = w0;
@@ -146,7 +149,7 @@ class spherical_pendulum_tilted {
         const S w3 = z * z;
         const S w4 = x * x + w3;
         const S w5 = x * y;
-        const S w6 = y * y + w3;
+        const S w6 = w3 + y * y;
         const S det0 = w4 * w6 - w5 * w5;
         StatusOf<S>::fail(status, abs(det0) <= singular_tolerance<S>(2) * (abs(w4 * w6) + abs(w5 * w5)),
                 Status::singular_mass_matrix);
@@ -165,14 +168,16 @@ class spherical_pendulum_tilted {
     [[nodiscard]] Eigen::Matrix<S, 2, 2> mass_matrix([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 2, 2> result;
-        const S x = s[0], y = s[1], z = s[2];
+        const S x = s[0];
+        const S y = s[1];
+        const S z = s[2];
         const S w0 = z * z;
         const S m = parameters.m;
         result(0, 0) = m * (x * x + w0);
         const S w1 = m * x * y;
         result(0, 1) = w1;
         result(1, 0) = w1;
-        result(1, 1) = m * (y * y + w0);
+        result(1, 1) = m * (w0 + y * y);
         return result;
     }
 
@@ -180,8 +185,11 @@ class spherical_pendulum_tilted {
     [[nodiscard]] Eigen::Matrix<S, 2, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 2, 1> result;
-        const S x = s[0], y = s[1], z = s[2];
-        const S a = s[3], b = s[4];
+        const S x = s[0];
+        const S y = s[1];
+        const S z = s[2];
+        const S a = s[3];
+        const S b = s[4];
         const S w0 = x * a + y * b;
         const S w1 = z * z;
         const S m = parameters.m;
@@ -193,22 +201,30 @@ class spherical_pendulum_tilted {
     /// E = y^a p_a - L.
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S x = s[0], y = s[1], z = s[2];
-        const S a = s[3], b = s[4];
-        const S w0 = y * b;
-        const S w1 = x * a;
-        const auto [m, g] = parameters;
-        return S(0.5) * m * (w0 * w0 + (w1 * (w1 + S(2) * w0) + z * (z * (a * a + b * b) + S(2) * g)));
+        const S x = s[0];
+        const S y = s[1];
+        const S z = s[2];
+        const S a = s[3];
+        const S b = s[4];
+        const S w0 = x * a;
+        const S w1 = y * b;
+        const S m = parameters.m;
+        const S g = parameters.g;
+        return S(0.5) * m * (z * (S(2) * g + z * (a * a + b * b)) + w0 * (w0 + S(2) * w1) + w1 * w1);
     }
 
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S x = s[0], y = s[1], z = s[2];
-        const S a = s[3], b = s[4];
+        const S x = s[0];
+        const S y = s[1];
+        const S z = s[2];
+        const S a = s[3];
+        const S b = s[4];
         const S w0 = x * a + y * b;
-        const auto [m, g] = parameters;
-        return S(0.5) * m * (w0 * w0 + z * (z * (a * a + b * b) - S(2) * g));
+        const S m = parameters.m;
+        const S g = parameters.g;
+        return S(0.5) * m * (z * (z * (a * a + b * b) - S(2) * g) + w0 * w0);
     }
 
     static constexpr std::array<const char*, 1> domain_names = {"z < 0"};
@@ -226,8 +242,11 @@ class spherical_pendulum_tilted {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S x = s[0], y = s[1], z = s[2];
-        const S a = s[3], b = s[4];
+        const S x = s[0];
+        const S y = s[1];
+        const S z = s[2];
+        const S a = s[3];
+        const S b = s[4];
         const S m = parameters.m;
         result[0] = m * z * (x * b - y * a);
         return result;
@@ -240,8 +259,11 @@ class spherical_pendulum_tilted {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 18>& values) const noexcept
     {
-        const S x = s[0], y = s[1], z = s[2];
-        const S a = s[3], b = s[4];
+        const S x = s[0];
+        const S y = s[1];
+        const S z = s[2];
+        const S a = s[3];
+        const S b = s[4];
         values[0] = a;
         values[1] = z;
         values[3] = z;
@@ -253,7 +275,7 @@ class spherical_pendulum_tilted {
         const S w0 = z * z;
         const S w1 = x * x + w0;
         const S w2 = x * y;
-        const S w3 = y * y + w0;
+        const S w3 = w0 + y * y;
         const S det0 = w1 * w3 - w2 * w2;
         const S inv_det0 = S(1) / det0;
         const S w4 = z * b;
@@ -263,7 +285,7 @@ class spherical_pendulum_tilted {
         const S w7 = w6 * b;
         const S w8 = x * w5 + y * w7;
         const S w9 = g - a * w6;
-        const S w10 = y * w9 + x * w7;
+        const S w10 = x * w7 + y * w9;
         const S z0_0 = (w3 * w8 - w2 * w10) * inv_det0;
         const S z0_1 = (w1 * w10 - w2 * w8) * inv_det0;
         const S w11 = S(2) * x;
@@ -282,7 +304,7 @@ class spherical_pendulum_tilted {
         const S w18 = x * b;
         const S w19 = y * a;
         const S w20 = w18 - w19;
-        const S w21 = -(b * w20 + w17 * z0_0);
+        const S w21 = -(w17 * z0_0 + b * w20);
         const S w22 = a * w20 - w17 * z0_1;
         const S z3_0 = (w3 * w21 - w2 * w22) * inv_det0;
         const S z3_1 = (w1 * w22 - w2 * w21) * inv_det0;

@@ -202,16 +202,16 @@ class torus_orthonormal {
         const auto [sin_th, cos_th] = sincos<S>(th);
         const S w0 = S(1) / (R + r * cos_th);
         values[2] = w0;
-        const S w1 = w0 * b;
-        const S w2 = w0 * sin_th;
-        const S w3 = r * w2;
-        values[1] = w3 * w1;
-        const S w4 = (cos_th + sin_th * w3) * w1;
+        const S w1 = sin_th * w0;
+        const S w2 = r * w1;
+        const S w3 = w0 * b;
+        values[1] = w2 * w3;
+        const S w4 = (cos_th + sin_th * w2) * w3;
         values[3] = -b * w4;
-        values[4] = -S(2) * w2 * b;
+        values[4] = -S(2) * w1 * b;
         values[5] = a * w4;
-        values[6] = w2 * b;
-        values[7] = w2 * a;
+        values[6] = w1 * b;
+        values[7] = w1 * a;
     }
 
     /// The same as a dense matrix, shape (4, 4).

@@ -171,7 +171,7 @@ class unicycle_pontryagin {
     {
         const S mu1 = s[3], mu2 = s[4];
         const S kap = parameters.kap;
-        return S(0.5) * (mu1 * mu1 + mu2 * mu2 / kap);
+        return S(0.5) * (mu2 * mu2 / kap + mu1 * mu1);
     }
 
     /// The running cost.
@@ -179,7 +179,7 @@ class unicycle_pontryagin {
     {
         const S mu1 = s[3], mu2 = s[4];
         const S kap = parameters.kap;
-        return S(0.5) * (mu1 * mu1 + mu2 * mu2 / kap);
+        return S(0.5) * (mu2 * mu2 / kap + mu1 * mu1);
     }
 
     static constexpr std::array<const char*, 3> invariants_names = {"linear_momentum_squared", "momentum_x",

@@ -147,24 +147,32 @@ class wong {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        const S x = s[0], y = s[1];
-        const S u = s[2], v = s[3], q1 = s[4], q2 = s[5], q3 = s[6];
+        const S x = s[0];
+        const S y = s[1];
+        const S u = s[2];
+        const S v = s[3];
+        const S q1 = s[4];
+        const S q2 = s[5];
+        const S q3 = s[6];
         ds[0] = u;
         ds[1] = v;
-        const auto [a, b, c, k] = parameters;
-        const S w0 = b * q1;
-        const S w1 = c * y;
-        const S w2 = w0 + w1 * q2;
+        const S a = parameters.a;
+        const S b = parameters.b;
+        const S c = parameters.c;
+        const S k = parameters.k;
+        const S w0 = c * y;
+        const S w1 = b * q1;
+        const S w2 = w0 * q2 + w1;
         const S w3 = a * q2;
-        const S w4 = b * q2 + x * (b * w2 - a * (S(2) * q3 + y * (b * q3 + x * w3))) + (a - w1) * q1;
+        const S w4 = b * q2 + x * (b * w2 - a * (y * (b * q3 + x * w3) + S(2) * q3)) + (a - w0) * q1;
         ds[2] = -(k * x + v * w4);
         ds[3] = u * w4 - k * y;
         const S w5 = x * v;
         const S w6 = w5 * q3;
         const S w7 = x * w5;
-        ds[4] = -(b * (w6 + u * q2) + w7 * w3);
+        ds[4] = -(b * (u * q2 + w6) + w7 * w3);
         const S w8 = y * u;
-        ds[5] = u * w0 + a * (w7 * q1 - w8 * q3) - w1 * w6;
+        ds[5] = a * (w7 * q1 - w8 * q3) + u * w1 - w0 * w6;
         ds[6] = w5 * w2 + w8 * w3;
         return StatusOf<S>::good();
     }
@@ -186,7 +194,11 @@ class wong {
     [[nodiscard]] Eigen::Matrix<S, 5, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 5, 1> result;
-        const S u = s[2], v = s[3], q1 = s[4], q2 = s[5], q3 = s[6];
+        const S u = s[2];
+        const S v = s[3];
+        const S q1 = s[4];
+        const S q2 = s[5];
+        const S q3 = s[6];
         result[0] = u;
         result[1] = v;
         result[2] = q1;
@@ -198,19 +210,29 @@ class wong {
     /// E = y^a p_a - L.
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S x = s[0], y = s[1];
-        const S u = s[2], v = s[3], q1 = s[4], q2 = s[5], q3 = s[6];
+        const S x = s[0];
+        const S y = s[1];
+        const S u = s[2];
+        const S v = s[3];
+        const S q1 = s[4];
+        const S q2 = s[5];
+        const S q3 = s[6];
         const S k = parameters.k;
-        return S(0.5) * (q3 * q3 + (q2 * q2 + (q1 * q1 + (v * v + (u * u + k * (x * x + y * y))))));
+        return S(0.5) * (k * (x * x + y * y) + u * u + v * v + q1 * q1 + q2 * q2 + q3 * q3);
     }
 
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S x = s[0], y = s[1];
-        const S u = s[2], v = s[3], q1 = s[4], q2 = s[5], q3 = s[6];
+        const S x = s[0];
+        const S y = s[1];
+        const S u = s[2];
+        const S v = s[3];
+        const S q1 = s[4];
+        const S q2 = s[5];
+        const S q3 = s[6];
         const S k = parameters.k;
-        return S(0.5) * (q3 * q3 + (q2 * q2 + (q1 * q1 + (u * u + v * v))) - k * (x * x + y * y));
+        return S(0.5) * (u * u + v * v + q1 * q1 + q2 * q2 + q3 * q3 - k * (x * x + y * y));
     }
 
     static constexpr std::array<const char*, 1> invariants_names = {"charge_squared"};
@@ -218,8 +240,10 @@ class wong {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S q1 = s[4], q2 = s[5], q3 = s[6];
-        result[0] = q3 * q3 + (q1 * q1 + q2 * q2);
+        const S q1 = s[4];
+        const S q2 = s[5];
+        const S q3 = s[6];
+        result[0] = q1 * q1 + q2 * q2 + q3 * q3;
         return result;
     }
 
@@ -232,18 +256,26 @@ class wong {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 31>& values) const noexcept
     {
-        const S x = s[0], y = s[1];
-        const S u = s[2], v = s[3], q1 = s[4], q2 = s[5], q3 = s[6];
+        const S x = s[0];
+        const S y = s[1];
+        const S u = s[2];
+        const S v = s[3];
+        const S q1 = s[4];
+        const S q2 = s[5];
+        const S q3 = s[6];
         const S w0 = x * v;
-        const auto [a, b, c, k] = parameters;
+        const S a = parameters.a;
+        const S b = parameters.b;
+        const S c = parameters.c;
+        const S k = parameters.k;
         const S w1 = a * u + c * w0;
         const S w2 = y * w1;
         values[30] = w2;
         const S w3 = b * w0;
         values[29] = w3;
-        const S w4 = b * q1;
-        const S w5 = c * y;
-        const S w6 = w4 + w5 * q2;
+        const S w4 = c * y;
+        const S w5 = b * q1;
+        const S w6 = w4 * q2 + w5;
         values[28] = x * w6;
         const S w7 = a * y;
         values[27] = w7 * q2;
@@ -251,11 +283,11 @@ class wong {
         values[25] = v * w6;
         values[24] = -w2;
         const S w8 = a * x;
-        const S w9 = w8 * w0 + b * u;
+        const S w9 = b * u + w8 * w0;
         values[23] = w9;
-        const S w10 = w5 * q3;
+        const S w10 = w4 * q3;
         values[22] = x * (w8 * q1 - w10);
-        values[21] = w4 - w7 * q3;
+        values[21] = w5 - w7 * q3;
         values[20] = -w1 * q3;
         const S w11 = S(2) * w8;
         values[19] = v * (w11 * q1 - w10);
@@ -272,18 +304,18 @@ class wong {
         values[13] = -w16 * u;
         values[0] = S(1);
         values[1] = S(1);
-        const S w17 = x * w8 * w7 - b * (S(1) + x * w5);
+        const S w17 = x * w8 * w7 - b * (S(1) + x * w4);
         values[12] = -w17 * u;
-        const S w18 = a - w5;
-        const S w19 = w18 + b * b * x;
+        const S w18 = a - w4;
+        const S w19 = b * b * x + w18;
         values[11] = w19 * u;
         const S w20 = S(2) * q3;
         const S w21 = b * w6;
-        const S w22 = w14 + (w18 * q1 - x * (a * (w20 + y * w13) - w21));
+        const S w22 = w14 + (w18 * q1 - x * (a * (y * w13 + w20) - w21));
         values[10] = w22;
         const S w23 = c * q1 + x * (a * w13 - c * w14);
         values[9] = -(k + u * w23);
-        const S w24 = a * (w20 + y * w15) - w21;
+        const S w24 = a * (y * w15 + w20) - w21;
         values[8] = -u * w24;
         values[7] = w16 * v;
         values[6] = w17 * v;

@@ -10,12 +10,12 @@ namespace {
 
 constexpr std::size_t links = 16;
 
-KernelModule chain_of(const std::string& file)
+KernelModule chain_of(const std::string& file, std::size_t length = links)
 {
     const std::string path = std::string(LAGEN_SOURCE_DIR) + file;
     KernelRequest request;
     request.only = {"rhs", "mass_matrix"};
-    return kernels_of(read_model(path, {Setting{"n", whole_text("--set", std::to_string(links))}}), request);
+    return kernels_of(read_model(path, {Setting{"n", whole_text("--set", std::to_string(length))}}), request);
 }
 
 std::string entry(const std::string& name, std::size_t k)
@@ -30,6 +30,15 @@ bool has_factorisation(const KernelModule& module, const std::string& kernel)
 }
 
 } // namespace
+
+TEST_CASE("what the rows of a chain of two are divided by are divisors of its right-hand side")
+{
+    const KernelModule module = chain_of("/models/chain.toml", 2);
+    std::vector<std::string> names;
+    for (const NodeId pivot : find_kernel(module, "rhs").pivots) names.push_back(module.graph->input_name(pivot));
+    CHECK(names == std::vector<std::string>{"m[2]", "l[1]", "l[2]"});
+    CHECK(find_kernel(module, "mass_matrix").pivots.empty());
+}
 
 TEST_CASE("a chain of 16 has one motion in absolute and in joint angles, and needs no factorisation")
 {

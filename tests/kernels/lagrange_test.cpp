@@ -124,16 +124,6 @@ TEST_CASE("the mass matrix of the heavy top is its three moments, the divisors o
     CHECK(evaluate<double>(*module.graph, module.parameter_defaults, {}) == std::vector<double>{1, 2, 3, 4.9, 9.8});
 }
 
-TEST_CASE("what the rows of the double pendulum are divided by are divisors of its right-hand side", "[kernels]")
-{
-    const KernelModule module = kernels_of(read_model(std::string(LAGEN_SOURCE_DIR) + "/models/double_pendulum.toml"));
-    std::vector<std::string> names;
-    for (const NodeId pivot : find_kernel(module, "rhs").checks->pivots)
-        names.push_back(module.graph->input_name(pivot));
-    CHECK(names == std::vector<std::string>{"m2", "l1", "l2"});
-    CHECK(!find_kernel(module, "jacobian").checks);
-}
-
 TEST_CASE("a bracket listed as [b, a] is the negative of [a, b]", "[kernels]")
 {
     const KernelModule module = kernels_of_text(heavy_top);

@@ -116,7 +116,7 @@ TEST_CASE("constraints that are not triangular are refused with their number")
 {
     const Statement statement{{"x", "y"}, {}, {"x - y", "x^2 + x*y^2 + y^3 + x^3*y - 1", "x + y"}, {}, {}};
     const std::string expected =
-        "base constraint 2, y*x^3 + y^3 + x^2 + x*y^2 - 1, is not triangular: it must solve for a "
+        "base constraint 2, x^2 + x*y^2 + y^3 + x^3*y - 1, is not triangular: it must solve for a "
         "base coordinate that no other constraint solves for, linearly or as a power with a "
         "constant coefficient";
     try {
