@@ -4,6 +4,7 @@
 #include "content_hash.hpp"
 #include "emit/print_equations.hpp"
 #include "emit/print_header.hpp"
+#include "graph/core/evaluate.hpp"
 #include "graph/core/lower.hpp"
 #include "graph/simplify/simplify.hpp"
 #include "model/scene_form.hpp"
@@ -172,9 +173,16 @@ void set_parameters(CheckedModel& checked, const std::vector<long double>& value
     System& system = checked.system;
     const Regularity& known = checked.report.regularity;
     if (known.legendre_obstacle.empty() && known.legendre_values.empty()) return;
-    for (std::size_t k = 0; k < values.size(); ++k)
-        system.parameter_values[k].second = system.graph.constant(Rational(static_cast<double>(values[k])));
-    checked.report.regularity = verify_regularity(system);
+    bool differ = false;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        NodeId& value = system.parameter_values[k].second;
+        const NodeId node[] = {value};
+        const auto wanted = static_cast<double>(values[k]);
+        if (evaluate<double>(system.graph, node, {})[0] == wanted) continue;
+        value = system.graph.constant(Rational(wanted));
+        differ = true;
+    }
+    if (differ) checked.report.regularity = verify_regularity(system);
 }
 
 Generated generate(const CheckedModel& checked, const GenerateRequest& request)

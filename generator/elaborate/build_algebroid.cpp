@@ -7,6 +7,7 @@
 #include "model/table_reader.hpp"
 
 #include <algorithm>
+#include <set>
 
 namespace lagen {
 namespace {
@@ -68,8 +69,12 @@ BlockParts build_product(BuildWorkspace& work, const AlgebroidBlock& block)
 {
     BlockParts parts;
     std::size_t first = 0;
+    std::set<std::size_t> base;
     for (const AlgebroidBlock& factor : block.of) {
         const BlockParts inner = build_block(work, factor);
+        work.require_own_base(factor, inner);
+        for (const std::size_t i : factor.base)
+            if (!base.insert(i).second) work.forget_construction();
         for (AnchorValue entry : inner.rho) {
             entry.a += first;
             parts.rho.push_back(std::move(entry));
@@ -101,18 +106,34 @@ BlockParts build_given(const AlgebroidBlock& block)
     return parts;
 }
 
-BlockParts build_block(BuildWorkspace& work, const AlgebroidBlock& block)
+namespace {
+
+/// What is made of no other algebroid.
+BlockParts build_leaf(BuildWorkspace& work, const AlgebroidBlock& block)
 {
     switch (block.kind) {
     case AlgebroidKind::tangent: return build_tangent(block);
     case AlgebroidKind::action: return build_action(work, block);
     case AlgebroidKind::subbundle: return build_subbundle(work, block);
     case AlgebroidKind::atiyah: return build_atiyah(work, block);
-    case AlgebroidKind::frame: return build_frame(work, block, build_block(work, block.of.at(0)));
-    case AlgebroidKind::prolongation: return build_prolongation(block, build_block(work, block.of.at(0)));
-    case AlgebroidKind::product: return build_product(work, block);
     default: return build_given(block);
     }
+}
+
+} // namespace
+
+BlockParts build_block(BuildWorkspace& work, const AlgebroidBlock& block)
+{
+    if (block.kind == AlgebroidKind::frame) return build_frame(work, block, build_block(work, block.of.at(0)));
+    if (block.kind == AlgebroidKind::product) return build_product(work, block);
+    if (block.kind == AlgebroidKind::prolongation) {
+        const BlockParts inner = build_block(work, block.of.at(0));
+        work.require_own_base(block.of[0], inner);
+        return build_prolongation(block, inner);
+    }
+    BlockParts parts = build_leaf(work, block);
+    work.rest_on(block, parts);
+    return parts;
 }
 
 WrittenAlgebroid build_algebroid(const Model& model)
@@ -129,6 +150,7 @@ WrittenAlgebroid build_algebroid(const Model& model)
     algebroid.C = std::move(parts.C);
     algebroid.constraints = model.base.constraints;
     algebroid.domain = model.base.domain;
+    algebroid.construction = work.take_construction();
     return algebroid;
 }
 

@@ -10,7 +10,8 @@
 namespace lagen {
 
 /// General and action as given, tangent (rho = identity on `over`, C = 0), lie_algebra (n = 0 or rho = 0), named
-/// algebras by their table, the others computed. Throws ModelError (unknown algebra, wrong rank).
+/// algebras by their table, the others computed; with its construction where frames stand in it. Throws ModelError
+/// (unknown algebra, wrong rank).
 [[nodiscard]] WrittenAlgebroid build_algebroid(const Model& model);
 
 /// Declares x (where it is new) and, after rho and C, y.

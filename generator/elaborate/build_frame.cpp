@@ -4,6 +4,9 @@
 #include "graph/core/evaluate.hpp"
 #include "proof/rational_matrix.hpp"
 
+#include <set>
+#include <utility>
+
 namespace lagen {
 namespace {
 
@@ -16,6 +19,14 @@ bool gives_both_orders(const Algebroid& inner)
             if (inner.given[a * r + b] && inner.given[b * r + a]) return true;
     return false;
 }
+
+/// A frame e'_a = A_a^b e_b on the graph, before its entries are made readable.
+struct FrameFormulas {
+    std::vector<Column> anchor;                             ///< anchor[a]: rho'^i_a = A_a^b rho^i_b
+    std::vector<std::pair<std::size_t, std::size_t>> pairs; ///< (a, b), a < b; all of them where `both_orders`
+    std::vector<std::vector<NodeId>> bracket;               ///< bracket[k][c]: C'^c_ab of pairs[k]
+    bool both_orders = false;                               ///< the inner block lists a pair in both orders
+};
 
 class FrameBuilder {
   public:
@@ -51,14 +62,18 @@ class FrameBuilder {
             if (frame.both_orders && parts.C.size() == before)
                 parts.C.push_back({0, a, b, number(0, block_.where), block_.where});
         }
+        if (frame.both_orders)
+            work_.forget_construction();
+        else
+            state_construction(frame, parts);
         return parts;
     }
 
+  private:
     /// C'^c_ab from A_c^d C'^c_ab = V^d, where V = [e'_a, e'_b] in the inner frame
     FrameFormulas formulas()
     {
         FrameFormulas frame;
-        frame.transposed = transposed_;
         frame.both_orders = gives_both_orders(inner_);
         for (const Section& row : rows_) frame.anchor.push_back(anchor_of(graph_, inner_, row));
         std::vector<std::vector<NodeId>> right;
@@ -71,7 +86,39 @@ class FrameBuilder {
         return frame;
     }
 
-  private:
+    /// The entries as they are written are those of the frame, and det A is not zero, a block at a time.
+    void state_construction(const FrameFormulas& frame, const BlockParts& parts)
+    {
+        Construction* construction = work_.construction();
+        if (construction == nullptr) return;
+        const Algebroid written = work_.lowered(block_, parts);
+        for (std::size_t a = 0; a < r_; ++a) state_equal(written.anchor[a], frame.anchor[a]);
+        for (std::size_t k = 0; k < frame.pairs.size(); ++k) {
+            Column bracket;
+            for (std::size_t c = 0; c < r_; ++c) bracket.push_back({c, frame.bracket[k][c]});
+            state_equal(written.C(frame.pairs[k].first, frame.pairs[k].second), bracket);
+        }
+        const std::vector<NodeId> entries = written.entries();
+        for (const std::vector<NodeId>* nodes : {&entries, &std::as_const(transposed_)})
+            construction->analytic.insert(construction->analytic.end(), nodes->begin(), nodes->end());
+        for (const CoupledBlock& each : coupled_blocks(graph_, transposed_, r_)) {
+            if (each.rows.size() > written_determinant_limit) return work_.forget_construction();
+            construction->nonzero.push_back(determinant_of(graph_, transposed_, r_, each.rows, each.columns));
+        }
+    }
+
+    /// Two columns, up to entries that are the same node.
+    void state_equal(const Column& a, const Column& b)
+    {
+        std::set<std::size_t> indices;
+        for (const Column* column : {&a, &b})
+            for (const ColumnEntry& entry : *column) indices.insert(entry.index);
+        for (const std::size_t index : indices) {
+            const NodeId x = Algebroid::entry(graph_, a, index), y = Algebroid::entry(graph_, b, index);
+            if (x != y) work_.construction()->zero.push_back(graph_.subtract(x, y));
+        }
+    }
+
     /// det A is not zero everywhere, a block at a time.
     void require_independent()
     {
@@ -133,11 +180,6 @@ class FrameBuilder {
 };
 
 } // namespace
-
-FrameFormulas frame_formulas(BuildWorkspace& work, const AlgebroidBlock& block, const BlockParts& inner)
-{
-    return FrameBuilder(work, block, inner).formulas();
-}
 
 BlockParts build_frame(BuildWorkspace& work, const AlgebroidBlock& block, const BlockParts& inner)
 {

@@ -7,6 +7,7 @@
 #include "symbolic/shortest_form.hpp"
 
 #include <algorithm>
+#include <set>
 
 namespace lagen {
 namespace {
@@ -21,6 +22,12 @@ std::size_t cost_of(const Tree& tree)
 {
     const std::string text = to_text(tree);
     return text.size() + parenthesis_cost * static_cast<std::size_t>(std::count(text.begin(), text.end(), '('));
+}
+
+/// True where a frame stands in the block, or in what its products and prolongations are made of.
+bool contains_frame(const AlgebroidBlock& block)
+{
+    return block.kind == AlgebroidKind::frame || std::any_of(block.of.begin(), block.of.end(), contains_frame);
 }
 
 } // namespace
@@ -41,6 +48,9 @@ BuildWorkspace::BuildWorkspace(const Model& model)
     for (const Symbol& symbol : model.base.coordinates) order_.variables.push_back(symbol.name);
     for (const Tree& tree : model.base.domain) setting_.domain.push_back(lower_(tree));
     for (const Tree& tree : model.base.constraints) setting_.constraints.push_back(lower_(tree));
+    // A Casimir's name stands for a function of the base, and constraints for parts of it.
+    if (model.base.constraints.empty() && model.base.casimirs.empty() && contains_frame(model.algebroid))
+        construction_.emplace();
     try {
         solved_ = proof::triangular_constraints(graph_, setting_);
     } catch (const TriangularityError&) { // refused where the claims are made, with its place
@@ -73,6 +83,34 @@ Tree BuildWorkspace::normal_tree(NodeId node, bool& zero)
     } catch (const proof::VanishingDivisor&) {
         return nullptr;
     }
+}
+
+void BuildWorkspace::rest_on(const AlgebroidBlock& block, const BlockParts& parts)
+{
+    if (construction_) construction_->algebroids.push_back(lowered(block, parts));
+}
+
+void BuildWorkspace::require_own_base(const AlgebroidBlock& block, const BlockParts& parts)
+{
+    if (!construction_) return;
+    const Algebroid algebroid = lowered(block, parts);
+    const std::set<std::size_t> base(block.base.begin(), block.base.end());
+    std::vector<NodeId> outside;
+    for (std::size_t i = 0; i < algebroid.x.size(); ++i)
+        if (!base.contains(i)) outside.push_back(algebroid.x[i]);
+    const bool stands = !depends_on_any(graph_, algebroid.entries(), outside) &&
+                        std::ranges::all_of(parts.rho, [&](const AnchorValue& each) { return base.contains(each.i); });
+    if (!stands) construction_.reset();
+}
+
+std::shared_ptr<const Construction> BuildWorkspace::take_construction()
+{
+    if (!construction_) return nullptr;
+    construction_->graph = graph_;
+    construction_->x = x_;
+    construction_->parameters = setting_.parameters;
+    construction_->domain = setting_.domain;
+    return std::make_shared<const Construction>(*std::move(construction_));
 }
 
 Tree BuildWorkspace::readable(NodeId node)

@@ -50,8 +50,21 @@ class BuildWorkspace {
     /// constraints that are not triangular are ignored here (the checks refuse them).
     [[nodiscard]] Decision decide(NodeId function) const;
 
+    /// Notes that what is built has no construction that would prove it.
+    void forget_construction() { construction_.reset(); }
+    /// Notes a block that everything else is made of, and which must satisfy the structure equations itself.
+    void rest_on(const AlgebroidBlock& block, const BlockParts& parts);
+    /// Neither the directions nor the functions of the block know coordinates outside its own base; else there is no
+    /// construction.
+    void require_own_base(const AlgebroidBlock& block, const BlockParts& parts);
+    /// What the builders state so far; null where nothing follows.
+    [[nodiscard]] Construction* construction() { return construction_ ? &*construction_ : nullptr; }
+    /// It, once everything is built, with the graph that it is about.
+    [[nodiscard]] std::shared_ptr<const Construction> take_construction();
+
   private:
     const Model& model_;
+    std::optional<Construction> construction_;
     Graph graph_;
     Lowering lower_;
     std::vector<NodeId> x_;
@@ -75,16 +88,6 @@ class BuildWorkspace {
 [[nodiscard]] BlockParts build_atiyah(BuildWorkspace& work, const AlgebroidBlock& block);
 [[nodiscard]] BlockParts build_frame(BuildWorkspace& work, const AlgebroidBlock& block, const BlockParts& inner);
 [[nodiscard]] BlockParts build_prolongation(const AlgebroidBlock& block, const BlockParts& inner);
-
-/// A frame e'_a = A_a^b e_b on the graph, before its entries are made readable.
-struct FrameFormulas {
-    std::vector<Column> anchor;                             ///< anchor[a]: rho'^i_a = A_a^b rho^i_b
-    std::vector<std::pair<std::size_t, std::size_t>> pairs; ///< (a, b), a < b; all of them where `both_orders`
-    std::vector<std::vector<NodeId>> bracket;               ///< bracket[k][c]: C'^c_ab of pairs[k]
-    std::vector<NodeId> transposed;                         ///< transposed[d * r + c] = A_c^d
-    bool both_orders = false;                               ///< the inner block lists a pair in both orders
-};
-[[nodiscard]] FrameFormulas frame_formulas(BuildWorkspace& work, const AlgebroidBlock& block, const BlockParts& inner);
 
 /// Structure constants of `algebra` or `bracket`, sections counted from `first`. Throws ModelError where the algebra is
 /// unknown or has not `rank` basis elements.

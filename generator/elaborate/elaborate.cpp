@@ -2,7 +2,6 @@
 #include "elaborate/elaborate.hpp"
 
 #include "elaborate/build_algebroid.hpp"
-#include "elaborate/construction.hpp"
 #include "elaborate/lower_forms.hpp"
 #include "elaborate/model_trees.hpp"
 #include "elaborate/require_values.hpp"
@@ -140,7 +139,6 @@ class Elaboration {
         system_.editable.bracket = given && block.algebra.empty();
         system_.editable.constant_bracket = block.kind != AlgebroidKind::general;
         system_.is_distribution = block.kind == AlgebroidKind::subbundle;
-        system_.construction = construction_of(model_, system_.written.algebroid);
     }
 
     void append_parts(std::vector<NodeId>& parts, const Tree& tree)

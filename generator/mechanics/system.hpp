@@ -14,7 +14,6 @@
 #include "graph/core/lower.hpp"
 #include "mechanics/written_algebroid.hpp"
 
-#include <functional>
 #include <optional>
 
 namespace lagen {
@@ -75,8 +74,6 @@ struct System {
     std::vector<NodeId> partial_parts; ///< must be defined, though folded away: log(-1 - x^2) of 0*log(-1 - x^2)
     bool is_distribution = false;      ///< a subbundle of TM: the anchor equations say that it is involutive
     Editable editable;
-    /// Whether the structure equations hold by construction (a frame of what is proved); empty where nothing is known.
-    std::function<bool()> construction;
     Written written;
 
     [[nodiscard]] std::size_t n() const { return algebroid.n(); }

@@ -4,6 +4,9 @@
 #pragma once
 
 #include "expression/symbol.hpp"
+#include "mechanics/construction.hpp"
+
+#include <memory>
 
 namespace lagen {
 
@@ -30,6 +33,7 @@ struct WrittenAlgebroid {
     std::vector<StructureValue> C; ///< nonzero entries
     std::vector<Tree> constraints;
     std::vector<Tree> domain;
+    std::shared_ptr<const Construction> construction = nullptr; ///< null: nothing is known of it
 
     [[nodiscard]] std::size_t n() const { return base.size(); }
     [[nodiscard]] std::size_t r() const { return fibre.size(); }

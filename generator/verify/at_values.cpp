@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "verify/at_values.hpp"
 
-#include "graph/calculus/substitute.hpp"
+#include "graph/calculus/differentiate.hpp"
 
 namespace lagen {
 

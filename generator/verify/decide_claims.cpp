@@ -3,6 +3,7 @@
 #include "graph/calculus/differentiate.hpp"
 #include "proof/partial_parts.hpp"
 #include "verify/claims.hpp"
+#include "verify/construction.hpp"
 #include "verify/control_maximum.hpp"
 #include "verify/proof_setting.hpp"
 
@@ -32,7 +33,8 @@ Check Claims::check_of(const Residual& residual) const
 void Claims::decide_by_construction(const ResidualList& list)
 {
     constexpr ProofBudget quick_budget{.terms = 2000, .products = 100'000};
-    if (!system_.construction) return;
+    const auto& construction = system_.written.algebroid.construction;
+    if (!construction) return;
     const ZeroDecider quick(graph_, setting_, smaller(judge_->decider().budget(), quick_budget));
     bool tried = false, constructed = false, refuted = false;
     std::map<NodeId, Decision> open;
@@ -43,7 +45,7 @@ void Claims::decide_by_construction(const ResidualList& list)
         refuted = refuted || decision.status == ProofStatus::refuted;
         if (decision.status == ProofStatus::undecided && !tried) {
             tried = true;
-            constructed = !refuted && system_.construction();
+            constructed = !refuted && holds_by_construction(*construction);
         }
         if (constructed) decision = judge_->decider().confirm(residual.value, construction_argument);
         if (decision.status != ProofStatus::undecided)

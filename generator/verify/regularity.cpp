@@ -18,13 +18,12 @@ namespace lagen {
 namespace {
 
 using Block = std::vector<std::size_t>;
-using Point = NamedPoint;
 
 /// For ranks, where a witness is usually all that is needed.
 constexpr ProofBudget witness_budget{.products = 200'000};
 
 /// The values of an exact sample point; nothing where one of them is irrational.
-std::optional<std::map<std::string, Rational>> exact_values(const Point& point)
+std::optional<std::map<std::string, Rational>> exact_values(const NamedPoint& point)
 {
     std::map<std::string, Rational> values;
     for (const auto& [name, value] : point) {
@@ -162,29 +161,57 @@ std::vector<NodeId> determinants_of(const std::vector<std::vector<NodeId>>& mino
     return determinants;
 }
 
-/// Points and equations of a W that was not proved to be regular everywhere. `minors` for all parameters, `valued` and
-/// `there` for the values of the file.
-void describe_singular(Regularity& result, Graph& graph, const ProofSetting& setting, const ZeroDecider& valued,
-                       const ProofSetting& there, const Replacements& defaults,
+/// W for all parameters, or for the values that some have.
+struct Case {
+    Graph& graph;
+    const FibreHessian& hessian;
+    const ProofSetting& setting;
+    const ZeroDecider& decider;
+
+    /// A sum of squares needs neither ranks nor determinants.
+    [[nodiscard]] bool is_definite_by_squares() const
+    {
+        return proves_definite_by_squares(graph, hessian, decider) && decider.sample_point().has_value();
+    }
+
+    /// Whether W, which is regular at one point, is so at almost all.
+    [[nodiscard]] bool is_regular_almost_everywhere() const
+    {
+        return std::ranges::all_of(hessian.blocks, [&](const Block& block) {
+            if (block.size() <= determinant_limit)
+                return is_nonzero_almost_everywhere(graph, minor_determinant(graph, hessian, block, block), setting,
+                                                    decider);
+            std::vector<NodeId> entries;
+            for (const std::size_t a : block)
+                for (const std::size_t b : block) entries.push_back(hessian.W(a, b));
+            return are_analytic(graph, entries, setting, decider);
+        });
+    }
+};
+
+/// Points and equations of a W that was not proved to be regular everywhere. `minors` and `setting` for all parameters,
+/// `given` for the values of the file.
+void describe_singular(Regularity& result, const ProofSetting& setting, const Case& given, const Replacements& values,
                        const std::vector<std::vector<NodeId>>& minors)
 {
     const std::vector<NodeId> determinants = determinants_of(minors);
-    if (const auto values = substitute_where_defined(graph, determinants, defaults)) {
-        result.singular_everywhere =
-            std::ranges::any_of(*values, [&](NodeId value) { return valued.status(value) == ProofStatus::proved; });
-        if (!result.singular_everywhere) result.singular_at = singular_points(graph, there, valued.budget(), *values);
+    if (const auto there = substitute_where_defined(given.graph, determinants, values)) {
+        result.singular_everywhere = std::ranges::any_of(
+            *there, [&](NodeId value) { return given.decider.status(value) == ProofStatus::proved; });
+        if (!result.singular_everywhere)
+            result.singular_at = singular_points(given.graph, given.setting, given.decider.budget(), *there);
     }
     if (determinants.size() == minors.size())
-        result.singular_where = singular_factors(graph, setting, valued, defaults, determinants);
+        result.singular_where = singular_factors(given.graph, setting, given.decider, values, determinants);
 }
 
 /// Adds the blocks' ranks; false where one of them is not known.
-bool add_ranks(Graph& graph, const FibreHessian& hessian, const ZeroDecider& decider, Regularity& result)
+bool add_ranks(const Case& all, const ZeroDecider& decider, Regularity& result)
 {
     result.rank = 0;
     result.evidence.clear();
-    for (const Block& block : hessian.blocks) {
-        const GenericRank generic = generic_rank(graph, hessian, block, decider);
+    for (const Block& block : all.hessian.blocks) {
+        const GenericRank generic = generic_rank(all.graph, all.hessian, block, decider);
         if (!generic.decided) {
             result.evidence =
                 "the rank of a block of " + std::to_string(block.size()) + " coupled fibre coordinates is not decided";
@@ -195,74 +222,40 @@ bool add_ranks(Graph& graph, const FibreHessian& hessian, const ZeroDecider& dec
     return true;
 }
 
-/// Definite by squares where the parameters have the values of the file.
-bool is_definite_for(Graph& graph, const FibreHessian& hessian, const ProofSetting& setting, const ProofBudget& budget,
-                     const Replacements& defaults)
+void describe_kernel(const Case& all, Regularity& result)
 {
-    if (defaults.empty()) return false;
-    const std::optional<AtValues> there = at_values(graph, hessian, setting, budget, defaults);
-    return there && proves_definite_by_squares(graph, there->hessian, *there->decider) &&
-           there->decider->sample_point().has_value();
+    result.kind = Regularity::Kind::degenerate;
+    for (const KernelVector& vector : kernel_vectors(all.graph, all.hessian, all.decider, all.setting)) {
+        auto& named = result.kernel.emplace_back();
+        for (const auto& [a, text] : vector) named.emplace_back(all.graph.input_name(all.hessian.y[a]), text);
+    }
 }
 
-/// Whether W, which is regular at one point, is so at almost all.
-bool is_regular_almost_everywhere(Graph& graph, const FibreHessian& hessian, const ProofSetting& setting,
-                                  const ZeroDecider& decider)
+/// Of a W of full generic rank, which is not definite by squares: the same question for all parameters, and for the
+/// values of the file where there are any (`given`; null where these make something undefined).
+void decide_everywhere(Regularity& result, const Case& all, const Case* given, const Replacements& values)
 {
-    return std::ranges::all_of(hessian.blocks, [&](const Block& block) {
-        if (block.size() <= determinant_limit)
-            return is_nonzero_almost_everywhere(graph, minor_determinant(graph, hessian, block, block), setting,
-                                                decider);
-        std::vector<NodeId> entries;
-        for (const std::size_t a : block)
-            for (const std::size_t b : block) entries.push_back(hessian.W(a, b));
-        return are_analytic(graph, entries, setting, decider);
-    });
-}
-
-/// The same where the parameters have the values of the file; true where these make something undefined.
-bool is_regular_for(Graph& graph, const FibreHessian& hessian, const ProofSetting& setting, const ProofBudget& budget,
-                    const Replacements& defaults)
-{
-    if (defaults.empty()) return true;
-    const std::optional<AtValues> there = at_values(graph, hessian, setting, budget, defaults);
-    return !there || is_regular_almost_everywhere(graph, there->hessian, there->setting, *there->decider);
-}
-
-/// Of a W of full generic rank: where it is regular, and whether definite.
-void decide_everywhere(Regularity& result, Graph& graph, const FibreHessian& hessian, const ProofSetting& setting,
-                       const ZeroDecider& decider, const Replacements& defaults)
-{
-    result.kind = Regularity::Kind::generically_regular;
-    const std::vector<std::vector<NodeId>> minors = leading_minors(graph, hessian);
-    const Shown shown = show(graph, hessian, setting, decider, minors);
-    if (shown.regular && shown.positive_definite) {
-        result.kind = Regularity::Kind::regular;
-        result.positive_definite = true;
-        return;
-    }
-    if (defaults.empty()) {
-        if (shown.regular)
-            result.kind = Regularity::Kind::regular;
-        else
-            describe_singular(result, graph, setting, decider, setting, defaults, minors);
-        return;
-    }
-    const std::optional<AtValues> there = at_values(graph, hessian, setting, decider.budget(), defaults);
-    if (!there) { // the claim for all parameters stands alone
-        if (shown.regular) result.kind = Regularity::Kind::regular;
-        return;
-    }
-    const Shown given =
-        is_definite_for(graph, hessian, setting, decider.budget(), defaults)
-            ? Shown{}
-            : show(graph, there->hessian, there->setting, *there->decider, leading_minors(graph, there->hessian));
-    result.for_given_parameters = given.positive_definite || (given.regular && !shown.regular);
-    result.positive_definite = given.positive_definite;
-    if (given.regular || shown.regular)
-        result.kind = Regularity::Kind::regular;
-    else
-        describe_singular(result, graph, setting, *there->decider, there->setting, defaults, minors);
+    const std::vector<std::vector<NodeId>> minors = leading_minors(all.graph, all.hessian);
+    const Shown shown = show(all.graph, all.hessian, all.setting, all.decider, minors);
+    const bool asks_again = !shown.positive_definite && given != nullptr && !values.empty();
+    Shown here = shown;
+    if (asks_again && !given->is_definite_by_squares())
+        here =
+            show(all.graph, given->hessian, given->setting, given->decider, leading_minors(all.graph, given->hessian));
+    else if (asks_again)
+        here = Shown{};
+    result.positive_definite = here.positive_definite;
+    result.for_given_parameters = asks_again && (here.positive_definite || (here.regular && !shown.regular));
+    result.kind = shown.regular || here.regular ? Regularity::Kind::regular : Regularity::Kind::generically_regular;
+    if (result.kind == Regularity::Kind::regular) return;
+    if (given != nullptr) describe_singular(result, all.setting, *given, values, minors);
+    const bool everywhere = all.is_regular_almost_everywhere();
+    if (everywhere && (result.singular_everywhere || !asks_again || given->is_regular_almost_everywhere())) return;
+    result.kind = Regularity::Kind::undecided;
+    result.evidence =
+        std::string("each block of W is regular at a point; that all are so almost everywhere is not shown") +
+        (everywhere ? " for the parameter values of the file" : "");
+    result.singular_where.clear();
 }
 
 } // namespace
@@ -274,49 +267,31 @@ bool proves_definite(Graph& graph, const FibreHessian& hessian, const ProofSetti
 }
 
 Regularity decide_regularity(Graph& graph, const FibreHessian& hessian, const ProofSetting& setting,
-                             const ZeroDecider& decider, const Replacements& defaults)
+                             const ZeroDecider& decider, const Replacements& values)
 {
     Regularity result;
     result.kind = Regularity::Kind::undecided;
-    // A sum of squares needs neither ranks nor determinants.
-    if (proves_definite_by_squares(graph, hessian, decider) && decider.sample_point()) {
+    const auto definite = [&](bool for_values) {
         result.kind = Regularity::Kind::regular;
         result.rank = hessian.momenta.size();
         result.positive_definite = true;
+        result.for_given_parameters = for_values;
         return result;
-    }
-    // Small blocks are tried for all parameters first.
-    const bool large =
-        std::any_of(hessian.blocks.begin(), hessian.blocks.end(), [](const Block& block) { return block.size() > 4; });
-    if (large && is_definite_for(graph, hessian, setting, decider.budget(), defaults)) {
-        result.kind = Regularity::Kind::regular;
-        result.rank = hessian.momenta.size();
-        result.positive_definite = result.for_given_parameters = true;
-        return result;
-    }
-    const ZeroDecider quick(graph, setting, smaller(decider.budget(), witness_budget));
-    if (!add_ranks(graph, hessian, quick, result) && !add_ranks(graph, hessian, decider, result)) return result;
-    if (result.rank < hessian.momenta.size()) {
-        result.kind = Regularity::Kind::degenerate;
-        for (const KernelVector& vector : kernel_vectors(graph, hessian, decider, setting)) {
-            auto& named = result.kernel.emplace_back();
-            for (const auto& [a, text] : vector) named.emplace_back(graph.input_name(hessian.y[a]), text);
-        }
-        return result;
-    }
-    decide_everywhere(result, graph, hessian, setting, decider, defaults);
-    if (result.kind != Regularity::Kind::generically_regular) return result;
-    const auto withdraw = [&](const char* where) {
-        result.kind = Regularity::Kind::undecided;
-        result.evidence =
-            std::string("each block of W is regular at a point; that all are so almost everywhere is not shown") +
-            where;
-        result.singular_where.clear();
     };
-    if (!is_regular_almost_everywhere(graph, hessian, setting, decider))
-        withdraw("");
-    else if (!result.singular_everywhere && !is_regular_for(graph, hessian, setting, decider.budget(), defaults))
-        withdraw(" for the parameter values of the file");
+    const Case all{graph, hessian, setting, decider};
+    if (all.is_definite_by_squares()) return definite(false);
+    const std::optional<AtValues> there = at_values(graph, hessian, setting, decider.budget(), values);
+    std::optional<Case> given;
+    if (there) given.emplace(Case{graph, there->hessian, there->setting, *there->decider});
+    // Small blocks are tried for all parameters first.
+    const bool large = std::ranges::any_of(hessian.blocks, [](const Block& block) { return block.size() > 4; });
+    if (large && given && !values.empty() && given->is_definite_by_squares()) return definite(true);
+    const ZeroDecider quick(graph, setting, smaller(decider.budget(), witness_budget));
+    if (!add_ranks(all, quick, result) && !add_ranks(all, decider, result)) return result;
+    if (result.rank < hessian.momenta.size())
+        describe_kernel(all, result);
+    else
+        decide_everywhere(result, all, given ? &*given : nullptr, values);
     return result;
 }
 

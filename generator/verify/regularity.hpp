@@ -8,10 +8,10 @@
 
 namespace lagen {
 
-/// `defaults`: parameter inputs with their values in the file, used where the claim does not hold for all parameters.
+/// For all parameters, and by the same code for `values` (of the file) of those where that shows less than wanted.
 [[nodiscard]] Regularity decide_regularity(Graph& graph, const FibreHessian& hessian, const ProofSetting& setting,
                                            const ZeroDecider& decider,
-                                           const std::vector<std::pair<NodeId, NodeId>>& defaults);
+                                           const std::vector<std::pair<NodeId, NodeId>>& values);
 
 /// Whether W is proved positive definite wherever it is defined.
 [[nodiscard]] bool proves_definite(Graph& graph, const FibreHessian& hessian, const ProofSetting& setting,

@@ -2,7 +2,7 @@
 /// Slices of a model: one variable is zero, the rest of the setting stays.
 #include "verify/singular_points.hpp"
 
-#include "graph/calculus/substitute.hpp"
+#include "graph/calculus/differentiate.hpp"
 #include "verify/at_values.hpp"
 
 #include <algorithm>

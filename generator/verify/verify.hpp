@@ -110,7 +110,7 @@ constexpr int reevaluation_digits = 60;
 /// Of a subbundle: a check "involutive" (a, b) for each pair of sections, from its anchor equations.
 void append_involutive(Report& report, const System& system);
 
-/// What `Decision::evidence` says where System::construction holds.
+/// What `Decision::evidence` says where the construction of an algebroid holds.
 inline constexpr const char* construction_argument =
     "by construction: a frame of what is proved to be an algebroid, and its determinant is not zero";
 

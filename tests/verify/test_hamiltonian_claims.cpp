@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Checks of models with a Hamiltonian: invariants along Hamilton's equations, regularity of d2H/dmu2, and whether H is
 /// the Legendre transform of L where both are given.
+#include "verify/algebroid_texts.hpp"
 #include "verify/claim_statuses.hpp"
 
 #include <catch2/catch.hpp>
@@ -17,28 +18,9 @@ std::string hamiltonian_plane(const std::string& hamiltonian, const std::string&
            hamiltonian + "\"\n" + more;
 }
 
-const std::string heavy_top_momenta = R"(
-[parameters]
-I1 = 1
-I3 = 3
-mgl = 5
-[base]
-coordinates = ["g1", "g2", "g3"]
-constraints = ["g1^2 + g2^2 + g3^2 - 1"]
-[fibre]
-coordinates = ["w1", "w2", "w3"]
-momenta = ["m1", "m2", "m3"]
-[algebroid.anchor]
-w1 = { g2 = "g3", g3 = "-g2" }
-w2 = { g1 = "-g3", g3 = "g1" }
-w3 = { g1 = "g2", g2 = "-g1" }
-[algebroid.bracket]
-"w1,w2" = { w3 = 1 }
-"w2,w3" = { w1 = 1 }
-"w3,w1" = { w2 = 1 }
-[hamiltonian]
-H = "(m1^2/I1 + m2^2/I1 + m3^2/I3)/2 + mgl*g3"
-)";
+const std::string heavy_top_momenta = "[parameters]\nI1 = 1\nI3 = 3\nmgl = 5\n" +
+                                      turning_vector(on_sphere, "momenta = [\"m1\", \"m2\", \"m3\"]\n") +
+                                      "[hamiltonian]\nH = \"(m1^2/I1 + m2^2/I1 + m3^2/I3)/2 + mgl*g3\"\n";
 
 const Check& legendre_of(const Report& verified)
 {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Hints of refuted algebroids: the one sign or the one entry that mends them, in the words of the file.
+#include "verify/algebroid_texts.hpp"
 #include "verify/checking.hpp"
 
 #include <catch2/catch.hpp>
@@ -22,35 +23,8 @@ std::string with(std::string text, const std::string& passage, const std::string
     return text.replace(at, passage.size(), by);
 }
 
-const std::string half_plane = R"(
-[base]
-coordinates = ["x", "y"]
-[fibre]
-coordinates = ["a", "b"]
-[algebroid.anchor]
-a = { x = "y" }
-b = { y = "y" }
-[algebroid.bracket]
-)";
-
-const std::string top = R"(
-[base]
-coordinates = ["g1", "g2", "g3"]
-[fibre]
-coordinates = ["w1", "w2", "w3"]
-[algebroid.anchor]
-w1 = { g2 = "g3", g3 = "-g2" }
-w2 = { g1 = "-g3", g3 = "g1" }
-w3 = { g1 = "g2", g2 = "-g1" }
-[algebroid.bracket]
-"w1,w2" = { w3 = 1 }
-"w2,w3" = { w1 = 1 }
-"w3,w1" = { w2 = 1 }
-)";
-
-const std::string top_on_sphere = "\n[base]\ncoordinates = [\"g1\", \"g2\", \"g3\"]\n"
-                                  "constraints = [\"g1^2 + g2^2 + g3^2 - 1\"]\n" +
-                                  top.substr(top.find("[fibre]"));
+const std::string top = turning_vector();
+const std::string top_on_sphere = turning_vector(on_sphere);
 
 /// so(4) in the basis of pairs i < j, as a user would write it.
 const std::string so4 = R"(
@@ -77,7 +51,7 @@ kind = "lie_algebra"
 
 TEST_CASE("the models that the hints start from are valid")
 {
-    CHECK(verified_text(half_plane + "\"a,b\" = { a = -1 }\n").verdict == Verdict::valid);
+    CHECK(verified_text(half_plane_frame + "\"a,b\" = { a = -1 }\n").verdict == Verdict::valid);
     CHECK(verified_text(top).verdict == Verdict::valid);
     CHECK(verified_text(top_on_sphere).verdict == Verdict::valid);
     CHECK(verified_text(so4).verdict == Verdict::valid);
@@ -100,7 +74,7 @@ TEST_CASE("a flipped sign of an anchor entry is named")
 
 TEST_CASE("where two signs would mend a model both are named")
 {
-    CHECK(hints_of(half_plane + "\"b,a\" = { a = -1 }\n") ==
+    CHECK(hints_of(half_plane_frame + "\"b,a\" = { a = -1 }\n") ==
           Hints{"all equations of the algebroid hold with the opposite sign of component a of [b, a], or with the "
                 "opposite sign of component y of the anchor of b"});
 }
@@ -126,9 +100,9 @@ b = { x = "1 + exp(x)" }
 
 TEST_CASE("where the anchor determines a component the hint says its value and what is given")
 {
-    CHECK(hints_of(half_plane + "\"a,b\" = { a = -2 }\n") ==
+    CHECK(hints_of(half_plane_frame + "\"a,b\" = { a = -2 }\n") ==
           Hints{"[a, b] needs component a = -1, given is -2; with it all equations of the algebroid hold"});
-    CHECK(hints_of(half_plane) ==
+    CHECK(hints_of(half_plane_frame) ==
           Hints{"[a, b] needs component a = -1, given is none; with it all equations of the algebroid hold"});
     CHECK(hints_of(with(top, "w2 = 1 }", "w2 = \"1.000000000000001\" }")) ==
           Hints{"[w3, w1] needs component w2 = 1, given is 1.000000000000001; with it all equations of the algebroid "

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Conserved quantities along Lagrange's equations, proved and refuted.
+#include "verify/algebroid_texts.hpp"
 #include "verify/claim_statuses.hpp"
 
 #include <catch2/catch.hpp>
@@ -7,13 +8,6 @@
 using namespace lagen;
 
 namespace {
-
-const std::string so3 = R"(
-[algebroid.bracket]
-"w1,w2" = { w3 = 1 }
-"w2,w3" = { w1 = 1 }
-"w3,w1" = { w2 = 1 }
-)";
 
 const std::string rigid_body = R"(
 [parameters]
@@ -24,29 +18,13 @@ I3 = 3
 coordinates = ["w1", "w2", "w3"]
 [algebroid]
 kind = "lie_algebra"
-)" + so3 + R"(
-[lagrangian]
+)" + so3_bracket + R"([lagrangian]
 L = "(I1*w1^2 + I2*w2^2 + I3*w3^2)/2"
 )";
 
 std::string heavy_top(const std::string& lagrangian)
 {
-    return R"(
-[parameters]
-I1 = 1
-I2 = 2
-I3 = 3
-mgl = 5
-[base]
-coordinates = ["g1", "g2", "g3"]
-constraints = ["g1^2 + g2^2 + g3^2 - 1"]
-[fibre]
-coordinates = ["w1", "w2", "w3"]
-[algebroid.anchor]
-w1 = { g2 = "g3", g3 = "-g2" }
-w2 = { g1 = "-g3", g3 = "g1" }
-w3 = { g1 = "g2", g2 = "-g1" }
-)" + so3 + "[lagrangian]\nL = \"" +
+    return "[parameters]\nI1 = 1\nI2 = 2\nI3 = 3\nmgl = 5\n" + turning_vector(on_sphere) + "[lagrangian]\nL = \"" +
            lagrangian + "\"\n";
 }
 

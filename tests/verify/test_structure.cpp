@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Structure equations, tangency and Casimirs: what is checked, what is counted as trivial, and what refutations say.
+#include "verify/algebroid_texts.hpp"
 #include "verify/checking.hpp"
 
 #include "algebroid/structure_equations.hpp"
@@ -17,39 +18,13 @@ using Lines = std::vector<std::string>;
 
 namespace {
 
-const std::string half_plane = R"(
-[base]
-coordinates = ["x", "y"]
-[fibre]
-coordinates = ["a", "b"]
-[algebroid.anchor]
-a = { x = "y" }
-b = { y = "y" }
-[algebroid.bracket]
-)";
-
-const std::string sphere = R"(
-[base]
-coordinates = ["g1", "g2", "g3"]
-constraints = ["g1^2 + g2^2 + g3^2 - 1"]
-casimirs = { a = "g1^2 + g2^2 + g3^2" }
-[fibre]
-coordinates = ["w1", "w2", "w3"]
-[algebroid.anchor]
-w1 = { g2 = "g3", g3 = "-g2" }
-w2 = { g1 = "-g3", g3 = "g1" }
-w3 = { g1 = "g2", g2 = "-g1" }
-[algebroid.bracket]
-"w1,w2" = { w3 = 1 }
-"w2,w3" = { w1 = 1 }
-"w3,w1" = { w2 = 1 }
-)";
+const std::string sphere = turning_vector(on_sphere + "casimirs = { a = \"g1^2 + g2^2 + g3^2\" }\n");
 
 } // namespace
 
 TEST_CASE("the half-plane frame is valid with [a, b] = -a")
 {
-    const ModelReport verified = verified_text(half_plane + "\"a,b\" = { a = -1 }\n");
+    const ModelReport verified = verified_text(half_plane_frame + "\"a,b\" = { a = -1 }\n");
     CHECK(verified.verdict == Verdict::valid);
     CHECK(lines_of(verified) == Lines{"anchor(a, b, x) proved"});
     CHECK(verified.trivial == 1);
@@ -58,7 +33,7 @@ TEST_CASE("the half-plane frame is valid with [a, b] = -a")
 
 TEST_CASE("a wrong sign in a bracket is refuted with a witness, and the hint names the entry")
 {
-    const ModelReport verified = verified_text(half_plane + "\"a,b\" = { a = 1 }\n");
+    const ModelReport verified = verified_text(half_plane_frame + "\"a,b\" = { a = 1 }\n");
     CHECK(verified.verdict == Verdict::invalid);
     REQUIRE(lines_of(verified) == Lines{"anchor(a, b, x) refuted"});
     const Check& check = verified.checks[0];

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Proofs looked at again at other points, counts of what is zero by structure, and divisions by zero in every block.
+#include "verify/algebroid_texts.hpp"
 #include "verify/checking.hpp"
 
 #include "graph/core/lower.hpp"
@@ -15,22 +16,8 @@ CATCH_TRANSLATE_EXCEPTION(const InternalError& error)
 
 namespace {
 
-const std::string checked_sphere = R"(
-[base]
-coordinates = ["g1", "g2", "g3"]
-constraints = ["g1^2 + g2^2 + g3^2 - 1"]
-casimirs = { a = "g1^2 + g2^2 + g3^2" }
-[fibre]
-coordinates = ["w1", "w2", "w3"]
-[algebroid.anchor]
-w1 = { g2 = "g3", g3 = "-g2" }
-w2 = { g1 = "-g3", g3 = "g1" }
-w3 = { g1 = "g2", g2 = "-g1" }
-[algebroid.bracket]
-"w1,w2" = { w3 = 1 }
-"w2,w3" = { w1 = 1 }
-"w3,w1" = { w2 = 1 }
-[lagrangian]
+const std::string checked_sphere = turning_vector(on_sphere + "casimirs = { a = \"g1^2 + g2^2 + g3^2\" }\n") +
+                                   R"([lagrangian]
 L = "(w1^2 + w2^2 + 2*w3^2)/2 - g3"
 [invariants]
 vertical = "p_w1*g1 + p_w2*g2 + p_w3*g3"
