@@ -139,9 +139,7 @@ class attitude_pontryagin {
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
         auto status = StatusOf<S>::good();
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const auto [I1, I2, I3] = parameters;
         StatusOf<S>::fail(status, I1 == S(0), Status::singular_mass_matrix);
         StatusOf<S>::fail(status, !(I1 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, I2 == S(0), Status::singular_mass_matrix);
@@ -156,17 +154,10 @@ class attitude_pontryagin {
     /// s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        const S q0 = s[0];
-        const S q1 = s[1];
-        const S q2 = s[2];
-        const S q3 = s[3];
-        const S mu1 = s[4];
-        const S mu2 = s[5];
-        const S mu3 = s[6];
+        const S q0 = s[0], q1 = s[1], q2 = s[2], q3 = s[3];
+        const S mu1 = s[4], mu2 = s[5], mu3 = s[6];
         const S w0 = S(0.5) * q1;
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const auto [I1, I2, I3] = parameters;
         const S w1 = mu1 / I1;
         const S w2 = S(0.5) * q2;
         const S w3 = mu2 / I2;
@@ -188,12 +179,8 @@ class attitude_pontryagin {
     [[nodiscard]] Eigen::Matrix<S, 3, 1> controls([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 3, 1> result;
-        const S mu1 = s[4];
-        const S mu2 = s[5];
-        const S mu3 = s[6];
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const S mu1 = s[4], mu2 = s[5], mu3 = s[6];
+        const auto [I1, I2, I3] = parameters;
         result[0] = mu1 / I1;
         result[1] = mu2 / I2;
         result[2] = mu3 / I3;
@@ -203,24 +190,16 @@ class attitude_pontryagin {
     /// H = mu_a sigma^a - cost at these controls.
     [[nodiscard]] S hamiltonian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S mu1 = s[4];
-        const S mu2 = s[5];
-        const S mu3 = s[6];
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const S mu1 = s[4], mu2 = s[5], mu3 = s[6];
+        const auto [I1, I2, I3] = parameters;
         return S(0.5) * (mu1 * mu1 / I1 + mu2 * mu2 / I2 + mu3 * mu3 / I3);
     }
 
     /// The running cost.
     [[nodiscard]] S cost([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S mu1 = s[4];
-        const S mu2 = s[5];
-        const S mu3 = s[6];
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const S mu1 = s[4], mu2 = s[5], mu3 = s[6];
+        const auto [I1, I2, I3] = parameters;
         return S(0.5) * (mu1 * mu1 / I1 + mu2 * mu2 / I2 + mu3 * mu3 / I3);
     }
 
@@ -240,9 +219,7 @@ class attitude_pontryagin {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S mu1 = s[4];
-        const S mu2 = s[5];
-        const S mu3 = s[6];
+        const S mu1 = s[4], mu2 = s[5], mu3 = s[6];
         result[0] = mu1 * mu1 + mu2 * mu2 + mu3 * mu3;
         return result;
     }
@@ -256,16 +233,9 @@ class attitude_pontryagin {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 30>& values) const noexcept
     {
-        const S q0 = s[0];
-        const S q1 = s[1];
-        const S q2 = s[2];
-        const S q3 = s[3];
-        const S mu1 = s[4];
-        const S mu2 = s[5];
-        const S mu3 = s[6];
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const S q0 = s[0], q1 = s[1], q2 = s[2], q3 = s[3];
+        const S mu1 = s[4], mu2 = s[5], mu3 = s[6];
+        const auto [I1, I2, I3] = parameters;
         const S w0 = S(1) / I1;
         const S w1 = S(0.5) * w0;
         const S w2 = w1 * mu1;

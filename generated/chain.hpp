@@ -25,7 +25,7 @@
 ///              + l[1] l[3] (m[3] + m[4]) w[1] sin(a[1]) sin(a[3]) + l[1] l[3] (m[3] + m[4]) w[1] cos(a[1]) cos(a[3])
 ///              + l[2] l[3] (m[3] + m[4]) w[2] sin(a[2]) sin(a[3]) + l[2] l[3] (m[3] + m[4]) w[2] cos(a[2]) cos(a[3])
 ///              + l[3]² (m[3] + m[4]) w[3]
-///     p_w[4] = m[4] l[4] (l[1] w[1] sin(a[1]) sin(a[4]) + l[1] w[1] cos(a[1]) cos(a[4]) + l[2] w[2] sin(a[2]) sin(a[4]) + l[2] w[2] cos(a[2]) cos(a[4]) + l[3] w[3] sin(a[3]) sin(a[4]) + l[3] w[3] cos(a[...
+///     (one equation is too long to stand here: lagen derive chain.toml prints it)
 ///
 ///   equations of motion (momentum form):  ṗ_a = ρ_a(L) - p_c C^c_ab y^b
 ///     ṗ_w[1] = m[4] l[1] l[4] w[1] w[4] sin(a[4]) cos(a[1]) + l[1] l[2] (m[2] + m[3] + m[4]) w[1] w[2] sin(a[2]) cos(a[1])
@@ -40,32 +40,11 @@
 ///              + l[2] l[3] (m[3] + m[4]) w[2] w[3] sin(a[2]) cos(a[3]) - m[4] l[3] l[4] w[3] w[4] sin(a[3]) cos(a[4])
 ///              - l[1] l[3] (m[3] + m[4]) w[1] w[3] sin(a[3]) cos(a[1])
 ///              - l[2] l[3] (m[3] + m[4]) w[2] w[3] sin(a[3]) cos(a[2]) - l[3] g (m[3] + m[4]) sin(a[3])
-///     ṗ_w[4] = m[4] l[4] (l[1] w[1] w[4] sin(a[1]) cos(a[4]) - l[1] w[1] w[4] sin(a[4]) cos(a[1]) + l[2] w[2] w[4] sin(a[2]) cos(a[4]) - l[2] w[2] w[4] sin(a[4]) cos(a[2]) + l[3] w[3] w[4] sin(a[3]) c...
+///     (one equation is too long to stand here: lagen derive chain.toml prints it)
 ///
 ///   equations of motion (acceleration form):
 ///     W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - ∂²L/∂y^a∂t - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
-///     l[1]² (m[1] + m[2] + m[3] + m[4]) d/dt w[1] + l[1] l[2] (m[2] + m[3] + m[4]) (sin(a[1]) sin(a[2]) + cos(a[1]) cos(a[2])) d/dt w[2] + l[1] l[3] (m[3] + m[4]) (sin(a[1]) sin(a[3]) + cos(a[1]) cos(a...
-///                                                                    + l[1] l[2] (m[2] + m[3] + m[4]) w[2]² sin(a[2]) cos(a[1])
-///                                                                    + l[1] l[3] (m[3] + m[4]) w[3]² sin(a[3]) cos(a[1])
-///                                                                    - m[4] l[1] l[4] w[4]² sin(a[1]) cos(a[4])
-///                                                                    - l[1] l[2] (m[2] + m[3] + m[4]) w[2]² sin(a[1]) cos(a[2])
-///                                                                    - l[1] l[3] (m[3] + m[4]) w[3]² sin(a[1]) cos(a[3])
-///                                                                    - l[1] g (m[1] + m[2] + m[3] + m[4]) sin(a[1])
-///     l[1] l[2] (m[2] + m[3] + m[4]) (sin(a[1]) sin(a[2]) + cos(a[1]) cos(a[2])) d/dt w[1] + l[2]² (m[2] + m[3] + m[4]) d/dt w[2] + l[2] l[3] (m[3] + m[4]) (sin(a[2]) sin(a[3]) + cos(a[2]) cos(a[3])) d...
-///                                                                    + l[1] l[2] (m[2] + m[3] + m[4]) w[1]² sin(a[1]) cos(a[2])
-///                                                                    + l[2] l[3] (m[3] + m[4]) w[3]² sin(a[3]) cos(a[2])
-///                                                                    - m[4] l[2] l[4] w[4]² sin(a[2]) cos(a[4])
-///                                                                    - l[1] l[2] (m[2] + m[3] + m[4]) w[1]² sin(a[2]) cos(a[1])
-///                                                                    - l[2] l[3] (m[3] + m[4]) w[3]² sin(a[2]) cos(a[3])
-///                                                                    - l[2] g (m[2] + m[3] + m[4]) sin(a[2])
-///     l[1] l[3] (m[3] + m[4]) (sin(a[1]) sin(a[3]) + cos(a[1]) cos(a[3])) d/dt w[1] + l[2] l[3] (m[3] + m[4]) (sin(a[2]) sin(a[3]) + cos(a[2]) cos(a[3])) d/dt w[2] + l[3]² (m[3] + m[4]) d/dt w[3] + m[4...
-///                                                                    + l[1] l[3] (m[3] + m[4]) w[1]² sin(a[1]) cos(a[3])
-///                                                                    + l[2] l[3] (m[3] + m[4]) w[2]² sin(a[2]) cos(a[3])
-///                                                                    - m[4] l[3] l[4] w[4]² sin(a[3]) cos(a[4])
-///                                                                    - l[1] l[3] (m[3] + m[4]) w[1]² sin(a[3]) cos(a[1])
-///                                                                    - l[2] l[3] (m[3] + m[4]) w[2]² sin(a[3]) cos(a[2])
-///                                                                    - l[3] g (m[3] + m[4]) sin(a[3])
-///     m[4] l[1] l[4] (sin(a[1]) sin(a[4]) + cos(a[1]) cos(a[4])) d/dt w[1] + m[4] l[2] l[4] (sin(a[2]) sin(a[4]) + cos(a[2]) cos(a[4])) d/dt w[2] + m[4] l[3] l[4] (sin(a[3]) sin(a[4]) + cos(a[3]) cos(a[...
+///     (4 equations are too long to stand here: lagen derive chain.toml prints them)
 ///
 ///   energy:  E = y^a p_a - L
 ///     E = m[4] l[1] l[4] w[1] w[4] sin(a[1]) sin(a[4]) + m[4] l[1] l[4] w[1] w[4] cos(a[1]) cos(a[4])
@@ -200,14 +179,7 @@ class chain {
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
         auto status = StatusOf<S>::good();
-        const S m_1 = parameters.m_1;
-        const S m_2 = parameters.m_2;
-        const S m_3 = parameters.m_3;
-        const S m_4 = parameters.m_4;
-        const S l_1 = parameters.l_1;
-        const S l_2 = parameters.l_2;
-        const S l_3 = parameters.l_3;
-        const S l_4 = parameters.l_4;
+        const auto [m_1, m_2, m_3, m_4, l_1, l_2, l_3, l_4, g] = parameters;
         StatusOf<S>::fail(status, !(m_1 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, !(m_2 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, !(m_3 > S(0)), Status::left_domain);
@@ -225,28 +197,14 @@ class chain {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        const S a_1 = s[0];
-        const S a_2 = s[1];
-        const S a_3 = s[2];
-        const S a_4 = s[3];
-        const S w_1 = s[4];
-        const S w_2 = s[5];
-        const S w_3 = s[6];
-        const S w_4 = s[7];
+        const S a_1 = s[0], a_2 = s[1], a_3 = s[2], a_4 = s[3];
+        const S w_1 = s[4], w_2 = s[5], w_3 = s[6], w_4 = s[7];
         auto status = StatusOf<S>::good();
         ds[0] = w_1;
         ds[1] = w_2;
         ds[2] = w_3;
         ds[3] = w_4;
-        const S m_1 = parameters.m_1;
-        const S m_2 = parameters.m_2;
-        const S m_3 = parameters.m_3;
-        const S m_4 = parameters.m_4;
-        const S l_1 = parameters.l_1;
-        const S l_2 = parameters.l_2;
-        const S l_3 = parameters.l_3;
-        const S l_4 = parameters.l_4;
-        const S g = parameters.g;
+        const auto [m_1, m_2, m_3, m_4, l_1, l_2, l_3, l_4, g] = parameters;
         const S w0 = m_3 + m_4;
         const S w1 = m_2 + w0;
         const auto [sines, cosines] = sincos<S, 4>({a_1, a_2, a_3, a_4});
@@ -331,18 +289,8 @@ class chain {
     [[nodiscard]] Eigen::Matrix<S, 4, 4> mass_matrix([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 4, 4> result;
-        const S a_1 = s[0];
-        const S a_2 = s[1];
-        const S a_3 = s[2];
-        const S a_4 = s[3];
-        const S m_1 = parameters.m_1;
-        const S m_2 = parameters.m_2;
-        const S m_3 = parameters.m_3;
-        const S m_4 = parameters.m_4;
-        const S l_1 = parameters.l_1;
-        const S l_2 = parameters.l_2;
-        const S l_3 = parameters.l_3;
-        const S l_4 = parameters.l_4;
+        const S a_1 = s[0], a_2 = s[1], a_3 = s[2], a_4 = s[3];
+        const auto [m_1, m_2, m_3, m_4, l_1, l_2, l_3, l_4, g] = parameters;
         const S w0 = m_3 + m_4;
         const S w1 = m_2 + w0;
         result(0, 0) = (m_1 + w1) * (l_1 * l_1);
@@ -378,22 +326,9 @@ class chain {
     [[nodiscard]] Eigen::Matrix<S, 4, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 4, 1> result;
-        const S a_1 = s[0];
-        const S a_2 = s[1];
-        const S a_3 = s[2];
-        const S a_4 = s[3];
-        const S w_1 = s[4];
-        const S w_2 = s[5];
-        const S w_3 = s[6];
-        const S w_4 = s[7];
-        const S m_1 = parameters.m_1;
-        const S m_2 = parameters.m_2;
-        const S m_3 = parameters.m_3;
-        const S m_4 = parameters.m_4;
-        const S l_1 = parameters.l_1;
-        const S l_2 = parameters.l_2;
-        const S l_3 = parameters.l_3;
-        const S l_4 = parameters.l_4;
+        const S a_1 = s[0], a_2 = s[1], a_3 = s[2], a_4 = s[3];
+        const S w_1 = s[4], w_2 = s[5], w_3 = s[6], w_4 = s[7];
+        const auto [m_1, m_2, m_3, m_4, l_1, l_2, l_3, l_4, g] = parameters;
         const S w0 = l_1 * w_1;
         const auto [sines, cosines] = sincos<S, 4>({a_1, a_2, a_3, a_4});
         const S w1 = l_2 * w_2;
@@ -402,41 +337,27 @@ class chain {
         const S w4 = cosines[2] * w3 + w2;
         const S w5 = l_4 * w_4;
         const S w6 = cosines[3] * w5 + w4;
-        const S w7 = sines[0] * w0 + sines[1] * w1;
-        const S w8 = sines[2] * w3 + w7;
-        const S w9 = sines[3] * w5 + w8;
-        result[3] = m_4 * l_4 * (cosines[3] * w6 + sines[3] * w9);
-        const S w10 = m_3 * w4 + m_4 * w6;
-        const S w11 = m_3 * w8 + m_4 * w9;
-        result[2] = l_3 * (cosines[2] * w10 + sines[2] * w11);
-        const S w12 = m_2 * w2 + w10;
-        const S w13 = m_2 * w7 + w11;
-        result[1] = l_2 * (cosines[1] * w12 + sines[1] * w13);
-        const S w14 = m_1 * w0;
-        result[0] = l_1 * (cosines[0] * (cosines[0] * w14 + w12) + sines[0] * (sines[0] * w14 + w13));
+        const S w7 = m_3 * w4 + m_4 * w6;
+        const S w8 = m_2 * w2 + w7;
+        const S w9 = m_1 * w0;
+        const S w10 = sines[0] * w0 + sines[1] * w1;
+        const S w11 = sines[2] * w3 + w10;
+        const S w12 = sines[3] * w5 + w11;
+        const S w13 = m_3 * w11 + m_4 * w12;
+        const S w14 = m_2 * w10 + w13;
+        result[0] = l_1 * (cosines[0] * (cosines[0] * w9 + w8) + sines[0] * (sines[0] * w9 + w14));
+        result[1] = l_2 * (cosines[1] * w8 + sines[1] * w14);
+        result[2] = l_3 * (cosines[2] * w7 + sines[2] * w13);
+        result[3] = m_4 * l_4 * (cosines[3] * w6 + sines[3] * w12);
         return result;
     }
 
     /// E = y^a p_a - L.
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S a_1 = s[0];
-        const S a_2 = s[1];
-        const S a_3 = s[2];
-        const S a_4 = s[3];
-        const S w_1 = s[4];
-        const S w_2 = s[5];
-        const S w_3 = s[6];
-        const S w_4 = s[7];
-        const S m_1 = parameters.m_1;
-        const S m_2 = parameters.m_2;
-        const S m_3 = parameters.m_3;
-        const S m_4 = parameters.m_4;
-        const S l_1 = parameters.l_1;
-        const S l_2 = parameters.l_2;
-        const S l_3 = parameters.l_3;
-        const S l_4 = parameters.l_4;
-        const S g = parameters.g;
+        const S a_1 = s[0], a_2 = s[1], a_3 = s[2], a_4 = s[3];
+        const S w_1 = s[4], w_2 = s[5], w_3 = s[6], w_4 = s[7];
+        const auto [m_1, m_2, m_3, m_4, l_1, l_2, l_3, l_4, g] = parameters;
         const S w0 = l_1 * w_1;
         const auto [sines, cosines] = sincos<S, 4>({a_1, a_2, a_3, a_4});
         const S w1 = l_2 * w_2;
@@ -467,23 +388,9 @@ class chain {
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S a_1 = s[0];
-        const S a_2 = s[1];
-        const S a_3 = s[2];
-        const S a_4 = s[3];
-        const S w_1 = s[4];
-        const S w_2 = s[5];
-        const S w_3 = s[6];
-        const S w_4 = s[7];
-        const S m_1 = parameters.m_1;
-        const S m_2 = parameters.m_2;
-        const S m_3 = parameters.m_3;
-        const S m_4 = parameters.m_4;
-        const S l_1 = parameters.l_1;
-        const S l_2 = parameters.l_2;
-        const S l_3 = parameters.l_3;
-        const S l_4 = parameters.l_4;
-        const S g = parameters.g;
+        const S a_1 = s[0], a_2 = s[1], a_3 = s[2], a_4 = s[3];
+        const S w_1 = s[4], w_2 = s[5], w_3 = s[6], w_4 = s[7];
+        const auto [m_1, m_2, m_3, m_4, l_1, l_2, l_3, l_4, g] = parameters;
         const S w0 = l_1 * w_1;
         const auto [sines, cosines] = sincos<S, 4>({a_1, a_2, a_3, a_4});
         const S w1 = l_2 * w_2;
@@ -508,15 +415,9 @@ class chain {
     [[nodiscard]] Eigen::Matrix<S, 2, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 2, 1> result;
-        const S a_1 = s[0];
-        const S a_2 = s[1];
-        const S a_3 = s[2];
-        const S a_4 = s[3];
+        const S a_1 = s[0], a_2 = s[1], a_3 = s[2], a_4 = s[3];
         const auto [sines, cosines] = sincos<S, 4>({a_1, a_2, a_3, a_4});
-        const S l_1 = parameters.l_1;
-        const S l_2 = parameters.l_2;
-        const S l_3 = parameters.l_3;
-        const S l_4 = parameters.l_4;
+        const S l_1 = parameters.l_1, l_2 = parameters.l_2, l_3 = parameters.l_3, l_4 = parameters.l_4;
         result[0] = l_1 * sines[0] + l_2 * sines[1] + l_3 * sines[2] + l_4 * sines[3];
         result[1] = -(l_1 * cosines[0] + l_2 * cosines[1] + l_3 * cosines[2] + l_4 * cosines[3]);
         return result;
@@ -531,23 +432,9 @@ class chain {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 36>& values) const noexcept
     {
-        const S a_1 = s[0];
-        const S a_2 = s[1];
-        const S a_3 = s[2];
-        const S a_4 = s[3];
-        const S w_1 = s[4];
-        const S w_2 = s[5];
-        const S w_3 = s[6];
-        const S w_4 = s[7];
-        const S m_1 = parameters.m_1;
-        const S m_2 = parameters.m_2;
-        const S m_3 = parameters.m_3;
-        const S m_4 = parameters.m_4;
-        const S l_1 = parameters.l_1;
-        const S l_2 = parameters.l_2;
-        const S l_3 = parameters.l_3;
-        const S l_4 = parameters.l_4;
-        const S g = parameters.g;
+        const S a_1 = s[0], a_2 = s[1], a_3 = s[2], a_4 = s[3];
+        const S w_1 = s[4], w_2 = s[5], w_3 = s[6], w_4 = s[7];
+        const auto [m_1, m_2, m_3, m_4, l_1, l_2, l_3, l_4, g] = parameters;
         const S w0 = m_3 + m_4;
         const S w1 = m_4 * l_4;
         const S w2 = m_2 + w0;

@@ -134,17 +134,11 @@ class charged_particle {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        const S x = s[0];
-        const S y = s[1];
-        const S u = s[2];
-        const S v = s[3];
-        const S q = s[4];
+        const S x = s[0], y = s[1];
+        const S u = s[2], v = s[3], q = s[4];
         ds[0] = u;
         ds[1] = v;
-        const S b0 = parameters.b0;
-        const S b1 = parameters.b1;
-        const S b2 = parameters.b2;
-        const S k = parameters.k;
+        const auto [b0, b1, b2, k] = parameters;
         const S w0 = (b0 + b1 * x + b2 * (y * y)) * q;
         ds[2] = v * w0 - k * x;
         ds[3] = -(k * y + u * w0);
@@ -167,9 +161,7 @@ class charged_particle {
     [[nodiscard]] Eigen::Matrix<S, 3, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 3, 1> result;
-        const S u = s[2];
-        const S v = s[3];
-        const S q = s[4];
+        const S u = s[2], v = s[3], q = s[4];
         result[0] = u;
         result[1] = v;
         result[2] = q;
@@ -179,11 +171,8 @@ class charged_particle {
     /// E = y^a p_a - L.
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S x = s[0];
-        const S y = s[1];
-        const S u = s[2];
-        const S v = s[3];
-        const S q = s[4];
+        const S x = s[0], y = s[1];
+        const S u = s[2], v = s[3], q = s[4];
         const S k = parameters.k;
         return S(0.5) * (k * (x * x + y * y) + u * u + v * v + q * q);
     }
@@ -191,11 +180,8 @@ class charged_particle {
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S x = s[0];
-        const S y = s[1];
-        const S u = s[2];
-        const S v = s[3];
-        const S q = s[4];
+        const S x = s[0], y = s[1];
+        const S u = s[2], v = s[3], q = s[4];
         const S k = parameters.k;
         return S(0.5) * (u * u + v * v + q * q - k * (x * x + y * y));
     }
@@ -205,11 +191,8 @@ class charged_particle {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S x = s[0];
-        const S y = s[1];
-        const S b0 = parameters.b0;
-        const S b1 = parameters.b1;
-        const S b2 = parameters.b2;
+        const S x = s[0], y = s[1];
+        const auto [b0, b1, b2, k] = parameters;
         result[0] = b0 + b1 * x + b2 * (y * y);
         return result;
     }
@@ -219,11 +202,8 @@ class charged_particle {
     [[nodiscard]] Eigen::Matrix<S, 2, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 2, 1> result;
-        const S x = s[0];
-        const S y = s[1];
-        const S u = s[2];
-        const S v = s[3];
-        const S q = s[4];
+        const S x = s[0], y = s[1];
+        const S u = s[2], v = s[3], q = s[4];
         result[0] = q;
         const S k = parameters.k;
         result[1] = S(0.5) * (k * (x * x + y * y) + u * u + v * v);
@@ -237,17 +217,11 @@ class charged_particle {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 10>& values) const noexcept
     {
-        const S x = s[0];
-        const S y = s[1];
-        const S u = s[2];
-        const S v = s[3];
-        const S q = s[4];
+        const S x = s[0], y = s[1];
+        const S u = s[2], v = s[3], q = s[4];
         values[0] = S(1);
         values[1] = S(1);
-        const S b0 = parameters.b0;
-        const S b1 = parameters.b1;
-        const S b2 = parameters.b2;
-        const S k = parameters.k;
+        const auto [b0, b1, b2, k] = parameters;
         const S w0 = b1 * q;
         values[2] = v * w0 - k;
         const S w1 = S(2) * y * b2 * q;

@@ -125,10 +125,7 @@ class double_pendulum {
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
         auto status = StatusOf<S>::good();
-        const S m1 = parameters.m1;
-        const S m2 = parameters.m2;
-        const S l1 = parameters.l1;
-        const S l2 = parameters.l2;
+        const auto [m1, m2, l1, l2, g] = parameters;
         StatusOf<S>::fail(status, !(m1 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, !(m2 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, !(l1 > S(0)), Status::left_domain);
@@ -142,18 +139,12 @@ class double_pendulum {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        const S a = s[0];
-        const S b = s[1];
-        const S u = s[2];
-        const S v = s[3];
+        const S a = s[0], b = s[1];
+        const S u = s[2], v = s[3];
         auto status = StatusOf<S>::good();
         ds[0] = u;
         ds[1] = v;
-        const S m1 = parameters.m1;
-        const S m2 = parameters.m2;
-        const S l1 = parameters.l1;
-        const S l2 = parameters.l2;
-        const S g = parameters.g;
+        const auto [m1, m2, l1, l2, g] = parameters;
         const S w0 = (m1 + m2) * l1;
         const S w1 = l1 * w0;
         const S w2 = m2 * l2;
@@ -179,12 +170,8 @@ class double_pendulum {
     {
         Eigen::Matrix<S, 2, 2> result;
         using std::cos;
-        const S a = s[0];
-        const S b = s[1];
-        const S m1 = parameters.m1;
-        const S m2 = parameters.m2;
-        const S l1 = parameters.l1;
-        const S l2 = parameters.l2;
+        const S a = s[0], b = s[1];
+        const auto [m1, m2, l1, l2, g] = parameters;
         result(0, 0) = (m1 + m2) * (l1 * l1);
         const S w0 = m2 * l2;
         const S w1 = l1 * w0 * cos(a - b);
@@ -199,14 +186,9 @@ class double_pendulum {
     {
         Eigen::Matrix<S, 2, 1> result;
         using std::cos;
-        const S a = s[0];
-        const S b = s[1];
-        const S u = s[2];
-        const S v = s[3];
-        const S m1 = parameters.m1;
-        const S m2 = parameters.m2;
-        const S l1 = parameters.l1;
-        const S l2 = parameters.l2;
+        const S a = s[0], b = s[1];
+        const S u = s[2], v = s[3];
+        const auto [m1, m2, l1, l2, g] = parameters;
         const S w0 = m2 * l2;
         const S w1 = cos(a - b);
         const S w2 = l1 * u;
@@ -218,15 +200,9 @@ class double_pendulum {
     /// E = y^a p_a - L.
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S a = s[0];
-        const S b = s[1];
-        const S u = s[2];
-        const S v = s[3];
-        const S m1 = parameters.m1;
-        const S m2 = parameters.m2;
-        const S l1 = parameters.l1;
-        const S l2 = parameters.l2;
-        const S g = parameters.g;
+        const S a = s[0], b = s[1];
+        const S u = s[2], v = s[3];
+        const auto [m1, m2, l1, l2, g] = parameters;
         const S w0 = m2 * l2;
         const S w1 = w0 * v;
         const S w2 = l1 * u;
@@ -240,15 +216,9 @@ class double_pendulum {
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S a = s[0];
-        const S b = s[1];
-        const S u = s[2];
-        const S v = s[3];
-        const S m1 = parameters.m1;
-        const S m2 = parameters.m2;
-        const S l1 = parameters.l1;
-        const S l2 = parameters.l2;
-        const S g = parameters.g;
+        const S a = s[0], b = s[1];
+        const S u = s[2], v = s[3];
+        const auto [m1, m2, l1, l2, g] = parameters;
         const S w0 = S(2) * g;
         const auto [sines, cosines] = sincos<S, 3>({a, b, a - b});
         const S w1 = l1 * u;
@@ -262,11 +232,9 @@ class double_pendulum {
     [[nodiscard]] Eigen::Matrix<S, 4, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 4, 1> result;
-        const S a = s[0];
-        const S b = s[1];
+        const S a = s[0], b = s[1];
         const auto [sines, cosines] = sincos<S, 2>({a, b});
-        const S l1 = parameters.l1;
-        const S l2 = parameters.l2;
+        const S l1 = parameters.l1, l2 = parameters.l2;
         const S w0 = l1 * sines[0];
         result[0] = w0;
         const S w1 = l1 * cosines[0];
@@ -294,17 +262,11 @@ class double_pendulum {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 10>& values) const noexcept
     {
-        const S a = s[0];
-        const S b = s[1];
-        const S u = s[2];
-        const S v = s[3];
+        const S a = s[0], b = s[1];
+        const S u = s[2], v = s[3];
         values[0] = S(1);
         values[1] = S(1);
-        const S m1 = parameters.m1;
-        const S m2 = parameters.m2;
-        const S l1 = parameters.l1;
-        const S l2 = parameters.l2;
-        const S g = parameters.g;
+        const auto [m1, m2, l1, l2, g] = parameters;
         const S w0 = (m1 + m2) * l1;
         const S w1 = l1 * w0;
         const S w2 = m2 * l2;
@@ -335,10 +297,10 @@ class double_pendulum {
         values[3] = z2_0;
         const S w17 = -S(2) * w10;
         const S z3_0 = (-w4 * w17) * inv_det0;
-        const S z3_1 = (w1 * w17) * inv_det0;
+        const S z3_1 = w1 * w17 * inv_det0;
         values[4] = z3_0;
         const S w18 = w8 * (v + (v - u)) + w10;
-        const S z4_0 = (w5 * w18) * inv_det0;
+        const S z4_0 = w5 * w18 * inv_det0;
         const S z4_1 = (-w4 * w18) * inv_det0;
         values[5] = z4_0;
         values[6] = z1_1;

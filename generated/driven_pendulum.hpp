@@ -135,11 +135,7 @@ class driven_pendulum {
         const S th = s[0];
         const S w = s[1];
         ds[0] = w;
-        const S I_ = parameters.I_;
-        const S mgl = parameters.mgl;
-        const S b = parameters.b;
-        const S A = parameters.A;
-        const S Omega = parameters.Omega;
+        const auto [I_, mgl, b, A, Omega] = parameters;
         ds[1] = (A * cos(t * Omega) - mgl * sin(th) - b * w) / I_;
         return StatusOf<S>::good();
     }
@@ -170,8 +166,7 @@ class driven_pendulum {
         using std::cos;
         const S th = s[0];
         const S w = s[1];
-        const S I_ = parameters.I_;
-        const S mgl = parameters.mgl;
+        const S I_ = parameters.I_, mgl = parameters.mgl;
         return S(0.5) * I_ * (w * w) - mgl * cos(th);
     }
 
@@ -180,9 +175,7 @@ class driven_pendulum {
     {
         using std::cos;
         const S w = s[1];
-        const S b = parameters.b;
-        const S A = parameters.A;
-        const S Omega = parameters.Omega;
+        const auto [I_, mgl, b, A, Omega] = parameters;
         return w * (A * cos(t * Omega) - b * w);
     }
 
@@ -192,8 +185,7 @@ class driven_pendulum {
         using std::cos;
         const S th = s[0];
         const S w = s[1];
-        const S I_ = parameters.I_;
-        const S mgl = parameters.mgl;
+        const S I_ = parameters.I_, mgl = parameters.mgl;
         return S(0.5) * I_ * (w * w) + mgl * cos(th);
     }
 
@@ -206,9 +198,7 @@ class driven_pendulum {
         const S th = s[0];
         const S w = s[1];
         result[0] = S(0.5) * th / (S(3.141592653589793) + S(1.2246467991473532e-16));
-        const S b = parameters.b;
-        const S A = parameters.A;
-        const S Omega = parameters.Omega;
+        const auto [I_, mgl, b, A, Omega] = parameters;
         result[1] = w * (A * cos(t * Omega) - b * w);
         return result;
     }
@@ -236,9 +226,7 @@ class driven_pendulum {
         using std::cos;
         const S th = s[0];
         values[0] = S(1);
-        const S I_ = parameters.I_;
-        const S mgl = parameters.mgl;
-        const S b = parameters.b;
+        const auto [I_, mgl, b, A, Omega] = parameters;
         const S w0 = S(1) / I_;
         values[1] = -w0 * mgl * cos(th);
         values[2] = -w0 * b;

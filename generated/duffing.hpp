@@ -125,9 +125,7 @@ class duffing {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        const S q = s[0];
-        const S k = s[1];
-        const S c = s[2];
+        const S q = s[0], k = s[1], c = s[2];
         const S v = s[3];
         ds[0] = v;
         ds[1] = S(0);
@@ -160,9 +158,7 @@ class duffing {
     /// E = y^a p_a - L.
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S q = s[0];
-        const S k = s[1];
-        const S c = s[2];
+        const S q = s[0], k = s[1], c = s[2];
         const S v = s[3];
         const S w0 = q * q;
         const S m = parameters.m;
@@ -172,9 +168,7 @@ class duffing {
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S q = s[0];
-        const S k = s[1];
-        const S c = s[2];
+        const S q = s[0], k = s[1], c = s[2];
         const S v = s[3];
         const S w0 = q * q;
         const S m = parameters.m;
@@ -186,9 +180,7 @@ class duffing {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S q = s[0];
-        const S k = s[1];
-        const S c = s[2];
+        const S q = s[0], k = s[1], c = s[2];
         result[0] = -q * (q * q * c + k);
         return result;
     }
@@ -210,9 +202,7 @@ class duffing {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 4>& values) const noexcept
     {
-        const S q = s[0];
-        const S k = s[1];
-        const S c = s[2];
+        const S q = s[0], k = s[1], c = s[2];
         values[0] = S(1);
         const S m = parameters.m;
         const S w0 = S(1) / m;

@@ -117,9 +117,7 @@ class gyrostat {
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
         auto status = StatusOf<S>::good();
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const auto [I1, I2, I3, b1, b2, b3] = parameters;
         StatusOf<S>::fail(status, I1 == S(0), Status::singular_mass_matrix);
         StatusOf<S>::fail(status, !(I1 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, I2 == S(0), Status::singular_mass_matrix);
@@ -135,15 +133,8 @@ class gyrostat {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        const S w1 = s[0];
-        const S w2 = s[1];
-        const S w3 = s[2];
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
-        const S b1 = parameters.b1;
-        const S b2 = parameters.b2;
-        const S b3 = parameters.b3;
+        const S w1 = s[0], w2 = s[1], w3 = s[2];
+        const auto [I1, I2, I3, b1, b2, b3] = parameters;
         const S u0 = I2 * w2 + b2;
         const S u1 = I3 * w3 + b3;
         ds[0] = (u0 * w3 - w2 * u1) / I1;
@@ -158,9 +149,7 @@ class gyrostat {
             noexcept
     {
         Eigen::Matrix<S, 3, 3> result = Eigen::Matrix<S, 3, 3>::Zero();
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const auto [I1, I2, I3, b1, b2, b3] = parameters;
         result(0, 0) = I1;
         result(1, 1) = I2;
         result(2, 2) = I3;
@@ -171,15 +160,8 @@ class gyrostat {
     [[nodiscard]] Eigen::Matrix<S, 3, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 3, 1> result;
-        const S w1 = s[0];
-        const S w2 = s[1];
-        const S w3 = s[2];
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
-        const S b1 = parameters.b1;
-        const S b2 = parameters.b2;
-        const S b3 = parameters.b3;
+        const S w1 = s[0], w2 = s[1], w3 = s[2];
+        const auto [I1, I2, I3, b1, b2, b3] = parameters;
         result[0] = I1 * w1 + b1;
         result[1] = I2 * w2 + b2;
         result[2] = I3 * w3 + b3;
@@ -189,27 +171,16 @@ class gyrostat {
     /// E = y^a p_a - L.
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S w1 = s[0];
-        const S w2 = s[1];
-        const S w3 = s[2];
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const S w1 = s[0], w2 = s[1], w3 = s[2];
+        const auto [I1, I2, I3, b1, b2, b3] = parameters;
         return S(0.5) * (I1 * (w1 * w1) + I2 * (w2 * w2) + I3 * (w3 * w3));
     }
 
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S w1 = s[0];
-        const S w2 = s[1];
-        const S w3 = s[2];
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
-        const S b1 = parameters.b1;
-        const S b2 = parameters.b2;
-        const S b3 = parameters.b3;
+        const S w1 = s[0], w2 = s[1], w3 = s[2];
+        const auto [I1, I2, I3, b1, b2, b3] = parameters;
         return b1 * w1 + b2 * w2 + b3 * w3 + S(0.5) * (I1 * (w1 * w1) + I2 * (w2 * w2) + I3 * (w3 * w3));
     }
 
@@ -218,15 +189,8 @@ class gyrostat {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S w1 = s[0];
-        const S w2 = s[1];
-        const S w3 = s[2];
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
-        const S b1 = parameters.b1;
-        const S b2 = parameters.b2;
-        const S b3 = parameters.b3;
+        const S w1 = s[0], w2 = s[1], w3 = s[2];
+        const auto [I1, I2, I3, b1, b2, b3] = parameters;
         const S u0 = I1 * w1 + b1;
         const S u1 = I2 * w2 + b2;
         const S u2 = I3 * w3 + b3;
@@ -241,15 +205,8 @@ class gyrostat {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 6>& values) const noexcept
     {
-        const S w1 = s[0];
-        const S w2 = s[1];
-        const S w3 = s[2];
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
-        const S b1 = parameters.b1;
-        const S b2 = parameters.b2;
-        const S b3 = parameters.b3;
+        const S w1 = s[0], w2 = s[1], w3 = s[2];
+        const auto [I1, I2, I3, b1, b2, b3] = parameters;
         const S u0 = S(1) / I1;
         const S u1 = I2 - I3;
         values[0] = u0 * (u1 * w3 - b3);

@@ -140,9 +140,7 @@ class heavy_top {
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
         auto status = StatusOf<S>::good();
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const S I1 = parameters.I1, I2 = parameters.I2, I3 = parameters.I3;
         StatusOf<S>::fail(status, I1 == S(0), Status::singular_mass_matrix);
         StatusOf<S>::fail(status, !(I1 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, I2 == S(0), Status::singular_mass_matrix);
@@ -158,22 +156,12 @@ class heavy_top {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        const S g1 = s[0];
-        const S g2 = s[1];
-        const S g3 = s[2];
-        const S w1 = s[3];
-        const S w2 = s[4];
-        const S w3 = s[5];
+        const S g1 = s[0], g2 = s[1], g3 = s[2];
+        const S w1 = s[3], w2 = s[4], w3 = s[5];
         ds[0] = g2 * w3 - g3 * w2;
         ds[1] = g3 * w1 - g1 * w3;
         ds[2] = g1 * w2 - g2 * w1;
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
-        const S mgl = parameters.mgl;
-        const S e1 = parameters.e1;
-        const S e2 = parameters.e2;
-        const S e3 = parameters.e3;
+        const auto [I1, I2, I3, mgl, e1, e2, e3] = parameters;
         ds[3] = (mgl * (e3 * g2 - e2 * g3) + (I2 - I3) * w2 * w3) / I1;
         ds[4] = (mgl * (e1 * g3 - e3 * g1) + (I3 - I1) * w3 * w1) / I2;
         ds[5] = (mgl * (e2 * g1 - e1 * g2) + (I1 - I2) * w1 * w2) / I3;
@@ -185,9 +173,7 @@ class heavy_top {
             noexcept
     {
         Eigen::Matrix<S, 3, 3> result = Eigen::Matrix<S, 3, 3>::Zero();
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const S I1 = parameters.I1, I2 = parameters.I2, I3 = parameters.I3;
         result(0, 0) = I1;
         result(1, 1) = I2;
         result(2, 2) = I3;
@@ -198,12 +184,8 @@ class heavy_top {
     [[nodiscard]] Eigen::Matrix<S, 3, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 3, 1> result;
-        const S w1 = s[3];
-        const S w2 = s[4];
-        const S w3 = s[5];
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const S w1 = s[3], w2 = s[4], w3 = s[5];
+        const S I1 = parameters.I1, I2 = parameters.I2, I3 = parameters.I3;
         result[0] = I1 * w1;
         result[1] = I2 * w2;
         result[2] = I3 * w3;
@@ -213,38 +195,18 @@ class heavy_top {
     /// E = y^a p_a - L.
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S g1 = s[0];
-        const S g2 = s[1];
-        const S g3 = s[2];
-        const S w1 = s[3];
-        const S w2 = s[4];
-        const S w3 = s[5];
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
-        const S mgl = parameters.mgl;
-        const S e1 = parameters.e1;
-        const S e2 = parameters.e2;
-        const S e3 = parameters.e3;
+        const S g1 = s[0], g2 = s[1], g3 = s[2];
+        const S w1 = s[3], w2 = s[4], w3 = s[5];
+        const auto [I1, I2, I3, mgl, e1, e2, e3] = parameters;
         return mgl * (e1 * g1 + e2 * g2 + e3 * g3) + S(0.5) * (I1 * (w1 * w1) + I2 * (w2 * w2) + I3 * (w3 * w3));
     }
 
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S g1 = s[0];
-        const S g2 = s[1];
-        const S g3 = s[2];
-        const S w1 = s[3];
-        const S w2 = s[4];
-        const S w3 = s[5];
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
-        const S mgl = parameters.mgl;
-        const S e1 = parameters.e1;
-        const S e2 = parameters.e2;
-        const S e3 = parameters.e3;
+        const S g1 = s[0], g2 = s[1], g3 = s[2];
+        const S w1 = s[3], w2 = s[4], w3 = s[5];
+        const auto [I1, I2, I3, mgl, e1, e2, e3] = parameters;
         return S(0.5) * (I1 * (w1 * w1) + I2 * (w2 * w2) + I3 * (w3 * w3)) - mgl * (e1 * g1 + e2 * g2 + e3 * g3);
     }
 
@@ -253,9 +215,7 @@ class heavy_top {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> constraints([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S g1 = s[0];
-        const S g2 = s[1];
-        const S g3 = s[2];
+        const S g1 = s[0], g2 = s[1], g3 = s[2];
         result[0] = g1 * g1 + g2 * g2 + g3 * g3 - S(1);
         return result;
     }
@@ -265,12 +225,8 @@ class heavy_top {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S g1 = s[0];
-        const S g2 = s[1];
-        const S g3 = s[2];
-        const S e1 = parameters.e1;
-        const S e2 = parameters.e2;
-        const S e3 = parameters.e3;
+        const S g1 = s[0], g2 = s[1], g3 = s[2];
+        const S e1 = parameters.e1, e2 = parameters.e2, e3 = parameters.e3;
         result[0] = e1 * g1 + e2 * g2 + e3 * g3;
         return result;
     }
@@ -280,15 +236,9 @@ class heavy_top {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S g1 = s[0];
-        const S g2 = s[1];
-        const S g3 = s[2];
-        const S w1 = s[3];
-        const S w2 = s[4];
-        const S w3 = s[5];
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const S g1 = s[0], g2 = s[1], g3 = s[2];
+        const S w1 = s[3], w2 = s[4], w3 = s[5];
+        const S I1 = parameters.I1, I2 = parameters.I2, I3 = parameters.I3;
         result[0] = I1 * w1 * g1 + I2 * w2 * g2 + I3 * w3 * g3;
         return result;
     }
@@ -298,15 +248,9 @@ class heavy_top {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> events([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S g1 = s[0];
-        const S g2 = s[1];
-        const S g3 = s[2];
-        const S w1 = s[3];
-        const S w2 = s[4];
-        const S w3 = s[5];
-        const S e1 = parameters.e1;
-        const S e2 = parameters.e2;
-        const S e3 = parameters.e3;
+        const S g1 = s[0], g2 = s[1], g3 = s[2];
+        const S w1 = s[3], w2 = s[4], w3 = s[5];
+        const S e1 = parameters.e1, e2 = parameters.e2, e3 = parameters.e3;
         result[0] = e1 * (g2 * w3 - g3 * w2) + e2 * (g3 * w1 - g1 * w3) + e3 * (g1 * w2 - g2 * w1);
         return result;
     }
@@ -320,12 +264,8 @@ class heavy_top {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 24>& values) const noexcept
     {
-        const S g1 = s[0];
-        const S g2 = s[1];
-        const S g3 = s[2];
-        const S w1 = s[3];
-        const S w2 = s[4];
-        const S w3 = s[5];
+        const S g1 = s[0], g2 = s[1], g3 = s[2];
+        const S w1 = s[3], w2 = s[4], w3 = s[5];
         values[0] = w3;
         values[8] = w2;
         values[1] = -w2;
@@ -338,13 +278,7 @@ class heavy_top {
         values[7] = -g1;
         values[9] = -w1;
         values[10] = -g2;
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
-        const S mgl = parameters.mgl;
-        const S e1 = parameters.e1;
-        const S e2 = parameters.e2;
-        const S e3 = parameters.e3;
+        const auto [I1, I2, I3, mgl, e1, e2, e3] = parameters;
         const S u0 = S(1) / I1;
         const S u1 = u0 * mgl;
         values[12] = u1 * e3;

@@ -163,9 +163,7 @@ class heavy_top_euler {
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
         auto status = StatusOf<S>::good();
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const S I1 = parameters.I1, I2 = parameters.I2, I3 = parameters.I3;
         StatusOf<S>::fail(status, !(I1 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, !(I2 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, !(I3 > S(0)), Status::left_domain);
@@ -178,11 +176,8 @@ class heavy_top_euler {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        const S th = s[1];
-        const S ps = s[2];
-        const S dph = s[3];
-        const S dth = s[4];
-        const S dps = s[5];
+        const S th = s[1], ps = s[2];
+        const S dph = s[3], dth = s[4], dps = s[5];
         auto status = StatusOf<S>::good();
         ds[0] = dph;
         ds[1] = dth;
@@ -190,13 +185,7 @@ class heavy_top_euler {
         const auto [sines, cosines] = sincos<S, 2>({th, ps});
         const S w0 = sines[1] * sines[1];
         const S w1 = cosines[1] * cosines[1];
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
-        const S mgl = parameters.mgl;
-        const S e1 = parameters.e1;
-        const S e2 = parameters.e2;
-        const S e3 = parameters.e3;
+        const auto [I1, I2, I3, mgl, e1, e2, e3] = parameters;
         const S w2 = I1 * w0 + I2 * w1;
         const S w3 = I3 * cosines[0];
         const S w4 = sines[0] * sines[0] * w2 + cosines[0] * w3;
@@ -241,14 +230,11 @@ class heavy_top_euler {
     [[nodiscard]] Eigen::Matrix<S, 3, 3> mass_matrix([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 3, 3> result = Eigen::Matrix<S, 3, 3>::Zero();
-        const S th = s[1];
-        const S ps = s[2];
+        const S th = s[1], ps = s[2];
         const auto [sines, cosines] = sincos<S, 2>({th, ps});
         const S w0 = sines[1] * sines[1];
         const S w1 = cosines[1] * cosines[1];
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const S I1 = parameters.I1, I2 = parameters.I2, I3 = parameters.I3;
         result(2, 2) = I3;
         const S w2 = I3 * cosines[0];
         result(0, 2) = w2;
@@ -265,16 +251,11 @@ class heavy_top_euler {
     [[nodiscard]] Eigen::Matrix<S, 3, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 3, 1> result;
-        const S th = s[1];
-        const S ps = s[2];
-        const S dph = s[3];
-        const S dth = s[4];
-        const S dps = s[5];
+        const S th = s[1], ps = s[2];
+        const S dph = s[3], dth = s[4], dps = s[5];
         const auto [sines, cosines] = sincos<S, 2>({th, ps});
         const S w0 = sines[0] * dph;
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const S I1 = parameters.I1, I2 = parameters.I2, I3 = parameters.I3;
         const S w1 = I1 * (sines[1] * w0 + cosines[1] * dth);
         const S w2 = I2 * (cosines[1] * w0 - sines[1] * dth);
         const S w3 = I3 * (cosines[0] * dph + dps);
@@ -287,21 +268,12 @@ class heavy_top_euler {
     /// E = y^a p_a - L.
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S th = s[1];
-        const S ps = s[2];
-        const S dph = s[3];
-        const S dth = s[4];
-        const S dps = s[5];
+        const S th = s[1], ps = s[2];
+        const S dph = s[3], dth = s[4], dps = s[5];
         const auto [sines, cosines] = sincos<S, 2>({th, ps});
         const S w0 = sines[0] * dph;
         const S w1 = sines[1] * w0 + cosines[1] * dth;
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
-        const S mgl = parameters.mgl;
-        const S e1 = parameters.e1;
-        const S e2 = parameters.e2;
-        const S e3 = parameters.e3;
+        const auto [I1, I2, I3, mgl, e1, e2, e3] = parameters;
         const S w2 = I1 * w1;
         const S w3 = cosines[1] * w0 - sines[1] * dth;
         const S w4 = I2 * w3;
@@ -315,23 +287,14 @@ class heavy_top_euler {
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S th = s[1];
-        const S ps = s[2];
-        const S dph = s[3];
-        const S dth = s[4];
-        const S dps = s[5];
+        const S th = s[1], ps = s[2];
+        const S dph = s[3], dth = s[4], dps = s[5];
         const auto [sines, cosines] = sincos<S, 2>({th, ps});
         const S w0 = sines[0] * dph;
         const S w1 = sines[1] * w0 + cosines[1] * dth;
         const S w2 = cosines[1] * w0 - sines[1] * dth;
         const S w3 = cosines[0] * dph + dps;
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
-        const S mgl = parameters.mgl;
-        const S e1 = parameters.e1;
-        const S e2 = parameters.e2;
-        const S e3 = parameters.e3;
+        const auto [I1, I2, I3, mgl, e1, e2, e3] = parameters;
         return S(0.5) * (I1 * (w1 * w1) + I2 * (w2 * w2) + I3 * (w3 * w3)) - mgl * (e3 * cosines[0] + sines[0] * (e1 *
                 sines[1] + e2 * cosines[1]));
     }
@@ -352,16 +315,11 @@ class heavy_top_euler {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S th = s[1];
-        const S ps = s[2];
-        const S dph = s[3];
-        const S dth = s[4];
-        const S dps = s[5];
+        const S th = s[1], ps = s[2];
+        const S dph = s[3], dth = s[4], dps = s[5];
         const auto [sines, cosines] = sincos<S, 2>({th, ps});
         const S w0 = sines[0] * dph;
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const S I1 = parameters.I1, I2 = parameters.I2, I3 = parameters.I3;
         result[0] = I3 * cosines[0] * (cosines[0] * dph + dps) + sines[0] * (I2 * cosines[1] * (cosines[1] * w0 -
                 sines[1] * dth) + I1 * sines[1] * (sines[1] * w0 + cosines[1] * dth));
         return result;
@@ -374,24 +332,15 @@ class heavy_top_euler {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 18>& values) const noexcept
     {
-        const S th = s[1];
-        const S ps = s[2];
-        const S dph = s[3];
-        const S dth = s[4];
-        const S dps = s[5];
+        const S th = s[1], ps = s[2];
+        const S dph = s[3], dth = s[4], dps = s[5];
         values[0] = S(1);
         values[1] = S(1);
         values[2] = S(1);
         const auto [sines, cosines] = sincos<S, 2>({th, ps});
         const S w0 = sines[1] * sines[1];
         const S w1 = cosines[1] * cosines[1];
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
-        const S mgl = parameters.mgl;
-        const S e1 = parameters.e1;
-        const S e2 = parameters.e2;
-        const S e3 = parameters.e3;
+        const auto [I1, I2, I3, mgl, e1, e2, e3] = parameters;
         const S w2 = I2 * w1;
         const S w3 = I1 * w0 + w2;
         const S w4 = I3 * cosines[0];

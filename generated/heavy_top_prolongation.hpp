@@ -167,9 +167,7 @@ class heavy_top_prolongation {
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
         auto status = StatusOf<S>::good();
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const S I1 = parameters.I1, I2 = parameters.I2, I3 = parameters.I3;
         StatusOf<S>::fail(status, !(I1 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, !(I2 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, !(I3 > S(0)), Status::left_domain);
@@ -182,25 +180,15 @@ class heavy_top_prolongation {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        const S g1 = s[0];
-        const S g2 = s[1];
-        const S g3 = s[2];
-        const S X_w1 = s[6];
-        const S X_w2 = s[7];
-        const S X_w3 = s[8];
-        const S V_w1 = s[9];
-        const S V_w2 = s[10];
-        const S V_w3 = s[11];
+        const S g1 = s[0], g2 = s[1], g3 = s[2];
+        const S X_w1 = s[6], X_w2 = s[7], X_w3 = s[8], V_w1 = s[9], V_w2 = s[10], V_w3 = s[11];
         ds[0] = g2 * X_w3 - g3 * X_w2;
         ds[1] = g3 * X_w1 - g1 * X_w3;
         ds[2] = g1 * X_w2 - g2 * X_w1;
         ds[3] = V_w1;
         ds[4] = V_w2;
         ds[5] = V_w3;
-        const S mgl = parameters.mgl;
-        const S e1 = parameters.e1;
-        const S e2 = parameters.e2;
-        const S e3 = parameters.e3;
+        const auto [I1, I2, I3, mgl, e1, e2, e3] = parameters;
         ds[6] = mgl * (e3 * g2 - e2 * g3);
         ds[7] = mgl * (e1 * g3 - e3 * g1);
         ds[8] = mgl * (e2 * g1 - e1 * g2);
@@ -228,12 +216,7 @@ class heavy_top_prolongation {
     [[nodiscard]] Eigen::Matrix<S, 6, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 6, 1> result;
-        const S X_w1 = s[6];
-        const S X_w2 = s[7];
-        const S X_w3 = s[8];
-        const S V_w1 = s[9];
-        const S V_w2 = s[10];
-        const S V_w3 = s[11];
+        const S X_w1 = s[6], X_w2 = s[7], X_w3 = s[8], V_w1 = s[9], V_w2 = s[10], V_w3 = s[11];
         result[0] = X_w1;
         result[1] = X_w2;
         result[2] = X_w3;
@@ -246,19 +229,9 @@ class heavy_top_prolongation {
     /// E = y^a p_a - L.
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S g1 = s[0];
-        const S g2 = s[1];
-        const S g3 = s[2];
-        const S X_w1 = s[6];
-        const S X_w2 = s[7];
-        const S X_w3 = s[8];
-        const S V_w1 = s[9];
-        const S V_w2 = s[10];
-        const S V_w3 = s[11];
-        const S mgl = parameters.mgl;
-        const S e1 = parameters.e1;
-        const S e2 = parameters.e2;
-        const S e3 = parameters.e3;
+        const S g1 = s[0], g2 = s[1], g3 = s[2];
+        const S X_w1 = s[6], X_w2 = s[7], X_w3 = s[8], V_w1 = s[9], V_w2 = s[10], V_w3 = s[11];
+        const auto [I1, I2, I3, mgl, e1, e2, e3] = parameters;
         return mgl * (e1 * g1 + e2 * g2 + e3 * g3) + S(0.5) * (X_w1 * X_w1 + X_w2 * X_w2 + X_w3 * X_w3 + V_w1 * V_w1 +
                 V_w2 * V_w2 + V_w3 * V_w3);
     }
@@ -266,19 +239,9 @@ class heavy_top_prolongation {
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S g1 = s[0];
-        const S g2 = s[1];
-        const S g3 = s[2];
-        const S X_w1 = s[6];
-        const S X_w2 = s[7];
-        const S X_w3 = s[8];
-        const S V_w1 = s[9];
-        const S V_w2 = s[10];
-        const S V_w3 = s[11];
-        const S mgl = parameters.mgl;
-        const S e1 = parameters.e1;
-        const S e2 = parameters.e2;
-        const S e3 = parameters.e3;
+        const S g1 = s[0], g2 = s[1], g3 = s[2];
+        const S X_w1 = s[6], X_w2 = s[7], X_w3 = s[8], V_w1 = s[9], V_w2 = s[10], V_w3 = s[11];
+        const auto [I1, I2, I3, mgl, e1, e2, e3] = parameters;
         return S(0.5) * (X_w1 * X_w1 + X_w2 * X_w2 + X_w3 * X_w3 + V_w1 * V_w1 + V_w2 * V_w2 + V_w3 * V_w3) - mgl * (e1
                 * g1 + e2 * g2 + e3 * g3);
     }
@@ -288,9 +251,7 @@ class heavy_top_prolongation {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> constraints([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S g1 = s[0];
-        const S g2 = s[1];
-        const S g3 = s[2];
+        const S g1 = s[0], g2 = s[1], g3 = s[2];
         result[0] = g1 * g1 + g2 * g2 + g3 * g3 - S(1);
         return result;
     }
@@ -304,12 +265,8 @@ class heavy_top_prolongation {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 21>& values) const noexcept
     {
-        const S g1 = s[0];
-        const S g2 = s[1];
-        const S g3 = s[2];
-        const S X_w1 = s[6];
-        const S X_w2 = s[7];
-        const S X_w3 = s[8];
+        const S g1 = s[0], g2 = s[1], g3 = s[2];
+        const S X_w1 = s[6], X_w2 = s[7], X_w3 = s[8];
         values[0] = X_w3;
         values[8] = X_w2;
         values[1] = -X_w2;
@@ -325,10 +282,7 @@ class heavy_top_prolongation {
         values[12] = S(1);
         values[13] = S(1);
         values[14] = S(1);
-        const S mgl = parameters.mgl;
-        const S e1 = parameters.e1;
-        const S e2 = parameters.e2;
-        const S e3 = parameters.e3;
+        const auto [I1, I2, I3, mgl, e1, e2, e3] = parameters;
         const S u0 = mgl * e3;
         values[15] = u0;
         const S u1 = mgl * e2;

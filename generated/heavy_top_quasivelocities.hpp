@@ -140,9 +140,7 @@ class heavy_top_quasivelocities {
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
         auto status = StatusOf<S>::good();
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const S I1 = parameters.I1, I2 = parameters.I2, I3 = parameters.I3;
         StatusOf<S>::fail(status, I1 == S(0), Status::singular_mass_matrix);
         StatusOf<S>::fail(status, !(I1 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, I2 == S(0), Status::singular_mass_matrix);
@@ -158,23 +156,14 @@ class heavy_top_quasivelocities {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        const S th = s[1];
-        const S ps = s[2];
-        const S w1 = s[3];
-        const S w2 = s[4];
-        const S w3 = s[5];
+        const S th = s[1], ps = s[2];
+        const S w1 = s[3], w2 = s[4], w3 = s[5];
         const auto [sines, cosines] = sincos<S, 2>({th, ps});
         const S u0 = (sines[1] * w1 + cosines[1] * w2) / sines[0];
         ds[0] = u0;
         ds[1] = cosines[1] * w1 - sines[1] * w2;
         ds[2] = w3 - cosines[0] * u0;
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
-        const S mgl = parameters.mgl;
-        const S e1 = parameters.e1;
-        const S e2 = parameters.e2;
-        const S e3 = parameters.e3;
+        const auto [I1, I2, I3, mgl, e1, e2, e3] = parameters;
         const S u1 = e3 * sines[0];
         ds[3] = (mgl * (u1 * cosines[1] - e2 * cosines[0]) + (I2 - I3) * w2 * w3) / I1;
         ds[4] = (mgl * (e1 * cosines[0] - u1 * sines[1]) + (I3 - I1) * w3 * w1) / I2;
@@ -187,9 +176,7 @@ class heavy_top_quasivelocities {
             noexcept
     {
         Eigen::Matrix<S, 3, 3> result = Eigen::Matrix<S, 3, 3>::Zero();
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const S I1 = parameters.I1, I2 = parameters.I2, I3 = parameters.I3;
         result(0, 0) = I1;
         result(1, 1) = I2;
         result(2, 2) = I3;
@@ -200,12 +187,8 @@ class heavy_top_quasivelocities {
     [[nodiscard]] Eigen::Matrix<S, 3, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 3, 1> result;
-        const S w1 = s[3];
-        const S w2 = s[4];
-        const S w3 = s[5];
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const S w1 = s[3], w2 = s[4], w3 = s[5];
+        const S I1 = parameters.I1, I2 = parameters.I2, I3 = parameters.I3;
         result[0] = I1 * w1;
         result[1] = I2 * w2;
         result[2] = I3 * w3;
@@ -215,19 +198,10 @@ class heavy_top_quasivelocities {
     /// E = y^a p_a - L.
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S th = s[1];
-        const S ps = s[2];
-        const S w1 = s[3];
-        const S w2 = s[4];
-        const S w3 = s[5];
+        const S th = s[1], ps = s[2];
+        const S w1 = s[3], w2 = s[4], w3 = s[5];
         const auto [sines, cosines] = sincos<S, 2>({th, ps});
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
-        const S mgl = parameters.mgl;
-        const S e1 = parameters.e1;
-        const S e2 = parameters.e2;
-        const S e3 = parameters.e3;
+        const auto [I1, I2, I3, mgl, e1, e2, e3] = parameters;
         return mgl * (e3 * cosines[0] + sines[0] * (e1 * sines[1] + e2 * cosines[1])) + S(0.5) * (I1 * (w1 * w1) + I2 *
                 (w2 * w2) + I3 * (w3 * w3));
     }
@@ -235,19 +209,10 @@ class heavy_top_quasivelocities {
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S th = s[1];
-        const S ps = s[2];
-        const S w1 = s[3];
-        const S w2 = s[4];
-        const S w3 = s[5];
+        const S th = s[1], ps = s[2];
+        const S w1 = s[3], w2 = s[4], w3 = s[5];
         const auto [sines, cosines] = sincos<S, 2>({th, ps});
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
-        const S mgl = parameters.mgl;
-        const S e1 = parameters.e1;
-        const S e2 = parameters.e2;
-        const S e3 = parameters.e3;
+        const auto [I1, I2, I3, mgl, e1, e2, e3] = parameters;
         return S(0.5) * (I1 * (w1 * w1) + I2 * (w2 * w2) + I3 * (w3 * w3)) - mgl * (e3 * cosines[0] + sines[0] * (e1 *
                 sines[1] + e2 * cosines[1]));
     }
@@ -269,8 +234,7 @@ class heavy_top_quasivelocities {
     {
         Eigen::Matrix<S, 1, 1> result;
         const S ps = s[2];
-        const S w1 = s[3];
-        const S w2 = s[4];
+        const S w1 = s[3], w2 = s[4];
         const auto [sin_ps, cos_ps] = sincos<S>(ps);
         result[0] = cos_ps * w1 - sin_ps * w2;
         return result;
@@ -281,15 +245,10 @@ class heavy_top_quasivelocities {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S th = s[1];
-        const S ps = s[2];
-        const S w1 = s[3];
-        const S w2 = s[4];
-        const S w3 = s[5];
+        const S th = s[1], ps = s[2];
+        const S w1 = s[3], w2 = s[4], w3 = s[5];
         const auto [sines, cosines] = sincos<S, 2>({th, ps});
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const S I1 = parameters.I1, I2 = parameters.I2, I3 = parameters.I3;
         result[0] = I3 * cosines[0] * w3 + sines[0] * (I1 * sines[1] * w1 + I2 * cosines[1] * w2);
         return result;
     }
@@ -303,11 +262,8 @@ class heavy_top_quasivelocities {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 24>& values) const noexcept
     {
-        const S th = s[1];
-        const S ps = s[2];
-        const S w1 = s[3];
-        const S w2 = s[4];
-        const S w3 = s[5];
+        const S th = s[1], ps = s[2];
+        const S w1 = s[3], w2 = s[4], w3 = s[5];
         values[11] = S(1);
         const auto [sines, cosines] = sincos<S, 2>({th, ps});
         const S u0 = S(1) / sines[0];
@@ -326,13 +282,7 @@ class heavy_top_quasivelocities {
         values[8] = u1 * u4;
         values[9] = -u1 * sines[1];
         values[10] = -u1 * cosines[1];
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
-        const S mgl = parameters.mgl;
-        const S e1 = parameters.e1;
-        const S e2 = parameters.e2;
-        const S e3 = parameters.e3;
+        const auto [I1, I2, I3, mgl, e1, e2, e3] = parameters;
         const S u5 = S(1) / I1;
         const S u6 = e3 * cosines[1];
         values[12] = u5 * mgl * (e2 * sines[0] + cosines[0] * u6);

@@ -141,9 +141,7 @@ class heavy_top_quaternion {
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
         auto status = StatusOf<S>::good();
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const S I1 = parameters.I1, I2 = parameters.I2, I3 = parameters.I3;
         StatusOf<S>::fail(status, I1 == S(0), Status::singular_mass_matrix);
         StatusOf<S>::fail(status, !(I1 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, I2 == S(0), Status::singular_mass_matrix);
@@ -159,24 +157,13 @@ class heavy_top_quaternion {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        const S q0 = s[0];
-        const S q1 = s[1];
-        const S q2 = s[2];
-        const S q3 = s[3];
-        const S w1 = s[4];
-        const S w2 = s[5];
-        const S w3 = s[6];
+        const S q0 = s[0], q1 = s[1], q2 = s[2], q3 = s[3];
+        const S w1 = s[4], w2 = s[5], w3 = s[6];
         ds[0] = -S(0.5) * (q1 * w1 + q2 * w2 + q3 * w3);
         ds[1] = S(0.5) * (q0 * w1 + q2 * w3 - q3 * w2);
         ds[2] = S(0.5) * (q0 * w2 + q3 * w1 - q1 * w3);
         ds[3] = S(0.5) * (q0 * w3 + q1 * w2 - q2 * w1);
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
-        const S mgl = parameters.mgl;
-        const S e1 = parameters.e1;
-        const S e2 = parameters.e2;
-        const S e3 = parameters.e3;
+        const auto [I1, I2, I3, mgl, e1, e2, e3] = parameters;
         const S u0 = S(2) * e3;
         const S u1 = q2 * q3 + q0 * q1;
         const S u2 = q0 * q0 + q3 * q3 - q1 * q1 - q2 * q2;
@@ -192,9 +179,7 @@ class heavy_top_quaternion {
             noexcept
     {
         Eigen::Matrix<S, 3, 3> result = Eigen::Matrix<S, 3, 3>::Zero();
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const S I1 = parameters.I1, I2 = parameters.I2, I3 = parameters.I3;
         result(0, 0) = I1;
         result(1, 1) = I2;
         result(2, 2) = I3;
@@ -205,12 +190,8 @@ class heavy_top_quaternion {
     [[nodiscard]] Eigen::Matrix<S, 3, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 3, 1> result;
-        const S w1 = s[4];
-        const S w2 = s[5];
-        const S w3 = s[6];
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const S w1 = s[4], w2 = s[5], w3 = s[6];
+        const S I1 = parameters.I1, I2 = parameters.I2, I3 = parameters.I3;
         result[0] = I1 * w1;
         result[1] = I2 * w2;
         result[2] = I3 * w3;
@@ -220,20 +201,9 @@ class heavy_top_quaternion {
     /// E = y^a p_a - L.
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S q0 = s[0];
-        const S q1 = s[1];
-        const S q2 = s[2];
-        const S q3 = s[3];
-        const S w1 = s[4];
-        const S w2 = s[5];
-        const S w3 = s[6];
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
-        const S mgl = parameters.mgl;
-        const S e1 = parameters.e1;
-        const S e2 = parameters.e2;
-        const S e3 = parameters.e3;
+        const S q0 = s[0], q1 = s[1], q2 = s[2], q3 = s[3];
+        const S w1 = s[4], w2 = s[5], w3 = s[6];
+        const auto [I1, I2, I3, mgl, e1, e2, e3] = parameters;
         const S u0 = e3 * (q1 * q1 + q2 * q2 - q0 * q0 - q3 * q3) + S(2) * (e1 * (q0 * q2 - q1 * q3) - e2 * (q2 * q3 +
                 q0 * q1));
         return S(0.5) * (I1 * (w1 * w1) + I2 * (w2 * w2) + I3 * (w3 * w3)) - mgl * u0;
@@ -242,20 +212,9 @@ class heavy_top_quaternion {
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S q0 = s[0];
-        const S q1 = s[1];
-        const S q2 = s[2];
-        const S q3 = s[3];
-        const S w1 = s[4];
-        const S w2 = s[5];
-        const S w3 = s[6];
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
-        const S mgl = parameters.mgl;
-        const S e1 = parameters.e1;
-        const S e2 = parameters.e2;
-        const S e3 = parameters.e3;
+        const S q0 = s[0], q1 = s[1], q2 = s[2], q3 = s[3];
+        const S w1 = s[4], w2 = s[5], w3 = s[6];
+        const auto [I1, I2, I3, mgl, e1, e2, e3] = parameters;
         const S u0 = e3 * (q1 * q1 + q2 * q2 - q0 * q0 - q3 * q3) + S(2) * (e1 * (q0 * q2 - q1 * q3) - e2 * (q2 * q3 +
                 q0 * q1));
         return mgl * u0 + S(0.5) * (I1 * (w1 * w1) + I2 * (w2 * w2) + I3 * (w3 * w3));
@@ -266,16 +225,9 @@ class heavy_top_quaternion {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S q0 = s[0];
-        const S q1 = s[1];
-        const S q2 = s[2];
-        const S q3 = s[3];
-        const S w1 = s[4];
-        const S w2 = s[5];
-        const S w3 = s[6];
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const S q0 = s[0], q1 = s[1], q2 = s[2], q3 = s[3];
+        const S w1 = s[4], w2 = s[5], w3 = s[6];
+        const S I1 = parameters.I1, I2 = parameters.I2, I3 = parameters.I3;
         result[0] = I3 * (q0 * q0 + q3 * q3 - q1 * q1 - q2 * q2) * w3 + S(2) * (I2 * (q2 * q3 + q0 * q1) * w2 - I1 * (q0
                 * q2 - q1 * q3) * w1);
         return result;
@@ -290,13 +242,8 @@ class heavy_top_quaternion {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 42>& values) const noexcept
     {
-        const S q0 = s[0];
-        const S q1 = s[1];
-        const S q2 = s[2];
-        const S q3 = s[3];
-        const S w1 = s[4];
-        const S w2 = s[5];
-        const S w3 = s[6];
+        const S q0 = s[0], q1 = s[1], q2 = s[2], q3 = s[3];
+        const S w1 = s[4], w2 = s[5], w3 = s[6];
         const S u0 = S(0.5) * w1;
         values[6] = u0;
         values[14] = u0;
@@ -334,13 +281,7 @@ class heavy_top_quaternion {
         values[9] = u12;
         values[16] = u12;
         values[23] = u12;
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
-        const S mgl = parameters.mgl;
-        const S e1 = parameters.e1;
-        const S e2 = parameters.e2;
-        const S e3 = parameters.e3;
+        const auto [I1, I2, I3, mgl, e1, e2, e3] = parameters;
         const S u13 = S(1) / I1;
         const S u14 = S(2) * (u13 * mgl);
         const S u15 = e3 * q1;

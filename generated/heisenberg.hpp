@@ -121,11 +121,8 @@ class heisenberg {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        const S x = s[0];
-        const S y = s[1];
-        const S v1 = s[3];
-        const S v2 = s[4];
-        const S v3 = s[5];
+        const S x = s[0], y = s[1];
+        const S v1 = s[3], v2 = s[4], v3 = s[5];
         ds[0] = v1;
         ds[1] = v2;
         ds[2] = v3 + S(0.5) * (x * v2 - y * v1);
@@ -150,9 +147,7 @@ class heisenberg {
     [[nodiscard]] Eigen::Matrix<S, 3, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 3, 1> result;
-        const S v1 = s[3];
-        const S v2 = s[4];
-        const S v3 = s[5];
+        const S v1 = s[3], v2 = s[4], v3 = s[5];
         result[0] = v1;
         result[1] = v2;
         result[2] = v3;
@@ -162,18 +157,14 @@ class heisenberg {
     /// E = y^a p_a - L.
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S v1 = s[3];
-        const S v2 = s[4];
-        const S v3 = s[5];
+        const S v1 = s[3], v2 = s[4], v3 = s[5];
         return S(0.5) * (v1 * v1 + v2 * v2 + v3 * v3);
     }
 
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S v1 = s[3];
-        const S v2 = s[4];
-        const S v3 = s[5];
+        const S v1 = s[3], v2 = s[4], v3 = s[5];
         return S(0.5) * (v1 * v1 + v2 * v2 + v3 * v3);
     }
 
@@ -183,8 +174,7 @@ class heisenberg {
     {
         Eigen::Matrix<S, 1, 1> result;
         using arithmetic::sqrt;
-        const S x = s[0];
-        const S y = s[1];
+        const S x = s[0], y = s[1];
         result[0] = sqrt(x * x + y * y);
         return result;
     }
@@ -194,11 +184,8 @@ class heisenberg {
     [[nodiscard]] Eigen::Matrix<S, 3, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 3, 1> result;
-        const S x = s[0];
-        const S y = s[1];
-        const S v1 = s[3];
-        const S v2 = s[4];
-        const S v3 = s[5];
+        const S x = s[0], y = s[1];
+        const S v1 = s[3], v2 = s[4], v3 = s[5];
         result[0] = v3;
         result[1] = v1 + y * v3;
         result[2] = v2 - x * v3;
@@ -222,11 +209,8 @@ class heisenberg {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 11>& values) const noexcept
     {
-        const S x = s[0];
-        const S y = s[1];
-        const S v1 = s[3];
-        const S v2 = s[4];
-        const S v3 = s[5];
+        const S x = s[0], y = s[1];
+        const S v1 = s[3], v2 = s[4], v3 = s[5];
         values[0] = S(1);
         values[1] = S(1);
         values[6] = S(1);

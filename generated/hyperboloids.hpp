@@ -136,11 +136,8 @@ class hyperboloids {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        const S x = s[0];
-        const S y = s[1];
-        const S z = s[2];
-        const S a = s[3];
-        const S b = s[4];
+        const S x = s[0], y = s[1], z = s[2];
+        const S a = s[3], b = s[4];
         const S w0 = z * b;
         ds[0] = x * w0 - y * a;
         ds[1] = x * a + y * w0;
@@ -148,9 +145,7 @@ class hyperboloids {
         const S w2 = y * y;
         const S w3 = w1 + w2;
         ds[2] = w3 * b;
-        const S m = parameters.m;
-        const S k = parameters.k;
-        const S c = parameters.c;
+        const auto [m, k, c] = parameters;
         const S w4 = m * w3;
         ds[3] = (c * y - S(2) * w4 * a * w0) / w4;
         const S w5 = k * w3;
@@ -165,9 +160,7 @@ class hyperboloids {
     [[nodiscard]] Eigen::Matrix<S, 2, 2> mass_matrix([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 2, 2> result;
-        const S x = s[0];
-        const S y = s[1];
-        const S z = s[2];
+        const S x = s[0], y = s[1], z = s[2];
         const S w0 = x * x + y * y;
         const S m = parameters.m;
         result(0, 0) = m * w0;
@@ -181,11 +174,8 @@ class hyperboloids {
     [[nodiscard]] Eigen::Matrix<S, 2, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 2, 1> result;
-        const S x = s[0];
-        const S y = s[1];
-        const S z = s[2];
-        const S a = s[3];
-        const S b = s[4];
+        const S x = s[0], y = s[1], z = s[2];
+        const S a = s[3], b = s[4];
         const S w0 = x * x + y * y;
         const S m = parameters.m;
         result[0] = m * w0 * a;
@@ -196,18 +186,13 @@ class hyperboloids {
     /// E = y^a p_a - L.
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S x = s[0];
-        const S y = s[1];
-        const S z = s[2];
-        const S a = s[3];
-        const S b = s[4];
+        const S x = s[0], y = s[1], z = s[2];
+        const S a = s[3], b = s[4];
         const S w0 = y * y;
         const S w1 = b * b;
         const S w2 = x * x;
         const S w3 = z * z;
-        const S m = parameters.m;
-        const S k = parameters.k;
-        const S c = parameters.c;
+        const auto [m, k, c] = parameters;
         const S w4 = x * (m * x * w0 * w1 + c) + S(0.5) * (m * ((w2 + w0) * (a * a) + (w2 * (w2 + w3) + w0 * (w0 + w3))
                 * w1) + k * (S(1) + w3));
         return w4 - k * z;
@@ -216,19 +201,14 @@ class hyperboloids {
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S x = s[0];
-        const S y = s[1];
-        const S z = s[2];
-        const S a = s[3];
-        const S b = s[4];
+        const S x = s[0], y = s[1], z = s[2];
+        const S a = s[3], b = s[4];
         const S w0 = x * x + y * y;
         const S w1 = z * b;
         const S w2 = x * w1 - y * a;
         const S w3 = x * a + y * w1;
         const S w4 = S(1) - z;
-        const S m = parameters.m;
-        const S k = parameters.k;
-        const S c = parameters.c;
+        const auto [m, k, c] = parameters;
         return S(0.5) * (m * (w0 * w0 * (b * b) + w2 * w2 + w3 * w3) - k * (w4 * w4)) - c * x;
     }
 
@@ -237,8 +217,7 @@ class hyperboloids {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> domain([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S x = s[0];
-        const S y = s[1];
+        const S x = s[0], y = s[1];
         result[0] = x * x + y * y;
         return result;
     }
@@ -248,9 +227,7 @@ class hyperboloids {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S x = s[0];
-        const S y = s[1];
-        const S z = s[2];
+        const S x = s[0], y = s[1], z = s[2];
         result[0] = x * x + y * y - z * z;
         return result;
     }
@@ -264,11 +241,8 @@ class hyperboloids {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 23>& values) const noexcept
     {
-        const S x = s[0];
-        const S y = s[1];
-        const S z = s[2];
-        const S a = s[3];
-        const S b = s[4];
+        const S x = s[0], y = s[1], z = s[2];
+        const S a = s[3], b = s[4];
         const S w0 = y * y;
         values[8] = x;
         const S w1 = x * x;
@@ -279,9 +253,7 @@ class hyperboloids {
         values[0] = w5;
         values[6] = w5;
         const S w6 = w3 + w2;
-        const S m = parameters.m;
-        const S k = parameters.k;
-        const S c = parameters.c;
+        const auto [m, k, c] = parameters;
         const S w7 = m * (w1 * w6 + w0 * (w0 + w3));
         values[22] = -S(2) * m * w4 * w5 / w7;
         const S w8 = S(2) * z;

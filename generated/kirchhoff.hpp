@@ -136,12 +136,7 @@ class kirchhoff {
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
         auto status = StatusOf<S>::good();
-        const S J1 = parameters.J1;
-        const S J2 = parameters.J2;
-        const S J3 = parameters.J3;
-        const S m1 = parameters.m1;
-        const S m2 = parameters.m2;
-        const S m3 = parameters.m3;
+        const auto [J1, J2, J3, m1, m2, m3] = parameters;
         StatusOf<S>::fail(status, J1 == S(0), Status::singular_mass_matrix);
         StatusOf<S>::fail(status, !(J1 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, J2 == S(0), Status::singular_mass_matrix);
@@ -163,18 +158,8 @@ class kirchhoff {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        const S w1 = s[0];
-        const S w2 = s[1];
-        const S w3 = s[2];
-        const S v1 = s[3];
-        const S v2 = s[4];
-        const S v3 = s[5];
-        const S J1 = parameters.J1;
-        const S J2 = parameters.J2;
-        const S J3 = parameters.J3;
-        const S m1 = parameters.m1;
-        const S m2 = parameters.m2;
-        const S m3 = parameters.m3;
+        const S w1 = s[0], w2 = s[1], w3 = s[2], v1 = s[3], v2 = s[4], v3 = s[5];
+        const auto [J1, J2, J3, m1, m2, m3] = parameters;
         ds[0] = ((J2 - J3) * w2 * w3 + (m2 - m3) * v2 * v3) / J1;
         ds[1] = ((J3 - J1) * w3 * w1 + (m3 - m1) * v3 * v1) / J2;
         ds[2] = ((J1 - J2) * w1 * w2 + (m1 - m2) * v1 * v2) / J3;
@@ -192,12 +177,7 @@ class kirchhoff {
             noexcept
     {
         Eigen::Matrix<S, 6, 6> result = Eigen::Matrix<S, 6, 6>::Zero();
-        const S J1 = parameters.J1;
-        const S J2 = parameters.J2;
-        const S J3 = parameters.J3;
-        const S m1 = parameters.m1;
-        const S m2 = parameters.m2;
-        const S m3 = parameters.m3;
+        const auto [J1, J2, J3, m1, m2, m3] = parameters;
         result(0, 0) = J1;
         result(1, 1) = J2;
         result(2, 2) = J3;
@@ -211,18 +191,8 @@ class kirchhoff {
     [[nodiscard]] Eigen::Matrix<S, 6, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 6, 1> result;
-        const S w1 = s[0];
-        const S w2 = s[1];
-        const S w3 = s[2];
-        const S v1 = s[3];
-        const S v2 = s[4];
-        const S v3 = s[5];
-        const S J1 = parameters.J1;
-        const S J2 = parameters.J2;
-        const S J3 = parameters.J3;
-        const S m1 = parameters.m1;
-        const S m2 = parameters.m2;
-        const S m3 = parameters.m3;
+        const S w1 = s[0], w2 = s[1], w3 = s[2], v1 = s[3], v2 = s[4], v3 = s[5];
+        const auto [J1, J2, J3, m1, m2, m3] = parameters;
         result[0] = J1 * w1;
         result[1] = J2 * w2;
         result[2] = J3 * w3;
@@ -235,18 +205,8 @@ class kirchhoff {
     /// E = y^a p_a - L.
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S w1 = s[0];
-        const S w2 = s[1];
-        const S w3 = s[2];
-        const S v1 = s[3];
-        const S v2 = s[4];
-        const S v3 = s[5];
-        const S J1 = parameters.J1;
-        const S J2 = parameters.J2;
-        const S J3 = parameters.J3;
-        const S m1 = parameters.m1;
-        const S m2 = parameters.m2;
-        const S m3 = parameters.m3;
+        const S w1 = s[0], w2 = s[1], w3 = s[2], v1 = s[3], v2 = s[4], v3 = s[5];
+        const auto [J1, J2, J3, m1, m2, m3] = parameters;
         const S u0 = J1 * (w1 * w1) + J2 * (w2 * w2) + J3 * (w3 * w3) + m1 * (v1 * v1) + m2 * (v2 * v2) + m3 * (v3 *
                 v3);
         return S(0.5) * u0;
@@ -255,18 +215,8 @@ class kirchhoff {
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S w1 = s[0];
-        const S w2 = s[1];
-        const S w3 = s[2];
-        const S v1 = s[3];
-        const S v2 = s[4];
-        const S v3 = s[5];
-        const S J1 = parameters.J1;
-        const S J2 = parameters.J2;
-        const S J3 = parameters.J3;
-        const S m1 = parameters.m1;
-        const S m2 = parameters.m2;
-        const S m3 = parameters.m3;
+        const S w1 = s[0], w2 = s[1], w3 = s[2], v1 = s[3], v2 = s[4], v3 = s[5];
+        const auto [J1, J2, J3, m1, m2, m3] = parameters;
         const S u0 = J1 * (w1 * w1) + J2 * (w2 * w2) + J3 * (w3 * w3) + m1 * (v1 * v1) + m2 * (v2 * v2) + m3 * (v3 *
                 v3);
         return S(0.5) * u0;
@@ -277,18 +227,8 @@ class kirchhoff {
     [[nodiscard]] Eigen::Matrix<S, 2, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 2, 1> result;
-        const S w1 = s[0];
-        const S w2 = s[1];
-        const S w3 = s[2];
-        const S v1 = s[3];
-        const S v2 = s[4];
-        const S v3 = s[5];
-        const S J1 = parameters.J1;
-        const S J2 = parameters.J2;
-        const S J3 = parameters.J3;
-        const S m1 = parameters.m1;
-        const S m2 = parameters.m2;
-        const S m3 = parameters.m3;
+        const S w1 = s[0], w2 = s[1], w3 = s[2], v1 = s[3], v2 = s[4], v3 = s[5];
+        const auto [J1, J2, J3, m1, m2, m3] = parameters;
         const S u0 = m1 * v1;
         const S u1 = m2 * v2;
         const S u2 = m3 * v3;
@@ -306,18 +246,8 @@ class kirchhoff {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 24>& values) const noexcept
     {
-        const S w1 = s[0];
-        const S w2 = s[1];
-        const S w3 = s[2];
-        const S v1 = s[3];
-        const S v2 = s[4];
-        const S v3 = s[5];
-        const S J1 = parameters.J1;
-        const S J2 = parameters.J2;
-        const S J3 = parameters.J3;
-        const S m1 = parameters.m1;
-        const S m2 = parameters.m2;
-        const S m3 = parameters.m3;
+        const S w1 = s[0], w2 = s[1], w3 = s[2], v1 = s[3], v2 = s[4], v3 = s[5];
+        const auto [J1, J2, J3, m1, m2, m3] = parameters;
         const auto inverses = reciprocals<S, 6>({J1, J2, J3, m1, m2, m3});
         const S u0 = inverses[0] * (J2 - J3);
         values[0] = u0 * w3;

@@ -141,18 +141,13 @@ class kovalevskaya {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        const S g1 = s[0];
-        const S g2 = s[1];
-        const S g3 = s[2];
-        const S w1 = s[3];
-        const S w2 = s[4];
-        const S w3 = s[5];
+        const S g1 = s[0], g2 = s[1], g3 = s[2];
+        const S w1 = s[3], w2 = s[4], w3 = s[5];
         ds[0] = g2 * w3 - g3 * w2;
         ds[1] = g3 * w1 - g1 * w3;
         ds[2] = g1 * w2 - g2 * w1;
         ds[3] = S(0.5) * w2 * w3;
-        const S J = parameters.J;
-        const S mgl = parameters.mgl;
+        const auto [J, mgl] = parameters;
         const S u0 = mgl / J;
         ds[4] = S(0.5) * (u0 * g3 - w1 * w3);
         ds[5] = -u0 * g2;
@@ -176,9 +171,7 @@ class kovalevskaya {
     [[nodiscard]] Eigen::Matrix<S, 3, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 3, 1> result;
-        const S w1 = s[3];
-        const S w2 = s[4];
-        const S w3 = s[5];
+        const S w1 = s[3], w2 = s[4], w3 = s[5];
         const S J = parameters.J;
         const S u0 = S(2) * J;
         result[0] = u0 * w1;
@@ -191,11 +184,8 @@ class kovalevskaya {
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
         const S g1 = s[0];
-        const S w1 = s[3];
-        const S w2 = s[4];
-        const S w3 = s[5];
-        const S J = parameters.J;
-        const S mgl = parameters.mgl;
+        const S w1 = s[3], w2 = s[4], w3 = s[5];
+        const auto [J, mgl] = parameters;
         return S(0.5) * J * (w3 * w3 + S(2) * (w1 * w1 + w2 * w2)) + mgl * g1;
     }
 
@@ -203,11 +193,8 @@ class kovalevskaya {
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
         const S g1 = s[0];
-        const S w1 = s[3];
-        const S w2 = s[4];
-        const S w3 = s[5];
-        const S J = parameters.J;
-        const S mgl = parameters.mgl;
+        const S w1 = s[3], w2 = s[4], w3 = s[5];
+        const auto [J, mgl] = parameters;
         return S(0.5) * J * (w3 * w3 + S(2) * (w1 * w1 + w2 * w2)) - mgl * g1;
     }
 
@@ -216,9 +203,7 @@ class kovalevskaya {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> constraints([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S g1 = s[0];
-        const S g2 = s[1];
-        const S g3 = s[2];
+        const S g1 = s[0], g2 = s[1], g3 = s[2];
         result[0] = g1 * g1 + g2 * g2 + g3 * g3 - S(1);
         return result;
     }
@@ -238,14 +223,9 @@ class kovalevskaya {
     [[nodiscard]] Eigen::Matrix<S, 2, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 2, 1> result;
-        const S g1 = s[0];
-        const S g2 = s[1];
-        const S g3 = s[2];
-        const S w1 = s[3];
-        const S w2 = s[4];
-        const S w3 = s[5];
-        const S J = parameters.J;
-        const S mgl = parameters.mgl;
+        const S g1 = s[0], g2 = s[1], g3 = s[2];
+        const S w1 = s[3], w2 = s[4], w3 = s[5];
+        const auto [J, mgl] = parameters;
         result[0] = J * (g3 * w3 + S(2) * (g1 * w1 + g2 * w2));
         const S u0 = mgl / J;
         const S u1 = u0 * g1 + w2 * w2 - w1 * w1;
@@ -262,12 +242,8 @@ class kovalevskaya {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 20>& values) const noexcept
     {
-        const S g1 = s[0];
-        const S g2 = s[1];
-        const S g3 = s[2];
-        const S w1 = s[3];
-        const S w2 = s[4];
-        const S w3 = s[5];
+        const S g1 = s[0], g2 = s[1], g3 = s[2];
+        const S w1 = s[3], w2 = s[4], w3 = s[5];
         values[0] = w3;
         values[8] = w2;
         values[1] = -w2;
@@ -283,8 +259,7 @@ class kovalevskaya {
         const S u0 = S(0.5) * w3;
         values[12] = u0;
         values[13] = S(0.5) * w2;
-        const S J = parameters.J;
-        const S mgl = parameters.mgl;
+        const auto [J, mgl] = parameters;
         values[14] = S(0.5) * mgl / J;
         values[15] = -u0;
         values[16] = -S(0.5) * w1;

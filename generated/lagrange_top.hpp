@@ -130,8 +130,7 @@ class lagrange_top {
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
         auto status = StatusOf<S>::good();
-        const S I1 = parameters.I1;
-        const S I3 = parameters.I3;
+        const auto [I1, I3, mgl] = parameters;
         StatusOf<S>::fail(status, I1 == S(0), Status::singular_mass_matrix);
         StatusOf<S>::fail(status, !(I1 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, I3 == S(0), Status::singular_mass_matrix);
@@ -145,18 +144,12 @@ class lagrange_top {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        const S g1 = s[0];
-        const S g2 = s[1];
-        const S g3 = s[2];
-        const S w1 = s[3];
-        const S w2 = s[4];
-        const S w3 = s[5];
+        const S g1 = s[0], g2 = s[1], g3 = s[2];
+        const S w1 = s[3], w2 = s[4], w3 = s[5];
         ds[0] = g2 * w3 - g3 * w2;
         ds[1] = g3 * w1 - g1 * w3;
         ds[2] = g1 * w2 - g2 * w1;
-        const S I1 = parameters.I1;
-        const S I3 = parameters.I3;
-        const S mgl = parameters.mgl;
+        const auto [I1, I3, mgl] = parameters;
         const S u0 = S(1) / I1;
         const S u1 = (I1 - I3) * w3;
         ds[3] = u0 * (mgl * g2 + w2 * u1);
@@ -170,8 +163,7 @@ class lagrange_top {
             noexcept
     {
         Eigen::Matrix<S, 3, 3> result = Eigen::Matrix<S, 3, 3>::Zero();
-        const S I1 = parameters.I1;
-        const S I3 = parameters.I3;
+        const auto [I1, I3, mgl] = parameters;
         result(0, 0) = I1;
         result(1, 1) = I1;
         result(2, 2) = I3;
@@ -182,11 +174,8 @@ class lagrange_top {
     [[nodiscard]] Eigen::Matrix<S, 3, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 3, 1> result;
-        const S w1 = s[3];
-        const S w2 = s[4];
-        const S w3 = s[5];
-        const S I1 = parameters.I1;
-        const S I3 = parameters.I3;
+        const S w1 = s[3], w2 = s[4], w3 = s[5];
+        const auto [I1, I3, mgl] = parameters;
         result[0] = I1 * w1;
         result[1] = I1 * w2;
         result[2] = I3 * w3;
@@ -197,12 +186,8 @@ class lagrange_top {
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
         const S g3 = s[2];
-        const S w1 = s[3];
-        const S w2 = s[4];
-        const S w3 = s[5];
-        const S I1 = parameters.I1;
-        const S I3 = parameters.I3;
-        const S mgl = parameters.mgl;
+        const S w1 = s[3], w2 = s[4], w3 = s[5];
+        const auto [I1, I3, mgl] = parameters;
         return mgl * g3 + S(0.5) * (I1 * (w1 * w1 + w2 * w2) + I3 * (w3 * w3));
     }
 
@@ -210,12 +195,8 @@ class lagrange_top {
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
         const S g3 = s[2];
-        const S w1 = s[3];
-        const S w2 = s[4];
-        const S w3 = s[5];
-        const S I1 = parameters.I1;
-        const S I3 = parameters.I3;
-        const S mgl = parameters.mgl;
+        const S w1 = s[3], w2 = s[4], w3 = s[5];
+        const auto [I1, I3, mgl] = parameters;
         return S(0.5) * (I1 * (w1 * w1 + w2 * w2) + I3 * (w3 * w3)) - mgl * g3;
     }
 
@@ -224,9 +205,7 @@ class lagrange_top {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> constraints([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S g1 = s[0];
-        const S g2 = s[1];
-        const S g3 = s[2];
+        const S g1 = s[0], g2 = s[1], g3 = s[2];
         result[0] = g1 * g1 + g2 * g2 + g3 * g3 - S(1);
         return result;
     }
@@ -248,14 +227,9 @@ class lagrange_top {
     [[nodiscard]] Eigen::Matrix<S, 2, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 2, 1> result;
-        const S g1 = s[0];
-        const S g2 = s[1];
-        const S g3 = s[2];
-        const S w1 = s[3];
-        const S w2 = s[4];
-        const S w3 = s[5];
-        const S I1 = parameters.I1;
-        const S I3 = parameters.I3;
+        const S g1 = s[0], g2 = s[1], g3 = s[2];
+        const S w1 = s[3], w2 = s[4], w3 = s[5];
+        const auto [I1, I3, mgl] = parameters;
         const S u0 = I3 * w3;
         result[1] = u0;
         result[0] = I1 * (g1 * w1 + g2 * w2) + g3 * u0;
@@ -270,12 +244,8 @@ class lagrange_top {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 20>& values) const noexcept
     {
-        const S g1 = s[0];
-        const S g2 = s[1];
-        const S g3 = s[2];
-        const S w1 = s[3];
-        const S w2 = s[4];
-        const S w3 = s[5];
+        const S g1 = s[0], g2 = s[1], g3 = s[2];
+        const S w1 = s[3], w2 = s[4], w3 = s[5];
         values[0] = w3;
         values[8] = w2;
         values[1] = -w2;
@@ -288,9 +258,7 @@ class lagrange_top {
         values[7] = -g1;
         values[9] = -w1;
         values[10] = -g2;
-        const S I1 = parameters.I1;
-        const S I3 = parameters.I3;
-        const S mgl = parameters.mgl;
+        const auto [I1, I3, mgl] = parameters;
         const S u0 = S(1) / I1;
         const S u1 = u0 * mgl;
         values[12] = u1;

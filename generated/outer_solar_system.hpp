@@ -47,54 +47,14 @@
 ///     p_V[6,3] = m[6] V[6,3]
 ///
 ///   equations of motion (momentum form):  ṗ_a = ρ_a(L) - p_c C^c_ab y^b
-///     ṗ_V[1,1] = -G (m[1] m[2] (Q[1,1] - Q[2,1])/((Q[1,1] - Q[2,1])² + (Q[1,2] - Q[2,2])² + (Q[1,3] - Q[2,3])²)^(3/2) + m[1] m[3] (Q[1,1] - Q[3,1])/((Q[1,1] - Q[3,1])² + (Q[1,2] - Q[3,2])² + (Q[1...
-///     ṗ_V[1,2] = -G (m[1] m[2] (Q[1,2] - Q[2,2])/((Q[1,1] - Q[2,1])² + (Q[1,2] - Q[2,2])² + (Q[1,3] - Q[2,3])²)^(3/2) + m[1] m[3] (Q[1,2] - Q[3,2])/((Q[1,1] - Q[3,1])² + (Q[1,2] - Q[3,2])² + (Q[1...
-///     ṗ_V[1,3] = -G (m[1] m[2] (Q[1,3] - Q[2,3])/((Q[1,1] - Q[2,1])² + (Q[1,2] - Q[2,2])² + (Q[1,3] - Q[2,3])²)^(3/2) + m[1] m[3] (Q[1,3] - Q[3,3])/((Q[1,1] - Q[3,1])² + (Q[1,2] - Q[3,2])² + (Q[1...
-///     ṗ_V[2,1] = G (m[1] m[2] (Q[1,1] - Q[2,1])/((Q[1,1] - Q[2,1])² + (Q[1,2] - Q[2,2])² + (Q[1,3] - Q[2,3])²)^(3/2) + m[2] m[3] (Q[3,1] - Q[2,1])/((Q[2,1] - Q[3,1])² + (Q[2,2] - Q[3,2])² + (Q[2,...
-///     ṗ_V[2,2] = G (m[1] m[2] (Q[1,2] - Q[2,2])/((Q[1,1] - Q[2,1])² + (Q[1,2] - Q[2,2])² + (Q[1,3] - Q[2,3])²)^(3/2) + m[2] m[3] (Q[3,2] - Q[2,2])/((Q[2,1] - Q[3,1])² + (Q[2,2] - Q[3,2])² + (Q[2,...
-///     ṗ_V[2,3] = G (m[1] m[2] (Q[1,3] - Q[2,3])/((Q[1,1] - Q[2,1])² + (Q[1,2] - Q[2,2])² + (Q[1,3] - Q[2,3])²)^(3/2) + m[2] m[3] (Q[3,3] - Q[2,3])/((Q[2,1] - Q[3,1])² + (Q[2,2] - Q[3,2])² + (Q[2,...
-///     ṗ_V[3,1] = G (m[1] m[3] (Q[1,1] - Q[3,1])/((Q[1,1] - Q[3,1])² + (Q[1,2] - Q[3,2])² + (Q[1,3] - Q[3,3])²)^(3/2) + m[2] m[3] (Q[2,1] - Q[3,1])/((Q[2,1] - Q[3,1])² + (Q[2,2] - Q[3,2])² + (Q[2,...
-///     ṗ_V[3,2] = G (m[1] m[3] (Q[1,2] - Q[3,2])/((Q[1,1] - Q[3,1])² + (Q[1,2] - Q[3,2])² + (Q[1,3] - Q[3,3])²)^(3/2) + m[2] m[3] (Q[2,2] - Q[3,2])/((Q[2,1] - Q[3,1])² + (Q[2,2] - Q[3,2])² + (Q[2,...
-///     ṗ_V[3,3] = G (m[1] m[3] (Q[1,3] - Q[3,3])/((Q[1,1] - Q[3,1])² + (Q[1,2] - Q[3,2])² + (Q[1,3] - Q[3,3])²)^(3/2) + m[2] m[3] (Q[2,3] - Q[3,3])/((Q[2,1] - Q[3,1])² + (Q[2,2] - Q[3,2])² + (Q[2,...
-///     ṗ_V[4,1] = G (m[1] m[4] (Q[1,1] - Q[4,1])/((Q[1,1] - Q[4,1])² + (Q[1,2] - Q[4,2])² + (Q[1,3] - Q[4,3])²)^(3/2) + m[2] m[4] (Q[2,1] - Q[4,1])/((Q[2,1] - Q[4,1])² + (Q[2,2] - Q[4,2])² + (Q[2,...
-///     ṗ_V[4,2] = G (m[1] m[4] (Q[1,2] - Q[4,2])/((Q[1,1] - Q[4,1])² + (Q[1,2] - Q[4,2])² + (Q[1,3] - Q[4,3])²)^(3/2) + m[2] m[4] (Q[2,2] - Q[4,2])/((Q[2,1] - Q[4,1])² + (Q[2,2] - Q[4,2])² + (Q[2,...
-///     ṗ_V[4,3] = G (m[1] m[4] (Q[1,3] - Q[4,3])/((Q[1,1] - Q[4,1])² + (Q[1,2] - Q[4,2])² + (Q[1,3] - Q[4,3])²)^(3/2) + m[2] m[4] (Q[2,3] - Q[4,3])/((Q[2,1] - Q[4,1])² + (Q[2,2] - Q[4,2])² + (Q[2,...
-///     ṗ_V[5,1] = G (m[1] m[5] (Q[1,1] - Q[5,1])/((Q[1,1] - Q[5,1])² + (Q[1,2] - Q[5,2])² + (Q[1,3] - Q[5,3])²)^(3/2) + m[2] m[5] (Q[2,1] - Q[5,1])/((Q[2,1] - Q[5,1])² + (Q[2,2] - Q[5,2])² + (Q[2,...
-///     ṗ_V[5,2] = G (m[1] m[5] (Q[1,2] - Q[5,2])/((Q[1,1] - Q[5,1])² + (Q[1,2] - Q[5,2])² + (Q[1,3] - Q[5,3])²)^(3/2) + m[2] m[5] (Q[2,2] - Q[5,2])/((Q[2,1] - Q[5,1])² + (Q[2,2] - Q[5,2])² + (Q[2,...
-///     ṗ_V[5,3] = G (m[1] m[5] (Q[1,3] - Q[5,3])/((Q[1,1] - Q[5,1])² + (Q[1,2] - Q[5,2])² + (Q[1,3] - Q[5,3])²)^(3/2) + m[2] m[5] (Q[2,3] - Q[5,3])/((Q[2,1] - Q[5,1])² + (Q[2,2] - Q[5,2])² + (Q[2,...
-///     ṗ_V[6,1] = G (m[1] m[6] (Q[1,1] - Q[6,1])/((Q[1,1] - Q[6,1])² + (Q[1,2] - Q[6,2])² + (Q[1,3] - Q[6,3])²)^(3/2) + m[2] m[6] (Q[2,1] - Q[6,1])/((Q[2,1] - Q[6,1])² + (Q[2,2] - Q[6,2])² + (Q[2,...
-///     ṗ_V[6,2] = G (m[1] m[6] (Q[1,2] - Q[6,2])/((Q[1,1] - Q[6,1])² + (Q[1,2] - Q[6,2])² + (Q[1,3] - Q[6,3])²)^(3/2) + m[2] m[6] (Q[2,2] - Q[6,2])/((Q[2,1] - Q[6,1])² + (Q[2,2] - Q[6,2])² + (Q[2,...
-///     ṗ_V[6,3] = G (m[1] m[6] (Q[1,3] - Q[6,3])/((Q[1,1] - Q[6,1])² + (Q[1,2] - Q[6,2])² + (Q[1,3] - Q[6,3])²)^(3/2) + m[2] m[6] (Q[2,3] - Q[6,3])/((Q[2,1] - Q[6,1])² + (Q[2,2] - Q[6,2])² + (Q[2,...
+///     (18 equations are too long to stand here: lagen derive outer_solar_system.toml prints them)
 ///
 ///   equations of motion (acceleration form):
 ///     W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - ∂²L/∂y^a∂t - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
-///     m[1] d/dt V[1,1] = -G (m[1] m[2] (Q[1,1] - Q[2,1])/((Q[1,1] - Q[2,1])² + (Q[1,2] - Q[2,2])² + (Q[1,3] - Q[2,3])²)^(3/2) + m[1] m[3] (Q[1,1] - Q[3,1])/((Q[1,1] - Q[3,1])² + (Q[1,2] - Q[3,2])² ...
-///     m[1] d/dt V[1,2] = -G (m[1] m[2] (Q[1,2] - Q[2,2])/((Q[1,1] - Q[2,1])² + (Q[1,2] - Q[2,2])² + (Q[1,3] - Q[2,3])²)^(3/2) + m[1] m[3] (Q[1,2] - Q[3,2])/((Q[1,1] - Q[3,1])² + (Q[1,2] - Q[3,2])² ...
-///     m[1] d/dt V[1,3] = -G (m[1] m[2] (Q[1,3] - Q[2,3])/((Q[1,1] - Q[2,1])² + (Q[1,2] - Q[2,2])² + (Q[1,3] - Q[2,3])²)^(3/2) + m[1] m[3] (Q[1,3] - Q[3,3])/((Q[1,1] - Q[3,1])² + (Q[1,2] - Q[3,2])² ...
-///     m[2] d/dt V[2,1] = G (m[1] m[2] (Q[1,1] - Q[2,1])/((Q[1,1] - Q[2,1])² + (Q[1,2] - Q[2,2])² + (Q[1,3] - Q[2,3])²)^(3/2) + m[2] m[3] (Q[3,1] - Q[2,1])/((Q[2,1] - Q[3,1])² + (Q[2,2] - Q[3,2])² +...
-///     m[2] d/dt V[2,2] = G (m[1] m[2] (Q[1,2] - Q[2,2])/((Q[1,1] - Q[2,1])² + (Q[1,2] - Q[2,2])² + (Q[1,3] - Q[2,3])²)^(3/2) + m[2] m[3] (Q[3,2] - Q[2,2])/((Q[2,1] - Q[3,1])² + (Q[2,2] - Q[3,2])² +...
-///     m[2] d/dt V[2,3] = G (m[1] m[2] (Q[1,3] - Q[2,3])/((Q[1,1] - Q[2,1])² + (Q[1,2] - Q[2,2])² + (Q[1,3] - Q[2,3])²)^(3/2) + m[2] m[3] (Q[3,3] - Q[2,3])/((Q[2,1] - Q[3,1])² + (Q[2,2] - Q[3,2])² +...
-///     m[3] d/dt V[3,1] = G (m[1] m[3] (Q[1,1] - Q[3,1])/((Q[1,1] - Q[3,1])² + (Q[1,2] - Q[3,2])² + (Q[1,3] - Q[3,3])²)^(3/2) + m[2] m[3] (Q[2,1] - Q[3,1])/((Q[2,1] - Q[3,1])² + (Q[2,2] - Q[3,2])² +...
-///     m[3] d/dt V[3,2] = G (m[1] m[3] (Q[1,2] - Q[3,2])/((Q[1,1] - Q[3,1])² + (Q[1,2] - Q[3,2])² + (Q[1,3] - Q[3,3])²)^(3/2) + m[2] m[3] (Q[2,2] - Q[3,2])/((Q[2,1] - Q[3,1])² + (Q[2,2] - Q[3,2])² +...
-///     m[3] d/dt V[3,3] = G (m[1] m[3] (Q[1,3] - Q[3,3])/((Q[1,1] - Q[3,1])² + (Q[1,2] - Q[3,2])² + (Q[1,3] - Q[3,3])²)^(3/2) + m[2] m[3] (Q[2,3] - Q[3,3])/((Q[2,1] - Q[3,1])² + (Q[2,2] - Q[3,2])² +...
-///     m[4] d/dt V[4,1] = G (m[1] m[4] (Q[1,1] - Q[4,1])/((Q[1,1] - Q[4,1])² + (Q[1,2] - Q[4,2])² + (Q[1,3] - Q[4,3])²)^(3/2) + m[2] m[4] (Q[2,1] - Q[4,1])/((Q[2,1] - Q[4,1])² + (Q[2,2] - Q[4,2])² +...
-///     m[4] d/dt V[4,2] = G (m[1] m[4] (Q[1,2] - Q[4,2])/((Q[1,1] - Q[4,1])² + (Q[1,2] - Q[4,2])² + (Q[1,3] - Q[4,3])²)^(3/2) + m[2] m[4] (Q[2,2] - Q[4,2])/((Q[2,1] - Q[4,1])² + (Q[2,2] - Q[4,2])² +...
-///     m[4] d/dt V[4,3] = G (m[1] m[4] (Q[1,3] - Q[4,3])/((Q[1,1] - Q[4,1])² + (Q[1,2] - Q[4,2])² + (Q[1,3] - Q[4,3])²)^(3/2) + m[2] m[4] (Q[2,3] - Q[4,3])/((Q[2,1] - Q[4,1])² + (Q[2,2] - Q[4,2])² +...
-///     m[5] d/dt V[5,1] = G (m[1] m[5] (Q[1,1] - Q[5,1])/((Q[1,1] - Q[5,1])² + (Q[1,2] - Q[5,2])² + (Q[1,3] - Q[5,3])²)^(3/2) + m[2] m[5] (Q[2,1] - Q[5,1])/((Q[2,1] - Q[5,1])² + (Q[2,2] - Q[5,2])² +...
-///     m[5] d/dt V[5,2] = G (m[1] m[5] (Q[1,2] - Q[5,2])/((Q[1,1] - Q[5,1])² + (Q[1,2] - Q[5,2])² + (Q[1,3] - Q[5,3])²)^(3/2) + m[2] m[5] (Q[2,2] - Q[5,2])/((Q[2,1] - Q[5,1])² + (Q[2,2] - Q[5,2])² +...
-///     m[5] d/dt V[5,3] = G (m[1] m[5] (Q[1,3] - Q[5,3])/((Q[1,1] - Q[5,1])² + (Q[1,2] - Q[5,2])² + (Q[1,3] - Q[5,3])²)^(3/2) + m[2] m[5] (Q[2,3] - Q[5,3])/((Q[2,1] - Q[5,1])² + (Q[2,2] - Q[5,2])² +...
-///     m[6] d/dt V[6,1] = G (m[1] m[6] (Q[1,1] - Q[6,1])/((Q[1,1] - Q[6,1])² + (Q[1,2] - Q[6,2])² + (Q[1,3] - Q[6,3])²)^(3/2) + m[2] m[6] (Q[2,1] - Q[6,1])/((Q[2,1] - Q[6,1])² + (Q[2,2] - Q[6,2])² +...
-///     m[6] d/dt V[6,2] = G (m[1] m[6] (Q[1,2] - Q[6,2])/((Q[1,1] - Q[6,1])² + (Q[1,2] - Q[6,2])² + (Q[1,3] - Q[6,3])²)^(3/2) + m[2] m[6] (Q[2,2] - Q[6,2])/((Q[2,1] - Q[6,1])² + (Q[2,2] - Q[6,2])² +...
-///     m[6] d/dt V[6,3] = G (m[1] m[6] (Q[1,3] - Q[6,3])/((Q[1,1] - Q[6,1])² + (Q[1,2] - Q[6,2])² + (Q[1,3] - Q[6,3])²)^(3/2) + m[2] m[6] (Q[2,3] - Q[6,3])/((Q[2,1] - Q[6,1])² + (Q[2,2] - Q[6,2])² +...
+///     (18 equations are too long to stand here: lagen derive outer_solar_system.toml prints them)
 ///
 ///   energy:  E = y^a p_a - L
-///     E = m[1] V[1,1]² + m[1] V[1,2]² + m[1] V[1,3]² + m[2] V[2,1]² + m[2] V[2,2]² + m[2] V[2,3]² + m[3] V[3,1]²
-///         + m[3] V[3,2]² + m[3] V[3,3]² + m[4] V[4,1]² + m[4] V[4,2]² + m[4] V[4,3]² + m[5] V[5,1]² + m[5] V[5,2]²
-///         + m[5] V[5,3]² + m[6] V[6,1]² + m[6] V[6,2]² + m[6] V[6,3]²
-///         - G (m[1] m[2]/√((Q[1,1] - Q[2,1])² + (Q[1,2] - Q[2,2])² + (Q[1,3] - Q[2,3])²) + m[1] m[3]/√((Q[1,1] - Q[3,1])² + (Q[1,2] - Q[3,2])² + (Q[1,3] - Q[3,3])²) + m[1] m[4]/√((Q[1,1] - Q...
-///         - m[1] (V[1,1]² + V[1,2]² + V[1,3]²)/2 - m[2] (V[2,1]² + V[2,2]² + V[2,3]²)/2
-///         - m[3] (V[3,1]² + V[3,2]² + V[3,3]²)/2 - m[4] (V[4,1]² + V[4,2]² + V[4,3]²)/2
-///         - m[5] (V[5,1]² + V[5,2]² + V[5,3]²)/2 - m[6] (V[6,1]² + V[6,2]² + V[6,3]²)/2
+///     (one equation is too long to stand here: lagen derive outer_solar_system.toml prints it)
 ///
 /// Operations (with shared terms computed once; "written out" without sharing):
 ///   kernel            + -      *      /  functions  solves  written out
@@ -299,13 +259,7 @@ class outer_solar_system {
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
         auto status = StatusOf<S>::good();
-        const S G = parameters.G;
-        const S m_1 = parameters.m_1;
-        const S m_2 = parameters.m_2;
-        const S m_3 = parameters.m_3;
-        const S m_4 = parameters.m_4;
-        const S m_5 = parameters.m_5;
-        const S m_6 = parameters.m_6;
+        const auto [G, m_1, m_2, m_3, m_4, m_5, m_6] = parameters;
         StatusOf<S>::fail(status, !(G > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, m_1 == S(0), Status::singular_mass_matrix);
         StatusOf<S>::fail(status, m_2 == S(0), Status::singular_mass_matrix);
@@ -322,42 +276,12 @@ class outer_solar_system {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        const S Q_1_1 = s[0];
-        const S Q_1_2 = s[1];
-        const S Q_1_3 = s[2];
-        const S Q_2_1 = s[3];
-        const S Q_2_2 = s[4];
-        const S Q_2_3 = s[5];
-        const S Q_3_1 = s[6];
-        const S Q_3_2 = s[7];
-        const S Q_3_3 = s[8];
-        const S Q_4_1 = s[9];
-        const S Q_4_2 = s[10];
-        const S Q_4_3 = s[11];
-        const S Q_5_1 = s[12];
-        const S Q_5_2 = s[13];
-        const S Q_5_3 = s[14];
-        const S Q_6_1 = s[15];
-        const S Q_6_2 = s[16];
-        const S Q_6_3 = s[17];
-        const S V_1_1 = s[18];
-        const S V_1_2 = s[19];
-        const S V_1_3 = s[20];
-        const S V_2_1 = s[21];
-        const S V_2_2 = s[22];
-        const S V_2_3 = s[23];
-        const S V_3_1 = s[24];
-        const S V_3_2 = s[25];
-        const S V_3_3 = s[26];
-        const S V_4_1 = s[27];
-        const S V_4_2 = s[28];
-        const S V_4_3 = s[29];
-        const S V_5_1 = s[30];
-        const S V_5_2 = s[31];
-        const S V_5_3 = s[32];
-        const S V_6_1 = s[33];
-        const S V_6_2 = s[34];
-        const S V_6_3 = s[35];
+        const S Q_1_1 = s[0], Q_1_2 = s[1], Q_1_3 = s[2], Q_2_1 = s[3], Q_2_2 = s[4], Q_2_3 = s[5], Q_3_1 = s[6],
+                Q_3_2 = s[7], Q_3_3 = s[8], Q_4_1 = s[9], Q_4_2 = s[10], Q_4_3 = s[11], Q_5_1 = s[12], Q_5_2 = s[13],
+                Q_5_3 = s[14], Q_6_1 = s[15], Q_6_2 = s[16], Q_6_3 = s[17];
+        const S V_1_1 = s[18], V_1_2 = s[19], V_1_3 = s[20], V_2_1 = s[21], V_2_2 = s[22], V_2_3 = s[23], V_3_1 = s[24],
+                V_3_2 = s[25], V_3_3 = s[26], V_4_1 = s[27], V_4_2 = s[28], V_4_3 = s[29], V_5_1 = s[30], V_5_2 = s[31],
+                V_5_3 = s[32], V_6_1 = s[33], V_6_2 = s[34], V_6_3 = s[35];
         ds[0] = V_1_1;
         ds[1] = V_1_2;
         ds[2] = V_1_3;
@@ -441,13 +365,7 @@ class outer_solar_system {
         const auto inverses = reciprocals<S, 15>({roots[1] * w7, roots[0] * w3, roots[2] * w11, roots[3] * w15, roots[4]
                 * w19, roots[5] * w23, roots[6] * w27, roots[7] * w31, roots[8] * w35, roots[9] * w39, roots[10] * w43,
                 roots[11] * w47, roots[12] * w51, roots[13] * w55, roots[14] * w59});
-        const S G = parameters.G;
-        const S m_1 = parameters.m_1;
-        const S m_2 = parameters.m_2;
-        const S m_3 = parameters.m_3;
-        const S m_4 = parameters.m_4;
-        const S m_5 = parameters.m_5;
-        const S m_6 = parameters.m_6;
+        const auto [G, m_1, m_2, m_3, m_4, m_5, m_6] = parameters;
         const S w60 = m_3 * inverses[1];
         const S w61 = m_2 * inverses[0];
         const S w62 = m_4 * inverses[2];
@@ -504,12 +422,7 @@ class outer_solar_system {
             noexcept
     {
         Eigen::Matrix<S, 18, 18> result = Eigen::Matrix<S, 18, 18>::Zero();
-        const S m_1 = parameters.m_1;
-        const S m_2 = parameters.m_2;
-        const S m_3 = parameters.m_3;
-        const S m_4 = parameters.m_4;
-        const S m_5 = parameters.m_5;
-        const S m_6 = parameters.m_6;
+        const auto [G, m_1, m_2, m_3, m_4, m_5, m_6] = parameters;
         result(0, 0) = m_1;
         result(1, 1) = m_1;
         result(2, 2) = m_1;
@@ -535,30 +448,10 @@ class outer_solar_system {
     [[nodiscard]] Eigen::Matrix<S, 18, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 18, 1> result;
-        const S V_1_1 = s[18];
-        const S V_1_2 = s[19];
-        const S V_1_3 = s[20];
-        const S V_2_1 = s[21];
-        const S V_2_2 = s[22];
-        const S V_2_3 = s[23];
-        const S V_3_1 = s[24];
-        const S V_3_2 = s[25];
-        const S V_3_3 = s[26];
-        const S V_4_1 = s[27];
-        const S V_4_2 = s[28];
-        const S V_4_3 = s[29];
-        const S V_5_1 = s[30];
-        const S V_5_2 = s[31];
-        const S V_5_3 = s[32];
-        const S V_6_1 = s[33];
-        const S V_6_2 = s[34];
-        const S V_6_3 = s[35];
-        const S m_1 = parameters.m_1;
-        const S m_2 = parameters.m_2;
-        const S m_3 = parameters.m_3;
-        const S m_4 = parameters.m_4;
-        const S m_5 = parameters.m_5;
-        const S m_6 = parameters.m_6;
+        const S V_1_1 = s[18], V_1_2 = s[19], V_1_3 = s[20], V_2_1 = s[21], V_2_2 = s[22], V_2_3 = s[23], V_3_1 = s[24],
+                V_3_2 = s[25], V_3_3 = s[26], V_4_1 = s[27], V_4_2 = s[28], V_4_3 = s[29], V_5_1 = s[30], V_5_2 = s[31],
+                V_5_3 = s[32], V_6_1 = s[33], V_6_2 = s[34], V_6_3 = s[35];
+        const auto [G, m_1, m_2, m_3, m_4, m_5, m_6] = parameters;
         result[0] = m_1 * V_1_1;
         result[1] = m_1 * V_1_2;
         result[2] = m_1 * V_1_3;
@@ -583,42 +476,12 @@ class outer_solar_system {
     /// E = y^a p_a - L.
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S Q_1_1 = s[0];
-        const S Q_1_2 = s[1];
-        const S Q_1_3 = s[2];
-        const S Q_2_1 = s[3];
-        const S Q_2_2 = s[4];
-        const S Q_2_3 = s[5];
-        const S Q_3_1 = s[6];
-        const S Q_3_2 = s[7];
-        const S Q_3_3 = s[8];
-        const S Q_4_1 = s[9];
-        const S Q_4_2 = s[10];
-        const S Q_4_3 = s[11];
-        const S Q_5_1 = s[12];
-        const S Q_5_2 = s[13];
-        const S Q_5_3 = s[14];
-        const S Q_6_1 = s[15];
-        const S Q_6_2 = s[16];
-        const S Q_6_3 = s[17];
-        const S V_1_1 = s[18];
-        const S V_1_2 = s[19];
-        const S V_1_3 = s[20];
-        const S V_2_1 = s[21];
-        const S V_2_2 = s[22];
-        const S V_2_3 = s[23];
-        const S V_3_1 = s[24];
-        const S V_3_2 = s[25];
-        const S V_3_3 = s[26];
-        const S V_4_1 = s[27];
-        const S V_4_2 = s[28];
-        const S V_4_3 = s[29];
-        const S V_5_1 = s[30];
-        const S V_5_2 = s[31];
-        const S V_5_3 = s[32];
-        const S V_6_1 = s[33];
-        const S V_6_2 = s[34];
-        const S V_6_3 = s[35];
+        const S Q_1_1 = s[0], Q_1_2 = s[1], Q_1_3 = s[2], Q_2_1 = s[3], Q_2_2 = s[4], Q_2_3 = s[5], Q_3_1 = s[6],
+                Q_3_2 = s[7], Q_3_3 = s[8], Q_4_1 = s[9], Q_4_2 = s[10], Q_4_3 = s[11], Q_5_1 = s[12], Q_5_2 = s[13],
+                Q_5_3 = s[14], Q_6_1 = s[15], Q_6_2 = s[16], Q_6_3 = s[17];
+        const S V_1_1 = s[18], V_1_2 = s[19], V_1_3 = s[20], V_2_1 = s[21], V_2_2 = s[22], V_2_3 = s[23], V_3_1 = s[24],
+                V_3_2 = s[25], V_3_3 = s[26], V_4_1 = s[27], V_4_2 = s[28], V_4_3 = s[29], V_5_1 = s[30], V_5_2 = s[31],
+                V_5_3 = s[32], V_6_1 = s[33], V_6_2 = s[34], V_6_3 = s[35];
         const S w0 = Q_1_1 - Q_2_1;
         const S w1 = Q_1_2 - Q_2_2;
         const S w2 = Q_1_3 - Q_2_3;
@@ -670,13 +533,7 @@ class outer_solar_system {
                 + w26 * w26, w27 * w27 + w28 * w28 + w29 * w29, w30 * w30 + w31 * w31 + w32 * w32, w33 * w33 + w34 * w34
                 + w35 * w35, w36 * w36 + w37 * w37 + w38 * w38, w39 * w39 + w40 * w40 + w41 * w41, w42 * w42 + w43 * w43
                 + w44 * w44});
-        const S G = parameters.G;
-        const S m_1 = parameters.m_1;
-        const S m_2 = parameters.m_2;
-        const S m_3 = parameters.m_3;
-        const S m_4 = parameters.m_4;
-        const S m_5 = parameters.m_5;
-        const S m_6 = parameters.m_6;
+        const auto [G, m_1, m_2, m_3, m_4, m_5, m_6] = parameters;
         const S w45 = m_1 * (m_2 / roots[0] + m_3 / roots[14] + m_4 / roots[1] + m_5 / roots[2] + m_6 / roots[3]) + m_2
                 * (m_3 / roots[4] + m_4 / roots[5] + m_5 / roots[6] + m_6 / roots[7]);
         const S w46 = G * (w45 + m_3 * (m_4 / roots[8] + m_5 / roots[9] + m_6 / roots[10]) + m_4 * (m_5 / roots[11] +
@@ -691,42 +548,12 @@ class outer_solar_system {
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S Q_1_1 = s[0];
-        const S Q_1_2 = s[1];
-        const S Q_1_3 = s[2];
-        const S Q_2_1 = s[3];
-        const S Q_2_2 = s[4];
-        const S Q_2_3 = s[5];
-        const S Q_3_1 = s[6];
-        const S Q_3_2 = s[7];
-        const S Q_3_3 = s[8];
-        const S Q_4_1 = s[9];
-        const S Q_4_2 = s[10];
-        const S Q_4_3 = s[11];
-        const S Q_5_1 = s[12];
-        const S Q_5_2 = s[13];
-        const S Q_5_3 = s[14];
-        const S Q_6_1 = s[15];
-        const S Q_6_2 = s[16];
-        const S Q_6_3 = s[17];
-        const S V_1_1 = s[18];
-        const S V_1_2 = s[19];
-        const S V_1_3 = s[20];
-        const S V_2_1 = s[21];
-        const S V_2_2 = s[22];
-        const S V_2_3 = s[23];
-        const S V_3_1 = s[24];
-        const S V_3_2 = s[25];
-        const S V_3_3 = s[26];
-        const S V_4_1 = s[27];
-        const S V_4_2 = s[28];
-        const S V_4_3 = s[29];
-        const S V_5_1 = s[30];
-        const S V_5_2 = s[31];
-        const S V_5_3 = s[32];
-        const S V_6_1 = s[33];
-        const S V_6_2 = s[34];
-        const S V_6_3 = s[35];
+        const S Q_1_1 = s[0], Q_1_2 = s[1], Q_1_3 = s[2], Q_2_1 = s[3], Q_2_2 = s[4], Q_2_3 = s[5], Q_3_1 = s[6],
+                Q_3_2 = s[7], Q_3_3 = s[8], Q_4_1 = s[9], Q_4_2 = s[10], Q_4_3 = s[11], Q_5_1 = s[12], Q_5_2 = s[13],
+                Q_5_3 = s[14], Q_6_1 = s[15], Q_6_2 = s[16], Q_6_3 = s[17];
+        const S V_1_1 = s[18], V_1_2 = s[19], V_1_3 = s[20], V_2_1 = s[21], V_2_2 = s[22], V_2_3 = s[23], V_3_1 = s[24],
+                V_3_2 = s[25], V_3_3 = s[26], V_4_1 = s[27], V_4_2 = s[28], V_4_3 = s[29], V_5_1 = s[30], V_5_2 = s[31],
+                V_5_3 = s[32], V_6_1 = s[33], V_6_2 = s[34], V_6_3 = s[35];
         const S w0 = Q_1_1 - Q_2_1;
         const S w1 = Q_1_2 - Q_2_2;
         const S w2 = Q_1_3 - Q_2_3;
@@ -778,13 +605,7 @@ class outer_solar_system {
                 + w26 * w26, w27 * w27 + w28 * w28 + w29 * w29, w30 * w30 + w31 * w31 + w32 * w32, w33 * w33 + w34 * w34
                 + w35 * w35, w36 * w36 + w37 * w37 + w38 * w38, w39 * w39 + w40 * w40 + w41 * w41, w42 * w42 + w43 * w43
                 + w44 * w44});
-        const S G = parameters.G;
-        const S m_1 = parameters.m_1;
-        const S m_2 = parameters.m_2;
-        const S m_3 = parameters.m_3;
-        const S m_4 = parameters.m_4;
-        const S m_5 = parameters.m_5;
-        const S m_6 = parameters.m_6;
+        const auto [G, m_1, m_2, m_3, m_4, m_5, m_6] = parameters;
         const S w45 = m_1 * (m_2 / roots[0] + m_3 / roots[14] + m_4 / roots[1] + m_5 / roots[2] + m_6 / roots[3]) + m_2
                 * (m_3 / roots[4] + m_4 / roots[5] + m_5 / roots[6] + m_6 / roots[7]);
         const S w46 = G * (w45 + m_3 * (m_4 / roots[8] + m_5 / roots[9] + m_6 / roots[10]) + m_4 * (m_5 / roots[11] +
@@ -802,15 +623,8 @@ class outer_solar_system {
     [[nodiscard]] Eigen::Matrix<S, 6, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 6, 1> result;
-        const S Q_1_1 = s[0];
-        const S Q_1_2 = s[1];
-        const S Q_1_3 = s[2];
-        const S Q_2_1 = s[3];
-        const S Q_2_2 = s[4];
-        const S Q_2_3 = s[5];
-        const S Q_6_1 = s[15];
-        const S Q_6_2 = s[16];
-        const S Q_6_3 = s[17];
+        const S Q_1_1 = s[0], Q_1_2 = s[1], Q_1_3 = s[2], Q_2_1 = s[3], Q_2_2 = s[4], Q_2_3 = s[5], Q_6_1 = s[15],
+                Q_6_2 = s[16], Q_6_3 = s[17];
         result[0] = Q_2_1 - Q_1_1;
         result[1] = Q_2_2 - Q_1_2;
         result[2] = Q_2_3 - Q_1_3;
@@ -826,48 +640,13 @@ class outer_solar_system {
     [[nodiscard]] Eigen::Matrix<S, 6, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 6, 1> result;
-        const S Q_1_1 = s[0];
-        const S Q_1_2 = s[1];
-        const S Q_1_3 = s[2];
-        const S Q_2_1 = s[3];
-        const S Q_2_2 = s[4];
-        const S Q_2_3 = s[5];
-        const S Q_3_1 = s[6];
-        const S Q_3_2 = s[7];
-        const S Q_3_3 = s[8];
-        const S Q_4_1 = s[9];
-        const S Q_4_2 = s[10];
-        const S Q_4_3 = s[11];
-        const S Q_5_1 = s[12];
-        const S Q_5_2 = s[13];
-        const S Q_5_3 = s[14];
-        const S Q_6_1 = s[15];
-        const S Q_6_2 = s[16];
-        const S Q_6_3 = s[17];
-        const S V_1_1 = s[18];
-        const S V_1_2 = s[19];
-        const S V_1_3 = s[20];
-        const S V_2_1 = s[21];
-        const S V_2_2 = s[22];
-        const S V_2_3 = s[23];
-        const S V_3_1 = s[24];
-        const S V_3_2 = s[25];
-        const S V_3_3 = s[26];
-        const S V_4_1 = s[27];
-        const S V_4_2 = s[28];
-        const S V_4_3 = s[29];
-        const S V_5_1 = s[30];
-        const S V_5_2 = s[31];
-        const S V_5_3 = s[32];
-        const S V_6_1 = s[33];
-        const S V_6_2 = s[34];
-        const S V_6_3 = s[35];
-        const S m_1 = parameters.m_1;
-        const S m_2 = parameters.m_2;
-        const S m_3 = parameters.m_3;
-        const S m_4 = parameters.m_4;
-        const S m_5 = parameters.m_5;
-        const S m_6 = parameters.m_6;
+        const S Q_1_1 = s[0], Q_1_2 = s[1], Q_1_3 = s[2], Q_2_1 = s[3], Q_2_2 = s[4], Q_2_3 = s[5], Q_3_1 = s[6],
+                Q_3_2 = s[7], Q_3_3 = s[8], Q_4_1 = s[9], Q_4_2 = s[10], Q_4_3 = s[11], Q_5_1 = s[12], Q_5_2 = s[13],
+                Q_5_3 = s[14], Q_6_1 = s[15], Q_6_2 = s[16], Q_6_3 = s[17];
+        const S V_1_1 = s[18], V_1_2 = s[19], V_1_3 = s[20], V_2_1 = s[21], V_2_2 = s[22], V_2_3 = s[23], V_3_1 = s[24],
+                V_3_2 = s[25], V_3_3 = s[26], V_4_1 = s[27], V_4_2 = s[28], V_4_3 = s[29], V_5_1 = s[30], V_5_2 = s[31],
+                V_5_3 = s[32], V_6_1 = s[33], V_6_2 = s[34], V_6_3 = s[35];
+        const auto [G, m_1, m_2, m_3, m_4, m_5, m_6] = parameters;
         const S w0 = m_1 * V_1_1;
         const S w1 = m_2 * V_2_1;
         const S w2 = m_3 * V_3_1;
@@ -931,31 +710,10 @@ class outer_solar_system {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 342>& values) const noexcept
     {
-        const S Q_1_1 = s[0];
-        const S Q_1_2 = s[1];
-        const S Q_1_3 = s[2];
-        const S Q_2_1 = s[3];
-        const S Q_2_2 = s[4];
-        const S Q_2_3 = s[5];
-        const S Q_3_1 = s[6];
-        const S Q_3_2 = s[7];
-        const S Q_3_3 = s[8];
-        const S Q_4_1 = s[9];
-        const S Q_4_2 = s[10];
-        const S Q_4_3 = s[11];
-        const S Q_5_1 = s[12];
-        const S Q_5_2 = s[13];
-        const S Q_5_3 = s[14];
-        const S Q_6_1 = s[15];
-        const S Q_6_2 = s[16];
-        const S Q_6_3 = s[17];
-        const S G = parameters.G;
-        const S m_1 = parameters.m_1;
-        const S m_2 = parameters.m_2;
-        const S m_3 = parameters.m_3;
-        const S m_4 = parameters.m_4;
-        const S m_5 = parameters.m_5;
-        const S m_6 = parameters.m_6;
+        const S Q_1_1 = s[0], Q_1_2 = s[1], Q_1_3 = s[2], Q_2_1 = s[3], Q_2_2 = s[4], Q_2_3 = s[5], Q_3_1 = s[6],
+                Q_3_2 = s[7], Q_3_3 = s[8], Q_4_1 = s[9], Q_4_2 = s[10], Q_4_3 = s[11], Q_5_1 = s[12], Q_5_2 = s[13],
+                Q_5_3 = s[14], Q_6_1 = s[15], Q_6_2 = s[16], Q_6_3 = s[17];
+        const auto [G, m_1, m_2, m_3, m_4, m_5, m_6] = parameters;
         const S w0 = G * m_1;
         const S w1 = Q_1_3 - Q_6_3;
         const S w2 = w0 * w1;

@@ -110,9 +110,7 @@ class planar_body {
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
         auto status = StatusOf<S>::good();
-        const S J = parameters.J;
-        const S m1 = parameters.m1;
-        const S m2 = parameters.m2;
+        const auto [J, m1, m2] = parameters;
         StatusOf<S>::fail(status, J == S(0), Status::singular_mass_matrix);
         StatusOf<S>::fail(status, !(J > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, m1 == S(0), Status::singular_mass_matrix);
@@ -128,12 +126,8 @@ class planar_body {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        const S w = s[0];
-        const S v1 = s[1];
-        const S v2 = s[2];
-        const S J = parameters.J;
-        const S m1 = parameters.m1;
-        const S m2 = parameters.m2;
+        const S w = s[0], v1 = s[1], v2 = s[2];
+        const auto [J, m1, m2] = parameters;
         ds[0] = (m1 - m2) * v1 * v2 / J;
         ds[1] = m2 * v2 * w / m1;
         ds[2] = -m1 * w * v1 / m2;
@@ -145,9 +139,7 @@ class planar_body {
             noexcept
     {
         Eigen::Matrix<S, 3, 3> result = Eigen::Matrix<S, 3, 3>::Zero();
-        const S J = parameters.J;
-        const S m1 = parameters.m1;
-        const S m2 = parameters.m2;
+        const auto [J, m1, m2] = parameters;
         result(0, 0) = J;
         result(1, 1) = m1;
         result(2, 2) = m2;
@@ -158,12 +150,8 @@ class planar_body {
     [[nodiscard]] Eigen::Matrix<S, 3, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 3, 1> result;
-        const S w = s[0];
-        const S v1 = s[1];
-        const S v2 = s[2];
-        const S J = parameters.J;
-        const S m1 = parameters.m1;
-        const S m2 = parameters.m2;
+        const S w = s[0], v1 = s[1], v2 = s[2];
+        const auto [J, m1, m2] = parameters;
         result[0] = J * w;
         result[1] = m1 * v1;
         result[2] = m2 * v2;
@@ -173,24 +161,16 @@ class planar_body {
     /// E = y^a p_a - L.
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S w = s[0];
-        const S v1 = s[1];
-        const S v2 = s[2];
-        const S J = parameters.J;
-        const S m1 = parameters.m1;
-        const S m2 = parameters.m2;
+        const S w = s[0], v1 = s[1], v2 = s[2];
+        const auto [J, m1, m2] = parameters;
         return S(0.5) * (J * (w * w) + m1 * (v1 * v1) + m2 * (v2 * v2));
     }
 
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S w = s[0];
-        const S v1 = s[1];
-        const S v2 = s[2];
-        const S J = parameters.J;
-        const S m1 = parameters.m1;
-        const S m2 = parameters.m2;
+        const S w = s[0], v1 = s[1], v2 = s[2];
+        const auto [J, m1, m2] = parameters;
         return S(0.5) * (J * (w * w) + m1 * (v1 * v1) + m2 * (v2 * v2));
     }
 
@@ -199,10 +179,8 @@ class planar_body {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S v1 = s[1];
-        const S v2 = s[2];
-        const S m1 = parameters.m1;
-        const S m2 = parameters.m2;
+        const S v1 = s[1], v2 = s[2];
+        const auto [J, m1, m2] = parameters;
         const S w0 = m1 * v1;
         const S w1 = m2 * v2;
         result[0] = w0 * w0 + w1 * w1;
@@ -216,12 +194,8 @@ class planar_body {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 6>& values) const noexcept
     {
-        const S w = s[0];
-        const S v1 = s[1];
-        const S v2 = s[2];
-        const S J = parameters.J;
-        const S m1 = parameters.m1;
-        const S m2 = parameters.m2;
+        const S w = s[0], v1 = s[1], v2 = s[2];
+        const auto [J, m1, m2] = parameters;
         const S w0 = (m1 - m2) / J;
         values[0] = w0 * v2;
         values[1] = w0 * v1;

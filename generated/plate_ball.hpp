@@ -144,11 +144,7 @@ class plate_ball_pontryagin {
     /// s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        const S mu_x = s[2];
-        const S mu_y = s[3];
-        const S q1 = s[4];
-        const S q2 = s[5];
-        const S q3 = s[6];
+        const S mu_x = s[2], mu_y = s[3], q1 = s[4], q2 = s[5], q3 = s[6];
         ds[0] = mu_x;
         ds[1] = mu_y;
         const S R = parameters.R;
@@ -168,8 +164,7 @@ class plate_ball_pontryagin {
     [[nodiscard]] Eigen::Matrix<S, 2, 1> controls([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 2, 1> result;
-        const S mu_x = s[2];
-        const S mu_y = s[3];
+        const S mu_x = s[2], mu_y = s[3];
         result[0] = mu_x;
         result[1] = mu_y;
         return result;
@@ -178,16 +173,14 @@ class plate_ball_pontryagin {
     /// H = mu_a sigma^a - cost at these controls.
     [[nodiscard]] S hamiltonian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S mu_x = s[2];
-        const S mu_y = s[3];
+        const S mu_x = s[2], mu_y = s[3];
         return S(0.5) * (mu_x * mu_x + mu_y * mu_y);
     }
 
     /// The running cost.
     [[nodiscard]] S cost([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S mu_x = s[2];
-        const S mu_y = s[3];
+        const S mu_x = s[2], mu_y = s[3];
         return S(0.5) * (mu_x * mu_x + mu_y * mu_y);
     }
 
@@ -207,11 +200,7 @@ class plate_ball_pontryagin {
     [[nodiscard]] Eigen::Matrix<S, 3, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 3, 1> result;
-        const S mu_x = s[2];
-        const S mu_y = s[3];
-        const S q1 = s[4];
-        const S q2 = s[5];
-        const S q3 = s[6];
+        const S mu_x = s[2], mu_y = s[3], q1 = s[4], q2 = s[5], q3 = s[6];
         result[0] = q1 * q1 + q2 * q2 + q3 * q3;
         const S R = parameters.R;
         const S w0 = S(1) / R;
@@ -227,11 +216,7 @@ class plate_ball_pontryagin {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 14>& values) const noexcept
     {
-        const S mu_x = s[2];
-        const S mu_y = s[3];
-        const S q1 = s[4];
-        const S q2 = s[5];
-        const S q3 = s[6];
+        const S mu_x = s[2], mu_y = s[3], q1 = s[4], q2 = s[5], q3 = s[6];
         values[0] = S(1);
         values[1] = S(1);
         const S R = parameters.R;

@@ -406,13 +406,7 @@ class pleiades {
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
         auto status = StatusOf<S>::good();
-        const S m_1 = parameters.m_1;
-        const S m_2 = parameters.m_2;
-        const S m_3 = parameters.m_3;
-        const S m_4 = parameters.m_4;
-        const S m_5 = parameters.m_5;
-        const S m_6 = parameters.m_6;
-        const S m_7 = parameters.m_7;
+        const auto [m_1, m_2, m_3, m_4, m_5, m_6, m_7] = parameters;
         StatusOf<S>::fail(status, m_1 == S(0), Status::singular_mass_matrix);
         StatusOf<S>::fail(status, m_2 == S(0), Status::singular_mass_matrix);
         StatusOf<S>::fail(status, m_3 == S(0), Status::singular_mass_matrix);
@@ -429,34 +423,10 @@ class pleiades {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        const S x_1 = s[0];
-        const S x_2 = s[1];
-        const S x_3 = s[2];
-        const S x_4 = s[3];
-        const S x_5 = s[4];
-        const S x_6 = s[5];
-        const S x_7 = s[6];
-        const S y_1 = s[7];
-        const S y_2 = s[8];
-        const S y_3 = s[9];
-        const S y_4 = s[10];
-        const S y_5 = s[11];
-        const S y_6 = s[12];
-        const S y_7 = s[13];
-        const S u_1 = s[14];
-        const S u_2 = s[15];
-        const S u_3 = s[16];
-        const S u_4 = s[17];
-        const S u_5 = s[18];
-        const S u_6 = s[19];
-        const S u_7 = s[20];
-        const S v_1 = s[21];
-        const S v_2 = s[22];
-        const S v_3 = s[23];
-        const S v_4 = s[24];
-        const S v_5 = s[25];
-        const S v_6 = s[26];
-        const S v_7 = s[27];
+        const S x_1 = s[0], x_2 = s[1], x_3 = s[2], x_4 = s[3], x_5 = s[4], x_6 = s[5], x_7 = s[6], y_1 = s[7],
+                y_2 = s[8], y_3 = s[9], y_4 = s[10], y_5 = s[11], y_6 = s[12], y_7 = s[13];
+        const S u_1 = s[14], u_2 = s[15], u_3 = s[16], u_4 = s[17], u_5 = s[18], u_6 = s[19], u_7 = s[20], v_1 = s[21],
+                v_2 = s[22], v_3 = s[23], v_4 = s[24], v_5 = s[25], v_6 = s[26], v_7 = s[27];
         ds[0] = u_1;
         ds[1] = u_2;
         ds[2] = u_3;
@@ -540,13 +510,7 @@ class pleiades {
                 * w14, roots[5] * w17, roots[6] * w20, roots[7] * w23, roots[8] * w26, roots[9] * w29, roots[10] * w32,
                 roots[11] * w35, roots[12] * w38, roots[13] * w41, roots[14] * w44, roots[15] * w47, roots[16] * w50,
                 roots[17] * w53, roots[18] * w56, roots[19] * w59, roots[20] * w62});
-        const S m_1 = parameters.m_1;
-        const S m_2 = parameters.m_2;
-        const S m_3 = parameters.m_3;
-        const S m_4 = parameters.m_4;
-        const S m_5 = parameters.m_5;
-        const S m_6 = parameters.m_6;
-        const S m_7 = parameters.m_7;
+        const auto [m_1, m_2, m_3, m_4, m_5, m_6, m_7] = parameters;
         const S w63 = m_3 * inverses[1];
         const S w64 = m_2 * inverses[0];
         const S w65 = m_4 * inverses[2];
@@ -611,13 +575,7 @@ class pleiades {
             noexcept
     {
         Eigen::Matrix<S, 14, 14> result = Eigen::Matrix<S, 14, 14>::Zero();
-        const S m_1 = parameters.m_1;
-        const S m_2 = parameters.m_2;
-        const S m_3 = parameters.m_3;
-        const S m_4 = parameters.m_4;
-        const S m_5 = parameters.m_5;
-        const S m_6 = parameters.m_6;
-        const S m_7 = parameters.m_7;
+        const auto [m_1, m_2, m_3, m_4, m_5, m_6, m_7] = parameters;
         result(0, 0) = m_1;
         result(7, 7) = m_1;
         result(1, 1) = m_2;
@@ -639,27 +597,9 @@ class pleiades {
     [[nodiscard]] Eigen::Matrix<S, 14, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 14, 1> result;
-        const S u_1 = s[14];
-        const S u_2 = s[15];
-        const S u_3 = s[16];
-        const S u_4 = s[17];
-        const S u_5 = s[18];
-        const S u_6 = s[19];
-        const S u_7 = s[20];
-        const S v_1 = s[21];
-        const S v_2 = s[22];
-        const S v_3 = s[23];
-        const S v_4 = s[24];
-        const S v_5 = s[25];
-        const S v_6 = s[26];
-        const S v_7 = s[27];
-        const S m_1 = parameters.m_1;
-        const S m_2 = parameters.m_2;
-        const S m_3 = parameters.m_3;
-        const S m_4 = parameters.m_4;
-        const S m_5 = parameters.m_5;
-        const S m_6 = parameters.m_6;
-        const S m_7 = parameters.m_7;
+        const S u_1 = s[14], u_2 = s[15], u_3 = s[16], u_4 = s[17], u_5 = s[18], u_6 = s[19], u_7 = s[20], v_1 = s[21],
+                v_2 = s[22], v_3 = s[23], v_4 = s[24], v_5 = s[25], v_6 = s[26], v_7 = s[27];
+        const auto [m_1, m_2, m_3, m_4, m_5, m_6, m_7] = parameters;
         result[0] = m_1 * u_1;
         result[1] = m_2 * u_2;
         result[2] = m_3 * u_3;
@@ -680,34 +620,10 @@ class pleiades {
     /// E = y^a p_a - L.
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S x_1 = s[0];
-        const S x_2 = s[1];
-        const S x_3 = s[2];
-        const S x_4 = s[3];
-        const S x_5 = s[4];
-        const S x_6 = s[5];
-        const S x_7 = s[6];
-        const S y_1 = s[7];
-        const S y_2 = s[8];
-        const S y_3 = s[9];
-        const S y_4 = s[10];
-        const S y_5 = s[11];
-        const S y_6 = s[12];
-        const S y_7 = s[13];
-        const S u_1 = s[14];
-        const S u_2 = s[15];
-        const S u_3 = s[16];
-        const S u_4 = s[17];
-        const S u_5 = s[18];
-        const S u_6 = s[19];
-        const S u_7 = s[20];
-        const S v_1 = s[21];
-        const S v_2 = s[22];
-        const S v_3 = s[23];
-        const S v_4 = s[24];
-        const S v_5 = s[25];
-        const S v_6 = s[26];
-        const S v_7 = s[27];
+        const S x_1 = s[0], x_2 = s[1], x_3 = s[2], x_4 = s[3], x_5 = s[4], x_6 = s[5], x_7 = s[6], y_1 = s[7],
+                y_2 = s[8], y_3 = s[9], y_4 = s[10], y_5 = s[11], y_6 = s[12], y_7 = s[13];
+        const S u_1 = s[14], u_2 = s[15], u_3 = s[16], u_4 = s[17], u_5 = s[18], u_6 = s[19], u_7 = s[20], v_1 = s[21],
+                v_2 = s[22], v_3 = s[23], v_4 = s[24], v_5 = s[25], v_6 = s[26], v_7 = s[27];
         const S w0 = x_1 - x_2;
         const S w1 = y_1 - y_2;
         const S w2 = x_1 - x_4;
@@ -755,13 +671,7 @@ class pleiades {
                 w17 * w17, w18 * w18 + w19 * w19, w20 * w20 + w21 * w21, w22 * w22 + w23 * w23, w24 * w24 + w25 * w25,
                 w26 * w26 + w27 * w27, w28 * w28 + w29 * w29, w30 * w30 + w31 * w31, w32 * w32 + w33 * w33, w34 * w34 +
                 w35 * w35, w36 * w36 + w37 * w37, w38 * w38 + w39 * w39, w40 * w40 + w41 * w41});
-        const S m_1 = parameters.m_1;
-        const S m_2 = parameters.m_2;
-        const S m_3 = parameters.m_3;
-        const S m_4 = parameters.m_4;
-        const S m_5 = parameters.m_5;
-        const S m_6 = parameters.m_6;
-        const S m_7 = parameters.m_7;
+        const auto [m_1, m_2, m_3, m_4, m_5, m_6, m_7] = parameters;
         const S w42 = m_1 * (u_1 * u_1 + v_1 * v_1) + m_2 * (u_2 * u_2 + v_2 * v_2) + m_3 * (u_3 * u_3 + v_3 * v_3) +
                 m_4 * (u_4 * u_4 + v_4 * v_4);
         const S w43 = S(0.5) * (w42 + m_5 * (u_5 * u_5 + v_5 * v_5) + m_6 * (u_6 * u_6 + v_6 * v_6) + m_7 * (u_7 * u_7 +
@@ -777,34 +687,10 @@ class pleiades {
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S x_1 = s[0];
-        const S x_2 = s[1];
-        const S x_3 = s[2];
-        const S x_4 = s[3];
-        const S x_5 = s[4];
-        const S x_6 = s[5];
-        const S x_7 = s[6];
-        const S y_1 = s[7];
-        const S y_2 = s[8];
-        const S y_3 = s[9];
-        const S y_4 = s[10];
-        const S y_5 = s[11];
-        const S y_6 = s[12];
-        const S y_7 = s[13];
-        const S u_1 = s[14];
-        const S u_2 = s[15];
-        const S u_3 = s[16];
-        const S u_4 = s[17];
-        const S u_5 = s[18];
-        const S u_6 = s[19];
-        const S u_7 = s[20];
-        const S v_1 = s[21];
-        const S v_2 = s[22];
-        const S v_3 = s[23];
-        const S v_4 = s[24];
-        const S v_5 = s[25];
-        const S v_6 = s[26];
-        const S v_7 = s[27];
+        const S x_1 = s[0], x_2 = s[1], x_3 = s[2], x_4 = s[3], x_5 = s[4], x_6 = s[5], x_7 = s[6], y_1 = s[7],
+                y_2 = s[8], y_3 = s[9], y_4 = s[10], y_5 = s[11], y_6 = s[12], y_7 = s[13];
+        const S u_1 = s[14], u_2 = s[15], u_3 = s[16], u_4 = s[17], u_5 = s[18], u_6 = s[19], u_7 = s[20], v_1 = s[21],
+                v_2 = s[22], v_3 = s[23], v_4 = s[24], v_5 = s[25], v_6 = s[26], v_7 = s[27];
         const S w0 = x_1 - x_2;
         const S w1 = y_1 - y_2;
         const S w2 = x_1 - x_4;
@@ -852,13 +738,7 @@ class pleiades {
                 w17 * w17, w18 * w18 + w19 * w19, w20 * w20 + w21 * w21, w22 * w22 + w23 * w23, w24 * w24 + w25 * w25,
                 w26 * w26 + w27 * w27, w28 * w28 + w29 * w29, w30 * w30 + w31 * w31, w32 * w32 + w33 * w33, w34 * w34 +
                 w35 * w35, w36 * w36 + w37 * w37, w38 * w38 + w39 * w39, w40 * w40 + w41 * w41});
-        const S m_1 = parameters.m_1;
-        const S m_2 = parameters.m_2;
-        const S m_3 = parameters.m_3;
-        const S m_4 = parameters.m_4;
-        const S m_5 = parameters.m_5;
-        const S m_6 = parameters.m_6;
-        const S m_7 = parameters.m_7;
+        const auto [m_1, m_2, m_3, m_4, m_5, m_6, m_7] = parameters;
         const S w42 = m_2 * (m_3 / roots[5] + m_4 / roots[6] + m_5 / roots[7] + m_6 / roots[8] + m_7 / roots[9]) + m_3 *
                 (m_4 / roots[10] + m_5 / roots[11] + m_6 / roots[12] + m_7 / roots[13]);
         const S w43 = u_1 * u_1 + v_1 * v_1 + S(2) * (m_2 / roots[0] + m_3 / roots[20] + m_4 / roots[1] + m_5 / roots[2]
@@ -876,27 +756,9 @@ class pleiades {
     [[nodiscard]] Eigen::Matrix<S, 2, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 2, 1> result;
-        const S x_1 = s[0];
-        const S x_2 = s[1];
-        const S x_3 = s[2];
-        const S x_4 = s[3];
-        const S x_5 = s[4];
-        const S x_6 = s[5];
-        const S x_7 = s[6];
-        const S y_1 = s[7];
-        const S y_2 = s[8];
-        const S y_3 = s[9];
-        const S y_4 = s[10];
-        const S y_5 = s[11];
-        const S y_6 = s[12];
-        const S y_7 = s[13];
-        const S m_1 = parameters.m_1;
-        const S m_2 = parameters.m_2;
-        const S m_3 = parameters.m_3;
-        const S m_4 = parameters.m_4;
-        const S m_5 = parameters.m_5;
-        const S m_6 = parameters.m_6;
-        const S m_7 = parameters.m_7;
+        const S x_1 = s[0], x_2 = s[1], x_3 = s[2], x_4 = s[3], x_5 = s[4], x_6 = s[5], x_7 = s[6], y_1 = s[7],
+                y_2 = s[8], y_3 = s[9], y_4 = s[10], y_5 = s[11], y_6 = s[12], y_7 = s[13];
+        const auto [m_1, m_2, m_3, m_4, m_5, m_6, m_7] = parameters;
         const S w0 = S(1) / (m_1 + m_2 + m_3 + m_4 + m_5 + m_6 + m_7);
         result[0] = w0 * (m_1 * x_1 + m_2 * x_2 + m_3 * x_3 + m_4 * x_4 + m_5 * x_5 + m_6 * x_6 + m_7 * x_7);
         result[1] = w0 * (m_1 * y_1 + m_2 * y_2 + m_3 * y_3 + m_4 * y_4 + m_5 * y_5 + m_6 * y_6 + m_7 * y_7);
@@ -908,41 +770,11 @@ class pleiades {
     [[nodiscard]] Eigen::Matrix<S, 3, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 3, 1> result;
-        const S x_1 = s[0];
-        const S x_2 = s[1];
-        const S x_3 = s[2];
-        const S x_4 = s[3];
-        const S x_5 = s[4];
-        const S x_6 = s[5];
-        const S x_7 = s[6];
-        const S y_1 = s[7];
-        const S y_2 = s[8];
-        const S y_3 = s[9];
-        const S y_4 = s[10];
-        const S y_5 = s[11];
-        const S y_6 = s[12];
-        const S y_7 = s[13];
-        const S u_1 = s[14];
-        const S u_2 = s[15];
-        const S u_3 = s[16];
-        const S u_4 = s[17];
-        const S u_5 = s[18];
-        const S u_6 = s[19];
-        const S u_7 = s[20];
-        const S v_1 = s[21];
-        const S v_2 = s[22];
-        const S v_3 = s[23];
-        const S v_4 = s[24];
-        const S v_5 = s[25];
-        const S v_6 = s[26];
-        const S v_7 = s[27];
-        const S m_1 = parameters.m_1;
-        const S m_2 = parameters.m_2;
-        const S m_3 = parameters.m_3;
-        const S m_4 = parameters.m_4;
-        const S m_5 = parameters.m_5;
-        const S m_6 = parameters.m_6;
-        const S m_7 = parameters.m_7;
+        const S x_1 = s[0], x_2 = s[1], x_3 = s[2], x_4 = s[3], x_5 = s[4], x_6 = s[5], x_7 = s[6], y_1 = s[7],
+                y_2 = s[8], y_3 = s[9], y_4 = s[10], y_5 = s[11], y_6 = s[12], y_7 = s[13];
+        const S u_1 = s[14], u_2 = s[15], u_3 = s[16], u_4 = s[17], u_5 = s[18], u_6 = s[19], u_7 = s[20], v_1 = s[21],
+                v_2 = s[22], v_3 = s[23], v_4 = s[24], v_5 = s[25], v_6 = s[26], v_7 = s[27];
+        const auto [m_1, m_2, m_3, m_4, m_5, m_6, m_7] = parameters;
         const S w0 = m_1 * u_1;
         const S w1 = m_2 * u_2;
         const S w2 = m_3 * u_3;
@@ -986,20 +818,8 @@ class pleiades {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 210>& values) const noexcept
     {
-        const S x_1 = s[0];
-        const S x_2 = s[1];
-        const S x_3 = s[2];
-        const S x_4 = s[3];
-        const S x_5 = s[4];
-        const S x_6 = s[5];
-        const S x_7 = s[6];
-        const S y_1 = s[7];
-        const S y_2 = s[8];
-        const S y_3 = s[9];
-        const S y_4 = s[10];
-        const S y_5 = s[11];
-        const S y_6 = s[12];
-        const S y_7 = s[13];
+        const S x_1 = s[0], x_2 = s[1], x_3 = s[2], x_4 = s[3], x_5 = s[4], x_6 = s[5], x_7 = s[6], y_1 = s[7],
+                y_2 = s[8], y_3 = s[9], y_4 = s[10], y_5 = s[11], y_6 = s[12], y_7 = s[13];
         values[0] = S(1);
         values[1] = S(1);
         values[2] = S(1);
@@ -1104,13 +924,7 @@ class pleiades {
         const auto roots = square_roots<S, 21>({w5, w9, w13, w17, w19, w23, w27, w31, w35, w39, w43, w47, w51, w55, w59,
                 w63, w67, w71, w75, w79, w83});
         const S w85 = inverses[4] / roots[4];
-        const S m_1 = parameters.m_1;
-        const S m_2 = parameters.m_2;
-        const S m_3 = parameters.m_3;
-        const S m_4 = parameters.m_4;
-        const S m_5 = parameters.m_5;
-        const S m_6 = parameters.m_6;
-        const S m_7 = parameters.m_7;
+        const auto [m_1, m_2, m_3, m_4, m_5, m_6, m_7] = parameters;
         const S w86 = m_1 * w85;
         const S w87 = w84 * w86;
         values[203] = w87;

@@ -138,9 +138,7 @@ class pointing_pontryagin {
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
         auto status = StatusOf<S>::good();
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const auto [I1, I2, I3, k] = parameters;
         StatusOf<S>::fail(status, I1 == S(0), Status::singular_mass_matrix);
         StatusOf<S>::fail(status, !(I1 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, I2 == S(0), Status::singular_mass_matrix);
@@ -155,16 +153,9 @@ class pointing_pontryagin {
     /// s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        const S g1 = s[0];
-        const S g2 = s[1];
-        const S g3 = s[2];
-        const S mu1 = s[3];
-        const S mu2 = s[4];
-        const S mu3 = s[5];
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
-        const S k = parameters.k;
+        const S g1 = s[0], g2 = s[1], g3 = s[2];
+        const S mu1 = s[3], mu2 = s[4], mu3 = s[5];
+        const auto [I1, I2, I3, k] = parameters;
         const S w0 = mu3 / I3;
         const S w1 = mu2 / I2;
         ds[0] = g2 * w0 - g3 * w1;
@@ -184,12 +175,8 @@ class pointing_pontryagin {
     [[nodiscard]] Eigen::Matrix<S, 3, 1> controls([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 3, 1> result;
-        const S mu1 = s[3];
-        const S mu2 = s[4];
-        const S mu3 = s[5];
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const S mu1 = s[3], mu2 = s[4], mu3 = s[5];
+        const auto [I1, I2, I3, k] = parameters;
         result[0] = mu1 / I1;
         result[1] = mu2 / I2;
         result[2] = mu3 / I3;
@@ -199,30 +186,18 @@ class pointing_pontryagin {
     /// H = mu_a sigma^a - cost at these controls.
     [[nodiscard]] S hamiltonian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S g1 = s[0];
-        const S g3 = s[2];
-        const S mu1 = s[3];
-        const S mu2 = s[4];
-        const S mu3 = s[5];
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
-        const S k = parameters.k;
+        const S g1 = s[0], g3 = s[2];
+        const S mu1 = s[3], mu2 = s[4], mu3 = s[5];
+        const auto [I1, I2, I3, k] = parameters;
         return S(0.5) * (mu1 * mu1 / I1 + mu2 * mu2 / I2 + mu3 * mu3 / I3) - S(1) / S(5) * k * (S(3) * g1 + S(4) * g3);
     }
 
     /// The running cost.
     [[nodiscard]] S cost([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S g1 = s[0];
-        const S g3 = s[2];
-        const S mu1 = s[3];
-        const S mu2 = s[4];
-        const S mu3 = s[5];
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
-        const S k = parameters.k;
+        const S g1 = s[0], g3 = s[2];
+        const S mu1 = s[3], mu2 = s[4], mu3 = s[5];
+        const auto [I1, I2, I3, k] = parameters;
         return S(1) / S(5) * k * (S(3) * g1 + S(4) * g3) + S(0.5) * (mu1 * mu1 / I1 + mu2 * mu2 / I2 + mu3 * mu3 / I3);
     }
 
@@ -231,9 +206,7 @@ class pointing_pontryagin {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> constraints([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S g1 = s[0];
-        const S g2 = s[1];
-        const S g3 = s[2];
+        const S g1 = s[0], g2 = s[1], g3 = s[2];
         result[0] = g1 * g1 + g2 * g2 + g3 * g3 - S(1);
         return result;
     }
@@ -243,12 +216,8 @@ class pointing_pontryagin {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S g1 = s[0];
-        const S g2 = s[1];
-        const S g3 = s[2];
-        const S mu1 = s[3];
-        const S mu2 = s[4];
-        const S mu3 = s[5];
+        const S g1 = s[0], g2 = s[1], g3 = s[2];
+        const S mu1 = s[3], mu2 = s[4], mu3 = s[5];
         result[0] = g1 * mu1 + g2 * mu2 + g3 * mu3;
         return result;
     }
@@ -262,16 +231,9 @@ class pointing_pontryagin {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 22>& values) const noexcept
     {
-        const S g1 = s[0];
-        const S g2 = s[1];
-        const S g3 = s[2];
-        const S mu1 = s[3];
-        const S mu2 = s[4];
-        const S mu3 = s[5];
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
-        const S k = parameters.k;
+        const S g1 = s[0], g2 = s[1], g3 = s[2];
+        const S mu1 = s[3], mu2 = s[4], mu3 = s[5];
+        const auto [I1, I2, I3, k] = parameters;
         const S w0 = S(1) / I3;
         const S w1 = w0 * mu3;
         values[0] = w1;

@@ -131,18 +131,14 @@ class relativistic_oscillator {
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
         using arithmetic::sqrt;
-        const S x = s[0];
-        const S y = s[1];
-        const S u = s[2];
-        const S v = s[3];
+        const S x = s[0], y = s[1];
+        const S u = s[2], v = s[3];
         auto status = StatusOf<S>::good();
         ds[0] = u;
         ds[1] = v;
         const S w0 = v * v;
         const S w1 = S(1) - u * u - w0;
-        const S m = parameters.m;
-        const S k = parameters.k;
-        const S ratio = parameters.ratio;
+        const auto [m, k, ratio] = parameters;
         const S w2 = m / sqrt(w1);
         const S w3 = w2 / w1;
         const S w4 = u * w3;
@@ -166,8 +162,7 @@ class relativistic_oscillator {
     {
         Eigen::Matrix<S, 2, 2> result;
         using arithmetic::sqrt;
-        const S u = s[2];
-        const S v = s[3];
+        const S u = s[2], v = s[3];
         const S w0 = v * v;
         const S w1 = S(1) - u * u - w0;
         const S m = parameters.m;
@@ -187,8 +182,7 @@ class relativistic_oscillator {
     {
         Eigen::Matrix<S, 2, 1> result;
         using arithmetic::sqrt;
-        const S u = s[2];
-        const S v = s[3];
+        const S u = s[2], v = s[3];
         const S m = parameters.m;
         const S w0 = m / sqrt(S(1) - u * u - v * v);
         result[0] = u * w0;
@@ -200,15 +194,11 @@ class relativistic_oscillator {
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
         using arithmetic::sqrt;
-        const S x = s[0];
-        const S y = s[1];
-        const S u = s[2];
-        const S v = s[3];
+        const S x = s[0], y = s[1];
+        const S u = s[2], v = s[3];
         const S w0 = u * u + v * v;
         const S w1 = sqrt(S(1) - w0);
-        const S m = parameters.m;
-        const S k = parameters.k;
-        const S ratio = parameters.ratio;
+        const auto [m, k, ratio] = parameters;
         return m * (w0 / w1 + w1) + S(0.5) * k * (x * x + ratio * (y * y));
     }
 
@@ -216,13 +206,9 @@ class relativistic_oscillator {
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
         using arithmetic::sqrt;
-        const S x = s[0];
-        const S y = s[1];
-        const S u = s[2];
-        const S v = s[3];
-        const S m = parameters.m;
-        const S k = parameters.k;
-        const S ratio = parameters.ratio;
+        const S x = s[0], y = s[1];
+        const S u = s[2], v = s[3];
+        const auto [m, k, ratio] = parameters;
         return -(m * sqrt(S(1) - u * u - v * v) + S(0.5) * k * (x * x + ratio * (y * y)));
     }
 
@@ -232,8 +218,7 @@ class relativistic_oscillator {
     {
         Eigen::Matrix<S, 2, 1> result;
         using arithmetic::sqrt;
-        const S u = s[2];
-        const S v = s[3];
+        const S u = s[2], v = s[3];
         const S w0 = u * u + v * v;
         result[0] = sqrt(w0);
         result[1] = S(1) / sqrt(S(1) - w0);
@@ -248,18 +233,14 @@ class relativistic_oscillator {
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 10>& values) const noexcept
     {
         using arithmetic::sqrt;
-        const S x = s[0];
-        const S y = s[1];
-        const S u = s[2];
-        const S v = s[3];
+        const S x = s[0], y = s[1];
+        const S u = s[2], v = s[3];
         values[0] = S(1);
         values[1] = S(1);
         const S w0 = S(1) - u * u - v * v;
         const S w1 = S(1) / w0;
         const S w2 = u * w1;
-        const S m = parameters.m;
-        const S k = parameters.k;
-        const S ratio = parameters.ratio;
+        const auto [m, k, ratio] = parameters;
         const S w3 = m / sqrt(w0);
         const S w4 = (S(1) + u * w2) * w3;
         const S w5 = w3 * w1;
@@ -289,11 +270,11 @@ class relativistic_oscillator {
         values[4] = z2_0;
         const S w18 = -w10;
         const S z3_0 = (-w6 * w18) * inv_det0;
-        const S z3_1 = (w4 * w18) * inv_det0;
+        const S z3_1 = w4 * w18 * inv_det0;
         values[7] = z3_1;
         values[3] = z3_0;
         const S w19 = -k;
-        const S z4_0 = (w8 * w19) * inv_det0;
+        const S z4_0 = w8 * w19 * inv_det0;
         const S z4_1 = (-w6 * w19) * inv_det0;
         values[6] = z4_1;
         values[2] = z4_0;

@@ -111,9 +111,7 @@ class rigid_body {
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
         auto status = StatusOf<S>::good();
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const auto [I1, I2, I3] = parameters;
         StatusOf<S>::fail(status, I1 == S(0), Status::singular_mass_matrix);
         StatusOf<S>::fail(status, !(I1 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, I2 == S(0), Status::singular_mass_matrix);
@@ -129,12 +127,8 @@ class rigid_body {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        const S w1 = s[0];
-        const S w2 = s[1];
-        const S w3 = s[2];
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const S w1 = s[0], w2 = s[1], w3 = s[2];
+        const auto [I1, I2, I3] = parameters;
         ds[0] = (I2 - I3) * w2 * w3 / I1;
         ds[1] = (I3 - I1) * w3 * w1 / I2;
         ds[2] = (I1 - I2) * w1 * w2 / I3;
@@ -146,9 +140,7 @@ class rigid_body {
             noexcept
     {
         Eigen::Matrix<S, 3, 3> result = Eigen::Matrix<S, 3, 3>::Zero();
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const auto [I1, I2, I3] = parameters;
         result(0, 0) = I1;
         result(1, 1) = I2;
         result(2, 2) = I3;
@@ -159,12 +151,8 @@ class rigid_body {
     [[nodiscard]] Eigen::Matrix<S, 3, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 3, 1> result;
-        const S w1 = s[0];
-        const S w2 = s[1];
-        const S w3 = s[2];
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const S w1 = s[0], w2 = s[1], w3 = s[2];
+        const auto [I1, I2, I3] = parameters;
         result[0] = I1 * w1;
         result[1] = I2 * w2;
         result[2] = I3 * w3;
@@ -174,24 +162,16 @@ class rigid_body {
     /// E = y^a p_a - L.
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S w1 = s[0];
-        const S w2 = s[1];
-        const S w3 = s[2];
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const S w1 = s[0], w2 = s[1], w3 = s[2];
+        const auto [I1, I2, I3] = parameters;
         return S(0.5) * (I1 * (w1 * w1) + I2 * (w2 * w2) + I3 * (w3 * w3));
     }
 
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S w1 = s[0];
-        const S w2 = s[1];
-        const S w3 = s[2];
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const S w1 = s[0], w2 = s[1], w3 = s[2];
+        const auto [I1, I2, I3] = parameters;
         return S(0.5) * (I1 * (w1 * w1) + I2 * (w2 * w2) + I3 * (w3 * w3));
     }
 
@@ -200,12 +180,8 @@ class rigid_body {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S w1 = s[0];
-        const S w2 = s[1];
-        const S w3 = s[2];
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const S w1 = s[0], w2 = s[1], w3 = s[2];
+        const auto [I1, I2, I3] = parameters;
         const S u0 = I1 * w1;
         const S u1 = I2 * w2;
         const S u2 = I3 * w3;
@@ -230,12 +206,8 @@ class rigid_body {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 6>& values) const noexcept
     {
-        const S w1 = s[0];
-        const S w2 = s[1];
-        const S w3 = s[2];
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const S w1 = s[0], w2 = s[1], w3 = s[2];
+        const auto [I1, I2, I3] = parameters;
         const S u0 = (I2 - I3) / I1;
         values[0] = u0 * w3;
         values[1] = u0 * w2;

@@ -143,9 +143,7 @@ class satellite {
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
         auto status = StatusOf<S>::good();
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const auto [k, eccentricity, I1, I2, I3] = parameters;
         StatusOf<S>::fail(status, I1 == S(0), Status::singular_mass_matrix);
         StatusOf<S>::fail(status, !(I1 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, I2 == S(0), Status::singular_mass_matrix);
@@ -162,20 +160,12 @@ class satellite {
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
         using arithmetic::sqrt;
-        const S x = s[0];
-        const S y = s[1];
-        const S u = s[2];
-        const S v = s[3];
-        const S w1 = s[4];
-        const S w2 = s[5];
-        const S w3 = s[6];
+        const S x = s[0], y = s[1];
+        const S u = s[2], v = s[3], w1 = s[4], w2 = s[5], w3 = s[6];
         ds[0] = u;
         ds[1] = v;
         const S u0 = x * x + y * y;
-        const S k = parameters.k;
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const auto [k, eccentricity, I1, I2, I3] = parameters;
         const S u1 = k / (sqrt(u0) * u0);
         ds[2] = -x * u1;
         ds[3] = -y * u1;
@@ -192,9 +182,7 @@ class satellite {
         Eigen::Matrix<S, 5, 5> result = Eigen::Matrix<S, 5, 5>::Zero();
         result(0, 0) = S(1);
         result(1, 1) = S(1);
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const auto [k, eccentricity, I1, I2, I3] = parameters;
         result(2, 2) = I1;
         result(3, 3) = I2;
         result(4, 4) = I3;
@@ -205,16 +193,10 @@ class satellite {
     [[nodiscard]] Eigen::Matrix<S, 5, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 5, 1> result;
-        const S u = s[2];
-        const S v = s[3];
-        const S w1 = s[4];
-        const S w2 = s[5];
-        const S w3 = s[6];
+        const S u = s[2], v = s[3], w1 = s[4], w2 = s[5], w3 = s[6];
         result[0] = u;
         result[1] = v;
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const auto [k, eccentricity, I1, I2, I3] = parameters;
         result[2] = I1 * w1;
         result[3] = I2 * w2;
         result[4] = I3 * w3;
@@ -225,17 +207,9 @@ class satellite {
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
         using arithmetic::sqrt;
-        const S x = s[0];
-        const S y = s[1];
-        const S u = s[2];
-        const S v = s[3];
-        const S w1 = s[4];
-        const S w2 = s[5];
-        const S w3 = s[6];
-        const S k = parameters.k;
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const S x = s[0], y = s[1];
+        const S u = s[2], v = s[3], w1 = s[4], w2 = s[5], w3 = s[6];
+        const auto [k, eccentricity, I1, I2, I3] = parameters;
         return S(0.5) * (I1 * (w1 * w1) + I2 * (w2 * w2) + I3 * (w3 * w3) + u * u + v * v) - k / sqrt(x * x + y * y);
     }
 
@@ -243,17 +217,9 @@ class satellite {
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
         using arithmetic::sqrt;
-        const S x = s[0];
-        const S y = s[1];
-        const S u = s[2];
-        const S v = s[3];
-        const S w1 = s[4];
-        const S w2 = s[5];
-        const S w3 = s[6];
-        const S k = parameters.k;
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const S x = s[0], y = s[1];
+        const S u = s[2], v = s[3], w1 = s[4], w2 = s[5], w3 = s[6];
+        const auto [k, eccentricity, I1, I2, I3] = parameters;
         return k / sqrt(x * x + y * y) + S(0.5) * (I1 * (w1 * w1) + I2 * (w2 * w2) + I3 * (w3 * w3) + u * u + v * v);
     }
 
@@ -262,8 +228,7 @@ class satellite {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> domain([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S x = s[0];
-        const S y = s[1];
+        const S x = s[0], y = s[1];
         result[0] = x * x + y * y;
         return result;
     }
@@ -274,8 +239,7 @@ class satellite {
     {
         Eigen::Matrix<S, 1, 1> result;
         using arithmetic::sqrt;
-        const S x = s[0];
-        const S y = s[1];
+        const S x = s[0], y = s[1];
         result[0] = sqrt(x * x + y * y);
         return result;
     }
@@ -288,20 +252,14 @@ class satellite {
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 12>& values) const noexcept
     {
         using arithmetic::sqrt;
-        const S x = s[0];
-        const S y = s[1];
-        const S w1 = s[4];
-        const S w2 = s[5];
-        const S w3 = s[6];
+        const S x = s[0], y = s[1];
+        const S w1 = s[4], w2 = s[5], w3 = s[6];
         values[0] = S(1);
         values[1] = S(1);
         const S u0 = y * y;
         const S u1 = x * x + u0;
         const S u2 = S(1) / u1;
-        const S k = parameters.k;
-        const S I1 = parameters.I1;
-        const S I2 = parameters.I2;
-        const S I3 = parameters.I3;
+        const auto [k, eccentricity, I1, I2, I3] = parameters;
         const S u3 = k * u2 / sqrt(u1);
         const S u4 = u3 * u2;
         const S u5 = x * u4;

@@ -134,10 +134,7 @@ class sliding_mass {
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
         auto status = StatusOf<S>::good();
-        const S J1 = parameters.J1;
-        const S J2 = parameters.J2;
-        const S J3 = parameters.J3;
-        const S m = parameters.m;
+        const auto [J1, J2, J3, m, d0, k] = parameters;
         StatusOf<S>::fail(status, !(J1 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, !(J2 > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, !(J3 > S(0)), Status::left_domain);
@@ -152,18 +149,10 @@ class sliding_mass {
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
         const S s_ = s[0];
-        const S v = s[1];
-        const S w1 = s[2];
-        const S w2 = s[3];
-        const S w3 = s[4];
+        const S v = s[1], w1 = s[2], w2 = s[3], w3 = s[4];
         auto status = StatusOf<S>::good();
         ds[0] = v;
-        const S J1 = parameters.J1;
-        const S J2 = parameters.J2;
-        const S J3 = parameters.J3;
-        const S m = parameters.m;
-        const S d0 = parameters.d0;
-        const S k = parameters.k;
+        const auto [J1, J2, J3, m, d0, k] = parameters;
         const S u0 = m * d0;
         const S u1 = d0 * u0;
         const S u2 = m * s_;
@@ -205,11 +194,7 @@ class sliding_mass {
     {
         Eigen::Matrix<S, 4, 4> result = Eigen::Matrix<S, 4, 4>::Zero();
         const S s_ = s[0];
-        const S J1 = parameters.J1;
-        const S J2 = parameters.J2;
-        const S J3 = parameters.J3;
-        const S m = parameters.m;
-        const S d0 = parameters.d0;
+        const auto [J1, J2, J3, m, d0, k] = parameters;
         result(0, 0) = m;
         const S u0 = m * d0;
         result(0, 1) = u0;
@@ -230,15 +215,8 @@ class sliding_mass {
     {
         Eigen::Matrix<S, 4, 1> result;
         const S s_ = s[0];
-        const S v = s[1];
-        const S w1 = s[2];
-        const S w2 = s[3];
-        const S w3 = s[4];
-        const S J1 = parameters.J1;
-        const S J2 = parameters.J2;
-        const S J3 = parameters.J3;
-        const S m = parameters.m;
-        const S d0 = parameters.d0;
+        const S v = s[1], w1 = s[2], w2 = s[3], w3 = s[4];
+        const auto [J1, J2, J3, m, d0, k] = parameters;
         const S u0 = v + d0 * w1;
         result[0] = m * u0;
         result[1] = J1 * w1 + m * (d0 * u0 + s_ * s_ * w1);
@@ -252,20 +230,12 @@ class sliding_mass {
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
         const S s_ = s[0];
-        const S v = s[1];
-        const S w1 = s[2];
-        const S w2 = s[3];
-        const S w3 = s[4];
+        const S v = s[1], w1 = s[2], w2 = s[3], w3 = s[4];
         const S u0 = w1 * w1;
         const S u1 = w2 * w2;
         const S u2 = w3 * w3;
         const S u3 = s_ * s_;
-        const S J1 = parameters.J1;
-        const S J2 = parameters.J2;
-        const S J3 = parameters.J3;
-        const S m = parameters.m;
-        const S d0 = parameters.d0;
-        const S k = parameters.k;
+        const auto [J1, J2, J3, m, d0, k] = parameters;
         const S u4 = J1 * u0 + J2 * u1 + J3 * u2 + m * (d0 * d0 * (u0 + u2) + u3 * (u0 + u1) + v * v) + k * (S(1) + u3);
         return m * d0 * (v * w1 - s_ * w2 * w3) + S(0.5) * u4 - k * s_;
     }
@@ -274,17 +244,9 @@ class sliding_mass {
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
         const S s_ = s[0];
-        const S v = s[1];
-        const S w1 = s[2];
-        const S w2 = s[3];
-        const S w3 = s[4];
+        const S v = s[1], w1 = s[2], w2 = s[3], w3 = s[4];
         const S u0 = w1 * w1;
-        const S J1 = parameters.J1;
-        const S J2 = parameters.J2;
-        const S J3 = parameters.J3;
-        const S m = parameters.m;
-        const S d0 = parameters.d0;
-        const S k = parameters.k;
+        const auto [J1, J2, J3, m, d0, k] = parameters;
         const S u1 = d0 * w3 - s_ * w2;
         const S u2 = v + d0 * w1;
         const S u3 = S(1) - s_;
@@ -298,15 +260,8 @@ class sliding_mass {
     {
         Eigen::Matrix<S, 1, 1> result;
         const S s_ = s[0];
-        const S v = s[1];
-        const S w1 = s[2];
-        const S w2 = s[3];
-        const S w3 = s[4];
-        const S J1 = parameters.J1;
-        const S J2 = parameters.J2;
-        const S J3 = parameters.J3;
-        const S m = parameters.m;
-        const S d0 = parameters.d0;
+        const S v = s[1], w1 = s[2], w2 = s[3], w3 = s[4];
+        const auto [J1, J2, J3, m, d0, k] = parameters;
         const S u0 = J1 * w1 + m * (d0 * (v + d0 * w1) + s_ * s_ * w1);
         const S u1 = m * (d0 * w3 - s_ * w2);
         const S u2 = J2 * w2 - s_ * u1;
@@ -325,18 +280,10 @@ class sliding_mass {
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 21>& values) const noexcept
     {
         const S s_ = s[0];
-        const S v = s[1];
-        const S w1 = s[2];
-        const S w2 = s[3];
-        const S w3 = s[4];
+        const S v = s[1], w1 = s[2], w2 = s[3], w3 = s[4];
         values[0] = S(1);
         const S u0 = w2 * w2;
-        const S J1 = parameters.J1;
-        const S J2 = parameters.J2;
-        const S J3 = parameters.J3;
-        const S m = parameters.m;
-        const S d0 = parameters.d0;
-        const S k = parameters.k;
+        const auto [J1, J2, J3, m, d0, k] = parameters;
         const S u1 = d0 * (u0 - w3 * w3);
         const S u2 = w2 * w3;
         const S u3 = S(2) * v;

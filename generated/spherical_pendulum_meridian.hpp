@@ -131,11 +131,8 @@ class spherical_pendulum_meridian {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        const S x = s[0];
-        const S y = s[1];
-        const S z = s[2];
-        const S a = s[3];
-        const S b = s[4];
+        const S x = s[0], y = s[1], z = s[2];
+        const S a = s[3], b = s[4];
         const S w0 = z * b;
         ds[0] = x * w0 - y * a;
         ds[1] = x * a + y * w0;
@@ -156,9 +153,7 @@ class spherical_pendulum_meridian {
     [[nodiscard]] Eigen::Matrix<S, 2, 2> mass_matrix([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 2, 2> result;
-        const S x = s[0];
-        const S y = s[1];
-        const S z = s[2];
+        const S x = s[0], y = s[1], z = s[2];
         const S w0 = x * x + y * y;
         const S m = parameters.m;
         result(0, 0) = m * w0;
@@ -172,11 +167,8 @@ class spherical_pendulum_meridian {
     [[nodiscard]] Eigen::Matrix<S, 2, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 2, 1> result;
-        const S x = s[0];
-        const S y = s[1];
-        const S z = s[2];
-        const S a = s[3];
-        const S b = s[4];
+        const S x = s[0], y = s[1], z = s[2];
+        const S a = s[3], b = s[4];
         const S w0 = x * x + y * y;
         const S m = parameters.m;
         result[0] = m * w0 * a;
@@ -187,16 +179,12 @@ class spherical_pendulum_meridian {
     /// E = y^a p_a - L.
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S x = s[0];
-        const S y = s[1];
-        const S z = s[2];
-        const S a = s[3];
-        const S b = s[4];
+        const S x = s[0], y = s[1], z = s[2];
+        const S a = s[3], b = s[4];
         const S w0 = x * x;
         const S w1 = y * y;
         const S w2 = z * z;
-        const S m = parameters.m;
-        const S g = parameters.g;
+        const auto [m, g] = parameters;
         const S w3 = S(2) * g * z + (w0 + w1) * (a * a) + (w0 * (w0 + S(2) * w1 + w2) + w1 * (w1 + w2)) * (b * b);
         return S(0.5) * m * w3;
     }
@@ -204,16 +192,12 @@ class spherical_pendulum_meridian {
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S x = s[0];
-        const S y = s[1];
-        const S z = s[2];
-        const S a = s[3];
-        const S b = s[4];
+        const S x = s[0], y = s[1], z = s[2];
+        const S a = s[3], b = s[4];
         const S w0 = x * x;
         const S w1 = y * y;
         const S w2 = z * z;
-        const S m = parameters.m;
-        const S g = parameters.g;
+        const auto [m, g] = parameters;
         const S w3 = (w0 + w1) * (a * a) + (w0 * (w0 + S(2) * w1 + w2) + w1 * (w1 + w2)) * (b * b) - S(2) * g * z;
         return S(0.5) * m * w3;
     }
@@ -223,8 +207,7 @@ class spherical_pendulum_meridian {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> domain([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S x = s[0];
-        const S y = s[1];
+        const S x = s[0], y = s[1];
         result[0] = x * x + y * y;
         return result;
     }
@@ -234,8 +217,7 @@ class spherical_pendulum_meridian {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S x = s[0];
-        const S y = s[1];
+        const S x = s[0], y = s[1];
         const S a = s[3];
         const S m = parameters.m;
         result[0] = m * (x * x + y * y) * a;
@@ -251,11 +233,8 @@ class spherical_pendulum_meridian {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 23>& values) const noexcept
     {
-        const S x = s[0];
-        const S y = s[1];
-        const S z = s[2];
-        const S a = s[3];
-        const S b = s[4];
+        const S x = s[0], y = s[1], z = s[2];
+        const S a = s[3], b = s[4];
         const S w0 = y * y;
         values[8] = x;
         const S w1 = x * x;

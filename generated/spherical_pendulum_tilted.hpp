@@ -134,11 +134,8 @@ class spherical_pendulum_tilted {
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
         using std::abs;
-        const S x = s[0];
-        const S y = s[1];
-        const S z = s[2];
-        const S a = s[3];
-        const S b = s[4];
+        const S x = s[0], y = s[1], z = s[2];
+        const S a = s[3], b = s[4];
         auto status = StatusOf<S>::good();
         const S w0 = z * a;
         ds[0] = w0;
@@ -168,9 +165,7 @@ class spherical_pendulum_tilted {
     [[nodiscard]] Eigen::Matrix<S, 2, 2> mass_matrix([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 2, 2> result;
-        const S x = s[0];
-        const S y = s[1];
-        const S z = s[2];
+        const S x = s[0], y = s[1], z = s[2];
         const S w0 = z * z;
         const S m = parameters.m;
         result(0, 0) = m * (x * x + w0);
@@ -185,11 +180,8 @@ class spherical_pendulum_tilted {
     [[nodiscard]] Eigen::Matrix<S, 2, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 2, 1> result;
-        const S x = s[0];
-        const S y = s[1];
-        const S z = s[2];
-        const S a = s[3];
-        const S b = s[4];
+        const S x = s[0], y = s[1], z = s[2];
+        const S a = s[3], b = s[4];
         const S w0 = x * a + y * b;
         const S w1 = z * z;
         const S m = parameters.m;
@@ -201,29 +193,21 @@ class spherical_pendulum_tilted {
     /// E = y^a p_a - L.
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S x = s[0];
-        const S y = s[1];
-        const S z = s[2];
-        const S a = s[3];
-        const S b = s[4];
+        const S x = s[0], y = s[1], z = s[2];
+        const S a = s[3], b = s[4];
         const S w0 = x * a;
         const S w1 = y * b;
-        const S m = parameters.m;
-        const S g = parameters.g;
+        const auto [m, g] = parameters;
         return S(0.5) * m * (z * (S(2) * g + z * (a * a + b * b)) + w0 * (w0 + S(2) * w1) + w1 * w1);
     }
 
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S x = s[0];
-        const S y = s[1];
-        const S z = s[2];
-        const S a = s[3];
-        const S b = s[4];
+        const S x = s[0], y = s[1], z = s[2];
+        const S a = s[3], b = s[4];
         const S w0 = x * a + y * b;
-        const S m = parameters.m;
-        const S g = parameters.g;
+        const auto [m, g] = parameters;
         return S(0.5) * m * (z * (z * (a * a + b * b) - S(2) * g) + w0 * w0);
     }
 
@@ -242,11 +226,8 @@ class spherical_pendulum_tilted {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S x = s[0];
-        const S y = s[1];
-        const S z = s[2];
-        const S a = s[3];
-        const S b = s[4];
+        const S x = s[0], y = s[1], z = s[2];
+        const S a = s[3], b = s[4];
         const S m = parameters.m;
         result[0] = m * z * (x * b - y * a);
         return result;
@@ -259,11 +240,8 @@ class spherical_pendulum_tilted {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 18>& values) const noexcept
     {
-        const S x = s[0];
-        const S y = s[1];
-        const S z = s[2];
-        const S a = s[3];
-        const S b = s[4];
+        const S x = s[0], y = s[1], z = s[2];
+        const S a = s[3], b = s[4];
         values[0] = a;
         values[1] = z;
         values[3] = z;

@@ -118,8 +118,7 @@ class torus {
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
         auto status = StatusOf<S>::good();
-        const S R = parameters.R;
-        const S r = parameters.r;
+        const auto [R, r] = parameters;
         StatusOf<S>::fail(status, !(r > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, !(R - r > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, r * r == S(0), Status::singular_mass_matrix);
@@ -133,14 +132,12 @@ class torus {
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
         const S th = s[0];
-        const S u = s[2];
-        const S v = s[3];
+        const S u = s[2], v = s[3];
         auto status = StatusOf<S>::good();
         ds[0] = u;
         ds[1] = v;
         const auto [sin_th, cos_th] = sincos<S>(th);
-        const S R = parameters.R;
-        const S r = parameters.r;
+        const auto [R, r] = parameters;
         const S w0 = R + r * cos_th;
         const S w1 = sin_th * v;
         ds[2] = -w0 * v * w1 / r;
@@ -155,8 +152,7 @@ class torus {
         Eigen::Matrix<S, 2, 2> result = Eigen::Matrix<S, 2, 2>::Zero();
         using std::cos;
         const S th = s[0];
-        const S R = parameters.R;
-        const S r = parameters.r;
+        const auto [R, r] = parameters;
         result(0, 0) = r * r;
         const S w0 = R + r * cos(th);
         result(1, 1) = w0 * w0;
@@ -169,10 +165,8 @@ class torus {
         Eigen::Matrix<S, 2, 1> result;
         using std::cos;
         const S th = s[0];
-        const S u = s[2];
-        const S v = s[3];
-        const S R = parameters.R;
-        const S r = parameters.r;
+        const S u = s[2], v = s[3];
+        const auto [R, r] = parameters;
         result[0] = r * r * u;
         const S w0 = R + r * cos(th);
         result[1] = w0 * w0 * v;
@@ -184,10 +178,8 @@ class torus {
     {
         using std::cos;
         const S th = s[0];
-        const S u = s[2];
-        const S v = s[3];
-        const S R = parameters.R;
-        const S r = parameters.r;
+        const S u = s[2], v = s[3];
+        const auto [R, r] = parameters;
         const S w0 = R + r * cos(th);
         return S(0.5) * (r * r * (u * u) + w0 * w0 * (v * v));
     }
@@ -197,10 +189,8 @@ class torus {
     {
         using std::cos;
         const S th = s[0];
-        const S u = s[2];
-        const S v = s[3];
-        const S R = parameters.R;
-        const S r = parameters.r;
+        const S u = s[2], v = s[3];
+        const auto [R, r] = parameters;
         const S w0 = R + r * cos(th);
         return S(0.5) * (r * r * (u * u) + w0 * w0 * (v * v));
     }
@@ -210,11 +200,9 @@ class torus {
     [[nodiscard]] Eigen::Matrix<S, 3, 1> observables([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 3, 1> result;
-        const S th = s[0];
-        const S ph = s[1];
+        const S th = s[0], ph = s[1];
         const auto [sines, cosines] = sincos<S, 2>({th, ph});
-        const S R = parameters.R;
-        const S r = parameters.r;
+        const auto [R, r] = parameters;
         const S w0 = R + r * cosines[0];
         result[0] = w0 * cosines[1];
         result[1] = w0 * sines[1];
@@ -230,8 +218,7 @@ class torus {
         using std::cos;
         const S th = s[0];
         const S v = s[3];
-        const S R = parameters.R;
-        const S r = parameters.r;
+        const auto [R, r] = parameters;
         const S w0 = R + r * cos(th);
         result[0] = w0 * w0 * v;
         return result;
@@ -245,13 +232,11 @@ class torus {
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 7>& values) const noexcept
     {
         const S th = s[0];
-        const S u = s[2];
-        const S v = s[3];
+        const S u = s[2], v = s[3];
         values[0] = S(1);
         values[1] = S(1);
         const auto [sin_th, cos_th] = sincos<S>(th);
-        const S R = parameters.R;
-        const S r = parameters.r;
+        const auto [R, r] = parameters;
         const S w0 = R / r + cos_th;
         values[2] = (sin_th * sin_th - cos_th * w0) * (v * v);
         const S w1 = sin_th * v;

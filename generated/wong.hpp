@@ -147,19 +147,11 @@ class wong {
     /// checked by parameter_status() instead, once. s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
-        const S x = s[0];
-        const S y = s[1];
-        const S u = s[2];
-        const S v = s[3];
-        const S q1 = s[4];
-        const S q2 = s[5];
-        const S q3 = s[6];
+        const S x = s[0], y = s[1];
+        const S u = s[2], v = s[3], q1 = s[4], q2 = s[5], q3 = s[6];
         ds[0] = u;
         ds[1] = v;
-        const S a = parameters.a;
-        const S b = parameters.b;
-        const S c = parameters.c;
-        const S k = parameters.k;
+        const auto [a, b, c, k] = parameters;
         const S w0 = c * y;
         const S w1 = b * q1;
         const S w2 = w0 * q2 + w1;
@@ -194,11 +186,7 @@ class wong {
     [[nodiscard]] Eigen::Matrix<S, 5, 1> momentum([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 5, 1> result;
-        const S u = s[2];
-        const S v = s[3];
-        const S q1 = s[4];
-        const S q2 = s[5];
-        const S q3 = s[6];
+        const S u = s[2], v = s[3], q1 = s[4], q2 = s[5], q3 = s[6];
         result[0] = u;
         result[1] = v;
         result[2] = q1;
@@ -210,13 +198,8 @@ class wong {
     /// E = y^a p_a - L.
     [[nodiscard]] S energy([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S x = s[0];
-        const S y = s[1];
-        const S u = s[2];
-        const S v = s[3];
-        const S q1 = s[4];
-        const S q2 = s[5];
-        const S q3 = s[6];
+        const S x = s[0], y = s[1];
+        const S u = s[2], v = s[3], q1 = s[4], q2 = s[5], q3 = s[6];
         const S k = parameters.k;
         return S(0.5) * (k * (x * x + y * y) + u * u + v * v + q1 * q1 + q2 * q2 + q3 * q3);
     }
@@ -224,13 +207,8 @@ class wong {
     /// L(t, x, y).
     [[nodiscard]] S lagrangian([[maybe_unused]] S t, const State& s) const noexcept
     {
-        const S x = s[0];
-        const S y = s[1];
-        const S u = s[2];
-        const S v = s[3];
-        const S q1 = s[4];
-        const S q2 = s[5];
-        const S q3 = s[6];
+        const S x = s[0], y = s[1];
+        const S u = s[2], v = s[3], q1 = s[4], q2 = s[5], q3 = s[6];
         const S k = parameters.k;
         return S(0.5) * (u * u + v * v + q1 * q1 + q2 * q2 + q3 * q3 - k * (x * x + y * y));
     }
@@ -240,9 +218,7 @@ class wong {
     [[nodiscard]] Eigen::Matrix<S, 1, 1> invariants([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 1, 1> result;
-        const S q1 = s[4];
-        const S q2 = s[5];
-        const S q3 = s[6];
+        const S q1 = s[4], q2 = s[5], q3 = s[6];
         result[0] = q1 * q1 + q2 * q2 + q3 * q3;
         return result;
     }
@@ -256,18 +232,10 @@ class wong {
     /// Derivative of ds with respect to s: the entries that are not zero by structure.
     void jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 31>& values) const noexcept
     {
-        const S x = s[0];
-        const S y = s[1];
-        const S u = s[2];
-        const S v = s[3];
-        const S q1 = s[4];
-        const S q2 = s[5];
-        const S q3 = s[6];
+        const S x = s[0], y = s[1];
+        const S u = s[2], v = s[3], q1 = s[4], q2 = s[5], q3 = s[6];
         const S w0 = x * v;
-        const S a = parameters.a;
-        const S b = parameters.b;
-        const S c = parameters.c;
-        const S k = parameters.k;
+        const auto [a, b, c, k] = parameters;
         const S w1 = a * u + c * w0;
         const S w2 = y * w1;
         values[30] = w2;

@@ -4,6 +4,7 @@
 #include <lagen/ensemble/pack.hpp>
 #include <lagen/integrate.hpp>
 #include <lagen/newton.hpp>
+#include <lagen/variational.hpp>
 
 #include "support/tolerances.hpp"
 

@@ -26,10 +26,10 @@ enum class Crossing { rising, falling, any };
 template <class Real, class State>
 struct EventRequest {
     std::size_t index = 0;
-    std::function<Real(Real t, const State& s)> when{};
     Crossing direction = Crossing::any;
     bool stop = false; ///< the run ends at the count-th crossing
     std::size_t count = 1;
+    std::function<Real(Real t, const State& s)> when{};
 };
 
 /// An event found; `request` is its place in the list of requests.
