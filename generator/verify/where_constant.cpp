@@ -194,7 +194,9 @@ std::string WhereConstant::text_of(const Condition& condition)
 {
     const bool below = condition.positive && graph_.op(condition.f) == Op::negate;
     const NodeId side = below ? graph_.operands(condition.f)[0] : condition.f;
-    const std::string f = condition.name.empty() ? to_text(graph_, side, longest_named) : condition.name;
+    std::string f = condition.name.empty() ? to_text(graph_, side, longest_named) : condition.name;
+    if (condition.name.empty() && f.size() <= longest_named)
+        if (const std::string reduced = decider_->decide(side).residual; reduced.size() < f.size()) f = reduced;
     if (f.size() > longest_named) obstacle_ = "it may change where " + f.substr(0, 60) + "... vanishes";
     return f + (below ? " < 0" : condition.positive ? " > 0" : " != 0");
 }

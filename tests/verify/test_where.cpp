@@ -117,8 +117,7 @@ TEST_CASE("a direction of velocities or momenta jumps too, and the condition nam
     // The velocity turns once in 2 pi.
     const std::string magnetic = "(v_x*y - x*v_y)/2";
     CHECK(statuses(jumping_plane(magnetic), {"atan2(v_y, v_x) + t"}) == "proved where v_y != 0");
-    CHECK(statuses(jumping_plane(magnetic), {"atan2(p_v_y - x/2, p_v_x + y/2) + t"}) ==
-          "proved where v_y + 1/2*x - x/2 != 0");
+    CHECK(statuses(jumping_plane(magnetic), {"atan2(p_v_y - x/2, p_v_x + y/2) + t"}) == "proved where v_y != 0");
 }
 
 TEST_CASE("atan2 jumps along Hamilton's equations as along Lagrange's")
@@ -195,7 +194,7 @@ TEST_CASE("the holes of a quotient of analytic functions are said, and those of 
 {
     CHECK(statuses(on_line("0"), {"(v*x^2 + v^2*x)/(x^2 + v*x)", "v*sin(x)*x^(-2)*x^2/sin(x)", "v*(abs(x) - sqrt(x^2))",
                                   "(exp(x) - 1)*v/(exp(x) - 1)", "v*log(x)/log(x)"}) ==
-          "proved where x^2 + x*v != 0, proved where x != 0 and sin(x) != 0, proved, proved where exp(x) - 1 != 0, "
+          "proved where x^2 + v*x != 0, proved where x != 0 and sin(x) != 0, proved, proved where exp(x) - 1 != 0, "
           "proved where x > 0 and log(x) != 0");
     CHECK(statuses(on_line("abs(x)"), {"energy", "energy*x*(x + v)/(x^2 + x*v)"}) ==
           "proved, proved where x^2 + x*v != 0");
@@ -242,7 +241,7 @@ TEST_CASE("conditions that cannot be met, or cannot be written, leave a claim un
     const std::string long_claim = "v + " + longest + " - " + longest + "*(cos(v)^2 + sin(v)^2)";
     CHECK(statuses(on_line("0"), {long_claim}) == "undecided");
     CHECK(first_obstacle(on_line("0"), {long_claim}) ==
-          "its rate vanishes, but it may change where sin(20*x)^20 + sin(19*x)^19 + sin(18*x)^18 + sin(17*x)^17 + ... "
+          "its rate vanishes, but it may change where x + sin(x) + sin(2*x)^2 + sin(3*x)^3 + sin(4*x)^4 + sin(5*x)... "
           "vanishes");
 }
 
