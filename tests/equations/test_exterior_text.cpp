@@ -52,3 +52,26 @@ TEST_CASE("coefficients that are sums stand in parentheses before their basis fo
     CHECK(print_text(exterior_of("wong")).find("de^q3 = a x (b y + 2) e^u∧e^v + a y e^u∧e^q2") != std::string::npos);
     CHECK(print_text(exterior_of("wong")).find("(c y - a - b² x) e^u∧e^v") != std::string::npos);
 }
+
+TEST_CASE("the forms of a model stand with their differentials")
+{
+    const Model model =
+        read_model_text("forms.toml", "[base]\ncoordinates = ['x', 'y']\n[algebroid]\nkind = 'tangent'\n"
+                                      "[forms]\nf = { degree = 0, value = 'x*y' }\n"
+                                      "A = { degree = 1, v_x = 'y^2', v_y = 'sin(x)' }\n"
+                                      "F = { degree = 2, 'v_x,v_y' = 'x' }\n");
+    const EquationSet set = derive_exterior(model, elaborate(model));
+    const std::string text = print_text(set);
+    CHECK(text.substr(text.find("forms of")) ==
+          R"(forms of the model and their differentials:  dω = ρ_a(ω_I) e^a∧e^I + ω_I de^I
+   f = x y
+  df = y e^v_x + x e^v_y
+   A = y² e^v_x + sin(x) e^v_y
+  dA = (cos(x) - 2 y) e^v_x∧e^v_y
+   F = x e^v_x∧e^v_y
+  dF = 0
+)");
+    CHECK(print_latex(set).find("  dA &= \\left(\\cos\\left(x\\right) - 2\\, y\\right)") != std::string::npos);
+    CHECK(print_json(set).find(R"({"left": {"kind": "symbol", "symbol": "F"}, "groups": [{"label": "", "value": "x", )"
+                               R"("basis": ["v_x", "v_y"]}]})") != std::string::npos);
+}

@@ -56,6 +56,18 @@ TEST_CASE("energy changes by the power of forces and explicit time in every form
     CHECK(powered > 0);
 }
 
+TEST_CASE("brackets that are differences have no power", "[kernels]")
+{
+    for (const char* bracket : {"x - 1", "1 - x", "x^2 - x", "sin(x) - y"}) {
+        INFO(bracket);
+        const KernelModule module = kernels_of_text(
+            std::string("[base]\ncoordinates = ['x', 'y']\n[fibre]\ncoordinates = ['s', 'a', 'b']\n[algebroid]\n"
+                        "kind = 'general'\n[algebroid.anchor]\ns = { x = 1 }\n[algebroid.bracket]\n's,a' = { b = '") +
+            bracket + "' }\n[lagrangian]\nL = '(s^2 + a^2 + b^2)/2'\n");
+        CHECK_FALSE(has_kernel(module, "power"));
+    }
+}
+
 TEST_CASE("the Hamiltonian form moves as the Lagrangian form does", "[kernels]")
 {
     std::size_t compared = 0;

@@ -75,3 +75,33 @@ TEST_CASE("claims may use d, wedge, contraction with a section, sums and product
     CHECK(holds("3", "equals = 'd(d(A))'"));
     CHECK_FALSE(holds("3", "'w1,w2,w3' = '1/10^15', equals = 'd(d(A))'"));
 }
+
+TEST_CASE("a claim of forms holds where both sides are defined as they are written")
+{
+    const auto verdict_of = [](const std::string& forms) {
+        return verified_text("[base]\ncoordinates = ['x', 'y']\n[algebroid]\nkind = 'tangent'\n[forms]\n" + forms +
+                             "\n")
+            .verdict;
+    };
+    for (const char* nowhere :
+         {"H = { degree = 0, value = '0*log(-1 - x^2)', closed = true }",
+          "H = { degree = 0, value = '0*log(-1 - x^2)', equals = '0' }",
+          "H = { degree = 0, value = '0', equals = '0*log(-1 - x^2)' }",
+          "H = { degree = 1, v_x = 'y', v_y = 'x', equals = 'd(x*y) + 0*d(log(-1 - x^2))' }",
+          "H = { degree = 1, v_x = 'y', v_y = 'x', equals = 'd(x*y)*(log(-1 - x^2)/log(-1 - x^2))' }",
+          "H = { degree = 1, v_x = 'x', equals = 'd(x)*(sqrt(-1 - x^2)^2)*0 + x*d(x)' }",
+          "H = { degree = 0, value = 'x', equals = 'i([log(-1 - x^2), 1], x*d(y))' }"}) {
+        INFO(nowhere);
+        CHECK(verdict_of(nowhere) == Verdict::undecided);
+    }
+    CHECK(verdict_of("B = { degree = 1, v_x = '1/x', equals = 'd(log(-x))' }") == Verdict::valid);
+    CHECK(verdict_of("Z = { degree = 2, equals = 'd(d(x*y))', closed = true }") == Verdict::valid);
+}
+
+TEST_CASE("a definition called d is meant where the model has one")
+{
+    const std::string model =
+        "[base]\ncoordinates = ['x']\n[algebroid]\nkind = 'tangent'\n[definitions]\n'd(q)' = 'q^3'\n"
+        "[forms]\nf = { degree = 0, value = 'x^3', equals = 'd(x)' }\n";
+    CHECK(verified_text(model).verdict == Verdict::valid);
+}
