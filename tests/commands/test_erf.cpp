@@ -33,7 +33,7 @@ TEST_CASE("equations with erf are printed in every format")
     CHECK_THAT(call({"generate", "trap.toml"}).out, Contains("using std::erf;") && Contains("erf("));
 }
 
-TEST_CASE("a run in an erf potential ends where steps of order four with 20000 steps do")
+TEST_CASE("a run in an erf potential ends where steps of order four with 20000 steps do", "[run]")
 {
     for (const char* form : {"lagrange", "hamilton"}) {
         const Outcome outcome =

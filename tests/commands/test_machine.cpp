@@ -79,7 +79,7 @@ TEST_CASE("a second run compiles nothing, whatever changes in comments and numbe
     CHECK(read_text(other) == "called\n");
 }
 
-TEST_CASE("CXXFLAGS is part of the key and reaches the compiler")
+TEST_CASE("CXXFLAGS is part of the key and reaches the compiler", "[run]")
 {
     REQUIRE(call(short_run).code == 0);
     const Outcome outcome = call(short_run, {.environment = {{"CXXFLAGS", "--no-such-flag"}}});

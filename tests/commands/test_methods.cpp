@@ -27,7 +27,7 @@ TEST_CASE("lagen methods names every integrator of the interface")
     CHECK(text.find("\ndop853        order 8(5,3)  tolerance ") != std::string::npos);
 }
 
-TEST_CASE("every method's type integrates the generated oscillator to its accuracy")
+TEST_CASE("every method's type integrates the generated oscillator to its accuracy", "[run]")
 {
     const std::string folder = fresh_folder();
     REQUIRE(call({"generate", models_folder() + "/oscillator.toml", "-o", "oscillator.hpp"}, {.folder = folder}).code ==

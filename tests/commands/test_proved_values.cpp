@@ -54,7 +54,8 @@ TEST_CASE("what is proved for the values of the file is enough to derive, to gen
     CHECK(call({"generate", "quartic_body.toml"}).err.empty());
 }
 
-TEST_CASE("Hamilton's and Lagrange's forms agree for the values of the file, of a scene and of the command line")
+TEST_CASE("Hamilton's and Lagrange's forms agree for the values of the file, of a scene and of the command line",
+          "[run]")
 {
     const std::pair<std::vector<std::string>, double> cases[] = {
         {{}, 0.6}, {{"--scene", "softer"}, 0.25}, {{"--set", "c=0.25"}, 0.25}};
@@ -86,7 +87,7 @@ TEST_CASE("values for which nothing is proved are refused, be they of a scene or
     }
 }
 
-TEST_CASE("a header takes no other value of a parameter that its proof used, and any of the others")
+TEST_CASE("a header takes no other value of a parameter that its proof used, and any of the others", "[run]")
 {
     CHECK(run_on_headers("proved_values", {"tests/commands/models/quartic_body.toml"}, "--form hamilton") ==
           "float ok ok left_domain left_domain\n"

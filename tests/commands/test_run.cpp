@@ -132,7 +132,7 @@ TEST_CASE("a scene's `samples` and `sample` say how many rows there are")
     CHECK(times("listed") == std::vector<double>{0.5, 1});
 }
 
-TEST_CASE("`observe` says which columns there are; an event that stops a run is a success")
+TEST_CASE("`observe` says which columns there are; an event that stops a run is a success", "[run]")
 {
     const json::Value value = run({"pendulum.toml", "--scene", "first_turn"});
     CHECK(value["status"].text == "stopped_by_event");
@@ -152,7 +152,7 @@ TEST_CASE("`observe` says which columns there are; an event that stops a run is 
     CHECK(column(asked, 0) == std::vector<double>{0, 0.1}); // rows at exactly these times, the event's is none of them
 }
 
-TEST_CASE("momenta in `initial` start the body whose momenta they are")
+TEST_CASE("momenta in `initial` start the body whose momenta they are", "[run]")
 {
     const json::Value value = run({"rigid_body.toml", "--scene", "from_momenta", "--at", "0"});
     CHECK(value["columns"].texts() == std::vector<std::string>{"t", "w1", "w2", "w3"});
@@ -199,7 +199,7 @@ TEST_CASE("--method, --step and --tolerance win over the scene")
     CHECK_THAT(fixed.err, Catch::StartsWith("warning: --tolerance is not used: the steps of rk4 are fixed\n"));
 }
 
-TEST_CASE("the energy of a Lagrangian that depends on t is reported as not conserved")
+TEST_CASE("the energy of a Lagrangian that depends on t is reported as not conserved", "[run]")
 {
     const std::string folder = fresh_folder();
     write_text(folder + "/driven.toml",

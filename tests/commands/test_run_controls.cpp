@@ -41,7 +41,7 @@ ControlRun run_of(const std::string& model, const std::vector<std::string>& more
 
 } // namespace
 
-TEST_CASE("Zermelo's boat reaches the origin, its heading counted from either direction")
+TEST_CASE("Zermelo's boat reaches the origin, its heading counted from either direction", "[run]")
 {
     for (const char* model : {"zermelo.toml", "zermelo_shifted.toml"}) {
         const ControlRun run = run_of(model);
@@ -60,7 +60,7 @@ TEST_CASE("Zermelo's boat reaches the origin, its heading counted from either di
     }
 }
 
-TEST_CASE("the brachistochrone reaches its end, with its heading found in closed form or followed")
+TEST_CASE("the brachistochrone reaches its end, with its heading found in closed form or followed", "[run]")
 {
     for (const char* model : {"brachistochrone.toml", "bent_brachistochrone.toml"}) {
         const ControlRun run = run_of(model);
@@ -73,7 +73,7 @@ TEST_CASE("the brachistochrone reaches its end, with its heading found in closed
     }
 }
 
-TEST_CASE("a search for controls that finds none at the start says where it could begin")
+TEST_CASE("a search for controls that finds none at the start says where it could begin", "[run]")
 {
     const ControlRun run = run_of("lost_brachistochrone.toml");
     CHECK(run.outcome.code == 1);
@@ -85,7 +85,7 @@ TEST_CASE("a search for controls that finds none at the start says where it coul
                              "}` in [control] says where it begins\n"));
 }
 
-TEST_CASE("thrust of constant size turns through the left, and ends as theory says")
+TEST_CASE("thrust of constant size turns through the left, and ends as theory says", "[run]")
 {
     const ControlRun run = run_of("thrust.toml");
     INFO(run.outcome.err);
@@ -101,7 +101,7 @@ TEST_CASE("thrust of constant size turns through the left, and ends as theory sa
     for (std::size_t row = 1; row < run.value["rows"].size(); ++row) CHECK(run.entry(row, 5) > run.entry(row - 1, 5));
 }
 
-TEST_CASE("an angle on which H does not depend ends a run")
+TEST_CASE("an angle on which H does not depend ends a run", "[run]")
 {
     const Outcome outcome = call({"run", "thrust.toml", "--scene", "coasting"});
     CHECK(outcome.code == 1);
@@ -111,7 +111,7 @@ TEST_CASE("an angle on which H does not depend ends a run")
                                    "  the last good state is at t = 0: x = 0, y = 0, vx = 1, "));
 }
 
-TEST_CASE("a maximum that is lost ends the run at its time")
+TEST_CASE("a maximum that is lost ends the run at its time", "[run]")
 {
     const double u = (std::sqrt(7.0) - 2) / 3; // where d2H/du2 vanishes on the hill of two_hills.toml
     const std::pair<const char*, double> models[] = {
@@ -137,7 +137,7 @@ TEST_CASE("a maximum that is lost ends the run at its time")
     CHECK(late.value["rows"].size() == 0);
 }
 
-TEST_CASE("fixed steps and implicit methods follow the controls too")
+TEST_CASE("fixed steps and implicit methods follow the controls too", "[run]")
 {
     const ControlRun fixed = run_of("zermelo.toml", {"--method", "rk4", "--step", "0.005"});
     INFO(fixed.outcome.err);

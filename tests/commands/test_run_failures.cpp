@@ -39,7 +39,7 @@ void refused(const std::string& scene, const std::string& block, const std::stri
 
 } // namespace
 
-TEST_CASE("an infall into a centre cannot go on, and keeps the rows before it")
+TEST_CASE("an infall into a centre cannot go on, and keeps the rows before it", "[run]")
 {
     // x = 1 at rest falls with x'' = -1/x^2: it arrives at t = pi/(2 sqrt 2).
     const json::Value value = fails("fall", {"--at", "0,1/2,1,2"});
@@ -88,7 +88,7 @@ TEST_CASE("a run that fails ends with its last good state, at the time of that s
                                 Catch::Contains(": x = ") && Catch::Contains(", v = -5"));
 }
 
-TEST_CASE("an observable that is not defined is an empty field of CSV and null in JSON")
+TEST_CASE("an observable that is not defined is an empty field of CSV and null in JSON", "[run]")
 {
     const std::string folder = fresh_folder();
     write_text(folder + "/m.toml", read_text(models_folder() + "/oscillator.toml") +
@@ -124,14 +124,14 @@ TEST_CASE("a state that overflows ends with non_finite, and JSON has null for wh
     CHECK(value["invariants"]["energy"]["initial"].text == "null");
 }
 
-TEST_CASE("more steps than the bound end with too_many_steps")
+TEST_CASE("more steps than the bound end with too_many_steps", "[run]")
 {
     const json::Value value = fails("many", {"--at", "0"});
     CHECK(value["status"].text == "too_many_steps");
     CHECK(value["steps"].text == "100000000");
 }
 
-TEST_CASE("a method for separable systems refuses a system that is none")
+TEST_CASE("a method for separable systems refuses a system that is none", "[run]")
 {
     const Outcome outcome =
         call({"run", "heavy_top.toml", "--method", "leapfrog_dkd", "--step", "0.01", "--format", "json"});

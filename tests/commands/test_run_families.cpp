@@ -73,7 +73,7 @@ TEST_CASE("Jupiter and Pluto are where quadruple precision has them after 200000
     }
 }
 
-TEST_CASE("a chain of two links is the double pendulum")
+TEST_CASE("a chain of two links is the double pendulum", "[run]")
 {
     std::ostringstream chain;
     chain << std::ifstream(models_folder() + "/chain.toml").rdbuf();
@@ -91,7 +91,7 @@ TEST_CASE("a chain of two links is the double pendulum")
     CHECK(std::fabs(entry(rods["rows"][1][1])) > 0.01);
 }
 
-TEST_CASE("a vector and a matrix keep their names in rows and pictures, and commas are quoted")
+TEST_CASE("a vector and a matrix keep their names in rows and pictures, and commas are quoted", "[run]")
 {
     const std::string picture = fresh_folder() + "/rotor.svg";
     const Outcome outcome = call({"run", "rotor.toml", "--scene", "matrix", "--plot", picture});
