@@ -114,8 +114,8 @@ class double_integrator_pontryagin {
     {
         auto status = StatusOf<S>::good();
         const S u_max = parameters.u_max;
-        StatusOf<S>::fail(status, !(u_max > S(0)), Status::left_domain);
         StatusOf<S>::fail(status, !(S(2) * u_max > S(0)), Status::left_domain);
+        StatusOf<S>::fail(status, !(u_max > S(0)), Status::left_domain);
         return status;
     }
 

@@ -241,8 +241,8 @@ class elroys_beanie {
         values[4] = S(0);
         values[5] = S(0);
         const S w1 = I2 / w0;
-        values[7] = v2;
         values[6] = -w1 * v2;
+        values[7] = v2;
         const S w2 = w1 * d;
         values[8] = W - w2;
         values[9] = w1 * v1;

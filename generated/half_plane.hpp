@@ -208,11 +208,11 @@ class half_plane {
         const S y = s[1];
         const S a = s[2], b = s[3];
         values[0] = a;
-        values[5] = a;
         values[1] = y;
-        values[3] = y;
         values[2] = b;
+        values[3] = y;
         values[4] = b;
+        values[5] = a;
         values[6] = -S(2) * a;
     }
 

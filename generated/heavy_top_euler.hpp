@@ -235,7 +235,6 @@ class heavy_top_euler {
         const S w0 = sines[1] * sines[1];
         const S w1 = cosines[1] * cosines[1];
         const S I1 = parameters.I1, I2 = parameters.I2, I3 = parameters.I3;
-        result(2, 2) = I3;
         const S w2 = I3 * cosines[0];
         result(0, 2) = w2;
         result(2, 0) = w2;
@@ -244,6 +243,7 @@ class heavy_top_euler {
         result(0, 1) = w3;
         result(1, 0) = w3;
         result(1, 1) = I1 * w1 + I2 * w0;
+        result(2, 2) = I3;
         return result;
     }
 

@@ -264,7 +264,6 @@ class heavy_top_quasivelocities {
     {
         const S th = s[1], ps = s[2];
         const S w1 = s[3], w2 = s[4], w3 = s[5];
-        values[11] = S(1);
         const auto [sines, cosines] = sincos<S, 2>({th, ps});
         const S u0 = S(1) / sines[0];
         const S u1 = cosines[0] * u0;
@@ -282,6 +281,7 @@ class heavy_top_quasivelocities {
         values[8] = u1 * u4;
         values[9] = -u1 * sines[1];
         values[10] = -u1 * cosines[1];
+        values[11] = S(1);
         const auto [I1, I2, I3, mgl, e1, e2, e3] = parameters;
         const S u5 = S(1) / I1;
         const S u6 = e3 * cosines[1];

@@ -213,15 +213,15 @@ class heisenberg {
         const S v1 = s[3], v2 = s[4], v3 = s[5];
         values[0] = S(1);
         values[1] = S(1);
-        values[6] = S(1);
         values[2] = S(0.5) * v2;
-        values[10] = v1;
         values[3] = -S(0.5) * v1;
         values[4] = -S(0.5) * y;
         values[5] = S(0.5) * x;
-        values[9] = v3;
+        values[6] = S(1);
         values[7] = -v3;
         values[8] = -v2;
+        values[9] = v3;
+        values[10] = v1;
     }
 
     /// The same as a dense matrix, shape (6, 6).

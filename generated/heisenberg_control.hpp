@@ -195,13 +195,13 @@ class heisenberg_control_pontryagin {
         values[0] = S(1);
         values[1] = S(1);
         values[2] = S(0.5) * mu2;
-        values[9] = mu1;
         values[3] = -S(0.5) * mu1;
         values[4] = -S(0.5) * y;
         values[5] = S(0.5) * x;
-        values[8] = mu3;
         values[6] = -mu3;
         values[7] = -mu2;
+        values[8] = mu3;
+        values[9] = mu1;
     }
 
     /// The same as a dense matrix, shape (6, 6).

@@ -244,7 +244,6 @@ class hyperboloids {
         const S x = s[0], y = s[1], z = s[2];
         const S a = s[3], b = s[4];
         const S w0 = y * y;
-        values[8] = x;
         const S w1 = x * x;
         const S w2 = w1 + S(2) * w0;
         const S w3 = z * z;
@@ -260,7 +259,6 @@ class hyperboloids {
         const S w9 = w1 + w0;
         values[12] = w9;
         const S w10 = m * w9;
-        values[5] = a;
         const S w11 = w10 * a;
         const S w12 = w8 * w11;
         values[21] = w12 / w7;
@@ -289,6 +287,8 @@ class hyperboloids {
         values[11] = S(2) * w18;
         values[10] = w22 * b;
         values[9] = y * z;
+        values[8] = x;
+        values[5] = a;
         values[4] = x * z;
         values[3] = -y;
         values[2] = x * b;

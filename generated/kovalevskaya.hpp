@@ -160,10 +160,10 @@ class kovalevskaya {
     {
         Eigen::Matrix<S, 3, 3> result = Eigen::Matrix<S, 3, 3>::Zero();
         const S J = parameters.J;
-        result(2, 2) = J;
         const S u0 = S(2) * J;
         result(0, 0) = u0;
         result(1, 1) = u0;
+        result(2, 2) = J;
         return result;
     }
 
@@ -245,17 +245,17 @@ class kovalevskaya {
         const S g1 = s[0], g2 = s[1], g3 = s[2];
         const S w1 = s[3], w2 = s[4], w3 = s[5];
         values[0] = w3;
-        values[8] = w2;
         values[1] = -w2;
-        values[6] = g3;
         values[2] = -g3;
         values[3] = g2;
         values[4] = -w3;
         values[5] = w1;
-        values[11] = g1;
+        values[6] = g3;
         values[7] = -g1;
+        values[8] = w2;
         values[9] = -w1;
         values[10] = -g2;
+        values[11] = g1;
         const S u0 = S(0.5) * w3;
         values[12] = u0;
         values[13] = S(0.5) * w2;

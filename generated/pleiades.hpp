@@ -577,18 +577,18 @@ class pleiades {
         Eigen::Matrix<S, 14, 14> result = Eigen::Matrix<S, 14, 14>::Zero();
         const auto [m_1, m_2, m_3, m_4, m_5, m_6, m_7] = parameters;
         result(0, 0) = m_1;
-        result(7, 7) = m_1;
         result(1, 1) = m_2;
-        result(8, 8) = m_2;
         result(2, 2) = m_3;
-        result(9, 9) = m_3;
         result(3, 3) = m_4;
-        result(10, 10) = m_4;
         result(4, 4) = m_5;
-        result(11, 11) = m_5;
         result(5, 5) = m_6;
-        result(12, 12) = m_6;
         result(6, 6) = m_7;
+        result(7, 7) = m_1;
+        result(8, 8) = m_2;
+        result(9, 9) = m_3;
+        result(10, 10) = m_4;
+        result(11, 11) = m_5;
+        result(12, 12) = m_6;
         result(13, 13) = m_7;
         return result;
     }
@@ -820,20 +820,6 @@ class pleiades {
     {
         const S x_1 = s[0], x_2 = s[1], x_3 = s[2], x_4 = s[3], x_5 = s[4], x_6 = s[5], x_7 = s[6], y_1 = s[7],
                 y_2 = s[8], y_3 = s[9], y_4 = s[10], y_5 = s[11], y_6 = s[12], y_7 = s[13];
-        values[0] = S(1);
-        values[1] = S(1);
-        values[2] = S(1);
-        values[3] = S(1);
-        values[4] = S(1);
-        values[5] = S(1);
-        values[6] = S(1);
-        values[7] = S(1);
-        values[8] = S(1);
-        values[9] = S(1);
-        values[10] = S(1);
-        values[11] = S(1);
-        values[12] = S(1);
-        values[13] = S(1);
         const S w0 = y_1 - y_7;
         const S w1 = w0 * w0;
         const S w2 = x_1 - x_2;
@@ -1399,6 +1385,20 @@ class pleiades {
         const S w363 = w356 * w292;
         values[15] = w363;
         values[14] = -(w358 + w359 + w360 + w361 + w362 + w363);
+        values[13] = S(1);
+        values[12] = S(1);
+        values[11] = S(1);
+        values[10] = S(1);
+        values[9] = S(1);
+        values[8] = S(1);
+        values[7] = S(1);
+        values[6] = S(1);
+        values[5] = S(1);
+        values[4] = S(1);
+        values[3] = S(1);
+        values[2] = S(1);
+        values[1] = S(1);
+        values[0] = S(1);
     }
 
     /// The same as a dense matrix, shape (28, 28).

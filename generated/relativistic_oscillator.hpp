@@ -235,8 +235,6 @@ class relativistic_oscillator {
         using arithmetic::sqrt;
         const S x = s[0], y = s[1];
         const S u = s[2], v = s[3];
-        values[0] = S(1);
-        values[1] = S(1);
         const S w0 = S(1) - u * u - v * v;
         const S w1 = S(1) / w0;
         const S w2 = u * w1;
@@ -262,22 +260,24 @@ class relativistic_oscillator {
         const S z1_0 = (w8 * w15 - w6 * w16) * inv_det0;
         const S z1_1 = (w4 * w16 - w6 * w15) * inv_det0;
         values[9] = z1_1;
-        values[5] = z1_0;
         const S w17 = -(S(3) * u * (z0_0 + w14 * w2) + w13) * w5;
         const S z2_0 = (w8 * w17 - w6 * w15) * inv_det0;
         const S z2_1 = (w4 * w15 - w6 * w17) * inv_det0;
         values[8] = z2_1;
-        values[4] = z2_0;
         const S w18 = -w10;
         const S z3_0 = (-w6 * w18) * inv_det0;
         const S z3_1 = w4 * w18 * inv_det0;
         values[7] = z3_1;
-        values[3] = z3_0;
         const S w19 = -k;
         const S z4_0 = w8 * w19 * inv_det0;
         const S z4_1 = (-w6 * w19) * inv_det0;
         values[6] = z4_1;
+        values[5] = z1_0;
+        values[4] = z2_0;
+        values[3] = z3_0;
         values[2] = z4_0;
+        values[1] = S(1);
+        values[0] = S(1);
     }
 
     /// The same as a dense matrix, shape (4, 4).

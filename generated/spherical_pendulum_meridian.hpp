@@ -236,7 +236,6 @@ class spherical_pendulum_meridian {
         const S x = s[0], y = s[1], z = s[2];
         const S a = s[3], b = s[4];
         const S w0 = y * y;
-        values[8] = x;
         const S w1 = x * x;
         const S w2 = w1 + S(2) * w0;
         const S w3 = z * z;
@@ -247,7 +246,6 @@ class spherical_pendulum_meridian {
         values[22] = -S(2) * w4 * w5 / w4;
         const S w6 = S(2) * z;
         const S w7 = w1 + w0;
-        values[5] = a;
         const S w8 = w7 * a;
         const S w9 = w6 * w8;
         values[21] = w9 / w4;
@@ -277,6 +275,8 @@ class spherical_pendulum_meridian {
         values[11] = -S(2) * w13;
         values[10] = -w18 * b;
         values[9] = y * z;
+        values[8] = x;
+        values[5] = a;
         values[4] = x * z;
         values[3] = -y;
         values[2] = x * b;

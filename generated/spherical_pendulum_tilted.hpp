@@ -244,8 +244,8 @@ class spherical_pendulum_tilted {
         const S a = s[3], b = s[4];
         values[0] = a;
         values[1] = z;
-        values[3] = z;
         values[2] = b;
+        values[3] = z;
         values[4] = -a;
         values[5] = -b;
         values[6] = -x;

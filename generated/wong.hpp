@@ -270,8 +270,6 @@ class wong {
         values[14] = -v * w15;
         const S w16 = w8 * (S(2) + b * y);
         values[13] = -w16 * u;
-        values[0] = S(1);
-        values[1] = S(1);
         const S w17 = x * w8 * w7 - b * (S(1) + x * w4);
         values[12] = -w17 * u;
         const S w18 = a - w4;
@@ -291,6 +289,8 @@ class wong {
         values[4] = -w22;
         values[3] = v * w23;
         values[2] = v * w24 - k;
+        values[1] = S(1);
+        values[0] = S(1);
     }
 
     /// The same as a dense matrix, shape (7, 7).

@@ -59,9 +59,17 @@ class Walk {
         : graph_(graph), plan_(plan), registers_(registers), done_(graph.size(), false),
           placed_(plan.batches.size(), false)
     {
-        for (std::size_t k = 0; k < roots.outputs.size(); ++k) stores_[roots.outputs[k]].push_back(k);
+        for (std::size_t k = 0; k < roots.outputs.size(); ++k)
+            if (!is_leaf(roots.outputs[k])) stores_[roots.outputs[k]].push_back(k);
         for (const NodeId id : roots.checked) checks_.push_back(id);
         std::ranges::sort(checks_);
+    }
+
+    /// Output number k: what is computed is stored at once, for whatever outputs it is; what is read, in its turn.
+    void output(std::size_t k, NodeId root)
+    {
+        from(root);
+        if (is_leaf(root)) place(BodyStep::Kind::store, root, k);
     }
 
     void from(NodeId root)
@@ -88,6 +96,7 @@ class Walk {
         std::size_t next = 0;
     };
 
+    [[nodiscard]] bool is_leaf(NodeId id) const { return graph_.op(id) == Op::input || is_number(graph_, id); }
     void enter(NodeId id)
     {
         if (!done_[id]) stack_.push_back({id, needed_by(id)});
@@ -207,7 +216,7 @@ std::vector<BodyStep> order_body(const Graph& graph, const BodyPlan& plan, const
 {
     const auto walked = [&](const std::vector<std::size_t>& order, const std::vector<std::uint32_t>* registers) {
         Walk walk(graph, plan, roots, registers);
-        for (const std::size_t k : order) walk.from(roots.outputs[k]);
+        for (const std::size_t k : order) walk.output(k, roots.outputs[k]);
         for (const NodeId id : roots.checked) walk.from(id);
         return walk.steps();
     };
