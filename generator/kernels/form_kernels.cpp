@@ -10,20 +10,41 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 namespace lagen {
 
 namespace {
 
 Formulation formulation(Graph& graph, const Model& model, const System& system, const Report& report,
-                        const KernelRequest& request, const FormulationParts& parts)
+                        const KernelRequest& request)
 {
+    const bool hessians = std::ranges::any_of(std::array{"lagrangian_hessian", "hamiltonian_hessian"},
+                                              [&](const char* name) { return is_requested(request.only, name); });
     switch (form_named(request.form.empty() ? default_form(model) : request.form).kind) {
-    case FormKind::lagrange: return lagrange_form(graph, system, report, parts);
-    case FormKind::hamilton: return hamilton_form(graph, system, report, parts);
-    case FormKind::pontryagin: return pontryagin_form(graph, model, system, report, parts);
+    case FormKind::lagrange: return lagrange_form(graph, system, report, hessians);
+    case FormKind::hamilton: return hamilton_form(graph, system, report, hessians);
+    case FormKind::pontryagin: return pontryagin_form(graph, model, system, report);
     }
     throw InternalError("a form without kernels");
+}
+
+/// Simplifies the nodes at these places together, and answers their divisors.
+std::vector<NodeId> simplify_at(Graph& graph, const std::vector<NodeId*>& places, SimplifyReport* report = nullptr)
+{
+    std::vector<NodeId> nodes, divisors;
+    for (const NodeId* place : places) nodes.push_back(*place);
+    nodes = simplify(graph, nodes, divisors, report);
+    for (std::size_t k = 0; k < places.size(); ++k) *places[k] = nodes[k];
+    return divisors;
+}
+
+void simplify_at(Graph& graph, std::initializer_list<std::vector<NodeId>*> lists)
+{
+    std::vector<NodeId*> places;
+    for (std::vector<NodeId>* list : lists)
+        for (NodeId& node : *list) places.push_back(&node);
+    simplify_at(graph, places);
 }
 
 /// Kernels of one module, each simplified on its own and left out where nobody asked for it or it would be empty.
@@ -31,7 +52,7 @@ class ModuleBuilder {
   public:
     ModuleBuilder(const Model& model, const System& system, const Report& report, const KernelRequest& request)
         : model_(model), system_(system), request_(request), graph_(std::make_shared<Graph>(system.graph)),
-          form_(formulation(*graph_, model, system, report, request, parts())), lower_(*graph_, form_.binding)
+          form_(formulation(*graph_, model, system, report, request)), lower_(*graph_, form_.binding)
     {
     }
 
@@ -44,7 +65,7 @@ class ModuleBuilder {
         add_trees("constraints", model_base_constraints());
         add_domain();
         add_trees("observables", observables());
-        add_trees("invariants", named(model_.invariants));
+        add_trees("invariants", model_.invariants);
         if (wants("events")) add_trees("events", events());
         if (wants("jacobian")) add_jacobian();
         if (wants("variational")) add_variational();
@@ -53,15 +74,7 @@ class ModuleBuilder {
     }
 
   private:
-    using NamedTrees = std::vector<std::pair<std::string, Tree>>;
-
     [[nodiscard]] bool wants(const std::string& name) const { return is_requested(request_.only, name); }
-
-    [[nodiscard]] FormulationParts parts() const
-    {
-        return {.motion = wants("rhs") || wants("jacobian") || wants("variational"),
-                .hessians = wants("lagrangian_hessian") || wants("hamiltonian_hessian")};
-    }
 
     [[nodiscard]] static Quantity quantity(const Symbol& symbol, NodeId input)
     {
@@ -101,21 +114,17 @@ class ModuleBuilder {
     {
         std::vector<KernelInput> inputs = point_inputs(module_);
         kernel.inputs.insert(kernel.inputs.begin(), inputs.begin(), inputs.end());
-        std::vector<NodeId> outputs = nodes_of(kernel);
-        if (kernel.checks) outputs.insert(outputs.end(), kernel.checks->pivots.begin(), kernel.checks->pivots.end());
-        std::vector<NodeId> divisors;
-        SimplifyReport report;
-        outputs = simplify(*graph_, outputs, divisors, request_.reports != nullptr ? &report : nullptr);
-        if (request_.reports != nullptr) request_.reports->push_back({kernel.name, std::move(report)});
-        auto next = outputs.begin();
+        std::vector<NodeId> none;
+        std::vector<NodeId>& pivots = kernel.checks ? kernel.checks->pivots : none;
+        std::vector<NodeId*> places;
         for (KernelOutput& output : kernel.outputs)
-            for (KernelEntry& entry : output.entries) entry.node = *next++;
-        if (kernel.checks) {
-            std::vector<NodeId>& pivots = kernel.checks->pivots;
-            pivots.assign(next, outputs.end());
-            for (const NodeId divisor : divisors)
-                if (std::ranges::find(pivots, divisor) == pivots.end()) pivots.push_back(divisor);
-        }
+            for (KernelEntry& entry : output.entries) places.push_back(&entry.node);
+        for (NodeId& pivot : pivots) places.push_back(&pivot);
+        SimplifyReport report;
+        const auto divisors = simplify_at(*graph_, places, request_.reports != nullptr ? &report : nullptr);
+        if (request_.reports != nullptr) request_.reports->push_back({kernel.name, std::move(report)});
+        for (const NodeId divisor : divisors)
+            if (std::ranges::find(pivots, divisor) == pivots.end()) pivots.push_back(divisor);
         module_.kernels.push_back(std::move(kernel));
     }
 
@@ -127,15 +136,15 @@ class ModuleBuilder {
         add(std::move(kernel));
     }
 
-    void add_trees(const std::string& name, const NamedTrees& trees)
+    void add_trees(const std::string& name, const std::vector<NamedTree>& trees)
     {
         if (trees.empty() || !wants(name)) return;
         std::vector<NodeId> values;
         std::vector<std::string> names;
-        for (const auto& [label, tree] : trees) {
-            if (form_.controls.empty() && uses_controls(model_, tree)) continue; // no value in this form
-            values.push_back(lower_(tree));
-            names.push_back(label);
+        for (const NamedTree& tree : trees) {
+            if (form_.controls.empty() && uses_controls(model_, tree.value)) continue; // no value in this form
+            values.push_back(lower_(tree.value));
+            names.push_back(tree.name);
         }
         if (values.empty()) return;
         add_named(name, values, std::move(names));
@@ -148,33 +157,26 @@ class ModuleBuilder {
         add(std::move(kernel));
     }
 
-    [[nodiscard]] NamedTrees model_base_constraints() const
+    [[nodiscard]] std::vector<NamedTree> model_base_constraints() const
     {
-        NamedTrees trees;
-        for (const Tree& tree : model_.base.constraints) trees.emplace_back(to_text(tree), tree);
-        return trees;
-    }
-
-    [[nodiscard]] static NamedTrees named(const std::vector<NamedTree>& list)
-    {
-        NamedTrees trees;
-        for (const NamedTree& entry : list) trees.emplace_back(entry.name, entry.value);
+        std::vector<NamedTree> trees;
+        for (const Tree& tree : model_.base.constraints) trees.push_back({to_text(tree), tree, {}});
         return trees;
     }
 
     /// Of the model, then what the scene asks for that is neither a state lane nor one of them.
-    [[nodiscard]] NamedTrees observables() const
+    [[nodiscard]] std::vector<NamedTree> observables() const
     {
-        NamedTrees trees = named(model_.observables);
+        std::vector<NamedTree> trees = model_.observables;
         if (request_.scene == nullptr) return trees;
-        if (!request_.scene->observe)
-            for (const std::string& control : form_.controls) trees.emplace_back(control, lagen::name(control));
-        if (!request_.scene->observe) return trees;
+        if (!request_.scene->observe) {
+            for (const std::string& control : form_.controls) trees.push_back({control, lagen::name(control), {}});
+            return trees;
+        }
         for (const NamedTree& entry : *request_.scene->observe) {
-            const auto known = [&](const auto& other) { return other.first == entry.name; };
-            const auto lane = [&](const Quantity& other) { return other.name == entry.name; };
-            if (std::ranges::any_of(trees, known) || std::ranges::any_of(lanes_of(module_), lane)) continue;
-            trees.emplace_back(entry.name, entry.value);
+            const auto known = [&](const auto& other) { return other.name == entry.name; };
+            if (std::ranges::none_of(trees, known) && std::ranges::none_of(lanes_of(module_), known))
+                trees.push_back(entry);
         }
         return trees;
     }
@@ -214,25 +216,18 @@ class ModuleBuilder {
 
     /// Of the one scene asked for, or of all; the same event of two scenes once, different ones of one name with the
     /// scene's name in front.
-    [[nodiscard]] NamedTrees events() const
+    [[nodiscard]] std::vector<NamedTree> events() const
     {
-        NamedTrees trees;
-        const auto find = [&](const std::string& name) {
-            return std::ranges::find_if(trees, [&](const auto& entry) { return entry.first == name; });
-        };
-        const auto append = [&](const Scene& scene) {
+        std::vector<NamedTree> trees;
+        const bool one = request_.scene != nullptr;
+        for (const Scene& scene : one ? std::span(request_.scene, 1) : std::span<const Scene>(model_.scenes))
             for (const Event& event : scene.events) {
-                const auto found = find(event.name);
+                const auto found = std::ranges::find(trees, event.name, &NamedTree::name);
                 if (found == trees.end())
-                    trees.emplace_back(event.name, event.when);
-                else if (!same_tree(found->second, event.when))
-                    trees.emplace_back(scene.name + "." + event.name, event.when);
+                    trees.push_back({event.name, event.when, {}});
+                else if (!same_tree(found->value, event.when))
+                    trees.push_back({scene.name + "." + event.name, event.when, {}});
             }
-        };
-        if (request_.scene != nullptr)
-            append(*request_.scene);
-        else
-            for (const Scene& scene : model_.scenes) append(scene);
         return trees;
     }
 
@@ -265,21 +260,14 @@ class ModuleBuilder {
     void simplify_implicit()
     {
         for (ImplicitBlock& block : module_.implicit) {
-            std::vector<NodeId> divisors;
-            block.guess = simplify(*graph_, block.guess, divisors);
+            simplify_at(*graph_, {&block.guess});
             if (block.bracket)
                 for (auto* ends : {&block.bracket->lower, &block.bracket->upper})
                     for (std::optional<NodeId>& end : *ends)
-                        if (end) end = simplify(*graph_, std::vector<NodeId>{*end}, divisors).front();
+                        if (end) simplify_at(*graph_, std::vector<NodeId*>{&*end});
             if (block.angles)
-                for (auto* parts : {&block.angles->b, &block.angles->c}) *parts = simplify(*graph_, *parts, divisors);
-            std::vector<NodeId> inner = block.residuals;
-            for (const auto* more : {&block.jacobian, &block.inside})
-                inner.insert(inner.end(), more->begin(), more->end());
-            inner = simplify(*graph_, inner, divisors);
-            auto from = inner.begin();
-            for (auto* part : {&block.residuals, &block.jacobian, &block.inside})
-                for (NodeId& node : *part) node = *from++;
+                for (auto* parts : {&block.angles->b, &block.angles->c}) simplify_at(*graph_, {parts});
+            simplify_at(*graph_, {&block.residuals, &block.jacobian, &block.inside});
             block.sizes = rounding_sizes(*graph_, block.residuals);
         }
     }

@@ -21,6 +21,14 @@ Formulation empty_form(const System& system, FormKind form, std::vector<NodeId> 
     return result;
 }
 
+void set_motion(const System& system, const PhaseSystem& phase, Formulation& form)
+{
+    form.derivative = phase.xdot;
+    form.derivative.insert(form.derivative.end(), phase.mudot.begin(), phase.mudot.end());
+    form.binding = phase_names(system, phase, phase.hamiltonian);
+    bind_system(system, form);
+}
+
 void bind_system(const System& system, Formulation& form)
 {
     form.binding["t"] = system.time;

@@ -8,6 +8,7 @@
 
 #include "graph/core/lower.hpp"
 #include "graph/kernel.hpp"
+#include "mechanics/phase_motion.hpp"
 #include "model/form.hpp"
 #include "verify/verify.hpp"
 
@@ -19,7 +20,7 @@ struct Formulation {
     std::vector<NodeId> parameters;
     std::vector<NodeId> x;                  ///< x^i, shape (n)
     std::vector<NodeId> lanes;              ///< the other lanes of the state, shape (r)
-    std::vector<NodeId> derivative;         ///< of x, then of the lanes; empty unless asked for
+    std::vector<NodeId> derivative;         ///< of x, then of the lanes
     std::vector<NodeId> pivots;             ///< 1 x 1 blocks of what is solved for the derivative
     std::vector<std::string> documentation; ///< of the right-hand side
     std::vector<ImplicitBlock> implicit;
@@ -30,23 +31,17 @@ struct Formulation {
     Binding binding;
 };
 
-/// What is to be there: `motion` for the derivative; `hessians` for the second derivatives of L and H.
-struct FormulationParts {
-    bool motion = true;
-    bool hessians = false;
-};
-
 /// Throw MathematicsError where the system has no such form: no L, no H, no control problem; a degenerate L; a
-/// Hamiltonian that the controls do not maximise in a way that can be solved for. `graph`: a copy of the system's.
-[[nodiscard]] Formulation lagrange_form(Graph& graph, const System& system, const Report& report,
-                                        const FormulationParts& parts);
-[[nodiscard]] Formulation hamilton_form(Graph& graph, const System& system, const Report& report,
-                                        const FormulationParts& parts);
-[[nodiscard]] Formulation pontryagin_form(Graph& graph, const Model& model, const System& system, const Report& report,
-                                          const FormulationParts& parts);
+/// Hamiltonian that the controls do not maximise in a way that can be solved for. `graph`: a copy of the system's;
+/// `hessians`: with kernels of the second derivatives of L and H.
+[[nodiscard]] Formulation lagrange_form(Graph& graph, const System& system, const Report& report, bool hessians);
+[[nodiscard]] Formulation hamilton_form(Graph& graph, const System& system, const Report& report, bool hessians);
+[[nodiscard]] Formulation pontryagin_form(Graph& graph, const Model& model, const System& system, const Report& report);
 
 /// A form without motion, names and kernels: what all of them share. `lanes`: y, mu, ..
 [[nodiscard]] Formulation empty_form(const System& system, FormKind form, std::vector<NodeId> lanes);
+/// Takes the rates and the names of a system on E*, and of the system itself.
+void set_motion(const System& system, const PhaseSystem& phase, Formulation& form);
 /// Binds t, parameters and base coordinates, which win over what is bound already.
 void bind_system(const System& system, Formulation& form);
 

@@ -21,26 +21,15 @@ HamiltonianNodes hamiltonian_nodes(Graph& graph, const System& system, const Reg
     return legendre_transform(graph, system, lagrangian, mass_structure(regularity), regularity.newton_start);
 }
 
-void bind_names(const System& system, const HamiltonianNodes& hamiltonian, Formulation& form)
-{
-    form.binding["energy"] = form.binding["hamiltonian"] = hamiltonian.value;
-    form.binding["lagrangian"] = hamiltonian.lagrangian;
-    for (std::size_t a = 0; a < system.r(); ++a) {
-        form.binding[system.graph.input_name(system.algebroid.y[a])] = hamiltonian.y[a];
-        form.binding[system.graph.input_name(system.mu[a])] = hamiltonian.mu[a];
-    }
-    bind_system(system, form);
-}
-
-void add_kernels(Graph& graph, const System& system, const HamiltonianNodes& hamiltonian, NodeId power,
-                 const FormulationParts& parts, Formulation& form)
+void add_kernels(Graph& graph, const System& system, const HamiltonianNodes& hamiltonian, NodeId power, bool hessians,
+                 Formulation& form)
 {
     if (!hamiltonian.y.empty()) form.kernels.push_back(table_kernel(form, "velocity", column("y", hamiltonian.y)));
     form.kernels.push_back(scalar_kernel(form, "energy", hamiltonian.value));
     if (!graph.is_zero(power)) form.kernels.push_back(scalar_kernel(form, "power", power));
     form.kernels.push_back(scalar_kernel(form, "hamiltonian", hamiltonian.value));
     if (system.lagrangian) form.kernels.push_back(scalar_kernel(form, "lagrangian", hamiltonian.lagrangian));
-    if (!parts.hessians) return;
+    if (!hessians) return;
     std::vector<NodeId> first = hamiltonian.dH_dx;
     first.insert(first.end(), hamiltonian.y.begin(), hamiltonian.y.end());
     form.kernels.push_back(hessian_kernel(graph, form, "hamiltonian_hessian", first));
@@ -60,27 +49,22 @@ void require_proved_values(Graph& graph, const Regularity& regularity, Formulati
 
 } // namespace
 
-Formulation hamilton_form(Graph& graph, const System& system, const Report& report, const FormulationParts& parts)
+Formulation hamilton_form(Graph& graph, const System& system, const Report& report, bool hessians)
 {
     const HamiltonianNodes hamiltonian = hamiltonian_nodes(graph, system, report.regularity);
-    const MomentumBalance balance = hamilton_balance(graph, system, hamiltonian);
+    const PhaseSystem phase = hamilton_system(graph, system, hamiltonian);
     Formulation form = empty_form(system, FormKind::hamilton, system.mu);
     form.implicit = hamiltonian.implicit;
     if (!system.hamiltonian) require_proved_values(graph, report.regularity, form);
-    if (parts.motion) {
-        form.derivative = base_velocity(graph, system.algebroid, hamiltonian.y);
-        const std::vector<NodeId> mudot = momentum_rates(graph, system.algebroid, balance);
-        form.derivative.insert(form.derivative.end(), mudot.begin(), mudot.end());
-        if (!hamiltonian.matrix.empty()) form.pivots = single_blocks(graph, hamiltonian.matrix, system.r());
-    }
+    set_motion(system, phase, form);
+    if (!hamiltonian.matrix.empty()) form.pivots = single_blocks(graph, hamiltonian.matrix, system.r());
     form.documentation = {"Hamilton's equations, ds = (xdot, mudot): xdot^i = rho^i_a dH/dmu_a and",
                           system.forces.empty() ? "mudot_a = -(rho_a(H) + mu_c C^c_ab dH/dmu_b)."
                                                 : "mudot_a = -(rho_a(H) + mu_c C^c_ab dH/dmu_b) + Q_a.",
                           system.hamiltonian ? "H is given."
                                              : "H is the Legendre transform of L: y = dH/dmu solves mu_a = dL/dy^a.",
                           "s and ds may be the same object."};
-    bind_names(system, hamiltonian, form);
-    add_kernels(graph, system, hamiltonian, energy_rate(graph, system.algebroid, balance), parts, form);
+    add_kernels(graph, system, hamiltonian, phase.energy_rate, hessians, form);
     return form;
 }
 

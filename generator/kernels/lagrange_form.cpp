@@ -20,8 +20,8 @@ void bind_names(const System& system, const LagrangianNodes& lagrangian, Formula
     for (const NodeId y : system.algebroid.y) form.binding[system.graph.input_name(y)] = y;
 }
 
-void add_kernels(Graph& graph, const System& system, const LagrangianNodes& lagrangian, NodeId power,
-                 const FormulationParts& parts, Formulation& form)
+void add_kernels(Graph& graph, const System& system, const LagrangianNodes& lagrangian, NodeId power, bool hessians,
+                 Formulation& form)
 {
     const std::size_t r = system.r();
     if (r > 0) {
@@ -31,14 +31,14 @@ void add_kernels(Graph& graph, const System& system, const LagrangianNodes& lagr
     form.kernels.push_back(scalar_kernel(form, "energy", lagrangian.energy));
     if (!graph.is_zero(power)) form.kernels.push_back(scalar_kernel(form, "power", power));
     form.kernels.push_back(scalar_kernel(form, "lagrangian", *system.lagrangian));
-    if (!parts.hessians) return;
+    if (!hessians) return;
     const std::vector<NodeId> first = gradient(graph, *system.lagrangian, state_of(form));
     form.kernels.push_back(hessian_kernel(graph, form, "lagrangian_hessian", first));
 }
 
 } // namespace
 
-Formulation lagrange_form(Graph& graph, const System& system, const Report& report, const FormulationParts& parts)
+Formulation lagrange_form(Graph& graph, const System& system, const Report& report, bool hessians)
 {
     require_regular_lagrangian(system, report.regularity, "Lagrangian");
     const LagrangianNodes lagrangian = lagrangian_nodes(graph, system);
@@ -46,14 +46,12 @@ Formulation lagrange_form(Graph& graph, const System& system, const Report& repo
     graph.remember_hessian(W, system.algebroid.y, *system.lagrangian);
     const MomentumBalance balance = lagrange_balance(graph, system, lagrangian);
     Formulation form = empty_form(system, FormKind::lagrange, system.algebroid.y);
-    if (parts.motion) {
-        form.derivative = base_velocity(graph, system.algebroid, system.algebroid.y);
-        const std::vector<NodeId> right =
-            acceleration_forces(graph, system, lagrangian, momentum_rates(graph, system.algebroid, balance));
-        const std::vector<NodeId> ydot = graph.solve(W, right, mass_structure(report.regularity));
-        form.derivative.insert(form.derivative.end(), ydot.begin(), ydot.end());
-        form.pivots = single_blocks(graph, W, system.r());
-    }
+    form.derivative = base_velocity(graph, system.algebroid, system.algebroid.y);
+    const std::vector<NodeId> right =
+        acceleration_forces(graph, system, lagrangian, momentum_rates(graph, system.algebroid, balance));
+    const std::vector<NodeId> ydot = graph.solve(W, right, mass_structure(report.regularity));
+    form.derivative.insert(form.derivative.end(), ydot.begin(), ydot.end());
+    form.pivots = single_blocks(graph, W, system.r());
     form.documentation = {
         "The equations of motion, ds = (xdot, ydot): xdot^i = rho^i_a y^a and",
         system.forces.empty()
@@ -62,7 +60,7 @@ Formulation lagrange_form(Graph& graph, const System& system, const Report& repo
         "Answers singular_mass_matrix where W has no inverse at this state; what depends on the parameters alone is",
         "checked by parameter_status() instead, once. s and ds may be the same object."};
     bind_names(system, lagrangian, form);
-    add_kernels(graph, system, lagrangian, energy_rate(graph, system.algebroid, balance), parts, form);
+    add_kernels(graph, system, lagrangian, energy_rate(graph, system.algebroid, balance), hessians, form);
     return form;
 }
 

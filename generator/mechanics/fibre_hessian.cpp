@@ -8,6 +8,7 @@
 #include <algorithm>
 
 namespace lagen {
+
 FibreHessian fibre_hessian(Graph& graph, NodeId lagrangian, const std::vector<NodeId>& y)
 {
     FibreHessian result;
@@ -25,8 +26,14 @@ FibreHessian fibre_hessian(Graph& graph, NodeId lagrangian, const std::vector<No
             result.hessian[a * r + b] = entry;
             result.hessian[b * r + a] = entry;
         }
-    result.blocks = connected_classes(r, [&](std::size_t a, std::size_t b) { return !graph.is_zero(result.W(a, b)); });
+    result.blocks = coupled_blocks(graph, result);
     return result;
+}
+
+std::vector<std::vector<std::size_t>> coupled_blocks(const Graph& graph, const FibreHessian& hessian)
+{
+    return connected_classes(hessian.y.size(),
+                             [&](std::size_t a, std::size_t b) { return !graph.is_zero(hessian.W(a, b)); });
 }
 
 NodeId minor_determinant(Graph& graph, const FibreHessian& hessian, const std::vector<std::size_t>& rows,

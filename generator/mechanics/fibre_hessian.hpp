@@ -22,6 +22,9 @@ struct FibreHessian {
 
 [[nodiscard]] FibreHessian fibre_hessian(Graph& graph, NodeId lagrangian, const std::vector<NodeId>& y);
 
+/// The classes of coordinates that entries of W couple.
+[[nodiscard]] std::vector<std::vector<std::size_t>> coupled_blocks(const Graph& graph, const FibreHessian& hessian);
+
 /// det of the submatrix W(rows, columns); column `replaced` (a position in `columns`), where given, is `right` instead.
 [[nodiscard]] NodeId minor_determinant(Graph& graph, const FibreHessian& hessian, const std::vector<std::size_t>& rows,
                                        const std::vector<std::size_t>& columns,

@@ -61,7 +61,7 @@ HamiltonianNodes legendre_transform(Graph& graph, const System& system, const La
     return nodes;
 }
 
-MomentumBalance hamilton_balance(Graph& graph, const System& system, const HamiltonianNodes& hamiltonian)
+PhaseSystem hamilton_system(Graph& graph, const System& system, const HamiltonianNodes& hamiltonian)
 {
     MomentumBalance balance;
     for (const NodeId slope : hamiltonian.dH_dx) balance.df_dx.push_back(graph.negate(slope));
@@ -69,7 +69,7 @@ MomentumBalance hamilton_balance(Graph& graph, const System& system, const Hamil
     balance.p = hamiltonian.mu;
     balance.y = hamiltonian.y;
     balance.forces = substitute(graph, system.forces_or_zero(graph), replacements(system.algebroid.y, hamiltonian.y));
-    return balance;
+    return phase_system(graph, system, balance, hamiltonian.value, hamiltonian.lagrangian);
 }
 
 } // namespace lagen

@@ -7,6 +7,7 @@
 
 #include "graph/unknowns/implicit.hpp"
 #include "mechanics/lagrange.hpp"
+#include "mechanics/phase_motion.hpp"
 
 namespace lagen {
 
@@ -30,7 +31,7 @@ struct HamiltonianNodes {
 [[nodiscard]] HamiltonianNodes legendre_transform(Graph& graph, const System& system, const LagrangianNodes& lagrangian,
                                                   MatrixStructure structure, std::span<const Rational> start);
 
-/// What momentum_rates and energy_rate take: f = -H, and the forces of the system at y = dH/dmu.
-[[nodiscard]] MomentumBalance hamilton_balance(Graph& graph, const System& system, const HamiltonianNodes& hamiltonian);
+/// Hamilton's equations: f = -H, and the forces of the system at y = dH/dmu.
+[[nodiscard]] PhaseSystem hamilton_system(Graph& graph, const System& system, const HamiltonianNodes& hamiltonian);
 
 } // namespace lagen

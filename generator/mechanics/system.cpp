@@ -24,9 +24,9 @@ bool System::declares(const std::string& wanted) const
     return among(parameters) || among(algebroid.x) || among(algebroid.y) || (control && among(control->u));
 }
 
-std::vector<std::pair<NodeId, NodeId>> replacements(const std::vector<NodeId>& inputs, const std::vector<NodeId>& nodes)
+Replacements replacements(const std::vector<NodeId>& inputs, const std::vector<NodeId>& nodes)
 {
-    std::vector<std::pair<NodeId, NodeId>> result;
+    Replacements result;
     for (std::size_t k = 0; k < inputs.size(); ++k) result.emplace_back(inputs[k], nodes[k]);
     return result;
 }

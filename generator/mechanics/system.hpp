@@ -84,8 +84,8 @@ struct System {
     [[nodiscard]] bool declares(const std::string& name) const;
 };
 
-/// Pairs for `substitute`.
-[[nodiscard]] std::vector<std::pair<NodeId, NodeId>> replacements(const std::vector<NodeId>& inputs,
-                                                                  const std::vector<NodeId>& nodes);
+/// Inputs with what is inserted for them: pairs for `substitute`.
+using Replacements = std::vector<std::pair<NodeId, NodeId>>;
+[[nodiscard]] Replacements replacements(const std::vector<NodeId>& inputs, const std::vector<NodeId>& nodes);
 
 } // namespace lagen

@@ -35,14 +35,13 @@ bool is_angle(Graph& graph, const ControlProblem& control, std::size_t k, NodeId
 
 } // namespace
 
-std::vector<std::size_t> find_angles(Graph& graph, const ControlProblem& control, NodeId hamiltonian,
+std::vector<std::size_t> find_angles(Graph& graph, const ControlProblem& control, const ControlHamiltonian& hamiltonian,
                                      const std::vector<NodeId>& parts, const ProofSetting& setting,
                                      const ProofBudget& budget)
 {
-    const std::vector<NodeId> slopes = gradient(graph, hamiltonian, control.u);
     std::vector<std::size_t> angles;
     for (std::size_t k = 0; k < control.u.size(); ++k)
-        if (is_angle(graph, control, k, slopes[k], parts, setting, budget)) angles.push_back(k);
+        if (is_angle(graph, control, k, hamiltonian.dH_du[k], parts, setting, budget)) angles.push_back(k);
     return angles;
 }
 
@@ -52,14 +51,6 @@ AngleTerms angle_terms(Graph& graph, NodeId slope, NodeId u)
     const std::pair<NodeId, NodeId> zero[] = {{u, graph.constant(0)}};
     const std::vector<NodeId> terms = substitute(graph, both, zero);
     return {terms[0], terms[1]};
-}
-
-std::vector<std::pair<NodeId, NodeId>> zeros_for(Graph& graph, const std::vector<NodeId>& u,
-                                                 const std::vector<std::size_t>& angles)
-{
-    std::vector<std::pair<NodeId, NodeId>> zeros;
-    for (const std::size_t k : angles) zeros.emplace_back(u[k], graph.constant(0));
-    return zeros;
 }
 
 std::vector<std::size_t> other_controls(std::size_t count, const std::vector<std::size_t>& angles)
@@ -72,7 +63,8 @@ std::vector<std::size_t> other_controls(std::size_t count, const std::vector<std
 
 ControlProblem without_angles(Graph& graph, const ControlProblem& control, const std::vector<std::size_t>& angles)
 {
-    const auto zeros = zeros_for(graph, control.u, angles);
+    Replacements zeros;
+    for (const std::size_t k : angles) zeros.emplace_back(control.u[k], graph.constant(0));
     ControlProblem rest;
     for (const std::size_t k : other_controls(control.u.size(), angles)) {
         rest.u.push_back(control.u[k]);
@@ -82,6 +74,7 @@ ControlProblem without_angles(Graph& graph, const ControlProblem& control, const
     const NodeId cost[] = {control.cost};
     rest.sigma = substitute(graph, control.sigma, zeros);
     rest.cost = substitute(graph, cost, zeros)[0];
+    rest.parts = substitute(graph, control.parts, zeros);
     return rest;
 }
 

@@ -4,14 +4,12 @@
 #pragma once
 
 #include "mechanics/fibre_hessian.hpp"
+#include "mechanics/system.hpp"
 #include "proof/decide.hpp"
 
 #include <memory>
 
 namespace lagen {
-
-/// Inputs with what takes their place.
-using Replacements = std::vector<std::pair<NodeId, NodeId>>;
 
 /// The setting with some of its inputs replaced; those are no variables or parameters any more. Nothing where a divisor
 /// becomes the constant 0.

@@ -27,9 +27,11 @@ Claims::Claims(const System& system, std::size_t points, const ProofBudget& budg
 /// Those of the system's default form.
 std::unique_ptr<EquationsOfMotion> Claims::equations_of_motion()
 {
-    if (system_.control) return std::make_unique<PhaseMotion>(graph_, system_, pontryagin_system(graph_, system_));
+    if (system_.control)
+        return std::make_unique<PhaseMotion>(graph_, system_, solved_pontryagin_system(graph_, system_));
     if (system_.hamiltonian && !system_.lagrangian)
-        return std::make_unique<PhaseMotion>(graph_, system_, hamilton_system(graph_, system_));
+        return std::make_unique<PhaseMotion>(graph_, system_,
+                                             hamilton_system(graph_, system_, given_hamiltonian(graph_, system_)));
     return std::make_unique<LagrangeMotion>(graph_, system_, lagrangian_ ? &*lagrangian_ : nullptr);
 }
 

@@ -2,9 +2,9 @@
 /// A system with its proof setting, and the deciding of each kind of claim.
 #pragma once
 
-#include "mechanics/lagrange.hpp"
+#include "mechanics/hamilton.hpp"
 #include "mechanics/lagrange_motion.hpp"
-#include "mechanics/phase_motion.hpp"
+#include "mechanics/pontryagin.hpp"
 #include "verify/judge.hpp"
 #include "verify/where_constant.hpp"
 

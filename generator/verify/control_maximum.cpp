@@ -7,8 +7,6 @@
 #include "verify/regularity.hpp"
 #include "verify/smooth_controls.hpp"
 
-#include "graph/calculus/differentiate.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,12 +24,10 @@ class MaximumDecision {
     MaximumDecision(Graph& graph, const ControlProblem& control, const std::vector<NodeId>& mu,
                     const ProofSetting& setting, const ProofBudget& budget)
         : graph_(graph), control_(control), mu_(mu), setting_(setting), budget_(budget),
-          hamiltonian_(control_hamiltonian(graph, control, mu)),
-          hessian_(fibre_hessian(graph, graph.negate(hamiltonian_), control.u)),
-          proofs_(graph, control, setting, budget)
+          hamiltonian_(control_hamiltonian(graph, control, mu)), proofs_(graph, control, setting, budget)
     {
         parts_ = control.parts;
-        parts_.push_back(hamiltonian_);
+        parts_.push_back(hamiltonian_.value);
     }
 
     [[nodiscard]] ControlMaximum decide()
@@ -46,14 +42,24 @@ class MaximumDecision {
                                 name_of(*linear)),
                     fmt::format("give the cost a term in which {} is strictly convex", name_of(*linear))};
         std::vector<std::size_t> angles = find_angles(graph_, control_, hamiltonian_, parts_, setting_, budget_);
-        if (angles.empty()) return control_.bounded() ? between_bounds() : without_bounds();
-        ControlMaximum maximum = beside_angles(angles);
-        if (maximum.kind == Kind::maximal) maximum.reason = words_for(angles);
+        return angles.empty() ? of_stationary() : beside(std::move(angles));
+    }
+
+  private:
+    [[nodiscard]] ControlMaximum of_stationary() { return control_.bounded() ? between_bounds() : without_bounds(); }
+
+    /// The other controls stand apart from the angles, and are smooth and affine in none, since all controls are.
+    [[nodiscard]] ControlMaximum beside(std::vector<std::size_t> angles)
+    {
+        ControlMaximum maximum{Kind::maximal, {}, {}};
+        const ControlProblem rest = without_angles(graph_, control_, angles);
+        MaximumDecision others(graph_, rest, mu_, setting_, budget_);
+        if (!rest.u.empty()) maximum = others.of_stationary();
+        if (maximum.kind == Kind::maximal) maximum.reason = words_for(angles) + others.words_for_stationary(maximum);
         maximum.angles = std::move(angles);
         return maximum;
     }
 
-  private:
     /// "H = a + b cos(th) + c sin(th) is largest at th = atan2(c, b), wherever b or c is not 0"
     [[nodiscard]] std::string words_for(const std::vector<std::size_t>& angles) const
     {
@@ -63,13 +69,21 @@ class MaximumDecision {
                                 text.empty() ? "" : "; ", name_of(k));
         return text + ", wherever b or c is not 0";
     }
-    /// Of the controls that are none of the angles.
-    [[nodiscard]] ControlMaximum beside_angles(const std::vector<std::size_t>& angles)
+
+    /// "; H is concave in (u, w), and largest where dH/d(u, w) = 0"; between bounds each control by itself
+    [[nodiscard]] std::string words_for_stationary(const ControlMaximum& maximum) const
     {
-        if (angles.size() == count()) return {Kind::maximal, {}, {}};
-        ControlProblem rest = without_angles(graph_, control_, angles);
-        rest.parts = substitute(graph_, control_.parts, zeros_for(graph_, control_.u, angles));
-        return MaximumDecision(graph_, rest, mu_, setting_, budget_).decide();
+        std::vector<std::string> names;
+        for (std::size_t k = 0; k < count(); ++k) names.push_back(name_of(k));
+        if (!control_.bounded() && count() > 1) names = {fmt::format("({})", fmt::join(names, ", "))};
+        std::string text;
+        for (std::size_t k = 0; k < names.size(); ++k) {
+            const bool bounded = control_.lower[k] || control_.upper[k];
+            const char* part = maximum.on_part ? " where it is defined" : bounded ? " within its bounds" : "";
+            text += fmt::format("; H is concave in {0}{1}, and largest where dH/d{0} = 0{2}", names[k], part,
+                                bounded ? " or at the bound next to that" : "");
+        }
+        return text;
     }
 
     [[nodiscard]] const std::string& name_of(std::size_t k) const { return graph_.input_name(control_.u[k]); }
@@ -83,7 +97,7 @@ class MaximumDecision {
     }
     [[nodiscard]] std::size_t count() const { return control_.u.size(); }
     /// -d2H/du^k du^l
-    [[nodiscard]] NodeId curvature(std::size_t k, std::size_t l) const { return hessian_.W(k, l); }
+    [[nodiscard]] NodeId curvature(std::size_t k, std::size_t l) const { return hamiltonian_.negative.W(k, l); }
 
     /// A control whose row of d2H/du2 vanishes.
     [[nodiscard]] std::optional<std::size_t> affine_control() const
@@ -118,7 +132,8 @@ class MaximumDecision {
 
     [[nodiscard]] ControlMaximum without_bounds()
     {
-        const Regularity regularity = decide_regularity(graph_, hessian_, proofs_.setting(), proofs_.decider(), {});
+        const Regularity regularity =
+            decide_regularity(graph_, hamiltonian_.negative, proofs_.setting(), proofs_.decider(), {});
         if (regularity.kind == Regularity::Kind::degenerate)
             return {Kind::unsolved,
                     fmt::format("dH/du = 0 does not determine the controls: d2H/du2 has rank {}, and {} controls need "
@@ -126,7 +141,8 @@ class MaximumDecision {
                                 regularity.rank, count(), count()),
                     "give the cost a term that is strictly convex in all controls together"};
         // Of a function that is concave and smooth everywhere each stationary point is a maximum.
-        if (regularity.positive_definite || proves_semidefinite_by_squares(graph_, hessian_, proofs_.decider())) {
+        if (regularity.positive_definite ||
+            proves_semidefinite_by_squares(graph_, hamiltonian_.negative, proofs_.decider())) {
             const std::string part = proofs_.partial_in(parts_);
             if (part.empty()) return {Kind::maximal, {}, {}};
             if (ControlMaximum inside = inside_part(); inside.kind == Kind::maximal) return inside;
@@ -136,7 +152,7 @@ class MaximumDecision {
         // Where H ends its maximum may be at the end.
         if (proofs_.partial_in(parts_).empty())
             if (ControlMaximum refuted = refutation(); refuted.kind == Kind::refuted) return refuted;
-        const FibreHessian opposite = fibre_hessian(graph_, hamiltonian_, control_.u);
+        const FibreHessian opposite = fibre_hessian(graph_, hamiltonian_.value, control_.u);
         if (strictly_convex_start(graph_, opposite, proofs_.setting(), budget_))
             return {Kind::refuted, "dH/du = 0 is where H is least: d2H/du2 > 0 wherever H is defined", cost_hint};
         return {
@@ -148,7 +164,7 @@ class MaximumDecision {
     /// Costs with a barrier, -log(1 - u^2): H is defined on a convex set of controls, and strictly concave there.
     [[nodiscard]] ControlMaximum inside_part()
     {
-        const auto start = strictly_convex_start(graph_, hessian_, proofs_.setting(), budget_);
+        const auto start = strictly_convex_start(graph_, hamiltonian_.negative, proofs_.setting(), budget_);
         return start ? ControlMaximum{Kind::maximal, {}, {}, true, *start} : ControlMaximum{};
     }
 
@@ -182,8 +198,7 @@ class MaximumDecision {
     const std::vector<NodeId>& mu_;
     const ProofSetting& setting_;
     ProofBudget budget_;
-    NodeId hamiltonian_;
-    FibreHessian hessian_; ///< of -H
+    ControlHamiltonian hamiltonian_;
     ControlProofs proofs_;
     std::vector<NodeId> parts_;
 };

@@ -8,7 +8,6 @@
 ///                                                              [Pontryagin, Boltyanskii, Gamkrelidze, Mishchenko 1962]
 #pragma once
 
-#include "mechanics/phase_motion.hpp"
 #include "verify/verify.hpp"
 
 namespace lagen {

@@ -2,7 +2,7 @@
 /// Signs and smoothness of expressions in controls, where each control runs through its interval.
 #pragma once
 
-#include "mechanics/phase_motion.hpp"
+#include "mechanics/system.hpp"
 #include "proof/decide.hpp"
 
 #include <memory>

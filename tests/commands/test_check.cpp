@@ -90,6 +90,20 @@ TEST_CASE("--verify evaluates every residual again and says so in text and JSON"
     CHECK(call({"check", "refuted.toml", "--verify"}).code == 1);
 }
 
+TEST_CASE("a proved maximum beside an angle says of every control where it is, in text and JSON")
+{
+    const std::string known =
+        "H = a + b cos(th) + c sin(th) is largest at th = atan2(c, b), wherever b or c is not 0; "
+        "H is concave in u within its bounds, and largest where dH/du = 0 or at the bound next to that";
+    CHECK(call({"check", "climb.toml"}).out == "climb: valid\n"
+                                               "  2 equations zero by structure, 1 proved\n"
+                                               "  maximum         1 proved\n"
+                                               "                  " +
+                                                   known + "\n");
+    const json::Value value = json::parse(call({"check", "climb.toml", "--format", "json"}).out);
+    CHECK(value["checks"][0]["evidence"].text == known);
+}
+
 TEST_CASE("a divisor that is zero everywhere is the model's mistake, exit code 3")
 {
     const Outcome outcome = call({"check", "zero_divisor.toml"});

@@ -184,6 +184,13 @@ TEST_CASE("angles stand beside other controls of every kind, where they stand ap
     CHECK(of_sum("u", "sin(w)", "cosh(u)", "{ u = [-1, 1] }").kind == Kind::maximal);
     CHECK(of_sum("u", "sin(w)", "cosh(u)", "{ u = [-1, 1] }").angles == std::vector<std::size_t>{1});
     CHECK(of_sum("cos(u)", "w", "-log(1 - w^2)").on_part);
+    const std::string heading = "H = a + b cos(u) + c sin(u) is largest at u = atan2(c, b)";
+    CHECK(of_sum("cos(u) + w", "sin(u)", "w^2").reason ==
+          heading + ", wherever b or c is not 0; H is concave in w, and largest where dH/dw = 0");
+    CHECK(of_sum("cos(u)", "w", "-log(1 - w^2)").reason ==
+          heading + ", wherever b or c is not 0; H is concave in w where it is defined, and largest where dH/dw = 0");
+    CHECK(of_sum("cos(u)", "x*cos(w)", "1").reason ==
+          heading + "; H = a + b cos(w) + c sin(w) is largest at w = atan2(c, b), wherever b or c is not 0");
     const ControlMaximum half = of_sum("cos(u)", "w", "w^4 - w^2");
     CHECK(half.kind == Kind::stationary);
     CHECK(half.angles == std::vector<std::size_t>{0});
@@ -194,6 +201,25 @@ TEST_CASE("angles stand beside other controls of every kind, where they stand ap
     CHECK(of_sum("cos(u)", "w", "w^2", "{ u = [-1, 1] }").angles.empty());
     // b is 1 for w > 0 and -1 for w < 0, though d2H/dudw = 0.
     CHECK(of_sum("cos(u)*sqrt(w^2)/w", "sin(u)", "w^2").angles.empty());
+    // In w alone, with u = 0, H has the form of an angle; as it is written its b contains u.
+    const ControlMaximum folded = of_sum("cos(w)*(cos(u)^2 + sin(u)^2)", "sin(u)", "1");
+    CHECK(folded.angles == std::vector<std::size_t>{0});
+    CHECK(folded.kind == Kind::stationary);
     // The size of a vector and its angle do not stand apart.
     CHECK(of_sum("w*cos(u)", "w*sin(u)", "w^2").angles.empty());
+}
+
+TEST_CASE("what is known beside an angle names the other controls together, between bounds one by one", "[maximum]")
+{
+    const auto of_three = [](const std::string& cost, const std::string& bounds) {
+        return maximum_of("controls = [\"u\", \"w\", \"z\"]\nsigma = { a = \"cos(u) + w\", b = \"sin(u) + z\" }\n"
+                          "cost = \"" +
+                          cost + "\"\n" + bounds)
+            .reason;
+    };
+    const std::string heading = "H = a + b cos(u) + c sin(u) is largest at u = atan2(c, b), wherever b or c is not 0; ";
+    CHECK(of_three("w^2 + w*z + z^2", "") == heading + "H is concave in (w, z), and largest where dH/d(w, z) = 0");
+    CHECK(of_three("w^2 + z^2", "bounds = { w = [-1, 1] }\n") ==
+          heading + "H is concave in w within its bounds, and largest where dH/dw = 0 or at the bound next to that; "
+                    "H is concave in z, and largest where dH/dz = 0");
 }
