@@ -33,7 +33,7 @@ std::vector<std::string> demanding_models(const std::string& folder)
 
 } // namespace
 
-TEST_CASE("an internal error inside a decision ends the command with exit code 5, and nothing is claimed")
+TEST_CASE("an internal error inside a decision ends the command with exit code 5, and nothing is claimed", "[long]")
 {
     const std::string folder = fresh_folder();
     std::size_t alarms = 0;
