@@ -3,6 +3,7 @@
 #pragma once
 
 #include "mechanics/written_algebroid.hpp"
+#include "model/model.hpp"
 
 namespace lagen {
 
