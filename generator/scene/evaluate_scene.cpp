@@ -83,12 +83,13 @@ std::string written(const Tree& tree)
 void require_constraints(const Model& model, const Scene& scene, Values& values)
 {
     if (model.base.constraints.empty()) return;
-    if (scene.project && !project_start(model, values)) {
+    const ConstraintFunctions constraints(model);
+    if (scene.project && !project_start(constraints, values)) {
         throw ModelError(
             fmt::format("the start of scene '{}' cannot be moved onto the constraints by Newton's method", scene.name),
             scene.where, "give a start that is nearer to them");
     }
-    const std::vector<ConstraintValue> h = constraint_values(model, values);
+    const std::vector<ConstraintValue> h = constraints.at(values);
     for (std::size_t k = 0; k < h.size(); ++k) {
         if (h[k].holds(constraint_tolerance)) continue;
         throw ModelError(

@@ -17,9 +17,9 @@ namespace lagen {
 namespace {
 
 /// One Newton step; false where the gradients are dependent.
-bool step(const Model& model, Values& values, const std::vector<ConstraintValue>& h)
+bool step(const std::vector<std::string>& coordinates, Values& values, const std::vector<ConstraintValue>& h)
 {
-    const std::size_t n = model.base.coordinates.size();
+    const std::size_t n = coordinates.size();
     const std::size_t m = h.size();
     std::vector<long double> JJt(m * m, 0);
     std::vector<long double> right;
@@ -33,7 +33,7 @@ bool step(const Model& model, Values& values, const std::vector<ConstraintValue>
     if (!factors.regular) return false;
     const std::vector<long double> lambda = substitute(factors, right);
     for (std::size_t i = 0; i < n; ++i) {
-        long double& x = values.at(model.base.coordinates[i].name);
+        long double& x = values.at(coordinates[i]);
         for (std::size_t a = 0; a < h.size(); ++a) x -= h[a].gradient[i] * lambda[a];
     }
     return true;
@@ -41,27 +41,32 @@ bool step(const Model& model, Values& values, const std::vector<ConstraintValue>
 
 } // namespace
 
-std::vector<ConstraintValue> constraint_values(const Model& model, const Values& values)
+ConstraintFunctions::ConstraintFunctions(const Model& model)
 {
-    Graph graph;
-    Lowering lower(graph);
-    std::vector<NodeId> coordinates;
-    std::vector<long double> x;
+    Lowering lower(graph_);
+    std::vector<NodeId> x;
     for (const Symbol& coordinate : model.base.coordinates) {
-        coordinates.push_back(graph.input(coordinate.name));
-        x.push_back(values.at(coordinate.name));
+        coordinates_.push_back(coordinate.name);
+        x.push_back(graph_.input(coordinate.name));
     }
-    std::vector<ConstraintValue> out;
     for (const Tree& constraint : model.base.constraints) {
-        std::vector<NodeId> nodes{lower(constraint)};
-        const std::vector<NodeId> slopes = gradient(graph, nodes[0], coordinates);
+        std::vector<NodeId>& nodes = nodes_.emplace_back(1, lower(constraint));
+        const std::vector<NodeId> slopes = gradient(graph_, nodes[0], x);
         nodes.insert(nodes.end(), slopes.begin(), slopes.end());
         if (constraint->kind == TreeKind::add)
             for (const Tree& term : constraint->arguments) nodes.push_back(lower(term));
-        const std::vector<long double> found = evaluate<long double>(graph, nodes, values);
-        const auto terms = found.begin() + 1 + static_cast<std::ptrdiff_t>(x.size());
+    }
+}
+
+std::vector<ConstraintValue> ConstraintFunctions::at(const Values& values) const
+{
+    std::vector<ConstraintValue> out;
+    for (const std::vector<NodeId>& nodes : nodes_) {
+        const std::vector<long double> found = evaluate<long double>(graph_, nodes, values);
+        const auto terms = found.begin() + 1 + static_cast<std::ptrdiff_t>(coordinates_.size());
         ConstraintValue h{found[0], 0, {found.begin() + 1, terms}};
-        for (std::size_t i = 0; i < x.size(); ++i) h.scale += std::fabs(x[i] * h.gradient[i]);
+        for (std::size_t i = 0; i < coordinates_.size(); ++i)
+            h.scale += std::fabs(values.at(coordinates_[i]) * h.gradient[i]);
         h.scale = std::max(h.scale, std::accumulate(terms, found.end(), 0.0L, [](long double sum, long double term) {
                                return sum + std::fabs(term);
                            }));
@@ -70,7 +75,7 @@ std::vector<ConstraintValue> constraint_values(const Model& model, const Values&
     return out;
 }
 
-bool project_start(const Model& model, Values& values)
+bool project_start(const ConstraintFunctions& constraints, Values& values)
 {
     constexpr int most_steps = 50;
     constexpr long double target = 1e-17L;
@@ -82,11 +87,11 @@ bool project_start(const Model& model, Values& values)
         return true;
     };
     for (int k = 0; k < most_steps; ++k) {
-        const std::vector<ConstraintValue> h = constraint_values(model, values);
+        const std::vector<ConstraintValue> h = constraints.at(values);
         if (all_hold(h, target)) return true;
-        if (!step(model, values, h)) return false;
+        if (!step(constraints.coordinates(), values, h)) return false;
     }
-    return all_hold(constraint_values(model, values), acceptable);
+    return all_hold(constraints.at(values), acceptable);
 }
 
 } // namespace lagen

@@ -2,6 +2,7 @@
 /// How far a start misses the base constraints, and the nearest way onto them.
 #pragma once
 
+#include "graph/core/graph.hpp"
 #include "model/model.hpp"
 #include "scene/values.hpp"
 
@@ -22,11 +23,24 @@ struct ConstraintValue {
     }
 };
 
-/// One value a constraint. `values` binds parameters and base coordinates.
-[[nodiscard]] std::vector<ConstraintValue> constraint_values(const Model& model, const Values& values);
+/// The constraints of a model with their gradients, on a graph of their own.
+class ConstraintFunctions {
+  public:
+    explicit ConstraintFunctions(const Model& model);
+
+    /// One value a constraint. `values` binds parameters and base coordinates.
+    [[nodiscard]] std::vector<ConstraintValue> at(const Values& values) const;
+    /// Names of the base coordinates, in their order.
+    [[nodiscard]] const std::vector<std::string>& coordinates() const { return coordinates_; }
+
+  private:
+    Graph graph_;
+    std::vector<std::string> coordinates_;
+    std::vector<std::vector<NodeId>> nodes_; ///< of each constraint: h, its gradient, its terms
+};
 
 /// Moves the base coordinates of `values` onto the constraints by Newton steps of least Euclidean length; true where
 /// they were reached, to 1e-17 of their scale or as near as rounding lets them come.
-[[nodiscard]] bool project_start(const Model& model, Values& values);
+[[nodiscard]] bool project_start(const ConstraintFunctions& constraints, Values& values);
 
 } // namespace lagen
