@@ -3,6 +3,8 @@
 
 #include "graph/calculus/differentiate.hpp"
 
+#include <algorithm>
+
 namespace lagen {
 namespace {
 
@@ -16,6 +18,14 @@ void subtract_brackets(Graph& graph, const Algebroid& algebroid, const MomentumB
                 const NodeId moment = graph.multiply(C.value, balance.p[C.index]);
                 right[a] = graph.subtract(right[a], graph.multiply(moment, balance.y[b]));
             }
+}
+
+/// C^c_ba is -C^c_ab as the graph writes it: what was completed from one order of the pair.
+bool is_antisymmetric(Graph& graph, const Column& ab, const Column& ba)
+{
+    return std::ranges::equal(ab, ba, [&](const ColumnEntry& x, const ColumnEntry& y) {
+        return x.index == y.index && (graph.negate(x.value) == y.value || graph.negate(y.value) == x.value);
+    });
 }
 
 } // namespace
@@ -50,18 +60,6 @@ std::vector<NodeId> momentum_rates(Graph& graph, const Algebroid& algebroid, con
     subtract_brackets(graph, algebroid, balance, pdot);
     return pdot;
 }
-
-namespace {
-
-/// C^c_ba is -C^c_ab as the graph writes it: what was completed from one order of the pair.
-bool is_antisymmetric(Graph& graph, const Column& ab, const Column& ba)
-{
-    return std::ranges::equal(ab, ba, [&](const ColumnEntry& x, const ColumnEntry& y) {
-        return x.index == y.index && (graph.negate(x.value) == y.value || graph.negate(y.value) == x.value);
-    });
-}
-
-} // namespace
 
 NodeId energy_rate(Graph& graph, const Algebroid& algebroid, const MomentumBalance& balance)
 {

@@ -39,8 +39,11 @@ class Claims {
     void refuse_zero_divisors(const ProofBudget& budget);
     void decide_by_construction(const ResidualList& list);
     [[nodiscard]] std::optional<NodeId> momentum_in(NodeId f, const Binding& names);
-    [[nodiscard]] std::vector<Check> vanishing(const std::string& name, const FormClaim& claim,
-                                               const ExteriorForm& residual, std::size_t& trivial);
+    struct Vanishing {
+        std::vector<Check> checks;
+        std::size_t trivial = 0; ///< components that have no terms
+    };
+    [[nodiscard]] Vanishing vanishing(const std::string& name, const FormClaim& claim, const ExteriorForm& residual);
     [[nodiscard]] Check check_of(const Residual& residual) const;
 
     const System& system_;

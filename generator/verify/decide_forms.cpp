@@ -30,8 +30,7 @@ ProofStatus status_of(const std::vector<Check>& checks)
 
 /// A check for each component of `residual`, at points where the form, and what it is said to equal, is defined as
 /// written.
-std::vector<Check> Claims::vanishing(const std::string& name, const FormClaim& claim, const ExteriorForm& residual,
-                                     std::size_t& trivial)
+Claims::Vanishing Claims::vanishing(const std::string& name, const FormClaim& claim, const ExteriorForm& residual)
 {
     ProofSetting setting = setting_;
     for (const auto& [index, value] : claim.form.components)
@@ -49,26 +48,22 @@ std::vector<Check> Claims::vanishing(const std::string& name, const FormClaim& c
         for (const std::size_t a : index) check.indices.push_back(graph_.input_name(system_.algebroid.y[a]));
         checks.push_back(std::move(check));
     }
-    trivial += binomial(system_.r(), residual.degree) - residual.components.size();
-    return checks;
+    return {std::move(checks), binomial(system_.r(), residual.degree) - residual.components.size()};
 }
 
 void Claims::decide_forms(Report& report)
 {
     for (const FormClaim& claim : system_.forms) {
-        std::size_t trivial = 0;
-        const auto append = [&](std::vector<Check> checks) {
-            report.trivial += trivial;
-            std::ranges::move(checks, std::back_inserter(report.checks));
+        const auto append = [&](Vanishing equations) {
+            report.trivial += equations.trivial;
+            std::ranges::move(equations.checks, std::back_inserter(report.checks));
         };
-        std::vector<Check> closed =
-            vanishing("closed", claim, differential(partial_, system_.algebroid, claim.form), trivial);
-        report.forms.push_back({claim.name, claim.form.degree, status_of(closed)});
+        Vanishing closed = vanishing("closed", claim, differential(partial_, system_.algebroid, claim.form));
+        report.forms.push_back({claim.name, claim.form.degree, status_of(closed.checks)});
         if (claim.closed) append(std::move(closed));
         if (!claim.equals) continue;
-        trivial = 0;
         const ExteriorForm opposite = product(graph_, graph_.constant(-1), *claim.equals);
-        append(vanishing("equals", claim, sum(graph_, claim.form, opposite), trivial));
+        append(vanishing("equals", claim, sum(graph_, claim.form, opposite)));
     }
 }
 
