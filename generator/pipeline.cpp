@@ -129,21 +129,28 @@ void forget_values(KernelModule& module)
 
 } // namespace
 
-CheckedModel load(const std::string& path, const std::vector<Setting>& settings, bool unchecked)
+CheckedModel read(const std::string& path, const std::vector<Setting>& settings, bool unchecked)
 {
     CheckedModel checked;
     checked.model = read_model(path, settings);
     checked.settings = settings;
     checked.unchecked = unchecked;
-    checked.system = elaborate(checked.model);
+    return checked;
+}
+
+void prove(CheckedModel& checked)
+{
+    const Model& model = checked.model;
+    checked.system = elaborate(model);
     checked.report = verify(checked.system);
     const Report& verified = checked.report;
     if (verified.verdict == Verdict::invalid) {
         const std::string what = first_with(verified, ProofStatus::refuted);
-        if (!unchecked && what.empty()) require_maximum(checked.model.name, verified.maximum);
-        if (!unchecked) {
-            throw MathematicsError(fmt::format("model '{}' is refuted: {}", checked.model.name, what),
-                                   fmt::format("see `lagen check {}`; --unchecked goes on all the same", path));
+        if (!checked.unchecked && what.empty()) require_maximum(model.name, verified.maximum);
+        if (!checked.unchecked) {
+            throw MathematicsError(
+                fmt::format("model '{}' is refuted: {}", model.name, what),
+                fmt::format("see `lagen check {}`; --unchecked goes on all the same", model.file->name));
         }
         if (!what.empty()) checked.warnings.push_back(fmt::format("this model is REFUTED: {}", what));
     } else if (const std::string what = first_with(verified, ProofStatus::undecided);
@@ -153,6 +160,12 @@ CheckedModel load(const std::string& path, const std::vector<Setting>& settings,
                                        : fmt::format("this model is not proved: {} is undecided", what));
     }
     if (verified.maximum.kind == ControlMaximum::Kind::stationary) checked.warnings.push_back(stationary_controls);
+}
+
+CheckedModel load(const std::string& path, const std::vector<Setting>& settings, bool unchecked)
+{
+    CheckedModel checked = read(path, settings, unchecked);
+    prove(checked);
     return checked;
 }
 
@@ -168,11 +181,8 @@ std::vector<std::string> warnings_of(const CheckedModel& checked, const std::str
     return warnings;
 }
 
-void set_parameters(CheckedModel& checked, const std::vector<long double>& values)
+bool set_parameters(System& system, const std::vector<long double>& values)
 {
-    System& system = checked.system;
-    const Regularity& known = checked.report.regularity;
-    if (known.legendre_obstacle.empty() && known.legendre_values.empty()) return;
     bool differ = false;
     for (std::size_t k = 0; k < values.size(); ++k) {
         NodeId& value = system.parameter_values[k].second;
@@ -182,7 +192,14 @@ void set_parameters(CheckedModel& checked, const std::vector<long double>& value
         value = system.graph.constant(Rational(wanted));
         differ = true;
     }
-    if (differ) checked.report.regularity = verify_regularity(system);
+    return differ;
+}
+
+void set_parameters(CheckedModel& checked, const std::vector<long double>& values)
+{
+    const Regularity& known = checked.report.regularity;
+    if (known.legendre_obstacle.empty() && known.legendre_values.empty()) return;
+    if (set_parameters(checked.system, values)) checked.report.regularity = verify_regularity(checked.system);
 }
 
 Generated generate(const CheckedModel& checked, const GenerateRequest& request)

@@ -28,10 +28,16 @@ struct CheckedModel {
 /// Reads and verifies; a refuted model throws MathematicsError unless `unchecked`.
 [[nodiscard]] CheckedModel load(const std::string& path, const std::vector<Setting>& settings, bool unchecked);
 
+/// The two halves of `load`: what is read has no system yet, and nothing of it is decided.
+[[nodiscard]] CheckedModel read(const std::string& path, const std::vector<Setting>& settings, bool unchecked);
+void prove(CheckedModel& checked);
+
 /// `warnings`, and what holds of this form alone.
 [[nodiscard]] std::vector<std::string> warnings_of(const CheckedModel& checked, const std::string& form);
 
-/// Gives the parameters other values, in order of declaration, and decides anew what was not shown for all.
+/// Gives the parameters other values, in order of declaration; false where they had them already.
+bool set_parameters(System& system, const std::vector<long double>& values);
+/// The same, and decides anew what was not shown for all values.
 void set_parameters(CheckedModel& checked, const std::vector<long double>& values);
 
 struct GenerateRequest {

@@ -6,7 +6,6 @@
 #include "commands/process.hpp"
 #include "commands/temporary_folder.hpp"
 #include "commands/write_file.hpp"
-#include "content_hash.hpp"
 #include "diagnostic.hpp"
 
 #include <fmt/core.h>
@@ -48,6 +47,16 @@ std::vector<std::string> find_compiler()
                        "header; install g++ or set CXX");
 }
 
+/// The compiler with all that it is told besides its files.
+std::vector<std::string> compile_command()
+{
+    std::vector<std::string> command = find_compiler();
+    command.insert(command.end(),
+                   {"-std=c++20", "-O2", "-I" + runtime_folder(), "-I" + program_folder(), "-isystem", eigen_folder()});
+    for (const std::string& flag : words(std::getenv("CXXFLAGS"))) command.push_back(flag);
+    return command;
+}
+
 /// The lines that are not comments alone: a new scene or title is no new program.
 std::string code_of(const std::string& header)
 {
@@ -68,7 +77,7 @@ void add_headers(ContentHash& hash, const std::string& folder, const char* part)
         if (entry.is_regular_file() && entry.path().extension() == ".hpp") files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     for (const fs::path& file : files)
-        hash.add(fs::relative(file, folder).string()).add(content_of_file(file.string()));
+        hash.add(file.lexically_relative(folder).string()).add(content_of_file(file.string()));
 }
 
 void add_compiler(ContentHash& hash, const std::vector<std::string>& command)
@@ -97,17 +106,18 @@ void call_compiler(std::vector<std::string> command, const std::string& source, 
 
 } // namespace
 
+void add_compilation(ContentHash& hash)
+{
+    add_headers(hash, runtime_folder(), "lagen");
+    add_headers(hash, program_folder(), "lagen_run");
+    add_compiler(hash, compile_command());
+}
+
 Compiled compile_program(const std::string& header, const std::string& main)
 {
-    std::vector<std::string> command = find_compiler();
-    const std::string runtime = runtime_folder(), program = program_folder();
-    command.insert(command.end(), {"-std=c++20", "-O2", "-I" + runtime, "-I" + program, "-isystem", eigen_folder()});
-    for (const std::string& flag : words(std::getenv("CXXFLAGS"))) command.push_back(flag);
     ContentHash hash;
     hash.add(code_of(header)).add(main);
-    add_headers(hash, runtime, "lagen");
-    add_headers(hash, program, "lagen_run");
-    add_compiler(hash, command);
+    add_compilation(hash);
 
     const std::string cache = cache_folder();
     Compiled compiled{fmt::format("{}/{}", cache, hash.hex32()), true, 0};
@@ -116,7 +126,7 @@ Compiled compile_program(const std::string& header, const std::string& main)
     const TemporaryFolder scratch(cache, "build");
     write_file(scratch.file("model.hpp"), header);
     write_file(scratch.file("main.cpp"), main);
-    call_compiler(command, scratch.file("main.cpp"), scratch.file("program"));
+    call_compiler(compile_command(), scratch.file("main.cpp"), scratch.file("program"));
     // Renamed into place whole: two runs at once may both compile, neither sees half a program.
     std::error_code error;
     fs::rename(scratch.file("program"), compiled.program, error);

@@ -2,6 +2,8 @@
 /// Compiling a scene's program with the system compiler, cached by content.
 #pragma once
 
+#include "content_hash.hpp"
+
 #include <string>
 
 namespace lagen {
@@ -17,5 +19,8 @@ struct Compiled {
 /// compiler (with arguments, if any), else c++, g++ or clang++; CXXFLAGS is added. The cache is kept below 200 programs
 /// and 1 GiB. Throws MachineError: no compiler, or its message when it fails.
 [[nodiscard]] Compiled compile_program(const std::string& header, const std::string& main);
+
+/// What a program depends on besides its two files.
+void add_compilation(ContentHash& hash);
 
 } // namespace lagen

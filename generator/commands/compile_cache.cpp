@@ -26,8 +26,10 @@ struct Program {
     fs::path path;
 };
 
-bool is_key(const std::string& name)
+/// A program, or the record of a run.
+bool is_key(std::string name)
 {
+    if (name.ends_with(".run")) name.resize(name.size() - 4);
     return name.size() == 32 && name.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 

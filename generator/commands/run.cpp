@@ -7,6 +7,7 @@
 #include "commands/plot.hpp"
 #include "commands/process.hpp"
 #include "commands/progress.hpp"
+#include "commands/run_record.hpp"
 #include "commands/scene_options.hpp"
 #include "commands/scene_program.hpp"
 #include "commands/start_state.hpp"
@@ -59,22 +60,52 @@ std::vector<long double> numbers(const std::vector<NamedNumber>& named, const Sc
     return values;
 }
 
-ProgramInput input_of(const CheckedModel& checked, const KernelModule& module, const Scene& scene,
-                      const SceneValues& values, bool stretch)
-{
-    ProgramInput input;
-    input.parameters = numbers(values.parameters, scene);
-    for (const std::vector<NamedNumber>* group : {&values.base, &values.fibre, &values.momenta})
-        (void)numbers(*group, scene);
-    input.initial = start_state(checked, module, values);
-    input.step = values.step;
-    input.relative = values.relative.value_or(standard_tolerance);
-    input.absolute = values.absolute.value_or(standard_tolerance);
-    input.events = &scene.events;
-    input.columns = columns_of(module, scene);
-    input.times = sample_times(scene, values, input.columns.size() + 1, stretch);
-    return input;
-}
+/// A run that was prepared before, or is proved, generated and compiled now.
+class Preparation {
+  public:
+    Preparation(const Options& options, CheckedModel& checked)
+        : checked_(checked),
+          file_(record_file(checked.model, {options.get("scene"), options.get("form"), options.get("method"),
+                                            options.has("unchecked") ? "unchecked" : ""})),
+          record_(find_record(file_))
+    {
+        if (record_)
+            checked.warnings = record_->warnings;
+        else
+            prove(checked);
+    }
+
+    void finish(const Scene& scene, const std::string& form, const MethodEntry& method,
+                const std::vector<long double>& parameters)
+    {
+        if (record_ && holds_for(*record_, checked_, parameters)) return;
+        if (record_) prove(checked_);
+        proved_ = true;
+        set_parameters(checked_, parameters);
+        GenerateRequest request;
+        request.form = form;
+        request.scene = &scene;
+        const Generated generated = generate(checked_, request);
+        const Compiled compiled = compile_program(generated.header, program_text(generated.module.name, method));
+        record_ = record_of(checked_, generated.module, compiled.program, parameters);
+        keep_record(file_, *record_);
+    }
+
+    [[nodiscard]] const RunRecord& record() const { return *record_; }
+
+    /// With its system, and what is decided for `parameters`.
+    const CheckedModel& checked(const std::vector<long double>& parameters)
+    {
+        if (!proved_) decide_regularity(checked_, parameters);
+        return checked_;
+    }
+
+  private:
+    CheckedModel& checked_;
+    std::string file_;
+    std::optional<RunRecord> record_;
+    bool proved_ = false;
+};
 
 /// Times and report go through files: an argument list has a limit.
 void use_folder(const TemporaryFolder& folder, ProgramInput& input)
@@ -165,9 +196,10 @@ ExitCode run_run(Arguments arguments)
     if (options.has("plot")) require_plot_format(options.get("plot"));
     if (options.has("output")) require_no_picture(options.get("output"));
 
-    CheckedModel checked = load(model_path(options.positional()[0]), options.settings(), options.has("unchecked"));
-    for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
+    CheckedModel checked = read(model_path(options.positional()[0]), options.settings(), options.has("unchecked"));
     const Model& model = checked.model;
+    Preparation preparation(options, checked);
+    for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
     const Scene scene = scene_of(options, model);
     const std::string form = form_of(model, scene);
     const MethodEntry& method = method_of(options, scene);
@@ -180,27 +212,32 @@ ExitCode run_run(Arguments arguments)
     if (!method.adaptive && options.has("tolerance"))
         write_standard_error(fmt::format("warning: --tolerance is not used: the steps of {} are fixed\n", method.name));
     const SceneValues values = evaluate_scene(model, scene);
-    set_parameters(checked, numbers(values.parameters, scene));
-    GenerateRequest request;
-    request.form = form;
-    request.scene = &scene;
-    const Generated generated = generate(checked, request);
-    const ProgramInput input =
-        input_of(checked, generated.module, scene, values, options.has("at") && !options.has("t-end"));
-    const Compiled compiled = compile_program(generated.header, program_text(generated.module.name, method));
+    ProgramInput input;
+    input.parameters = numbers(values.parameters, scene);
+    preparation.finish(scene, form, method, input.parameters);
+    const RunRecord& record = preparation.record();
+    for (const std::vector<NamedNumber>* group : {&values.base, &values.fibre, &values.momenta})
+        (void)numbers(*group, scene);
+    input.initial =
+        start_state([&]() -> const CheckedModel& { return preparation.checked(input.parameters); }, form, values);
+    input.step = values.step;
+    input.relative = values.relative.value_or(standard_tolerance);
+    input.absolute = values.absolute.value_or(standard_tolerance);
+    input.events = &scene.events;
+    input.columns = columns_of(record.names, scene);
+    input.times = sample_times(scene, values, input.columns.size() + 1, options.has("at") && !options.has("t-end"));
 
     RunOutcome outcome;
     outcome.model = model.name;
     outcome.scene = scene.name;
-    outcome.form = generated.module.form;
+    outcome.form = form;
     outcome.method = method.name;
-    outcome.energy_changes = has_kernel(generated.module, "power");
-    for (const ImplicitBlock& block : generated.module.implicit)
-        outcome.searches = outcome.searches || (block.follows && !block.angles);
+    outcome.energy_changes = record.energy_changes;
+    outcome.searches = record.searches;
     outcome.table.columns = {"t"};
     for (const TableColumn& column : input.columns) outcome.table.columns.push_back(column.name);
-    for (const Quantity& lane : lanes_of(generated.module)) outcome.state.emplace_back(lane.name, "");
-    integrate_scene(compiled.program, input, outcome);
+    for (const std::string& lane : record.names.lanes) outcome.state.emplace_back(lane, "");
+    integrate_scene(record.program, input, outcome);
     if (options.has("output")) write_file(options.get("output"), to_csv(outcome.table));
     if (options.has("plot"))
         plot_table(outcome.table, panels_of(input.columns, model, form_named(form).lanes),

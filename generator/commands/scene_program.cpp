@@ -84,13 +84,25 @@ void read_line(const std::string& key, const std::string& value, RunOutcome& out
     if (key.starts_with(invariant)) outcome.invariants.push_back(drift_of(key.substr(invariant.size()), value));
 }
 
-/// The column of an entry of the module's observables.
-TableColumn observable(const KernelModule& module, const std::string& name)
+/// The place of `name` among `names`, or their number.
+std::size_t place_of(const std::vector<std::string>& names, const std::string& name)
 {
-    const std::vector<std::string>& names = kernel_named(module, "observables").outputs[0].entry_names;
-    const auto entry = std::ranges::find(names, name);
-    if (entry == names.end()) throw InternalError(fmt::format("'{}' is missing among the observables", name));
-    return {name, false, static_cast<std::size_t>(entry - names.begin())};
+    return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+}
+
+/// The column of an entry of the observables.
+TableColumn observable(const TableNames& names, const std::string& name)
+{
+    const std::size_t entry = place_of(names.observables, name);
+    if (entry == names.observables.size())
+        throw InternalError(fmt::format("'{}' is missing among the observables", name));
+    return {name, false, entry};
+}
+
+std::vector<std::string> entries_of(const KernelModule& module, const char* kernel)
+{
+    if (!has_kernel(module, kernel)) return {};
+    return kernel_named(module, kernel).outputs[0].entry_names;
 }
 
 } // namespace
@@ -103,24 +115,25 @@ std::string program_text(const std::string& name, const MethodEntry& method)
         cpp_names({name})[0], method.type);
 }
 
-std::vector<TableColumn> columns_of(const KernelModule& module, const Scene& scene)
+TableNames names_of(const KernelModule& module)
 {
-    std::vector<std::string> states;
-    for (const Quantity& lane : lanes_of(module)) states.push_back(lane.name);
+    TableNames names{{}, entries_of(module, "controls"), entries_of(module, "observables")};
+    for (const Quantity& lane : lanes_of(module)) names.lanes.push_back(lane.name);
+    return names;
+}
+
+std::vector<TableColumn> columns_of(const TableNames& names, const Scene& scene)
+{
     std::vector<TableColumn> columns;
     if (!scene.observe) {
-        for (std::size_t k = 0; k < states.size(); ++k) columns.push_back({states[k], true, k});
-        if (has_kernel(module, "controls"))
-            for (const std::string& name : kernel_named(module, "controls").outputs[0].entry_names)
-                columns.push_back(observable(module, name));
+        for (std::size_t k = 0; k < names.lanes.size(); ++k) columns.push_back({names.lanes[k], true, k});
+        for (const std::string& name : names.controls) columns.push_back(observable(names, name));
         return columns;
     }
     for (const NamedTree& wanted : *scene.observe) {
-        const auto state = std::find(states.begin(), states.end(), wanted.name);
-        if (state == states.end())
-            columns.push_back(observable(module, wanted.name));
-        else
-            columns.push_back({wanted.name, true, static_cast<std::size_t>(state - states.begin())});
+        const std::size_t lane = place_of(names.lanes, wanted.name);
+        columns.push_back(lane == names.lanes.size() ? observable(names, wanted.name)
+                                                     : TableColumn{wanted.name, true, lane});
     }
     return columns;
 }

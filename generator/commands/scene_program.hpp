@@ -20,8 +20,14 @@ struct TableColumn {
     std::size_t index = 0;
 };
 
-/// `t` apart, what the scene observes: all states, or exactly its `observe` list, found in the module's observables.
-[[nodiscard]] std::vector<TableColumn> columns_of(const KernelModule& module, const Scene& scene);
+/// What a program's table can hold, in the program's order.
+struct TableNames {
+    std::vector<std::string> lanes, controls, observables;
+};
+[[nodiscard]] TableNames names_of(const KernelModule& module);
+
+/// `t` apart, what the scene observes: all states and controls, or exactly its `observe` list.
+[[nodiscard]] std::vector<TableColumn> columns_of(const TableNames& names, const Scene& scene);
 
 /// Everything that the program is told.
 struct ProgramInput {

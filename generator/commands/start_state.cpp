@@ -86,7 +86,8 @@ std::vector<long double> momenta_of(const CheckedModel& checked, const SceneValu
 
 } // namespace
 
-std::vector<long double> start_state(const CheckedModel& checked, const KernelModule& module, const SceneValues& values)
+std::vector<long double> start_state(const std::function<const CheckedModel&()>& checked, const std::string& form,
+                                     const SceneValues& values)
 {
     Values inputs;
     std::vector<long double> state;
@@ -103,9 +104,10 @@ std::vector<long double> start_state(const CheckedModel& checked, const KernelMo
     std::vector<long double> given;
     for (const auto& [name, value] : values.momenta.empty() ? values.fibre : values.momenta) given.push_back(value);
     const bool has_momenta = !values.momenta.empty();
-    switch (form_named(module.form).kind) {
-    case FormKind::lagrange: return append(has_momenta ? velocities_of(checked, values, inputs) : given);
-    case FormKind::hamilton: return append(has_momenta || given.empty() ? given : momenta_of(checked, values, inputs));
+    switch (form_named(form).kind) {
+    case FormKind::lagrange: return append(has_momenta ? velocities_of(checked(), values, inputs) : given);
+    case FormKind::hamilton:
+        return append(has_momenta || given.empty() ? given : momenta_of(checked(), values, inputs));
     case FormKind::pontryagin:
         if (has_momenta || given.empty()) return append(given);
         throw InternalError("a scene in Pontryagin's form without momenta");

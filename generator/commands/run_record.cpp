@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/run_record.hpp"
+
+#include "commands/compile.hpp"
+#include "commands/compile_cache.hpp"
+#include "commands/places.hpp"
+#include "commands/write_file.hpp"
+#include "content_hash.hpp"
+#include "graph/core/graph.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+
+namespace lagen {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Everything of a regularity that kernels, starts and warnings read, in a line.
+std::string line_of(const System& system, const Regularity& known)
+{
+    std::string line =
+        fmt::format("{} {} {} {} {} {}", static_cast<int>(known.kind), known.rank, known.positive_definite,
+                    known.for_given_parameters, known.singular_everywhere, known.legendre_obstacle);
+    for (const Rational& start : known.newton_start) line += " from " + start.get_str();
+    for (const auto& [parameter, value] : known.legendre_values)
+        line += fmt::format(" {} = {}", system.graph.input_name(parameter), to_text(system.graph, value));
+    return line;
+}
+
+/// Whether other values of the parameters might be decided otherwise.
+bool rests_on_values(const Regularity& known)
+{
+    return known.kind == Regularity::Kind::generically_regular || known.for_given_parameters ||
+           !known.legendre_obstacle.empty() || !known.legendre_values.empty();
+}
+
+/// The lists of a record, by the key of their lines.
+template <typename Record, typename Visit>
+void visit_lists(Record& record, Visit visit)
+{
+    visit("warning", record.warnings);
+    visit("lane", record.names.lanes);
+    visit("control", record.names.controls);
+    visit("observable", record.names.observables);
+}
+
+constexpr const char* first_line = "what `lagen run` proved and compiled\n";
+
+/// A line KEY=VALUE for each part.
+std::string text_of(const RunRecord& record)
+{
+    std::string text = first_line;
+    const auto put = [&](const char* key, const std::string& value) { text += fmt::format("{}={}\n", key, value); };
+    put("program", record.program);
+    visit_lists(record, [&](const char* key, const std::vector<std::string>& list) {
+        for (const std::string& entry : list) put(key, entry);
+    });
+    if (record.energy_changes) put("energy_changes", "");
+    if (record.searches) put("searches", "");
+    put("regularity", record.regularity);
+    for (const long double value : record.decided_for) put("decided_for", fmt::format("{:.21g}", value));
+    return text;
+}
+
+RunRecord read_record(const std::string& text)
+{
+    RunRecord record;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        const std::size_t equals = line.find('=');
+        if (equals == std::string::npos) continue;
+        const std::string key = line.substr(0, equals), value = line.substr(equals + 1);
+        if (key == "program") record.program = value;
+        if (key == "energy_changes") record.energy_changes = true;
+        if (key == "searches") record.searches = true;
+        if (key == "regularity") record.regularity = value;
+        if (key == "decided_for") record.decided_for.push_back(std::strtold(value.c_str(), nullptr));
+        visit_lists(record, [&](const char* name, std::vector<std::string>& list) {
+            if (key == name) list.push_back(value);
+        });
+    }
+    return record;
+}
+
+/// The program that runs: its place, size and time.
+void add_lagen(ContentHash& hash)
+{
+    std::error_code ignored;
+    const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
+    hash.add(program.string()).add(std::to_string(fs::file_size(program, ignored)));
+    hash.add(std::to_string(fs::last_write_time(program, ignored).time_since_epoch().count()));
+}
+
+} // namespace
+
+RunRecord record_of(const CheckedModel& checked, const KernelModule& module, std::string program,
+                    const std::vector<long double>& parameters)
+{
+    RunRecord record;
+    record.program = std::move(program);
+    record.warnings = checked.warnings;
+    record.names = names_of(module);
+    record.energy_changes = has_kernel(module, "power");
+    record.searches =
+        std::ranges::any_of(module.implicit, [](const ImplicitBlock& block) { return block.follows && !block.angles; });
+    if (!rests_on_values(checked.report.regularity)) return record;
+    record.regularity = line_of(checked.system, checked.report.regularity);
+    record.decided_for = parameters;
+    return record;
+}
+
+std::string record_file(const Model& model, const std::vector<std::string>& options)
+try {
+    ContentHash hash;
+    hash.add(first_line).add(model.file->text);
+    for (const auto& file : model.included) hash.add(file->text);
+    for (const Size& size : model.sizes) hash.add(size.name).add(std::to_string(size.value));
+    for (const std::string& option : options) hash.add(option);
+    add_lagen(hash);
+    add_compilation(hash);
+    return fmt::format("{}/{}.run", cache_folder(), hash.hex32());
+} catch (const MachineError&) {
+    return "";
+}
+
+std::optional<RunRecord> find_record(const std::string& file)
+{
+    std::error_code ignored;
+    if (file.empty() || !fs::is_regular_file(file, ignored)) return std::nullopt;
+    const std::string text = content_of_file(file);
+    if (!text.starts_with(first_line)) return std::nullopt;
+    RunRecord record = read_record(text);
+    if (!use_cached(record.program)) return std::nullopt;
+    fs::last_write_time(file, fs::file_time_type::clock::now(), ignored);
+    return record;
+}
+
+void keep_record(const std::string& file, const RunRecord& record)
+try {
+    if (file.empty()) return;
+    const std::string text = text_of(record);
+    if (text_of(read_record(text)) == text) write_file(file, text);
+} catch (const MachineError&) {
+    // The next run proves again.
+}
+
+void decide_regularity(CheckedModel& checked, const std::vector<long double>& parameters)
+{
+    checked.system = elaborate(checked.model);
+    (void)set_parameters(checked.system, parameters);
+    checked.report.regularity = verify_regularity(checked.system);
+}
+
+bool holds_for(const RunRecord& record, CheckedModel& checked, const std::vector<long double>& parameters)
+{
+    if (record.regularity.empty() || record.decided_for == parameters) return true;
+    decide_regularity(checked, parameters);
+    return line_of(checked.system, checked.report.regularity) == record.regularity;
+}
+
+} // namespace lagen

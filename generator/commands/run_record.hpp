@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// What a run proved and compiled, kept in the cache beside the program: the next run of the same text, form and method
+/// reads it, and goes from the values of its scene straight to the program.
+#pragma once
+
+#include "commands/scene_program.hpp"
+#include "pipeline.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lagen {
+
+struct RunRecord {
+    std::string program;               ///< path of the executable
+    std::vector<std::string> warnings; ///< of the model
+    TableNames names;
+    bool energy_changes = false; ///< forces or explicit time
+    bool searches = false;       ///< controls are searched for, and followed
+    /// What was decided of d2L/dy2 for `decided_for`, in a line; empty where it was decided for all values.
+    std::string regularity;
+    std::vector<long double> decided_for; ///< the values of the parameters; empty with `regularity`
+};
+
+/// The record of a model, generated and compiled.
+[[nodiscard]] RunRecord record_of(const CheckedModel& checked, const KernelModule& module, std::string program,
+                                  const std::vector<long double>& parameters);
+
+/// The file of the record of `model`, under a name made from what a run rests on besides the values of parameters and
+/// scenes: the text of the model and of the files that it includes, its sizes, `options` as they were given, lagen
+/// itself, the runtime and the compiler. Empty where there is no compiler, or no place for a cache.
+[[nodiscard]] std::string record_file(const Model& model, const std::vector<std::string>& options);
+
+/// Nothing where there is no record, or its program is gone.
+[[nodiscard]] std::optional<RunRecord> find_record(const std::string& file);
+
+/// A failure to write is no failure of the run.
+void keep_record(const std::string& file, const RunRecord& record);
+
+/// The system of a model that was only read, and what is decided of d2L/dy2 for these values of the parameters.
+void decide_regularity(CheckedModel& checked, const std::vector<long double>& parameters);
+
+/// Whether what was decided holds for these values of the parameters, too: where it rested on others it is decided
+/// again, in `checked`.
+[[nodiscard]] bool holds_for(const RunRecord& record, CheckedModel& checked,
+                             const std::vector<long double>& parameters);
+
+} // namespace lagen

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// The second run of a model reads what the first one proved, and proves again what rested on other values.
+#include "program.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+using namespace lagen::testing;
+using Catch::Contains;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A cache of its own with the records that it holds.
+struct Cache {
+    std::string folder = fresh_folder();
+
+    [[nodiscard]] std::vector<fs::path> records() const
+    {
+        std::vector<fs::path> found;
+        for (const std::string& name : names_in(folder))
+            if (name.ends_with(".run")) found.push_back(fs::path(folder) / name);
+        return found;
+    }
+    [[nodiscard]] Outcome run(std::vector<std::string> options) const
+    {
+        options.insert(options.begin(), {"run", "quartic_body.toml", "--at", "2"});
+        return call(options, {.environment = {{"LAGEN_CACHE", folder}}});
+    }
+};
+
+std::string content_of(const fs::path& file)
+{
+    std::ostringstream text;
+    text << std::ifstream(file).rdbuf();
+    return text.str();
+}
+
+} // namespace
+
+TEST_CASE("the second run reads a record, whatever the values; a lost program or a damaged record is made again",
+          "[run]")
+{
+    const Cache cache;
+    const Outcome first = cache.run({});
+    REQUIRE(first.code == 0);
+    REQUIRE(cache.records().size() == 1);
+    const fs::path file = cache.records()[0];
+    const std::string record = content_of(file);
+    // A word in the record shows who reads it.
+    std::ofstream(file, std::ios::app) << "warning=this was read\n";
+    const Outcome second = cache.run({});
+    CHECK(second.out == first.out);
+    CHECK_THAT(second.err, Catch::StartsWith("warning: this was read\n"));
+    for (const std::vector<std::string>& options :
+         {std::vector<std::string>{"--set", "I=1.75"}, {"--tolerance", "1e-6"}, {"--t-end", "3"}}) {
+        const Outcome other = cache.run(options);
+        CHECK(other.code == 0);
+        CHECK_THAT(other.err, Catch::StartsWith("warning: this was read\n"));
+        CHECK(other.out != first.out);
+    }
+    CHECK(cache.records().size() == 1);
+    CHECK(call({"check", "quartic_body.toml"}, {.environment = {{"LAGEN_CACHE", cache.folder}}}).err.empty());
+
+    SECTION("the program is gone")
+    {
+        const std::size_t at = record.find("program=") + 8;
+        REQUIRE(fs::remove(record.substr(at, record.find('\n', at) - at)));
+    }
+    SECTION("the record is another file")
+    {
+        std::ofstream(file) << "warning=this was read\n";
+    }
+    SECTION("the record ends early")
+    {
+        fs::resize_file(file, record.find("program=") + 12);
+    }
+    const Outcome again = cache.run({});
+    CHECK(again.out == first.out);
+    CHECK_THAT(again.err, !Contains("this was read"));
+    CHECK(content_of(file) == record);
+}
+
+TEST_CASE("what a record decided for some values is decided again for others", "[run]")
+{
+    const Cache cache;
+    const Outcome first = cache.run({"--form", "hamilton"}),
+                  softer = cache.run({"--form", "hamilton", "--set", "c=1/4"});
+    REQUIRE(first.code == 0);
+    REQUIRE(softer.code == 0);
+    CHECK(first.out != softer.out);
+    CHECK(cache.records().size() == 1);
+    const Cache other;
+    CHECK(other.run({"--form", "hamilton", "--set", "c=1/4"}).out == softer.out);
+    CHECK(cache.run({"--form", "hamilton"}).out == first.out);
+    const Outcome refused = cache.run({"--form", "hamilton", "--set", "c=-3"});
+    CHECK(refused.code == 2);
+    CHECK(refused.err == other.run({"--form", "hamilton", "--set", "c=-3"}).err);
+    // Other forms and methods have records of their own.
+    CHECK(cache.run({"--method", "tsit5"}).code == 0);
+    CHECK(cache.records().size() == 2);
+}
