@@ -123,7 +123,7 @@ TEST_CASE("a cache that cannot be used is replaced by the next place")
     const Outcome outcome =
         call(short_run, {.environment = {{"LAGEN_CACHE", "/dev/null/cache"}, {"HOME", home}, {"CXX", compiler}}});
     CHECK(outcome.code == 0);
-    CHECK(names_in(home + "/.cache/lagen").size() == 1);
+    CHECK(names_in(home + "/.cache/lagen").size() == 2); // the program and its record
 }
 
 TEST_CASE("the cache forgets what was used longest ago")
@@ -139,7 +139,7 @@ TEST_CASE("the cache forgets what was used longest ago")
     const std::string compiler = quick_compiler(cache + "/called");
     REQUIRE(call(short_run, {.environment = {{"LAGEN_CACHE", cache}, {"CXX", compiler}}}).code == 0);
     const std::vector<std::string> names = names_in(cache);
-    CHECK(names.size() == 202); // 200 programs and two files that are none
+    CHECK(names.size() == 203); // 200 programs, the record of the last, and two files that are none
     CHECK(read_text(cache + "/notes.txt") == "mine");
     CHECK_FALSE(fs::exists(cache + "/00000000000000000000000000000005")); // the sixth oldest made room
     CHECK(fs::exists(cache + "/00000000000000000000000000000006"));
