@@ -2,7 +2,7 @@
 /// E-forms: sections of the exterior powers of E*, w = sum_{a1 < .. < ap} w_{a1..ap} e^{a1} ^ .. ^ e^{ap}, functions on
 /// the base among them as forms of degree 0, and Cartan's calculus.
 ///   d f = rho_a(f) e^a,   d e^c = -1/2 C^c_ab e^a ^ e^b,   d(v ^ w) = dv ^ w + (-1)^|v| v ^ dw
-///   (i_s w)(s_2, ..) = w(s, s_2, ..),   L_s = d i_s + i_s d                                [Martinez 2001; MATH 2]
+///   (i_s w)(s_2, ..) = w(s, s_2, ..),   L_s = d i_s + i_s d                                [Martinez 2001]
 #pragma once
 
 #include "algebroid/section.hpp"

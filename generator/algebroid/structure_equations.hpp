@@ -3,7 +3,7 @@
 ///   (S0)  C^c_ab + C^c_ba = 0                                                             antisymmetry
 ///   (S1)  rho_a(rho^i_b) - rho_b(rho^i_a) - rho^i_c C^c_ab = (d d x^i)_ab = 0             anchor:  rho is a morphism
 ///   (S2)  sum_cyc(a,b,c) [ rho_a(C^v_bc) + C^m_bc C^v_am ] = -(d d e^v)_abc = 0           Jacobi's identity
-/// and f is constant on the leaves where (d f)_a = rho_a(f) = 0.                     [Martinez 2001; MATH 1 and 2]
+/// and f is constant on the leaves where (d f)_a = rho_a(f) = 0.                     [Martinez 2001]
 #pragma once
 
 #include "algebroid/section.hpp"

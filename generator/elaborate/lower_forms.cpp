@@ -22,10 +22,9 @@ class FormLowering {
             claim.name = named.name;
             claim.closed = named.closed;
             claim.form = value_of(named, claim.partial_parts);
-            forms_.push_back(claim.form);
         }
         for (std::size_t k = 0; k < forms.size(); ++k)
-            if (forms[k].equals) claims[k].equals = value_of(*forms[k].equals, claims[k].equals_parts);
+            if (forms[k].equals) claims[k].equals = value_of(*forms[k].equals, claims, claims[k].equals_parts);
         return claims;
     }
 
@@ -43,15 +42,20 @@ class FormLowering {
         return form;
     }
 
-    ExteriorForm value_of(const FormExpression& expression, std::vector<NodeId>& used)
+    /// `used`: what must be defined where the expression is.
+    ExteriorForm value_of(const FormExpression& expression, const std::vector<FormClaim>& claims,
+                          std::vector<NodeId>& used)
     {
         std::vector<ExteriorForm> parts;
-        for (const FormExpression& part : expression.parts) parts.push_back(value_of(part, used));
+        for (const FormExpression& part : expression.parts) parts.push_back(value_of(part, claims, used));
         switch (expression.kind) {
-        case FormExpression::Kind::form:
-            for (const auto& [index, value] : forms_[expression.form].components)
+        case FormExpression::Kind::form: {
+            const FormClaim& named = claims[expression.form];
+            for (const auto& [index, value] : named.form.components)
                 if (!graph_.is_constant(value)) used.push_back(value);
-            return forms_[expression.form];
+            used.insert(used.end(), named.partial_parts.begin(), named.partial_parts.end());
+            return named.form;
+        }
         case FormExpression::Kind::function: return function_form(lowered(expression.function, used));
         case FormExpression::Kind::negative: return product(graph_, graph_.constant(-1), parts[0]);
         case FormExpression::Kind::differential: return differential(partial_, algebroid_, parts[0]);
@@ -88,7 +92,6 @@ class FormLowering {
     const Algebroid& algebroid_;
     Lowering& lower_;
     BaseGradient partial_;
-    std::vector<ExteriorForm> forms_;
 };
 
 } // namespace

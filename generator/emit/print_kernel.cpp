@@ -84,6 +84,8 @@ class KernelPrinter {
         for (const KernelOutput& output : kernel_.outputs) print_constants(output);
         print_parts(out_, body_, request_);
         for (const std::string& line : kernel_.documentation) out_.comment(line);
+        if (kernel_.checks && !kernel_.checks->failures.empty() && has_checks(body_))
+            out_.comment(kernel_.checks->failures);
         open_block(out_, signature());
         begin_outputs();
         const bool has_status = print_lines(out_, body_, request_);
@@ -275,10 +277,10 @@ void print_parameter_status(TextBlock& out, const KernelModule& module, const Mo
     const bool checks = has_checks(body);
     const bool has_status = checks || !conditions.empty();
     out.blank();
-    out.comment(fmt::format("What of {} depends on the parameters alone: singular_mass_matrix where a matrix or a "
-                            "divisor",
+    out.comment(fmt::format("What of {} depends on the parameters alone. Call it once after they are set; integrate() "
+                            "does.",
                             noun_of(module.kind)));
-    out.comment("made of them has no inverse. Call it once after the parameters are set; integrate() does.");
+    if (checks) out.comment("singular_mass_matrix where a matrix or a divisor made of them has no inverse.");
     print_conditions(out, texts);
     open_block(out, "[[nodiscard]] status_t<S> parameter_status() const noexcept");
     if (has_status && !checks) out.line("auto status = StatusOf<S>::good();");

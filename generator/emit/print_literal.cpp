@@ -69,7 +69,7 @@ Spelling print_literal(const Rational& value)
 
 Spelling print_pi()
 {
-    return {"(S(3.141592653589793) + S(1.2246467991473532e-16))", 5};
+    return {"lagen::pi<S>()", 5};
 }
 
 std::string plain_text(std::string_view text)

@@ -213,7 +213,12 @@ std::set<std::string> includes_of(const Body& body)
     using Kind = Statement::Kind;
     const std::set<Op> operators = operators_in(body);
     std::set<std::string> includes;
-    if (has_checks(body) || contains(body, Kind::factor)) includes.insert("lagen/linear.hpp");
+    const auto compares = [](const Statement& each) {
+        return each.kind == Kind::check && each.expressions.size() == 2;
+    };
+    const bool of_terms =
+        std::ranges::any_of(body.parts, [&](const BodyPart& part) { return std::ranges::any_of(part, compares); });
+    if (of_terms || contains(body, Kind::factor)) includes.insert("lagen/linear.hpp");
     if (operators.contains(Op::sqrt) || contains(body, Kind::roots) || contains(body, Kind::reciprocals))
         includes.insert("lagen/roots.hpp");
     if (contains(body, Kind::angles)) includes.insert("lagen/sincos.hpp");

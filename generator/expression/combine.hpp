@@ -36,7 +36,7 @@ namespace lagen {
 [[nodiscard]] Value hat(const Maker& maker, const Tree& tree, const Value& v);
 /// The v of a skew matrix hat(v). Throws ModelError where the entries are not each other's negatives as written.
 [[nodiscard]] Value vee(const Maker& maker, const Tree& tree, const Value& a);
-/// exp A of a skew matrix: 1 + c_1(z) v^ + c_2(z) v^ v^, z = |v|^2 (MATH 12); of 2 x 2, cos and sin.
+/// exp A of a skew matrix: 1 + c_1(z) v^ + c_2(z) v^ v^, z = |v|^2; of 2 x 2, cos and sin.
 [[nodiscard]] Value exponential(const Maker& maker, const Tree& tree, const Value& a);
 /// (1 - A/2)^-1 (1 + A/2); of a skew 3 x 3 matrix 1 + (v^ + v^ v^/2)/(1 + |v|^2/4).
 [[nodiscard]] Value cayley(const Maker& maker, const Tree& tree, const Value& a);

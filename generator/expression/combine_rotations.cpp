@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// hat, vee, exp and cay, smooth at zero (MATH 12).
+/// hat, vee, exp and cay, smooth at zero.
 #include "expression/combine.hpp"
 
 #include <fmt/format.h>

@@ -63,6 +63,7 @@ struct KernelOutput {
 /// has no inverse it answers singular_mass_matrix.
 struct KernelChecks {
     std::vector<NodeId> pivots;
+    std::string failures = {}; ///< what its docstring says where one of them can fail
 };
 
 /// A function of its inputs and of the parameters. In C++ one rule makes its signature of it:

@@ -132,6 +132,7 @@ class ModuleBuilder {
     {
         Kernel kernel = table_kernel(form_, "rhs", column("ds", form_.derivative));
         kernel.checks->pivots = form_.pivots;
+        kernel.checks->failures = form_.failures;
         kernel.documentation = form_.documentation;
         add(std::move(kernel));
     }

@@ -23,6 +23,7 @@ struct Formulation {
     std::vector<NodeId> derivative;         ///< of x, then of the lanes
     std::vector<NodeId> pivots;             ///< 1 x 1 blocks of what is solved for the derivative
     std::vector<std::string> documentation; ///< of the right-hand side
+    std::string failures;                   ///< of the right-hand side, as in KernelChecks
     std::vector<ImplicitBlock> implicit;
     std::vector<Kernel> kernels;       ///< of this form alone, in order; empty outputs are left out
     std::vector<std::string> controls; ///< their names, pontryagin

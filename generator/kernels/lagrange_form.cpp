@@ -57,8 +57,8 @@ Formulation lagrange_form(Graph& graph, const System& system, const Report& repo
         system.forces.empty()
             ? "W_ab ydot^b = rho_a(L) - (d2L/dy^a dx^i) rho^i_b y^b - d2L/dy^a dt - p_c C^c_ab y^b."
             : "W_ab ydot^b = rho_a(L) + Q_a - (d2L/dy^a dx^i) rho^i_b y^b - d2L/dy^a dt - p_c C^c_ab y^b.",
-        "Answers singular_mass_matrix where W has no inverse at this state; what depends on the parameters alone is",
-        "checked by parameter_status() instead, once. s and ds may be the same object."};
+        "s and ds may be the same object."};
+    form.failures = "Answers singular_mass_matrix where W has no inverse at this state.";
     bind_names(system, lagrangian, form);
     add_kernels(graph, system, lagrangian, energy_rate(graph, system.algebroid, balance), hessians, form);
     return form;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Hamilton's equations on E*:
-///   xdot^i = rho^i_a y^a,   mudot_a = -(rho_a(H) + mu_c C^c_ab y^b) + Q_a,   y^a = dH/dmu_a      [Martinez 2001; MATH
-///   8]
+///   xdot^i = rho^i_a y^a,   mudot_a = -(rho_a(H) + mu_c C^c_ab y^b) + Q_a,   y^a = dH/dmu_a      [Martinez 2001]
 /// From L without forming H: y solves mu_a = dL/dy^a, and at that y dH/dx^i = -dL/dx^i, dH/dt = -dL/dt.
 #pragma once
 

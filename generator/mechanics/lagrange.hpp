@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Lagrange's equations on a Lie algebroid, with explicit time and forces:
 ///   p_a = dL/dy^a,   W_ab = d2L/dy^a dy^b,   E = y^a p_a - L
-///   W_ab ydot^b = rho_a(L) + Q_a - p_c C^c_ab y^b - (d2L/dy^a dx^i) rho^i_b y^b - d2L/dy^a dt     [Martinez 2001; MATH
-///   4]
+///   W_ab ydot^b = rho_a(L) + Q_a - p_c C^c_ab y^b - (d2L/dy^a dx^i) rho^i_b y^b - d2L/dy^a dt     [Martinez 2001]
 #pragma once
 
 #include "mechanics/fibre_hessian.hpp"

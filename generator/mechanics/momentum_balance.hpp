@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// What the equations of Lagrange, Hamilton and Pontryagin share: with f = L at fixed y, or f = -H at fixed mu,
 ///   xdot^i = rho^i_a y^a,   pdot_a = rho_a(f) - p_c C^c_ab y^b + Q_a,   dE/dt = Q_a y^a - df/dt - p_c C^c_ab y^a y^b
-/// (the last sum is zero where C is antisymmetric).                                  [Martinez 2001; MATH 4, 8 and 10]
+/// (the last sum is zero where C is antisymmetric).                                  [Martinez 2001, 2004]
 #pragma once
 
 #include "mechanics/system.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Pontryagin's equations on E*, normal extremals, with u where H(t, x, mu, u) = mu_a sigma^a - cost is largest:
-///   xdot^i = rho^i_a sigma^a,   mudot_a = -(rho_a(H) + mu_c C^c_ab sigma^b)                [Martinez 2004; MATH 10]
+///   xdot^i = rho^i_a sigma^a,   mudot_a = -(rho_a(H) + mu_c C^c_ab sigma^b)                [Martinez 2004]
 /// Where no bound is reached dH/du = 0; where dH/du is affine in u these are the linear equations
 ///   W u = dH/du at u = 0,   W = -d2H/du2
 #pragma once

@@ -3,8 +3,8 @@
 /// trees. The same on the graph: algebroid/algebroid.hpp.
 #pragma once
 
+#include "algebroid/construction.hpp"
 #include "expression/symbol.hpp"
-#include "mechanics/construction.hpp"
 
 #include <memory>
 

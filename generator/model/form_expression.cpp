@@ -57,13 +57,21 @@ class FormReader {
         return static_cast<std::size_t>(found - forms.begin());
     }
 
+    /// d(..), wedge(..) and i(..) of forms, not what the model calls so.
+    [[nodiscard]] bool is_operation(const Tree& tree) const
+    {
+        return tree->kind == TreeKind::apply && (tree->name == "d" || tree->name == "wedge" || tree->name == "i") &&
+               !reader_.model.scope.has_definition(tree->name);
+    }
+
     void require_function(const Tree& tree, const std::string& what) const
     {
-        for (const std::string& name : names_in(tree))
-            if (form_called(name))
-                throw ModelError(
-                    fmt::format("{} has the form '{}' where a function is required", what, name), tree->where,
-                    "forms are added, multiplied by functions, and stand in d(A), wedge(A, B) and i(w, A)");
+        const bool form = is_operation(tree) || (tree->kind == TreeKind::name && form_called(tree->name));
+        if (form)
+            throw ModelError(fmt::format("{} has the form '{}' where a function is required", what, to_text(tree)),
+                             tree->where,
+                             "forms are added, multiplied by functions, and stand in d(A), wedge(A, B) and i(w, A)");
+        for (const Tree& part : tree->arguments) require_function(part, what);
     }
 
     [[nodiscard]] FormExpression function(const Tree& tree) const

@@ -123,9 +123,12 @@ TomlValue parse_toml(const std::shared_ptr<const SourceFile>& file)
         const toml::table table = toml::parse(std::string_view(file->text), std::string_view(file->name));
         return Rebuilder(file).value(table);
     } catch (const toml::parse_error& error) {
-        throw ModelError(fmt::format("the file is not valid TOML: {}", reworded(error.description())),
-                         Rebuilder(file).range(error.source()),
-                         "expressions are quoted strings, and each key stands once: key = \"expression\"");
+        const SourceRange where = Rebuilder(file).range(error.source());
+        const bool beyond_ascii = where.begin < file->text.size() && (file->text[where.begin] & 0x80) != 0;
+        throw ModelError(fmt::format("the file is not valid TOML: {}", reworded(error.description())), where,
+                         beyond_ascii ? "keys with letters beyond a to z stand in quotes, as expressions do: \"θ\" = 1"
+                                      : "expressions are quoted strings, and each key stands once: key = "
+                                        "\"expression\"");
     }
 }
 

@@ -2,7 +2,7 @@
 /// Structure equations that hold by construction.
 #pragma once
 
-#include "mechanics/construction.hpp"
+#include "algebroid/construction.hpp"
 
 namespace lagen {
 

@@ -90,7 +90,9 @@ TEST_CASE("a claim of forms holds where both sides are defined as they are writt
           "H = { degree = 1, v_x = 'y', v_y = 'x', equals = 'd(x*y) + 0*d(log(-1 - x^2))' }",
           "H = { degree = 1, v_x = 'y', v_y = 'x', equals = 'd(x*y)*(log(-1 - x^2)/log(-1 - x^2))' }",
           "H = { degree = 1, v_x = 'x', equals = 'd(x)*(sqrt(-1 - x^2)^2)*0 + x*d(x)' }",
-          "H = { degree = 0, value = 'x', equals = 'i([log(-1 - x^2), 1], x*d(y))' }"}) {
+          "H = { degree = 0, value = 'x', equals = 'i([log(-1 - x^2), 1], x*d(y))' }",
+          "H = { degree = 1, v_x = 'y', equals = 'B' }\nB = { degree = 1, v_x = 'y + 0*log(-1 - x^2)' }",
+          "H = { degree = 1, equals = 'd(G)' }\nG = { degree = 0, value = '0*log(-1 - x^2)' }"}) {
         INFO(nowhere);
         CHECK(verdict_of(nowhere) == Verdict::undecided);
     }

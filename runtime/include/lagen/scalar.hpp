@@ -5,6 +5,9 @@
 
 #include "lagen/status.hpp"
 
+#include <cmath>
+#include <limits>
+
 namespace lagen {
 
 /// What a kernel answers for one scalar type. Scalars answer `Status`; a pack of N lanes answers a mask a lane: the
@@ -61,6 +64,19 @@ struct RealOf {
 
 template <class Scalar>
 using real_t = typename RealOf<Scalar>::type;
+
+/// To the last digit of the scalar: 160 bits in three doubles, beyond them the scalar's own arc tangent.
+template <class Scalar>
+[[nodiscard]] Scalar pi() noexcept
+{
+    if constexpr (std::numeric_limits<Scalar>::digits > 150) {
+        using std::atan;
+        static const Scalar value = Scalar(4) * atan(Scalar(1));
+        return value;
+    } else {
+        return Scalar(3.141592653589793) + (Scalar(1.2246467991473532e-16) + Scalar(-2.9947698097183397e-33));
+    }
+}
 
 /// True where every time and step of `Scalar` is a lane of it.
 template <class Scalar>
