@@ -25,7 +25,7 @@ Regularity regularity_in_space(const std::string& lagrangian)
     return verified_text("[parameters]\nm = 2\n[base]\ncoordinates = [\"x\", \"y\", \"z\"]\n[fibre]\ncoordinates = "
                          "[\"u\", \"v\", \"w\"]\n[algebroid]\nkind = \"tangent\"\n[lagrangian]\nL = \"" +
                          lagrangian + "\"\n")
-        .regularity;
+        .mechanics.regularity;
 }
 
 } // namespace
