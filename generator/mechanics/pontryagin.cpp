@@ -2,7 +2,6 @@
 #include "mechanics/pontryagin.hpp"
 
 #include "graph/calculus/differentiate.hpp"
-#include "graph/simplify/simplify.hpp"
 
 namespace lagen {
 namespace {
@@ -72,13 +71,8 @@ ControlHamiltonian control_hamiltonian(Graph& graph, const ControlProblem& contr
 ControlEquations control_equations(Graph& graph, const ControlHamiltonian& hamiltonian)
 {
     ControlEquations equations{hamiltonian.negative, {}};
-    FibreHessian& W = equations.negative;
-    std::vector<NodeId> divisors;
-    W.hessian = simplify(graph, W.hessian, divisors);
-    W.blocks = coupled_blocks(graph, W);
-    if (depends_on_any(graph, W.hessian, W.y)) return equations;
-    const std::vector<NodeId> zeros(W.y.size(), graph.constant(0));
-    equations.right = substitute_where_defined(graph, hamiltonian.dH_du, replacements(W.y, zeros));
+    equations.right = affine_offset(graph, equations.negative);
+    if (equations.right) equations.right = negated(graph, *std::move(equations.right));
     return equations;
 }
 
