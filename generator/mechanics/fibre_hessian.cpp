@@ -52,11 +52,9 @@ FibreHessian fibre_hessian(Graph& graph, NodeId lagrangian, const std::vector<No
 
 std::optional<std::vector<NodeId>> affine_offset(Graph& graph, FibreHessian& hessian)
 {
-    if (depends_on_any(graph, hessian.hessian, hessian.y)) {
-        hessian.hessian = simplify(graph, hessian.hessian);
-        hessian.blocks = coupled_blocks(graph, hessian);
-        if (depends_on_any(graph, hessian.hessian, hessian.y)) return std::nullopt;
-    }
+    if (depends_on_any(graph, hessian.hessian, hessian.y)) hessian.hessian = simplify(graph, hessian.hessian);
+    hessian.blocks = coupled_blocks(graph, hessian);
+    if (depends_on_any(graph, hessian.hessian, hessian.y)) return std::nullopt;
     Replacements zeros;
     for (const NodeId y : hessian.y) zeros.emplace_back(y, graph.constant(0));
     return substitute_where_defined(graph, hessian.momenta, zeros);

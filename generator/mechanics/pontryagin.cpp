@@ -2,6 +2,7 @@
 #include "mechanics/pontryagin.hpp"
 
 #include "graph/calculus/differentiate.hpp"
+#include "graph/simplify/simplify.hpp"
 
 namespace lagen {
 namespace {
@@ -71,6 +72,7 @@ ControlHamiltonian control_hamiltonian(Graph& graph, const ControlProblem& contr
 ControlEquations control_equations(Graph& graph, const ControlHamiltonian& hamiltonian)
 {
     ControlEquations equations{hamiltonian.negative, {}};
+    equations.negative.hessian = simplify(graph, equations.negative.hessian);
     equations.right = affine_offset(graph, equations.negative);
     if (equations.right) equations.right = negated(graph, *std::move(equations.right));
     return equations;

@@ -21,7 +21,7 @@ struct ControlHamiltonian {
 
 /// dH/du = 0 as equations for the controls.
 struct ControlEquations {
-    FibreHessian negative;                    ///< of -H; W as affine_offset() leaves it
+    FibreHessian negative;                    ///< of -H; W is simplified
     std::optional<std::vector<NodeId>> right; ///< dH/du at u = 0, shape (N), where dH/du is affine in u
 };
 [[nodiscard]] ControlEquations control_equations(Graph& graph, const ControlHamiltonian& hamiltonian);

@@ -12,6 +12,12 @@
 namespace lagen {
 namespace {
 
+/// Whether a matrix has one entry, which is nowhere negative.
+bool is_nonnegative_number(const std::vector<NodeId>& entries, const ZeroDecider& decider)
+{
+    return entries.size() == 1 && decider.proves_nonnegative(entries[0]);
+}
+
 /// The functions of the definite parts; nothing where a part may be negative, or there are none.
 std::optional<std::vector<NodeId>> definite_functions(Graph& graph, const FibreHessian& hessian,
                                                       const ZeroDecider& decider)
@@ -25,7 +31,7 @@ std::optional<std::vector<NodeId>> definite_functions(Graph& graph, const FibreH
         if (first) at->second = proves_matrix_definite(graph, c, f.size(), decider);
         if (at->second)
             functions.insert(functions.end(), f.begin(), f.end());
-        else if (f.size() > 1 || !decider.proves_nonnegative(c[0]))
+        else if (!is_nonnegative_number(c, decider))
             return {};
     }
     return functions;
@@ -81,7 +87,12 @@ bool proves_matrix_definite(Graph& graph, const std::vector<NodeId>& entries, st
 
 bool proves_semidefinite(Graph& graph, const FibreHessian& hessian, const ZeroDecider& decider)
 {
-    return definite_functions(graph, hessian, decider).has_value() || proves_definite(graph, hessian, decider);
+    return definite_functions(graph, hessian, decider).has_value() ||
+           std::ranges::all_of(hessian.blocks, [&](const std::vector<std::size_t>& block) {
+               const std::vector<NodeId> entries = hessian.submatrix(block);
+               return is_nonnegative_number(entries, decider) ||
+                      proves_matrix_definite(graph, entries, block.size(), decider);
+           });
 }
 
 bool proves_definite_by_parts(Graph& graph, const FibreHessian& hessian, const ZeroDecider& decider)

@@ -2,8 +2,6 @@
 #include "verify/kernel_vectors.hpp"
 
 #include "graph/core/lower.hpp"
-#include "proof/rational_matrix.hpp"
-#include "verify/definiteness.hpp"
 #include "verify/reduced_fraction.hpp"
 
 #include <algorithm>
@@ -132,21 +130,6 @@ void append_vectors(std::vector<KernelVector>& vectors, Graph& graph, const Fibr
     }
 }
 
-/// Numbers need no proof, and no minors.
-bool append_constant_vectors(std::vector<KernelVector>& vectors, const Graph& graph, const FibreHessian& hessian,
-                             const Block& block)
-{
-    const std::vector<Rational> entries = numbers_of(graph, hessian.submatrix(block));
-    if (entries.empty()) return false;
-    for (const std::vector<Rational>& k : kernel_of(entries, block.size())) {
-        KernelVector vector;
-        for (std::size_t b = 0; b < block.size(); ++b)
-            if (k[b] != 0) vector.emplace_back(block[b], number(k[b]));
-        vectors.push_back(std::move(vector));
-    }
-    return true;
-}
-
 } // namespace
 
 std::optional<Block> nonzero_principal_minor(Graph& graph, const FibreHessian& hessian, const Block& block,
@@ -171,8 +154,7 @@ std::vector<KernelVector> kernel_vectors(Graph& graph, const FibreHessian& hessi
     const Order order = writing_order(graph, setting);
     std::vector<KernelVector> vectors;
     for (const Block& block : hessian.blocks)
-        if (!append_constant_vectors(vectors, graph, hessian, block) && block.size() <= determinant_limit)
-            append_vectors(vectors, graph, hessian, block, decider, order);
+        if (block.size() <= determinant_limit) append_vectors(vectors, graph, hessian, block, decider, order);
     return vectors;
 }
 
