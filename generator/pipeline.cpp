@@ -62,14 +62,14 @@ std::vector<std::string> readable_equations(const CheckedModel& checked, const s
 
 /// The first check with this status, as "anchor (w1, w2, g3), residual 2*g3"; of the maximum of H more is said
 /// elsewhere.
-std::string first_with(const Report& verified, ProofStatus status)
+std::string first_with(const StructureReport& structure, ProofStatus status)
 {
-    for (const Check& check : verified.checks)
+    for (const Check& check : structure.checks)
         if (check.decision.status == status && check.name != "maximum")
             return check.decision.residual.empty()
                        ? names_of(check)
                        : fmt::format("{}, residual {}", names_of(check), check.decision.residual);
-    return verified.note;
+    return structure.note;
 }
 
 /// The model's content: its file, the files that it includes, and what the command line changed in it.
@@ -114,7 +114,7 @@ std::string regenerate_command(const CheckedModel& checked, const GenerateReques
     std::string only;
     for (const std::string& kernel : request.only) only += (only.empty() ? "" : ",") + kernel;
     if (!only.empty()) command += " --only " + shell_word(only);
-    if (checked.unchecked && checked.report.verdict == Verdict::invalid) command += " --unchecked";
+    if (checked.unchecked && checked.report.structure.verdict == Verdict::invalid) command += " --unchecked";
     const std::string output = std::filesystem::path(request.output).filename().string();
     return fmt::format("{} -o {}", command, shell_word(output.empty() ? name + ".hpp" : output));
 }
@@ -144,22 +144,23 @@ void prove(CheckedModel& checked)
     checked.system = elaborate(model);
     checked.report = verify(checked.system);
     const Report& verified = checked.report;
-    if (verified.verdict == Verdict::invalid) {
-        const std::string what = first_with(verified, ProofStatus::refuted);
-        if (!checked.unchecked && what.empty()) require_maximum(model.name, verified.maximum);
+    if (verified.structure.verdict == Verdict::invalid) {
+        const std::string what = first_with(verified.structure, ProofStatus::refuted);
+        if (!checked.unchecked && what.empty()) require_maximum(model.name, verified.control.maximum);
         if (!checked.unchecked) {
             throw MathematicsError(
                 fmt::format("model '{}' is refuted: {}", model.name, what),
                 fmt::format("see `lagen check {}`; --unchecked goes on all the same", model.file->name));
         }
         if (!what.empty()) checked.warnings.push_back(fmt::format("this model is REFUTED: {}", what));
-    } else if (const std::string what = first_with(verified, ProofStatus::undecided);
-               verified.verdict == Verdict::undecided && !what.empty()) {
-        checked.warnings.push_back(what == verified.note
+    } else if (const std::string what = first_with(verified.structure, ProofStatus::undecided);
+               verified.structure.verdict == Verdict::undecided && !what.empty()) {
+        checked.warnings.push_back(what == verified.structure.note
                                        ? fmt::format("this model is not proved: {}", what)
                                        : fmt::format("this model is not proved: {} is undecided", what));
     }
-    if (verified.maximum.kind == ControlMaximum::Kind::stationary) checked.warnings.push_back(stationary_controls);
+    if (verified.control.maximum.kind == ControlMaximum::Kind::stationary)
+        checked.warnings.push_back(stationary_controls);
 }
 
 CheckedModel load(const std::string& path, const std::vector<Setting>& settings, bool unchecked)
@@ -173,7 +174,7 @@ std::vector<std::string> warnings_of(const CheckedModel& checked, const std::str
 {
     std::vector<std::string> warnings = checked.warnings;
     std::string values;
-    for (const auto& [parameter, value] : checked.report.regularity.legendre_values)
+    for (const auto& [parameter, value] : checked.report.mechanics.regularity.legendre_values)
         values += fmt::format("{}{} = {}", values.empty() ? "" : ", ", checked.system.graph.input_name(parameter),
                               to_text(checked.system.graph, value));
     if (!values.empty() && is_form(form, FormKind::hamilton) && !checked.system.hamiltonian)
@@ -192,14 +193,18 @@ bool set_parameters(System& system, const std::vector<long double>& values)
         value = system.graph.constant(Rational(wanted));
         differ = true;
     }
+<<<<<<< HEAD
     return differ;
 }
 
 void set_parameters(CheckedModel& checked, const std::vector<long double>& values)
 {
-    const Regularity& known = checked.report.regularity;
+    const Regularity& known = checked.report.mechanics.regularity;
     if (known.legendre_obstacle.empty() && known.legendre_values.empty()) return;
-    if (set_parameters(checked.system, values)) checked.report.regularity = verify_regularity(checked.system);
+    if (set_parameters(checked.system, values)) checked.report.mechanics.regularity = verify_regularity(checked.system);
+=======
+    if (differ) checked.report.mechanics.regularity = verify_regularity(system);
+>>>>>>> 2d891a44733d1f0da08f2c190a9dd45e1b268472
 }
 
 Generated generate(const CheckedModel& checked, const GenerateRequest& request)

@@ -11,21 +11,21 @@ namespace lagen {
 void advise(const System& system, Report& report, const ProofBudget& budget)
 {
     if (system.written.algebroid.r() != system.r()) return;
-    if (std::ranges::none_of(report.checks,
+    if (std::ranges::none_of(report.structure.checks,
                              [](const Check& check) { return check.decision.status == ProofStatus::refuted; }))
         return;
     Graph graph = system.graph;
     BaseGradient partial(graph, system.algebroid.x);
     const ResidualList list = structure_equations(partial, system.algebroid, system.functions);
     // The checks of the report begin with these equations, in their order.
-    if (report.checks.size() < list.residuals.size()) throw InternalError("a report of another system");
+    if (report.structure.checks.size() < list.residuals.size()) throw InternalError("a report of another system");
     Judge judge(graph, proof_setting(system), accessory_inputs(system), 0, budget);
     for (std::size_t k = 0; k < list.residuals.size(); ++k)
-        judge.remember(list.residuals[k].value, report.checks[k].decision);
+        judge.remember(list.residuals[k].value, report.structure.checks[k].decision);
     RepairSearch search(graph, partial, judge, system.written.algebroid, system.algebroid, system.functions,
                         system.editable);
     const std::vector<std::string> hints = search.hints(list);
-    for (std::size_t k = 0; k < hints.size(); ++k) report.checks[k].hint = hints[k];
+    for (std::size_t k = 0; k < hints.size(); ++k) report.structure.checks[k].hint = hints[k];
 }
 
 } // namespace lagen

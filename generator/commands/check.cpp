@@ -62,14 +62,14 @@ ExitCode check_one(const std::string& path, const Options& options, std::string&
         const System system = elaborate(model);
         Report verified = verify(system, claims, points);
         advise(system, verified);
-        if (verified.maximum.kind == ControlMaximum::Kind::stationary)
+        if (verified.control.maximum.kind == ControlMaximum::Kind::stationary)
             write_standard_error(fmt::format("warning: {}\n", stationary_controls));
         if (json != nullptr) {
             report_json(*json, model.name, verified);
         } else {
             text += report_text(model.name, verified);
         }
-        return code_of(verified.verdict);
+        return code_of(verified.structure.verdict);
     } catch (const Error& error) {
         const std::string said = error.what();
         write_standard_error(said + (said.ends_with('\n') ? "" : "\n"));

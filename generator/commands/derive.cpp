@@ -57,7 +57,7 @@ ExitCode run_derive(Arguments arguments)
     const std::string form = options.has("form") ? options.get("form") : default_form(checked.model);
     const std::vector<std::string> warnings = warnings_of(checked, form);
     for (const std::string& warning : warnings) write_standard_error(fmt::format("warning: {}\n", warning));
-    if (is_form(form, FormKind::lagrange) && checked.report.regularity.kind == Regularity::Kind::degenerate)
+    if (is_form(form, FormKind::lagrange) && checked.report.mechanics.regularity.kind == Regularity::Kind::degenerate)
         write_standard_error(
             "warning: the Lagrangian is degenerate: the accelerations are not determined by the equations\n");
     const EquationSet equations = derive(form, checked.model, checked.system, checked.report);

@@ -45,10 +45,10 @@ std::string indices_text(const Check& check)
 }
 
 /// The names of checks in order of first appearance.
-std::vector<std::string> kinds_of(const Report& verified)
+std::vector<std::string> kinds_of(const StructureReport& structure)
 {
     std::vector<std::string> kinds;
-    for (const Check& check : verified.checks) {
+    for (const Check& check : structure.checks) {
         bool known = false;
         for (const std::string& kind : kinds) known = known || kind == check.name;
         if (!known) kinds.push_back(check.name);
@@ -57,10 +57,10 @@ std::vector<std::string> kinds_of(const Report& verified)
 }
 
 /// How many checks of a kind (of every kind: "") have each status.
-std::array<std::size_t, 3> counts_of(const Report& verified, const std::string& kind)
+std::array<std::size_t, 3> counts_of(const StructureReport& structure, const std::string& kind)
 {
     std::array<std::size_t, 3> counts{};
-    for (const Check& check : verified.checks)
+    for (const Check& check : structure.checks)
         if (kind.empty() || check.name == kind) ++counts[static_cast<std::size_t>(check.decision.status)];
     return counts;
 }
@@ -76,12 +76,12 @@ std::string counts_text(const std::array<std::size_t, 3>& counts)
 }
 
 /// "24 equations zero by structure, 12 proved"
-std::string summary_text(const Report& verified)
+std::string summary_text(const StructureReport& structure)
 {
-    const std::string counts = counts_text(counts_of(verified, ""));
-    const std::string trivial = verified.trivial == 0 ? ""
-                                                      : fmt::format("{} {} zero by structure", verified.trivial,
-                                                                    verified.trivial == 1 ? "equation" : "equations");
+    const std::string counts = counts_text(counts_of(structure, ""));
+    const std::string trivial = structure.trivial == 0 ? ""
+                                                       : fmt::format("{} {} zero by structure", structure.trivial,
+                                                                     structure.trivial == 1 ? "equation" : "equations");
     if (trivial.empty() && counts.empty()) return "";
     return fmt::format("  {}{}{}\n", trivial, trivial.empty() || counts.empty() ? "" : ", ", counts);
 }
@@ -132,13 +132,13 @@ std::string failure_text(const Check& check, bool with_hint)
 }
 
 /// Checks with a status, a hint only where it first occurs.
-std::string failures_text(const Report& verified, ProofStatus status)
+std::string failures_text(const StructureReport& structure, ProofStatus status)
 {
     constexpr std::size_t most = 20;
     std::string text;
     std::set<std::string> hints = {""};
     std::size_t count = 0;
-    for (const Check& check : verified.checks)
+    for (const Check& check : structure.checks)
         if (check.decision.status == status && ++count <= most)
             text += failure_text(check, hints.insert(check.hint).second);
     if (count > most)
@@ -147,10 +147,10 @@ std::string failures_text(const Report& verified, ProofStatus status)
 }
 
 /// "5 points, 60 digits: every proved residual is at most 3e-71"
-std::string confirmed_text(const Report& verified, const Reevaluation& reevaluation)
+std::string confirmed_text(const StructureReport& structure, const Reevaluation& reevaluation)
 {
     std::size_t count = 0;
-    for (const Check& check : verified.checks)
+    for (const Check& check : structure.checks)
         if (check.decision.status == ProofStatus::proved && check.reevaluation) ++count;
     if (count == 0) return "nothing: no proved equation has terms";
     if (reevaluation.points == 0) return "a proved residual has a finite value at none of the points that were tried";
@@ -198,20 +198,20 @@ const char* closed_text(ProofStatus closed)
 }
 
 /// How a proved maximum is known, where more is to be said of it than its name says.
-std::string maximum_text(const Report& verified)
+std::string maximum_text(const StructureReport& structure)
 {
     std::string text;
-    for (const Check& check : verified.checks)
+    for (const Check& check : structure.checks)
         if (check.name == "maximum" && check.decision.status == ProofStatus::proved && !check.decision.evidence.empty())
             text += fmt::format("  {:<16}{}\n", "", check.decision.evidence);
     return text;
 }
 
 /// "x != 0 and y > 0" of each check that is proved there alone.
-std::string where_text(const Report& verified, const std::string& kind)
+std::string where_text(const StructureReport& structure, const std::string& kind)
 {
     std::string text;
-    for (const Check& check : verified.checks)
+    for (const Check& check : structure.checks)
         if (check.name == kind && !check.where.empty())
             text += fmt::format("  {:<16}{} where {}; may change where a motion crosses\n", "",
                                 fmt::join(check.indices, ", "), fmt::join(check.where, " and "));
@@ -259,30 +259,32 @@ void check_json(JsonWriter& json, const Check& check)
 
 std::string report_text(const std::string& model, const Report& verified)
 {
-    std::string text = fmt::format("{}: {}\n{}", model, to_text(verified.verdict), summary_text(verified));
-    for (const std::string& kind : kinds_of(verified)) {
-        text += fmt::format("  {:<16}{}\n", kind, counts_text(counts_of(verified, kind)));
-        text += where_text(verified, kind);
-        if (kind == "maximum") text += maximum_text(verified);
+    const StructureReport& structure = verified.structure;
+    std::string text = fmt::format("{}: {}\n{}", model, to_text(structure.verdict), summary_text(structure));
+    for (const std::string& kind : kinds_of(structure)) {
+        text += fmt::format("  {:<16}{}\n", kind, counts_text(counts_of(structure, kind)));
+        text += where_text(structure, kind);
+        if (kind == "maximum") text += maximum_text(structure);
     }
-    for (const FormReport& form : verified.forms)
+    for (const FormReport& form : structure.forms)
         text += fmt::format("  {:<16}degree {}, {}\n", "form " + form.name, form.degree, closed_text(form.closed));
-    text += regularity_text(verified.regularity);
-    if (const auto& again = verified.reevaluation)
-        text += fmt::format("  {:<16}{}\n", "re-evaluated", confirmed_text(verified, *again));
-    if (!verified.note.empty()) text += fmt::format("  note: {}\n", verified.note);
-    return text + failures_text(verified, ProofStatus::refuted) + failures_text(verified, ProofStatus::undecided);
+    text += regularity_text(verified.mechanics.regularity);
+    if (const auto& again = structure.reevaluation)
+        text += fmt::format("  {:<16}{}\n", "re-evaluated", confirmed_text(structure, *again));
+    if (!structure.note.empty()) text += fmt::format("  note: {}\n", structure.note);
+    return text + failures_text(structure, ProofStatus::refuted) + failures_text(structure, ProofStatus::undecided);
 }
 
 void report_json(JsonWriter& json, const std::string& model, const Report& verified)
 {
-    json.begin_object().key("model").value(model).key("verdict").value(to_text(verified.verdict));
-    json.key("trivial").value(verified.trivial).key("checks").begin_array();
-    for (const Check& check : verified.checks) check_json(json, check);
+    const StructureReport& structure = verified.structure;
+    json.begin_object().key("model").value(model).key("verdict").value(to_text(structure.verdict));
+    json.key("trivial").value(structure.trivial).key("checks").begin_array();
+    for (const Check& check : structure.checks) check_json(json, check);
     json.end_array();
-    if (!verified.forms.empty()) {
+    if (!structure.forms.empty()) {
         json.key("forms").begin_array();
-        for (const FormReport& form : verified.forms)
+        for (const FormReport& form : structure.forms)
             json.begin_object()
                 .key("name")
                 .value(form.name)
@@ -293,7 +295,7 @@ void report_json(JsonWriter& json, const std::string& model, const Report& verif
                 .end_object();
         json.end_array();
     }
-    const Regularity& regularity = verified.regularity;
+    const Regularity& regularity = verified.mechanics.regularity;
     json.key("regularity").begin_object().key("status").value(kind_text(regularity.kind));
     json.key("rank");
     regularity.kind == Regularity::Kind::undecided ? json.null() : json.value(regularity.rank);
@@ -312,8 +314,8 @@ void report_json(JsonWriter& json, const std::string& model, const Report& verif
     json.end_array().key("singular_where").begin_array();
     for (const std::string& factor : regularity.singular_where) json.value(factor);
     json.end_array().end_object();
-    verified_json(json, verified.reevaluation);
-    if (!verified.note.empty()) json.key("note").value(verified.note);
+    verified_json(json, structure.reevaluation);
+    if (!structure.note.empty()) json.key("note").value(structure.note);
     json.end_object();
 }
 

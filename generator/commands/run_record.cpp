@@ -109,8 +109,8 @@ RunRecord record_of(const CheckedModel& checked, const KernelModule& module, std
     record.energy_changes = has_kernel(module, "power");
     record.searches =
         std::ranges::any_of(module.implicit, [](const ImplicitBlock& block) { return block.follows && !block.angles; });
-    if (!rests_on_values(checked.report.regularity)) return record;
-    record.regularity = line_of(checked.system, checked.report.regularity);
+    if (!rests_on_values(checked.report.mechanics.regularity)) return record;
+    record.regularity = line_of(checked.system, checked.report.mechanics.regularity);
     record.decided_for = parameters;
     return record;
 }
@@ -154,14 +154,14 @@ void decide_regularity(CheckedModel& checked, const std::vector<long double>& pa
 {
     checked.system = elaborate(checked.model);
     (void)set_parameters(checked.system, parameters);
-    checked.report.regularity = verify_regularity(checked.system);
+    checked.report.mechanics.regularity = verify_regularity(checked.system);
 }
 
 bool holds_for(const RunRecord& record, CheckedModel& checked, const std::vector<long double>& parameters)
 {
     if (record.regularity.empty() || record.decided_for == parameters) return true;
     decide_regularity(checked, parameters);
-    return line_of(checked.system, checked.report.regularity) == record.regularity;
+    return line_of(checked.system, checked.report.mechanics.regularity) == record.regularity;
 }
 
 } // namespace lagen

@@ -59,7 +59,7 @@ std::vector<long double> velocities_of(const CheckedModel& checked, const SceneV
     const System& system = checked.system;
     Graph graph = system.graph;
     const LagrangianNodes lagrangian = lagrangian_nodes(graph, system);
-    return invert(graph, checked.report.regularity,
+    return invert(graph, checked.report.mechanics.regularity,
                   {system.algebroid.y, lagrangian.fibre.momenta, *system.lagrangian, "momenta", "fibre coordinates"},
                   values.momenta, inputs);
 }
@@ -71,7 +71,7 @@ std::vector<long double> momenta_of(const CheckedModel& checked, const SceneValu
     Graph graph = system.graph;
     if (!system.lagrangian)
         return invert(
-            graph, checked.report.regularity,
+            graph, checked.report.mechanics.regularity,
             {system.mu, given_hamiltonian(graph, system).y, *system.hamiltonian, "fibre coordinates", "momenta"},
             values.fibre, inputs);
     for (const auto& [name, value] : values.fibre) inputs[name] = value;

@@ -22,9 +22,9 @@ EquationSet derive(const std::string& form, const Model& model, const System& sy
     const WrittenAlgebroid& algebroid = system.written.algebroid;
     if (form == "exterior") return derive_exterior(model, system);
     switch (form_named(form).kind) {
-    case FormKind::lagrange: return derive_lagrange(model, algebroid, report.regularity);
-    case FormKind::hamilton: return derive_hamilton(model, algebroid, report.regularity);
-    case FormKind::pontryagin: return derive_pontryagin(model, algebroid, report.maximum);
+    case FormKind::lagrange: return derive_lagrange(model, algebroid, report.mechanics.regularity);
+    case FormKind::hamilton: return derive_hamilton(model, algebroid, report.mechanics.regularity);
+    case FormKind::pontryagin: return derive_pontryagin(model, algebroid, report.control.maximum);
     }
     throw InternalError("a form without equations");
 }

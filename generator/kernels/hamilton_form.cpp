@@ -51,11 +51,11 @@ void require_proved_values(Graph& graph, const Regularity& regularity, Formulati
 
 Formulation hamilton_form(Graph& graph, const System& system, const Report& report, bool hessians)
 {
-    const HamiltonianNodes hamiltonian = hamiltonian_nodes(graph, system, report.regularity);
+    const HamiltonianNodes hamiltonian = hamiltonian_nodes(graph, system, report.mechanics.regularity);
     const PhaseSystem phase = hamilton_system(graph, system, hamiltonian);
     Formulation form = empty_form(system, FormKind::hamilton, system.mu);
     form.implicit = hamiltonian.implicit;
-    if (!system.hamiltonian) require_proved_values(graph, report.regularity, form);
+    if (!system.hamiltonian) require_proved_values(graph, report.mechanics.regularity, form);
     set_motion(system, phase, form);
     if (!hamiltonian.matrix.empty()) form.pivots = single_blocks(graph, hamiltonian.matrix, system.r());
     form.documentation = {"Hamilton's equations, ds = (xdot, mudot): xdot^i = rho^i_a dH/dmu_a and",

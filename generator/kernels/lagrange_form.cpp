@@ -40,7 +40,7 @@ void add_kernels(Graph& graph, const System& system, const LagrangianNodes& lagr
 
 Formulation lagrange_form(Graph& graph, const System& system, const Report& report, bool hessians)
 {
-    require_regular_lagrangian(system, report.regularity, "Lagrangian");
+    require_regular_lagrangian(system, report.mechanics.regularity, "Lagrangian");
     const LagrangianNodes lagrangian = lagrangian_nodes(graph, system);
     const std::vector<NodeId>& W = lagrangian.fibre.hessian;
     graph.remember_hessian(W, system.algebroid.y, *system.lagrangian);
@@ -49,7 +49,7 @@ Formulation lagrange_form(Graph& graph, const System& system, const Report& repo
     form.derivative = base_velocity(graph, system.algebroid, system.algebroid.y);
     const std::vector<NodeId> right =
         acceleration_forces(graph, system, lagrangian, momentum_rates(graph, system.algebroid, balance));
-    const std::vector<NodeId> ydot = graph.solve(W, right, mass_structure(report.regularity));
+    const std::vector<NodeId> ydot = graph.solve(W, right, mass_structure(report.mechanics.regularity));
     form.derivative.insert(form.derivative.end(), ydot.begin(), ydot.end());
     form.pivots = single_blocks(graph, W, system.r());
     form.documentation = {

@@ -183,10 +183,10 @@ Formulation pontryagin_form(Graph& graph, const Model& model, const System& syst
         throw MathematicsError(fmt::format("model '{}' is no control problem; the Pontryagin form needs "
                                            "[control] with controls, sigma and cost",
                                            model.name));
-    require_maximum(system.name, report.maximum);
-    const bool proved = report.maximum.kind == ControlMaximum::Kind::maximal;
+    require_maximum(system.name, report.control.maximum);
+    const bool proved = report.control.maximum.kind == ControlMaximum::Kind::maximal;
     Formulation form = empty_form(system, FormKind::pontryagin, system.mu);
-    SolvedControls controls(graph, system, *model.control, report.maximum);
+    SolvedControls controls(graph, system, *model.control, report.control.maximum);
     controls.solve(form);
     require_intervals(graph, *system.control, *model.control, form);
     const PhaseSystem phase = pontryagin_system(graph, system, controls.hamiltonian(), controls.values());

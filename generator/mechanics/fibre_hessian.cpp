@@ -4,10 +4,30 @@
 
 #include "expression/linear_algebra.hpp"
 #include "graph/calculus/differentiate.hpp"
+#include "graph/simplify/simplify.hpp"
+#include "mechanics/system.hpp"
 
 #include <algorithm>
 
 namespace lagen {
+namespace {
+
+/// The classes of coordinates that entries of W couple.
+std::vector<std::vector<std::size_t>> coupled_blocks(const Graph& graph, const FibreHessian& hessian)
+{
+    return connected_classes(hessian.y.size(),
+                             [&](std::size_t a, std::size_t b) { return !graph.is_zero(hessian.W(a, b)); });
+}
+
+} // namespace
+
+std::vector<NodeId> FibreHessian::submatrix(const std::vector<std::size_t>& rows) const
+{
+    std::vector<NodeId> entries;
+    for (const std::size_t a : rows)
+        for (const std::size_t b : rows) entries.push_back(W(a, b));
+    return entries;
+}
 
 FibreHessian fibre_hessian(Graph& graph, NodeId lagrangian, const std::vector<NodeId>& y)
 {
@@ -30,10 +50,14 @@ FibreHessian fibre_hessian(Graph& graph, NodeId lagrangian, const std::vector<No
     return result;
 }
 
-std::vector<std::vector<std::size_t>> coupled_blocks(const Graph& graph, const FibreHessian& hessian)
+std::optional<std::vector<NodeId>> affine_offset(Graph& graph, FibreHessian& hessian)
 {
-    return connected_classes(hessian.y.size(),
-                             [&](std::size_t a, std::size_t b) { return !graph.is_zero(hessian.W(a, b)); });
+    if (depends_on_any(graph, hessian.hessian, hessian.y)) hessian.hessian = simplify(graph, hessian.hessian);
+    hessian.blocks = coupled_blocks(graph, hessian);
+    if (depends_on_any(graph, hessian.hessian, hessian.y)) return std::nullopt;
+    Replacements zeros;
+    for (const NodeId y : hessian.y) zeros.emplace_back(y, graph.constant(0));
+    return substitute_where_defined(graph, hessian.momenta, zeros);
 }
 
 NodeId minor_determinant(Graph& graph, const FibreHessian& hessian, const std::vector<std::size_t>& rows,

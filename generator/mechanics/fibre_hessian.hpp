@@ -18,12 +18,15 @@ struct FibreHessian {
     std::vector<NodeId> y;                        ///< fibre coordinates, shape (r)
 
     [[nodiscard]] NodeId W(std::size_t a, std::size_t b) const { return hessian[a * momenta.size() + b]; }
+    /// The entries of these rows and columns, by rows.
+    [[nodiscard]] std::vector<NodeId> submatrix(const std::vector<std::size_t>& rows) const;
 };
 
 [[nodiscard]] FibreHessian fibre_hessian(Graph& graph, NodeId lagrangian, const std::vector<NodeId>& y);
 
-/// The classes of coordinates that entries of W couple.
-[[nodiscard]] std::vector<std::vector<std::size_t>> coupled_blocks(const Graph& graph, const FibreHessian& hessian);
+/// b of momenta p = W y + b that are affine in y, and defined at y = 0; else nothing. W is
+/// simplified where it is not free of y as it is.
+[[nodiscard]] std::optional<std::vector<NodeId>> affine_offset(Graph& graph, FibreHessian& hessian);
 
 /// det of the submatrix W(rows, columns); column `replaced` (a position in `columns`), where given, is `right` instead.
 [[nodiscard]] NodeId minor_determinant(Graph& graph, const FibreHessian& hessian, const std::vector<std::size_t>& rows,

@@ -2,7 +2,6 @@
 #include "mechanics/hamilton.hpp"
 
 #include "graph/calculus/differentiate.hpp"
-#include "graph/simplify/simplify.hpp"
 
 namespace lagen {
 
@@ -29,29 +28,24 @@ HamiltonianNodes legendre_transform(Graph& graph, const System& system, const La
     const std::vector<NodeId>& y = system.algebroid.y;
     HamiltonianNodes nodes;
     nodes.mu = system.mu;
-    std::vector<NodeId> W = lagrangian.fibre.hessian;
-    if (depends_on_any(graph, W, y)) {
-        std::vector<NodeId> divisors;
-        W = simplify(graph, W, divisors);
-    }
-    std::vector<NodeId> residuals;
-    for (std::size_t a = 0; a < y.size(); ++a)
-        residuals.push_back(graph.subtract(lagrangian.fibre.momenta[a], nodes.mu[a]));
+    FibreHessian fibre = lagrangian.fibre;
+    const auto offset = affine_offset(graph, fibre);
     std::vector<NodeId> at_velocity = lagrangian.dL_dx;
     at_velocity.push_back(lagrangian.dL_dt);
     at_velocity.push_back(*system.lagrangian);
     // Of a momentum that is affine in y the root may lie where L is not defined: what must be positive has cancelled.
-    if (depends_on_any(graph, W, y) || !positive_operands(graph, *system.lagrangian, y).empty()) {
+    if (!offset || !positive_operands(graph, *system.lagrangian, y).empty()) {
+        std::vector<NodeId> residuals;
+        for (std::size_t a = 0; a < y.size(); ++a) residuals.push_back(graph.subtract(fibre.momenta[a], nodes.mu[a]));
         nodes.implicit.push_back(gradient_block(graph, "velocity", "y with dL/dy^a = mu_a (the Legendre transform).", y,
                                                 residuals, *system.lagrangian, start));
         nodes.implicit.back().structure = structure;
         nodes.y = y;
     } else {
-        const std::vector<NodeId> zeros(y.size(), graph.constant(0));
-        std::vector<NodeId> right = substitute(graph, residuals, replacements(y, zeros));
-        for (NodeId& entry : right) entry = graph.negate(entry);
-        nodes.y = graph.solve(W, right, structure);
-        nodes.matrix = W;
+        std::vector<NodeId> right;
+        for (std::size_t a = 0; a < y.size(); ++a) right.push_back(graph.subtract(nodes.mu[a], (*offset)[a]));
+        nodes.y = graph.solve(fibre.hessian, right, structure);
+        nodes.matrix = std::move(fibre.hessian);
         at_velocity = substitute(graph, at_velocity, replacements(y, nodes.y));
     }
     nodes.lagrangian = at_velocity.back();

@@ -72,13 +72,9 @@ ControlHamiltonian control_hamiltonian(Graph& graph, const ControlProblem& contr
 ControlEquations control_equations(Graph& graph, const ControlHamiltonian& hamiltonian)
 {
     ControlEquations equations{hamiltonian.negative, {}};
-    FibreHessian& W = equations.negative;
-    std::vector<NodeId> divisors;
-    W.hessian = simplify(graph, W.hessian, divisors);
-    W.blocks = coupled_blocks(graph, W);
-    if (depends_on_any(graph, W.hessian, W.y)) return equations;
-    const std::vector<NodeId> zeros(W.y.size(), graph.constant(0));
-    equations.right = substitute_where_defined(graph, hamiltonian.dH_du, replacements(W.y, zeros));
+    equations.negative.hessian = simplify(graph, equations.negative.hessian);
+    equations.right = affine_offset(graph, equations.negative);
+    if (equations.right) equations.right = negated(graph, *std::move(equations.right));
     return equations;
 }
 

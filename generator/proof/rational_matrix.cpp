@@ -2,8 +2,6 @@
 /// Gaussian elimination over the rationals.
 #include "proof/rational_matrix.hpp"
 
-#include <algorithm>
-
 namespace lagen {
 namespace {
 
@@ -30,34 +28,6 @@ std::size_t rank_of(std::vector<Rational> matrix, std::size_t m)
         ++rank;
     }
     return rank;
-}
-
-std::vector<std::vector<Rational>> kernel_of(std::vector<Rational> matrix, std::size_t m)
-{
-    std::vector<std::size_t> pivots; // columns, by rows of the reduced form
-    for (std::size_t column = 0; column < m; ++column) {
-        const std::size_t top = pivots.size();
-        std::size_t row = top;
-        while (row < m && matrix[row * m + column] == 0) ++row;
-        if (row == m) continue;
-        for (std::size_t k = 0; k < m; ++k) std::swap(matrix[top * m + k], matrix[row * m + k]);
-        const Rational pivot = matrix[top * m + column];
-        for (std::size_t k = 0; k < m; ++k) matrix[top * m + k] /= pivot;
-        for (std::size_t other = 0; other < m; ++other) {
-            const Rational factor = matrix[other * m + column];
-            if (other == top || factor == 0) continue;
-            for (std::size_t k = 0; k < m; ++k) matrix[other * m + k] -= factor * matrix[top * m + k];
-        }
-        pivots.push_back(column);
-    }
-    std::vector<std::vector<Rational>> kernel;
-    for (std::size_t free = 0; free < m; ++free) {
-        if (std::find(pivots.begin(), pivots.end(), free) != pivots.end()) continue;
-        std::vector<Rational>& vector = kernel.emplace_back(m);
-        vector[free] = 1;
-        for (std::size_t row = 0; row < pivots.size(); ++row) vector[pivots[row]] = -matrix[row * m + free];
-    }
-    return kernel;
 }
 
 bool is_positive_definite(std::vector<Rational> matrix, std::size_t m)

@@ -9,9 +9,6 @@ namespace lagen {
 /// Rank over the rationals. `matrix` has m rows of m entries.
 [[nodiscard]] std::size_t rank_of(std::vector<Rational> matrix, std::size_t m);
 
-/// A basis of the null space over the rationals, one vector a column without a pivot, with 1 there.
-[[nodiscard]] std::vector<std::vector<Rational>> kernel_of(std::vector<Rational> matrix, std::size_t m);
-
 /// Of a symmetric matrix: all pivots of the elimination without exchanges are positive (Sylvester's criterion).
 [[nodiscard]] bool is_positive_definite(std::vector<Rational> matrix, std::size_t m);
 

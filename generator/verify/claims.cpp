@@ -114,16 +114,16 @@ void Claims::refuse_zero_divisors(const ProofBudget& budget)
         divisors.refuse(tree, [&](const Tree& divisor) { return motion->in_states(named(divisor)); });
 }
 
-void Claims::decide_regularity(Report& report)
+Regularity Claims::decide_regularity()
 {
     const bool of_hamiltonian = !lagrangian_ && hamiltonian_hessian_;
-    if (!lagrangian_ && !hamiltonian_hessian_) return;
+    if (!lagrangian_ && !hamiltonian_hessian_) return {};
     const FibreHessian& hessian = of_hamiltonian ? *hamiltonian_hessian_ : lagrangian_->fibre;
-    report.regularity =
-        lagen::decide_regularity(graph_, hessian, setting_, judge_->decider(), system_.parameter_values);
-    report.regularity.of_hamiltonian = of_hamiltonian;
-    decide_legendre_transform(graph_, hessian, setting_, judge_->decider().budget(), system_.parameter_values,
-                              report.regularity);
+    const Replacements& values = system_.parameter_values;
+    Regularity regularity = lagen::decide_regularity(graph_, hessian, setting_, judge_->decider(), values);
+    regularity.of_hamiltonian = of_hamiltonian;
+    decide_legendre_transform(graph_, hessian, setting_, judge_->decider().budget(), values, regularity);
+    return regularity;
 }
 
 } // namespace lagen

@@ -19,15 +19,15 @@ class Claims {
     Claims(const System& system, std::size_t points, const ProofBudget& budget);
 
     /// antisymmetry, anchor, jacobi, tangency of the constraints, Casimirs
-    void decide_structure(Report& verified);
+    void decide_structure(StructureReport& structure);
     /// closed and equals of [forms], and whether each form is closed.
-    void decide_forms(Report& report);
-    void decide_regularity(Report& verified);
+    void decide_forms(StructureReport& structure);
+    [[nodiscard]] Regularity decide_regularity();
     /// Where L and H are given: H(t, x, dL/dy) - (y^a dL/dy^a - L)
-    void decide_legendre(Report& verified);
+    void decide_legendre(StructureReport& structure);
     /// Of a control problem: do the controls maximise H?
-    void decide_controls(Report& verified);
-    void decide_invariants(Report& verified, const std::vector<NamedTree>& extra);
+    void decide_controls(Report& report);
+    void decide_invariants(Report& report, const std::vector<NamedTree>& extra);
 
   private:
     [[nodiscard]] std::unique_ptr<EquationsOfMotion> equations_of_motion();

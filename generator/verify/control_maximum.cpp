@@ -2,7 +2,7 @@
 #include "verify/control_maximum.hpp"
 
 #include "verify/angle_controls.hpp"
-#include "verify/definite_squares.hpp"
+#include "verify/definiteness.hpp"
 #include "verify/legendre_obstacle.hpp"
 #include "verify/regularity.hpp"
 #include "verify/smooth_controls.hpp"
@@ -141,16 +141,17 @@ class MaximumDecision {
                                 regularity.rank, count(), count()),
                     "give the cost a term that is strictly convex in all controls together"};
         // Of a function that is concave and smooth everywhere each stationary point is a maximum.
-        if (regularity.positive_definite ||
-            proves_semidefinite_by_squares(graph_, hamiltonian_.negative, proofs_.decider())) {
-            const std::string part = proofs_.partial_in(parts_);
-            if (part.empty()) return {Kind::maximal, {}, {}};
-            if (ControlMaximum inside = inside_part(); inside.kind == Kind::maximal) return inside;
+        const bool concave =
+            regularity.positive_definite || proves_semidefinite(graph_, hamiltonian_.negative, proofs_.decider());
+        const std::string part = proofs_.partial_in(parts_);
+        if (concave && part.empty()) return {Kind::maximal, {}, {}};
+        // Costs with a barrier, -log(1 - u^2): H is defined on a convex set of controls, and strictly concave there.
+        if (const auto start = strictly_convex_start(graph_, hamiltonian_.negative, proofs_.setting(), budget_))
+            return {Kind::maximal, {}, {}, true, *start};
+        if (concave)
             return {Kind::stationary, fmt::format("{} was not proved to be smooth for all controls", part), {}};
-        }
-        if (ControlMaximum inside = inside_part(); inside.kind == Kind::maximal) return inside;
         // Where H ends its maximum may be at the end.
-        if (proofs_.partial_in(parts_).empty())
+        if (part.empty())
             if (ControlMaximum refuted = refutation(); refuted.kind == Kind::refuted) return refuted;
         const FibreHessian opposite = fibre_hessian(graph_, hamiltonian_.value, control_.u);
         if (strictly_convex_start(graph_, opposite, proofs_.setting(), budget_))
@@ -159,13 +160,6 @@ class MaximumDecision {
             Kind::stationary,
             fmt::format("d2H/du2 < 0 was not proved for all {}", count() == 1 ? name_of(0) : std::string("controls")),
             {}};
-    }
-
-    /// Costs with a barrier, -log(1 - u^2): H is defined on a convex set of controls, and strictly concave there.
-    [[nodiscard]] ControlMaximum inside_part()
-    {
-        const auto start = strictly_convex_start(graph_, hamiltonian_.negative, proofs_.setting(), budget_);
-        return start ? ControlMaximum{Kind::maximal, {}, {}, true, *start} : ControlMaximum{};
     }
 
     /// At a maximum d2H/du2 has no positive diagonal entry and no negative 2 x 2 minor. Here everything in the model is

@@ -58,11 +58,11 @@ void Claims::decide_by_construction(const ResidualList& list)
         if (refuted) judge_->remember(value, std::move(decision));
 }
 
-void Claims::decide_structure(Report& report)
+void Claims::decide_structure(StructureReport& structure)
 {
     const ResidualList list = structure_equations(partial_, system_.algebroid, system_.functions);
-    report.note = note_;
-    report.trivial += list.trivial;
+    structure.note = note_;
+    structure.trivial += list.trivial;
     decide_by_construction(list);
     WhereConstant where = along_anchor();
     for (const Residual& residual : list.residuals) {
@@ -75,7 +75,7 @@ void Claims::decide_structure(Report& report)
             where.restrict(check, {functions.at(residual.indices.back())});
         }
         check.reevaluation = judge_->reevaluate(residual.value);
-        report.checks.push_back(std::move(check));
+        structure.checks.push_back(std::move(check));
     }
 }
 
@@ -96,7 +96,7 @@ std::optional<NodeId> Claims::momentum_in(NodeId f, const Binding& names)
 void Claims::decide_invariants(Report& report, const std::vector<NamedTree>& extra)
 {
     const std::unique_ptr<EquationsOfMotion> motion = equations_of_motion();
-    WhereConstant where = along_motions(*motion, report.regularity);
+    WhereConstant where = along_motions(*motion, report.mechanics.regularity);
     const Binding names = motion->names();
     Lowering lower(graph_, names);
     std::vector<NamedTree> claims = system_.written.invariants;
@@ -116,32 +116,32 @@ void Claims::decide_invariants(Report& report, const std::vector<NamedTree>& ext
             setting.defined.insert(setting.defined.end(), functions.begin(), functions.end());
             Judge judge(graph_, setting, accessory_inputs(system_), points_, judge_->decider().budget());
             check.decision = judge.decide(*rate.value);
-            where.restrict(check, functions, divisors_of(rate, report.regularity));
+            where.restrict(check, functions, divisors_of(rate, report.mechanics.regularity));
             check.reevaluation = judge.reevaluate(*rate.value);
             if (rate.for_every_control && check.decision.status == ProofStatus::refuted) {
                 check.decision = Decision{};
                 check.decision.evidence = rate.obstacle;
             }
         }
-        report.checks.push_back(std::move(check));
+        report.structure.checks.push_back(std::move(check));
     }
 }
 
 void Claims::decide_controls(Report& report)
 {
     if (!system_.control) return;
-    report.maximum = decide_maximum(graph_, *system_.control, system_.mu, setting_, judge_->decider().budget());
-    const ControlMaximum& maximum = report.maximum;
+    report.control.maximum = decide_maximum(graph_, *system_.control, system_.mu, setting_, judge_->decider().budget());
+    const ControlMaximum& maximum = report.control.maximum;
     Check check{"maximum", {}, {}, {}, {}};
     check.decision.status = maximum.kind == ControlMaximum::Kind::maximal   ? ProofStatus::proved
                             : maximum.kind == ControlMaximum::Kind::refuted ? ProofStatus::refuted
                                                                             : ProofStatus::undecided;
     check.decision.evidence = maximum.reason;
     check.hint = maximum.hint;
-    report.checks.push_back(std::move(check));
+    report.structure.checks.push_back(std::move(check));
 }
 
-void Claims::decide_legendre(Report& report)
+void Claims::decide_legendre(StructureReport& structure)
 {
     if (!lagrangian_ || !hamiltonian_hessian_) return;
     const NodeId given[] = {*system_.hamiltonian};
@@ -153,7 +153,7 @@ void Claims::decide_legendre(Report& report)
     Check check{"legendre", {}, judge.decide(residual), {}, judge.reevaluate(residual)};
     if (check.decision.status == ProofStatus::refuted)
         check.hint = "H is y^a dL/dy^a - L at mu_a = dL/dy^a; leave [hamiltonian] out, and it is found from L";
-    report.checks.push_back(std::move(check));
+    structure.checks.push_back(std::move(check));
 }
 
 } // namespace lagen

@@ -51,15 +51,15 @@ Claims::Vanishing Claims::vanishing(const std::string& name, const FormClaim& cl
     return {std::move(checks), binomial(system_.r(), residual.degree) - residual.components.size()};
 }
 
-void Claims::decide_forms(Report& report)
+void Claims::decide_forms(StructureReport& structure)
 {
     for (const FormClaim& claim : system_.forms) {
         const auto append = [&](Vanishing equations) {
-            report.trivial += equations.trivial;
-            std::ranges::move(equations.checks, std::back_inserter(report.checks));
+            structure.trivial += equations.trivial;
+            std::ranges::move(equations.checks, std::back_inserter(structure.checks));
         };
         Vanishing closed = vanishing("closed", claim, differential(partial_, system_.algebroid, claim.form));
-        report.forms.push_back({claim.name, claim.form.degree, status_of(closed.checks)});
+        structure.forms.push_back({claim.name, claim.form.degree, status_of(closed.checks)});
         if (claim.closed) append(std::move(closed));
         if (!claim.equals) continue;
         const ExteriorForm opposite = product(graph_, graph_.constant(-1), *claim.equals);

@@ -6,10 +6,10 @@ namespace lagen {
 namespace {
 
 /// The check of one pair from those of its anchor equations; nothing where all are zero by structure.
-std::optional<Check> involutivity_of(const Report& verified, const std::string& a, const std::string& b)
+std::optional<Check> involutivity_of(const StructureReport& structure, const std::string& a, const std::string& b)
 {
     std::optional<Check> result;
-    for (const Check& check : verified.checks) {
+    for (const Check& check : structure.checks) {
         if (check.name != "anchor" || check.indices[0] != a || check.indices[1] != b) continue;
         const ProofStatus status = check.decision.status;
         const bool worse = result && (status == ProofStatus::refuted || result->decision.status == ProofStatus::proved);
@@ -24,7 +24,7 @@ std::optional<Check> involutivity_of(const Report& verified, const std::string& 
 
 } // namespace
 
-void append_involutive(Report& report, const System& system)
+void append_involutive(StructureReport& structure, const System& system)
 {
     if (!system.is_distribution) return;
     const std::vector<NodeId>& y = system.algebroid.y;
@@ -32,8 +32,8 @@ void append_involutive(Report& report, const System& system)
     std::vector<Check> checks;
     for (std::size_t a = 0; a < y.size(); ++a)
         for (std::size_t b = a + 1; b < y.size(); ++b)
-            if (auto check = involutivity_of(report, name_of(a), name_of(b))) checks.push_back(*std::move(check));
-    report.checks.insert(report.checks.end(), checks.begin(), checks.end());
+            if (auto check = involutivity_of(structure, name_of(a), name_of(b))) checks.push_back(*std::move(check));
+    structure.checks.insert(structure.checks.end(), checks.begin(), checks.end());
 }
 
 } // namespace lagen

@@ -2,7 +2,6 @@
 #include "verify/kernel_vectors.hpp"
 
 #include "graph/core/lower.hpp"
-#include "proof/rational_matrix.hpp"
 #include "verify/reduced_fraction.hpp"
 
 #include <algorithm>
@@ -18,29 +17,26 @@ constexpr std::size_t longest_component = 200;
 /// Normal forms that take long are not worth a text.
 constexpr std::size_t longest_input = 2000;
 
-/// The node as it was built, or its normal form where that is shorter.
+/// The later one where they are equally long.
+Tree shorter(const Tree& tree, const Tree& other)
+{
+    return to_text(other).size() <= to_text(tree).size() ? other : tree;
+}
+
+/// The node as it was built, or its normal form.
 Tree shorter_tree(const Graph& graph, NodeId node, const Decision& decision)
 {
-    Tree tree = to_tree(graph, node);
-    const bool shorter = decision.normal_form && to_text(decision.normal_form).size() < to_text(tree).size();
-    return shorter ? decision.normal_form : tree;
+    const Tree tree = to_tree(graph, node);
+    return decision.normal_form ? shorter(tree, decision.normal_form) : tree;
 }
 
 /// The shortest of what was built, its normal form and its reduced fraction; null where all are too long.
 Tree tree_of(Graph& graph, NodeId node, const Decision& decision, const Order& order, const ZeroDecider& decider)
 {
     Tree tree = shorter_tree(graph, node, decision);
-    std::size_t size = to_text(tree).size();
-    if (size > longest_input) return nullptr;
-    const auto offer = [&](const Tree& other) {
-        const std::size_t other_size = to_text(other).size();
-        if (other_size > size) return;
-        tree = other;
-        size = other_size;
-    };
-    if (decision.normal_form) offer(decision.normal_form);
-    if (const auto reduced = reduced_fraction(graph, node, tree, order, decider)) offer(*reduced);
-    return size <= longest_component ? tree : nullptr;
+    if (to_text(tree).size() > longest_input) return nullptr;
+    if (const auto reduced = reduced_fraction(graph, node, tree, order, decider)) tree = shorter(tree, *reduced);
+    return to_text(tree).size() <= longest_component ? tree : nullptr;
 }
 
 /// Whether W k = 0 is proved in the rows of a block.
@@ -134,25 +130,6 @@ void append_vectors(std::vector<KernelVector>& vectors, Graph& graph, const Fibr
     }
 }
 
-/// Numbers need no proof, and no minors.
-bool append_constant_vectors(std::vector<KernelVector>& vectors, const Graph& graph, const FibreHessian& hessian,
-                             const Block& block)
-{
-    std::vector<Rational> entries;
-    for (const std::size_t a : block)
-        for (const std::size_t b : block) {
-            if (!graph.is_constant(hessian.W(a, b))) return false;
-            entries.push_back(graph.value(hessian.W(a, b)));
-        }
-    for (const std::vector<Rational>& k : kernel_of(entries, block.size())) {
-        KernelVector vector;
-        for (std::size_t b = 0; b < block.size(); ++b)
-            if (k[b] != 0) vector.emplace_back(block[b], number(k[b]));
-        vectors.push_back(std::move(vector));
-    }
-    return true;
-}
-
 } // namespace
 
 std::optional<Block> nonzero_principal_minor(Graph& graph, const FibreHessian& hessian, const Block& block,
@@ -177,8 +154,7 @@ std::vector<KernelVector> kernel_vectors(Graph& graph, const FibreHessian& hessi
     const Order order = writing_order(graph, setting);
     std::vector<KernelVector> vectors;
     for (const Block& block : hessian.blocks)
-        if (!append_constant_vectors(vectors, graph, hessian, block) && block.size() <= determinant_limit)
-            append_vectors(vectors, graph, hessian, block, decider, order);
+        if (block.size() <= determinant_limit) append_vectors(vectors, graph, hessian, block, decider, order);
     return vectors;
 }
 

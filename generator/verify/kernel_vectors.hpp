@@ -18,8 +18,8 @@ namespace lagen {
 using KernelVector = std::vector<std::pair<std::size_t, Tree>>;
 
 /// A basis of the kernel wherever minors and denominators do not vanish; W k = 0 is proved of each vector that is
-/// listed. A vector is left out where that is not decided, and where a component is too long to be read. `setting`
-/// orders the names.
+/// listed. A vector is left out where that is not decided, where a component is too long to be read, and in blocks of
+/// more than `determinant_limit` rows. `setting` orders the names.
 [[nodiscard]] std::vector<KernelVector> kernel_vectors(Graph& graph, const FibreHessian& hessian,
                                                        const ZeroDecider& decider, const ProofSetting& setting);
 

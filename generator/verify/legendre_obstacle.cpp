@@ -8,8 +8,7 @@
 #include "graph/core/operators.hpp"
 #include "graph/unknowns/implicit.hpp"
 #include "verify/at_values.hpp"
-#include "verify/definite_squares.hpp"
-#include "verify/regularity.hpp"
+#include "verify/definiteness.hpp"
 
 #include <fmt/format.h>
 
@@ -43,19 +42,18 @@ class SmoothSet {
     {
         // What depends on y is what the conditions are about.
         std::erase_if(setting_.defined, [&](NodeId node) { return depends_on_y(node); });
-        std::vector<NodeId> nodes = dependents(graph_, hessian_.lagrangian, hessian_.y);
-        // Roots of what is smooth everywhere first: they make divisors nonzero.
-        std::stable_partition(nodes.begin(), nodes.end(), [&](NodeId node) { return is_plain_root(node); });
-        for (const NodeId node : nodes) {
-            if (!obstacle_.empty()) return;
-            require_smooth(node);
+        std::vector<NodeId> open = dependents(graph_, hessian_.lagrangian, hessian_.y);
+        // Again while a condition came in: a root keeps a divisor away from zero.
+        for (std::size_t before = 0; before != open.size();) {
+            before = open.size();
+            obstacle_.clear();
+            std::erase_if(open, [&](NodeId node) { return is_smooth(node); });
         }
     }
 
     /// The first condition that was not shown; empty where L is smooth on a convex set.
     [[nodiscard]] const std::string& obstacle() const { return obstacle_; }
     /// With the conditions in its domain.
-    [[nodiscard]] const ProofSetting& setting() const { return setting_; }
     [[nodiscard]] const ZeroDecider& decider()
     {
         if (!decider_) decider_ = std::make_unique<ZeroDecider>(graph_, setting_, budget_);
@@ -69,66 +67,46 @@ class SmoothSet {
         return depends_on_any(graph_, nodes, hessian_.y);
     }
 
-    [[nodiscard]] bool is_plain_root(NodeId node) const
-    {
-        if (smooth_where(graph_, node) != Sense::positive || operator_of(graph_.op(node)).condition_operand != 0)
-            return false;
-        const std::vector<NodeId> below = dependents(graph_, graph_.operands(node)[0], hessian_.y);
-        return std::ranges::all_of(below, [&](NodeId each) {
-            const OpKind kind = kind_of(graph_.op(each));
-            return kind == OpKind::sum || kind == OpKind::product ||
-                   (kind == OpKind::power && domain_of(graph_, each) == Sense::always);
-        });
-    }
-
-    void require_smooth(NodeId node)
+    [[nodiscard]] bool is_smooth(NodeId node)
     {
         switch (smooth_where(graph_, node)) {
-        case Sense::always: return;
-        case Sense::nonzero: return require_nonzero(condition_of(graph_, node));
+        case Sense::always: return true;
+        case Sense::nonzero: return holds(condition_of(graph_, node), false);
         case Sense::nonnegative:
-        case Sense::positive: return require_positive(condition_of(graph_, node));
+        case Sense::positive: return holds(condition_of(graph_, node), true);
         case Sense::off_origin:
-        case Sense::off_cut: // and slopes that do not see it
-            if (const NodeId u = graph_.operands(node)[1]; !decider().proves_positive(u))
-                obstacle_ = not_shown(u, "positive");
-            return;
-        case Sense::same_branch: obstacle_ = std::string(function_) + " is not smooth"; return;
-        case Sense::regular:
-            obstacle_ =
-                std::string(function_) + " contains the solution of a linear system whose matrix is not constant";
+        case Sense::off_cut: { // and slopes that do not see it
+            const NodeId u = graph_.operands(node)[1];
+            return decider().proves_positive(u) || refuse(not_shown(u, "positive"));
         }
+        case Sense::same_branch: return refuse(std::string(function_) + " is not smooth");
+        case Sense::regular: break;
+        }
+        return refuse(std::string(function_) +
+                      " contains the solution of a linear system whose matrix is not constant");
     }
 
-    void require_nonzero(NodeId f)
+    /// Keeps the first obstacle.
+    bool refuse(std::string why)
     {
-        if (!depends_on_y(f) || decider().proves_nonzero(f)) return;
-        obstacle_ = not_shown(f, "nonzero");
+        if (obstacle_.empty()) obstacle_ = std::move(why);
+        return false;
     }
 
-    void require_positive(NodeId f)
+    bool holds(NodeId f, bool positive)
     {
-        if (!depends_on_y(f) || decider().proves_positive(f)) return;
-        if (is_concave(f)) {
-            setting_.domain.push_back(graph_.apply(Op::greater, f, graph_.constant(0)));
-            decider_.reset();
-            return;
-        }
-        obstacle_ = not_shown(f, "positive");
+        if (!depends_on_y(f)) return true;
+        if (positive ? decider().proves_positive(f) : decider().proves_nonzero(f)) return true;
+        if (!positive || !is_concave(f)) return refuse(not_shown(f, positive ? "positive" : "nonzero"));
+        setting_.domain.push_back(graph_.apply(Op::greater, f, graph_.constant(0)));
+        decider_.reset();
+        return true;
     }
 
     [[nodiscard]] bool is_concave(NodeId f)
     {
-        const NodeId below = graph_.negate(f);
-        const FibreHessian all = fibre_hessian(graph_, below, hessian_.y);
-        std::vector<NodeId> curved;
-        for (const std::vector<std::size_t>& block : all.blocks)
-            for (const std::size_t a : block)
-                if (block.size() > 1 || !graph_.is_zero(all.W(a, a))) curved.push_back(all.y[a]);
-        if (curved.empty()) return true; // affine
-        const FibreHessian hessian = fibre_hessian(graph_, below, curved);
-        return proves_semidefinite_by_squares(graph_, hessian, decider()) ||
-               proves_definite(graph_, hessian, setting_, decider());
+        const FibreHessian below = fibre_hessian(graph_, graph_.negate(f), hessian_.y);
+        return proves_semidefinite(graph_, below, decider());
     }
 
     [[nodiscard]] std::string not_shown(NodeId f, const char* what) const
@@ -199,7 +177,7 @@ Transform transform_of(Graph& graph, const FibreHessian& hessian, const ProofSet
     // Anew: forces, which count for the verdict on W, may be defined for fewer velocities.
     const FibreHessian negative = fibre_hessian(graph, graph.negate(hessian.lagrangian), hessian.y);
     for (const FibreHessian* each : {&hessian, &negative})
-        if (proves_definite(graph, *each, smooth.setting(), smooth.decider()))
+        if (proves_definite(graph, *each, smooth.decider()))
             return {{}, newton_start(graph, hessian, smooth.decider())};
     return {matrix + " is not shown to be definite", {}};
 }
@@ -240,8 +218,7 @@ std::optional<std::vector<Rational>> strictly_convex_start(Graph& graph, const F
                                                            const ProofSetting& setting, const ProofBudget& budget)
 {
     SmoothSet smooth(graph, hessian, setting, budget, "F");
-    if (!smooth.obstacle().empty() || !proves_definite(graph, hessian, smooth.setting(), smooth.decider()))
-        return std::nullopt;
+    if (!smooth.obstacle().empty() || !proves_definite(graph, hessian, smooth.decider())) return std::nullopt;
     return newton_start(graph, hessian, smooth.decider());
 }
 

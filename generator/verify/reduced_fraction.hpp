@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Fractions reduced by GiNaC, which is believed only where the zero decision confirms it.
+/// Fractions reduced by GiNaC, which is believed only where the zero decision confirms it, and their factors.
 #pragma once
 
 #include "proof/decide.hpp"
@@ -14,5 +14,10 @@ namespace lagen {
 /// or cannot be made.
 [[nodiscard]] std::optional<Tree> reduced_fraction(Graph& graph, NodeId node, const Tree& tree, const Order& order,
                                                    const ZeroDecider& decider);
+
+/// The factors of the numerator of a reduced fraction, without exponents and numbers; nothing where the node is too
+/// long for that. Where it is defined the node vanishes exactly where one of them does.
+[[nodiscard]] std::optional<std::vector<Tree>> factors_of(Graph& graph, NodeId node, const Order& order,
+                                                          const ZeroDecider& decider);
 
 } // namespace lagen

@@ -13,8 +13,4 @@ namespace lagen {
                                            const ZeroDecider& decider,
                                            const std::vector<std::pair<NodeId, NodeId>>& values);
 
-/// Whether W is proved positive definite wherever it is defined.
-[[nodiscard]] bool proves_definite(Graph& graph, const FibreHessian& hessian, const ProofSetting& setting,
-                                   const ZeroDecider& decider);
-
 } // namespace lagen

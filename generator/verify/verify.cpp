@@ -19,22 +19,22 @@ const char* to_text(Verdict verdict)
 
 namespace {
 
-Verdict verdict_of(const Report& report)
+Verdict verdict_of(const StructureReport& structure)
 {
-    Verdict verdict = report.note.empty() ? Verdict::valid : Verdict::undecided;
-    for (const Check& check : report.checks) {
+    Verdict verdict = structure.note.empty() ? Verdict::valid : Verdict::undecided;
+    for (const Check& check : structure.checks) {
         if (check.decision.status == ProofStatus::refuted) return Verdict::invalid;
         if (check.decision.status == ProofStatus::undecided) verdict = Verdict::undecided;
     }
     return verdict;
 }
 
-std::optional<Reevaluation> summary_of(const Report& report, std::size_t points)
+std::optional<Reevaluation> summary_of(const StructureReport& structure, std::size_t points)
 {
     if (points == 0) return std::nullopt;
     Reevaluation summary;
     summary.points = points;
-    for (const Check& check : report.checks) {
+    for (const Check& check : structure.checks) {
         if (check.decision.status != ProofStatus::proved || !check.reevaluation) continue;
         summary.points = std::min(summary.points, check.reevaluation->points);
         summary.bound = std::max(summary.bound, check.reevaluation->bound);
@@ -61,24 +61,22 @@ Report verify(const System& system, const std::vector<NamedTree>& extra_invarian
 {
     Report report;
     Claims claims(system, points, budget);
-    claims.decide_structure(report);
-    append_involutive(report, system);
-    claims.decide_forms(report);
-    claims.decide_regularity(report);
-    claims.decide_legendre(report);
+    claims.decide_structure(report.structure);
+    append_involutive(report.structure, system);
+    claims.decide_forms(report.structure);
+    report.mechanics.regularity = claims.decide_regularity();
+    claims.decide_legendre(report.structure);
     claims.decide_invariants(report, extra_invariants);
     claims.decide_controls(report);
-    for (const Check& check : report.checks) require_confirmed(check);
-    report.reevaluation = summary_of(report, points);
-    report.verdict = verdict_of(report);
+    for (const Check& check : report.structure.checks) require_confirmed(check);
+    report.structure.reevaluation = summary_of(report.structure, points);
+    report.structure.verdict = verdict_of(report.structure);
     return report;
 }
 
 Regularity verify_regularity(const System& system)
 {
-    Report report;
-    Claims(system, 0, {}).decide_regularity(report);
-    return report.regularity;
+    return Claims(system, 0, {}).decide_regularity();
 }
 
 } // namespace lagen

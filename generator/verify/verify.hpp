@@ -82,17 +82,32 @@ struct FormReport {
     ProofStatus closed = ProofStatus::undecided;
 };
 
-/// What is known of a system.
-struct Report {
+/// Which claims hold: the structure equations of the algebroid, and what else its model says of it.
+struct StructureReport {
     std::vector<Check> checks;
     std::size_t trivial = 0; ///< residuals that are zero by structure: counted, not listed
     Verdict verdict = Verdict::undecided;
-    Regularity regularity;
     std::vector<FormReport> forms;
-    ControlMaximum maximum;
     std::string note; ///< e.g. "no regular point was found: ..."
     std::optional<Reevaluation>
         reevaluation; ///< of all residuals that were proved: the least points, the largest bound
+};
+
+/// Whether the equations of motion are determined.
+struct MechanicsReport {
+    Regularity regularity; ///< of L, else of H
+};
+
+/// Whether the equations of motion are those of extremals.
+struct ControlReport {
+    ControlMaximum maximum;
+};
+
+/// What is known of a system.
+struct Report {
+    StructureReport structure;
+    MechanicsReport mechanics;
+    ControlReport control;
 };
 
 /// Digits to which `verify` re-evaluates.
@@ -108,7 +123,7 @@ constexpr int reevaluation_digits = 60;
 [[nodiscard]] Regularity verify_regularity(const System& system);
 
 /// Of a subbundle: a check "involutive" (a, b) for each pair of sections, from its anchor equations.
-void append_involutive(Report& report, const System& system);
+void append_involutive(StructureReport& structure, const System& system);
 
 /// What `Decision::evidence` says where the construction of an algebroid holds.
 inline constexpr const char* construction_argument =

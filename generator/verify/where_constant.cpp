@@ -4,7 +4,7 @@
 #include "graph/calculus/determinant.hpp"
 #include "graph/core/lower.hpp"
 #include "graph/core/operators.hpp"
-#include "verify/singular_factors.hpp"
+#include "verify/reduced_fraction.hpp"
 
 #include <fmt/format.h>
 

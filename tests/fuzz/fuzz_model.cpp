@@ -72,7 +72,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         for (const Scene& scene : model.scenes) accepted([&] { static_cast<void>(evaluate_scene(model, scene)); });
         if (!is_small(model)) return;
         const ModelReport verified = verify(model, {}, 2, small_budget);
-        for (const Check& check : verified.checks) require_confirmed(check);
+        for (const Check& check : verified.structure.checks) require_confirmed(check);
         if (written_mechanics(model) > longest_mechanics) return;
         for (const std::string& form : form_names())
             accepted([&] { static_cast<void>(derive(form, model, verified)); });

@@ -126,8 +126,8 @@ TEST_CASE("a model without a Lagrangian or with a degenerate one has no kernels"
 {
     Model model = read_model_text("test.toml", oscillator);
     ModelReport verified = verify(model);
-    verified.regularity.kind = Regularity::Kind::degenerate;
-    verified.regularity.rank = 0;
+    verified.mechanics.regularity.kind = Regularity::Kind::degenerate;
+    verified.mechanics.regularity.rank = 0;
     CHECK(message_of(model, verified, {}) ==
           "error: the Lagrangian of model 'oscillator' is degenerate: d2L/dy2 has rank 0, and the Lagrangian form "
           "needs rank 1\n"

@@ -78,13 +78,13 @@ Answer answer_of(const std::string& text)
     const std::clock_t begin = std::clock();
     try {
         const ModelReport verified = verify(read_model_text("random.toml", "name = \"random\"\n" + text));
-        answer.verdict = to_text(verified.verdict);
-        for (const Check& check : verified.checks) {
+        answer.verdict = to_text(verified.structure.verdict);
+        for (const Check& check : verified.structure.checks) {
             if (check.decision.status == ProofStatus::refuted) answer.refuted.push_back(check);
             if (check.decision.status == ProofStatus::undecided && answer.reason.empty())
                 answer.reason = check.name + ": " + without_numbers(check.decision.evidence);
         }
-        if (answer.reason.empty()) answer.reason = verified.note;
+        if (answer.reason.empty()) answer.reason = verified.structure.note;
         answer.algebroid = verified.algebroid;
     } catch (const std::exception& error) {
         answer.verdict = std::string("exception: ") + error.what();

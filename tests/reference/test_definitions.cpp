@@ -29,7 +29,7 @@ TEST_CASE("the reference definitions that are wrong have these hints")
     for (const ReferenceDefinition& definition : read_reference_definitions()) {
         INFO(definition.algebroid.name);
         const ModelReport verified = verify(read_model_text("test.toml", model_text(definition.algebroid)));
-        CHECK(verified.verdict == (definition.valid ? Verdict::valid : Verdict::invalid));
+        CHECK(verified.structure.verdict == (definition.valid ? Verdict::valid : Verdict::invalid));
         if (definition.valid) {
             CHECK(hints_of(verified).empty());
             continue;
@@ -46,6 +46,6 @@ TEST_CASE("the algebroids between which the reference morphisms are given are va
     CHECK(algebroids.size() == 8);
     for (const ReferenceCase& algebroid : algebroids) {
         INFO(algebroid.name);
-        CHECK(verify(read_model_text("test.toml", model_text(algebroid))).verdict == Verdict::valid);
+        CHECK(verify(read_model_text("test.toml", model_text(algebroid))).structure.verdict == Verdict::valid);
     }
 }

@@ -82,7 +82,7 @@ TEST_CASE("derivatives, momenta and energy agree with the reference at every poi
         INFO(reference.name);
         const Model model = read_model_text(reference.name + ".toml", model_text(reference));
         const ModelReport verified = verify(model);
-        CHECK(std::string(to_text(verified.verdict)) == "valid");
+        CHECK(std::string(to_text(verified.structure.verdict)) == "valid");
         const KernelModule module = form_kernels(model, verified);
         const double in_double = largest_error<double>(module, reference);
         const long double in_long_double = largest_error<long double>(module, reference);
@@ -142,7 +142,7 @@ TEST_CASE("the controls of Pontryagin's form agree with every sample of every re
         INFO(reference.name);
         const Model model = read_model_text(reference.name + ".toml", model_text(reference));
         const ModelReport verified = verify(model);
-        CHECK(verified.verdict == Verdict::valid);
+        CHECK(verified.structure.verdict == Verdict::valid);
         const KernelModule module = form_kernels(model, verified, {});
         CHECK(module.form == "pontryagin");
         for (const ReferenceSample& sample : reference.samples) {
@@ -158,10 +158,12 @@ TEST_CASE("every reference definition gets the verdict that it deserves, by the 
         INFO(definition.algebroid.name);
         const Model model = read_model_text(definition.algebroid.name + ".toml", model_text(definition.algebroid));
         const ModelReport verified = verify(model);
-        CHECK(std::string(to_text(verified.verdict)) == (definition.valid ? "valid" : "invalid"));
+        CHECK(std::string(to_text(verified.structure.verdict)) == (definition.valid ? "valid" : "invalid"));
         for (const std::string& name : definition.failing)
-            CHECK(std::any_of(verified.checks.begin(), verified.checks.end(), [&](const Check& check) {
-                return check.name == name && check.decision.status == ProofStatus::refuted && check.decision.witness;
-            }));
+            CHECK(std::any_of(verified.structure.checks.begin(), verified.structure.checks.end(),
+                              [&](const Check& check) {
+                                  return check.name == name && check.decision.status == ProofStatus::refuted &&
+                                         check.decision.witness;
+                              }));
     }
 }

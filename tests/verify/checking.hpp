@@ -25,7 +25,7 @@ inline std::string line_of(const Check& check)
 inline std::vector<std::string> lines_of(const Report& verified)
 {
     std::vector<std::string> lines;
-    for (const Check& check : verified.checks) lines.push_back(line_of(check));
+    for (const Check& check : verified.structure.checks) lines.push_back(line_of(check));
     return lines;
 }
 
@@ -34,7 +34,7 @@ inline std::vector<std::string> hints_of(const Report& verified)
 {
     std::vector<std::string> hints;
     std::set<std::string> seen = {""};
-    for (const Check& check : verified.checks)
+    for (const Check& check : verified.structure.checks)
         if (seen.insert(check.hint).second) hints.push_back(check.hint);
     return hints;
 }

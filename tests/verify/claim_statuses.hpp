@@ -29,7 +29,7 @@ inline std::string status_of(const Check& check)
 inline std::string statuses(const std::string& model, const std::vector<std::string>& claims)
 {
     std::string line;
-    for (const Check& check : verified_with(model, claims).checks)
+    for (const Check& check : verified_with(model, claims).structure.checks)
         if (check.name == "invariant") line += (line.empty() ? "" : ", ") + status_of(check);
     return line;
 }
@@ -37,7 +37,7 @@ inline std::string statuses(const std::string& model, const std::vector<std::str
 /// Why the first undecided check is that; empty where none is.
 inline std::string first_obstacle(const std::string& model, const std::vector<std::string>& claims)
 {
-    for (const Check& check : verified_with(model, claims).checks)
+    for (const Check& check : verified_with(model, claims).structure.checks)
         if (check.decision.status == ProofStatus::undecided) return check.decision.evidence;
     return "";
 }

@@ -54,7 +54,7 @@ bool holds(const std::string& text)
 std::size_t constructed(const Report& verified)
 {
     return static_cast<std::size_t>(
-        std::count_if(verified.checks.begin(), verified.checks.end(),
+        std::count_if(verified.structure.checks.begin(), verified.structure.checks.end(),
                       [](const Check& check) { return check.decision.evidence == construction_argument; }));
 }
 
@@ -64,19 +64,19 @@ TEST_CASE("a dense rational frame of TR^4 is proved by construction, and its res
 {
     const Model model = read_model_text("test.toml", "name = 'test'\n" + dense_frame("kind = 'tangent'\n"));
     const ModelReport verified = verify(model, {}, 3);
-    CHECK(verified.verdict == Verdict::valid);
-    CHECK(verified.checks.size() == 40);
+    CHECK(verified.structure.verdict == Verdict::valid);
+    CHECK(verified.structure.checks.size() == 40);
     CHECK(constructed(verified) > 30);
-    REQUIRE(verified.reevaluation);
-    CHECK(verified.reevaluation->points == 3);
-    CHECK(verified.reevaluation->bound < 1e-60);
+    REQUIRE(verified.structure.reevaluation);
+    CHECK(verified.structure.reevaluation->points == 3);
+    CHECK(verified.structure.reevaluation->bound < 1e-60);
 }
 
 TEST_CASE("a dense rational frame of what is no algebroid is refuted, be it by 1e-15")
 {
     // [e1, e3] = c e4 needs rho([e1, e3]) = [rho(e1), rho(e3)] = 0.
-    CHECK(verified_text(dense_frame(rotations("0"))).verdict == Verdict::valid);
-    CHECK(verified_text(dense_frame(rotations("1/1000000000000000"))).verdict == Verdict::invalid);
+    CHECK(verified_text(dense_frame(rotations("0"))).structure.verdict == Verdict::valid);
+    CHECK(verified_text(dense_frame(rotations("1/1000000000000000"))).structure.verdict == Verdict::invalid);
 }
 
 TEST_CASE("a construction is believed where each of its statements is shown")
@@ -136,7 +136,7 @@ TEST_CASE("a prolongation of a frame holds by construction where the frame does 
                factor + "' } }\n[algebroid.of.of]\nkind = 'tangent'\nfibre = ['u']\nover = ['x']\n";
     };
     CHECK(holds(prolongation("1 + x^2")));
-    CHECK(verified_text(prolongation("1 + x^2")).verdict == Verdict::valid);
+    CHECK(verified_text(prolongation("1 + x^2")).structure.verdict == Verdict::valid);
     CHECK_FALSE(holds(prolongation("1 + a^2")));
-    CHECK(verified_text(prolongation("1 + a^2")).verdict == Verdict::invalid);
+    CHECK(verified_text(prolongation("1 + a^2")).structure.verdict == Verdict::invalid);
 }

@@ -85,7 +85,7 @@ TEST_CASE("controls that are not solved for leave a claim undecided, with the re
 TEST_CASE("sigma and cost count where they are defined, and may divide by nothing that is zero everywhere")
 {
     const std::string control = "controls = [\"u\"]\nsigma = { a = \"u\" }\ncost = \"u^2/2 + log(-1 - x^2)\"\n";
-    CHECK(verified_text(controlled_plane(control)).verdict == Verdict::undecided);
+    CHECK(verified_text(controlled_plane(control)).structure.verdict == Verdict::undecided);
     CHECK_THROWS_WITH(
         verified_text(controlled_plane(
             "controls = [\"u\"]\nsigma = { a = \"u/(u*(sin(x)^2 + cos(x)^2) - u)\" }\ncost = \"u^2/2\"\n")),

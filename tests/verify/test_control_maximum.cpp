@@ -15,7 +15,7 @@ ControlMaximum maximum_of(const std::string& control)
                          "[fibre]\ncoordinates = [\"a\", \"b\"]\nmomenta = [\"p\", \"q\"]\n[algebroid]\nkind = "
                          "\"tangent\"\n[control]\n" +
                          control)
-        .maximum;
+        .control.maximum;
 }
 
 ControlMaximum of_one(const std::string& cost, const std::string& bounds = "")

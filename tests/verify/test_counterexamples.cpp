@@ -12,7 +12,7 @@ namespace {
 std::string refuted(const std::string& text)
 {
     std::string lines;
-    for (const Check& check : verified_text(text).checks)
+    for (const Check& check : verified_text(text).structure.checks)
         if (check.decision.status != ProofStatus::proved) lines += line_of(check) + "\n";
     return lines;
 }
@@ -94,10 +94,10 @@ b = { y = "exp(x)" }
 [algebroid.bracket]
 "a,b" = { b = "k" }
 )toml");
-    REQUIRE(verified.checks.back().decision.witness);
-    CHECK(verified.verdict == Verdict::invalid);
-    CHECK(verified.checks.back().decision.residual == "-k*exp(x) + exp(x)");
-    const auto point = verified.checks.back().decision.witness->point;
+    REQUIRE(verified.structure.checks.back().decision.witness);
+    CHECK(verified.structure.verdict == Verdict::invalid);
+    CHECK(verified.structure.checks.back().decision.residual == "-k*exp(x) + exp(x)");
+    const auto point = verified.structure.checks.back().decision.witness->point;
     REQUIRE(point.size() == 3);
     CHECK(point[2].first == "k");
     CHECK(point[2].second.exact != Rational(1));
@@ -115,7 +115,8 @@ b = { y = "sqrt(x^2)" }
 "a,b" = { b = "1/x" }
 )toml";
     const auto with_domain = [&](const std::string& domain) {
-        return verified_text("[parameters]\nm = -1\n[base]\ncoordinates = [\"x\", \"y\"]\n" + domain + rest).verdict;
+        return verified_text("[parameters]\nm = -1\n[base]\ncoordinates = [\"x\", \"y\"]\n" + domain + rest)
+            .structure.verdict;
     };
     CHECK(with_domain("") == Verdict::valid);
     CHECK(with_domain("domain = [\"x > 0\"]\n") == Verdict::valid);

@@ -126,11 +126,11 @@ TEST_CASE("what folds away in any block still says where the model is defined")
     for (const Folded& model : folded_models) {
         INFO(model.block);
         std::string text = model.text;
-        CHECK(verified_text(text).verdict == Verdict::valid);
+        CHECK(verified_text(text).structure.verdict == Verdict::valid);
         const std::size_t at = text.find(model.part);
         REQUIRE(at != std::string::npos);
         text.replace(at, std::string(model.part).size(), model.plain);
-        CHECK(verified_text(text).verdict == Verdict::invalid);
+        CHECK(verified_text(text).structure.verdict == Verdict::invalid);
     }
 }
 
@@ -148,10 +148,10 @@ kind = "general"
 a = { x = "1" }
 b = { x = "x*(sqrt(5 + 2*s) - 3)" }
 )toml";
-    CHECK(verified_text(text).verdict == Verdict::invalid); // at s = -2
+    CHECK(verified_text(text).structure.verdict == Verdict::invalid); // at s = -2
     std::string positive = text;
     positive.insert(positive.find("[fibre]"), "domain = [\"s > 0\"]\n");
-    CHECK(verified_text(positive).verdict == Verdict::valid);
+    CHECK(verified_text(positive).structure.verdict == Verdict::valid);
 }
 
 TEST_CASE("the unknowns of two linear systems are not the same because they are numbered alike")
@@ -179,7 +179,7 @@ a = { u = "1" }
 [algebroid.bracket]
 "a,b" = { a = "(abs(U[1]) - U[1])*(abs(V[1]) + V[1])" }
 )toml";
-    CHECK(verified_text(text).verdict != Verdict::valid); // at x = 2000, y = 1: U[1] < 0 < V[1]
+    CHECK(verified_text(text).structure.verdict != Verdict::valid); // at x = 2000, y = 1: U[1] < 0 < V[1]
 }
 
 TEST_CASE("an empty bracket says zero, which the other order must agree with")
@@ -194,9 +194,9 @@ kind = "general"
 "b,a" = { }
 )toml";
     const ModelReport verified = verified_text(text);
-    CHECK(verified.verdict == Verdict::invalid);
-    REQUIRE_FALSE(verified.checks.empty());
-    CHECK(verified.checks[0].name == "antisymmetry");
+    CHECK(verified.structure.verdict == Verdict::invalid);
+    REQUIRE_FALSE(verified.structure.checks.empty());
+    CHECK(verified.structure.checks[0].name == "antisymmetry");
 }
 
 TEST_CASE("six coupled sections that are linearly dependent are no frame")
@@ -223,5 +223,5 @@ algebra = "R^6"
                                         "every point tried: the determinant of 'sections' is zero there"));
     std::string independent = text;
     independent.replace(independent.rfind("\"w[1]\" = \"1\""), 12, "\"w[1]\" = \"2\"");
-    CHECK(verified_text(independent).verdict == Verdict::valid);
+    CHECK(verified_text(independent).structure.verdict == Verdict::valid);
 }

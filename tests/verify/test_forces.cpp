@@ -74,10 +74,11 @@ TEST_CASE("a force that switches is followed along: what it does not touch is pr
 TEST_CASE("forces and dissipation count where they are defined, and may divide by nothing that is zero everywhere")
 {
     const ModelReport nowhere = verified_text(forced_plane("[forces]\nv_x = \"log(-1 - x^2)\"\n"));
-    CHECK(nowhere.verdict == Verdict::undecided);
-    CHECK(nowhere.note == "no point was found where everything in the model is defined and every condition of [base] "
-                          "holds");
-    CHECK(verified_text(forced_plane("[forces]\nv_x = \"log(1 + x^2)\"\n")).note.empty());
+    CHECK(nowhere.structure.verdict == Verdict::undecided);
+    CHECK(nowhere.structure.note ==
+          "no point was found where everything in the model is defined and every condition of [base] "
+          "holds");
+    CHECK(verified_text(forced_plane("[forces]\nv_x = \"log(1 + x^2)\"\n")).structure.note.empty());
     CHECK_THROWS_WITH(verified_text(forced_plane("[dissipation]\nR = \"v_x^2/(sin(x)^2 + cos(x)^2 - 1)\"\n")),
                       Catch::Contains("division by sin(x)^2 + cos(x)^2 - 1, which is zero everywhere"));
 }

@@ -23,7 +23,7 @@ ModelReport with_forms(const std::string& forms)
 Lines claims_of(const ModelReport& report)
 {
     Lines lines;
-    for (const Check& check : report.checks)
+    for (const Check& check : report.structure.checks)
         if (check.name == "closed" || check.name == "equals") lines.push_back(line_of(check));
     return lines;
 }
@@ -35,23 +35,23 @@ TEST_CASE("d of a function has the components rho_a(f), and is closed")
     const ModelReport report =
         with_forms("V = { degree = 0, value = 'k*g3' }\n"
                    "A = { degree = 1, w1 = '-k*g2', w2 = 'k*g1', closed = true, equals = 'd(V)' }\n");
-    CHECK(report.verdict == Verdict::valid);
+    CHECK(report.structure.verdict == Verdict::valid);
     CHECK(claims_of(report) == Lines{"closed(A, w1, w3) proved", "closed(A, w2, w3) proved", "equals(A, w1) proved",
                                      "equals(A, w2) proved"});
-    REQUIRE(report.forms.size() == 2);
-    CHECK(report.forms[0].closed == ProofStatus::refuted);
-    CHECK(report.forms[1].closed == ProofStatus::proved);
+    REQUIRE(report.structure.forms.size() == 2);
+    CHECK(report.structure.forms[0].closed == ProofStatus::refuted);
+    CHECK(report.structure.forms[1].closed == ProofStatus::proved);
 }
 
 TEST_CASE("a wrong sign in a claim is refuted, and a form that claims nothing is not part of the verdict")
 {
     const ModelReport wrong = with_forms("V = { degree = 0, value = 'k*g3' }\n"
                                          "A = { degree = 1, w1 = 'k*g2', w2 = 'k*g1', equals = 'd(V)' }\n");
-    CHECK(wrong.verdict == Verdict::invalid);
+    CHECK(wrong.structure.verdict == Verdict::invalid);
     CHECK(claims_of(wrong) == Lines{"equals(A, w1) refuted", "equals(A, w2) proved"});
     const ModelReport silent = with_forms("A = { degree = 1, w1 = 'k*g2', w2 = 'k*g1' }\n");
-    CHECK(silent.verdict == Verdict::valid);
-    CHECK(silent.forms.at(0).closed == ProofStatus::refuted);
+    CHECK(silent.structure.verdict == Verdict::valid);
+    CHECK(silent.structure.forms.at(0).closed == ProofStatus::refuted);
 }
 
 TEST_CASE("components in another order of their indices have the sign of the order")
@@ -65,7 +65,8 @@ TEST_CASE("claims may use d, wedge, contraction with a section, sums and product
 {
     const std::string forms = "A = { degree = 1, w1 = 'g1', w2 = '3' }\nB = { degree = 1, w2 = 'g2', w3 = 'k' }\n";
     const auto holds = [&](const std::string& degree, const std::string& rest) {
-        return with_forms(forms + "C = { degree = " + degree + ", " + rest + " }\n").verdict == Verdict::valid;
+        return with_forms(forms + "C = { degree = " + degree + ", " + rest + " }\n").structure.verdict ==
+               Verdict::valid;
     };
     CHECK(holds("2", "'w1,w2' = 'g1*g2', 'w1,w3' = 'k*g1', 'w2,w3' = '3*k', equals = 'wedge(A, B)'"));
     CHECK(holds("2", "'w1,w2' = '-g1*g2', 'w1,w3' = '-k*g1', 'w2,w3' = '-3*k', equals = 'wedge(B, A)'"));
@@ -81,7 +82,7 @@ TEST_CASE("a claim of forms holds where both sides are defined as they are writt
     const auto verdict_of = [](const std::string& forms) {
         return verified_text("[base]\ncoordinates = ['x', 'y']\n[algebroid]\nkind = 'tangent'\n[forms]\n" + forms +
                              "\n")
-            .verdict;
+            .structure.verdict;
     };
     for (const char* nowhere :
          {"H = { degree = 0, value = '0*log(-1 - x^2)', closed = true }",
@@ -105,5 +106,5 @@ TEST_CASE("a definition called d is meant where the model has one")
     const std::string model =
         "[base]\ncoordinates = ['x']\n[algebroid]\nkind = 'tangent'\n[definitions]\n'd(q)' = 'q^3'\n"
         "[forms]\nf = { degree = 0, value = 'x^3', equals = 'd(x)' }\n";
-    CHECK(verified_text(model).verdict == Verdict::valid);
+    CHECK(verified_text(model).structure.verdict == Verdict::valid);
 }

@@ -24,7 +24,7 @@ const std::string heavy_top_momenta = "[parameters]\nI1 = 1\nI3 = 3\nmgl = 5\n" 
 
 const Check& legendre_of(const Report& verified)
 {
-    for (const Check& check : verified.checks)
+    for (const Check& check : verified.structure.checks)
         if (check.name == "legendre") return check;
     throw std::runtime_error("no check 'legendre'");
 }
@@ -65,15 +65,15 @@ TEST_CASE("a Hamiltonian of time does not conserve itself, and forces act over y
 
 TEST_CASE("without a Lagrangian the regularity is that of d2H/dmu2")
 {
-    const Regularity regular = verified_text(heavy_top_momenta).regularity;
+    const Regularity regular = verified_text(heavy_top_momenta).mechanics.regularity;
     CHECK(regular.of_hamiltonian);
     CHECK(regular.kind == Regularity::Kind::regular);
     CHECK(regular.rank == 3);
-    const Regularity degenerate = verified_text(hamiltonian_plane("p^2/2 + x*q")).regularity;
+    const Regularity degenerate = verified_text(hamiltonian_plane("p^2/2 + x*q")).mechanics.regularity;
     CHECK(degenerate.kind == Regularity::Kind::degenerate);
     CHECK(degenerate.rank == 1);
-    CHECK_FALSE(
-        verified_text(hamiltonian_plane("p^2/2 + q^2", "[lagrangian]\nL = \"u^2 + v^2\"\n")).regularity.of_hamiltonian);
+    CHECK_FALSE(verified_text(hamiltonian_plane("p^2/2 + q^2", "[lagrangian]\nL = \"u^2 + v^2\"\n"))
+                    .mechanics.regularity.of_hamiltonian);
 }
 
 TEST_CASE("H is proved to be the Legendre transform of L, or refuted at a point")
@@ -85,7 +85,7 @@ TEST_CASE("H is proved to be the Legendre transform of L, or refuted at a point"
         hamiltonian_plane("p^2/2 + q^2/2 - k*x^2/2", "[lagrangian]\nL = \"(u^2 + v^2 - k*x^2)/2\"\n");
     const ModelReport verified = verified_text(wrong);
     const Check& check = legendre_of(verified);
-    CHECK(verified.verdict == Verdict::invalid);
+    CHECK(verified.structure.verdict == Verdict::invalid);
     CHECK(check.decision.residual == "-k*x^2");
     REQUIRE(check.decision.witness);
     CHECK(check.decision.witness->value != 0);
@@ -100,8 +100,8 @@ TEST_CASE("a Legendre transform that only algebra sees is proved: the relativist
 
 TEST_CASE("H counts where it is defined, and may divide by nothing that is zero everywhere")
 {
-    CHECK(verified_text(hamiltonian_plane("log(-1 - p^2)")).verdict == Verdict::undecided);
-    CHECK(verified_text(hamiltonian_plane("log(1 + p^2)")).verdict == Verdict::valid);
+    CHECK(verified_text(hamiltonian_plane("log(-1 - p^2)")).structure.verdict == Verdict::undecided);
+    CHECK(verified_text(hamiltonian_plane("log(1 + p^2)")).structure.verdict == Verdict::valid);
     CHECK_THROWS_WITH(verified_text(hamiltonian_plane("p/(q - q*(sin(x)^2 + cos(x)^2))")),
                       Catch::Contains("which is zero everywhere"));
 }

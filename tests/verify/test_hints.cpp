@@ -51,10 +51,10 @@ kind = "lie_algebra"
 
 TEST_CASE("the models that the hints start from are valid")
 {
-    CHECK(verified_text(half_plane_frame + "\"a,b\" = { a = -1 }\n").verdict == Verdict::valid);
-    CHECK(verified_text(top).verdict == Verdict::valid);
-    CHECK(verified_text(top_on_sphere).verdict == Verdict::valid);
-    CHECK(verified_text(so4).verdict == Verdict::valid);
+    CHECK(verified_text(half_plane_frame + "\"a,b\" = { a = -1 }\n").structure.verdict == Verdict::valid);
+    CHECK(verified_text(top).structure.verdict == Verdict::valid);
+    CHECK(verified_text(top_on_sphere).structure.verdict == Verdict::valid);
+    CHECK(verified_text(so4).structure.verdict == Verdict::valid);
 }
 
 TEST_CASE("a flipped sign of a bracket entry is named in the order of the file")
@@ -92,7 +92,7 @@ a = { x = 1 }
 b = { x = "1 + exp(x)" }
 [algebroid.bracket]
 )toml";
-    CHECK(verified_text(text + "\"a,b\" = { a = -1, b = 1 }\n").verdict == Verdict::valid);
+    CHECK(verified_text(text + "\"a,b\" = { a = -1, b = 1 }\n").structure.verdict == Verdict::valid);
     CHECK(hints_of(text + "\"b,a\" = { a = -1, b = 1 }\n") ==
           Hints{"all equations of the algebroid hold with the opposite sign of [b, a], as if its sections were given "
                 "in the wrong order"});

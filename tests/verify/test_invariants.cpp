@@ -98,11 +98,11 @@ TEST_CASE("a degenerate Lagrangian leaves undecided what needs its accelerations
     const std::string text = plane("u^2/2 - x^2/2 + v*y");
     CHECK(statuses(text, {"energy", "u", "v"}) == "proved, refuted, undecided");
     const ModelReport verified = verified_text(text, {{"v", name("v"), {}}});
-    CHECK(verified.regularity.kind == Regularity::Kind::degenerate);
-    CHECK(verified.regularity.rank == 1);
-    CHECK(verified.checks.back().decision.evidence ==
+    CHECK(verified.mechanics.regularity.kind == Regularity::Kind::degenerate);
+    CHECK(verified.mechanics.regularity.rank == 1);
+    CHECK(verified.structure.checks.back().decision.evidence ==
           "the Lagrangian is degenerate, so that the equations of motion do not determine the accelerations");
-    CHECK(verified.verdict == Verdict::undecided);
+    CHECK(verified.structure.verdict == Verdict::undecided);
 }
 
 TEST_CASE("without a Lagrangian only functions on the base can be invariant")

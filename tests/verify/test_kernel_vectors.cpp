@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Kernel vectors of degenerate Lagrangians.
-#include "proof/rational_matrix.hpp"
 #include "verify/checking.hpp"
 
 #include <catch2/catch.hpp>
@@ -25,7 +24,7 @@ Regularity regularity_in_space(const std::string& lagrangian)
     return verified_text("[parameters]\nm = 2\n[base]\ncoordinates = [\"x\", \"y\", \"z\"]\n[fibre]\ncoordinates = "
                          "[\"u\", \"v\", \"w\"]\n[algebroid]\nkind = \"tangent\"\n[lagrangian]\nL = \"" +
                          lagrangian + "\"\n")
-        .regularity;
+        .mechanics.regularity;
 }
 
 } // namespace
@@ -78,11 +77,4 @@ TEST_CASE("a regular Lagrangian has no kernel")
 {
     CHECK(regularity_in_space("u^2 + v^2 + w^2").kernel.empty());
     CHECK(regularity_in_space("u^2 + x*v^2 + w^2").kernel.empty());
-}
-
-TEST_CASE("the null space of a rational matrix has one vector a free column")
-{
-    const std::vector<Rational> matrix = {0, 2, 4, 0, 1, 2, 0, 3, 6};
-    CHECK(kernel_of(matrix, 3) == std::vector<std::vector<Rational>>{{1, 0, 0}, {0, -2, 1}});
-    CHECK(kernel_of({1, 2, 3, 4}, 2).empty());
 }

@@ -155,7 +155,7 @@ TEST_CASE("every kind has the anchor and the brackets of the same algebroid writ
         CHECK(compared.rho == 0);
         CHECK(compared.C == 0);
         CHECK(compared.entries == 2 * reference.brackets.size());
-        CHECK(verify(model).verdict == Verdict::valid);
+        CHECK(verify(model).structure.verdict == Verdict::valid);
     }
 }
 
@@ -168,7 +168,7 @@ TEST_CASE("a sign changed in one bracket is another algebroid, and mostly none a
             INFO(each.name << ", bracket " << k);
             const Model mutant = read_model_text("mutant.toml", model_text(with_opposite_sign(reference, k)));
             CHECK(compare_with(kind, build_algebroid(mutant)).C == 2);
-            if (each.every_sign_matters) CHECK(verify(mutant).verdict == Verdict::invalid);
+            if (each.every_sign_matters) CHECK(verify(mutant).structure.verdict == Verdict::invalid);
         }
     }
 }
@@ -197,8 +197,8 @@ TEST_CASE("a distribution that is not involutive is refuted with the bracket tha
     const ModelReport verified =
         verified_text("[base]\ncoordinates = ['x', 'y', 'z']\n[fibre]\ncoordinates = ['a', 'b']\n[algebroid]\n"
                       "kind = 'subbundle'\nspanned_by = { a = { x = 1 }, b = { y = 1, z = 'x' } }\n");
-    CHECK(verified.verdict == Verdict::invalid);
-    const Check& last = verified.checks.back();
+    CHECK(verified.structure.verdict == Verdict::invalid);
+    const Check& last = verified.structure.checks.back();
     CHECK(line_of(last) == "involutive(a, b) refuted");
     CHECK(last.decision.residual == "1");
     REQUIRE(last.decision.witness);
@@ -212,10 +212,10 @@ TEST_CASE("matrices that do not represent the algebra are refuted by the anchor"
     const std::string text = "[base]\ncoordinates = ['x', 'y', 'z']\n[fibre]\ncoordinates = ['a', 'b', 'c']\n"
                              "[algebroid]\nkind = 'action'\nalgebra = 'so(3)'\nrepresentation = ['hat([1,0,0])', "
                              "'hat([0,1,0])', ";
-    CHECK(verified_text(text + "'hat([0,0,1])']\n").verdict == Verdict::valid);
+    CHECK(verified_text(text + "'hat([0,0,1])']\n").structure.verdict == Verdict::valid);
     const ModelReport wrong = verified_text(text + "'hat([0,0,-1])']\n");
-    CHECK(wrong.verdict == Verdict::invalid);
-    CHECK(line_of(wrong.checks.front()) == "anchor(a, b, x) refuted");
+    CHECK(wrong.structure.verdict == Verdict::invalid);
+    CHECK(line_of(wrong.structure.checks.front()) == "anchor(a, b, x) refuted");
 }
 
 TEST_CASE("sections that are dependent everywhere are refused where they are given")
@@ -264,5 +264,5 @@ TEST_CASE("a size stands for the number of a named Lie algebra")
     };
     CHECK(verified_text(model("5", "so(n)")).algebroid.C.size() ==
           verified_text(model("5", "so(5)")).algebroid.C.size());
-    CHECK(verified_text(model("4", "so(n)")).verdict == Verdict::valid);
+    CHECK(verified_text(model("4", "so(n)")).structure.verdict == Verdict::valid);
 }

@@ -68,7 +68,7 @@ TEST_CASE("the prolongation of a file gains its fibre coordinates, or its moment
     const Model dual = nested(text + "bundle = 'E*'\n");
     CHECK(names_in_order(dual.base.coordinates) == Lines{"l1", "l2", "l3"});
     CHECK(names_in_order(dual.fibre.coordinates) == Lines{"X_w1", "X_w2", "X_w3", "P_w1", "P_w2", "P_w3"});
-    CHECK(verify(dual).verdict == Verdict::valid);
+    CHECK(verify(dual).structure.verdict == Verdict::valid);
 }
 
 TEST_CASE("the base of a prolongation may be declared without what it gains, or with it")
@@ -93,7 +93,7 @@ TEST_CASE("a frame of a file takes over its Lagrangian, written in the new fibre
     CHECK(to_text(model.observables[0].value) == "x*a + b");
     CHECK(model.base.domain.size() == 1);
     const ModelReport verified = verify(model);
-    CHECK(verified.verdict == Verdict::valid);
+    CHECK(verified.structure.verdict == Verdict::valid);
     CHECK(lines_of(verified.algebroid) == Lines{"a: x x", "b: x 1", "b: y x", "a,b: a -2/x", "a,b: b 1"});
 }
 
@@ -114,7 +114,7 @@ TEST_CASE("the product of two files has their Lagrangians' sum and no brackets a
     CHECK(to_text(model.lagrangian) == "m*(u^2 + v^2)/2 - x + (w1^2 + w2^2 + I*w3^2)/2");
     CHECK(model.parameters.size() == 2);
     CHECK(lines_of(build_algebroid(model)) == Lines{"u: x 1", "v: y 1", "w1,w2: w3 1", "w1,w3: w2 -1", "w2,w3: w1 1"});
-    CHECK(verify(model).verdict == Verdict::valid);
+    CHECK(verify(model).structure.verdict == Verdict::valid);
 }
 
 TEST_CASE("coordinates of factors that clash are renamed by their place")
@@ -122,7 +122,7 @@ TEST_CASE("coordinates of factors that clash are renamed by their place")
     const std::string product = "[algebroid]\nkind = 'product'\nof = ['spin.toml', 'spin.toml']\n";
     const Model model = nested("[fibre]\ncoordinates = ['a1', 'a2', 'a3', 'b1', 'b2', 'b3']\n" + product);
     CHECK(to_text(model.lagrangian) == "(a1^2 + a2^2 + I*a3^2)/2 + (b1^2 + b2^2 + I*b3^2)/2");
-    CHECK(verify(model).verdict == Verdict::valid);
+    CHECK(verify(model).structure.verdict == Verdict::valid);
     const std::string twice = "[algebroid]\nkind = 'product'\nof = ['plane.toml', 'plane.toml']\n";
     CHECK_THAT(diagnostic_of(twice), Catch::StartsWith("'x' is a base coordinate of both ") &&
                                          Catch::EndsWith("rename them: [base] coordinates = [..], all 4 in order"));
@@ -145,11 +145,11 @@ TEST_CASE("so(n) and its prolongations of both kinds are valid up to n = 10")
         const std::string inner =
             "[algebroid.of]\nkind = 'lie_algebra'\nfibre = ['w[1.." + std::to_string(r) + "]']\n" + algebra;
         INFO(algebra);
-        CHECK(verify(nested(plain)).verdict == Verdict::valid);
+        CHECK(verify(nested(plain)).structure.verdict == Verdict::valid);
         for (const char* bundle : {"bundle = 'E'\n", "bundle = 'E*'\n"}) {
             const ModelReport verified =
                 verify(nested("[algebroid]\nkind = 'prolongation'\n" + std::string(bundle) + inner));
-            CHECK(verified.verdict == Verdict::valid);
+            CHECK(verified.structure.verdict == Verdict::valid);
             CHECK(verified.algebroid.r() == 2 * r);
             CHECK(verified.algebroid.C.size() == n * (n - 1) * (n - 2) / 2);
         }

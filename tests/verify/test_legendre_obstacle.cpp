@@ -18,7 +18,7 @@ std::string obstacle_of(const std::string& lagrangian, const std::string& domain
                          "]\n[fibre]\ncoordinates = [\"u\", \"v\"]\n[algebroid]\nkind = \"tangent\"\n"
                          "[lagrangian]\nL = \"" +
                          lagrangian + "\"\n"));
-    const Regularity regularity = verify(system).regularity;
+    const Regularity regularity = verify(system).mechanics.regularity;
     std::string values;
     for (const auto& [p, value] : regularity.legendre_values)
         values +=
@@ -114,7 +114,7 @@ TEST_CASE("a force that is defined for fewer velocities does not make them uniqu
 {
     const std::string cubic = "[base]\ncoordinates = [\"x\"]\n[fibre]\ncoordinates = [\"u\"]\n[algebroid]\nkind = "
                               "\"tangent\"\n[lagrangian]\nL = \"u^3/6\"\n[forces]\nu = \"log(u)\"\n";
-    CHECK(verified_text(cubic).regularity.legendre_obstacle == not_definite);
+    CHECK(verified_text(cubic).mechanics.regularity.legendre_obstacle == not_definite);
 }
 
 TEST_CASE("Newton's method starts where the momenta are defined")
@@ -123,7 +123,7 @@ TEST_CASE("Newton's method starts where the momenta are defined")
         return verified_text("[base]\ncoordinates = [\"x\"]\n[fibre]\ncoordinates = [\"u\"]\n[algebroid]\nkind = "
                              "\"tangent\"\n[lagrangian]\nL = \"" +
                              lagrangian + "\"\n")
-            .regularity.newton_start;
+            .mechanics.regularity.newton_start;
     };
     CHECK(start("exp(u)").empty());
     CHECK(start("-sqrt(1 - u^2)").empty());
@@ -139,7 +139,7 @@ TEST_CASE("a Hamiltonian alone is asked whether the velocities fix the momenta")
         return verified_text("[base]\ncoordinates = [\"x\"]\n[fibre]\ncoordinates = [\"v\"]\nmomenta = [\"p\"]\n"
                              "[algebroid]\nkind = \"tangent\"\n[hamiltonian]\nH = \"" +
                              hamiltonian + "\"\n")
-            .regularity.legendre_obstacle;
+            .mechanics.regularity.legendre_obstacle;
     };
     CHECK(of("p^2/2 + x^2").empty());
     CHECK(of("sqrt(1 + p^2) + x^2").empty());

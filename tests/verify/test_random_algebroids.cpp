@@ -22,7 +22,7 @@ TEST_CASE("five hundred random algebroids in random frames are proved, each of t
         REQUIRE(holds_at_points(algebroid, dice));
         const std::string text = model_text(algebroid);
         INFO(text);
-        CHECK(verified_text(text).verdict == Verdict::valid);
+        CHECK(verified_text(text).structure.verdict == Verdict::valid);
     }
 }
 
@@ -35,7 +35,7 @@ TEST_CASE("one changed entry in a random algebroid is refuted exactly where the 
         const bool valid = holds_at_points(near_miss, dice);
         const std::string text = model_text(near_miss);
         INFO(text);
-        CHECK(verified_text(text).verdict == (valid ? Verdict::valid : Verdict::invalid));
+        CHECK(verified_text(text).structure.verdict == (valid ? Verdict::valid : Verdict::invalid));
         violated += valid ? 0 : 1;
     }
     CHECK(violated > 4 * trials / 5);

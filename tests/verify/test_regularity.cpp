@@ -15,7 +15,7 @@ Regularity regularity(const std::string& lagrangian, const std::string& paramete
                "[parameters]\n" + parameters + "[base]\ncoordinates = [\"x\", \"y\"]\n" + domain +
                "[fibre]\ncoordinates = [\"u\", \"v\"]\n[algebroid]\nkind = \"tangent\"\n[lagrangian]\nL = \"" +
                lagrangian + "\"\n")
-        .regularity;
+        .mechanics.regularity;
 }
 
 } // namespace
@@ -151,7 +151,7 @@ Y3 = "Y2 + sin(a + b + c)*(u + v + w)"
 [lagrangian]
 L = "(X1^2 + Y1^2 + X2^2 + Y2^2 + X3^2 + Y3^2)/2"
 )toml";
-    const Regularity chain = verified_text(text).regularity;
+    const Regularity chain = verified_text(text).mechanics.regularity;
     CHECK(chain.kind == Kind::regular);
     CHECK(chain.positive_definite);
     CHECK_FALSE(chain.for_given_parameters);
@@ -211,7 +211,7 @@ Regularity chain_of_ten(const std::string& diagonal, const std::string& coupling
     return verified_text(parameters + "[fibre]\ncoordinates = [" + coordinates +
                          "]\n[algebroid]\nkind = \"lie_algebra\"\nalgebra = \"R^10\"\n[lagrangian]\nL = \"" +
                          lagrangian + "\"\n")
-        .regularity;
+        .mechanics.regularity;
 }
 
 } // namespace

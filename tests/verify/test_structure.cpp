@@ -25,18 +25,18 @@ const std::string sphere = turning_vector(on_sphere + "casimirs = { a = \"g1^2 +
 TEST_CASE("the half-plane frame is valid with [a, b] = -a")
 {
     const ModelReport verified = verified_text(half_plane_frame + "\"a,b\" = { a = -1 }\n");
-    CHECK(verified.verdict == Verdict::valid);
+    CHECK(verified.structure.verdict == Verdict::valid);
     CHECK(lines_of(verified) == Lines{"anchor(a, b, x) proved"});
-    CHECK(verified.trivial == 1);
-    CHECK(verified.regularity.kind == Regularity::Kind::absent);
+    CHECK(verified.structure.trivial == 1);
+    CHECK(verified.mechanics.regularity.kind == Regularity::Kind::absent);
 }
 
 TEST_CASE("a wrong sign in a bracket is refuted with a witness, and the hint names the entry")
 {
     const ModelReport verified = verified_text(half_plane_frame + "\"a,b\" = { a = 1 }\n");
-    CHECK(verified.verdict == Verdict::invalid);
+    CHECK(verified.structure.verdict == Verdict::invalid);
     REQUIRE(lines_of(verified) == Lines{"anchor(a, b, x) refuted"});
-    const Check& check = verified.checks[0];
+    const Check& check = verified.structure.checks[0];
     CHECK(check.decision.residual == "-2*y");
     REQUIRE(check.decision.witness);
     const auto& point = check.decision.witness->point;
@@ -53,21 +53,21 @@ TEST_CASE("a refutation that no single entry repairs has no hint")
     const ModelReport verified =
         verified_text("[fibre]\ncoordinates = [\"a\", \"b\", \"c\"]\n[algebroid]\nkind = \"lie_algebra\"\n"
                       "[algebroid.bracket]\n\"a,b\" = { a = 1 }\n\"b,c\" = { b = 1 }\n\"c,a\" = { c = 1 }\n");
-    REQUIRE(verified.verdict == Verdict::invalid);
-    for (const Check& check : verified.checks) CHECK(check.hint.empty());
+    REQUIRE(verified.structure.verdict == Verdict::invalid);
+    for (const Check& check : verified.structure.checks) CHECK(check.hint.empty());
 }
 
 TEST_CASE("on the sphere every tangency and Casimir equation is listed and proved")
 {
     const ModelReport verified = verified_text(sphere);
-    CHECK(verified.verdict == Verdict::valid);
+    CHECK(verified.structure.verdict == Verdict::valid);
     CHECK(lines_of(verified) ==
           Lines{"anchor(w1, w2, g1) proved", "anchor(w1, w2, g2) proved", "anchor(w1, w3, g1) proved",
                 "anchor(w1, w3, g3) proved", "anchor(w2, w3, g2) proved", "anchor(w2, w3, g3) proved",
                 "tangency(w1, g1^2 + g2^2 + g3^2 - 1) proved", "tangency(w2, g1^2 + g2^2 + g3^2 - 1) proved",
                 "tangency(w3, g1^2 + g2^2 + g3^2 - 1) proved", "casimir(w1, a) proved", "casimir(w2, a) proved",
                 "casimir(w3, a) proved"});
-    CHECK(verified.trivial == 6);
+    CHECK(verified.structure.trivial == 6);
 }
 
 TEST_CASE("an anchor that leaves the surface is refuted at a point of the surface")
@@ -75,10 +75,10 @@ TEST_CASE("an anchor that leaves the surface is refuted at a point of the surfac
     std::string text = sphere;
     text.replace(text.find("w1 = { g2 = \"g3\""), 16, "w1 = { g2 = \"g1\"");
     const ModelReport verified = verified_text(text);
-    CHECK(verified.verdict == Verdict::invalid);
-    const auto found = std::find_if(verified.checks.begin(), verified.checks.end(),
+    CHECK(verified.structure.verdict == Verdict::invalid);
+    const auto found = std::find_if(verified.structure.checks.begin(), verified.structure.checks.end(),
                                     [](const Check& check) { return check.name == "tangency"; });
-    REQUIRE(found != verified.checks.end());
+    REQUIRE(found != verified.structure.checks.end());
     CHECK(line_of(*found) == "tangency(w1, g1^2 + g2^2 + g3^2 - 1) refuted");
     CHECK(found->decision.witness->point.size() == 3);
 }
@@ -89,14 +89,14 @@ TEST_CASE("brackets given in both orders must be opposite")
         "[fibre]\ncoordinates = [\"a\", \"b\"]\n[algebroid]\nkind = \"lie_algebra\"\n[algebroid.bracket]\n";
     const ModelReport wrong = verified_text(head + "\"a,b\" = { b = 1 }\n\"b,a\" = { b = 1 }\n");
     CHECK(lines_of(wrong) == Lines{"antisymmetry(a, b, b) refuted"});
-    CHECK(wrong.checks[0].decision.residual == "2");
-    CHECK(wrong.trivial == 1);
+    CHECK(wrong.structure.checks[0].decision.residual == "2");
+    CHECK(wrong.structure.trivial == 1);
     const ModelReport right = verified_text(head + "\"a,b\" = { b = 1 }\n\"b,a\" = { b = -1 }\n");
     CHECK(lines_of(right) == Lines{"antisymmetry(a, b, b) proved"});
-    CHECK(right.verdict == Verdict::valid);
+    CHECK(right.structure.verdict == Verdict::valid);
     const ModelReport alone = verified_text(head + "\"b,a\" = { b = -1 }\n");
-    CHECK(alone.checks.empty());
-    CHECK(alone.verdict == Verdict::valid);
+    CHECK(alone.structure.checks.empty());
+    CHECK(alone.structure.verdict == Verdict::valid);
 }
 
 TEST_CASE("so(5) and gl(4) by name satisfy Jacobi in every index")
@@ -108,9 +108,9 @@ TEST_CASE("so(5) and gl(4) by name satisfy Jacobi in every index")
             verified_text("[fibre]\ncoordinates = [" + coordinates +
                           "]\n[algebroid]\nkind = \"lie_algebra\"\nalgebra = \"" + name + "\"\n");
         INFO(name);
-        CHECK(verified.verdict == Verdict::valid);
+        CHECK(verified.structure.verdict == Verdict::valid);
         const auto r = static_cast<std::size_t>(rank);
-        CHECK(verified.checks.size() + verified.trivial == r * (r - 1) * (r - 2) / 6 * r);
+        CHECK(verified.structure.checks.size() + verified.structure.trivial == r * (r - 1) * (r - 2) / 6 * r);
         CHECK(verified.algebroid.C.size() > 0);
     }
 }
@@ -145,8 +145,8 @@ TEST_CASE("a model that is defined nowhere is undecided and says so")
 {
     const ModelReport verified = verified_text("[base]\ncoordinates = [\"x\"]\n[fibre]\ncoordinates = [\"v\"]\n"
                                                "[algebroid.anchor]\nv = { x = \"sqrt(-1 - x^2)\" }\n");
-    CHECK(verified.verdict == Verdict::undecided);
-    CHECK(verified.note ==
+    CHECK(verified.structure.verdict == Verdict::undecided);
+    CHECK(verified.structure.note ==
           "no point was found where everything in the model is defined and every condition of [base] holds");
 }
 

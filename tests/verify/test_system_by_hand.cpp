@@ -21,9 +21,9 @@ TEST_CASE("a rigid body in fifteen lines: its algebroid and its energy are prove
     }
     system.lagrangian = kinetic;
     const Report report = verify(system, {{"E", name("energy"), {}}});
-    CHECK(report.verdict == Verdict::valid);
-    CHECK(report.regularity.kind == Regularity::Kind::regular);
-    CHECK(report.regularity.positive_definite);
+    CHECK(report.structure.verdict == Verdict::valid);
+    CHECK(report.mechanics.regularity.kind == Regularity::Kind::regular);
+    CHECK(report.mechanics.regularity.positive_definite);
 
     // Euler's equations: I1 w1' = (I2 - I3) w2 w3 with I = (1, 2, 3).
     const LagrangianNodes lagrangian = lagrangian_nodes(graph, system);
@@ -39,7 +39,7 @@ TEST_CASE("a system by hand that is no algebroid is refuted")
     system.algebroid.anchor[1].push_back({0, system.algebroid.x[0]});
     std::ranges::sort(system.algebroid.anchor[1], {}, &ColumnEntry::index);
     const Report report = verify(system);
-    REQUIRE(report.verdict == Verdict::invalid);
-    CHECK(report.checks.at(0).indices == std::vector<std::string>{"u", "v", "x"});
-    CHECK(report.checks.at(0).decision.residual == "1");
+    REQUIRE(report.structure.verdict == Verdict::invalid);
+    CHECK(report.structure.checks.at(0).indices == std::vector<std::string>{"u", "v", "x"});
+    CHECK(report.structure.checks.at(0).decision.residual == "1");
 }

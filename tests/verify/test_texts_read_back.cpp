@@ -32,7 +32,7 @@ TEST_CASE("powers of a fractional root keep their exponent in a frame")
     CHECK(statuses(verified) == "invariant(wrong) refuted; invariant(right) proved; ");
     CHECK(verified_text("[base]\ncoordinates = ['x', 'y']\n" + line +
                         "a = { u = '1' }\nb = { v = '(x^(1/3)+1)^2-1-2*x^(1/3)' }\n")
-              .verdict == Verdict::valid);
+              .structure.verdict == Verdict::valid);
 }
 
 TEST_CASE("multiples of a constrained coordinate are squared as a whole")
@@ -41,7 +41,7 @@ TEST_CASE("multiples of a constrained coordinate are squared as a whole")
                               "coordinates = ['b']\n[algebroid]\nkind = 'frame'\n[algebroid.of]\nkind = 'general'\n"
                               "fibre = ['v']\n[algebroid.of.anchor]\n";
     const std::string section = "[algebroid.sections]\nb = { v = 'cos(y^2 + sin(x)^2 + cos(x)^2 - 1)' }\n";
-    CHECK(verified_text(curve + "v = { x = 3, y = 'y' }\n" + section).verdict == Verdict::valid);
+    CHECK(verified_text(curve + "v = { x = 3, y = 'y' }\n" + section).structure.verdict == Verdict::valid);
     const ModelReport verified = verified_text(curve + "v = { z = '1' }\n" + section);
     REQUIRE(verified.algebroid.rho.size() == 1);
     CHECK(to_text(verified.algebroid.rho[0].value) == "cos(y^2)");
@@ -54,12 +54,12 @@ TEST_CASE("a coordinate called pi is not the number")
         "[base]\ncoordinates = ['x', 'y', 'pi']\ndomain = ['y > 0', 'y < 1', 'pi > 4']\n[fibre]\ncoordinates = ['a']\n"
         "[algebroid.anchor]\na = { x = 'abs(x - 100*pi)*(x - 200*acos(y) - 200*asin(y)) - (x - 100*pi)*abs(x - "
         "200*acos(y) - 200*asin(y))' }\n[lagrangian]\nL = 'a^2/2'\n[invariants]\nf = 'x'\n");
-    CHECK(absolute.verdict != Verdict::valid);
+    CHECK(absolute.structure.verdict != Verdict::valid);
     const ModelReport frame =
         verified_text("[base]\ncoordinates = ['x', 'y', 'pi']\n[fibre]\ncoordinates = ['a', 'b']\n[algebroid]\nkind = "
                       "'frame'\n[algebroid.of]\nkind = 'tangent'\nover = ['x', 'y']\nfibre = ['u', 'v']\n"
                       "[algebroid.sections]\na = { u = 1 }\nb = { v = 'exp(x*(pi + 2*acos(y) + 2*asin(y)))' }\n");
-    CHECK(frame.verdict == Verdict::valid);
+    CHECK(frame.structure.verdict == Verdict::valid);
     REQUIRE(frame.algebroid.rho.size() == 2);
     Graph graph;
     const NodeId value = Lowering(graph)(frame.algebroid.rho[1].value);
@@ -87,5 +87,5 @@ TEST_CASE("the logarithm of a coordinate whose relation leads back to itself is 
     const ModelReport verified =
         verified_text("[base]\ncoordinates = ['x', 'y']\nconstraints = ['x^2 - x*y']\ndomain = ['x > 0']\n[fibre]\n"
                       "coordinates = ['a']\n[algebroid.anchor]\na = { y = 'log(x)' }\n");
-    CHECK(verified.verdict == Verdict::invalid); // not tangent: h = x^2 - x y moves
+    CHECK(verified.structure.verdict == Verdict::invalid); // not tangent: h = x^2 - x y moves
 }

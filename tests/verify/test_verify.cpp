@@ -57,21 +57,21 @@ const std::string plane = "[base]\ncoordinates = [\"x\", \"y\"]\n"
 TEST_CASE("every residual of a proof is zero to 60 digits at five other points")
 {
     const ModelReport verified = verify(model_of(checked_sphere), {}, 5);
-    REQUIRE(verified.verdict == Verdict::valid);
-    REQUIRE(verified.reevaluation);
-    CHECK(verified.reevaluation->points == 5);
-    CHECK(verified.reevaluation->bound < 1e-60);
-    REQUIRE(verified.checks.size() == 13);
-    CHECK(verified.checks.back().name == "invariant");
-    for (const Check& check : verified.checks) {
+    REQUIRE(verified.structure.verdict == Verdict::valid);
+    REQUIRE(verified.structure.reevaluation);
+    CHECK(verified.structure.reevaluation->points == 5);
+    CHECK(verified.structure.reevaluation->bound < 1e-60);
+    REQUIRE(verified.structure.checks.size() == 13);
+    CHECK(verified.structure.checks.back().name == "invariant");
+    for (const Check& check : verified.structure.checks) {
         INFO(line_of(check));
         REQUIRE(check.reevaluation);
         CHECK(check.reevaluation->points == 5);
         CHECK(check.reevaluation->bound < 1e-60);
         CHECK_FALSE(check.reevaluation->zero_excluded);
     }
-    CHECK_FALSE(verify(model_of(checked_sphere)).reevaluation);
-    CHECK_FALSE(verify(model_of(checked_sphere)).checks[0].reevaluation);
+    CHECK_FALSE(verify(model_of(checked_sphere)).structure.reevaluation);
+    CHECK_FALSE(verify(model_of(checked_sphere)).structure.checks[0].reevaluation);
 }
 
 TEST_CASE("a re-evaluated residual that is not zero is seen not to be, and the summary is about proofs alone")
@@ -79,9 +79,9 @@ TEST_CASE("a re-evaluated residual that is not zero is seen not to be, and the s
     std::string text = checked_sphere;
     text.replace(text.find("w2 = 1 }"), 8, "w2 = 3 }");
     const ModelReport verified = verify(model_of(text), {}, 5);
-    CHECK(verified.verdict == Verdict::invalid);
+    CHECK(verified.structure.verdict == Verdict::invalid);
     std::size_t refuted = 0;
-    for (const Check& check : verified.checks) {
+    for (const Check& check : verified.structure.checks) {
         if (check.decision.status != ProofStatus::refuted) continue;
         ++refuted;
         CHECK(check.reevaluation->zero_excluded);
@@ -89,7 +89,7 @@ TEST_CASE("a re-evaluated residual that is not zero is seen not to be, and the s
         CHECK_FALSE(check.reevaluation->where.empty());
     }
     CHECK(refuted >= 2);
-    CHECK(verified.reevaluation->bound < 1e-60);
+    CHECK(verified.structure.reevaluation->bound < 1e-60);
 }
 
 TEST_CASE("the points of another seed are other points")
@@ -127,11 +127,11 @@ TEST_CASE("of the 638550 Jacobi equations of so(10) all but those with a product
     for (int a = 0; a < 45; ++a) coordinates += (a == 0 ? "\"y" : ", \"y") + std::to_string(a) + "\"";
     const ModelReport verified = verified_text("[fibre]\ncoordinates = [" + coordinates +
                                                "]\n[algebroid]\nkind = \"lie_algebra\"\nalgebra = \"so(10)\"\n");
-    CHECK(verified.verdict == Verdict::valid);
-    CHECK(verified.checks.size() + verified.trivial == 638550);
+    CHECK(verified.structure.verdict == Verdict::valid);
+    CHECK(verified.structure.checks.size() + verified.structure.trivial == 638550);
     // [[e_ij, e_jk], e_kl] and its like: an equation for each of three ways round a path or a star of three edges.
-    CHECK(verified.checks.size() < 6000);
-    CHECK(verified.checks.size() > 1000);
+    CHECK(verified.structure.checks.size() < 6000);
+    CHECK(verified.structure.checks.size() > 1000);
 }
 
 TEST_CASE("a divisor that is zero everywhere is refused in every block, also where it takes algebra to see it")
@@ -169,7 +169,7 @@ TEST_CASE("the label of a Casimir may be divided by, and a divisor that vanishes
 {
     std::string text = checked_sphere;
     text.replace(text.find("2*w3^2)/2"), 9, "2*w3^2)/a");
-    CHECK(verified_text(text).verdict == Verdict::valid);
+    CHECK(verified_text(text).structure.verdict == Verdict::valid);
     CHECK(refusal(plane + "[lagrangian]\nL = \"v^2/x + w^2/sin(y)\"\n").empty());
 }
 
@@ -180,7 +180,7 @@ TEST_CASE("a model is defined where its operations are as they are written, also
         return verified_text("[base]\ncoordinates = [\"x\"]\n[fibre]\ncoordinates = [\"e1\", \"e2\"]\n"
                              "[algebroid.anchor]\ne1 = { x = 1 }\ne2 = { x = \"" +
                              entry + "\" }\n[algebroid.bracket]\n\"e1,e2\" = { e1 = \"1 + sqrt(x^2) - x\" }\n")
-            .verdict;
+            .structure.verdict;
     };
     CHECK(verdict("x") == Verdict::invalid);
     CHECK(verdict("sqrt(x)^2") == Verdict::valid);

@@ -40,7 +40,7 @@ std::string on_line(const std::string& potential, const std::string& base = "")
 std::string status_of(const Report& verified, const std::string& name)
 {
     std::string found;
-    for (const Check& check : verified.checks)
+    for (const Check& check : verified.structure.checks)
         if (check.name == name) found += (found.empty() ? "" : ", ") + status_of(check);
     return found;
 }
@@ -91,10 +91,10 @@ TEST_CASE("a Casimir with atan2 is one where the domain keeps off its cut, and e
 {
     const std::string casimir = "casimirs = { turns = \"phi - atan2(y, x)\" }\n";
     const ModelReport open = verified_text(turning(casimir));
-    CHECK(open.verdict == Verdict::valid);
+    CHECK(open.structure.verdict == Verdict::valid);
     CHECK(status_of(open, "casimir") == "proved where y != 0");
     const ModelReport half = verified_text(turning(casimir + "domain = [\"x > 0\"]\n"));
-    CHECK(half.verdict == Verdict::valid);
+    CHECK(half.structure.verdict == Verdict::valid);
     CHECK(status_of(half, "casimir") == "proved");
 }
 
@@ -264,6 +264,6 @@ TEST_CASE("terms that stand often in a Lagrangian are looked at once")
         verified_text("[base]\ncoordinates = [\"x\"]\n[fibre]\ncoordinates = [\"v\"]\n[algebroid]\nkind = \"tangent\"\n"
                       "[lagrangian]\nL = \"v^2/2 + sum(i, 1, 10000, sum(j, 1, 10000, sum(k, 1, 10, x)))\"\n");
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-    CHECK(verified.verdict == Verdict::valid);
+    CHECK(verified.structure.verdict == Verdict::valid);
     CHECK(seconds.count() < 5);
 }

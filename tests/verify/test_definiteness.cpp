@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Definiteness by squares.
+/// Definiteness by the sign rule.
 #include "expression/parse.hpp"
 #include "graph/core/lower.hpp"
-#include "verify/definite_squares.hpp"
+#include "verify/definiteness.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -40,7 +40,7 @@ bool definite(const std::string& lagrangian, int n)
     const NodeId L = lower(parse_expression(whole_text("<test>", lagrangian)));
     const FibreHessian hessian = fibre_hessian(graph, L, velocities);
     const ZeroDecider decider(graph, setting);
-    return proves_definite_by_squares(graph, hessian, decider);
+    return proves_definite_by_parts(graph, hessian, decider);
 }
 
 } // namespace

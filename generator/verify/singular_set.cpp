@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Slices of a model: one variable is zero, the rest of the setting stays.
-#include "verify/singular_points.hpp"
+/// Slices of a model, on which one variable is zero and the rest of the setting stays, and factors of determinants.
+#include "verify/singular_set.hpp"
 
 #include "graph/calculus/differentiate.hpp"
+#include "graph/core/lower.hpp"
 #include "verify/at_values.hpp"
+#include "verify/reduced_fraction.hpp"
 
 #include <algorithm>
 
@@ -11,6 +13,7 @@ namespace lagen {
 namespace {
 
 constexpr std::size_t point_limit = 8;
+constexpr std::size_t longest_factor = 80;
 /// One slice a variable is looked at: none may take long.
 constexpr ProofBudget slice_budget{.products = 200'000};
 
@@ -45,6 +48,28 @@ std::vector<NamedPoint> singular_points(Graph& graph, const ProofSetting& settin
         points.push_back(std::move(*point));
     }
     return points;
+}
+
+std::vector<std::string> singular_factors(Graph& graph, const ProofSetting& setting, const ZeroDecider& valued,
+                                          const std::vector<std::pair<NodeId, NodeId>>& defaults,
+                                          const std::vector<NodeId>& determinants)
+{
+    const Order order = writing_order(graph, setting);
+    const ZeroDecider decider(graph, setting, valued.budget());
+    std::vector<std::string> texts;
+    for (const NodeId determinant : determinants) {
+        const auto factors = factors_of(graph, determinant, order, decider);
+        if (!factors) return {};
+        for (const Tree& factor : *factors) {
+            const std::vector<NodeId> node = {Lowering(graph)(factor)};
+            const auto there = substitute_where_defined(graph, node, defaults);
+            if (there && valued.proves_nonzero((*there)[0])) continue;
+            const std::string text = to_text(factor);
+            if (text.size() > longest_factor) return {};
+            if (std::ranges::find(texts, text) == texts.end()) texts.push_back(text);
+        }
+    }
+    return texts;
 }
 
 } // namespace lagen
