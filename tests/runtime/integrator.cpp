@@ -80,6 +80,48 @@ TEST_CASE("advance_to makes the steps of integrate: the same state, steps and ca
     check(LeapfrogDkd{.step = 0.01}, 1);
 }
 
+TEST_CASE("Many steps at once are the steps one by one, wherever the end lies")
+{
+    const auto check = [](const auto& model, const auto& s, auto t, auto end, const auto& method) {
+        Integrator at_once(model, s, t, method), one_by_one(at_once);
+        CHECK(at_once.advance_to(end) == Status::ok);
+        while (one_by_one.t() != end) REQUIRE(one_by_one.step_towards(end) == Status::ok);
+        CHECK(at_once.t() == end);
+        CHECK(at_once.steps() == one_by_one.steps());
+        CHECK(at_once.t_before() == one_by_one.t_before());
+        CHECK(at_once.state() == one_by_one.state());
+        CHECK(at_once.rhs_calls() == one_by_one.rhs_calls());
+    };
+    const State here(0.5, -0.25);
+    for (const double h : {0.1, 0.01, 1.0 / 3})
+        for (const double parts : {0.5, 1.0, 1.01, 2.0, 2.5, 3.0, 3.999999999999999, 4.0, 37.0, 100.25}) {
+            check(Pendulum{}, here, 0.0, parts * h, Rk4{.step = h});
+            check(Pendulum{}, here, 1e3, 1e3 - parts * h, Rk4{.step = h, .compensated = true});
+        }
+    // Steps of the size of the rounding of time.
+    const double ulp = std::numeric_limits<double>::epsilon() * 1024;
+    for (const double steps : {1.0, 2.0, 30.0, 31.5})
+        check(Pendulum{}, here, 1024.0, 1024.0 + steps * ulp, Rk4{.step = ulp});
+    check(problems::Pendulum<float>{}, problems::Pendulum<float>::State(1, 0), 0.f, 10.f, Rk4{.step = 0.01});
+}
+
+TEST_CASE("Many steps at once end before the one that fails")
+{
+    Integrator integrator(Falling{.last = 1}, Falling::State(3), 0, Rk4{.step = 0.125});
+    CHECK(integrator.advance_to(10) == Status::singular_mass_matrix);
+    CHECK(integrator.t() == 1);
+    CHECK(integrator.steps() == 8);
+    CHECK(integrator.state()[0] == 2);
+    CHECK(integrator.t_before() == 1);
+    CHECK(integrator.advance_to(0.5) == Status::ok);
+    CHECK(integrator.state()[0] == 2.5);
+    Integrator leaving(Falling{.last = 9}, Falling::State(1.5), 0, Rk4{.step = 0.25});
+    CHECK(leaving.advance_to(10) == Status::left_domain);
+    CHECK(leaving.t() == 1.25);
+    CHECK(leaving.state()[0] == 0.25);
+    CHECK(leaving.failed_at() == 1.5);
+}
+
 TEST_CASE("step() by step() goes forwards; fixed steps have their length, and values inside lie on the solution")
 {
     for_methods([](const auto& method) {

@@ -105,8 +105,8 @@ class Dop853Stepper {
             using Slice = detail::Slice<State, width>;
             const auto all = std::make_index_sequence<12>{};
             const Slice scale = scale_.template of<width>(s, s1, lane);
-            const Slice e5 = h * detail::weighted_lanes<Tableau::error5, 0, width>(k_, lane, all) / scale;
-            const Slice e3 = h * detail::weighted_lanes<Tableau::error3, 0, width>(k_, lane, all) / scale;
+            const Slice e5 = detail::weighted_lanes<Tableau::error5, 0, width>(h, k_, lane, all) / scale;
+            const Slice e3 = detail::weighted_lanes<Tableau::error3, 0, width>(h, k_, lane, all) / scale;
             five += detail::total(Slice(e5 * e5));
             three += detail::total(Slice(e3 * e3));
         });

@@ -163,8 +163,8 @@ class FixedStepper {
         detail::for_lanes(s, [&]<int width>(detail::Width<width>, Eigen::Index lane) {
             using Slice = detail::Slice<State, width>;
             const auto all = std::make_index_sequence<Tableau::stages>{};
-            const Slice sum = detail::weighted_lanes<Tableau::b, 0, width>(scratch.k, lane, all);
-            const Slice increment = h * sum - detail::load<width>(lost_, lane);
+            const Slice sum = detail::weighted_lanes<Tableau::b, 0, width>(h, scratch.k, lane, all);
+            const Slice increment = sum - detail::load<width>(lost_, lane);
             const Slice here = detail::load<width>(s, lane), there = here + increment;
             detail::store(s1, lane, there);
             detail::store(next_lost_, lane, (there - here) - increment);

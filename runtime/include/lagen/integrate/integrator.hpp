@@ -19,6 +19,7 @@
 #include "lagen/integrate/lanes.hpp"
 #include "lagen/integrate/retract.hpp"
 #include "lagen/integrate/states.hpp"
+#include "lagen/integrate/way.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -47,8 +48,8 @@ class Integrator {
     /// From the state s at time t. A start that is refused (invalid_input, left_domain, non_finite, or what the model
     /// answers) is the status(), and that of every step.
     Integrator(const M& model, const State& s, const Real& t, const Method& method)
-        : model_(model), method_(method), stepper_(method), s_(s), from_(s), inner_(s), t_(t), t_from_(t), end_(t),
-          failed_at_(t), reach_(size(t)), creeping_(t)
+        : model_(model), method_(method), stepper_(method), s_(s), from_(s), inner_(s), t_(t), t_from_(t),
+          failed_at_(t), way_(t), creeping_(t)
     {
         status_ = begin();
     }
@@ -56,10 +57,9 @@ class Integrator {
     /// In the direction of the last step (the first one: forwards), of the length that the method asks for.
     Status step()
     {
-        bounded_ = false;
-        near_ = Real(-1);
-        const Real far = std::numeric_limits<Real>::max();
-        prepare(forward_ ? far : Real(-far));
+        way_.bounded = false;
+        way_.near = Real(-1);
+        prepare(way_.directed(std::numeric_limits<Real>::max()));
         return one_step();
     }
 
@@ -67,7 +67,7 @@ class Integrator {
     Status step_towards(const Real& end)
     {
         if (!aim(end)) return Status::invalid_input;
-        return status_ == Status::ok && t_ == end_ ? Status::ok : one_step();
+        return status_ == Status::ok && t_ == way_.end ? Status::ok : one_step();
     }
 
     static constexpr std::size_t most_steps = 100'000'000; ///< of one advance_to; beyond them it is too_many_steps
@@ -76,10 +76,10 @@ class Integrator {
     Status advance_to(const Real& end)
     {
         Status status = aim(end) ? status_ : Status::invalid_input;
-        if (!adaptive && status == Status::ok && length_ > static_cast<Real>(most_steps) * h_)
+        if (!adaptive && status == Status::ok && way_.length > static_cast<Real>(most_steps) * h_)
             return Status::too_many_steps;
-        for (std::size_t k = 0; status == Status::ok && t_ != end_; ++k)
-            status = k < most_steps ? one_step() : Status::too_many_steps;
+        for (const std::size_t limit = steps_ + most_steps; status == Status::ok && t_ != way_.end;)
+            status = steps_ < limit ? one_step(limit - steps_) : Status::too_many_steps;
         return status;
     }
 
@@ -160,15 +160,11 @@ class Integrator {
     /// The next steps go to `end`. False where that is no number.
     bool aim(const Real& end)
     {
-        if (bounded_ && end == end_) return true;
+        if (way_.bounded && end == way_.end) return true;
         const Real length = end - t_;
         if (length - length != Real(0)) return false;
-        bounded_ = true;
-        end_ = end;
-        if (length != Real(0)) forward_ = length > Real(0);
-        length_ = size(length);
-        reach_ = std::max<Real>(size(t_), size(end));
-        if constexpr (!adaptive) near_ = h_ + Real(8) * epsilon() * reach_;
+        way_.aim(t_, end);
+        if constexpr (!adaptive) way_.near = h_ + Real(8) * epsilon() * way_.reach;
         prepare(length);
         return true;
     }
@@ -180,63 +176,76 @@ class Integrator {
             if (h_ != Real(0) || most == Real(0) || status_ != Status::ok) return;
             const Real first = static_cast<Real>(method_.control().first_step);
             h_ = first > Real(0) ? first : size(stepper_.first_step(model_, t_, most, s_));
-            if (!bounded_) length_ = h_;
+            if (!way_.bounded) way_.length = h_;
         }
     }
 
     // ---- one step ----
 
-    Status one_step()
+    /// Or `most` of them.
+    Status one_step(std::size_t most = 1)
     {
         if (status_ != Status::ok) return status_;
-        Status status = take();
-        while (retry_ && status == Status::ok) status = take();
+        Status status = Status::ok;
+        do status = take(most, [] {});
+        while (retry_ && status == Status::ok);
         if (status != Status::ok && fresh_) undo();
         return status;
     }
 
     /// An attempt at a step. It may ask for another one (`retry_`), and it may leave the domain: then it stands until
-    /// `undo`, not counted, so that values inside it can be asked for.
-    [[gnu::always_inline]] Status take()
+    /// `undo`, not counted, so that values inside it can be asked for. Of a fixed length, up to `most` steps are made
+    /// that do not come near the end, and between() is called between two of them.
+    template <class Between>
+    [[gnu::always_inline]] Status take(std::size_t most, const Between& between)
+    {
+        open();
+        const auto [h, last] = next_length();
+        if constexpr (adaptive)
+            if (!last && is_lost_in_time(h_)) return fail(Status::step_too_small, t_);
+        if (!way_.bounded && !detail::is_finite_number(Real(t_ + h))) [[unlikely]]
+            return fail(Status::non_finite, Real(t_ + h));
+        for (std::size_t left = last || adaptive ? 1 : way_.steps_inside(h_, t_, most);;) {
+            // Compensated sum of the times [Kahan 1965].
+            const Real increment = h - lost_;
+            Real t1 = t_ + increment, lost = (t1 - t_) - increment;
+            if (last) [[unlikely]]
+                t1 = way_.end, lost = Real(0);
+            const auto status = stepper_.attempt(model_, t_from_, from_, h, s_);
+            if constexpr (adaptive) {
+                const Status verdict = judge(status, h, t1);
+                if (verdict != Status::ok) return fail(verdict, t1);
+                if (retry_) return Status::ok;
+            } else if constexpr (!is_pack<Scalar>) {
+                const Status verdict = follow(status, t1);
+                if (verdict != Status::ok) return fail(detail::loss_of_maximum(verdict, model_, t_from_, from_, h), t1);
+            }
+            t_ = t1;
+            const auto ending = accepted();
+            if constexpr (is_pack<Scalar>) {
+                const Status verdict =
+                    detail::settle<Scalar>(lanes_, follow(StatusOf<Scalar>::first(status, ending), t1));
+                if (verdict != Status::ok) return fail(verdict, t1);
+                detail::freeze<Scalar>(lanes_, from_, s_);
+            }
+            fresh_ = true;
+            if constexpr (!is_pack<Scalar>)
+                if (ending != Status::ok) return failed_at_ = t1, ending;
+            ++steps_;
+            lost_ = lost;
+            if (adaptive || --left == 0) return Status::ok;
+            between();
+            open();
+        }
+    }
+
+    /// The step before counts, and the next one begins where it ended.
+    [[gnu::always_inline]] void open()
     {
         if (fresh_) stepper_.accept();
         fresh_ = false;
         from_ = s_;
         t_from_ = t_;
-        const auto [h, last] = next_length();
-        if constexpr (adaptive)
-            if (!last && is_lost_in_time(h_)) return fail(Status::step_too_small, t_);
-        // Compensated sum of the times [Kahan 1965].
-        const Real increment = h - lost_;
-        Real t1 = t_ + increment;
-        if (last) [[unlikely]]
-            t1 = end_;
-        if (t1 - t1 != Real(0)) [[unlikely]]
-            return fail(Status::non_finite, t1);
-        const auto status = stepper_.attempt(model_, t_from_, from_, h, s_);
-        if constexpr (adaptive) {
-            const Status verdict = judge(status, h, t1);
-            if (verdict != Status::ok) return fail(verdict, t1);
-            if (retry_) return Status::ok;
-        } else if constexpr (!is_pack<Scalar>) {
-            const Status verdict = follow(status, t1);
-            if (verdict != Status::ok) return fail(detail::loss_of_maximum(verdict, model_, t_from_, from_, h), t1);
-        }
-        t_ = t1;
-        const auto ending = accepted();
-        if constexpr (is_pack<Scalar>) {
-            const Status verdict = detail::settle<Scalar>(lanes_, follow(StatusOf<Scalar>::first(status, ending), t1));
-            if (verdict != Status::ok) return fail(verdict, t1);
-            detail::freeze<Scalar>(lanes_, from_, s_);
-        }
-        fresh_ = true;
-        if constexpr (!is_pack<Scalar>)
-            if (ending != Status::ok) return failed_at_ = t1, ending;
-        ++steps_;
-        lost_ = (t1 - t_from_) - increment;
-        if (last) [[unlikely]]
-            lost_ = Real(0);
-        return Status::ok;
     }
 
     /// What is asked at the start and behind every accepted step, at t_ and s_.
@@ -256,7 +265,7 @@ class Integrator {
         if constexpr (adaptive) {
             // Its length says nothing of the steps that may be tried from here.
             h_ = failed_length_ = Real(0);
-            bounded_ = imprecise_ = retry_ = false;
+            way_.bounded = imprecise_ = retry_ = false;
         }
         return reason;
     }
@@ -270,27 +279,12 @@ class Integrator {
         if constexpr (requires { stepper_.forget(); }) stepper_.forget();
     }
 
-    /// The signed length of the next step, and whether it ends at `end_`. An end within rounding of the step's is the
-    /// step's.
     [[gnu::always_inline]] std::pair<Real, bool> next_length() const noexcept
     {
-        Real length = h_;
-        bool last = false;
-        const Real rest = size(end_ - t_);
-        if constexpr (!adaptive) {
-            if (rest <= near_) [[unlikely]]
-                return {end_ - t_, true};
-            return {forward_ ? length : Real(-length), false};
-        } else {
-            // A rest of up to 1.01 steps is one step, so that no tiny one is left; but never beyond the cap.
-            const Real cap = static_cast<Real>(method_.control().max_step);
-            Real reaches = Real(1.01) * length;
-            if (cap > Real(0) && length > cap) length = cap;
-            if (cap > Real(0) && reaches > cap) reaches = cap;
-            last = bounded_ && reaches >= rest;
-            if (last) length = rest;
-            return {forward_ ? length : Real(-length), last};
-        }
+        if constexpr (adaptive)
+            return way_.next_of(h_, t_, static_cast<Real>(method_.control().max_step));
+        else
+            return way_.next_of(h_, t_);
     }
 
     /// Accepts or rejects a step of an adaptive method and proposes the next length; not ok where there is none.
@@ -322,8 +316,8 @@ class Integrator {
             h_ = lengths().after_failure(size(h));
         }
         using std::sqrt;
-        const Status verdict = creeping_.creeps(t_, length_, steps_, rejected_) ? status : size_verdict(status, t1);
-        const Real ahead = sqrt(epsilon()) * (forward_ ? length_ : Real(-length_));
+        const Status verdict = creeping_.creeps(t_, way_.length, steps_, rejected_) ? status : size_verdict(status, t1);
+        const Real ahead = sqrt(epsilon()) * way_.directed(way_.length);
         return is_imprecise ? verdict : detail::loss_of_maximum(verdict, model_, t_from_, from_, ahead);
     }
 
@@ -339,7 +333,7 @@ class Integrator {
     /// Within the rounding of time?
     bool is_lost_in_time(const Real& length) const noexcept
     {
-        const Real scale = std::max<Real>(size(t_), epsilon() * length_);
+        const Real scale = std::max<Real>(size(t_), epsilon() * way_.length);
         return !(Real(0.1) * length > epsilon() * scale);
     }
 
@@ -377,11 +371,8 @@ class Integrator {
     Stepper stepper_;
     State s_, from_, inner_; ///< at the end and at the beginning of the last step; a value inside it
     Real t_, t_from_;
-    Real end_; ///< where the steps go, if bounded_
     Real failed_at_;
-    Real length_ = Real(0);        ///< of the way to end_, from where it was aimed at; else the first step's
-    Real reach_;                   ///< the largest |t| of that way
-    Real near_ = Real(-1);         ///< so close to end_ a step of fixed length is the last one
+    detail::Way<Real> way_;
     Real lost_ = Real(0);          ///< the rounding error of t_
     Real h_ = Real(0);             ///< positive: the length that the method or the controller asks for
     Real failed_length_ = Real(0); ///< of the first of a series of steps that could not be evaluated
@@ -390,7 +381,6 @@ class Integrator {
     std::size_t steps_ = 0, rejected_ = 0;
     status_t<Scalar> lanes_ = StatusOf<Scalar>::good();
     Status status_ = Status::ok;
-    bool bounded_ = false, forward_ = true;
     bool fresh_ = false;     ///< the stepper has not been told yet that the last step was accepted
     bool retry_ = false;     ///< the last attempt was rejected
     bool imprecise_ = false; ///< since the last accepted step, one was rejected by its error

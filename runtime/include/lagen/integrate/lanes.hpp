@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -156,21 +157,47 @@ template <class Column, class Function>
     }
 }
 
-/// A status good or `non_finite`, a lane of a pack: x - x is zero exactly where x is finite. A finite sum of all lanes
-/// has finite terms, so that one difference tells of most columns; the others (sums overflow) are looked at lane by
-/// lane.
+/// The sum of all lanes, of doubles pair by pair.
+template <class Column>
+[[gnu::always_inline]] inline auto sum_of_lanes(const Column& s) noexcept
+{
+    constexpr Eigen::Index size = Column::SizeAtCompileTime;
+    typename Column::Scalar sum = s[0];
+    if constexpr (has_pairs<Column> && size >= 2) {
+        Pair::type pairs = load_fresh<2>(s, 0);
+        for_lanes(s, [&]<int width>(Width<width>, Eigen::Index lane) {
+            if constexpr (width == 2)
+                if (lane > 0) pairs += load_fresh<2>(s, lane);
+        });
+        sum = total(pairs);
+        if constexpr (size % 2 != 0) sum += s[size - 1];
+    } else {
+        for_each_lane(s, [&](Eigen::Index lane) {
+            if (lane > 0) sum += s[lane];
+        });
+    }
+    return sum;
+}
+
+/// x - x is zero exactly where x is finite; a built-in type has a largest number.
+template <class Scalar>
+[[gnu::always_inline]] inline bool is_finite_number(const Scalar& x) noexcept
+{
+    if constexpr (std::is_floating_point_v<Scalar>)
+        return size_of(x) <= std::numeric_limits<Scalar>::max();
+    else
+        return x - x == Scalar(0);
+}
+
+/// A status good or `non_finite`, a lane of a pack. A finite sum of all lanes has finite terms, so that one sum tells
+/// of most columns; the others (sums overflow) are looked at lane by lane.
 template <class Column>
 [[gnu::always_inline]] inline status_t<typename Column::Scalar> check_finite(const Column& s) noexcept
 {
     using Scalar = typename Column::Scalar;
     auto status = StatusOf<Scalar>::good();
-    if constexpr (!is_pack<Scalar>) {
-        Scalar total = s[0];
-        for_each_lane(s, [&](Eigen::Index lane) {
-            if (lane > 0) total += s[lane];
-        });
-        if (total - total == Scalar(0)) return status;
-    }
+    if constexpr (!is_pack<Scalar>)
+        if (is_finite_number(Scalar(sum_of_lanes(s)))) return status;
     Scalar sum = Scalar(0);
     for_each_lane(s, [&](Eigen::Index lane) { sum += s[lane] - s[lane]; });
     StatusOf<Scalar>::fail(status, sum != Scalar(0), Status::non_finite);

@@ -101,7 +101,9 @@ class March {
     Status steps()
     {
         for (;;) {
-            const Status ending = steps_.take();
+            const std::size_t tried = steps_.steps_ + steps_.rejected_;
+            const std::size_t most = looks_ || tried >= limit_ ? 1 : limit_ - tried;
+            const Status ending = steps_.take(most, [&] { show(); });
             if (!steps_.fresh_) return ending;
             if (ending != Status::ok || looks_) return look(ending);
             show();
@@ -165,7 +167,7 @@ class March {
         rows_until(end, [&](const Real& time) {
             // A row within rounding of the step's end is the step's end.
             Real x = (time - t0) / h;
-            if (x > theta || size(time - end) <= Real(4) * epsilon() * steps_.reach_) x = theta;
+            if (x > theta || size(time - end) <= Real(4) * epsilon() * steps_.way_.reach) x = theta;
             return inside(x, t0, h).second;
         });
         if constexpr (moves_by_sums<M>)
@@ -196,7 +198,7 @@ class March {
     template <class At>
     void rows_until(const Real& end, const At& at)
     {
-        const Real slack = Real(4) * epsilon() * steps_.reach_;
+        const Real slack = Real(4) * epsilon() * steps_.way_.reach;
         while (row_ < options_.at.size()) {
             const Real time = options_.at[row_];
             if (is_after(time, end) && size(time - end) > slack) return;

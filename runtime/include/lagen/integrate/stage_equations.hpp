@@ -150,9 +150,9 @@ class StageEquations {
     /// sizes_l = sum_m |J_lm| |s_m|.
     void row_sizes(const State& s, State& sizes) const noexcept
     {
-        for (Eigen::Index lane = 0; lane < sizes.size(); ++lane) sizes[lane] = Real(0);
-        for (std::size_t k = 0; k < values_.size(); ++k)
-            sizes[M::jacobian_rows[k]] += magnitude(values_[k]) * magnitude(s[M::jacobian_columns[k]]);
+        for_each_lane(sizes, [&](Eigen::Index lane) { sizes[lane] = Real(0); });
+        for_entries(
+            [&](std::size_t k, auto row, auto column) { sizes[row] += magnitude(values_[k]) * magnitude(s[column]); });
     }
 
     Stages slopes, residuals;
@@ -177,12 +177,22 @@ class StageEquations {
         const Entry one = unit(scale);
         lu.clear();
         for (std::size_t i = 0; i < n; ++i) lu(i, i) = one;
-        for (std::size_t k = 0; k < values_.size(); ++k) {
-            Entry& entry =
-                lu(static_cast<std::size_t>(M::jacobian_rows[k]), static_cast<std::size_t>(M::jacobian_columns[k]));
+        for_entries([&](std::size_t k, auto row, auto column) {
+            Entry& entry = lu(static_cast<std::size_t>(row), static_cast<std::size_t>(column));
             entry = entry - values_[k] * scale;
-        }
+        });
         return lu.factor();
+    }
+
+    /// f(k, row, column) for every entry of the Jacobian: a short one's are written out.
+    template <class Function>
+    [[gnu::always_inline]] static void for_entries(const Function& f) noexcept
+    {
+        constexpr std::size_t count = M::jacobian_rows.size();
+        if constexpr (count <= 24)
+            write_out<count>([&](auto k) { f(k, M::jacobian_rows[k], M::jacobian_columns[k]); });
+        else
+            for (std::size_t k = 0; k < count; ++k) f(k, M::jacobian_rows[k], M::jacobian_columns[k]);
     }
 
     static Real unit(const Real&) noexcept { return Real(1); }
@@ -202,20 +212,26 @@ class StageEquations {
         return w[static_cast<std::size_t>(lane)];
     }
 
-    /// The increment of stage i from what the modes have: a pair of conjugate ones counts twice.
-    [[gnu::always_inline]] Real increment(std::size_t i, Eigen::Index lane) noexcept
+    /// The increment of stage i from what the modes have: a pair of conjugate ones counts twice, and 1/2 is the last
+    /// entry of its vector.
+    template <class Stage>
+    [[gnu::always_inline]] Real increment(Stage i, Eigen::Index lane) noexcept
     {
-        const auto half = [&](std::size_t k) {
+        constexpr bool last = i() + 1 == stages;
+        const auto part = [&](std::size_t k) {
             const Complex<Real>& v = modes_.complex[k].right[i];
             const Complex<Real>& w = at(w_complex_[k], lane);
-            return Real(v.re * w.re - v.im * w.im);
+            if constexpr (last)
+                return w.re;
+            else
+                return Real(v.re * w.re - v.im * w.im);
         };
         if constexpr (Modes<Scheme, Real>::pairs == 0) {
             return modes_.real[0].right[i] * at(w_real_[0], lane);
         } else {
-            Real sum = half(0);
-            for (std::size_t k = 1; k < complex_.size(); ++k) sum += half(k);
-            sum *= Real(2);
+            Real sum = part(0);
+            for (std::size_t k = 1; k < complex_.size(); ++k) sum += part(k);
+            if constexpr (!last) sum *= Real(2);
             for (std::size_t k = 0; k < real_.size(); ++k) sum += modes_.real[k].right[i] * at(w_real_[k], lane);
             return sum;
         }

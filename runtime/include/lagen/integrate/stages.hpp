@@ -25,33 +25,54 @@ constexpr std::size_t first_weight() noexcept
     return j;
 }
 
-/// sum_j weights[offset + j] k[j] in lane `lane` (and the next one, of width 2), j < count; coefficients that are
-/// exactly zero cost nothing, and the sum begins with its first term, since a compiler may not drop 0 + x. The last
-/// slope was just written.
+/// True where the weights are whole multiples of their first one, as those of the classical methods are.
+template <auto& weights, std::size_t offset, std::size_t count>
+constexpr bool have_a_measure() noexcept
+{
+    constexpr std::size_t first = first_weight<weights, offset, count>();
+    for (std::size_t j = first; j < count; ++j)
+        if (!weights[offset + j].is_zero() && weights[offset + j].count_of(weights[offset + first]) == 0) return false;
+    return true;
+}
+
+/// h sum_j weights[offset + j] k[j] in lane `lane` (and the next one, of width 2), j < count; coefficients that are
+/// exactly zero cost nothing, and the sum begins with its first term, since a compiler may not drop 0 + x. Where the
+/// weights have a measure it is taken out of the sum, as h/6 (k_1 + 2 k_2 + 2 k_3 + k_4). The last slope was just
+/// written.
 template <auto& weights, std::size_t offset, int width, std::size_t... j, class Stages>
-[[gnu::always_inline]] inline auto weighted_lanes(const Stages& k, Eigen::Index lane,
-                                                  std::index_sequence<j...>) noexcept
+[[gnu::always_inline]] inline auto weighted_lanes(const real_t<typename Stages::value_type::Scalar>& h, const Stages& k,
+                                                  Eigen::Index lane, std::index_sequence<j...>) noexcept
 {
     using Column = typename Stages::value_type;
     using Real = real_t<typename Column::Scalar>;
     using Sum = Slice<Column, width>;
     constexpr std::size_t first = first_weight<weights, offset, sizeof...(j)>();
+    constexpr bool measured = have_a_measure<weights, offset, sizeof...(j)>();
     const auto slope = [&]<std::size_t stage>() {
         if constexpr (stage + 1 == sizeof...(j))
             return load_fresh<width>(k[stage], lane);
         else
             return load<width>(k[stage], lane);
     };
+    const auto weight = []<std::size_t stage>() {
+        if constexpr (measured)
+            return static_cast<Real>(weights[offset + stage].count_of(weights[offset + first]));
+        else
+            return weights[offset + stage].template as<Real>();
+    };
     if constexpr (first == sizeof...(j)) {
         return Sum{};
     } else {
-        Sum sum = weights[offset + first].template as<Real>() * slope.template operator()<first>();
+        Sum sum = weight.template operator()<first>() * slope.template operator()<first>();
         const auto add = [&]<std::size_t stage>() {
             if constexpr (stage > first && !weights[offset + stage].is_zero())
-                sum += weights[offset + stage].template as<Real>() * slope.template operator()<stage>();
+                sum += weight.template operator()<stage>() * slope.template operator()<stage>();
         };
         (add.template operator()<j>(), ...);
-        return sum;
+        if constexpr (measured)
+            return Sum(Real(h * weights[offset + first].template as<Real>()) * sum);
+        else
+            return Sum(h * sum);
     }
 }
 
@@ -61,7 +82,7 @@ template <auto& weights, std::size_t offset = 0, std::size_t count = weights.siz
                                                 Column& out) noexcept
 {
     for_lanes(out, [&]<int width>(Width<width>, Eigen::Index lane) {
-        store(out, lane, h * weighted_lanes<weights, offset, width>(k, lane, std::make_index_sequence<count>{}));
+        store(out, lane, weighted_lanes<weights, offset, width>(h, k, lane, std::make_index_sequence<count>{}));
     });
 }
 
@@ -74,8 +95,8 @@ template <auto& weights, std::size_t offset, std::size_t count, class M, class S
 {
     if constexpr (moves_by_sums<M>) {
         for_lanes(s, [&]<int width>(Width<width>, Eigen::Index lane) {
-            const auto sum = weighted_lanes<weights, offset, width>(k, lane, std::make_index_sequence<count>{});
-            store(out, lane, load<width>(s, lane) + h * sum);
+            const auto sum = weighted_lanes<weights, offset, width>(h, k, lane, std::make_index_sequence<count>{});
+            store(out, lane, load<width>(s, lane) + sum);
         });
     } else {
         tangent_t<M> delta;

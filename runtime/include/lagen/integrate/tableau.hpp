@@ -17,6 +17,16 @@ struct Fraction {
 
     [[nodiscard]] constexpr bool is_zero() const noexcept { return numerator == 0; }
 
+    /// How often `part` goes into this; 0 where that is no whole number other than 0 (or the numbers are large).
+    [[nodiscard]] constexpr std::int64_t count_of(const Fraction& part) const noexcept
+    {
+        constexpr std::int64_t large = std::int64_t{1} << 31;
+        for (const std::int64_t x : {numerator, denominator, part.numerator, part.denominator})
+            if (x >= large || x <= -large) return 0;
+        const std::int64_t above = numerator * part.denominator, below = denominator * part.numerator;
+        return below != 0 && above % below == 0 ? above / below : 0;
+    }
+
     template <class Real>
     [[nodiscard]] constexpr Real as() const noexcept
     {
@@ -35,6 +45,7 @@ struct Decimal {
     long double value = 0.0L;
 
     [[nodiscard]] constexpr bool is_zero() const noexcept { return value == 0.0L; }
+    [[nodiscard]] constexpr std::int64_t count_of(const Decimal& part) const noexcept { return value == part.value; }
 
     template <class Real>
     [[nodiscard]] constexpr Real as() const noexcept
