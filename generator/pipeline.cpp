@@ -193,7 +193,6 @@ bool set_parameters(System& system, const std::vector<long double>& values)
         value = system.graph.constant(Rational(wanted));
         differ = true;
     }
-<<<<<<< HEAD
     return differ;
 }
 
@@ -202,9 +201,6 @@ void set_parameters(CheckedModel& checked, const std::vector<long double>& value
     const Regularity& known = checked.report.mechanics.regularity;
     if (known.legendre_obstacle.empty() && known.legendre_values.empty()) return;
     if (set_parameters(checked.system, values)) checked.report.mechanics.regularity = verify_regularity(checked.system);
-=======
-    if (differ) checked.report.mechanics.regularity = verify_regularity(system);
->>>>>>> 2d891a44733d1f0da08f2c190a9dd45e1b268472
 }
 
 Generated generate(const CheckedModel& checked, const GenerateRequest& request)
