@@ -69,7 +69,7 @@ Spelling print_literal(const Rational& value)
 
 Spelling print_pi()
 {
-    return {"lagen::pi<S>()", 5};
+    return {"arithmetic::pi<S>()", 5};
 }
 
 std::string plain_text(std::string_view text)

@@ -65,6 +65,8 @@ struct RealOf {
 template <class Scalar>
 using real_t = typename RealOf<Scalar>::type;
 
+namespace arithmetic {
+
 /// To the last digit of the scalar: 160 bits in three doubles, beyond them the scalar's own arc tangent.
 template <class Scalar>
 [[nodiscard]] Scalar pi() noexcept
@@ -77,6 +79,8 @@ template <class Scalar>
         return Scalar(3.141592653589793) + (Scalar(1.2246467991473532e-16) + Scalar(-2.9947698097183397e-33));
     }
 }
+
+} // namespace arithmetic
 
 /// True where every time and step of `Scalar` is a lane of it.
 template <class Scalar>
