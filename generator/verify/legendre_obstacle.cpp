@@ -77,17 +77,17 @@ class SmoothSet {
         case Sense::off_origin:
         case Sense::off_cut: { // and slopes that do not see it
             const NodeId u = graph_.operands(node)[1];
-            return decider().proves_positive(u) || refuse(not_shown(u, "positive"));
+            return decider().proves_positive(u) || obstructed(not_shown(u, "positive"));
         }
-        case Sense::same_branch: return refuse(std::string(function_) + " is not smooth");
+        case Sense::same_branch: return obstructed(std::string(function_) + " is not smooth");
         case Sense::regular: break;
         }
-        return refuse(std::string(function_) +
-                      " contains the solution of a linear system whose matrix is not constant");
+        return obstructed(std::string(function_) +
+                          " contains the solution of a linear system whose matrix is not constant");
     }
 
-    /// Keeps the first obstacle.
-    bool refuse(std::string why)
+    /// False; the first obstacle is kept.
+    bool obstructed(std::string why)
     {
         if (obstacle_.empty()) obstacle_ = std::move(why);
         return false;
@@ -97,7 +97,7 @@ class SmoothSet {
     {
         if (!depends_on_y(f)) return true;
         if (positive ? decider().proves_positive(f) : decider().proves_nonzero(f)) return true;
-        if (!positive || !is_concave(f)) return refuse(not_shown(f, positive ? "positive" : "nonzero"));
+        if (!positive || !is_concave(f)) return obstructed(not_shown(f, positive ? "positive" : "nonzero"));
         setting_.domain.push_back(graph_.apply(Op::greater, f, graph_.constant(0)));
         decider_.reset();
         return true;
