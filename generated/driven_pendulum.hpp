@@ -50,7 +50,6 @@
 #pragma once
 
 #include "lagen/kernel.hpp"
-#include "lagen/linear.hpp"
 
 #include <Eigen/Core>
 
@@ -112,8 +111,8 @@ class driven_pendulum {
         return s;
     }
 
-    /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
-    /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// What of the right-hand side depends on the parameters alone. Call it once after they are set; integrate() does.
+    /// Answers singular_mass_matrix where a matrix or a divisor made of them has no inverse.
     /// left_domain unless I > 0.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
@@ -126,8 +125,7 @@ class driven_pendulum {
 
     /// The equations of motion, ds = (xdot, ydot): xdot^i = rho^i_a y^a and
     /// W_ab ydot^b = rho_a(L) + Q_a - (d2L/dy^a dx^i) rho^i_b y^b - d2L/dy^a dt - p_c C^c_ab y^b.
-    /// Answers singular_mass_matrix where W has no inverse at this state; what depends on the parameters alone is
-    /// checked by parameter_status() instead, once. s and ds may be the same object.
+    /// s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs(S t, const State& s, State& ds) const noexcept
     {
         using std::cos;
@@ -197,7 +195,7 @@ class driven_pendulum {
         using std::cos;
         const S th = s[0];
         const S w = s[1];
-        result[0] = S(0.5) * th / (S(3.141592653589793) + S(1.2246467991473532e-16));
+        result[0] = S(0.5) * th / arithmetic::pi<S>();
         const auto [I_, mgl, b, A, Omega] = parameters;
         result[1] = w * (A * cos(t * Omega) - b * w);
         return result;
@@ -210,8 +208,7 @@ class driven_pendulum {
         Eigen::Matrix<S, 2, 1> result;
         using std::cos;
         const S th = s[0];
-        result[0] = th * th - (S(3.141592653589793) + S(1.2246467991473532e-16)) * (S(3.141592653589793) +
-                S(1.2246467991473532e-16));
+        result[0] = th * th - arithmetic::pi<S>() * arithmetic::pi<S>();
         result[1] = cos(S(0.5) * th);
         return result;
     }

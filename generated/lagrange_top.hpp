@@ -57,7 +57,6 @@
 #pragma once
 
 #include "lagen/kernel.hpp"
-#include "lagen/linear.hpp"
 
 #include <Eigen/Core>
 
@@ -124,8 +123,8 @@ class lagrange_top {
         return s;
     }
 
-    /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
-    /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// What of the right-hand side depends on the parameters alone. Call it once after they are set; integrate() does.
+    /// Answers singular_mass_matrix where a matrix or a divisor made of them has no inverse.
     /// left_domain unless I1 > 0, I3 > 0.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
@@ -140,8 +139,7 @@ class lagrange_top {
 
     /// The equations of motion, ds = (xdot, ydot): xdot^i = rho^i_a y^a and
     /// W_ab ydot^b = rho_a(L) - (d2L/dy^a dx^i) rho^i_b y^b - d2L/dy^a dt - p_c C^c_ab y^b.
-    /// Answers singular_mass_matrix where W has no inverse at this state; what depends on the parameters alone is
-    /// checked by parameter_status() instead, once. s and ds may be the same object.
+    /// s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
         const S g1 = s[0], g2 = s[1], g3 = s[2];

@@ -128,8 +128,7 @@ class plate_ball_pontryagin {
         return s;
     }
 
-    /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
-    /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// What of the right-hand side depends on the parameters alone. Call it once after they are set; integrate() does.
     /// left_domain unless R > 0.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {

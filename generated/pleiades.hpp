@@ -281,7 +281,6 @@
 #pragma once
 
 #include "lagen/kernel.hpp"
-#include "lagen/linear.hpp"
 #include "lagen/roots.hpp"
 
 #include <Eigen/Core>
@@ -401,8 +400,8 @@ class pleiades {
         return s;
     }
 
-    /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
-    /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// What of the right-hand side depends on the parameters alone. Call it once after they are set; integrate() does.
+    /// Answers singular_mass_matrix where a matrix or a divisor made of them has no inverse.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
         auto status = StatusOf<S>::good();
@@ -419,8 +418,7 @@ class pleiades {
 
     /// The equations of motion, ds = (xdot, ydot): xdot^i = rho^i_a y^a and
     /// W_ab ydot^b = rho_a(L) - (d2L/dy^a dx^i) rho^i_b y^b - d2L/dy^a dt - p_c C^c_ab y^b.
-    /// Answers singular_mass_matrix where W has no inverse at this state; what depends on the parameters alone is
-    /// checked by parameter_status() instead, once. s and ds may be the same object.
+    /// s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
         const S x_1 = s[0], x_2 = s[1], x_3 = s[2], x_4 = s[3], x_5 = s[4], x_6 = s[5], x_7 = s[6], y_1 = s[7],

@@ -63,7 +63,6 @@
 #pragma once
 
 #include "lagen/kernel.hpp"
-#include "lagen/linear.hpp"
 
 #include <Eigen/Core>
 
@@ -132,8 +131,8 @@ class pointing_pontryagin {
         return s;
     }
 
-    /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
-    /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// What of the right-hand side depends on the parameters alone. Call it once after they are set; integrate() does.
+    /// Answers singular_mass_matrix where a matrix or a divisor made of them has no inverse.
     /// left_domain unless I1 > 0, I2 > 0, I3 > 0.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {

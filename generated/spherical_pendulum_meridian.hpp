@@ -114,8 +114,7 @@ class spherical_pendulum_meridian {
         return s;
     }
 
-    /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
-    /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// What of the right-hand side depends on the parameters alone. Call it once after they are set; integrate() does.
     /// left_domain unless m > 0.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
@@ -127,8 +126,7 @@ class spherical_pendulum_meridian {
 
     /// The equations of motion, ds = (xdot, ydot): xdot^i = rho^i_a y^a and
     /// W_ab ydot^b = rho_a(L) - (d2L/dy^a dx^i) rho^i_b y^b - d2L/dy^a dt - p_c C^c_ab y^b.
-    /// Answers singular_mass_matrix where W has no inverse at this state; what depends on the parameters alone is
-    /// checked by parameter_status() instead, once. s and ds may be the same object.
+    /// s and ds may be the same object.
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
         const S x = s[0], y = s[1], z = s[2];

@@ -232,6 +232,7 @@ ExitCode run_run(Arguments arguments)
     outcome.scene = scene.name;
     outcome.form = form;
     outcome.method = method.name;
+    if (method.adaptive) outcome.tolerance = input.relative;
     outcome.energy_changes = record.energy_changes;
     outcome.searches = record.searches;
     outcome.table.columns = {"t"};

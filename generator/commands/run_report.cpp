@@ -42,6 +42,21 @@ std::string control_text(const std::string& status)
     return {};
 }
 
+/// What is to be known of a drift: that it is none of the method's, or that an adaptive method should have kept two
+/// digits and more of what the equations conserve, and did not.
+const char* drift_remark(const RunOutcome& outcome, const Drift& drift)
+{
+    if (outcome.energy_changes && (drift.name == "energy" || drift.name == "hamiltonian"))
+        return " (not conserved: forces or explicit time)";
+    if (!outcome.tolerance) return "";
+    constexpr double digits = 0.01, allowance = 1e4;
+    const double initial = std::fabs(std::strtod(drift.initial.c_str(), nullptr));
+    const double most = std::strtod(drift.max_drift.c_str(), nullptr);
+    const double allowed =
+        std::max(digits * initial, allowance * static_cast<double>(*outcome.tolerance) * (1 + initial));
+    return most > allowed ? " (lost by this run: the equations conserve it)" : "";
+}
+
 std::string row_text(std::string_view line)
 {
     return list_text(fields(line), [](std::string_view field) { return number_text(field); });
@@ -137,10 +152,7 @@ std::string report_text(const RunOutcome& outcome)
             continue;
         }
         text += fmt::format("  {}: {} at the start, largest drift {}{}\n", drift.name, brief(drift.initial, 9),
-                            brief(drift.max_drift, 3),
-                            outcome.energy_changes && (drift.name == "energy" || drift.name == "hamiltonian")
-                                ? " (not conserved: forces or explicit time)"
-                                : "");
+                            brief(drift.max_drift, 3), drift_remark(outcome, drift));
     }
     return text;
 }

@@ -4,6 +4,7 @@
 
 #include "commands/table.hpp"
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,7 +35,8 @@ struct RunOutcome {
     bool searches = false;              ///< controls are searched for, and followed
     std::vector<EventReport> events;
     std::vector<Drift> invariants;
-    bool energy_changes = false; ///< forces or explicit time: the energy is not conserved
+    std::optional<long double> tolerance; ///< relative, of an adaptive method
+    bool energy_changes = false;          ///< forces or explicit time: the energy is not conserved
     Table table;
 };
 

@@ -280,7 +280,7 @@ void print_parameter_status(TextBlock& out, const KernelModule& module, const Mo
     out.comment(fmt::format("What of {} depends on the parameters alone. Call it once after they are set; integrate() "
                             "does.",
                             noun_of(module.kind)));
-    if (checks) out.comment("singular_mass_matrix where a matrix or a divisor made of them has no inverse.");
+    if (checks) out.comment("Answers singular_mass_matrix where a matrix or a divisor made of them has no inverse.");
     print_conditions(out, texts);
     open_block(out, "[[nodiscard]] status_t<S> parameter_status() const noexcept");
     if (has_status && !checks) out.line("auto status = StatusOf<S>::good();");

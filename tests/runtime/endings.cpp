@@ -95,6 +95,26 @@ TEST_CASE("A run whose rejected steps bring it nowhere ends with the reason of t
     check(Erratic{.fails = false}, Dop853{.tolerance = 1e-12}, Status::step_too_small);
 }
 
+TEST_CASE("A tolerance below the rounding of the state is refused at once, whatever the method")
+{
+    const auto check = [](auto method, auto one) {
+        using Real = decltype(one);
+        using Model = problems::Pendulum<Real>;
+        method.tolerance = double(std::numeric_limits<Real>::epsilon()) / 100;
+        const auto run = integrate(Model{}, typename Model::State(one, one), {Real(0), one}, method);
+        CHECK(run.status() == Status::step_too_small);
+        CHECK(run.steps == 0);
+        CHECK(run.t == 0);
+        method.tolerance = double(std::numeric_limits<Real>::epsilon());
+        CHECK(integrate(Model{}, typename Model::State(one, one), {Real(0), one}, method).steps > 0);
+    };
+    check(Tsit5{}, 1.0);
+    check(Dop853{}, 1.0);
+    check(Dop853{}, 1.0F);
+    check(Dop853{}, 1.0L);
+    check(Radau5{}, 1.0);
+}
+
 TEST_CASE("Ten thousand rejected steps that do bring a run on are no reason to end it")
 {
     constexpr int turns = LAGEN_SANITIZED ? 2'000 : 20'000;

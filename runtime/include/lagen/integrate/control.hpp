@@ -101,6 +101,15 @@ typename State::Scalar squared_error(const ErrorScale<typename State::Scalar>& s
     return sum;
 }
 
+/// Whether to round a state of this size, by a quarter of an epsilon, is a larger error than is allowed.
+template <class State>
+bool is_below_rounding(const StepControl& control, const State& s) noexcept
+{
+    using Real = typename State::Scalar;
+    const Real quarter = std::numeric_limits<Real>::epsilon() / Real(4);
+    return squared_error(ErrorScale<Real>(control), s, s, s) * quarter * quarter > static_cast<Real>(s.size());
+}
+
 /// The number of a scalar that carries derivatives (`x.value()`), any other scalar itself: lengths of steps are chosen
 /// by numbers.
 template <class Real>

@@ -39,14 +39,14 @@ requires(!is_pack<typename M::Scalar>) [[nodiscard]] Status
     using Scalar = typename M::Scalar;
     using Real = real_t<Scalar>;
     using std::sqrt;
-    typename M::State rate;
+    tangent_t<M> rate;
     if (reason != Status::newton_diverged || model.rhs(Scalar(t), s, rate) != Status::ok) return reason;
     M ahead = model;
     const Real shortest = sqrt(std::numeric_limits<Real>::epsilon());
     Real done = Real(0);
     for (Real part = Real(1); part > shortest;) {
         const Real next = done + part < Real(1) ? done + part : Real(1);
-        const typename M::State there = s + (next * h) * rate;
+        const typename M::State there = retracted(model, s, tangent_t<M>((next * h) * rate));
         const Status status = ahead.follow(Scalar(t + next * h), there);
         if (status != Status::ok && status != Status::newton_diverged && status != Status::not_a_maximum) return reason;
         if (status != Status::ok) {

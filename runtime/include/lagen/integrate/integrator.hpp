@@ -142,6 +142,9 @@ class Integrator {
         status = follow(StatusOf<Scalar>::first(status, accepted()), t_);
         if (is_pack<Scalar> || StatusOf<Scalar>::all_good(status))
             status = StatusOf<Scalar>::first(status, stepper_.begin(model_, t_, s_));
+        if constexpr (adaptive)
+            if (status == Status::ok && detail::is_below_rounding(method_.control(), s_))
+                status = Status::step_too_small;
         if constexpr (adaptive && !chooses_lengths)
             controller_ = detail::Controller<Real>(method_.control(), Stepper::error_order, Real(Stepper::beta_share));
         return detail::settle<Scalar>(lanes_, status);
