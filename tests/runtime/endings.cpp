@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// What a run that cannot go on says: a step below the rounding of time, a state that is no number.
 #include "lagen/lagen.hpp"
+#include "support/problems.hpp"
 #include "support/sanitized.hpp"
 
 #include <catch2/catch.hpp>
