@@ -24,7 +24,6 @@
 #pragma once
 
 #include "lagen/kernel.hpp"
-#include "lagen/linear.hpp"
 #include "lagen/sincos.hpp"
 
 #include <Eigen/Core>
@@ -84,8 +83,8 @@ class pendulum {
         return s;
     }
 
-    /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
-    /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// What of the right-hand side depends on the parameters alone. Call it once after they are set; integrate() does.
+    /// Answers singular_mass_matrix where a matrix or a divisor made of them has no inverse.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
         auto status = StatusOf<S>::good();

@@ -84,8 +84,7 @@ class pivoted {
         return s;
     }
 
-    /// What of the right-hand side depends on the parameters alone: singular_mass_matrix where a matrix or a divisor
-    /// made of them has no inverse. Call it once after the parameters are set; integrate() does.
+    /// What of the right-hand side depends on the parameters alone. Call it once after they are set; integrate() does.
     [[nodiscard]] status_t<S> parameter_status() const noexcept
     {
         return StatusOf<S>::good();
