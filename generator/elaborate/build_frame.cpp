@@ -102,7 +102,7 @@ class FrameBuilder {
         for (const std::vector<NodeId>* nodes : {&entries, &std::as_const(transposed_)})
             construction->analytic.insert(construction->analytic.end(), nodes->begin(), nodes->end());
         for (const CoupledBlock& each : coupled_blocks(graph_, transposed_, r_)) {
-            if (each.rows.size() > written_determinant_limit) return work_.forget_construction();
+            if (each.rows.size() > determinant_limit) return work_.forget_construction();
             construction->nonzero.push_back(determinant_of(graph_, transposed_, r_, each.rows, each.columns));
         }
     }

@@ -54,6 +54,12 @@ struct Written {
     std::vector<Tree> all;   ///< definitions, domain, constraints, Casimirs, rho, C, L, forces, observables, events
 };
 
+/// A constraint or a Casimir in words.
+struct BaseFunctionText {
+    std::string name;          ///< of a constraint the text
+    std::vector<NodeId> parts; ///< its partial operations as it is written
+};
+
 struct System {
     std::string name; ///< of the model
     Graph graph;
@@ -62,7 +68,7 @@ struct System {
     std::vector<std::pair<NodeId, NodeId>> parameter_values; ///< with the values of the file
     Algebroid algebroid;
     BaseFunctions functions;                                  ///< base constraints and Casimirs
-    std::vector<std::string> casimir_names, constraint_texts; ///< of these
+    std::vector<BaseFunctionText> constraints, casimirs;      ///< of these
     std::vector<NodeId> domain;                               ///< comparisons that hold on M
     std::vector<NodeId> mu;                                   ///< inputs mu_a on E*, shape (r)
     std::optional<NodeId> lagrangian;                         ///< L(t, x, y)
