@@ -42,7 +42,8 @@ void solve_controls(Graph& graph, const ControlProblem& control, const ControlHa
         phase.obstacle = "dH/du is not affine in the controls, which are not solved for then";
         return;
     }
-    for (const NodeId divisor : equations.negative.divisors) phase.divisors.push_back({divisor, "a divisor of d2H/du2"});
+    for (const NodeId divisor : equations.negative.divisors)
+        phase.divisors.push_back({divisor, "a divisor of d2H/du2"});
     for (const std::vector<std::size_t>& block : equations.negative.blocks) {
         if (block.size() > determinant_limit)
             phase.obstacle = "d2H/du2 couples " + std::to_string(block.size()) + " controls, more than the " +

@@ -11,7 +11,7 @@ namespace {
 
 // Of forms that claim nothing.
 constexpr std::size_t most_components = 5000;
-constexpr std::size_t most_nodes = 20'000; ///< of all components
+constexpr std::size_t most_nodes = 20'000;                                ///< of all components
 constexpr ProofBudget quick_budget{.terms = 2000, .products = 2'000'000}; ///< products: of all components
 
 std::size_t binomial(std::size_t n, std::size_t k)

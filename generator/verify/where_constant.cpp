@@ -59,8 +59,8 @@ void WhereConstant::require(NodeId node)
     }
 }
 
-/// atan2(v, u): v != 0, or u > 0 where v is 0 everywhere. Of a v that stays 0 it jumps where u changes its sign, so that
-/// constant factors of v count.
+/// atan2(v, u): v != 0, or u > 0 where v is 0 everywhere. Of a v that stays 0 it jumps where u changes its sign, so
+/// that constant factors of v count.
 void WhereConstant::require_off_cut(NodeId node)
 {
     const NodeId v = graph_.operands(node)[0], u = graph_.operands(node)[1];

@@ -135,7 +135,8 @@ TEST_CASE("functions of conserved functions are conserved, whatever they are")
     CHECK(statuses(jumping_plane("0"), {"atan2(v_y, v_x)", "atan2(p_v_y, p_v_x)", "v_x/sqrt(v_x^2 + v_y^2)",
                                         "abs(v_x)/v_x", "atan(1/(x*v_y - y*v_x))", "atan2(v_y, v_x) + abs(x)/x"}) ==
           "proved, proved, proved, proved, proved, proved where x != 0");
-    const std::string kepler = "[parameters]\nk = 2\n" + jumping_plane("-k/sqrt(x^2 + y^2)", "domain = [\"k > 0\", \"x^2 + y^2 > 0\"]\n");
+    const std::string kepler =
+        "[parameters]\nk = 2\n" + jumping_plane("-k/sqrt(x^2 + y^2)", "domain = [\"k > 0\", \"x^2 + y^2 > 0\"]\n");
     const std::string ex = "v_y*(x*v_y - y*v_x) - k*x/sqrt(x^2 + y^2)",
                       ey = "-v_x*(x*v_y - y*v_x) - k*y/sqrt(x^2 + y^2)";
     CHECK(statuses(kepler, {"atan2(" + ey + ", " + ex + ")", "k/abs(2*energy)", "sqrt((" + ex + ")^2 + (" + ey + ")^2)",
@@ -275,9 +276,10 @@ TEST_CASE("an angle jumps where it is on its cut all along a motion and the othe
         CHECK(statuses(free, {std::string("atan2(") + angle + ", y) - atan2(2*(" + angle + "), 2*y)"}) ==
               "proved where v_x != 0");
     }
-    CHECK(statuses(free, {"atan2(v_x*v_y, y) + atan2(-v_x*v_y, y)", "atan2(v_x*x, y) + atan2(-v_x*x, y)",
-                          "atan2(2*v_x, v_y) + atan2(-2*v_x, v_y)", "atan2(2*v_x, 1 + y^2) + atan2(-2*v_x, 1 + y^2)"}) ==
-          "proved where v_x != 0 and v_y != 0, proved where v_x != 0 and x != 0, proved, proved");
+    CHECK(
+        statuses(free, {"atan2(v_x*v_y, y) + atan2(-v_x*v_y, y)", "atan2(v_x*x, y) + atan2(-v_x*x, y)",
+                        "atan2(2*v_x, v_y) + atan2(-2*v_x, v_y)", "atan2(2*v_x, 1 + y^2) + atan2(-2*v_x, 1 + y^2)"}) ==
+        "proved where v_x != 0 and v_y != 0, proved where v_x != 0 and x != 0, proved, proved");
     // Thrown straight up.
     CHECK(statuses(jumping_plane("y"), {"atan2(-v_x, v_y) + atan2(2*v_x, 2*v_y)"}) == "proved where v_x != 0");
     // Divisors: where a constant factor is 0 the function is undefined all along the motion.
