@@ -18,7 +18,7 @@ struct Construction {
     std::vector<NodeId> domain;        ///< comparisons
     std::vector<Algebroid> algebroids; ///< which everything is made of: they satisfy the structure equations
     std::vector<NodeId> zero;          ///< entries as they are written, less those that the construction gives
-    std::vector<NodeId> nonzero;       ///< determinants of frames, a block each
+    std::vector<NodeId> nonzero;       ///< where determinants of frames are not zero, a block each
     std::vector<NodeId> analytic;      ///< entries and matrices of frames
 };
 

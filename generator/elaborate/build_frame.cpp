@@ -101,10 +101,30 @@ class FrameBuilder {
         const std::vector<NodeId> entries = written.entries();
         for (const std::vector<NodeId>* nodes : {&entries, &std::as_const(transposed_)})
             construction->analytic.insert(construction->analytic.end(), nodes->begin(), nodes->end());
-        for (const CoupledBlock& each : coupled_blocks(graph_, transposed_, r_)) {
-            if (each.rows.size() > written_determinant_limit) return work_.forget_construction();
-            construction->nonzero.push_back(determinant_of(graph_, transposed_, r_, each.rows, each.columns));
-        }
+        for (const CoupledBlock& each : coupled_blocks(graph_, transposed_, r_))
+            construction->nonzero.push_back(one_where_regular(each));
+    }
+
+    /// Of a block A of any size the first entry of A A^-1 e_1, which has a value where det A is not zero; of a single
+    /// entry the entry.
+    [[nodiscard]] NodeId one_where_regular(const CoupledBlock& block)
+    {
+        const std::vector<NodeId> entries = entries_of(block);
+        const std::size_t m = block.rows.size();
+        if (m == 1) return entries[0];
+        std::vector<NodeId> terms, right(m, graph_.constant(0));
+        right[0] = graph_.constant(1);
+        const std::vector<NodeId> z = graph_.solve(entries, right, MatrixStructure::general);
+        for (std::size_t k = 0; k < m; ++k) terms.push_back(graph_.multiply(entries[k], z[k]));
+        return graph_.sum(terms);
+    }
+
+    [[nodiscard]] std::vector<NodeId> entries_of(const CoupledBlock& block) const
+    {
+        std::vector<NodeId> entries;
+        for (const std::size_t row : block.rows)
+            for (const std::size_t column : block.columns) entries.push_back(transposed_[row * r_ + column]);
+        return entries;
     }
 
     /// Two columns, up to entries that are the same node.
@@ -146,9 +166,7 @@ class FrameBuilder {
     [[nodiscard]] bool is_singular_at_points(const CoupledBlock& block) const
     {
         if (!work_.setting().constraints.empty()) return false;
-        std::vector<NodeId> entries;
-        for (const std::size_t row : block.rows)
-            for (const std::size_t column : block.columns) entries.push_back(transposed_[row * r_ + column]);
+        const std::vector<NodeId> entries = entries_of(block);
         for (long k = 0; k < 3; ++k) {
             std::map<std::string, Rational> point;
             long seed = 7919 + 104729 * k;

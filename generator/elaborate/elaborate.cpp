@@ -120,11 +120,11 @@ class Elaboration {
     {
         for (const Tree& tree : model_.base.constraints) {
             system_.functions.constraints.push_back(lower_(tree));
-            system_.constraint_texts.push_back(to_text(tree));
+            system_.constraints.push_back({to_text(tree), {}});
         }
         for (const NamedTree& casimir : model_.base.casimirs) {
             system_.functions.casimirs.push_back(lower_(casimir.value));
-            system_.casimir_names.push_back(casimir.name);
+            system_.casimirs.push_back({casimir.name, {}});
         }
         for (const Tree& tree : model_.base.domain) system_.domain.push_back(lower_(tree));
     }
@@ -151,6 +151,10 @@ class Elaboration {
     {
         for (const Tree& tree : structure_trees(model_, system_.written.algebroid))
             append_parts(system_.partial_parts, tree);
+        for (std::size_t k = 0; k < system_.constraints.size(); ++k)
+            append_parts(system_.constraints[k].parts, model_.base.constraints[k]);
+        for (std::size_t k = 0; k < system_.casimirs.size(); ++k)
+            append_parts(system_.casimirs[k].parts, model_.base.casimirs[k].value);
     }
 
     /// Every value lowered after those that it uses; the model has made sure that there is no cycle.

@@ -29,13 +29,15 @@ class FormLowering {
     }
 
   private:
+    /// Each component is given once.
     ExteriorForm value_of(const NamedForm& named, std::vector<NodeId>& parts)
     {
         ExteriorForm form{named.degree, {}};
         for (const FormComponent& component : named.components) {
             ExteriorForm term = function_form(lower_(component.value));
             for (const std::size_t a : component.indices) term = wedge(graph_, term, basis_form(graph_, a));
-            form = sum(graph_, form, term);
+            for (const auto& [index, value] : term.components)
+                if (!graph_.is_zero(value)) form.components.emplace(index, value);
             const std::vector<NodeId> more = partial_parts(graph_, lower_, component.value);
             parts.insert(parts.end(), more.begin(), more.end());
         }

@@ -50,9 +50,16 @@ FibreHessian fibre_hessian(Graph& graph, NodeId lagrangian, const std::vector<No
     return result;
 }
 
+void simplify_hessian(Graph& graph, FibreHessian& hessian)
+{
+    std::vector<NodeId> divisors;
+    hessian.hessian = simplify(graph, hessian.hessian, divisors);
+    hessian.divisors.insert(hessian.divisors.end(), divisors.begin(), divisors.end());
+}
+
 std::optional<std::vector<NodeId>> affine_offset(Graph& graph, FibreHessian& hessian)
 {
-    if (depends_on_any(graph, hessian.hessian, hessian.y)) hessian.hessian = simplify(graph, hessian.hessian);
+    if (depends_on_any(graph, hessian.hessian, hessian.y)) simplify_hessian(graph, hessian);
     hessian.blocks = coupled_blocks(graph, hessian);
     if (depends_on_any(graph, hessian.hessian, hessian.y)) return std::nullopt;
     Replacements zeros;

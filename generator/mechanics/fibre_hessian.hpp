@@ -16,6 +16,8 @@ struct FibreHessian {
     std::vector<NodeId> hessian;                  ///< W_ab, shape (r, r), by rows
     std::vector<std::vector<std::size_t>> blocks; ///< classes of coupled coordinates, each ascending
     std::vector<NodeId> y;                        ///< fibre coordinates, shape (r)
+    std::vector<NodeId> divisors; ///< of a W that was simplified: where one of them is zero, d2L/dy2 is not defined as
+                                  ///< it was written, and W may be
 
     [[nodiscard]] NodeId W(std::size_t a, std::size_t b) const { return hessian[a * momenta.size() + b]; }
     /// The entries of these rows and columns, by rows.
@@ -23,6 +25,9 @@ struct FibreHessian {
 };
 
 [[nodiscard]] FibreHessian fibre_hessian(Graph& graph, NodeId lagrangian, const std::vector<NodeId>& y);
+
+/// Simplifies W, and notes what that divides by.
+void simplify_hessian(Graph& graph, FibreHessian& hessian);
 
 /// b of momenta p = W y + b that are affine in y, and defined at y = 0; else nothing. W is
 /// simplified where it is not free of y as it is.

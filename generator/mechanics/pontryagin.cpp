@@ -2,7 +2,6 @@
 #include "mechanics/pontryagin.hpp"
 
 #include "graph/calculus/differentiate.hpp"
-#include "graph/simplify/simplify.hpp"
 
 namespace lagen {
 namespace {
@@ -43,6 +42,8 @@ void solve_controls(Graph& graph, const ControlProblem& control, const ControlHa
         phase.obstacle = "dH/du is not affine in the controls, which are not solved for then";
         return;
     }
+    for (const NodeId divisor : equations.negative.divisors)
+        phase.divisors.push_back({divisor, "a divisor of d2H/du2"});
     for (const std::vector<std::size_t>& block : equations.negative.blocks) {
         if (block.size() > determinant_limit)
             phase.obstacle = "d2H/du2 couples " + std::to_string(block.size()) + " controls, more than the " +
@@ -72,7 +73,7 @@ ControlHamiltonian control_hamiltonian(Graph& graph, const ControlProblem& contr
 ControlEquations control_equations(Graph& graph, const ControlHamiltonian& hamiltonian)
 {
     ControlEquations equations{hamiltonian.negative, {}};
-    equations.negative.hessian = simplify(graph, equations.negative.hessian);
+    simplify_hessian(graph, equations.negative);
     equations.right = affine_offset(graph, equations.negative);
     if (equations.right) equations.right = negated(graph, *std::move(equations.right));
     return equations;

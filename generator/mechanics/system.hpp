@@ -54,6 +54,12 @@ struct Written {
     std::vector<Tree> all;   ///< definitions, domain, constraints, Casimirs, rho, C, L, forces, observables, events
 };
 
+/// A constraint or a Casimir in words.
+struct BaseFunctionText {
+    std::string name;          ///< of a constraint the text
+    std::vector<NodeId> parts; ///< its partial operations as it is written
+};
+
 struct System {
     std::string name; ///< of the model
     Graph graph;
@@ -61,14 +67,14 @@ struct System {
     std::vector<NodeId> parameters;                          ///< inputs
     std::vector<std::pair<NodeId, NodeId>> parameter_values; ///< with the values of the file
     Algebroid algebroid;
-    BaseFunctions functions;                                  ///< base constraints and Casimirs
-    std::vector<std::string> casimir_names, constraint_texts; ///< of these
-    std::vector<NodeId> domain;                               ///< comparisons that hold on M
-    std::vector<NodeId> mu;                                   ///< inputs mu_a on E*, shape (r)
-    std::optional<NodeId> lagrangian;                         ///< L(t, x, y)
-    std::optional<NodeId> hamiltonian;                        ///< H(t, x, mu)
-    std::vector<NodeId> forces;      ///< Q_a(t, x, y) = [forces] - dR/dy^a, shape (r); empty: none
-    std::vector<NodeId> force_parts; ///< the given forces and R, each as it is written
+    BaseFunctions functions;                             ///< base constraints and Casimirs
+    std::vector<BaseFunctionText> constraints, casimirs; ///< of these
+    std::vector<NodeId> domain;                          ///< comparisons that hold on M
+    std::vector<NodeId> mu;                              ///< inputs mu_a on E*, shape (r)
+    std::optional<NodeId> lagrangian;                    ///< L(t, x, y)
+    std::optional<NodeId> hamiltonian;                   ///< H(t, x, mu)
+    std::vector<NodeId> forces;                          ///< Q_a(t, x, y) = [forces] - dR/dy^a, shape (r); empty: none
+    std::vector<NodeId> force_parts;                     ///< the given forces and R, each as it is written
     std::optional<ControlProblem> control;
     std::vector<FormClaim> forms;
     std::vector<NodeId> partial_parts; ///< must be defined, though folded away: log(-1 - x^2) of 0*log(-1 - x^2)

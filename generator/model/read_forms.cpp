@@ -92,6 +92,7 @@ NamedForm read_form(const ModelReader& reader, const TomlEntry& block)
         if (!form.closed)
             throw ModelError(fmt::format("the form '{}' claims closed = false", form.name), closed->value.where,
                              "leave it out: without a claim `check` says whether the form is closed");
+        require_few_components(form.degree + 1, r, fmt::format("d of the form '{}'", form.name), closed->value.where);
     }
     return form;
 }

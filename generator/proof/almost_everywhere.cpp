@@ -52,7 +52,9 @@ class AlmostEverywhere {
     bool all_analytic(const std::vector<NodeId>& functions)
     {
         return stands_on_irreducible(functions) && std::ranges::all_of(reachable(graph_, functions), [&](NodeId node) {
-                   return is_meromorphic(graph_.op(node)) || (is_convex() && is_analytic(node));
+                   // Solutions of linear systems are quotients of determinants.
+                   return is_meromorphic(graph_.op(node)) || kind_of(graph_.op(node)) == OpKind::system ||
+                          (is_convex() && is_analytic(node));
                });
     }
 

@@ -19,7 +19,7 @@ namespace lagen {
                                                 const ZeroDecider& decider);
 
 /// Whether polynomials in `functions` that are nonzero at one point are so almost everywhere: as above, with roots too
-/// analytic on all of the domain.
+/// analytic on all of the domain, and solutions of linear systems, which are quotients.
 [[nodiscard]] bool are_analytic(Graph& graph, const std::vector<NodeId>& functions, const ProofSetting& setting,
                                 const ZeroDecider& decider);
 

@@ -35,40 +35,20 @@ std::unique_ptr<EquationsOfMotion> Claims::equations_of_motion()
     return std::make_unique<LagrangeMotion>(graph_, system_, lagrangian_ ? &*lagrangian_ : nullptr);
 }
 
-/// Where nothing else is defined than these nodes: what is claimed to be constant may be undefined at points of a
-/// motion.
-ProofSetting Claims::setting_of(std::vector<NodeId> defined) const
-{
-    ProofSetting setting = setting_;
-    std::erase_if(defined, [&](NodeId node) { return graph_.is_constant(node); });
-    setting.defined = std::move(defined);
-    return setting;
-}
-
 WhereConstant Claims::along_anchor()
 {
     const auto conserved = [this](NodeId f) { return !depends_on_any(graph_, std::vector{f}, setting_.variables); };
-    return {graph_, setting_of(system_.algebroid.entries()), judge_->decider().budget(), conserved};
+    return {graph_, setting_, judge_->decider().budget(), conserved};
 }
 
-/// What the equations of the system's default form are made of, as it is written.
 WhereConstant Claims::along_motions(EquationsOfMotion& motion, const Regularity& regularity)
 {
-    std::vector<NodeId> defined = system_.algebroid.entries();
-    if (system_.control) {
-        defined.insert(defined.end(), system_.control->sigma.begin(), system_.control->sigma.end());
-        defined.push_back(system_.control->cost);
-    } else {
-        if (system_.lagrangian || system_.hamiltonian)
-            defined.push_back(system_.lagrangian ? *system_.lagrangian : *system_.hamiltonian);
-        defined.insert(defined.end(), system_.force_parts.begin(), system_.force_parts.end());
-    }
     const auto conserved = [this, &motion, &regularity](NodeId f) {
         const Rate rate = motion.rate(f);
         return rate.value && !rate.for_every_control && divisors_of(rate, regularity).empty() &&
                judge_->decider().status(*rate.value) == ProofStatus::proved;
     };
-    return {graph_, setting_of(std::move(defined)), judge_->decider().budget(), conserved};
+    return {graph_, setting_, judge_->decider().budget(), conserved};
 }
 
 /// Those that a motion may meet.

@@ -31,20 +31,21 @@ class Claims {
 
   private:
     [[nodiscard]] std::unique_ptr<EquationsOfMotion> equations_of_motion();
-    [[nodiscard]] ProofSetting setting_of(std::vector<NodeId> defined) const;
     [[nodiscard]] WhereConstant along_anchor();
     [[nodiscard]] WhereConstant along_motions(EquationsOfMotion& motion, const Regularity& regularity);
     [[nodiscard]] std::vector<NamedNode> divisors_of(const Rate& rate, const Regularity& regularity) const;
     void require_triangular_constraints();
     void refuse_zero_divisors(const ProofBudget& budget);
     void decide_by_construction(const ResidualList& list);
+    void say_where(WhereConstant& where, const std::vector<NodeId>& functions, std::vector<Check>& checks, Check none);
     [[nodiscard]] std::optional<NodeId> momentum_in(NodeId f, const Binding& names);
     struct Vanishing {
         std::vector<Check> checks;
         std::size_t trivial = 0; ///< components that have no terms
     };
     [[nodiscard]] Vanishing vanishing(const std::string& name, const FormClaim& claim, const ExteriorForm& residual);
-    [[nodiscard]] Check check_of(const Residual& residual) const;
+    [[nodiscard]] Check check_of(const Residual& residual);
+    [[nodiscard]] ProofStatus closedness(const FormClaim& claim);
 
     const System& system_;
     std::size_t points_;

@@ -11,18 +11,18 @@
 
 namespace lagen {
 
-/// The names that its numbers stand for; the last one is a base coordinate or a function of the base.
-Check Claims::check_of(const Residual& residual) const
+/// Decided, with the names that its numbers stand for; the last one is a base coordinate or a function of the base.
+Check Claims::check_of(const Residual& residual)
 {
-    Check check{residual.name, {}, {}, {}, {}};
+    Check check{residual.name, {}, judge_->decide(residual.value), {}, judge_->reevaluate(residual.value)};
     for (const std::size_t index : residual.indices) {
         const bool last = check.indices.size() + 1 == residual.indices.size();
         if (last && residual.name == "anchor")
             check.indices.push_back(graph_.input_name(system_.algebroid.x[index]));
         else if (last && residual.name == "tangency")
-            check.indices.push_back(system_.constraint_texts[index]);
+            check.indices.push_back(system_.constraints[index].name);
         else if (last && residual.name == "casimir")
-            check.indices.push_back(system_.casimir_names[index]);
+            check.indices.push_back(system_.casimirs[index].name);
         else
             check.indices.push_back(graph_.input_name(system_.algebroid.y[index]));
     }
@@ -64,19 +64,39 @@ void Claims::decide_structure(StructureReport& structure)
     structure.note = note_;
     structure.trivial += list.trivial;
     decide_by_construction(list);
+    for (const Residual& residual : list.residuals)
+        if (residual.name != "tangency" && residual.name != "casimir") structure.checks.push_back(check_of(residual));
     WhereConstant where = along_anchor();
-    for (const Residual& residual : list.residuals) {
-        Check check = check_of(residual);
-        check.decision = judge_->decide(residual.value);
-        // The last index of these is the function.
-        if (check.name == "tangency" || check.name == "casimir") {
-            const std::vector<NodeId>& functions =
-                check.name == "casimir" ? system_.functions.casimirs : system_.functions.constraints;
-            where.restrict(check, {functions.at(residual.indices.back())});
-        }
-        check.reevaluation = judge_->reevaluate(residual.value);
-        structure.checks.push_back(std::move(check));
+    const auto append = [&](const char* name, std::size_t k, NodeId f, const BaseFunctionText& text) {
+        std::vector<Check> checks;
+        for (const Residual& residual : list.residuals)
+            if (residual.name == name && residual.indices.back() == k) checks.push_back(check_of(residual));
+        std::vector<NodeId> functions{f};
+        functions.insert(functions.end(), text.parts.begin(), text.parts.end());
+        say_where(where, functions, checks, {name, {text.name}, {}, {}, {}});
+        std::ranges::move(checks, std::back_inserter(structure.checks));
+    };
+    for (std::size_t k = 0; k < system_.constraints.size(); ++k)
+        append("tangency", k, system_.functions.constraints[k], system_.constraints[k]);
+    for (std::size_t k = 0; k < system_.casimirs.size(); ++k)
+        append("casimir", k, system_.functions.casimirs[k], system_.casimirs[k]);
+}
+
+/// Of the checks that the differential of a function is zero; `none` stands for them where it has no terms, and
+/// conditions remain.
+void Claims::say_where(WhereConstant& where, const std::vector<NodeId>& functions, std::vector<Check>& checks,
+                       Check none)
+{
+    const auto is_proved = [](const Check& check) { return check.decision.status == ProofStatus::proved; };
+    if (!checks.empty() && std::ranges::none_of(checks, is_proved)) return;
+    const WhereConstant::Conditions conditions = where.of(functions);
+    if (checks.empty() && (!conditions.texts.empty() || !conditions.obstacle.empty())) {
+        const NodeId zero = graph_.constant(0);
+        none.decision = judge_->decide(zero);
+        none.reevaluation = judge_->reevaluate(zero);
+        checks.push_back(std::move(none));
     }
+    for (Check& check : checks) WhereConstant::restrict(check, conditions);
 }
 
 /// The name of the momentum that f is written out as: its rate needs no accelerations.
@@ -116,7 +136,8 @@ void Claims::decide_invariants(Report& report, const std::vector<NamedTree>& ext
             setting.defined.insert(setting.defined.end(), functions.begin(), functions.end());
             Judge judge(graph_, setting, accessory_inputs(system_), points_, judge_->decider().budget());
             check.decision = judge.decide(*rate.value);
-            where.restrict(check, functions, divisors_of(rate, report.mechanics.regularity));
+            if (check.decision.status == ProofStatus::proved)
+                WhereConstant::restrict(check, where.of(functions, divisors_of(rate, report.mechanics.regularity)));
             check.reevaluation = judge.reevaluate(*rate.value);
             if (rate.for_every_control && check.decision.status == ProofStatus::refuted) {
                 check.decision = Decision{};

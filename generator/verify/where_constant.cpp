@@ -20,38 +20,10 @@ constexpr std::size_t longest_named = 200; ///< characters of a condition
 } // namespace
 
 WhereConstant::WhereConstant(Graph& graph, const ProofSetting& setting, const ProofBudget& budget, Conserved conserved)
-    : graph_(graph), setting_(setting), decider_(std::make_unique<ZeroDecider>(graph, setting, budget)),
-      conserved_(std::move(conserved))
+    : graph_(graph), setting_(setting), defined_(std::move(setting_.defined)), conserved_(std::move(conserved))
 {
-    // What stands in one branch only says nothing.
-    const std::vector<NodeId> needed = certainly_needed(graph, setting.defined);
-    certain_.insert(needed.begin(), needed.end());
-    for (const NodeId node : needed) {
-        const Sense sense = known_where_defined(graph_, node);
-        if (sense == Sense::nonzero || sense == Sense::positive) know_nonzero(condition_of(graph_, node));
-    }
-}
-
-/// With its factors.
-void WhereConstant::know_nonzero(NodeId divisor)
-{
-    if (!nonzero_.insert(divisor).second) return;
-    const Operator& row = operator_of(graph_.op(divisor));
-    if (row.vanishes_with_operand)
-        know_nonzero(graph_.operands(divisor)[0]);
-    else if (row.kind == OpKind::product)
-        for (const std::size_t k : {0U, 1U}) know_nonzero(graph_.operands(divisor)[k]);
-}
-
-/// All along every motion; false means "not shown".
-bool WhereConstant::is_nonzero(NodeId f) const
-{
-    return nonzero_.contains(f) || decider_->proves_nonzero(f);
-}
-
-bool WhereConstant::is_positive(NodeId f) const
-{
-    return (nonzero_.contains(f) && decider_->proves_nonnegative(f)) || decider_->proves_positive(f);
+    setting_.defined.clear();
+    decider_ = std::make_unique<ZeroDecider>(graph, setting_, budget);
 }
 
 bool WhereConstant::is_conserved(NodeId f)
@@ -73,7 +45,6 @@ void WhereConstant::require(NodeId node)
     case Smoothness::analytic:
     case Smoothness::system: break;
     }
-    if (certain_.contains(node)) return;
     switch (domain_of(graph_, node)) {
     case Sense::nonzero: return require_nonzero(condition_of(graph_, node));
     case Sense::nonnegative:
@@ -88,13 +59,14 @@ void WhereConstant::require(NodeId node)
     }
 }
 
-/// atan2(v, u): v != 0, or u > 0 where v is 0 everywhere.
+/// atan2(v, u): v != 0, or u > 0 where v is 0 everywhere. Of a v that stays 0 it jumps where u changes its sign, so
+/// that constant factors of v count.
 void WhereConstant::require_off_cut(NodeId node)
 {
     const NodeId v = graph_.operands(node)[0], u = graph_.operands(node)[1];
-    if (is_nonzero(v) || is_positive(u) || (is_conserved(v) && is_conserved(u))) return;
+    if (decider_->proves_nonzero(v) || decider_->proves_positive(u) || (is_conserved(v) && is_conserved(u))) return;
     if (graph_.is_zero(v) || decider_->status(v) == ProofStatus::proved) return require_positive(u);
-    require_nonzero_factors(v);
+    require_nonzero_factors(v, false);
 }
 
 void WhereConstant::require_regular(NodeId factor)
@@ -108,10 +80,11 @@ void WhereConstant::require_regular(NodeId factor)
 
 void WhereConstant::require_nonzero(NodeId f)
 {
-    if (!is_nonzero(f) && !is_conserved(f)) require_nonzero_factors(f);
+    if (!decider_->proves_nonzero(f) && !is_conserved(f)) require_nonzero_factors(f, true);
 }
 
-void WhereConstant::require_nonzero_factors(NodeId f)
+/// A factor that stays what it is may be left out where nothing is claimed if it is 0.
+void WhereConstant::require_nonzero_factors(NodeId f, bool but_conserved)
 {
     std::vector<NodeId> factors{f};
     while (!factors.empty()) {
@@ -123,7 +96,7 @@ void WhereConstant::require_nonzero_factors(NodeId f)
             factors.insert(factors.end(), operands.rbegin(), operands.rend());
         else if (row.vanishes_with_operand)
             factors.push_back(operands[0]);
-        else if (!is_nonzero(factor) && (factor == f || !is_conserved(factor)))
+        else if (!decider_->proves_nonzero(factor) && !(but_conserved && is_conserved(factor)))
             add(factor, false);
     }
 }
@@ -136,15 +109,15 @@ void WhereConstant::require_positive(NodeId f)
         if (graph_.is_constant(factors[0]))
             return require_positive(sgn(graph_.value(factors[0])) > 0 ? factors[1] : graph_.negate(factors[1]));
     }
-    if (is_positive(f) || is_conserved(f)) return;
-    if (decider_->proves_nonnegative(f)) return require_nonzero_factors(f);
+    if (decider_->proves_positive(f) || is_conserved(f)) return;
+    if (decider_->proves_nonnegative(f)) return require_nonzero_factors(f, true);
     add(f, true);
 }
 
 /// By its factors, where they are short; else by its name.
 void WhereConstant::require_divisor(const NamedNode& divisor)
 {
-    if (is_nonzero(divisor.node)) return;
+    if (decider_->proves_nonzero(divisor.node)) return;
     const auto factors = factors_of(graph_, divisor.node, writing_order(graph_, setting_), *decider_);
     if (!factors) return add(divisor.node, false, divisor.name);
     for (const Tree& factor : *factors) require_nonzero(Lowering(graph_)(factor));
@@ -185,40 +158,57 @@ void WhereConstant::drop_implied()
 bool WhereConstant::hold_somewhere(const std::vector<NodeId>& functions)
 {
     ProofSetting setting = with_conditions_but(conditions_.size());
+    setting.defined = defined_;
     setting.defined.insert(setting.defined.end(), functions.begin(), functions.end());
     const std::unique_ptr<ZeroDecider> there = ZeroDecider::make(graph_, setting, decider_->budget());
     return there && there->sample_point().has_value();
 }
 
+/// The shortest of f > 0 and -f < 0, as they are written and as normal forms.
 std::string WhereConstant::text_of(const Condition& condition)
 {
-    const bool below = condition.positive && graph_.op(condition.f) == Op::negate;
-    const NodeId side = below ? graph_.operands(condition.f)[0] : condition.f;
-    std::string f = condition.name.empty() ? to_text(graph_, side, longest_named) : condition.name;
-    if (condition.name.empty() && f.size() <= longest_named)
-        if (const std::string reduced = decider_->decide(side).residual; reduced.size() < f.size()) f = reduced;
-    if (f.size() > longest_named) obstacle_ = "it may change where " + f.substr(0, 60) + "... vanishes";
-    return f + (below ? " < 0" : condition.positive ? " > 0" : " != 0");
+    const char* relations[] = {condition.positive ? " > 0" : " != 0", condition.positive ? " < 0" : " != 0"};
+    if (!condition.name.empty()) return condition.name + relations[0];
+    const NodeId sides[] = {condition.f, graph_.negate(condition.f)};
+    std::string shortest = to_text(graph_, condition.f, longest_named);
+    if (shortest.size() > longest_named) obstacle_ = "it may change where " + shortest.substr(0, 60) + "... vanishes";
+    const char* relation = relations[0];
+    for (const std::size_t k : {0U, 1U})
+        for (const std::string& text : {to_text(graph_, sides[k], longest_named), decider_->decide(sides[k]).residual})
+            if (obstacle_.empty() && !text.empty() && text.size() < shortest.size()) {
+                shortest = text;
+                relation = relations[k];
+            }
+    return shortest + relation;
 }
 
-void WhereConstant::restrict(Check& check, const std::vector<NodeId>& functions, const std::vector<NamedNode>& divisors)
+WhereConstant::Conditions WhereConstant::of(const std::vector<NodeId>& functions,
+                                            const std::vector<NamedNode>& divisors)
 {
-    if (check.decision.status != ProofStatus::proved) return;
     conditions_.clear();
     obstacle_.clear();
     for (const NodeId node : reachable(graph_, functions)) require(node);
     for (const NamedNode& divisor : divisors) require_divisor(divisor);
     drop_implied();
     std::vector<std::string> texts;
-    for (const Condition& condition : conditions_) texts.push_back(text_of(condition));
+    for (const Condition& condition : conditions_) {
+        std::string text = text_of(condition);
+        if (std::ranges::find(texts, text) == texts.end()) texts.push_back(std::move(text));
+    }
     if (!texts.empty() && obstacle_.empty() && !hold_somewhere(functions))
         obstacle_ = fmt::format("no point was found where {}", fmt::join(texts, " and "));
-    if (obstacle_.empty()) {
-        check.where = std::move(texts);
+    return {std::move(texts), obstacle_};
+}
+
+void WhereConstant::restrict(Check& check, const Conditions& conditions)
+{
+    if (check.decision.status != ProofStatus::proved) return;
+    if (conditions.obstacle.empty()) {
+        check.where = conditions.texts;
         return;
     }
     check.decision.status = ProofStatus::undecided;
-    check.decision.evidence = "its rate vanishes, but " + obstacle_;
+    check.decision.evidence = "its rate vanishes, but " + conditions.obstacle;
 }
 
 } // namespace lagen

@@ -5,8 +5,9 @@
 ///
 /// One rule: an operation of the function asks for what the operator table says, that it is defined (a divisor is not
 /// 0, a radicand is positive) and does not jump (sign, comparisons, the cut of atan2); kinks are no jumps. A condition
-/// is left out where it is proved, where the motion itself is not defined without it, and where it is about a constant
-/// of the motion, so that no motion crosses it. What is left stands beside the verdict.
+/// is left out where it follows from the domain, which a run does not leave, and where it is about a constant of the
+/// motion, so that no motion crosses it. What is left stands beside the verdict. That L is not defined at x = 0 as it
+/// is written is no reason to leave x != 0 out: a run steps over that, and its equations may have lost the divisor.
 #pragma once
 
 #include "mechanics/equations_of_motion.hpp"
@@ -15,7 +16,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <set>
 
 namespace lagen {
 
@@ -24,14 +24,19 @@ class WhereConstant {
     /// Is a function proved to be constant along every motion, given that it does not jump?
     using Conserved = std::function<bool(NodeId)>;
 
-    /// `setting.defined`: what the equations of motion are made of as they are written, and nothing else: a motion ends
-    /// where one of these is not defined.
+    struct Conditions {
+        std::vector<std::string> texts; ///< sufficient together
+        std::string obstacle;           ///< why they cannot be named, or none can be met; may be empty
+    };
+
     WhereConstant(Graph& graph, const ProofSetting& setting, const ProofBudget& budget, Conserved conserved);
 
-    /// Of a check that is proved because the rate of a function vanishes: its conditions, `Check::where`. `functions`:
-    /// the function and what else must be defined of it; `divisors`: of its rate. The check becomes `undecided` where a
-    /// condition is too long to be read, and where no point is found that satisfies all of them.
-    void restrict(Check& check, const std::vector<NodeId>& functions, const std::vector<NamedNode>& divisors = {});
+    /// `functions`: a function whose rate vanishes and what else must be defined of it; `divisors`: of its rate.
+    [[nodiscard]] Conditions of(const std::vector<NodeId>& functions, const std::vector<NamedNode>& divisors = {});
+
+    /// Of a check that is proved because the rate vanishes: `Check::where`. It becomes `undecided` where there is an
+    /// obstacle.
+    static void restrict(Check& check, const Conditions& conditions);
 
   private:
     struct Condition {
@@ -40,15 +45,12 @@ class WhereConstant {
         std::string name; ///< of f, where it has one
     };
 
-    void know_nonzero(NodeId divisor);
-    [[nodiscard]] bool is_nonzero(NodeId f) const;
-    [[nodiscard]] bool is_positive(NodeId f) const;
     [[nodiscard]] bool is_conserved(NodeId f);
     void require(NodeId node);
     void require_off_cut(NodeId node);
     void require_regular(NodeId factor);
     void require_nonzero(NodeId f);
-    void require_nonzero_factors(NodeId f);
+    void require_nonzero_factors(NodeId f, bool but_conserved);
     void require_positive(NodeId f);
     void require_divisor(const NamedNode& divisor);
     void add(NodeId f, bool positive, const std::string& name = {});
@@ -58,12 +60,11 @@ class WhereConstant {
     [[nodiscard]] std::string text_of(const Condition& condition);
 
     Graph& graph_;
-    ProofSetting setting_;
+    ProofSetting setting_; ///< the domain alone: nothing is said of where functions are defined
+    std::vector<NodeId> defined_;
     std::unique_ptr<ZeroDecider> decider_;
     Conserved conserved_;
     std::map<NodeId, bool> known_conserved_;
-    std::set<NodeId> certain_; ///< defined all along a motion
-    std::set<NodeId> nonzero_; ///< nonzero there
     std::vector<Condition> conditions_;
     std::string obstacle_; ///< why a condition cannot be named
 };

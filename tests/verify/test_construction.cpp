@@ -72,6 +72,31 @@ TEST_CASE("a dense rational frame of TR^4 is proved by construction, and its res
     CHECK(verified.structure.reevaluation->bound < 1e-60);
 }
 
+TEST_CASE("a dense frame of seven sections, too large for written brackets, is proved by construction too")
+{
+    std::string names, text;
+    for (int a = 0; a < 7; ++a) {
+        const std::string x = "x" + std::to_string(a);
+        names += (a == 0 ? "'" : ", '") + x + "'";
+        text += "f" + std::to_string(a) + " = {";
+        for (int b = 0; b < 7; ++b)
+            text += std::string(b == 0 ? "" : ",") + " e" + std::to_string(b) + " = '" + (a == b ? "8" : "1") + " + x" +
+                    std::to_string((a + b) % 7) + "/(2 + " + x + "^2)'";
+        text += " }\n";
+    }
+    const auto renamed = [&](char first) {
+        std::string other = names;
+        std::ranges::replace(other, 'x', first);
+        return other;
+    };
+    const ModelReport verified =
+        verified_text("[base]\ncoordinates = [" + names + "]\n[fibre]\ncoordinates = [" + renamed('f') +
+                      "]\n[algebroid]\nkind = 'frame'\n[algebroid.sections]\n" + text +
+                      "[algebroid.of]\nkind = 'tangent'\nfibre = [" + renamed('e') + "]\n");
+    CHECK(verified.structure.verdict == Verdict::valid);
+    CHECK(constructed(verified) > 200);
+}
+
 TEST_CASE("a dense rational frame of what is no algebroid is refuted, be it by 1e-15")
 {
     // [e1, e3] = c e4 needs rho([e1, e3]) = [rho(e1), rho(e3)] = 0.

@@ -4,6 +4,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <chrono>
+
 using namespace lagen;
 
 namespace {
@@ -99,6 +101,49 @@ TEST_CASE("a claim of forms holds where both sides are defined as they are writt
     }
     CHECK(verdict_of("B = { degree = 1, v_x = '1/x', equals = 'd(log(-x))' }") == Verdict::valid);
     CHECK(verdict_of("Z = { degree = 2, equals = 'd(d(x*y))', closed = true }") == Verdict::valid);
+}
+
+TEST_CASE("a closed function is constant where a Casimir is")
+{
+    const auto where_of = [](const std::string& f) {
+        const ModelReport report =
+            verified_text("[base]\ncoordinates = ['x', 'y', 'phi']\n[fibre]\ncoordinates = ['w']\n[algebroid.anchor]\n"
+                          "w = { x = '-y', y = 'x', phi = '1' }\n[forms]\nQ = { degree = 0, closed = true, value = '" +
+                          f + "' }\n");
+        Lines lines;
+        for (const Check& check : report.structure.checks)
+            if (check.name == "closed") lines.insert(lines.end(), check.where.begin(), check.where.end());
+        CHECK(report.structure.verdict == Verdict::valid);
+        return lines;
+    };
+    CHECK(where_of("phi - atan2(y, x)") == Lines{"y != 0"});
+    CHECK(where_of("abs(y)/y - abs(y)/y") == Lines{"y != 0"});
+    CHECK(where_of("x^2 + y^2").empty());
+}
+
+TEST_CASE("whether a form is closed that does not claim it is decided within a small budget")
+{
+    const auto begin = std::chrono::steady_clock::now();
+    const auto tangent = [](std::size_t n, const std::string& form) {
+        return verified_text("[base]\ncoordinates = ['x[1.." + std::to_string(n) +
+                             "]']\n[algebroid]\nkind = 'tangent'\n[forms]\nA = { " + form + " }\n")
+            .structure.forms.at(0)
+            .closed;
+    };
+    const auto slopes = [](std::size_t n, const std::string& of) { // the k-th is written with x[k]
+        std::string form = "degree = 1";
+        for (std::size_t k = 1; k <= n; ++k) {
+            const std::string x = "x[" + std::to_string(k) + "]";
+            form += ", 'v_" + x + "' = '" + x + "*" + of + "'";
+        }
+        return form;
+    };
+    const std::string twice = "sqrt(2 + sin(sum(k, 1, 40, x[k])))/sqrt(2 + sin(sum(k, 1, 40, x[k]*1)))";
+    CHECK(tangent(40, slopes(40, "(" + twice + "*exp(sum(k, 1, 40, x[k]^2)) + x[1]^2)")) == ProofStatus::refuted);
+    CHECK(tangent(20, slopes(20, "sum(k, 1, 20, x[k]^2)")) == ProofStatus::proved);
+    CHECK(tangent(90, "degree = 2, 'v_x[1],v_x[2]' = 'sin(x[3])*x[4]'") == ProofStatus::undecided);
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+    CHECK(seconds.count() < 10);
 }
 
 TEST_CASE("a definition called d is meant where the model has one")

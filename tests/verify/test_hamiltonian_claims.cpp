@@ -35,7 +35,9 @@ TEST_CASE("Kepler's problem in momenta conserves angular momentum and the Laplac
 {
     CHECK(statuses(hamiltonian_plane("(p^2 + q^2)/2 - k/sqrt(x^2 + y^2)"),
                    {"x*q - y*p", "q*(x*q - y*p) - k*x/sqrt(x^2 + y^2)", "q*(x*q - y*p) + k*x/sqrt(x^2 + y^2)", "energy",
-                    "hamiltonian", "lagrangian"}) == "proved, proved, refuted, proved, proved, refuted");
+                    "hamiltonian", "lagrangian"}) ==
+          "proved, proved where x^2 + y^2 != 0, refuted, proved where x^2 + y^2 != 0, proved where x^2 + y^2 != 0, "
+          "refuted");
 }
 
 TEST_CASE("fibre coordinates in a claim are dH/dmu")

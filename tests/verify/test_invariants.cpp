@@ -56,7 +56,8 @@ TEST_CASE("Kepler's problem conserves angular momentum and the Laplace vector")
 {
     CHECK(statuses(plane("(u^2 + v^2)/2 + k/sqrt(x^2 + y^2)"),
                    {"x*v - y*u", "v*(x*v - y*u) - k*x/sqrt(x^2 + y^2)", "-u*(x*v - y*u) - k*y/sqrt(x^2 + y^2)",
-                    "-u*(x*v - y*u) + k*y/sqrt(x^2 + y^2)", "energy"}) == "proved, proved, proved, refuted, proved");
+                    "-u*(x*v - y*u) + k*y/sqrt(x^2 + y^2)", "energy"}) ==
+          "proved, proved where x^2 + y^2 != 0, proved where x^2 + y^2 != 0, refuted, proved where x^2 + y^2 != 0");
 }
 
 TEST_CASE("the Henon-Heiles system conserves energy only")
@@ -137,10 +138,10 @@ TEST_CASE("a Lagrangian that is not quadratic has its own mass matrix in each in
     const std::string relativistic = plane("-sqrt(1 - u^2 - v^2) - x^2/2");
     CHECK(statuses(relativistic, {"energy", "v/sqrt(1 - u^2 - v^2)", "1/sqrt(1 - u^2 - v^2) + x^2/2",
                                   "1/sqrt(1 - u^2 - v^2) - x^2/2", "v"}) ==
-          "proved where 1 - u^2 - v^2 != 0, proved where 1 - u^2 - v^2 != 0, proved where 1 - u^2 - v^2 != 0, refuted, "
+          "proved where 1 - u^2 - v^2 > 0, proved where 1 - u^2 - v^2 > 0, proved where 1 - u^2 - v^2 > 0, refuted, "
           "refuted");
     CHECK(statuses(relativistic, {"sqrt(1 + p_u^2 + p_v^2) + x^2/2", "sqrt(1 + p_u^2 + p_v^2) - x^2/2"}) ==
-          "proved where 1 - u^2 - v^2 != 0, refuted");
+          "proved where 1 - u^2 - v^2 > 0, refuted");
     // W = diag(x, 1) is singular at x = 0: x u^2 is conserved wherever the accelerations exist.
     CHECK(statuses(plane("(x*u^2 + v^2)/2"), {"x*u^2", "x*u", "v"}) == "proved where x != 0, refuted, proved");
     CHECK(statuses(plane("exp(k*t)*(u^2 - x^2)/2 + v^2/2"), {"p_u", "v", "energy"}) == "refuted, proved, refuted");

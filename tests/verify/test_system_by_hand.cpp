@@ -2,6 +2,7 @@
 /// Systems that were not read from a file.
 #include "algebroid/kinds.hpp"
 #include "mechanics/lagrange.hpp"
+#include "mechanics/pontryagin.hpp"
 #include "verify/verify.hpp"
 
 #include <catch2/catch.hpp>
@@ -42,4 +43,25 @@ TEST_CASE("a system by hand that is no algebroid is refuted")
     REQUIRE(report.structure.verdict == Verdict::invalid);
     CHECK(report.structure.checks.at(0).indices == std::vector<std::string>{"u", "v", "x"});
     CHECK(report.structure.checks.at(0).decision.residual == "1");
+}
+
+TEST_CASE("what a simplified d2H/du2 was divided by is asked for, since the cost is not defined where it vanishes")
+{
+    System system;
+    Graph& graph = system.graph;
+    system.time = graph.input("t");
+    system.algebroid = tangent(graph, {"x", "y"}, {"a", "b"});
+    system.mu = {graph.input("p"), graph.input("q")};
+    const NodeId x = system.algebroid.x[0], y = system.algebroid.x[1], u = graph.input("u"), one = graph.constant(1);
+    // x (y z1 + z2) = x, z1 + y z2 = 1: the first row is divided by x.
+    const std::vector<NodeId> matrix{graph.multiply(x, y), x, one, y}, right{x, one};
+    const NodeId z = graph.solve(matrix, right, MatrixStructure::general)[0];
+    ControlProblem control;
+    control.u = {u};
+    control.sigma = {u, graph.constant(0)};
+    control.cost = graph.multiply(graph.multiply(z, graph.constant(Rational(1, 2))), graph.power(u, 2));
+    system.control = control;
+    bool asked = false;
+    for (const NamedNode& divisor : solved_pontryagin_system(graph, system).divisors) asked |= divisor.node == x;
+    CHECK(asked);
 }
