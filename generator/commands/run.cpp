@@ -144,6 +144,20 @@ std::vector<Panel> panels_of(const std::vector<TableColumn>& columns, const Mode
     return panels;
 }
 
+/// Throws where the equations are not what the method asks for.
+void require_system(const Options& options, const Scene& scene, const MethodEntry& method, const KernelModule& module)
+{
+    using Kind = SecondOrder::Kind;
+    const SecondOrder& found = module.second_order;
+    if (method.system == Kind::no || found.kind == method.system || found.kind == Kind::velocity_free) return;
+    const std::string text = fmt::format("{} integrates {}, and in model '{}' {}", method.name, system_of(method),
+                                         module.model, found.obstacle);
+    const std::string hint = found.kind == Kind::general ? "rkng54 integrates x'' = f(t, x, x')"
+                                                         : "dop853 and verner87 integrate every system";
+    if (options.has("method")) throw UsageError(fmt::format("lagen run: {}\nhint: {}", text, hint));
+    throw ModelError(text, scene.method_where, hint);
+}
+
 void tell(const Options& options, const RunOutcome& outcome, bool as_json)
 {
     if (as_json) {
@@ -185,6 +199,7 @@ ExitCode run_run(Arguments arguments)
     request.form = form;
     request.scene = &scene;
     const Generated generated = generate(checked, request);
+    require_system(options, scene, method, generated.module);
     const ProgramInput input =
         input_of(checked, generated.module, scene, values, options.has("at") && !options.has("t-end"));
     const Compiled compiled = compile_program(generated.header, program_text(generated.module.name, method));

@@ -8,9 +8,10 @@
 ///   Rkn86           8                         3                                 7
 ///   Rkn1210        17                         5                                10
 /// and for v' = f(t, x, v): Rkng54, 6 calls, a value of order 4 inside without another one.
-/// Sources are in the tables of coefficients. Values inside a step are those of Dormand and Prince (Rkn64); of
-/// continuous extensions that solve the order conditions (Rkn86, Rkn1210: stages are added at values of an extension of
-/// lower order, two orders below, since f enters x times h^2); of Hermite's polynomial of degree 5 (Rkng54).
+/// Step control is that of verner.hpp. Sources are in the tables of coefficients. Values inside a step are those of
+/// Dormand and Prince (Rkn64); of continuous extensions that solve the order conditions (Rkn86, Rkn1210: stages are
+/// added at values of an extension of lower order, two orders below, since f enters x times h^2); of Hermite's
+/// polynomial of degree 5 (Rkng54).
 #pragma once
 
 #include "lagen/integrate/control.hpp"
@@ -28,9 +29,10 @@ namespace lagen {
 template <class Tableau, class M>
 class NystromStepper {
     static constexpr bool general = requires { Tableau::a; };
-    static_assert(general ? second_order<M> != SecondOrder::no : second_order<M> == SecondOrder::velocity_free,
-                  "a Nystrom method needs a model of second order (SecondOrder in lagen/kernel.hpp): x' = v, and but for "
-                  "Rkng54 a v' that does not depend on v");
+    static_assert(
+        general ? second_order<M> != SecondOrder::no : second_order<M> == SecondOrder::velocity_free,
+        "a Nystrom method needs a model of second order (SecondOrder in lagen/kernel.hpp): x' = v, and but for "
+        "Rkng54 a v' that does not depend on v");
     static_assert(!is_pack<typename M::Scalar>,
                   "adaptive methods choose one step for one trajectory: use a fixed-step method with packs");
     static_assert(moves_by_sums<M>, "a Nystrom method moves its states by sums");
@@ -237,7 +239,7 @@ class NystromStepper {
 
 template <class Tableau>
 struct NystromFamily {
-    static constexpr StepControl defaults{};
+    static constexpr StepControl defaults{.safety = 0.8, .beta = 0};
     template <class M>
     using Stepper = NystromStepper<Tableau, M>;
 };

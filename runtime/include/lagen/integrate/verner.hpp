@@ -9,7 +9,9 @@
 /// Of his two interpolants these are the ones of lower order: inside a step their error is about what the embedded
 /// formula estimates (Kepler's problem: 0.04 to 2 times it), which is what the tolerance speaks of. Those of full order
 /// take two to three times as many calls.
-/// The coefficients have 40 digits: `__float128` and wider scalars get the accuracy that they ask for.
+/// Classical step control with safety 0.8, as Dop853: over Kepler's problem, Henon-Heiles, a pendulum near its
+/// separatrix and a forced elastic pendulum equal errors cost 4 to 12 % less than with 0.9 and beta = 0.04, which fewer
+/// steps reject. The coefficients have 40 digits: `__float128` and wider scalars get the accuracy that they ask for.
 #pragma once
 
 #include "lagen/integrate/embedded.hpp"
@@ -22,7 +24,7 @@ namespace lagen {
 
 template <class Tableau>
 struct VernerFamily {
-    static constexpr StepControl defaults{};
+    static constexpr StepControl defaults{.safety = 0.8, .beta = 0};
     template <class M>
     using Stepper = EmbeddedStepper<Tableau, M>;
 };
