@@ -74,7 +74,7 @@ class NystromStepper {
         if constexpr (!general) keep_rates(s, x_);
         Status status = evaluate<1, end>(model, t, s, h);
         if (status != Status::ok) return status;
-        move_positions<Tableau::bbar, 0, Tableau::stages>(s, h, h, s1);
+        move_positions<Tableau::bbar, 0, end>(s, h, h, s1);
         // Of x'' = f(t, x) the last stage does not ask for v1, which may depend on it.
         if constexpr (ends_in_stage && !general) {
             keep_rates(s, s1);
@@ -157,8 +157,8 @@ class NystromStepper {
         for_positions(s, [&]<int width>(detail::Width<width>, Eigen::Index lane) {
             const auto stages = std::make_index_sequence<count>{};
             const auto sum = detail::weighted_lanes<weights, offset, width>(k_, half(s) + lane, stages);
-            const auto drift = reach * detail::load<width>(s, half(s) + lane);
-            detail::store(out, lane, detail::load<width>(s, lane) + (drift + square * sum));
+            const detail::Slice<State, width> move = reach * detail::load<width>(s, half(s) + lane) + square * sum;
+            detail::store(out, lane, detail::load<width>(s, lane) + move);
         });
     }
 
