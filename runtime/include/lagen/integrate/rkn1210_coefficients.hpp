@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// RKN12(10)17M of Dormand, El-Mikkawy and Prince [High-order embedded Runge-Kutta-Nystrom formulae, IMA J. Numer.
-/// Anal. Written by scripts/tableaus from scripts/coefficients/rkn1210.txt; what each array is: tableau.hpp.
+/// Anal. 7 (1987) 423], exact.
+/// Written by scripts/tableaus from scripts/coefficients/rkn1210.txt; what each array is: tableau.hpp.
 #pragma once
 
 #include "lagen/integrate/tableau.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// RKN8(6)9M of Dormand, El-Mikkawy and Prince [High-order embedded Runge-Kutta-Nystrom formulae, IMA J. Numer. Anal.
+/// RKN8(6)9M of Dormand, El-Mikkawy and Prince [High-order embedded Runge-Kutta-Nystrom formulae, IMA J. Numer.
+/// Anal. 7 (1987) 423], exact.
 /// Written by scripts/tableaus from scripts/coefficients/rkn86.txt; what each array is: tableau.hpp.
 #pragma once
 

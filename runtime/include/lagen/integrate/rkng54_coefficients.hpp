@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// The pair 5(4) of Fine for x'' = f(t, x, x') [Low order practical Runge-Kutta-Nystrom methods, Computing 38 (1987) 281],
-/// exact.
+/// The pair 5(4) of Fine for x'' = f(t, x, x') [Low order practical Runge-Kutta-Nystrom methods, Computing 38 (1987)
+/// 281], exact.
 /// Written by scripts/tableaus from scripts/coefficients/rkng54.txt; what each array is: tableau.hpp.
 #pragma once
 

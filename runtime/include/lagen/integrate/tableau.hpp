@@ -4,9 +4,9 @@
 ///   end            the stage, from 0, that stands at the end of the step: row `end` of a are the weights of the step.
 ///                  It is evaluated before the error is known where it is one of the `stages`, else only after a step
 ///                  that is kept; its K is the first one of the next step
-///   dense_stages   all stages; those behind `end` serve values inside the step and are evaluated where one is asked for
-///   error          the weights minus those of the embedded formula, which is of order embedded_order
-///   interpolant    the weights at theta are b_i(theta) = sum_k interpolant[i][k] theta^(k + 1), of order dense_order
+///   dense_stages   all stages; those behind `end` serve values inside the step and are evaluated where one is asked
+///   for error          the weights minus those of the embedded formula, which is of order embedded_order interpolant
+///   the weights at theta are b_i(theta) = sum_k interpolant[i][k] theta^(k + 1), of order dense_order
 /// Pairs for x'' = f have rows abar and weights bbar, error_bar of x (times h^2) beside a, b and error of x'; their
 /// interpolant is that of x', and its integral that of x.
 #pragma once
