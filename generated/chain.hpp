@@ -111,6 +111,7 @@ class chain {
     static constexpr int dimension = 8;
     static constexpr int base_dimension = 4;
     static constexpr int fibre_dimension = 4;
+    static constexpr SecondOrder second_order = SecondOrder::general;
     using State = Eigen::Matrix<S, 8, 1>;
 
     static constexpr const char* model_name = "chain";

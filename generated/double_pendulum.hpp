@@ -72,6 +72,7 @@ class double_pendulum {
     static constexpr int dimension = 4;
     static constexpr int base_dimension = 2;
     static constexpr int fibre_dimension = 2;
+    static constexpr SecondOrder second_order = SecondOrder::general;
     using State = Eigen::Matrix<S, 4, 1>;
 
     static constexpr const char* model_name = "double_pendulum";

@@ -68,6 +68,7 @@ class driven_pendulum {
     static constexpr int dimension = 2;
     static constexpr int base_dimension = 1;
     static constexpr int fibre_dimension = 1;
+    static constexpr SecondOrder second_order = SecondOrder::general;
     using State = Eigen::Matrix<S, 2, 1>;
 
     static constexpr const char* model_name = "driven_pendulum";

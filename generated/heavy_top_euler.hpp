@@ -104,6 +104,7 @@ class heavy_top_euler {
     static constexpr int dimension = 6;
     static constexpr int base_dimension = 3;
     static constexpr int fibre_dimension = 3;
+    static constexpr SecondOrder second_order = SecondOrder::general;
     using State = Eigen::Matrix<S, 6, 1>;
 
     static constexpr const char* model_name = "heavy_top_euler";

@@ -63,6 +63,7 @@ class henon_heiles {
     static constexpr int dimension = 4;
     static constexpr int base_dimension = 2;
     static constexpr int fibre_dimension = 2;
+    static constexpr SecondOrder second_order = SecondOrder::velocity_free;
     using State = Eigen::Matrix<S, 4, 1>;
 
     static constexpr const char* model_name = "henon_heiles";

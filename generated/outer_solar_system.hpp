@@ -135,6 +135,7 @@ class outer_solar_system {
     static constexpr int dimension = 36;
     static constexpr int base_dimension = 18;
     static constexpr int fibre_dimension = 18;
+    static constexpr SecondOrder second_order = SecondOrder::velocity_free;
     using State = Eigen::Matrix<S, 36, 1>;
 
     static constexpr const char* model_name = "outer_solar_system";

@@ -300,6 +300,7 @@ class pleiades {
     static constexpr int dimension = 28;
     static constexpr int base_dimension = 14;
     static constexpr int fibre_dimension = 14;
+    static constexpr SecondOrder second_order = SecondOrder::velocity_free;
     using State = Eigen::Matrix<S, 28, 1>;
 
     static constexpr const char* model_name = "pleiades";

@@ -69,6 +69,7 @@ class relativistic_oscillator {
     static constexpr int dimension = 4;
     static constexpr int base_dimension = 2;
     static constexpr int fibre_dimension = 2;
+    static constexpr SecondOrder second_order = SecondOrder::general;
     using State = Eigen::Matrix<S, 4, 1>;
 
     static constexpr const char* model_name = "relativistic_oscillator";

@@ -64,6 +64,7 @@ class routh_spherical_pendulum {
     static constexpr int dimension = 2;
     static constexpr int base_dimension = 1;
     static constexpr int fibre_dimension = 1;
+    static constexpr SecondOrder second_order = SecondOrder::velocity_free;
     using State = Eigen::Matrix<S, 2, 1>;
 
     static constexpr const char* model_name = "routh_spherical_pendulum";

@@ -26,22 +26,37 @@ constexpr std::array entries{
     MethodEntry{"dopri5", "Dopri5", "5(4)", true, false, "Dormand and Prince 1980, dense output of order 4"},
     MethodEntry{"tsit5", "Tsit5", "5(4)", true, false, "Tsitouras 2011, dense output of order 4"},
     MethodEntry{"dop853", "Dop853", "8(5,3)", true, false, "Hairer, Norsett and Wanner 1993, dense output of order 7"},
-    MethodEntry{"gauss2", "Gauss2", "2", false, false, "Gauss, one stage: the implicit midpoint rule, symplectic"},
-    MethodEntry{"gauss4", "Gauss4", "4", false, false, "Gauss, two stages (Kuntzmann, Butcher 1964), symplectic"},
-    MethodEntry{"gauss6", "Gauss6", "6", false, false, "Gauss, three stages (Kuntzmann, Butcher 1964), symplectic"},
-    MethodEntry{"gauss8", "Gauss8", "8", false, false, "Gauss, four stages (Kuntzmann, Butcher 1964), symplectic"},
+    MethodEntry{"verner65", "Verner65", "6(5)", true, false, "Verner 2010, dense output of order 5"},
+    MethodEntry{"verner76", "Verner76", "7(6)", true, false, "Verner 2010, dense output of order 6"},
+    MethodEntry{"verner87", "Verner87", "8(7)", true, false, "Verner 2010, dense output of order 7"},
+    MethodEntry{"verner98", "Verner98", "9(8)", true, false, "Verner 2010, dense output of order 8"},
+    MethodEntry{"rkn64", "Rkn64", "6(4)", true, false, "Nystrom (Dormand and Prince 1987), dense output of order 5", "",
+                SecondOrder::Kind::velocity_free},
+    MethodEntry{"rkn86", "Rkn86", "8(6)", true, false,
+                "Nystrom (Dormand, El-Mikkawy and Prince 1987), dense output of order 7", "",
+                SecondOrder::Kind::velocity_free},
+    MethodEntry{"rkn1210", "Rkn1210", "12(10)", true, false,
+                "Nystrom (Dormand, El-Mikkawy and Prince 1987), dense output of order 10", "",
+                SecondOrder::Kind::velocity_free},
+    MethodEntry{"rkng54", "Rkng54", "5(4)", true, false, "Nystrom (Fine 1987), dense output of order 4", "",
+                SecondOrder::Kind::general},
+    MethodEntry{"gauss2", "Gauss2", "2", false, false, "Gauss, one stage: the implicit midpoint rule", "symplectic"},
+    MethodEntry{"gauss4", "Gauss4", "4", false, false, "Gauss, two stages (Kuntzmann, Butcher 1964)", "symplectic"},
+    MethodEntry{"gauss6", "Gauss6", "6", false, false, "Gauss, three stages (Kuntzmann, Butcher 1964)", "symplectic"},
+    MethodEntry{"gauss8", "Gauss8", "8", false, false, "Gauss, four stages (Kuntzmann, Butcher 1964)", "symplectic"},
     MethodEntry{"radau5", "Radau5", "5(3)", true, false,
                 "Radau IIA (Hairer and Wanner 1991), stiff, dense output of order 3"},
     MethodEntry{"radau3_fixed", "Radau3Fixed", "3", false, false, "Radau IIA, two stages, fixed step, stiff"},
     MethodEntry{"radau5_fixed", "Radau5Fixed", "5", false, false, "Radau IIA, three stages, fixed step, stiff"},
-    MethodEntry{"leapfrog_dkd", "LeapfrogDkd", "2", false, true, "Stoermer-Verlet, drift-kick-drift"},
-    MethodEntry{"leapfrog_kdk", "LeapfrogKdk", "2", false, true, "Stoermer-Verlet, kick-drift-kick"},
-    MethodEntry{"mclachlan4", "McLachlan4", "4", false, true, "McLachlan and Atela 1992, four stages, kick first"},
-    MethodEntry{"yoshida6", "Yoshida6", "6", false, true, "Yoshida 1990, solution A, kick-drift-kick"},
+    MethodEntry{"leapfrog_dkd", "LeapfrogDkd", "2", false, true, "Stoermer-Verlet, drift-kick-drift", "symplectic"},
+    MethodEntry{"leapfrog_kdk", "LeapfrogKdk", "2", false, true, "Stoermer-Verlet, kick-drift-kick", "symplectic"},
+    MethodEntry{"mclachlan4", "McLachlan4", "4", false, true, "McLachlan and Atela 1992, four stages, kick first",
+                "symplectic"},
+    MethodEntry{"yoshida6", "Yoshida6", "6", false, true, "Yoshida 1990, solution A, kick-drift-kick", "symplectic"},
 };
 
 /// What other programs and books call a method, in small letters.
-constexpr std::array<std::pair<const char*, const char*>, 10> names_elsewhere{{{"rk45", "dopri5"},
+constexpr std::array<std::pair<const char*, const char*>, 18> names_elsewhere{{{"rk45", "dopri5"},
                                                                                {"ode45", "dopri5"},
                                                                                {"runge_kutta", "rk4"},
                                                                                {"radau", "radau5"},
@@ -50,7 +65,15 @@ constexpr std::array<std::pair<const char*, const char*>, 10> names_elsewhere{{{
                                                                                {"implicit_midpoint", "gauss2"},
                                                                                {"leapfrog", "leapfrog_kdk"},
                                                                                {"verlet", "leapfrog_kdk"},
-                                                                               {"velocity_verlet", "leapfrog_kdk"}}};
+                                                                               {"velocity_verlet", "leapfrog_kdk"},
+                                                                               {"vern6", "verner65"},
+                                                                               {"vern7", "verner76"},
+                                                                               {"vern8", "verner87"},
+                                                                               {"vern9", "verner98"},
+                                                                               {"dprkn6", "rkn64"},
+                                                                               {"dprkn8", "rkn86"},
+                                                                               {"dprkn12", "rkn1210"},
+                                                                               {"finerkn5", "rkng54"}}};
 
 const CommandSyntax methods_syntax{
     "methods", "", "Lists the integrators.", {{"format,f", "FORMAT", "text or json", "text"}}};
@@ -64,7 +87,8 @@ void method_json(JsonWriter& json, const MethodEntry& entry)
         .value(entry.order)
         .key("adaptive")
         .value(entry.adaptive);
-    json.key("separable_only").value(entry.separable_only).key("text").value(entry.text).end_object();
+    json.key("separable_only").value(entry.separable_only).key("text").value(entry.text);
+    json.key("keeps").value(entry.keeps).key("system").value(system_of(entry)).end_object();
 }
 
 } // namespace
@@ -93,6 +117,17 @@ std::string nearest_method(const std::string& name)
     return nearest_name(small, method_names());
 }
 
+std::string system_of(const MethodEntry& method)
+{
+    if (method.separable_only) return "x' = f(y), y' = g(x)";
+    switch (method.system) {
+    case SecondOrder::Kind::no: return "";
+    case SecondOrder::Kind::general: return "x'' = f(t, x, x')";
+    case SecondOrder::Kind::velocity_free: return "x'' = f(t, x)";
+    }
+    return "";
+}
+
 std::span<const std::string> method_names()
 {
     static const std::vector<std::string> names = [] {
@@ -117,9 +152,10 @@ ExitCode run_methods(Arguments arguments)
     }
     std::string text;
     for (const MethodEntry& entry : entries) {
-        text +=
-            fmt::format("{:<14}order {:<8}{:<10}{}{}\n", entry.name, entry.order, entry.adaptive ? "tolerance" : "step",
-                        entry.text, entry.separable_only ? " (for x' = f(y), y' = g(x) only)" : "");
+        const std::string keeps = entry.keeps, system = system_of(entry);
+        text += fmt::format("{:<14}order {:<8}{:<10}{}{}{}\n", entry.name, entry.order,
+                            entry.adaptive ? "tolerance" : "step", entry.text, keeps.empty() ? "" : ", " + keeps,
+                            system.empty() ? "" : fmt::format(" (for {} only)", system));
     }
     write_standard_output(text);
     return ExitCode::done;

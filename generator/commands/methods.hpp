@@ -2,24 +2,30 @@
 /// The integrators that `run` knows, as the runtime's headers define them.
 #pragma once
 
+#include "graph/kernel.hpp"
+
 #include <span>
 #include <string>
 
 namespace lagen {
 
 struct MethodEntry {
-    const char* name;    ///< as in scenes and --method
-    const char* type;    ///< the runtime's type
-    const char* order;   ///< "5(4)"
-    bool adaptive;       ///< takes a tolerance; else a step
-    bool separable_only; ///< partitioned methods for xdot = f(y), ydot = g(x)
-    const char* text;    ///< one line, with the source
+    const char* name;                                 ///< as in scenes and --method
+    const char* type;                                 ///< the runtime's type
+    const char* order;                                ///< "5(4)"
+    bool adaptive;                                    ///< takes a tolerance; else a step
+    bool separable_only;                              ///< partitioned methods for xdot = f(y), ydot = g(x)
+    const char* text;                                 ///< one line, with the source
+    const char* keeps = "";                           ///< what long runs keep
+    SecondOrder::Kind system = SecondOrder::Kind::no; ///< for x'' = f(t, x, x') or f(t, x) only
 };
 
 [[nodiscard]] std::span<const MethodEntry> method_table();
 [[nodiscard]] const MethodEntry* find_method(const std::string& name); ///< nullptr where there is none
 /// The method that was meant: one of a name like it, or what other programs call so; empty where there is none.
 [[nodiscard]] std::string nearest_method(const std::string& name);
+/// What a method asks of the equations, "x'' = f(t, x)"; empty where it takes all.
+[[nodiscard]] std::string system_of(const MethodEntry& method);
 /// Every method name, in the order of the table.
 [[nodiscard]] std::span<const std::string> method_names();
 

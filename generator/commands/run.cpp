@@ -5,9 +5,9 @@
 #include "commands/options.hpp"
 #include "commands/places.hpp"
 #include "commands/plot.hpp"
+#include "commands/preparation.hpp"
 #include "commands/process.hpp"
 #include "commands/progress.hpp"
-#include "commands/run_record.hpp"
 #include "commands/scene_options.hpp"
 #include "commands/scene_program.hpp"
 #include "commands/start_state.hpp"
@@ -59,53 +59,6 @@ std::vector<long double> numbers(const std::vector<NamedNumber>& named, const Sc
     }
     return values;
 }
-
-/// A run that was prepared before, or is proved, generated and compiled now.
-class Preparation {
-  public:
-    Preparation(const Options& options, CheckedModel& checked)
-        : checked_(checked),
-          file_(record_file(checked.model, {options.get("scene"), options.get("form"), options.get("method"),
-                                            options.has("unchecked") ? "unchecked" : ""})),
-          record_(find_record(file_))
-    {
-        if (record_)
-            checked.warnings = record_->warnings;
-        else
-            prove(checked);
-    }
-
-    void finish(const Scene& scene, const std::string& form, const MethodEntry& method,
-                const std::vector<long double>& parameters)
-    {
-        if (record_ && holds_for(*record_, checked_, parameters)) return;
-        if (record_) prove(checked_);
-        proved_ = true;
-        set_parameters(checked_, parameters);
-        GenerateRequest request;
-        request.form = form;
-        request.scene = &scene;
-        const Generated generated = generate(checked_, request);
-        const Compiled compiled = compile_program(generated.header, program_text(generated.module.name, method));
-        record_ = record_of(checked_, generated.module, compiled.program, parameters);
-        keep_record(file_, *record_);
-    }
-
-    [[nodiscard]] const RunRecord& record() const { return *record_; }
-
-    /// With its system, and what is decided for `parameters`.
-    const CheckedModel& checked(const std::vector<long double>& parameters)
-    {
-        if (!proved_) decide_regularity(checked_, parameters);
-        return checked_;
-    }
-
-  private:
-    CheckedModel& checked_;
-    std::string file_;
-    std::optional<RunRecord> record_;
-    bool proved_ = false;
-};
 
 /// Times and report go through files: an argument list has a limit.
 void use_folder(const TemporaryFolder& folder, ProgramInput& input)

@@ -56,6 +56,7 @@ std::set<std::string> class_scope_names(const KernelModule& module, const std::s
         for (const KernelOutput& output : kernel.outputs) names.insert(output.name);
     }
     for (const LaneGroup& group : module.groups) names.insert(group.role + "_dimension");
+    if (module.second_order.kind != SecondOrder::Kind::no) names.insert("second_order");
     if (!module.implicit.empty())
         names.insert({"z", "newton", "bracket", "lower", "upper", "unknowns", "residual", "derivative", "size",
                       "inside", "require_positive"});

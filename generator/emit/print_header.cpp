@@ -125,6 +125,9 @@ void print_constants(TextBlock& out, const KernelModule& module)
     out.line(fmt::format("static constexpr int dimension = {};", lanes.size()));
     for (const LaneGroup& group : module.groups)
         out.line(fmt::format("static constexpr int {}_dimension = {};", group.role, group.lanes.size()));
+    if (module.second_order.kind != SecondOrder::Kind::no)
+        out.line(fmt::format("static constexpr SecondOrder second_order = SecondOrder::{};",
+                             module.second_order.kind == SecondOrder::Kind::general ? "general" : "velocity_free"));
     out.line(fmt::format("using State = Eigen::Matrix<S, {}, 1>;", lanes.size()));
     out.blank();
     out.line(fmt::format("static constexpr const char* model_name = {};", string_literal(module.model)));

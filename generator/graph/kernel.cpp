@@ -3,7 +3,10 @@
 
 #include "diagnostic.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 
 namespace lagen {
 
@@ -27,6 +30,29 @@ std::vector<KernelInput> point_inputs(const KernelModule& module)
     const std::vector<Quantity> lanes = lanes_of(module);
     return {{"t", ArrayRole::time, {}, {{"t", {}, {}, module.time}}},
             {"s", ArrayRole::state, {1, lanes.size(), 1}, lanes}};
+}
+
+SecondOrder second_order_of(const KernelModule& module, const std::vector<NodeId>& rates)
+{
+    using Kind = SecondOrder::Kind;
+    const std::vector<Quantity>&x = module.groups.at(0).lanes, &v = module.groups.at(1).lanes;
+    if (x.size() != v.size() || x.empty())
+        return {Kind::no,
+                fmt::format("the numbers of base coordinates and of other lanes are {} and {}", x.size(), v.size())};
+    for (std::size_t i = 0; i < x.size(); ++i)
+        if (rates[i] != v[i].input) return {Kind::no, fmt::format("{}' is not {}", x[i].name, v[i].name)};
+    for (std::size_t i = 0; i < v.size(); ++i) {
+        const auto depends = [&](NodeId input) {
+            return depends_on_any(*module.graph, std::array{rates[x.size() + i]}, std::array{input});
+        };
+        for (const Quantity& lane : v)
+            if (depends(lane.input)) return {Kind::general, fmt::format("{}' depends on {}", v[i].name, lane.name)};
+        // What an unknown depends on is said by its equations.
+        for (const ImplicitBlock& block : module.implicit)
+            if (std::ranges::any_of(block.unknowns, depends))
+                return {Kind::general, fmt::format("{}' depends on what is solved for in every call", v[i].name)};
+    }
+    return {Kind::velocity_free, ""};
 }
 
 bool has_kernel(const KernelModule& module, const std::string& name)

@@ -98,6 +98,13 @@ enum class ModuleKind {
     boundary_problem, ///< residuals at both ends of an interval
 };
 
+/// Is State (x, v), as many base coordinates as other lanes, with x' = v lane by lane? And is v' free of v?
+struct SecondOrder {
+    enum class Kind { no, general, velocity_free };
+    Kind kind = Kind::no;
+    std::string obstacle; ///< to the next kind, in names of the model: "x' is not p_x", "u' depends on v"
+};
+
 /// Everything that one generated class holds.
 struct KernelModule {
     std::string name;  ///< class name: model name, with _FORM for forms other than lagrange
@@ -117,6 +124,7 @@ struct KernelModule {
     std::vector<std::pair<std::string, NodeId>> parameter_conditions;
     ModuleKind kind = ModuleKind::vector_field;
     std::vector<LaneGroup> groups;       ///< of the lanes of State, in their order
+    SecondOrder second_order;            ///< of the right-hand side
     std::vector<ImplicitBlock> implicit; ///< unknowns of the kernels at (t, s), in the order in which they are solved
     std::vector<Kernel> kernels;
 };
@@ -126,6 +134,10 @@ struct KernelModule {
 
 /// `t` and `s`, the arguments of every kernel at a time and a state.
 [[nodiscard]] std::vector<KernelInput> point_inputs(const KernelModule& module);
+
+/// What the graph proves of these rates, one a lane of State. What it calls `general` may be velocity_free, where terms
+/// cancel that no rule of the graph brings together; never the other way round.
+[[nodiscard]] SecondOrder second_order_of(const KernelModule& module, const std::vector<NodeId>& rates);
 
 [[nodiscard]] bool has_kernel(const KernelModule& module, const std::string& name);
 /// Throws InternalError where the module has none of that name.

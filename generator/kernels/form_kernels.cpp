@@ -135,6 +135,9 @@ class ModuleBuilder {
         kernel.checks->failures = form_.failures;
         kernel.documentation = form_.documentation;
         add(std::move(kernel));
+        std::vector<NodeId> rates;
+        for (const KernelEntry& entry : module_.kernels.back().outputs[0].entries) rates.push_back(entry.node);
+        module_.second_order = second_order_of(module_, rates);
     }
 
     void add_trees(const std::string& name, const std::vector<NamedTree>& trees)

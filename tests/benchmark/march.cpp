@@ -16,6 +16,7 @@
 #include "plain/dop853.hpp"
 #include "plain/gauss4.hpp"
 #include "plain/rk4.hpp"
+#include "plain/rkn86.hpp"
 
 #include HEADER_(MODEL)
 
@@ -75,6 +76,41 @@ struct Dop853 {
         const auto rejected = static_cast<std::size_t>(steps.rejected);
         return {accepted, rejected, 1 + 12 * accepted + 11 * rejected, 0};
     }
+};
+
+/// Of models x'' = f(t, x) alone.
+struct Rkn86 {
+    [[maybe_unused]] static constexpr double length = 0.3; // about
+    template <class M>
+    static Cost by_lagen(const M& model, State& s, double end)
+    {
+        const auto run =
+            lagen::integrate(model, s, {0.0, end}, lagen::Rkn86{.tolerance = tolerance, .first_step = 0.1});
+        s = run.state;
+        return cost_of(run);
+    }
+    template <class M>
+    static Cost by_loop(const M& model, State& s, double end)
+    {
+        plain::Rkn86<M> method;
+        const plain::Steps steps = method.run(model, s, end, 0.1, tolerance);
+        const auto accepted = static_cast<std::size_t>(steps.accepted);
+        const auto rejected = static_cast<std::size_t>(steps.rejected);
+        return {accepted, rejected, 1 + 8 * (accepted + rejected), 0};
+    }
+};
+
+/// Without a plain loop: beside Dop853 it shows what a stage costs.
+struct Verner98 {
+    [[maybe_unused]] static constexpr double length = 0.3; // about
+    static Cost by_lagen(const Model& model, State& s, double end)
+    {
+        const auto run =
+            lagen::integrate(model, s, {0.0, end}, lagen::Verner98{.tolerance = tolerance, .first_step = 0.1});
+        s = run.state;
+        return cost_of(run);
+    }
+    static Cost by_loop(const Model& model, State& s, double end) { return Dop853::by_loop(model, s, end); }
 };
 
 struct Gauss4 {

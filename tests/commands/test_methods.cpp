@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cstdlib>
+#include <map>
 
 using namespace lagen::testing;
 namespace json = lagen::json;
@@ -18,13 +20,28 @@ TEST_CASE("lagen methods names every integrator of the interface")
     const json::Value list = json::parse(call({"methods", "--format", "json"}).out);
     std::vector<std::string> names;
     for (const json::Value& entry : list.entries) names.push_back(entry["name"].text);
-    for (const char* name : {"euler", "midpoint", "rk4", "dopri5", "tsit5", "dop853"})
+    for (const char* name : {"euler", "midpoint", "rk4", "dopri5", "tsit5", "dop853", "verner65", "verner76",
+                             "verner87", "verner98", "rkn64", "rkn86", "rkn1210", "rkng54"})
         CHECK(std::count(names.begin(), names.end(), name) == 1);
     CHECK(list.size() == lagen::method_table().size());
-    CHECK(list[0].keys == std::vector<std::string>{"name", "order", "adaptive", "separable_only", "text"});
+    CHECK(list[0].keys ==
+          std::vector<std::string>{"name", "order", "adaptive", "separable_only", "text", "keeps", "system"});
     const std::string text = call({"methods"}).out;
     CHECK(std::count(text.begin(), text.end(), '\n') == static_cast<std::ptrdiff_t>(list.size()));
     CHECK(text.find("\ndop853        order 8(5,3)  tolerance ") != std::string::npos);
+    CHECK(text.find("\nrkn1210       order 12(10)  tolerance ") != std::string::npos);
+    std::map<std::string, std::string> systems, kept;
+    for (const json::Value& entry : list.entries) {
+        systems[entry["name"].text] = entry["system"].text;
+        kept[entry["name"].text] = entry["keeps"].text;
+    }
+    CHECK(systems["verner98"].empty());
+    CHECK(systems["rkn64"] == "x'' = f(t, x)");
+    CHECK(systems["rkng54"] == "x'' = f(t, x, x')");
+    CHECK(systems["yoshida6"] == "x' = f(y), y' = g(x)");
+    CHECK(kept["gauss4"] == "symplectic");
+    CHECK(kept["mclachlan4"] == "symplectic");
+    CHECK(kept["rkn64"].empty());
 }
 
 TEST_CASE("every method's type integrates the generated oscillator to its accuracy", "[run]")
@@ -35,7 +52,8 @@ TEST_CASE("every method's type integrates the generated oscillator to its accura
     std::string calls;
     for (const lagen::MethodEntry& entry : lagen::method_table())
         calls += std::string("    show(lagen::") + entry.type +
-                 (entry.adaptive ? "{.tolerance = 1e-8}" : "{.step = 0x1p-9}") + ", " + entry.order[0] + ");\n";
+                 (entry.adaptive ? "{.tolerance = 1e-8}" : "{.step = 0x1p-9}") + ", " +
+                 std::to_string(std::atoi(entry.order)) + ");\n";
     write_text(folder + "/main.cpp", R"(#include "oscillator.hpp"
 #include "lagen/integrate.hpp"
 #include <cstdio>

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Measured orders of every integrator and of every dense output on nonlinear problems, in long double.
+/// Measured orders of every integrator and of every dense output on nonlinear problems, in long double; of those of the
+/// highest orders in quadruple precision.
 #include "lagen/lagen.hpp"
 #include "support/order.hpp"
 #include "support/problems.hpp"
 #include "support/tolerances.hpp"
 
+#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <catch2/catch.hpp>
 
 using Real = long double;
-using Kepler = lagen::problems::Kepler<Real>;
+using Quad = boost::multiprecision::cpp_bin_float_quad;
+using Fifty = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
 using lagen::support::measured_order;
 
 namespace {
@@ -23,19 +26,54 @@ Method with_step(double h)
         return Method{.tolerance = 1e12, .first_step = h, .max_step = h};
 }
 
-/// Kepler e = 0.3 from t = 0.5 to 4.5 against the closed form.
-template <class Method>
-double global_order(int coarsest)
+/// Kepler e = 0.3 as a system of second order.
+template <class S>
+struct Kepler : lagen::problems::Kepler<S> {
+    static constexpr auto second_order = lagen::SecondOrder::velocity_free;
+    static auto at(const S& t) { return Kepler::exact(S(0.3), t); }
+};
+
+/// |a - b| of two states.
+template <class State>
+long double distance(const State& a, const State& b)
+{
+    return static_cast<long double>((a - b).norm());
+}
+
+/// From t = 0.5 to 4.5 against the closed form.
+template <class Method, class S = Real>
+double global_order(int coarsest, long double floor = 1e-16L)
 {
     std::vector<lagen::support::ErrorPoint> points;
     for (int k = 0; k < 5; ++k) {
         const double h = 4.0 / (coarsest << k);
-        const auto run = lagen::integrate(Kepler{}, Kepler::exact(0.3L, 0.5L), {0.5L, 4.5L}, with_step<Method>(h));
+        const auto run = lagen::integrate(Kepler<S>{}, Kepler<S>::at(S(0.5)), {S(0.5), S(4.5)}, with_step<Method>(h));
         REQUIRE(run.status() == lagen::Status::ok);
         CHECK(run.steps == static_cast<std::size_t>(coarsest << k));
-        points.push_back({h, (run.state - Kepler::exact(0.3L, 4.5L)).norm()});
+        points.push_back({h, distance(run.state, Kepler<S>::at(S(4.5)))});
     }
-    return measured_order(points, 1e-16L);
+    return measured_order(points, floor);
+}
+
+/// A pendulum with damping and a drive, x'' = -sin x - 0.3 x' + cos(2 t) / 2, against steps of an eighth of the
+/// smallest.
+template <class Method, class S = Real>
+double driven_order(int coarsest, long double floor = 1e-16L)
+{
+    const auto pendulum = lagen::second_order_ode<1, S>([](S t, const auto& x, const auto& v, auto& a) {
+        using std::cos;
+        using std::sin;
+        a[0] = -sin(x[0]) - S(0.3) * v[0] + cos(S(2) * t) / S(2);
+    });
+    const auto end = [&](int steps) {
+        const auto run = lagen::integrate(pendulum, {S(1), S(0.5)}, {S(0), S(4)}, with_step<Method>(4.0 / steps));
+        REQUIRE(run.status() == lagen::Status::ok);
+        return run.state;
+    };
+    const auto exact = end(coarsest << 6);
+    std::vector<lagen::support::ErrorPoint> points;
+    for (int k = 0; k < 5; ++k) points.push_back({4.0L / (coarsest << k), distance(end(coarsest << k), exact)});
+    return measured_order(points, floor);
 }
 
 /// The free rigid body over one period, after which it is back (known to 21 digits).
@@ -56,23 +94,38 @@ double period_order(int coarsest)
 }
 
 /// One step; the worst error at three points inside it, which is of order dense_order + 1.
-template <class Method>
-double dense_order(double coarsest)
+template <class Method, class S = Real>
+double dense_order(double coarsest, long double floor = 2e-18L)
 {
     std::vector<lagen::support::ErrorPoint> points;
     for (int k = 0; k < 5; ++k) {
         const double h = coarsest / (1 << k);
-        const std::array<Real, 3> at{0.5L + 0.21L * h, 0.5L + 0.52L * h, 0.5L + 0.83L * h};
-        const auto run =
-            lagen::integrate(Kepler{}, Kepler::exact(0.3L, 0.5L), {0.5L, 0.5L + h}, with_step<Method>(h), {.at = at});
+        const S start = S(0.5);
+        const std::array<S, 3> at{start + S(0.21 * h), start + S(0.52 * h), start + S(0.83 * h)};
+        const auto run = lagen::integrate(Kepler<S>{}, Kepler<S>::at(S(0.5)), {S(0.5), start + S(h)},
+                                          with_step<Method>(h), {.at = at});
         REQUIRE(run.steps == 1);
         REQUIRE(run.states.size() == 3);
         Real worst = 0;
-        for (std::size_t i = 0; i < 3; ++i)
-            worst = std::max(worst, (run.states[i] - Kepler::exact(0.3L, at[i])).norm());
+        for (std::size_t i = 0; i < 3; ++i) worst = std::max(worst, distance(run.states[i], Kepler<S>::at(at[i])));
         points.push_back({h, worst});
     }
-    return measured_order(points, 2e-18L) - 1;
+    return measured_order(points, floor) - 1;
+}
+
+/// One step; the error at its end, which is of one order more.
+template <class Method, class S>
+double local_order(double coarsest, long double floor)
+{
+    std::vector<lagen::support::ErrorPoint> points;
+    for (int k = 0; k < 5; ++k) {
+        const double h = coarsest / (1 << k);
+        const S start = S(0.5), end = start + S(h);
+        const auto run = lagen::integrate(Kepler<S>{}, Kepler<S>::at(start), {start, end}, with_step<Method>(h));
+        REQUIRE(run.steps == 1);
+        points.push_back({h, distance(run.state, Kepler<S>::at(end))});
+    }
+    return measured_order(points, floor) - 1;
 }
 
 auto near(double order)
@@ -102,6 +155,32 @@ TEST_CASE("Adaptive methods held to one step size converge with their order, the
     CHECK_ORDERS(Dopri5, 5, 4, 256, 0.2);
     CHECK_ORDERS(Tsit5, 5, 4, 256, 0.2);
     CHECK_ORDERS(Dop853, 8, 7, 16, 0.4);
+}
+
+/// Of orders that a long double shows too little of.
+#define CHECK_WIDE_ORDERS(Method, order, dense, steps, step)                                                           \
+    CHECK_THAT((global_order<lagen::Method, Quad>(steps, 1e-29L)), near(order));                                       \
+    CHECK_THAT((dense_order<lagen::Method, Quad>(step, 1e-30L)), near(dense))
+
+TEST_CASE("Verner's pairs converge with their order, their interpolants with one less")
+{
+    // Its leading error is so small that it leads in short steps alone.
+    CHECK_THAT((local_order<lagen::Verner65, Fifty>(0.001, 1e-38L)), near(6));
+    CHECK_THAT((dense_order<lagen::Verner65, Quad>(0.1, 1e-30L)), near(5));
+    CHECK_WIDE_ORDERS(Verner76, 7, 6, 64, 0.2);
+    CHECK_WIDE_ORDERS(Verner87, 8, 7, 32, 0.2);
+    CHECK_WIDE_ORDERS(Verner98, 9, 8, 32, 0.1);
+    CHECK_THAT((driven_order<lagen::Verner76, Quad>(32, 1e-28L)), near(7));
+    CHECK_THAT((driven_order<lagen::Verner87, Quad>(64, 1e-28L)), near(8));
+}
+
+TEST_CASE("Nystrom's pairs converge with their order, inside steps too")
+{
+    CHECK_WIDE_ORDERS(Rkn64, 6, 5, 64, 0.2);
+    CHECK_WIDE_ORDERS(Rkn86, 8, 7, 32, 0.2);
+    CHECK_WIDE_ORDERS(Rkn1210, 12, 10, 16, 0.2);
+    CHECK_WIDE_ORDERS(Rkng54, 5, 4, 128, 0.2);
+    CHECK_THAT((driven_order<lagen::Rkng54, Quad>(256, 1e-28L)), near(5));
 }
 
 TEST_CASE("Splitting methods converge with their order, inside steps too")

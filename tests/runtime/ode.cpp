@@ -80,3 +80,55 @@ TEST_CASE("A generic lambda serves every scalar, packs included")
     CHECK(run.state[0][0] == of(0.0));
     CHECK(run.state[0][1] - run.state[0][0] > 0.5);
 }
+
+TEST_CASE("A lambda of accelerations is a model of second order, which knows whether they depend on rates")
+{
+    const auto pendulum = second_order_ode<1>([](double, const auto& x, auto& a) { a[0] = -std::sin(x[0]); });
+    const auto damped =
+        second_order_ode<1>([](double, const auto& x, const auto& v, auto& a) { a[0] = -std::sin(x[0]) - 0.1 * v[0]; });
+    static_assert(second_order<decltype(pendulum)> == SecondOrder::velocity_free);
+    static_assert(second_order<decltype(damped)> == SecondOrder::general);
+    static_assert(second_order<problems::Pendulum<double>> == SecondOrder::no);
+    const Eigen::Vector2d start(1, 0);
+    const auto reference = integrate(problems::Pendulum<double>{}, start, {0, 5}, Dop853{.tolerance = 1e-14});
+    const auto same = integrate(pendulum, start, {0, 5}, Dop853{.tolerance = 1e-14});
+    CHECK(same.state == reference.state);
+    const auto check = [&](const auto& model, const auto& method, const auto& exact) {
+        for (const double back : {0.0, 5.0}) { // forwards, and backwards to the start
+            const Eigen::Vector2d from = back == 0 ? start : Eigen::Vector2d(exact.state);
+            const auto run = integrate(model, from, {back, 5 - back}, method);
+            CHECK(run.status() == Status::ok);
+            CHECK((run.state - (back == 0 ? Eigen::Vector2d(exact.state) : start)).norm() < 1e-10);
+        }
+    };
+    check(pendulum, Rkn64{.tolerance = 1e-12}, reference);
+    check(pendulum, Rkn86{.tolerance = 1e-12}, reference);
+    check(pendulum, Rkn1210{.tolerance = 1e-12}, reference);
+    check(pendulum, Rkng54{.tolerance = 1e-12}, reference);
+    check(damped, Rkng54{.tolerance = 1e-12}, integrate(damped, start, {0, 5}, Dop853{.tolerance = 1e-14}));
+}
+
+TEST_CASE("An odd number of positions, and many, move as few do")
+{
+    const auto chain = second_order_ode<21>([](double t, const auto& x, auto& a) {
+        for (Eigen::Index i = 0; i < 21; ++i)
+            a[i] = (i > 0 ? x[i - 1] : std::sin(t)) - 2 * x[i] + (i < 20 ? x[i + 1] : 0) - x[i] * x[i] * x[i];
+    });
+    const Eigen::Matrix<double, 42, 1> start = Eigen::Matrix<double, 42, 1>::LinSpaced(-0.5, 0.7);
+    const std::array<double, 4> at{0.31, 1.7, 2.9, 4};
+    const auto reference = integrate(chain, start, {0, 4}, Dop853{.tolerance = 1e-14}, {.at = at});
+    const auto check = [&](const auto& method) {
+        const auto run = integrate(chain, start, {0, 4}, method, {.at = at});
+        REQUIRE(run.status() == Status::ok);
+        REQUIRE(run.states.size() == at.size());
+        for (std::size_t k = 0; k < at.size(); ++k) CHECK((run.states[k] - reference.states[k]).norm() < 1e-10);
+    };
+    check(Rkn64{.tolerance = 1e-12});
+    check(Rkn86{.tolerance = 1e-12});
+    check(Rkn1210{.tolerance = 1e-12});
+    check(Rkng54{.tolerance = 1e-12});
+    check(Verner65{.tolerance = 1e-12});
+    check(Verner76{.tolerance = 1e-12});
+    check(Verner87{.tolerance = 1e-12});
+    check(Verner98{.tolerance = 1e-12});
+}

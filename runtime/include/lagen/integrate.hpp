@@ -10,10 +10,12 @@
 #include "lagen/integrate/gauss.hpp"
 #include "lagen/integrate/integrator.hpp"
 #include "lagen/integrate/march.hpp"
+#include "lagen/integrate/nystrom.hpp"
 #include "lagen/integrate/radau5.hpp"
 #include "lagen/integrate/run.hpp"
 #include "lagen/integrate/symplectic.hpp"
 #include "lagen/integrate/tsit5.hpp"
+#include "lagen/integrate/verner.hpp"
 #include "lagen/ode.hpp"
 
 #include <type_traits>

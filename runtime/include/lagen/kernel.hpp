@@ -44,6 +44,35 @@ using tangent_t = typename detail::TangentOf<M>::type;
 template <class Scalar, bool call_is_noexcept>
 concept KeepsPromise = call_is_noexcept || !std::is_nothrow_copy_constructible_v<Scalar>;
 
+/// Of a model whose state is (x, v), as many positions as rates: x' = v, lane by lane, and v' = f(t, x, v) (general) or
+/// f(t, x) (velocity_free); `no` where that is not known.
+enum class SecondOrder { no, general, velocity_free };
+
+namespace detail {
+
+template <class M>
+concept NamesSecondOrder = requires
+{
+    requires std::same_as<std::remove_cvref_t<decltype(M::second_order)>, SecondOrder>;
+};
+
+template <class M>
+consteval SecondOrder second_order_of() noexcept
+{
+    if constexpr (NamesSecondOrder<M>) {
+        static_assert(M::dimension % 2 == 0, "positions and as many rates");
+        return M::second_order;
+    } else {
+        return SecondOrder::no;
+    }
+}
+
+} // namespace detail
+
+/// M::second_order, which generated models have where lagen proved it; `no` where the model does not name it.
+template <class M>
+inline constexpr SecondOrder second_order = detail::second_order_of<M>();
+
 /// A right-hand side: M::Scalar, M::State (an Eigen column, unless there is a retraction: integrate/retract.hpp),
 /// M::dimension, and
 ///   status_t<Scalar> rhs(Scalar t, const State& s, tangent_t<M>& ds) const noexcept.

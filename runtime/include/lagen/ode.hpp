@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// A model of a user's own function: `lagen::ode<2>([](double t, const auto& s, auto& ds) { .. })`.
+/// A model of a user's own function: `lagen::ode<2>([](double t, const auto& s, auto& ds) { .. })`, and of second order
+/// `lagen::second_order_ode<3>([](double t, const auto& x, auto& a) { .. })`.
 #pragma once
 
 #include "lagen/kernel.hpp"
@@ -47,6 +48,46 @@ template <int N, class S = double, class F>
 {
     static_assert(N > 0, "lagen::ode<N>: a state has at least one lane");
     return Ode<N, S, F>(std::move(f));
+}
+
+/// x' = v, v' = f of N positions x; the state is (x, v).
+template <int N, class S, class F>
+class SecondOrderOde {
+  public:
+    using Scalar = S;
+    static constexpr int dimension = 2 * N, base_dimension = N, fibre_dimension = N;
+    using State = Eigen::Matrix<S, 2 * N, 1>;
+    using Half = Eigen::Matrix<S, N, 1>;
+    static constexpr bool is_velocity_free = std::is_invocable_v<const F&, S, const Half&, Half&>;
+    static constexpr SecondOrder second_order = is_velocity_free ? SecondOrder::velocity_free : SecondOrder::general;
+
+    explicit SecondOrderOde(F f) : f_(std::move(f)) {}
+
+    /// f writes every acceleration. It must not throw.
+    [[nodiscard]] status_t<S> rhs(S t, const State& s, State& ds) const noexcept
+    {
+        const Half x = s.template head<N>(), v = s.template tail<N>();
+        Half a;
+        if constexpr (is_velocity_free)
+            f_(t, x, a);
+        else
+            f_(t, x, v, a);
+        ds.template head<N>() = v;
+        ds.template tail<N>() = a;
+        return StatusOf<S>::good();
+    }
+
+  private:
+    F f_;
+};
+
+/// The model of x'' = f(t, x), f called as f(t, x, a), or of x'' = f(t, x, x'), called as f(t, x, v, a), with Eigen
+/// columns of N lanes of `S`, of which it writes a. Every method integrates it, those of Nystrom too.
+template <int N, class S = double, class F>
+[[nodiscard]] SecondOrderOde<N, S, F> second_order_ode(F f)
+{
+    static_assert(N > 0, "lagen::second_order_ode<N>: there is at least one position");
+    return SecondOrderOde<N, S, F>(std::move(f));
 }
 
 } // namespace lagen

@@ -10,8 +10,8 @@ namespace lagen {
 namespace tableau {
 
 struct Dopri5 {
-    static constexpr std::size_t stages = 7;
-    static constexpr int order = 5;
+    static constexpr std::size_t stages = 7, dense_stages = 7, end = 6;
+    static constexpr int order = 5, embedded_order = 4, dense_order = 4;
     // clang-format off
     static constexpr std::array<Fraction, 21> a{{
         {1, 5},

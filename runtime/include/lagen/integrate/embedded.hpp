@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// The stepper of embedded pairs 5(4) whose last stage is the derivative at the end of the step (seven stages, six
-/// calls a step). A tableau adds: `error` (b minus the embedded weights), and `dense(theta, weights)`, the
-/// interpolant's weights
+/// The stepper of embedded pairs: the arrays of tableau.hpp, or `dense(theta, weights)` in the place of `interpolant`.
 ///   s(t + theta h) = s + h sum_i weights[i] K_i.
 #pragma once
 
@@ -24,8 +22,8 @@ class EmbeddedStepper {
     using State = typename M::State;
     static constexpr bool adaptive = true;
     static constexpr int order = Tableau::order;
-    static constexpr int dense_order = 4;
-    static constexpr int error_order = 5; ///< the error of the embedded formula is of this order in h
+    static constexpr int dense_order = Tableau::dense_order;
+    static constexpr int error_order = Tableau::embedded_order + 1; ///< the error of that formula is of it in h
     static constexpr double beta_share = 0.75;
 
     template <class Method>
@@ -48,40 +46,51 @@ class EmbeddedStepper {
         return detail::first_step(model, control_, order, t, length, s, k_[0], x_, k_[1]);
     }
 
-    /// s1 and the scaled error; X of the last stage is s1.
+    /// s1, which is X of the stage at the end, and the scaled error.
     Status attempt(const M& model, Real t, const State& s, Real h, State& s1) noexcept
     {
-        using std::sqrt;
-        calls_ += Tableau::stages - 1;
-        Status status = detail::evaluate_stages<Tableau, 1, Tableau::stages - 1>(model, t, s, h, x_, k_);
+        dense_ready_ = false;
+        calls_ += ends_in_stage ? end : end - 1;
+        Status status = detail::evaluate_stages<Tableau, 1, end>(model, t, s, h, x_, k_);
         if (status != Status::ok) return status;
-        status = detail::evaluate_stages<Tableau, Tableau::stages - 1, Tableau::stages>(model, t, s, h, s1, k_);
-        if (status != Status::ok) return status;
-        detail::weighted_sum<Tableau::error>(h, k_, x_);
-        error_ = sqrt(detail::squared_error(scale_, s, s1, x_) / static_cast<Real>(s.size()));
+        if constexpr (ends_in_stage) {
+            status = detail::evaluate_stages<Tableau, end, end + 1>(model, t, s, h, s1, k_);
+            if (status != Status::ok) return status;
+        } else {
+            detail::move_along<Tableau::a, detail::lower_index(end, 0), end>(model, s, h, k_, s1);
+        }
+        estimate(s, h, s1);
         status = detail::check_finite(s1);
-        return status == Status::ok ? detail::check_finite(k_.back()) : status;
+        if (!ends_in_stage || status != Status::ok) return status;
+        return detail::check_finite(k_[end]);
     }
 
     [[nodiscard]] Real error() const noexcept { return error_; }
 
-    Status finish(const M&, Real, const State&) noexcept { return Status::ok; }
+    /// The derivative at the end of a step that will be accepted.
+    Status finish(const M& model, Real t1, const State& s1) noexcept
+    {
+        if constexpr (ends_in_stage) return Status::ok;
+        ++calls_;
+        const Status status = model.rhs(t1, s1, k_[end]);
+        return status == Status::ok ? detail::check_finite(k_[end]) : status;
+    }
 
-    void accept() noexcept { k_.front() = k_.back(); }
+    void accept() noexcept { k_.front() = k_[end]; }
 
     [[nodiscard]] const State& derivative() const noexcept { return k_.front(); }
 
-    /// Asks nothing of the model.
-    Status interpolate(const M& model, Real, const State& s, Real h, const State&, Real theta, State& out) noexcept
+    /// Evaluates the stages behind the end once a step.
+    Status interpolate(const M& model, Real t, const State& s, Real h, const State&, Real theta, State& out) noexcept
     {
-        std::array<Real, Tableau::stages> weights;
-        Tableau::dense(theta, weights);
-        State delta = x_;
-        for (Eigen::Index lane = 0; lane < s.size(); ++lane) {
-            Real sum = Real(0);
-            for (std::size_t i = 0; i < Tableau::stages; ++i) sum += weights[i] * k_[i][lane];
-            delta[lane] = h * sum;
+        if (!dense_ready_) {
+            calls_ += all - 1 - end;
+            const Status status = detail::evaluate_stages<Tableau, end + 1, all>(model, t, s, h, x_, k_);
+            if (status != Status::ok) return status;
+            dense_ready_ = true;
         }
+        State delta = x_;
+        add_stages(h, theta, delta, std::make_index_sequence<all>{});
         out = detail::retracted(model, s, delta);
         return detail::check_finite(out);
     }
@@ -89,12 +98,56 @@ class EmbeddedStepper {
     [[nodiscard]] std::size_t calls() const noexcept { return calls_; }
 
   private:
-    std::array<State, Tableau::stages> k_;
+    static constexpr std::size_t end = Tableau::end, all = Tableau::dense_stages;
+    static constexpr bool ends_in_stage = end < Tableau::stages;
+
+    /// The norm of h sum_i error_i K_i.
+    void estimate(const State& s, Real h, const State& s1) noexcept
+    {
+        using std::sqrt;
+        Real sum = Real(0);
+        detail::for_lanes(s, [&]<int width>(detail::Width<width>, Eigen::Index lane) {
+            using Slice = detail::Slice<State, width>;
+            const auto stages = std::make_index_sequence<Tableau::stages>{};
+            const Slice e = h * detail::weighted_lanes<Tableau::error, 0, width>(k_, lane, stages);
+            const Slice ratio = e / scale_.template of<width>(s, s1, lane);
+            sum += detail::total(Slice(ratio * ratio));
+        });
+        error_ = sqrt(sum / static_cast<Real>(s.size()));
+    }
+
+    /// delta = h sum_i b_i(theta) K_i, over the stages that the interpolant uses.
+    template <std::size_t... i>
+    void add_stages(const Real& h, const Real& theta, State& delta, std::index_sequence<i...>) const noexcept
+    {
+        std::array<Real, all> weights{};
+        if constexpr (requires { Tableau::interpolant; })
+            ((weights[i] = detail::interpolant_weight<Tableau, i>(theta)), ...);
+        else
+            Tableau::dense(theta, weights);
+        for (Eigen::Index lane = 0; lane < delta.size(); ++lane) {
+            Real sum = Real(0);
+            ((sum += uses<i>() ? Real(weights[i] * k_[i][lane]) : Real(0)), ...);
+            delta[lane] = h * sum;
+        }
+    }
+
+    template <std::size_t i>
+    static constexpr bool uses() noexcept
+    {
+        if constexpr (requires { Tableau::interpolant; })
+            return detail::is_interpolated<Tableau, i>();
+        else
+            return true;
+    }
+
+    std::array<State, all> k_;
     State x_;
     StepControl control_;
     detail::ErrorScale<Real> scale_;
     Real error_ = Real(0);
     std::size_t calls_ = 0;
+    bool dense_ready_ = false;
 };
 
 } // namespace lagen

@@ -119,13 +119,14 @@ template <class Scalar>
     return x[0] > x[1] ? x[0] : x[1];
 }
 
-/// f(Width<w>, lane) for groups of w = 2 lanes where there are pairs, and of 1 lane. Short columns are written out: at
-/// -O2 g++ 12 does not unroll the loop (heavy top, RK4: a quarter of a step's instructions).
-template <class Column, class Function>
-[[gnu::always_inline]] inline void for_lanes(const Column& column, const Function& f) noexcept
+/// f(Width<w>, lane) for the first lanes of a column, in groups of w = 2 lanes where there are pairs, and of 1 lane:
+/// `size` of them, which is below 1 where it is not known, and is `count` then. Few are written out: at -O2 g++ 12 does
+/// not unroll the loop (heavy top, RK4: a quarter of a step's instructions).
+template <class Column, Eigen::Index size, class Function>
+[[gnu::always_inline]] inline void for_first_lanes([[maybe_unused]] Eigen::Index count, const Function& f) noexcept
 {
     constexpr int width = has_pairs<Column> ? 2 : 1;
-    constexpr Eigen::Index longest = 8 * width, size = Column::SizeAtCompileTime;
+    constexpr Eigen::Index longest = 8 * width;
     if constexpr (size > 0 && size <= longest) {
         [&]<Eigen::Index... group>(std::integer_sequence<Eigen::Index, group...>)
         {
@@ -135,10 +136,17 @@ template <class Column, class Function>
         if constexpr (size % width != 0) f(Width<1>(), size - 1);
     } else {
         Eigen::Index lane = 0;
-        for (; lane + width <= column.size(); lane += width) f(Width<width>(), lane);
+        for (; lane + width <= count; lane += width) f(Width<width>(), lane);
         if constexpr (width > 1)
-            if (lane < column.size()) f(Width<1>(), lane);
+            if (lane < count) f(Width<1>(), lane);
     }
+}
+
+/// The same of all lanes.
+template <class Column, class Function>
+[[gnu::always_inline]] inline void for_lanes(const Column& column, const Function& f) noexcept
+{
+    for_first_lanes<Column, Column::SizeAtCompileTime>(column.size(), f);
 }
 
 /// f(lane) for every lane, one after another.

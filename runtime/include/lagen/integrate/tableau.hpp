@@ -1,11 +1,20 @@
 // SPDX-License-Identifier: MIT
 /// Exact coefficients. A tableau is a type with constexpr members: stages, order, a (rows of the strict lower triangle
-/// one after another), b, c.
+/// one after another), b, c. Embedded pairs have more:
+///   end            the stage, from 0, that stands at the end of the step: row `end` of a are the weights of the step.
+///                  It is evaluated before the error is known where it is one of the `stages`, else only after a step
+///                  that is kept; its K is the first one of the next step
+///   dense_stages   all stages; those behind `end` serve values inside the step and are evaluated where one is asked
+///   for error          the weights minus those of the embedded formula, which is of order embedded_order interpolant
+///   the weights at theta are b_i(theta) = sum_k interpolant[i][k] theta^(k + 1), of order dense_order
+/// Pairs for x'' = f have rows abar and weights bbar, error_bar of x (times h^2) beside a, b and error of x'; their
+/// interpolant is that of x', and its integral that of x.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <type_traits>
 
 namespace lagen {
@@ -53,5 +62,55 @@ struct Decimal {
         return static_cast<Real>(value);
     }
 };
+
+/// A coefficient to 40 digits: the sum of three doubles, the first of which is the double nearest to it.
+struct Coefficient {
+    double head = 0, tail = 0, rest = 0;
+
+    [[nodiscard]] constexpr bool is_zero() const noexcept { return head == 0; }
+
+    template <class Real>
+    [[nodiscard]] constexpr Real as() const noexcept
+    {
+        if constexpr (std::numeric_limits<Real>::digits > std::numeric_limits<double>::digits)
+            return Real(head) + (Real(tail) + Real(rest));
+        else
+            return static_cast<Real>(head);
+    }
+};
+
+namespace detail {
+
+/// Does the interpolant use stage i?
+template <class Tableau, std::size_t i>
+constexpr bool is_interpolated() noexcept
+{
+    for (const auto& coefficient : Tableau::interpolant[i])
+        if (!coefficient.is_zero()) return true;
+    return false;
+}
+
+/// sum_k interpolant[i][k] theta^(k + 1).
+template <class Tableau, std::size_t i, class Real>
+[[gnu::always_inline]] inline Real interpolant_weight(const Real& theta) noexcept
+{
+    constexpr auto& row = Tableau::interpolant[i];
+    Real sum = row.back().template as<Real>();
+    for (std::size_t k = row.size() - 1; k-- > 0;) sum = row[k].template as<Real>() + theta * sum;
+    return theta * sum;
+}
+
+/// Its integral from 0 to theta.
+template <class Tableau, std::size_t i, class Real>
+[[gnu::always_inline]] inline Real interpolant_integral(const Real& theta) noexcept
+{
+    constexpr auto& row = Tableau::interpolant[i];
+    Real sum = Real(0);
+    for (std::size_t k = row.size(); k-- > 0;)
+        sum = row[k].template as<Real>() / static_cast<Real>(k + 2) + theta * sum;
+    return theta * theta * sum;
+}
+
+} // namespace detail
 
 } // namespace lagen

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/preparation.hpp"
+
+#include "commands/compile.hpp"
+
+#include <fmt/core.h>
+
+namespace lagen {
+
+namespace {
+
+/// Throws where the equations are not what the method asks for.
+void require_system(const Options& options, const Scene& scene, const MethodEntry& method, const KernelModule& module)
+{
+    using Kind = SecondOrder::Kind;
+    const SecondOrder& found = module.second_order;
+    if (method.system == Kind::no || found.kind == method.system || found.kind == Kind::velocity_free) return;
+    const std::string text = fmt::format("{} integrates {}, and in model '{}' {}", method.name, system_of(method),
+                                         module.model, found.obstacle);
+    const std::string hint = found.kind == Kind::general ? "rkng54 integrates x'' = f(t, x, x')"
+                                                         : "dop853 and verner87 integrate every system";
+    if (options.has("method")) throw UsageError(fmt::format("lagen run: {}\nhint: {}", text, hint));
+    throw ModelError(text, scene.method_where, hint);
+}
+
+} // namespace
+
+Preparation::Preparation(const Options& options, CheckedModel& checked)
+    : options_(options), checked_(checked),
+      file_(record_file(checked.model, {options.get("scene"), options.get("form"), options.get("method"),
+                                        options.has("unchecked") ? "unchecked" : ""})),
+      record_(find_record(file_))
+{
+    if (record_)
+        checked.warnings = record_->warnings;
+    else
+        prove(checked);
+}
+
+void Preparation::finish(const Scene& scene, const std::string& form, const MethodEntry& method,
+                         const std::vector<long double>& parameters)
+{
+    if (record_ && holds_for(*record_, checked_, parameters)) return;
+    if (record_) prove(checked_);
+    proved_ = true;
+    set_parameters(checked_, parameters);
+    GenerateRequest request;
+    request.form = form;
+    request.scene = &scene;
+    const Generated generated = generate(checked_, request);
+    require_system(options_, scene, method, generated.module);
+    const Compiled compiled = compile_program(generated.header, program_text(generated.module.name, method));
+    record_ = record_of(checked_, generated.module, compiled.program, parameters);
+    keep_record(file_, *record_);
+}
+
+const CheckedModel& Preparation::checked(const std::vector<long double>& parameters)
+{
+    if (!proved_) decide_regularity(checked_, parameters);
+    return checked_;
+}
+
+} // namespace lagen

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// From a model that was read to the program of a scene: by the record of an earlier run where there is one, else by
+/// proofs, kernels and the compiler.
+#pragma once
+
+#include "commands/options.hpp"
+#include "commands/run_record.hpp"
+
+namespace lagen {
+
+class Preparation {
+  public:
+    /// `checked` was read; it is proved, or has the warnings of the record. Throws where it is refuted.
+    Preparation(const Options& options, CheckedModel& checked);
+
+    /// Throws where the method asks for other equations.
+    void finish(const Scene& scene, const std::string& form, const MethodEntry& method,
+                const std::vector<long double>& parameters);
+
+    /// After `finish`.
+    [[nodiscard]] const RunRecord& record() const { return *record_; }
+
+    /// With its system, and what is decided for `parameters`.
+    const CheckedModel& checked(const std::vector<long double>& parameters);
+
+  private:
+    const Options& options_;
+    CheckedModel& checked_;
+    std::string file_;
+    std::optional<RunRecord> record_;
+    bool proved_ = false;
+};
+
+} // namespace lagen

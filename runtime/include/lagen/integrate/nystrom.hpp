@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: MIT
+/// Embedded pairs of Nystrom for second-order systems, states (x, v) with x' = v:
+///   X_i = x + c_i h v + h^2 sum_{j<i} abar_ij F_j,   V_i = v + h sum_{j<i} a_ij F_j,   F_i = f(t + c_i h, X_i, V_i),
+///   x1 = x + h v + h^2 sum_i bbar_i F_i,             v1 = v + h sum_i b_i F_i.
+/// `lagen::Rkn86{.tolerance = 1e-10}`; where v' = f(t, x) alone:
+///             calls a step   and where a value inside it is asked for   order of that value
+///   Rkn64           5                         0                                 5
+///   Rkn86           8                         3                                 7
+///   Rkn1210        17                         5                                10
+/// and for v' = f(t, x, v): Rkng54, 6 calls, a value of order 4 inside without another one.
+/// Step control is that of verner.hpp. Sources are in the tables of coefficients. Values inside a step are those of
+/// Dormand and Prince (Rkn64); of continuous extensions that solve the order conditions (Rkn86, Rkn1210: stages are
+/// added at values of an extension of lower order, two orders below, since f enters x times h^2); of Hermite's
+/// polynomial of degree 5 (Rkng54).
+#pragma once
+
+#include "lagen/integrate/control.hpp"
+#include "lagen/integrate/retract.hpp"
+#include "lagen/integrate/stages.hpp"
+
+#include "lagen/integrate/rkn1210_coefficients.hpp"
+#include "lagen/integrate/rkn64_coefficients.hpp"
+#include "lagen/integrate/rkn86_coefficients.hpp"
+#include "lagen/integrate/rkng54_coefficients.hpp"
+
+namespace lagen {
+
+/// See integrate/integrator.hpp for what is asked of a stepper.
+template <class Tableau, class M>
+class NystromStepper {
+    static constexpr bool general = requires { Tableau::a; };
+    static_assert(
+        general ? second_order<M> != SecondOrder::no : second_order<M> == SecondOrder::velocity_free,
+        "a Nystrom method needs a model of second order (SecondOrder in lagen/kernel.hpp): x' = v, and but for "
+        "Rkng54 a v' that does not depend on v");
+    static_assert(!is_pack<typename M::Scalar>,
+                  "adaptive methods choose one step for one trajectory: use a fixed-step method with packs");
+    static_assert(moves_by_sums<M>, "a Nystrom method moves its states by sums");
+
+  public:
+    using Scalar = typename M::Scalar;
+    using Real = Scalar;
+    using State = typename M::State;
+    static constexpr bool adaptive = true;
+    static constexpr int order = Tableau::order;
+    static constexpr int dense_order = Tableau::dense_order;
+    static constexpr int error_order = Tableau::embedded_order + 1; ///< the error of that formula is of it in h
+    static constexpr double beta_share = 0.75;
+
+    template <class Method>
+    explicit NystromStepper(const Method& method) noexcept : control_(method.control()), scale_(control_)
+    {
+    }
+
+    Status begin(const M& model, Real t, const State& s) noexcept
+    {
+        x_ = State::Zero(s.size());
+        for (State& stage : k_) stage = x_;
+        ++calls_;
+        const Status status = model.rhs(t, s, k_[0]);
+        return status == Status::ok ? detail::check_finite(k_[0]) : status;
+    }
+
+    [[nodiscard]] Real first_step(const M& model, Real t, Real length, const State& s) noexcept
+    {
+        ++calls_;
+        return detail::first_step(model, control_, order, t, length, s, k_[0], x_, k_[1]);
+    }
+
+    Status attempt(const M& model, Real t, const State& s, Real h, State& s1) noexcept
+    {
+        dense_ready_ = false;
+        calls_ += ends_in_stage ? end : end - 1;
+        if constexpr (!general) keep_rates(s, x_);
+        Status status = evaluate<1, end>(model, t, s, h);
+        if (status != Status::ok) return status;
+        move_positions<Tableau::bbar, 0, end>(s, h, h, s1);
+        // Of x'' = f(t, x) the last stage does not ask for v1, which may depend on it.
+        if constexpr (ends_in_stage && !general) {
+            keep_rates(s, s1);
+            status = model.rhs(t + h, s1, k_[end]);
+        }
+        move_rates<Tableau::b, 0, Tableau::stages>(s, h, s1);
+        if constexpr (ends_in_stage && general) status = model.rhs(t + h, s1, k_[end]);
+        if (status != Status::ok) return status;
+        estimate(s, h, s1);
+        status = detail::check_finite(s1);
+        if (!ends_in_stage || status != Status::ok) return status;
+        return detail::check_finite(k_[end]);
+    }
+
+    [[nodiscard]] Real error() const noexcept { return error_; }
+
+    /// The derivative at the end of a step that will be accepted.
+    Status finish(const M& model, Real t1, const State& s1) noexcept
+    {
+        if constexpr (ends_in_stage) {
+            for_positions(s1, [&]<int width>(detail::Width<width>, Eigen::Index lane) {
+                detail::store(k_[end], lane, detail::load<width>(s1, half(s1) + lane));
+            });
+            return Status::ok;
+        }
+        ++calls_;
+        const Status status = model.rhs(t1, s1, k_[end]);
+        return status == Status::ok ? detail::check_finite(k_[end]) : status;
+    }
+
+    void accept() noexcept { k_.front() = k_[end]; }
+
+    [[nodiscard]] const State& derivative() const noexcept { return k_.front(); }
+
+    /// v(theta) = v + h sum_i b_i(theta) F_i, x(theta) = x + theta h v + h^2 sum_i F_i int_0^theta b_i. Evaluates the
+    /// stages behind the end once a step.
+    Status interpolate(const M& model, Real t, const State& s, Real h, const State&, Real theta, State& out) noexcept
+    {
+        if (!dense_ready_) {
+            calls_ += all - 1 - end;
+            const Status status = evaluate<end + 1, all>(model, t, s, h);
+            if (status != Status::ok) return status;
+            dense_ready_ = true;
+        }
+        out = s;
+        add_stages(h, theta, out, std::make_index_sequence<all>{});
+        return detail::check_finite(out);
+    }
+
+    [[nodiscard]] std::size_t calls() const noexcept { return calls_; }
+
+  private:
+    static constexpr std::size_t end = Tableau::end, all = Tableau::dense_stages;
+    static constexpr bool ends_in_stage = end < Tableau::stages;
+
+    /// The number of positions: lane `lane` of x has lane half + lane as its rate.
+    static Eigen::Index half(const State& s) noexcept { return s.size() / 2; }
+
+    template <class Function>
+    [[gnu::always_inline]] static void for_positions(const State& s, const Function& f) noexcept
+    {
+        constexpr Eigen::Index size = State::SizeAtCompileTime;
+        detail::for_first_lanes<State, (size > 0 ? size / 2 : -1)>(half(s), f);
+    }
+
+    /// The rates of `out` are those of s.
+    [[gnu::always_inline]] static void keep_rates(const State& s, State& out) noexcept
+    {
+        for_positions(s, [&]<int width>(detail::Width<width>, Eigen::Index lane) {
+            detail::store(out, half(s) + lane, detail::load<width>(s, half(s) + lane));
+        });
+    }
+
+    /// x + reach v + h^2 sum_j weights[offset + j] F_j, j < count.
+    template <auto& weights, std::size_t offset, std::size_t count>
+    [[gnu::always_inline]] void move_positions(const State& s, const Real& h, const Real& reach,
+                                               State& out) const noexcept
+    {
+        const Real square = h * h;
+        for_positions(s, [&]<int width>(detail::Width<width>, Eigen::Index lane) {
+            const auto stages = std::make_index_sequence<count>{};
+            const auto sum = detail::weighted_lanes<weights, offset, width>(k_, half(s) + lane, stages);
+            const detail::Slice<State, width> move = reach * detail::load<width>(s, half(s) + lane) + square * sum;
+            detail::store(out, lane, detail::load<width>(s, lane) + move);
+        });
+    }
+
+    /// v + h sum_j weights[offset + j] F_j, j < count.
+    template <auto& weights, std::size_t offset, std::size_t count>
+    [[gnu::always_inline]] void move_rates(const State& s, const Real& h, State& out) const noexcept
+    {
+        for_positions(s, [&]<int width>(detail::Width<width>, Eigen::Index lane) {
+            const auto stages = std::make_index_sequence<count>{};
+            const auto sum = detail::weighted_lanes<weights, offset, width>(k_, half(s) + lane, stages);
+            detail::store(out, half(s) + lane, detail::load<width>(s, half(s) + lane) + h * sum);
+        });
+    }
+
+    /// Stages first..last-1.
+    template <std::size_t first, std::size_t last>
+    [[gnu::always_inline]] Status evaluate(const M& model, const Real& t, const State& s, const Real& h) noexcept
+    {
+        if constexpr (first < last) {
+            constexpr std::size_t row = detail::lower_index(first, 0);
+            const Real reach = Tableau::c[first].template as<Real>() * h;
+            move_positions<Tableau::abar, row, first>(s, h, reach, x_);
+            if constexpr (general) move_rates<Tableau::a, row, first>(s, h, x_);
+            const Status status = model.rhs(t + reach, x_, k_[first]);
+            return status == Status::ok ? evaluate<first + 1, last>(model, t, s, h) : status;
+        }
+        return Status::ok;
+    }
+
+    /// The norm of h^2 sum_i error_bar_i F_i and h sum_i error_i F_i.
+    void estimate(const State& s, Real h, const State& s1) noexcept
+    {
+        using std::sqrt;
+        const Real square = h * h;
+        Real sum = Real(0);
+        for_positions(s, [&]<int width>(detail::Width<width>, Eigen::Index lane) {
+            using Slice = detail::Slice<State, width>;
+            const auto stages = std::make_index_sequence<Tableau::stages>{};
+            const Eigen::Index rate = half(s) + lane;
+            const Slice ex = square * detail::weighted_lanes<Tableau::error_bar, 0, width>(k_, rate, stages) /
+                             scale_.template of<width>(s, s1, lane);
+            const Slice ev = h * detail::weighted_lanes<Tableau::error, 0, width>(k_, rate, stages) /
+                             scale_.template of<width>(s, s1, rate);
+            sum += detail::total(Slice(ex * ex + ev * ev));
+        });
+        error_ = sqrt(sum / static_cast<Real>(s.size()));
+    }
+
+    /// s, in `out`, moved to theta.
+    template <std::size_t... i>
+    void add_stages(const Real& h, const Real& theta, State& out, std::index_sequence<i...>) const noexcept
+    {
+        std::array<Real, all> b{}, bbar{};
+        ((b[i] = detail::interpolant_weight<Tableau, i>(theta)), ...);
+        ((bbar[i] = detail::interpolant_integral<Tableau, i>(theta)), ...);
+        for (Eigen::Index lane = 0, rate = half(out); lane < half(out); ++lane, ++rate) {
+            Real v = Real(0), x = Real(0);
+            const auto add = [&]<std::size_t stage>() {
+                if constexpr (detail::is_interpolated<Tableau, stage>()) {
+                    v += b[stage] * k_[stage][rate];
+                    x += bbar[stage] * k_[stage][rate];
+                }
+            };
+            (add.template operator()<i>(), ...);
+            out[lane] += h * (theta * out[rate] + h * x);
+            out[rate] += h * v;
+        }
+    }
+
+    std::array<State, all> k_;
+    State x_;
+    StepControl control_;
+    detail::ErrorScale<Real> scale_;
+    Real error_ = Real(0);
+    std::size_t calls_ = 0;
+    bool dense_ready_ = false;
+};
+
+template <class Tableau>
+struct NystromFamily {
+    static constexpr StepControl defaults{.safety = 0.8, .beta = 0};
+    template <class M>
+    using Stepper = NystromStepper<Tableau, M>;
+};
+
+using Rkn64 = AdaptiveMethod<NystromFamily<tableau::Rkn64>>;
+using Rkn86 = AdaptiveMethod<NystromFamily<tableau::Rkn86>>;
+using Rkn1210 = AdaptiveMethod<NystromFamily<tableau::Rkn1210>>;
+using Rkng54 = AdaptiveMethod<NystromFamily<tableau::Rkng54>>;
+
+} // namespace lagen
