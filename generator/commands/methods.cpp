@@ -26,6 +26,8 @@ constexpr std::array entries{
     MethodEntry{"dopri5", "Dopri5", "5(4)", true, false, "Dormand and Prince 1980, dense output of order 4"},
     MethodEntry{"tsit5", "Tsit5", "5(4)", true, false, "Tsitouras 2011, dense output of order 4"},
     MethodEntry{"dop853", "Dop853", "8(5,3)", true, false, "Hairer, Norsett and Wanner 1993, dense output of order 7"},
+    MethodEntry{"taylor", "Taylor", "7-30", true, false,
+                "Taylor series, order by the tolerance (Jorba and Zou 2005), dense output of that order", true},
     MethodEntry{"gauss2", "Gauss2", "2", false, false, "Gauss, one stage: the implicit midpoint rule, symplectic"},
     MethodEntry{"gauss4", "Gauss4", "4", false, false, "Gauss, two stages (Kuntzmann, Butcher 1964), symplectic"},
     MethodEntry{"gauss6", "Gauss6", "6", false, false, "Gauss, three stages (Kuntzmann, Butcher 1964), symplectic"},

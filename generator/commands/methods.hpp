@@ -14,6 +14,7 @@ struct MethodEntry {
     bool adaptive;       ///< takes a tolerance; else a step
     bool separable_only; ///< partitioned methods for xdot = f(y), ydot = g(x)
     const char* text;    ///< one line, with the source
+    bool series = false; ///< needs the kernels of Taylor coefficients
 };
 
 [[nodiscard]] std::span<const MethodEntry> method_table();

@@ -184,6 +184,8 @@ ExitCode run_run(Arguments arguments)
     GenerateRequest request;
     request.form = form;
     request.scene = &scene;
+    if (method.series) request.with = {"taylor"};
+    if (method.series && !scene.events.empty()) request.with.emplace_back("event_series");
     const Generated generated = generate(checked, request);
     const ProgramInput input =
         input_of(checked, generated.module, scene, values, options.has("at") && !options.has("t-end"));
