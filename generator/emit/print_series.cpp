@@ -27,25 +27,31 @@ class SeriesPrinter {
         : out_(out), module_(module), names_(names), kernel_(kernel), series_(*kernel.recurrence),
           locals_(names.locals), is_rate_(kernel.outputs[0].role == ArrayRole::tangent),
           outputs_(kernel.outputs[0].entries.size()), lanes_(series_.curve.size() - 1), x_(fresh("x")),
-          y_(is_rate_ ? x_ : fresh("y")), order_(fresh("order")), k_(fresh("k")), sums_(fresh("sums")),
-          lower_(fresh("lower")), reciprocal_(fresh("reciprocal")), next_(fresh("next"))
+          y_(is_rate_ ? x_ : fresh("y")), order_(fresh("order")),
+          k_(fresh("k")), products_{"LowerSums", fresh("sums"), fresh("lower"), {}}, squares_{"LowerSquares",
+                                                                                              fresh("squares"),
+                                                                                              fresh("lower_squares"),
+                                                                                              {}},
+          reciprocal_(fresh("reciprocal")), next_(fresh("next"))
     {
         name_late(series_.order, fmt::format("S({})", k_));
         name_late(series_.reciprocal, reciprocal_);
         for (std::size_t i = 0; i < lanes_; ++i) name_late(series_.curve[i], fmt::format("{}[{}][{}]", x_, k_, i));
         name_late(series_.curve[lanes_], fmt::format("S({} == 1 ? 1 : 0)", k_));
-        for (std::size_t m = 0; m < series_.sums.size(); ++m)
-            name_late(series_.sums[m], fmt::format("{}[{}]", lower_, m));
+        sort_pairs();
+        for (const auto* group : {&products_, &squares_})
+            for (std::size_t m = 0; m < group->pairs.size(); ++m)
+                name_late(series_.sums[group->pairs[m]], fmt::format("{}[{}]", group->values, m));
     }
 
     Includes print()
     {
         const Body body = split_body();
+        out_.comment("Sums over lower orders that a coefficient takes.");
+        out_.line(fmt::format("static constexpr int {}_sums = {};", kernel_.name, series_.sums.size()));
+        out_.blank();
         for (const std::string& line : kernel_.documentation) out_.comment(line);
-        out_.comment(
-            fmt::format("{}[k][i], k <= order <= most: (d/dt)^k / k! of entry i, by {} sums over lower orders a "
-                        "coefficient.",
-                        y_, series_.sums.size()));
+        out_.comment(fmt::format("{}[k][i], k <= order <= most: (d/dt)^k / k! of entry i.", y_));
         out_.line("template <int most>");
         const FunctionRequest request = request_for([this](std::size_t i, const std::string& value) {
             return fmt::format("{}[{}][{}] = {};", y_, is_rate_ ? 1 : 0, i, value);
@@ -65,6 +71,26 @@ class SeriesPrinter {
     }
 
   private:
+    /// Sums that are made at once.
+    struct Sums {
+        const char* type = "";
+        std::string object, values;
+        std::vector<std::size_t> pairs; ///< among those of the recurrence
+    };
+
+    /// Squares take half the terms, and half the room; but a few of them ride along where products leave lanes of a
+    /// vector register idle.
+    void sort_pairs()
+    {
+        constexpr std::size_t widest = 8;
+        std::vector<std::size_t> squares;
+        for (std::size_t m = 0; m < series_.pairs.size(); ++m)
+            (series_.pairs[m][0] == series_.pairs[m][1] ? squares : products_.pairs).push_back(m);
+        const std::size_t idle = (widest - products_.pairs.size() % widest) % widest;
+        (squares.size() <= idle ? products_ : squares_)
+            .pairs.insert((squares.size() <= idle ? products_ : squares_).pairs.end(), squares.begin(), squares.end());
+    }
+
     std::string fresh(const std::string& wish)
     {
         std::string name = wish;
@@ -136,10 +162,13 @@ class SeriesPrinter {
     void print_loop()
     {
         const std::size_t count = series_.pairs.size();
-        if (count > 0) out_.line(fmt::format("LowerSums<S, {}, most> {};", count, sums_));
+        for (const Sums* sums : {&products_, &squares_})
+            if (!sums->pairs.empty())
+                out_.line(fmt::format("{}<S, {}, most> {};", sums->type, sums->pairs.size(), sums->object));
         out_.line(fmt::format("for (int {0} = 1; {0} {2} {1}; ++{0}) {{", k_, order_, is_rate_ ? "<" : "<="));
         out_.indent(1);
-        if (count > 0) out_.line(fmt::format("const std::array<S, {}> {} = {}({});", count, lower_, sums_, k_));
+        for (const Sums* sums : {&products_, &squares_})
+            if (!sums->pairs.empty()) out_.line(fmt::format("const auto {} = {}({});", sums->values, sums->object, k_));
         out_.line(fmt::format("[[maybe_unused]] const S {} = S(1) / S({}), {} = S(1) / S({} + 1);", reciprocal_, k_,
                               next_, k_));
         std::vector<std::string> sides[2] = {std::vector<std::string>(count), std::vector<std::string>(count)};
@@ -158,13 +187,22 @@ class SeriesPrinter {
             else
                 out_.line(fmt::format("{}[{}][{}] = {};", y_, k_, place, spell(value).text));
         }
-        if (count > 0) {
-            out_.list(fmt::format("{}.keep({}, {{", sums_, k_), sides[0], "},");
-            out_.indent(2);
-            out_.list("{", sides[1], "});");
-            out_.indent(-2);
-        }
+        keep(products_, {sides[0], sides[1]});
+        keep(squares_, {sides[0]});
         close_block(out_);
+    }
+
+    void keep(const Sums& sums, const std::vector<std::vector<std::string>>& sides)
+    {
+        if (sums.pairs.empty()) return;
+        for (std::size_t k = 0; k < sides.size(); ++k) {
+            std::vector<std::string> entries;
+            for (const std::size_t m : sums.pairs) entries.push_back(sides[k][m]);
+            if (k > 0) out_.indent(2);
+            out_.list(k == 0 ? fmt::format("{}.keep({}, {{", sums.object, k_) : "{", entries,
+                      k + 1 == sides.size() ? "});" : "},");
+            if (k > 0) out_.indent(-2);
+        }
     }
 
     TextBlock& out_;
@@ -175,7 +213,9 @@ class SeriesPrinter {
     LocalNames locals_;
     bool is_rate_;
     std::size_t outputs_, lanes_;
-    std::string x_, y_, order_, k_, sums_, lower_, reciprocal_, next_;
+    std::string x_, y_, order_, k_;
+    Sums products_, squares_;
+    std::string reciprocal_, next_;
     std::set<std::string> late_; ///< what stands in the loop alone
     std::size_t last_late_ = 0;  ///< outputs from here on are there to get a name
     BodyPart loop_;

@@ -113,20 +113,25 @@ TEST_CASE("sums over lower orders are the products of series, in any number, in 
     const auto check = []<class S, int count>(S, std::integral_constant<int, count>) {
         constexpr int most = 24;
         LowerSums<S, count, most> sums;
+        LowerSquares<S, count, most> squares;
         std::array<std::array<S, count>, most + 1> a{}, b{};
         std::mt19937 random(7);
         for (int k = 1; k <= most; ++k) {
-            const auto found = sums(k);
+            const auto found = sums(k), square = squares(k);
             for (std::size_t m = 0; m < count; ++m) {
-                S expected = S(0);
-                for (int j = 1; j < k; ++j)
+                S expected = S(0), expected_square = S(0);
+                for (int j = 1; j < k; ++j) {
                     expected += a[static_cast<std::size_t>(j)][m] * b[static_cast<std::size_t>(k - j)][m];
+                    expected_square += a[static_cast<std::size_t>(j)][m] * a[static_cast<std::size_t>(k - j)][m];
+                }
                 REQUIRE(found[m] == expected);
+                REQUIRE(square[m] == expected_square);
             }
             // Small integers: every order of summation is exact.
             for (auto* side : {&a, &b})
                 for (S& entry : (*side)[static_cast<std::size_t>(k)]) entry = S(static_cast<int>(random() % 19) - 9);
             sums.keep(k, a[static_cast<std::size_t>(k)], b[static_cast<std::size_t>(k)]);
+            squares.keep(k, a[static_cast<std::size_t>(k)]);
         }
     };
     const auto check_all = [&]<int... count>(auto scalar, std::integer_sequence<int, count...>)

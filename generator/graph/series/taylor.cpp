@@ -158,28 +158,36 @@ class RecurrenceBuilder {
         return power;
     }
 
-    /// <a, b>_k.
-    NodeId sum(Series a, Series b)
+    /// <a, b>_k, the series not drawn apart.
+    NodeId plain_sum(Series a, Series b)
     {
         if (!moves(a.node) || !moves(b.node)) return zero_;
-        const auto [first, a_core] = drawn_out(a.node);
-        const auto [second, b_core] = drawn_out(b.node);
-        std::pair<Series, Series> pair{{a_core, a.derived}, {b_core, b.derived}};
+        std::pair<Series, Series> pair{a, b};
         if (pair.second < pair.first) std::swap(pair.first, pair.second);
         const auto [place, is_new] = place_of_.try_emplace(pair, pairs_.size());
         if (is_new) {
             pairs_.push_back(pair);
             result_.sums.push_back(graph_.input("sum " + std::to_string(place->second) + " over lower orders"));
         }
-        return graph_.multiply(graph_.multiply(first, second), result_.sums[place->second]);
+        return result_.sums[place->second];
     }
 
-    NodeId sum(NodeId a, NodeId b) { return sum(Series{a, false}, Series{b, false}); }
-    /// <a*, b>_k / k.
-    NodeId mean(NodeId a, NodeId b)
+    /// factor <a, b>_k
+    NodeId sum(NodeId factor, Series a, Series b)
     {
-        return graph_.multiply(result_.reciprocal, sum(Series{a, true}, Series{b, false}));
+        const auto [first, a_core] = drawn_out(a.node);
+        const auto [second, b_core] = drawn_out(b.node);
+        const NodeId scale = graph_.multiply(factor, graph_.multiply(first, second));
+        return graph_.multiply(scale, plain_sum({a_core, a.derived}, {b_core, b.derived}));
     }
+
+    NodeId sum(NodeId a, NodeId b) { return sum(one_, {a, false}, {b, false}); }
+    /// factor <a*, b>_k / k.
+    NodeId mean(NodeId a, NodeId b, NodeId factor)
+    {
+        return sum(graph_.multiply(factor, result_.reciprocal), {a, true}, {b, false});
+    }
+    NodeId mean(NodeId a, NodeId b) { return mean(a, b, one_); }
 
     // ---- rules ----
 
@@ -234,12 +242,15 @@ class RecurrenceBuilder {
         return graph_.select(first, coefficient(of[0]), coefficient(of[1]));
     }
 
+    /// Of what is left when static factors are drawn out: products that differ by these alone are one.
     NodeId product(NodeId a, NodeId b)
     {
-        const NodeId a_k = coefficient(a), b_k = coefficient(b);
-        const NodeId ends = a == b ? graph_.multiply(graph_.multiply(graph_.constant(2), a), a_k)
-                                   : graph_.add(graph_.multiply(a, b_k), graph_.multiply(b, a_k));
-        return graph_.add(ends, sum(a, b));
+        const auto [first, u] = drawn_out(a);
+        const auto [second, v] = drawn_out(b);
+        const NodeId u_k = coefficient(u), v_k = coefficient(v);
+        const NodeId ends = u == v ? graph_.multiply(graph_.multiply(graph_.constant(2), u), u_k)
+                                   : graph_.add(graph_.multiply(u, v_k), graph_.multiply(v, u_k));
+        return graph_.multiply(graph_.multiply(first, second), graph_.add(ends, plain_sum({u, false}, {v, false})));
     }
 
     NodeId quotient(NodeId q, NodeId a, NodeId b)
@@ -270,7 +281,7 @@ class RecurrenceBuilder {
     NodeId by_power(NodeId p, NodeId a, NodeId n)
     {
         const NodeId ends = graph_.multiply(graph_.multiply(n, p), coefficient(a));
-        const NodeId inner = graph_.subtract(graph_.multiply(graph_.add(n, one_), mean(a, p)), sum(a, p));
+        const NodeId inner = graph_.subtract(mean(a, p, graph_.add(n, one_)), sum(a, p));
         return graph_.multiply(graph_.add(ends, inner), inverse(a));
     }
 

@@ -25,6 +25,28 @@ struct TaylorSeries {
 
 namespace detail {
 
+/// Squares of series, one a lane of the type Lanes: twice the half of the terms.
+template <class Lanes, std::size_t length>
+struct SquaredSeries {
+    std::array<Lanes, length> a;
+
+    [[nodiscard]] [[gnu::always_inline]] Lanes sum(std::size_t k) const noexcept
+    {
+        if (k < 2) return Lanes();
+        if (k == 2) return a[1] * a[1];
+        const std::size_t half = k / 2;
+        Lanes even = k % 2 == 0 ? Lanes(a[half] * a[half]) : Lanes(), odd = Lanes();
+        std::size_t j = 2;
+        for (; 2 * j + 2 < k; j += 2) {
+            odd += a[j] * a[k - j];
+            even += (a[j + 1] + a[j + 1]) * a[k - j - 1];
+        }
+        if (2 * j < k) odd += a[j] * a[k - j];
+        odd += a[1] * a[k - 1];
+        return even + (odd + odd);
+    }
+};
+
 /// Pairs of series, one a lane of the type Lanes.
 template <class Lanes, std::size_t length>
 struct PairedSeries {
@@ -82,20 +104,24 @@ struct RegisterOf {
 
 } // namespace detail
 
-/// The sums of `count` pairs for orders up to `most`.
-template <class S, int count, int most>
-class LowerSums {
+namespace detail {
+
+/// Sums of `count` pairs or squares of series, in registers of several lanes.
+template <class S, int count, int most, template <class, std::size_t> class SeriesOf>
+class SumsInLanes {
     static constexpr std::size_t size = static_cast<std::size_t>(count);
-    static constexpr std::size_t width = detail::register_lanes<S>;
+    static constexpr std::size_t width = register_lanes<S>;
     static constexpr std::size_t whole = size / width; ///< full registers
     static constexpr std::size_t rest = size % width;
     static constexpr std::size_t rest_width = rest == 0 ? 1 : std::bit_ceil(rest);
-    using Entries = std::array<S, size>;
-    using Register = typename detail::RegisterOf<S, width>::type;
-    using Rest = typename detail::RegisterOf<S, rest_width>::type;
+    static constexpr std::size_t length = static_cast<std::size_t>(most) + 1;
+    using Register = typename RegisterOf<S, width>::type;
+    using Rest = typename RegisterOf<S, rest_width>::type;
 
   public:
-    /// <a, b>_k of every pair, from the coefficients of orders 1 .. k - 1.
+    using Entries = std::array<S, size>;
+
+    /// The sum of every pair, from the coefficients of orders 1 .. k - 1.
     [[nodiscard]] [[gnu::always_inline]] Entries operator()(int k) const noexcept
     {
         Entries sums;
@@ -105,18 +131,14 @@ class LowerSums {
         return sums;
     }
 
-    /// Takes the coefficients a_k and b_k of every pair.
-    [[gnu::always_inline]] void keep(int k, const Entries& a, const Entries& b) noexcept
+  protected:
+    /// Takes the coefficients of order k of one side of every pair.
+    template <class Side>
+    [[gnu::always_inline]] void keep_side(int k, const Entries& entries, const Side& side) noexcept
     {
         const auto order = static_cast<std::size_t>(k);
-        for (std::size_t m = 0; m < whole; ++m) {
-            whole_[m].a[order] = load<Register, width>(a, m * width);
-            whole_[m].b[order] = load<Register, width>(b, m * width);
-        }
-        if constexpr (rest > 0) {
-            rest_.a[order] = load<Rest, rest_width>(a, whole * width);
-            rest_.b[order] = load<Rest, rest_width>(b, whole * width);
-        }
+        for (std::size_t m = 0; m < whole; ++m) side(whole_[m])[order] = load<Register, width>(entries, m * width);
+        if constexpr (rest > 0) side(rest_)[order] = load<Rest, rest_width>(entries, whole * width);
     }
 
   private:
@@ -143,8 +165,40 @@ class LowerSums {
         (std::make_index_sequence<lanes>{});
     }
 
-    std::array<detail::PairedSeries<Register, most + 1>, whole> whole_;
-    detail::PairedSeries<Rest, rest == 0 ? 0 : most + 1> rest_;
+    std::array<SeriesOf<Register, length>, whole> whole_;
+    SeriesOf<Rest, rest == 0 ? 0 : length> rest_;
+};
+
+} // namespace detail
+
+/// <a, b>_k of `count` pairs for orders k up to `most`.
+template <class S, int count, int most>
+class LowerSums : public detail::SumsInLanes<S, count, most, detail::PairedSeries> {
+  public:
+    using Entries = std::array<S, static_cast<std::size_t>(count)>;
+
+    /// Takes the coefficients a_k and b_k of every pair.
+    [[gnu::always_inline]] void keep(int k, const Entries& a, const Entries& b) noexcept
+    {
+        this->keep_side(
+            k, a, [](auto& series) -> auto& { return series.a; });
+        this->keep_side(
+            k, b, [](auto& series) -> auto& { return series.b; });
+    }
+};
+
+/// <a, a>_k of `count` series for orders k up to `most`.
+template <class S, int count, int most>
+class LowerSquares : public detail::SumsInLanes<S, count, most, detail::SquaredSeries> {
+  public:
+    using Entries = std::array<S, static_cast<std::size_t>(count)>;
+
+    /// Takes the coefficient a_k of every series.
+    [[gnu::always_inline]] void keep(int k, const Entries& a) noexcept
+    {
+        this->keep_side(
+            k, a, [](auto& series) -> auto& { return series.a; });
+    }
 };
 
 } // namespace lagen

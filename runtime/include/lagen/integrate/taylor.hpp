@@ -65,21 +65,24 @@ template <class Real>
     return static_cast<Real>(std::bit_cast<double>(static_cast<std::int64_t>((x + 1023.0) * 0x1p52)));
 }
 
-/// Where L = -ln(tolerance), a step is as long as e^(-L/p). Its work grows like p^2 where a product of scalars is all
-/// that takes time, and p = L/2 + 1 is cheapest [Jorba-Zou 2005, section 3.1]; with all products of an order in
-/// vector registers it grows little faster than p. Measured on a heavy top and six other problems, by powers of ten
-/// from 1e-6 to 1e-15: least at 16, 20, 24, 28, within 5 % from one less to four more.
+/// The order for L = -ln(tolerance), where a coefficient takes so many sums. A step is as long as e^(-L/p). Its work
+/// grows like p^2 where products of scalars are all that takes time, and p = L/2 + 1 is cheapest [Jorba-Zou 2005,
+/// section 3.1]; with eight products at a time it grows little faster than p while there are few sums. Measured, by
+/// powers of ten from 1e-6 to 1e-15: least at 16, 20, 24, 28 for a heavy top (9 sums), a rigid body and a double
+/// pendulum, within 5 % from one less to four more; near 10, 14, 17, 20 for seven bodies in the plane (126 sums).
 template <class Real>
-[[nodiscard]] constexpr int taylor_order(double logarithm) noexcept
+[[nodiscard]] constexpr int taylor_order(double logarithm, int sums) noexcept
 {
-    const double wanted = std::is_floating_point_v<Real> && sizeof(Real) <= 8 ? 7 + 0.6 * logarithm : 1 + logarithm / 2;
+    constexpr bool in_registers = std::is_floating_point_v<Real> && sizeof(Real) <= 8;
+    const double wanted = !in_registers ? 1 + logarithm / 2 : (sums <= 32 ? 7 + 0.6 * logarithm : 3 + 0.5 * logarithm);
     const int whole = static_cast<int>(wanted);
     return whole + (whole < wanted ? 1 : 0);
 }
 
 /// For a tolerance that is the scalar's epsilon.
 template <class Real>
-inline constexpr int highest_taylor_order = taylor_order<Real>(0.69314718055994531 * std::numeric_limits<Real>::digits);
+inline constexpr int highest_taylor_order = taylor_order<Real>(0.69314718055994531 * std::numeric_limits<Real>::digits,
+                                                               0);
 
 } // namespace detail
 
@@ -245,7 +248,9 @@ class TaylorStepper {
         const StepControl control = method.control();
         const double tolerance = control.relative_tolerance();
         const double logarithm = -std::log(tolerance > 0 ? tolerance : control.absolute_tolerance());
-        return std::clamp(detail::taylor_order<Real>(logarithm), 3, highest_order);
+        int sums = 0;
+        if constexpr (requires { M::taylor_sums; }) sums = M::taylor_sums;
+        return std::clamp(detail::taylor_order<Real>(logarithm, sums), 3, highest_order);
     }
 
     Status expand(const M& model, Real t, const State& s, Series& x, Real& length) noexcept
