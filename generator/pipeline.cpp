@@ -10,7 +10,7 @@
 #include "model/scene_form.hpp"
 #include "verify/control_maximum.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -111,9 +111,8 @@ std::string regenerate_command(const CheckedModel& checked, const GenerateReques
                                const std::string& kernels_form, const std::string& name)
 {
     std::string command = command_on(checked, "generate", kernels_form);
-    std::string only;
-    for (const std::string& kernel : request.only) only += (only.empty() ? "" : ",") + kernel;
-    if (!only.empty()) command += " --only " + shell_word(only);
+    for (const auto& [option, kernels] : {std::pair(" --only ", &request.only), std::pair(" --with ", &request.with)})
+        if (!kernels->empty()) command += option + shell_word(fmt::format("{}", fmt::join(*kernels, ",")));
     if (checked.unchecked && checked.report.structure.verdict == Verdict::invalid) command += " --unchecked";
     const std::string output = std::filesystem::path(request.output).filename().string();
     return fmt::format("{} -o {}", command, shell_word(output.empty() ? name + ".hpp" : output));
@@ -209,6 +208,7 @@ Generated generate(const CheckedModel& checked, const GenerateRequest& request)
     KernelRequest kernels;
     kernels.form = request.form.empty() ? default_form(model) : request.form;
     kernels.only = request.only;
+    kernels.with = request.with;
     kernels.scene = request.scene;
     Generated generated;
     if (request.report) kernels.reports = &generated.reports;

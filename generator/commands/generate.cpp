@@ -25,6 +25,7 @@ CommandSyntax generate_syntax(const std::string& form, const std::string& only)
             {{"output,o", "FILE", "the header; standard output without it"},
              {"form", "FORM", form.c_str()},
              {"only", "KERNELS", only.c_str()},
+             {"with", "KERNELS", "kernels beside those that every header has, e.g. taylor"},
              {"report", "WHAT",
               "on standard error: summary, the operations of each kernel before and after the passes that changed them "
               "and its "
@@ -103,6 +104,7 @@ ExitCode run_generate(Arguments arguments)
     request.only = split_list(options.get("only"));
     if (options.has("only") && request.only.empty())
         throw UsageError("lagen generate: --only names no kernel (see lagen generate --help)");
+    request.with = split_list(options.get("with"));
     const std::string output = options.has("output") ? options.get("output") : "-";
     const Generated generated = generate(checked, request);
     if (request.report) write_standard_error(operations_text(generated.reports, full_report));

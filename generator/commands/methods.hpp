@@ -18,6 +18,7 @@ struct MethodEntry {
     const char* text;                                 ///< one line, with the source
     const char* keeps = "";                           ///< what long runs keep
     SecondOrder::Kind system = SecondOrder::Kind::no; ///< for x'' = f(t, x, x') or f(t, x) only
+    bool series = false;                              ///< needs the kernels of Taylor coefficients
 };
 
 [[nodiscard]] std::span<const MethodEntry> method_table();

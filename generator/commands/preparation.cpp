@@ -47,6 +47,8 @@ void Preparation::finish(const Scene& scene, const std::string& form, const Meth
     GenerateRequest request;
     request.form = form;
     request.scene = &scene;
+    if (method.series) request.with = {"taylor"};
+    if (method.series && !scene.events.empty()) request.with.emplace_back("event_series");
     const Generated generated = generate(checked_, request);
     require_system(options_, scene, method, generated.module);
     const Compiled compiled = compile_program(generated.header, program_text(generated.module.name, method));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// `lagen run`: generates, compiles (cached) and integrates a scene.
 #include "commands/command.hpp"
-#include "commands/compile.hpp"
 #include "commands/options.hpp"
 #include "commands/places.hpp"
 #include "commands/plot.hpp"

@@ -2,6 +2,7 @@
 #include "emit/print_kernel.hpp"
 
 #include "emit/print_function.hpp"
+#include "emit/print_series.hpp"
 #include "emit/spell.hpp"
 
 #include <fmt/format.h>
@@ -242,6 +243,7 @@ void print_conditions(TextBlock& out, const std::vector<std::string>& conditions
 void print_kernel(TextBlock& out, const KernelModule& module, const ModuleNames& names, const Kernel& kernel,
                   Includes& includes)
 {
+    if (kernel.recurrence) return print_series(out, module, names, kernel, includes);
     const std::vector<NodeId> outputs = nodes_of(kernel);
     const std::vector<NodeId> pivots = kernel.checks ? kernel.checks->pivots : std::vector<NodeId>{};
     const Body body =

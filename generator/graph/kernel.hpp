@@ -2,7 +2,7 @@
 /// Kernels: named functions on a graph, as the header printer and the interpreter see them. No mechanics in here.
 #pragma once
 
-#include "graph/unknowns/implicit.hpp"
+#include "graph/series/taylor.hpp"
 
 #include <memory>
 #include <optional>
@@ -72,12 +72,15 @@ struct KernelChecks {
 ///   else                              void NAME(inputs, outputs by reference)
 /// An output may stand in the place of a state or a tangent that is read. A kernel of one sparse output is called
 /// NAME_values; NAME gives the same as a dense matrix, where that is small.
+///   with a recurrence                 status_t<S> NAME(inputs, int order, TaylorSeries<S, lanes, most>& x)
+/// Its one output is the rate of the state, and x the Taylor coefficients of the motion.
 struct Kernel {
     std::string name; ///< as in C++: "rhs", "energy", "momentum", ...
     std::vector<KernelInput> inputs;
     std::vector<KernelOutput> outputs;
     std::optional<KernelChecks> checks = {};
-    std::vector<std::string> documentation = {}; ///< lines of its docstring: formula, shape, index order, units
+    std::optional<TaylorRecurrence> recurrence = {}; ///< of the output, along the state and time
+    std::vector<std::string> documentation = {};     ///< lines of its docstring: formula, shape, index order, units
 };
 
 /// The nodes of all entries of all outputs.

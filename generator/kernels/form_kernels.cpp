@@ -20,7 +20,7 @@ Formulation formulation(Graph& graph, const Model& model, const System& system, 
                         const KernelRequest& request)
 {
     const bool hessians = std::ranges::any_of(std::array{"lagrangian_hessian", "hamiltonian_hessian"},
-                                              [&](const char* name) { return is_requested(request.only, name); });
+                                              [&](const char* name) { return is_requested(request, name); });
     switch (form_named(request.form.empty() ? default_form(model) : request.form).kind) {
     case FormKind::lagrange: return lagrange_form(graph, system, report, hessians);
     case FormKind::hamilton: return hamilton_form(graph, system, report, hessians);
@@ -60,6 +60,7 @@ class ModuleBuilder {
     {
         describe();
         if (wants("rhs")) add_right_hand_side();
+        if (wants("taylor")) add_taylor();
         for (Kernel& kernel : form_.kernels)
             if (wants(kernel.name)) add(std::move(kernel));
         add_trees("constraints", model_base_constraints());
@@ -67,6 +68,7 @@ class ModuleBuilder {
         add_trees("observables", observables());
         add_trees("invariants", model_.invariants);
         if (wants("events")) add_trees("events", events());
+        if (wants("event_series") && has_kernel(module_, "events")) add_event_series(kernel_named(module_, "events"));
         if (wants("jacobian")) add_jacobian();
         if (wants("variational")) add_variational();
         simplify_implicit();
@@ -74,7 +76,7 @@ class ModuleBuilder {
     }
 
   private:
-    [[nodiscard]] bool wants(const std::string& name) const { return is_requested(request_.only, name); }
+    [[nodiscard]] bool wants(const std::string& name) const { return is_requested(request_, name); }
 
     [[nodiscard]] static Quantity quantity(const Symbol& symbol, NodeId input)
     {
@@ -138,6 +140,38 @@ class ModuleBuilder {
         std::vector<NodeId> rates;
         for (const KernelEntry& entry : module_.kernels.back().outputs[0].entries) rates.push_back(entry.node);
         module_.second_order = second_order_of(module_, rates);
+    }
+
+    [[nodiscard]] TaylorRecurrence recurrence_of(const std::vector<NodeId>& functions)
+    {
+        std::vector<NodeId> curve = state_of(form_);
+        curve.push_back(form_.time);
+        return taylor_recurrence(*graph_, functions, curve, form_.implicit);
+    }
+
+    /// The rates as they were written or as they were simplified, whichever takes fewer sums over lower orders.
+    void add_taylor()
+    {
+        TaylorRecurrence written = recurrence_of(form_.derivative);
+        Kernel kernel = table_kernel(form_, "taylor", column("ds", form_.derivative));
+        kernel.checks->pivots = form_.pivots;
+        add(std::move(kernel));
+        Kernel& added = module_.kernels.back();
+        added.recurrence = recurrence_of(nodes_of(added));
+        if (written.sums.size() >= added.recurrence->sums.size()) return;
+        for (std::size_t i = 0; i < form_.derivative.size(); ++i)
+            added.outputs[0].entries[i].node = form_.derivative[i];
+        added.checks->pivots = form_.pivots;
+        added.recurrence = std::move(written);
+    }
+
+    void add_event_series(const Kernel& events)
+    {
+        const std::vector<NodeId> values = nodes_of(events);
+        Kernel kernel = table_kernel(form_, "event_series", column("e", values));
+        kernel.inputs = point_inputs(module_);
+        kernel.recurrence = recurrence_of(values);
+        module_.kernels.push_back(std::move(kernel));
     }
 
     void add_trees(const std::string& name, const std::vector<NamedTree>& trees)
@@ -289,7 +323,7 @@ class ModuleBuilder {
 
 KernelModule form_kernels(const Model& model, const System& system, const Report& report, const KernelRequest& request)
 {
-    refuse_unknown(request.only);
+    refuse_unknown(request);
     KernelModule module = ModuleBuilder(model, system, report, request).build();
     require_requested(module, model, system, report, request);
     return module;

@@ -12,6 +12,7 @@ using Of = FormKind;
 
 constexpr OutputSignature number{};
 constexpr OutputSignature column_of_values{.rank = 1};
+constexpr OutputSignature column_of_values_checked{.rank = 1, .checked = true};
 constexpr OutputSignature dense_matrix{.rank = 2};
 constexpr OutputSignature sparse_matrix{.rank = 2, .sparse = true};
 constexpr OutputSignature rate{.rank = 1, .role = ArrayRole::tangent, .checked = true};
@@ -24,6 +25,9 @@ constexpr std::array kernel_rows{
               "Derivative of ds with respect to s: the entries that are not zero by structure."},
     KernelRow{"variational", every, rate,
               "The variational equations at s: dv = (d rhs / d s) v. v and dv may be the same object.", true},
+    KernelRow{"taylor", every, rate, "Taylor coefficients of the motion through s at t.", true},
+    KernelRow{"event_series", every, column_of_values_checked, "Taylor coefficients of the events along the motion x.",
+              true},
     KernelRow{"mass_matrix", Of::lagrange, dense_matrix, "W_ab = d2L/dy^a dy^b, shape ({0}, {1}), symmetric."},
     KernelRow{"momentum", Of::lagrange, column_of_values, "p_a = dL/dy^a, shape ({0})."},
     KernelRow{"velocity", Of::hamilton, column_of_values, "y^a = dH/dmu_a, shape ({0})."},

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 
 namespace lagen {
 
@@ -14,6 +15,12 @@ namespace {
 bool is_among(const std::vector<std::string>& names, const std::string& name)
 {
     return std::ranges::find(names, name) != names.end();
+}
+
+/// The series of events needs events.
+bool has_what_it_needs(const KernelRow& row, const std::vector<std::string>& names)
+{
+    return row.name != std::string_view("event_series") || is_among(names, "events");
 }
 
 [[noreturn]] void refuse(const std::string& found, const std::string& name, const std::vector<std::string>& names)
@@ -36,24 +43,28 @@ const std::vector<std::string>& kernel_names()
     return names;
 }
 
-bool is_requested(const std::vector<std::string>& only, const std::string& name)
+bool is_requested(const KernelRequest& request, const std::string& name)
 {
-    if (!only.empty()) return is_among(only, name);
+    if (is_among(request.with, name)) return true;
+    if (!request.only.empty()) return is_among(request.only, name);
     return std::ranges::none_of(kernel_table(),
                                 [&](const KernelRow& row) { return row.on_request && name == row.name; });
 }
 
-void refuse_unknown(const std::vector<std::string>& only)
+void refuse_unknown(const KernelRequest& request)
 {
-    for (const std::string& name : only)
-        if (!is_among(kernel_names(), name))
-            refuse(fmt::format("there is no kernel '{}'; there are", name), name, kernel_names());
+    for (const auto* names : {&request.only, &request.with})
+        for (const std::string& name : *names)
+            if (!is_among(kernel_names(), name))
+                refuse(fmt::format("there is no kernel '{}'; there are", name), name, kernel_names());
 }
 
 void require_requested(const KernelModule& module, const Model& model, const System& system, const Report& report,
                        const KernelRequest& request)
 {
-    for (const std::string& name : request.only) {
+    std::vector<std::string> asked = request.only;
+    asked.insert(asked.end(), request.with.begin(), request.with.end());
+    for (const std::string& name : asked) {
         if (has_kernel(module, name)) continue;
         KernelRequest every;
         every.form = module.form;
@@ -62,7 +73,8 @@ void require_requested(const KernelModule& module, const Model& model, const Sys
         for (const Kernel& kernel : form_kernels(model, system, report, every).kernels) names.push_back(kernel.name);
         const FormKind form = form_named(module.form).kind;
         for (const KernelRow& row : kernel_table())
-            if (row.on_request && row.form.value_or(form) == form) names.emplace_back(row.name);
+            if (row.on_request && row.form.value_or(form) == form && has_what_it_needs(row, names))
+                names.emplace_back(row.name);
         refuse(fmt::format("the {} form of model '{}' has no kernel '{}'; it has", module.form, model.name, name), name,
                names);
     }

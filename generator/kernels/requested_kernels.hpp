@@ -9,11 +9,11 @@ namespace lagen {
 /// Every kernel that some form of some model has.
 [[nodiscard]] const std::vector<std::string>& kernel_names();
 
-/// Whether `only` asks for the kernel `name`; an empty list asks for all but the variational equations and Hessians.
-[[nodiscard]] bool is_requested(const std::vector<std::string>& only, const std::string& name);
+/// Whether the request asks for the kernel `name`: an empty `only` asks for all that are not made on request alone.
+[[nodiscard]] bool is_requested(const KernelRequest& request, const std::string& name);
 
-/// Throws a usage Error where `only` has a name that no kernel has.
-void refuse_unknown(const std::vector<std::string>& only);
+/// Throws a usage Error where the request has a name that no kernel has.
+void refuse_unknown(const KernelRequest& request);
 
 /// Throws a usage Error with the kernels of this form of the model where `module` lacks one that was asked for: it
 /// belongs to another form, or the model has nothing of its kind.

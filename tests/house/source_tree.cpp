@@ -113,7 +113,8 @@ const Arrows& planned_folder_arrows()
         {"graph/unknowns", {"graph/calculus"}},
         {"graph/elimination", {"graph/calculus"}},
         {"graph/simplify", {"graph/elimination"}},
-        {"graph/kernel", {"graph/simplify", "graph/unknowns"}},
+        {"graph/series", {"graph/unknowns"}},
+        {"graph/kernel", {"graph/simplify", "graph/series"}},
     };
     return arrows;
 }

@@ -60,8 +60,9 @@ TEST_CASE("a kernel that does not exist is refused with the list of those that d
     KernelRequest request;
     request.only = {"enrgy"};
     CHECK(message_of(model, verify(model), request) ==
-          "error: there is no kernel 'enrgy'; there are rhs, jacobian, variational, mass_matrix, momentum, velocity, "
-          "controls, energy, power, hamiltonian, lagrangian, cost, constraints, domain, observables, invariants, "
+          "error: there is no kernel 'enrgy'; there are rhs, jacobian, variational, taylor, event_series, "
+          "mass_matrix, momentum, velocity, controls, energy, power, hamiltonian, lagrangian, cost, constraints, "
+          "domain, observables, invariants, "
           "lagrangian_hessian, hamiltonian_hessian, events\nhint: did you mean 'energy'?");
 }
 
@@ -73,16 +74,26 @@ TEST_CASE("a kernel that a form of the model does not have is refused with the l
     request.only = {"rhs", "velocity"};
     CHECK(message_of(model, verified, request) ==
           "error: the lagrange form of model 'oscillator' has no kernel 'velocity'; it has rhs, mass_matrix, momentum, "
-          "energy, lagrangian, observables, events, jacobian, variational, lagrangian_hessian");
+          "energy, lagrangian, observables, events, jacobian, variational, taylor, event_series, "
+          "lagrangian_hessian");
     request.only = {"domain"};
     request.form = "hamilton";
     CHECK(message_of(model, verified, request) ==
           "error: the hamilton form of model 'oscillator' has no kernel 'domain'; it has rhs, velocity, energy, "
-          "hamiltonian, lagrangian, observables, events, jacobian, variational, hamiltonian_hessian");
+          "hamiltonian, lagrangian, observables, events, jacobian, variational, taylor, event_series, "
+          "hamiltonian_hessian");
     request.only = {"lagrangian_hessian"};
-    CHECK(message_of(model, verified, request).ends_with("variational, hamiltonian_hessian"));
+    CHECK(message_of(model, verified, request).ends_with("variational, taylor, event_series, hamiltonian_hessian"));
     request.only = {"velocity", "variational"};
     CHECK(message_of(model, verified, request) == "nothing thrown");
+    request.only.clear();
+    request.with = {"tailor"};
+    CHECK(message_of(model, verified, request).ends_with("events\nhint: did you mean 'taylor'?"));
+    request.with = {"taylor"};
+    const KernelModule module = kernels_of(model, request);
+    CHECK(has_kernel(module, "taylor"));
+    CHECK(has_kernel(module, "rhs"));
+    CHECK_FALSE(has_kernel(module, "variational"));
 }
 
 TEST_CASE("conditions on parameters alone are no part of the domain kernel", "[kernels]")

@@ -14,7 +14,7 @@ inline constexpr double function_latency = 70; ///< sincos of a batch; others ta
 
 constexpr Operator leaf(Op op, const char* name)
 {
-    return {.op = op, .name = name, .spelling = name, .word = name};
+    return {.op = op, .name = name, .spelling = name, .word = name, .series = SeriesRule::constant};
 }
 
 constexpr Operator linear_algebra(Op op, const char* name, int arity)
@@ -26,6 +26,7 @@ constexpr Operator linear_algebra(Op op, const char* name, int arity)
             .word = name,
             .notation = Notation::block,
             .arity = arity,
+            .series = SeriesRule::system,
             .smoothness = Smoothness::system};
 }
 
@@ -78,6 +79,7 @@ constexpr Operator comparison(Comparison c, Op op, const char* word, Trichotomy 
             .exact = exact,
             .contribution = of_step,
             .slope = slope_one,
+            .series = SeriesRule::constant,
             .smoothness = Smoothness::stepped,
             .condition = difference_of};
 }

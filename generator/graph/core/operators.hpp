@@ -43,6 +43,24 @@ enum class Smoothness : std::uint8_t {
     system,      ///< rational in the entries of a linear system
 };
 
+/// How the Taylor coefficients of a value along a curve follow from those of the operands: graph/series/taylor.hpp.
+enum class SeriesRule : std::uint8_t {
+    missing,    ///< no row may have it
+    constant,   ///< all of them but the first are 0: leaves, what is constant between jumps
+    linear,     ///< the derivative's rule, on coefficients
+    choice,     ///< that of the operand which the first coefficients choose
+    product,    ///< Cauchy's product
+    quotient,   ///< q b = a
+    power,      ///< an integer power: products, or p' a = n a' p
+    real_power, ///< p' a = n a' p, or exp(b log a)
+    root,       ///< f f = a
+    logarithm,  ///< a f' = a'
+    chain,      ///< f' = (df/da) a', by the derivative's rule
+    modulus,    ///< |a|: the sign of the first coefficient
+    system,     ///< A z = b
+    refused,    ///< derivatives of all orders are made of ever new functions
+};
+
 /// What the operands must satisfy. "Condition" is one function of them, see condition_of().
 enum class Sense : std::uint8_t {
     always,      ///< nothing
@@ -98,6 +116,7 @@ struct Operator {
     Contribution contribution = nullptr; ///< null for leaves and linear algebra
     /// A bound of |d node / d operand k|, which carries rounding errors; null: of the derivative itself.
     NodeId (*slope)(Graph&, NodeId node, std::size_t k) = nullptr;
+    SeriesRule series = SeriesRule::missing;
     Smoothness smoothness = Smoothness::meromorphic;
     Sense (*domain)(const Graph&, NodeId node) = nullptr; ///< where the node is certainly defined; null: always
     int condition_operand = -1;                           ///< the operand that is the condition; -1: `condition`

@@ -14,6 +14,7 @@
 #include "lagen/integrate/radau5.hpp"
 #include "lagen/integrate/run.hpp"
 #include "lagen/integrate/symplectic.hpp"
+#include "lagen/integrate/taylor.hpp"
 #include "lagen/integrate/tsit5.hpp"
 #include "lagen/integrate/verner.hpp"
 #include "lagen/ode.hpp"

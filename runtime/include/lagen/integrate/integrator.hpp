@@ -305,7 +305,7 @@ class Integrator {
             const Real asked = h_, length = size(h);
             h_ = lengths().after_accepted(length, error);
             // A step that an end cut short says nothing against the length that was asked for.
-            if (length < asked && h_ < asked) h_ = asked;
+            if (length < asked && h_ < asked && !requires { Stepper::foresees; }) h_ = asked;
             return Status::ok;
         }
         s_ = from_;

@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 #include <utility>
+#include <vector>
 
 namespace lagen::detail {
 
@@ -21,7 +23,7 @@ class March {
     using State = typename M::State;
     using Stepper = typename Steps::Stepper;
     static Real epsilon() noexcept { return std::numeric_limits<Real>::epsilon(); }
-    /// Adaptive steps are long and their interpolants cheap: events are looked for in four pieces of each.
+    /// Adaptive steps are long and their interpolants cheap: events are looked for in so many pieces of each.
     static constexpr int pieces = Stepper::adaptive ? 4 : 1;
 
     March(const M& model, const State& s, Interval<Real> span, const Method& method, const Options<M>& options,
@@ -67,7 +69,7 @@ class March {
         if (is_pack<Scalar> && !watch_.empty()) return Status::invalid_input;
         if (!moves_by_sums<M> && options_.dense) return Status::invalid_input;
         if (steps_.status() != Status::ok) return steps_.status();
-        if (!watch_.empty()) watch_.begin(steps_.t(), steps_.state());
+        if (!watch_.empty()) watch_.begin(steps_.t(), steps_.state()), parts_.reserve(16);
         steps_.aim(span_.end);
         if constexpr (moves_by_sums<M>)
             if (options_.dense) run_.solution.begin(steps_.t(), steps_.state(), Stepper::dense_order);
@@ -138,7 +140,7 @@ class March {
         }
         if (ending != Status::ok) ++steps_.steps_;
         if (!watch_.empty())
-            for (const auto& crossed : watch_.look(theta, pieces, theta_width(t0, h), at)) {
+            for (const auto& crossed : watch_.look(parts(theta, t0, h), theta_width(t0, h), at)) {
                 const auto [t, s] = at(crossed.theta);
                 run_.events.push_back({crossed.request, t, *s});
                 if (!crossed.stop) continue;
@@ -147,6 +149,23 @@ class March {
             }
         move(theta, t0, h);
         return ending;
+    }
+
+    /// The ends of the parts of (0, theta] in which events are looked for: where the stepper knows between which times
+    /// they change their signs, those; else equal ones.
+    std::span<const Real> parts(const Real& theta, const Real& t0, const Real& h)
+    {
+        parts_.clear();
+        bool known = false;
+        if constexpr (requires(void (*found)(Real)) {
+                          steps_.stepper_.split(steps_.model_, t0, steps_.from_, h, theta, found);
+                      })
+            known = watch_.all_named() && steps_.stepper_.split(steps_.model_, t0, steps_.from_, h, theta,
+                                                                [this](const Real& end) { parts_.push_back(end); });
+        for (int piece = 1; piece < pieces && !known; ++piece) parts_.push_back(theta * Real(piece) / Real(pieces));
+        if (known) std::sort(parts_.begin(), parts_.end());
+        if (parts_.empty() || parts_.back() != theta) parts_.push_back(theta);
+        return parts_;
     }
 
     Real theta_width(const Real& t0, const Real& h) const noexcept
@@ -220,6 +239,7 @@ class March {
     Observer& observer_;
     EventWatch<M> watch_;
     Run<M> run_;
+    std::vector<Real> parts_; ///< of a step
     std::size_t row_ = 0;
     bool forward_;
     bool looks_;        ///< into every step: there are rows, events or a solution

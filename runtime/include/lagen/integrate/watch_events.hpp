@@ -34,6 +34,11 @@ class EventWatch {
     }
 
     [[nodiscard]] bool empty() const noexcept { return requests_.empty(); }
+    /// Whether every request is an event of the model.
+    [[nodiscard]] bool all_named() const noexcept
+    {
+        return std::none_of(requests_.begin(), requests_.end(), [](const Request& request) { return !!request.when; });
+    }
 
     /// Every request has a function: an index within the model's events, or its own.
     [[nodiscard]] bool is_valid() const noexcept
@@ -48,16 +53,16 @@ class EventWatch {
     void begin(Real t, const State& s) { evaluate(t, s, before_); }
 
     /// Crossings in (0, last] of a step, in order; those after a stop are left out. `at(theta)` answers the time and
-    /// the state inside the step; `pieces` parts of the step are looked at one by one, so that two crossings in one
-    /// step can be told. Where a function is not a number its last value stands, so that no gap hides a crossing.
+    /// the state inside the step; its parts, which end at `ends`, are looked at one by one, so that two crossings in
+    /// one step can be told. Where a function is not a number its last value stands, so that no gap hides a crossing.
     template <class At>
-    const std::vector<Crossed>& look(Real last, int pieces, Real width, const At& at)
+    const std::vector<Crossed>& look(std::span<const Real> ends, Real width, const At& at)
     {
         crossed_.clear();
         Real begin = Real(0);
         bool stopped = false;
-        for (int piece = 1; piece <= pieces && !stopped; ++piece) {
-            const Real end = piece == pieces ? last : last * Real(piece) / Real(pieces);
+        for (const Real& end : ends) {
+            if (stopped) break;
             const auto [t, s] = at(end);
             evaluate(t, *s, after_);
             const std::size_t found = crossed_.size();

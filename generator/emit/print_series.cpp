@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "emit/print_series.hpp"
+
+#include "emit/print_function.hpp"
+#include "emit/spell.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace lagen {
+
+namespace {
+
+/// Whether a variable of `names` stands in the expression.
+bool mentions(const Expression& expression, const std::set<std::string>& names)
+{
+    if (expression.is_variable()) return names.contains(expression.name);
+    return std::ranges::any_of(expression.operands, [&](const Expression& each) { return mentions(each, names); });
+}
+
+/// One body for the first coefficients and for all higher orders: what depends on no coefficient of order k stands
+/// before the loop. Of a rate, they are fed back into the curve; other functions have a series of their own.
+class SeriesPrinter {
+  public:
+    SeriesPrinter(TextBlock& out, const KernelModule& module, const ModuleNames& names, const Kernel& kernel)
+        : out_(out), module_(module), names_(names), kernel_(kernel), series_(*kernel.recurrence),
+          locals_(names.locals), is_rate_(kernel.outputs[0].role == ArrayRole::tangent),
+          outputs_(kernel.outputs[0].entries.size()), lanes_(series_.curve.size() - 1), x_(fresh("x")),
+          y_(is_rate_ ? x_ : fresh("y")), order_(fresh("order")),
+          k_(fresh("k")), products_{"LowerSums", fresh("sums"), fresh("lower"), {}}, squares_{"LowerSquares",
+                                                                                              fresh("squares"),
+                                                                                              fresh("lower_squares"),
+                                                                                              {}},
+          reciprocal_(fresh("reciprocal")), next_(fresh("next"))
+    {
+        name_late(series_.order, fmt::format("S({})", k_));
+        name_late(series_.reciprocal, reciprocal_);
+        for (std::size_t i = 0; i < lanes_; ++i) name_late(series_.curve[i], fmt::format("{}[{}][{}]", x_, k_, i));
+        name_late(series_.curve[lanes_], fmt::format("S({} == 1 ? 1 : 0)", k_));
+        sort_pairs();
+        for (const auto* group : {&products_, &squares_})
+            for (std::size_t m = 0; m < group->pairs.size(); ++m)
+                name_late(series_.sums[group->pairs[m]], fmt::format("{}[{}]", group->values, m));
+    }
+
+    Includes print()
+    {
+        const Body body = split_body();
+        out_.comment("Sums over lower orders that a coefficient takes.");
+        out_.line(fmt::format("static constexpr int {}_sums = {};", kernel_.name, series_.sums.size()));
+        out_.blank();
+        for (const std::string& line : kernel_.documentation) out_.comment(line);
+        out_.comment(fmt::format("{}[k][i], k <= order <= most: (d/dt)^k / k! of entry i.", y_));
+        out_.line("template <int most>");
+        const FunctionRequest request = request_for([this](std::size_t i, const std::string& value) {
+            return fmt::format("{}[{}][{}] = {};", y_, is_rate_ ? 1 : 0, i, value);
+        });
+        std::string arguments = fmt::format("{}, int {}", arguments_of(body, request), order_);
+        if (!is_rate_) arguments += fmt::format(", const TaylorSeries<S, {}, most>& {}", lanes_, x_);
+        arguments += fmt::format(", TaylorSeries<S, {}, most>& {}", outputs_, y_);
+        open_block(out_, fmt::format("[[nodiscard]] status_t<S> {}({}) const noexcept", kernel_.name, arguments));
+        for (std::size_t i = 0; i < lanes_ && is_rate_; ++i) out_.line(fmt::format("{}[0][{}] = s[{}];", x_, i, i));
+        const bool has_status = print_lines(out_, body, request);
+        print_loop();
+        out_.line(has_status ? "return status;" : "return StatusOf<S>::good();");
+        close_block(out_);
+        Includes includes = includes_of(body);
+        includes.insert("lagen/series.hpp");
+        return includes;
+    }
+
+  private:
+    /// Sums that are made at once.
+    struct Sums {
+        const char* type = "";
+        std::string object, values;
+        std::vector<std::size_t> pairs; ///< among those of the recurrence
+    };
+
+    /// Squares take half the terms, and half the room; but a few of them ride along where products leave lanes of a
+    /// vector register idle.
+    void sort_pairs()
+    {
+        constexpr std::size_t widest = 8;
+        std::vector<std::size_t> squares;
+        for (std::size_t m = 0; m < series_.pairs.size(); ++m)
+            (series_.pairs[m][0] == series_.pairs[m][1] ? squares : products_.pairs).push_back(m);
+        const std::size_t idle = (widest - products_.pairs.size() % widest) % widest;
+        (squares.size() <= idle ? products_ : squares_)
+            .pairs.insert((squares.size() <= idle ? products_ : squares_).pairs.end(), squares.begin(), squares.end());
+    }
+
+    std::string fresh(const std::string& wish)
+    {
+        std::string name = wish;
+        while (!locals_.taken.insert(name).second) name += '_';
+        return name;
+    }
+
+    void name_late(NodeId input, std::string text)
+    {
+        late_.insert(text);
+        locals_.inputs[input] = std::move(text);
+    }
+
+    [[nodiscard]] FunctionRequest request_for(std::function<std::string(std::size_t, const std::string&)> store) const
+    {
+        return {module_, names_, kernel_.name, true, kernel_.inputs, {}, std::move(store)};
+    }
+
+    /// Rates, their coefficients of order k, both sides of the pairs, and values of order 0 that the loop reads.
+    std::vector<NodeId> outputs()
+    {
+        std::vector<NodeId> nodes = nodes_of(kernel_);
+        std::vector<NodeId> late = series_.outputs;
+        for (const std::size_t side : {0U, 1U})
+            for (const auto& pair : series_.pairs) late.push_back(pair[side]);
+        nodes.insert(nodes.end(), late.begin(), late.end());
+        last_late_ = nodes.size();
+        std::vector<NodeId> inputs = series_.curve;
+        inputs.insert(inputs.end(), series_.sums.begin(), series_.sums.end());
+        inputs.insert(inputs.end(), {series_.order, series_.reciprocal});
+        const std::vector<bool> moves = depends_on(*module_.graph, inputs);
+        std::set<NodeId> read;
+        for (const NodeId id : reachable(*module_.graph, late))
+            if (moves[id])
+                for (const NodeId operand : module_.graph->operands(id))
+                    if (!moves[operand] && kind_is_computed(operand)) read.insert(operand);
+        nodes.insert(nodes.end(), read.begin(), read.end());
+        return nodes;
+    }
+
+    [[nodiscard]] bool kind_is_computed(NodeId id) const
+    {
+        return !module_.graph->operands(id).empty() && module_.graph->op(id) != Op::factor;
+    }
+
+    /// The body before the loop; that of the loop goes to `loop_`.
+    Body split_body()
+    {
+        const std::vector<NodeId> nodes = outputs();
+        Body body =
+            write_body({*module_.graph, locals_, nodes, kernel_.checks->pivots, names_.moving, Checking::state, {}, 0});
+        BodyPart early;
+        for (Statement& statement : body.parts.front()) {
+            using Kind = Statement::Kind;
+            const auto is_late = [&](const Expression& each) { return mentions(each, late_); };
+            const bool late = statement.kind != Kind::load && std::ranges::any_of(statement.expressions, is_late);
+            const bool stores_late =
+                statement.kind == Kind::store && statement.index >= outputs_ && statement.index < last_late_;
+            if (statement.kind == Kind::store && statement.index >= last_late_) continue;
+            if (late && statement.kind != Kind::store)
+                late_.insert(statement.names.begin(),
+                             statement.kind == Kind::solve ? statement.names.begin() + 1 : statement.names.end());
+            (late || stores_late ? loop_ : early).push_back(std::move(statement));
+        }
+        body.parts = {std::move(early)};
+        return body;
+    }
+
+    void print_loop()
+    {
+        const std::size_t count = series_.pairs.size();
+        for (const Sums* sums : {&products_, &squares_})
+            if (!sums->pairs.empty())
+                out_.line(fmt::format("{}<S, {}, most> {};", sums->type, sums->pairs.size(), sums->object));
+        out_.line(fmt::format("for (int {0} = 1; {0} {2} {1}; ++{0}) {{", k_, order_, is_rate_ ? "<" : "<="));
+        out_.indent(1);
+        for (const Sums* sums : {&products_, &squares_})
+            if (!sums->pairs.empty()) out_.line(fmt::format("const auto {} = {}({});", sums->values, sums->object, k_));
+        out_.line(fmt::format("[[maybe_unused]] const S {} = S(1) / S({}), {} = S(1) / S({} + 1);", reciprocal_, k_,
+                              next_, k_));
+        std::vector<std::string> sides[2] = {std::vector<std::string>(count), std::vector<std::string>(count)};
+        for (const Statement& statement : loop_) {
+            if (statement.kind != Statement::Kind::store) {
+                for (const std::string& line : spell(statement)) out_.line(line);
+                continue;
+            }
+            const std::size_t place = statement.index - outputs_;
+            const Expression& value = statement.expressions[0];
+            if (place >= outputs_)
+                sides[(place - outputs_) / count][(place - outputs_) % count] = spell(value).text;
+            else if (is_rate_)
+                out_.line(fmt::format("{}[{} + 1][{}] = {};", y_, k_, place,
+                                      spell(operation(Op::multiply, variable(next_), value)).text));
+            else
+                out_.line(fmt::format("{}[{}][{}] = {};", y_, k_, place, spell(value).text));
+        }
+        keep(products_, {sides[0], sides[1]});
+        keep(squares_, {sides[0]});
+        close_block(out_);
+    }
+
+    void keep(const Sums& sums, const std::vector<std::vector<std::string>>& sides)
+    {
+        if (sums.pairs.empty()) return;
+        for (std::size_t k = 0; k < sides.size(); ++k) {
+            std::vector<std::string> entries;
+            for (const std::size_t m : sums.pairs) entries.push_back(sides[k][m]);
+            if (k > 0) out_.indent(2);
+            out_.list(k == 0 ? fmt::format("{}.keep({}, {{", sums.object, k_) : "{", entries,
+                      k + 1 == sides.size() ? "});" : "},");
+            if (k > 0) out_.indent(-2);
+        }
+    }
+
+    TextBlock& out_;
+    const KernelModule& module_;
+    const ModuleNames& names_;
+    const Kernel& kernel_;
+    const TaylorRecurrence& series_;
+    LocalNames locals_;
+    bool is_rate_;
+    std::size_t outputs_, lanes_;
+    std::string x_, y_, order_, k_;
+    Sums products_, squares_;
+    std::string reciprocal_, next_;
+    std::set<std::string> late_; ///< what stands in the loop alone
+    std::size_t last_late_ = 0;  ///< outputs from here on are there to get a name
+    BodyPart loop_;
+};
+
+} // namespace
+
+void print_series(TextBlock& out, const KernelModule& module, const ModuleNames& names, const Kernel& kernel,
+                  Includes& includes)
+{
+    out.blank();
+    includes.merge(SeriesPrinter(out, module, names, kernel).print());
+}
+
+} // namespace lagen

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+/// Taylor coefficients of several functions, and the sums over lower orders of which generated recurrences are made:
+///   <a, b>_k = sum_{j=1}^{k-1} a_j b_{k-j}.
+/// All sums of an order are made at once, before the order: float and double in vector registers, a pair of series a
+/// lane, two accumulators by turns. Other scalars, packs among them, take them one by one in the same order.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+
+namespace lagen {
+
+/// x[k][i]: the coefficient of order k <= most of the function i < n.
+template <class S, int n, int most>
+struct TaylorSeries {
+    using Row = std::array<S, static_cast<std::size_t>(n)>;
+    std::array<Row, static_cast<std::size_t>(most) + 1> rows;
+
+    [[nodiscard]] Row& operator[](int k) noexcept { return rows[static_cast<std::size_t>(k)]; }
+    [[nodiscard]] const Row& operator[](int k) const noexcept { return rows[static_cast<std::size_t>(k)]; }
+};
+
+namespace detail {
+
+/// Squares of series, one a lane of the type Lanes: twice the half of the terms.
+template <class Lanes, std::size_t length>
+struct SquaredSeries {
+    std::array<Lanes, length> a;
+
+    [[nodiscard]] [[gnu::always_inline]] Lanes sum(std::size_t k) const noexcept
+    {
+        if (k < 2) return Lanes();
+        if (k == 2) return a[1] * a[1];
+        const std::size_t half = k / 2;
+        Lanes even = k % 2 == 0 ? Lanes(a[half] * a[half]) : Lanes(), odd = Lanes();
+        std::size_t j = 2;
+        for (; 2 * j + 2 < k; j += 2) {
+            odd += a[j] * a[k - j];
+            even += (a[j + 1] + a[j + 1]) * a[k - j - 1];
+        }
+        if (2 * j < k) odd += a[j] * a[k - j];
+        odd += a[1] * a[k - 1];
+        return even + (odd + odd);
+    }
+};
+
+/// Pairs of series, one a lane of the type Lanes.
+template <class Lanes, std::size_t length>
+struct PairedSeries {
+    std::array<Lanes, length> a, b;
+
+    /// The terms with the latest coefficients are last: the others need not wait for them.
+    [[nodiscard]] [[gnu::always_inline]] Lanes sum(std::size_t k) const noexcept
+    {
+        if (k < 2) return Lanes();
+        if (k == 2) return a[1] * b[1];
+        Lanes even = Lanes(), odd = Lanes();
+        std::size_t j = 2;
+        for (; j + 2 < k; j += 2) {
+            even += a[j] * b[k - j];
+            odd += a[j + 1] * b[k - j - 1];
+        }
+        if (j + 1 < k) even += a[j] * b[k - j];
+        even += a[1] * b[k - 1];
+        odd += a[k - 1] * b[1];
+        return even + odd;
+    }
+};
+
+#if defined(__GNUC__)
+#if defined(__AVX512F__)
+inline constexpr std::size_t widest_register = 64;
+#elif defined(__AVX__)
+inline constexpr std::size_t widest_register = 32;
+#else
+inline constexpr std::size_t widest_register = 16;
+#endif
+
+template <class S>
+inline constexpr std::size_t register_lanes = std::is_floating_point_v<S> && sizeof(S) <= 8
+                                                  ? widest_register / sizeof(S)
+                                                  : 1;
+
+template <class S, std::size_t width>
+struct RegisterOf {
+    typedef S type __attribute__((vector_size(width * sizeof(S))));
+};
+template <class S>
+struct RegisterOf<S, 1> {
+    using type = S;
+};
+#else
+template <class S>
+inline constexpr std::size_t register_lanes = 1;
+
+template <class S, std::size_t width>
+struct RegisterOf {
+    using type = S;
+};
+#endif
+
+} // namespace detail
+
+namespace detail {
+
+/// Sums of `count` pairs or squares of series, in registers of several lanes.
+template <class S, int count, int most, template <class, std::size_t> class SeriesOf>
+class SumsInLanes {
+    static constexpr std::size_t size = static_cast<std::size_t>(count);
+    static constexpr std::size_t width = register_lanes<S>;
+    static constexpr std::size_t whole = size / width; ///< full registers
+    static constexpr std::size_t rest = size % width;
+    static constexpr std::size_t rest_width = rest == 0 ? 1 : std::bit_ceil(rest);
+    static constexpr std::size_t length = static_cast<std::size_t>(most) + 1;
+    using Register = typename RegisterOf<S, width>::type;
+    using Rest = typename RegisterOf<S, rest_width>::type;
+
+  public:
+    using Entries = std::array<S, size>;
+
+    /// The sum of every pair, from the coefficients of orders 1 .. k - 1.
+    [[nodiscard]] [[gnu::always_inline]] Entries operator()(int k) const noexcept
+    {
+        Entries sums;
+        const auto order = static_cast<std::size_t>(k);
+        for (std::size_t m = 0; m < whole; ++m) store<width>(whole_[m].sum(order), m * width, width, sums);
+        if constexpr (rest > 0) store<rest_width>(rest_.sum(order), whole * width, rest, sums);
+        return sums;
+    }
+
+  protected:
+    /// Takes the coefficients of order k of one side of every pair.
+    template <class Side>
+    [[gnu::always_inline]] void keep_side(int k, const Entries& entries, const Side& side) noexcept
+    {
+        const auto order = static_cast<std::size_t>(k);
+        for (std::size_t m = 0; m < whole; ++m) side(whole_[m])[order] = load<Register, width>(entries, m * width);
+        if constexpr (rest > 0) side(rest_)[order] = load<Rest, rest_width>(entries, whole * width);
+    }
+
+  private:
+    template <std::size_t lanes, class Lanes>
+    [[gnu::always_inline]] static void store(const Lanes& sum, std::size_t at, std::size_t used, Entries& sums) noexcept
+    {
+        if constexpr (lanes == 1)
+            sums[at] = sum;
+        else
+            for (std::size_t i = 0; i < used; ++i) sums[at + i] = sum[i];
+    }
+
+    /// Entries at, at + 1, ..; zeros behind the last.
+    template <class Lanes, std::size_t lanes>
+    [[nodiscard]] [[gnu::always_inline]] static Lanes load(const Entries& entries, std::size_t at) noexcept
+    {
+        if constexpr (lanes == 1)
+            return entries[at];
+        else
+            return [&]<std::size_t... i>(std::index_sequence<i...>) __attribute__((always_inline))
+            {
+                return Lanes{(at + i < size ? entries[at + i < size ? at + i : 0] : S(0))...};
+            }
+        (std::make_index_sequence<lanes>{});
+    }
+
+    std::array<SeriesOf<Register, length>, whole> whole_;
+    SeriesOf<Rest, rest == 0 ? 0 : length> rest_;
+};
+
+} // namespace detail
+
+/// <a, b>_k of `count` pairs for orders k up to `most`.
+template <class S, int count, int most>
+class LowerSums : public detail::SumsInLanes<S, count, most, detail::PairedSeries> {
+  public:
+    using Entries = std::array<S, static_cast<std::size_t>(count)>;
+
+    /// Takes the coefficients a_k and b_k of every pair.
+    [[gnu::always_inline]] void keep(int k, const Entries& a, const Entries& b) noexcept
+    {
+        this->keep_side(
+            k, a, [](auto& series) -> auto& { return series.a; });
+        this->keep_side(
+            k, b, [](auto& series) -> auto& { return series.b; });
+    }
+};
+
+/// <a, a>_k of `count` series for orders k up to `most`.
+template <class S, int count, int most>
+class LowerSquares : public detail::SumsInLanes<S, count, most, detail::SquaredSeries> {
+  public:
+    using Entries = std::array<S, static_cast<std::size_t>(count)>;
+
+    /// Takes the coefficient a_k of every series.
+    [[gnu::always_inline]] void keep(int k, const Entries& a) noexcept
+    {
+        this->keep_side(
+            k, a, [](auto& series) -> auto& { return series.a; });
+    }
+};
+
+} // namespace lagen

@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Taylor's method on recurrences written by hand: order, digits, dense output, events, kinks, failures.
+#include "lagen/lagen.hpp"
+#include "support/tolerances.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <random>
+
+using namespace lagen;
+
+namespace {
+
+/// x' = x - x y, y' = x y - y: x y e^(-x - y) is constant.
+template <class S>
+struct Prey {
+    using Scalar = S;
+    using State = Eigen::Matrix<S, 2, 1>;
+    static constexpr int dimension = 2;
+
+    Status rhs(S, const State& s, State& ds) const noexcept
+    {
+        ds = State(s[0] - s[0] * s[1], s[0] * s[1] - s[1]);
+        return Status::ok;
+    }
+
+    template <int most>
+    Status taylor(S, const State& s, int order, TaylorSeries<S, 2, most>& x) const noexcept
+    {
+        x[0] = {s[0], s[1]};
+        x[1] = {s[0] - s[0] * s[1], s[0] * s[1] - s[1]};
+        LowerSums<S, 1, most> sums;
+        for (int k = 1; k < order; ++k) {
+            const S product = x[k][0] * s[1] + x[k][1] * s[0] + sums(k)[0], next = S(1) / S(k + 1);
+            x[k + 1] = {next * (x[k][0] - product), next * (product - x[k][1])};
+            sums.keep(k, {x[k][0]}, {x[k][1]});
+        }
+        return Status::ok;
+    }
+};
+
+/// x'' = -x, with events: x above 1 - 1e-10, and v.
+struct Swing {
+    using Scalar = double;
+    using State = Eigen::Vector2d;
+    static constexpr int dimension = 2;
+    static constexpr std::array<const char*, 2> events_names{"top", "turn"};
+    static constexpr double top = 1 - 1e-10;
+
+    Status rhs(double, const State& s, State& ds) const noexcept
+    {
+        ds = State(s[1], -s[0]);
+        return Status::ok;
+    }
+    Eigen::Vector2d events(double, const State& s) const noexcept { return {s[0] - top, s[1]}; }
+
+    template <int most>
+    Status taylor(double, const State& s, int order, TaylorSeries<double, 2, most>& x) const noexcept
+    {
+        x[0] = {s[0], s[1]};
+        for (int k = 0; k < order; ++k) x[k + 1] = {x[k][1] / (k + 1), -x[k][0] / (k + 1)};
+        return Status::ok;
+    }
+    template <int most>
+    Status event_series(double, const State&, int order, const TaylorSeries<double, 2, most>& x,
+                        TaylorSeries<double, 2, most>& e) const noexcept
+    {
+        for (int k = 0; k <= order; ++k) e[k] = x[k];
+        e[0][0] -= top;
+        return Status::ok;
+    }
+};
+
+/// One lane: x' = 1 below 0, 1 + x above it (a kink), or x' = x^2 (a pole), or a matrix that is singular from x = 1 on.
+struct Line {
+    using Scalar = double;
+    using State = Eigen::Matrix<double, 1, 1>;
+    static constexpr int dimension = 1;
+    enum class Kind { kink, pole, singular } kind = Kind::kink;
+
+    [[nodiscard]] double rate(double x) const { return kind == Kind::pole ? x * x : (x < 0 ? 1 : 1 + x); }
+    Status rhs(double, const State& s, State& ds) const noexcept
+    {
+        ds[0] = rate(s[0]);
+        return kind == Kind::singular && s[0] >= 1 ? Status::singular_mass_matrix : Status::ok;
+    }
+    template <int most>
+    Status taylor(double, const State& s, int order, TaylorSeries<double, 1, most>& x) const noexcept
+    {
+        x[0][0] = s[0];
+        x[1][0] = rate(s[0]);
+        for (int k = 1; k < order; ++k)
+            x[k + 1][0] = kind == Kind::pole ? x[k][0] * s[0] : (s[0] < 0 ? 0 : x[k][0] / (k + 1));
+        return kind == Kind::singular && s[0] >= 1 ? Status::singular_mass_matrix : Status::ok;
+    }
+};
+
+template <class S>
+typename Prey<S>::State far(const Taylor& method, S end = S(5))
+{
+    const auto run = integrate(Prey<S>{}, typename Prey<S>::State(S(2), S(0.5)), {S(0), end}, method);
+    REQUIRE(run);
+    REQUIRE(run.t == end);
+    return run.state;
+}
+
+using EventOf = EventRequest<double, Swing::State>;
+
+} // namespace
+
+TEST_CASE("sums over lower orders are the products of series, in any number, in every scalar")
+{
+    const auto check = []<class S, int count>(S, std::integral_constant<int, count>) {
+        constexpr int most = 24;
+        LowerSums<S, count, most> sums;
+        LowerSquares<S, count, most> squares;
+        std::array<std::array<S, count>, most + 1> a{}, b{};
+        std::mt19937 random(7);
+        for (int k = 1; k <= most; ++k) {
+            const auto found = sums(k), square = squares(k);
+            for (std::size_t m = 0; m < count; ++m) {
+                S expected = S(0), expected_square = S(0);
+                for (int j = 1; j < k; ++j) {
+                    expected += a[static_cast<std::size_t>(j)][m] * b[static_cast<std::size_t>(k - j)][m];
+                    expected_square += a[static_cast<std::size_t>(j)][m] * a[static_cast<std::size_t>(k - j)][m];
+                }
+                REQUIRE(found[m] == expected);
+                REQUIRE(square[m] == expected_square);
+            }
+            // Small integers: every order of summation is exact.
+            for (auto* side : {&a, &b})
+                for (S& entry : (*side)[static_cast<std::size_t>(k)]) entry = S(static_cast<int>(random() % 19) - 9);
+            sums.keep(k, a[static_cast<std::size_t>(k)], b[static_cast<std::size_t>(k)]);
+            squares.keep(k, a[static_cast<std::size_t>(k)]);
+        }
+    };
+    const auto check_all = [&]<int... count>(auto scalar, std::integer_sequence<int, count...>)
+    {
+        (check(scalar, std::integral_constant<int, count + 1>{}), ...);
+    };
+    check_all(1.0F, std::make_integer_sequence<int, 20>{});
+    check_all(1.0, std::make_integer_sequence<int, 20>{});
+    check_all(1.0L, std::make_integer_sequence<int, 3>{});
+}
+
+TEST_CASE("Taylor's method of order p has order p")
+{
+    using Real = long double;
+    const auto exact = far<Real>({.tolerance = 1e-18});
+    for (const int p : {3, 5, 8}) {
+        Real before = 0;
+        for (const double step : {0.03125, 0.015625}) {
+            const Real error =
+                (far<Real>({.tolerance = 1e6, .first_step = step, .max_step = step, .order = p}) - exact).norm();
+            INFO("order " << p << ", step " << step << ", error " << static_cast<double>(error));
+            if (step < 0.02) CHECK(std::abs(std::log2(before / error) - p) < tolerance::order);
+            before = error;
+        }
+    }
+}
+
+TEST_CASE("the order grows with the digits that are asked for and those that there are")
+{
+    const auto order = []<class S>(S, double tolerance) {
+        return TaylorStepper<Prey<S>>(Taylor{.tolerance = tolerance}).order();
+    };
+    CHECK(order(1.0, 1e-6) == 16);
+    CHECK(order(1.0, 1e-12) == 24);
+    CHECK(order(1.0, 1e-30) == order(1.0, 1e-16));
+    CHECK(order(1.0F, 1e-30) < order(1.0, 1e-30));
+    CHECK(order(1.0L, 1e-18) == 22);
+    CHECK(TaylorStepper<Prey<double>>(Taylor{.order = 5}).order() == 5);
+}
+
+TEST_CASE("errors follow the tolerance down to the rounding of the scalar")
+{
+    const Eigen::Vector2d exact = far<long double>({.tolerance = 1e-19}).cast<double>();
+    for (const double tolerance : {1e-4, 1e-7, 1e-10, 1e-13}) {
+        const double error = (far<double>({.tolerance = tolerance}) - exact).norm();
+        CHECK(error < 30 * tolerance);
+        CHECK(error > 1e-4 * tolerance);
+    }
+    CHECK((far<double>({.tolerance = 1e-16}) - exact).norm() < 2e-15);
+    CHECK((far<float>({.tolerance = 1e-7}).cast<double>() - exact).norm() < 1e-6);
+    CHECK((far<double>({.tolerance = 1e-13}, -5) - far<long double>({.tolerance = 1e-19}, -5).cast<double>()).norm() <
+          1e-11);
+}
+
+TEST_CASE("compensated sums keep an invariant to round-off over a long run")
+{
+    const Prey<double> model;
+    const auto invariant = [](const Eigen::Vector2d& s) { return std::log(s[0] * s[1]) - s[0] - s[1]; };
+    const Eigen::Vector2d s(2, 0.5);
+    double drift = 0;
+    Integrator integrator(model, s, 0.0, Taylor{.tolerance = 1e-16});
+    while (integrator.t() < 3000) {
+        REQUIRE(integrator.step() == Status::ok);
+        drift = std::max(drift, std::abs(invariant(integrator.state()) - invariant(s)));
+    }
+    CHECK(drift < 1e-13);
+    CHECK(drift > 0);
+}
+
+TEST_CASE("the polynomial is the dense output, and rows do not change the steps")
+{
+    const Prey<double> model;
+    const Eigen::Vector2d s(2, 0.5);
+    const Taylor method{.tolerance = 1e-13};
+    const std::vector<double> times{0.1, 1.7, 2.9, 4.4, 5.0};
+    const auto plain = integrate(model, s, {0.0, 5.0}, method);
+    const auto run = integrate(model, s, {0.0, 5.0}, method, {.at = times, .dense = true});
+    REQUIRE(run);
+    CHECK(run.steps == plain.steps);
+    CHECK(run.state == plain.state);
+    REQUIRE(run.states.size() == times.size());
+    for (std::size_t k = 0; k < times.size(); ++k) {
+        const Eigen::Vector2d exact =
+            far<long double>({.tolerance = 1e-19}, static_cast<long double>(times[k])).cast<double>();
+        CHECK((run.states[k] - exact).norm() < 1e-11);
+        CHECK((run.solution(times[k]) - exact).norm() < 1e-11);
+    }
+    CHECK(run.rhs_calls == run.steps + 1);
+}
+
+TEST_CASE("two crossings of an event that are 3e-5 apart in a step of 2 are both found")
+{
+    const std::vector<EventOf> events{{.index = 0, .direction = Crossing::any, .stop = false},
+                                      {.index = 1, .direction = Crossing::any, .stop = false}};
+    const auto run = integrate(Swing{}, {0.0, 1.0}, {0.0, 40.0}, Taylor{.tolerance = 1e-14}, {.events = events});
+    REQUIRE(run);
+    CHECK(run.steps < 30);
+    std::vector<double> tops, turns;
+    for (const auto& event : run.events) (event.request == 0 ? tops : turns).push_back(event.t);
+    const double pi = std::acos(-1.0), half = std::acos(Swing::top);
+    REQUIRE(turns.size() == 13);
+    REQUIRE(tops.size() == 14);
+    for (std::size_t k = 0; k < turns.size(); ++k)
+        CHECK(std::abs(turns[k] - pi * (static_cast<double>(k) + 0.5)) < 1e-12);
+    // x is within 1e-10 of its top: a rounding of 1e-16 moves the crossing by 1e-11.
+    for (std::size_t k = 0; k < tops.size(); ++k)
+        CHECK(std::abs(tops[k] - (pi * (0.5 + 2 * static_cast<double>(k / 2)) + (k % 2 == 0 ? -half : half))) < 1e-9);
+}
+
+TEST_CASE("the roots of polynomials are isolated, each change of sign in a part of its own")
+{
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> place(-0.5, 1.5);
+    for (int round = 0; round < 300; ++round) {
+        constexpr std::size_t size = 9;
+        std::vector<double> roots;
+        std::array<double, size> c{1};
+        for (std::size_t n = 1; n < size; ++n) {
+            const double root = place(random);
+            if (root > 0 && root <= 1) roots.push_back(root);
+            for (std::size_t k = n; k > 0; --k) c[k] = c[k - 1] - root * c[k];
+            c[0] *= -root;
+        }
+        std::vector<double> ends;
+        detail::RootIsolation<double, size>::isolate(c, size, 1e-13, [&](double end) { ends.push_back(end); });
+        CHECK(std::is_sorted(ends.begin(), ends.end()));
+        std::sort(roots.begin(), roots.end());
+        for (std::size_t k = 0; k + 1 < roots.size(); ++k) {
+            if (roots[k + 1] - roots[k] < 1e-9) continue;
+            const auto between = [&](double end) { return end >= roots[k] - 1e-9 && end <= roots[k + 1] + 1e-9; };
+            CHECK(std::any_of(ends.begin(), ends.end(), between));
+        }
+        if (!roots.empty()) CHECK(ends.back() >= roots.back() - 1e-9);
+    }
+}
+
+TEST_CASE("a kink inside a step is noticed by the equation at its end")
+{
+    const auto run = integrate(Line{}, Line::State(-0.5), {0.0, 1.0}, Taylor{.tolerance = 1e-10});
+    REQUIRE(run);
+    CHECK(run.rejected > 0);
+    CHECK(std::abs(run.state[0] - std::expm1(0.5)) < 1e-8);
+}
+
+TEST_CASE("a run into a pole or into a singular matrix ends there with a status")
+{
+    const auto pole = integrate(Line{Line::Kind::pole}, Line::State(1.0), {0.0, 2.0}, Taylor{});
+    CHECK_FALSE(pole);
+    CHECK(pole.t == Approx(1.0).margin(1e-6));
+    CHECK((pole.status() == Status::step_too_small || pole.status() == Status::non_finite));
+    const auto singular = integrate(Line{Line::Kind::singular}, Line::State(0.5), {0.0, 2.0}, Taylor{});
+    CHECK(singular.status() == Status::singular_mass_matrix);
+    CHECK(singular.state[0] == Approx(1.0).margin(1e-9));
+    const auto refused = integrate(Line{}, Line::State(0.5), {0.0, 2.0}, Taylor{.tolerance = -1});
+    CHECK(refused.status() == Status::invalid_input);
+}
