@@ -109,7 +109,7 @@ class EmbeddedStepper {
         detail::for_lanes(s, [&]<int width>(detail::Width<width>, Eigen::Index lane) {
             using Slice = detail::Slice<State, width>;
             const auto stages = std::make_index_sequence<Tableau::stages>{};
-            const Slice e = h * detail::weighted_lanes<Tableau::error, 0, width>(k_, lane, stages);
+            const Slice e = detail::weighted_lanes<Tableau::error, 0, width>(h, k_, lane, stages);
             const Slice ratio = e / scale_.template of<width>(s, s1, lane);
             sum += detail::total(Slice(ratio * ratio));
         });

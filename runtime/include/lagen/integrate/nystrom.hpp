@@ -156,8 +156,8 @@ class NystromStepper {
         const Real square = h * h;
         for_positions(s, [&]<int width>(detail::Width<width>, Eigen::Index lane) {
             const auto stages = std::make_index_sequence<count>{};
-            const auto sum = detail::weighted_lanes<weights, offset, width>(k_, half(s) + lane, stages);
-            const detail::Slice<State, width> move = reach * detail::load<width>(s, half(s) + lane) + square * sum;
+            const auto sum = detail::weighted_lanes<weights, offset, width>(square, k_, half(s) + lane, stages);
+            const detail::Slice<State, width> move = reach * detail::load<width>(s, half(s) + lane) + sum;
             detail::store(out, lane, detail::load<width>(s, lane) + move);
         });
     }
@@ -168,8 +168,8 @@ class NystromStepper {
     {
         for_positions(s, [&]<int width>(detail::Width<width>, Eigen::Index lane) {
             const auto stages = std::make_index_sequence<count>{};
-            const auto sum = detail::weighted_lanes<weights, offset, width>(k_, half(s) + lane, stages);
-            detail::store(out, half(s) + lane, detail::load<width>(s, half(s) + lane) + h * sum);
+            const auto sum = detail::weighted_lanes<weights, offset, width>(h, k_, half(s) + lane, stages);
+            detail::store(out, half(s) + lane, detail::load<width>(s, half(s) + lane) + sum);
         });
     }
 
@@ -198,9 +198,9 @@ class NystromStepper {
             using Slice = detail::Slice<State, width>;
             const auto stages = std::make_index_sequence<Tableau::stages>{};
             const Eigen::Index rate = half(s) + lane;
-            const Slice ex = square * detail::weighted_lanes<Tableau::error_bar, 0, width>(k_, rate, stages) /
+            const Slice ex = detail::weighted_lanes<Tableau::error_bar, 0, width>(square, k_, rate, stages) /
                              scale_.template of<width>(s, s1, lane);
-            const Slice ev = h * detail::weighted_lanes<Tableau::error, 0, width>(k_, rate, stages) /
+            const Slice ev = detail::weighted_lanes<Tableau::error, 0, width>(h, k_, rate, stages) /
                              scale_.template of<width>(s, s1, rate);
             sum += detail::total(Slice(ex * ex + ev * ev));
         });
