@@ -50,7 +50,8 @@ std::set<std::string> class_scope_names(const KernelModule& module, const std::s
     names.insert(class_name);
     for (const Kernel& kernel : module.kernels) {
         names.insert(kernel.name);
-        for (const char* suffix : {"_names", "_rows", "_columns", "_values", "_sums"}) names.insert(kernel.name + suffix);
+        for (const char* suffix : {"_names", "_rows", "_columns", "_values", "_sums"})
+            names.insert(kernel.name + suffix);
         for (const KernelInput& input : kernel.inputs) names.insert({input.name, copy_of(input)});
         if (returns_value(kernel)) continue;
         for (const KernelOutput& output : kernel.outputs) names.insert(output.name);
