@@ -13,7 +13,7 @@
 ///   f(a)         g_0 a_k + <a*, g>_k / k                                from f' = g a', g = df/da of the operator
 ///   table A z = b      A_0 z_k = b_k - sum_l (A_l,k z_l + <A_l, z_l>_k)       on the factorisation of A_0 F(z, x) = 0
 ///   z_k = -F_z^-1 F_k, F_k being the coefficient of F with z_k = 0
-/// [Moore 1966; Jorba-Zou 2005, section 2; Griewank-Walther 2008, chapter 13]. Static factors are drawn out of
+/// [Jorba-Zou 2005, section 2; Griewank-Walther 2008, chapter 13]. Static factors are drawn out of
 /// the pairs, and what depends on none of the curve's coordinates has no series.
 #pragma once
 

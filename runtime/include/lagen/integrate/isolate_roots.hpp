@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// Parts of an interval in which a polynomial changes its sign at most once, from the signs of its Bernstein
-/// coefficients: as many real roots as they have variations of sign, or fewer by an even number [Descartes;
-/// Lane-Riesenfeld 1981]. Coefficients within their rounding error of 0 count for either sign, so that no change of
-/// sign of the polynomial is missed.
+/// coefficients: as many real roots as they have variations of sign, or fewer by an even number (Descartes' rule;
+/// J. M. Lane, R. F. Riesenfeld, BIT 21 (1981) 112-117). Coefficients within their rounding error of 0 count for either
+/// sign, so that no change of sign of the polynomial is missed.
 #pragma once
 
 #include "lagen/integrate/lanes.hpp"

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: MIT
 /// Exact coefficients. A tableau is a type with constexpr members: stages, order, a (rows of the strict lower triangle
 /// one after another), b, c. Embedded pairs have more:
-///   end            the stage, from 0, that stands at the end of the step: row `end` of a are the weights of the step.
-///                  It is evaluated before the error is known where it is one of the `stages`, else only after a step
-///                  that is kept; its K is the first one of the next step
-///   dense_stages   all stages; those behind `end` serve values inside the step and are evaluated where one is asked
-///   for error          the weights minus those of the embedded formula, which is of order embedded_order interpolant
-///   the weights at theta are b_i(theta) = sum_k interpolant[i][k] theta^(k + 1), of order dense_order
+///
+/// `end`: the stage, from 0, that stands at the end of the step; row `end` of a are the weights of the step. It is
+/// evaluated before the error is known where it is one of the `stages`, else only after a step that is kept; its K is
+/// the first one of the next step.
+///
+/// `dense_stages`: all stages; those behind `end` serve values inside the step and are evaluated where one is asked
+/// for.
+///
+/// `error`: the weights minus those of the embedded formula, which is of order `embedded_order`.
+///
+/// `interpolant`: the weights at theta are b_i(theta) = sum_k interpolant[i][k] theta^(k + 1), of order `dense_order`.
+///
 /// Pairs for x'' = f have rows abar and weights bbar, error_bar of x (times h^2) beside a, b and error of x'; their
 /// interpolant is that of x', and its integral that of x.
 #pragma once
@@ -68,6 +74,10 @@ struct Coefficient {
     double head = 0, tail = 0, rest = 0;
 
     [[nodiscard]] constexpr bool is_zero() const noexcept { return head == 0; }
+    [[nodiscard]] constexpr std::int64_t count_of(const Coefficient& part) const noexcept
+    {
+        return head == part.head && tail == part.tail && rest == part.rest;
+    }
 
     template <class Real>
     [[nodiscard]] constexpr Real as() const noexcept
