@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <functional>
 
 namespace lagen::examples {
 
@@ -81,12 +82,39 @@ void check_points(const Model& model, const ReferenceCase& reference)
     }
 }
 
+/// What `integrate` reads of a model, behind one type for all of a dimension: DOP853 is compiled once for each.
+template <int n>
+struct AnyModel {
+    using Scalar = double;
+    using State = Eigen::Matrix<double, n, 1>;
+    static constexpr int dimension = n;
+    std::function<Status(double, const State&, State&)> derivative;
+    std::function<double(double, const State&)> margin; ///< the least of its domain, which is positive inside
+    Status of_parameters = Status::ok;
+
+    template <RightHandSide Model>
+    explicit AnyModel(const Model& model)
+        : derivative([model](double t, const State& s, State& ds) { return model.rhs(t, s, ds); }),
+          margin([](double, const State&) { return 1; }), of_parameters(model.parameter_status())
+    {
+        static_assert(!Follows<Model>);
+        if constexpr (HasDomain<Model>)
+            margin = [model](double t, const State& s) { return model.domain(t, s).minCoeff(); };
+    }
+
+    Status rhs(double t, const State& s, State& ds) const noexcept { return derivative(t, s, ds); }
+    Eigen::Matrix<double, 1, 1> domain(double t, const State& s) const noexcept
+    {
+        return Eigen::Matrix<double, 1, 1>(margin(t, s));
+    }
+    Status parameter_status() const noexcept { return of_parameters; }
+};
+
 /// The samples of the case by DOP853 at 1e-13, in the first `lanes` lanes (all where 0), from `start`.
-template <class Model>
-void check_trajectory(const Model& model, const ReferenceCase& reference, const typename Model::State& start,
-                      Eigen::Index lanes = 0)
+template <int n>
+void check_trajectory(const AnyModel<n>& model, const ReferenceCase& reference,
+                      const typename AnyModel<n>::State& start, Eigen::Index lanes = 0)
 {
-    using State = typename Model::State;
     std::vector<double> times;
     for (const ReferenceSample& sample : reference.samples) times.push_back(decimal(sample.t));
     REQUIRE(times.size() > 2);
@@ -94,7 +122,7 @@ void check_trajectory(const Model& model, const ReferenceCase& reference, const 
     REQUIRE(run.status() == Status::ok);
     REQUIRE(run.states.size() == times.size());
     for (std::size_t k = 0; k < times.size(); ++k) {
-        const State expected = state_of<State>(reference.samples[k].state);
+        const auto expected = state_of<typename AnyModel<n>::State>(reference.samples[k].state);
         const Eigen::Index count = lanes == 0 ? expected.size() : lanes;
         CHECK(relative_error<Eigen::VectorXd>(run.states[k].head(count), expected.head(count)) < 1e-10);
     }
@@ -107,7 +135,7 @@ void follow(const std::string& name, const std::vector<std::string>& absent = {}
     const ReferenceCase& known = reference(name);
     const Model model = with_parameters<Model>(known, absent);
     check_points(model, known);
-    check_trajectory(model, known, state_of<typename Model::State>(known.initial));
+    check_trajectory(AnyModel<Model::dimension>(model), known, state_of<typename Model::State>(known.initial));
 }
 
 } // namespace lagen::examples

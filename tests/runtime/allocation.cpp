@@ -5,7 +5,7 @@
 #if !LAGEN_SANITIZED
 
 #include "lagen/lagen.hpp"
-#include "support/problems.hpp"
+#include "runtime/pendulum.hpp"
 
 #include <catch2/catch.hpp>
 #include <cstdlib>

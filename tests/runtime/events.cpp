@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Events: location, direction, count, stop, order, own functions.
 #include "lagen/lagen.hpp"
-#include "support/problems.hpp"
+#include "runtime/pendulum.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -2,7 +2,7 @@
 /// lagen::Integrator: steps by hand, forwards and backwards, values inside them, failures.
 #include "lagen/ensemble/pack.hpp"
 #include "lagen/integrate.hpp"
-#include "support/problems.hpp"
+#include "runtime/pendulum.hpp"
 #include "support/tolerances.hpp"
 
 #include <catch2/catch.hpp>

@@ -2,7 +2,7 @@
 /// lagen::ode<N>: models of a user's own lambda.
 #include "lagen/ensemble/pack.hpp"
 #include "lagen/integrate.hpp"
-#include "support/problems.hpp"
+#include "runtime/pendulum.hpp"
 #include "support/tolerances.hpp"
 
 #include <catch2/catch.hpp>

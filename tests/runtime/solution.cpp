@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Dense solutions: integrate(.., {.dense = true}).
 #include "lagen/integrate.hpp"
-#include "support/problems.hpp"
+#include "runtime/pendulum.hpp"
 #include "support/tolerances.hpp"
 
 #include <catch2/catch.hpp>
