@@ -171,11 +171,14 @@ std::string WhereConstant::text_of(const Condition& condition)
     if (!condition.name.empty()) return condition.name + relations[0];
     const NodeId sides[] = {condition.f, graph_.negate(condition.f)};
     std::string shortest = to_text(graph_, condition.f, longest_named);
-    if (shortest.size() > longest_named) obstacle_ = "it may change where " + shortest.substr(0, 60) + "... vanishes";
+    if (shortest.size() > longest_named) {
+        obstacle_ = "it may change where " + shortest.substr(0, 60) + "... vanishes";
+        return {};
+    }
     const char* relation = relations[0];
     for (const std::size_t k : {0U, 1U})
         for (const std::string& text : {to_text(graph_, sides[k], longest_named), decider_->decide(sides[k]).residual})
-            if (obstacle_.empty() && !text.empty() && text.size() < shortest.size()) {
+            if (!text.empty() && text.size() < shortest.size()) {
                 shortest = text;
                 relation = relations[k];
             }
