@@ -94,7 +94,7 @@ Spelling spell_choice(const Expression& choice)
     const auto value = [&](std::size_t k) {
         const Expression& operand = choice.operands[k];
         const Spelling spelling = spell(operand);
-        const bool plain = operand.is_variable() || is_choice(operand.op) ||
+        const bool plain = operand.is_variable() || operand.op == Op::pi || is_choice(operand.op) ||
                            (operand.op == Op::constant && spelling.precedence == 5 && spelling.text.front() != '(');
         return plain ? spelling.text : "S(" + spelling.text + ")";
     };

@@ -22,6 +22,5 @@ TEST_CASE("the branches of a selection are scalars, not expressions")
     };
     CHECK(text(a, g.constant(2)) == "select(a < b, a, S(2))");
     CHECK(text(g.add(a, b), g.constant(Rational(1, 3))) == "select(a < b, S(a + b), S(S(1) / S(3)))");
-    CHECK(text(g.pi(), g.select(less, b, a)) ==
-          "select(a < b, S((S(3.141592653589793) + S(1.2246467991473532e-16))), select(a < b, b, a))");
+    CHECK(text(g.pi(), g.select(less, b, a)) == "select(a < b, arithmetic::pi<S>(), select(a < b, b, a))");
 }
