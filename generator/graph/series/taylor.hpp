@@ -10,11 +10,11 @@
 ///   f = sqrt(a)  (a_k - <f, f>_k) / (2 f_0)
 ///   p = a^n      (n p_0 a_k + (n + 1)/k <a*, p>_k - <a, p>_k) / a_0     from p' a = n a' p; natural n: products
 ///   f = log(a)   (a_k - <f*, a>_k / k) / a_0
-///   f(a)         g_0 a_k + <a*, g>_k / k                                from f' = g a', g = df/da of the operator
-///   table A z = b      A_0 z_k = b_k - sum_l (A_l,k z_l + <A_l, z_l>_k)       on the factorisation of A_0 F(z, x) = 0
-///   z_k = -F_z^-1 F_k, F_k being the coefficient of F with z_k = 0
-/// [Jorba-Zou 2005, section 2; Griewank-Walther 2008, chapter 13]. Static factors are drawn out of
-/// the pairs, and what depends on none of the curve's coordinates has no series.
+///   f(a)         g_0 a_k + <a*, g>_k / k                                from f' = g a', g = df/da of the table
+///   A z = b      A_0 z_k = b_k - sum_l (A_l,k z_l + <A_l, z_l>_k)       by the factorisation of A_0
+///   F(z, x) = 0  z_k = -F_z^-1 F_k, where F_k is the coefficient of F with z_k = 0
+/// [Jorba-Zou 2005, section 2; Griewank-Walther 2008, chapter 13]. Static factors are drawn out of the pairs, and what
+/// depends on none of the curve's coordinates has no series.
 #pragma once
 
 #include "graph/unknowns/implicit.hpp"

@@ -3,7 +3,7 @@
 /// status is kept, and values inside a step cannot be asked for.
 #pragma once
 
-#include "plain/dop853.hpp"
+#include "dop853.hpp"
 
 #include "lagen/integrate/rkn86_coefficients.hpp"
 
