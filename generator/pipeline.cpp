@@ -140,6 +140,7 @@ CheckedModel read(const std::string& path, const std::vector<Setting>& settings,
 void prove(CheckedModel& checked)
 {
     const Model& model = checked.model;
+    checked.warnings.clear();
     checked.system = elaborate(model);
     checked.report = verify(checked.system);
     const Report& verified = checked.report;

@@ -40,7 +40,7 @@ constexpr std::array entries{
                 SecondOrder::Kind::velocity_free},
     MethodEntry{"rkng54", "Rkng54", "5(4)", true, false, "Nystrom (Fine 1987), dense output of order 4", "",
                 SecondOrder::Kind::general},
-    MethodEntry{"taylor", "Taylor", "7-30", true, false,
+    MethodEntry{"taylor", "Taylor", "3-30", true, false,
                 "Taylor series, order by the tolerance (Jorba and Zou 2005), dense output of that order", "",
                 SecondOrder::Kind::no, true},
     MethodEntry{"gauss2", "Gauss2", "2", false, false, "Gauss, one stage: the implicit midpoint rule", "symplectic"},

@@ -36,8 +36,8 @@ std::string line_of(const System& system, const Regularity& known)
 /// Whether other values of the parameters might be decided otherwise.
 bool rests_on_values(const Regularity& known)
 {
-    return known.kind == Regularity::Kind::generically_regular || known.for_given_parameters ||
-           !known.legendre_obstacle.empty() || !known.legendre_values.empty();
+    return known.kind == Regularity::Kind::generically_regular || known.kind == Regularity::Kind::undecided ||
+           known.for_given_parameters || !known.legendre_obstacle.empty() || !known.legendre_values.empty();
 }
 
 /// The lists of a record, by the key of their lines.
@@ -136,6 +136,8 @@ std::optional<RunRecord> find_record(const std::string& file)
     const std::string text = content_of_file(file);
     if (!text.starts_with(first_line)) return std::nullopt;
     RunRecord record = read_record(text);
+    // Compiled code is only ever run from the folder of the record.
+    if (fs::path(record.program).parent_path() != fs::path(file).parent_path()) return std::nullopt;
     if (!use_cached(record.program)) return std::nullopt;
     fs::last_write_time(file, fs::file_time_type::clock::now(), ignored);
     return record;
@@ -145,7 +147,9 @@ void keep_record(const std::string& file, const RunRecord& record)
 try {
     if (file.empty()) return;
     const std::string text = text_of(record);
-    if (text_of(read_record(text)) == text) write_file(file, text);
+    if (text_of(read_record(text)) != text) return;
+    write_file(file, text);
+    trim_cache(fs::path(file).parent_path().string());
 } catch (const MachineError&) {
     // The next run proves again.
 }

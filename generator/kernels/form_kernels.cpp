@@ -146,6 +146,7 @@ class ModuleBuilder {
     {
         std::vector<NodeId> curve = state_of(form_);
         curve.push_back(form_.time);
+        require_analytic(*graph_, functions, curve, form_.implicit);
         return taylor_recurrence(*graph_, functions, curve, form_.implicit);
     }
 

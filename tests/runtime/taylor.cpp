@@ -268,6 +268,41 @@ TEST_CASE("the roots of polynomials are isolated, each change of sign in a part 
     }
 }
 
+TEST_CASE("multiple roots and what is all noise are isolated in few parts")
+{
+    const auto parts_of = [](const std::array<double, 5>& c) {
+        int parts = 0;
+        detail::RootIsolation<double, 5>::isolate(c, 5, 1e-14, [&](double) { ++parts; });
+        return parts;
+    };
+    CHECK(parts_of({0.09, -0.6, 1, 0, 0}) >= 1); // (x - 0.3)^2
+    CHECK(parts_of({0.09, -0.6, 1, 0, 0}) <= 1100);
+    CHECK(parts_of({-0.027, 0.27, -0.9, 1, 0}) >= 1); // (x - 0.3)^3
+    CHECK(parts_of({-0.027, 0.27, -0.9, 1, 0}) <= 1100);
+    CHECK(parts_of({0, 0, 0, 0, 1}) <= 1100);
+}
+
+TEST_CASE("a run leaves its domain inside a step that ends within it")
+{
+    struct Walled : Swing {
+        Eigen::Matrix<double, 1, 1> domain(double, const State& s) const noexcept
+        {
+            return Eigen::Matrix<double, 1, 1>(0.9 - s[0]);
+        }
+    };
+    const auto run = integrate(Walled{}, {0.0, 1.0}, {0.0, 3.0}, Taylor{.tolerance = 1e-12});
+    CHECK(run.status() == Status::left_domain);
+    CHECK(run.t == Approx(std::asin(0.9)).margin(1e-3));
+    CHECK(run.state[0] <= 0.9);
+}
+
+TEST_CASE("a state that is no number is no end of a step")
+{
+    const auto run = integrate(Line{Line::Kind::kink}, Line::State(1e300), {0.0, 100.0}, Taylor{.tolerance = 1e-10});
+    CHECK_FALSE(run);
+    CHECK(std::isfinite(run.state[0]));
+}
+
 TEST_CASE("a kink inside a step is noticed by the equation at its end")
 {
     const auto run = integrate(Line{}, Line::State(-0.5), {0.0, 1.0}, Taylor{.tolerance = 1e-10});

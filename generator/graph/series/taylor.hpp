@@ -33,6 +33,11 @@ struct TaylorRecurrence {
     std::vector<NodeId> outputs;              ///< the coefficients of order k >= 1 of the functions
 };
 
+/// Throws MathematicsError where a function has kinks or steps along the curve: a series is that of one branch, and a
+/// step of many periods may cross to another and back unseen.
+void require_analytic(const Graph& graph, std::span<const NodeId> functions, std::span<const NodeId> coordinates,
+                      std::span<const ImplicitBlock> blocks);
+
 /// Of `functions` along a curve in the inputs `coordinates` (time among them); unknowns of `blocks` are functions of
 /// them. Throws MathematicsError, which names the operation, where one has no such rule.
 [[nodiscard]] TaylorRecurrence taylor_recurrence(Graph& graph, std::span<const NodeId> functions,

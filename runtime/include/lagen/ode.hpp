@@ -10,6 +10,25 @@
 
 namespace lagen {
 
+namespace detail {
+
+/// What f answers; good where that is nothing.
+template <class S, class F, class... Arguments>
+[[nodiscard]] status_t<S> answer_of(const F& f, Arguments&&... arguments) noexcept
+{
+    using Answer = std::invoke_result_t<const F&, Arguments...>;
+    static_assert(std::is_void_v<Answer> || std::is_same_v<Answer, status_t<S>>,
+                  "lagen::ode<N>(f): f answers nothing or a lagen::Status (of a pack: its status)");
+    if constexpr (std::is_void_v<Answer>) {
+        f(std::forward<Arguments>(arguments)...);
+        return StatusOf<S>::good();
+    } else {
+        return f(std::forward<Arguments>(arguments)...);
+    }
+}
+
+} // namespace detail
+
 /// ds/dt = f(t, s) of N lanes. What f has captured are its parameters; a copy of it is kept.
 template <int N, class S, class F>
 class Ode {
@@ -26,15 +45,7 @@ class Ode {
         static_assert(std::is_invocable_v<const F&, S, const State&, State&>,
                       "lagen::ode<N>(f): f(t, s, ds) with t a scalar, s a const State and ds a State to write is "
                       "required, and f must be callable where it is const (no mutable lambda)");
-        using Answer = std::invoke_result_t<const F&, S, const State&, State&>;
-        static_assert(std::is_void_v<Answer> || std::is_same_v<Answer, status_t<S>>,
-                      "lagen::ode<N>(f): f answers nothing or a lagen::Status (of a pack: its status)");
-        if constexpr (std::is_void_v<Answer>) {
-            f_(t, s, ds);
-            return StatusOf<S>::good();
-        } else {
-            return f_(t, s, ds);
-        }
+        return detail::answer_of<S>(f_, t, s, ds);
     }
 
   private:
@@ -63,18 +74,20 @@ class SecondOrderOde {
 
     explicit SecondOrderOde(F f) : f_(std::move(f)) {}
 
-    /// f writes every acceleration. It must not throw.
+    /// f writes every acceleration, and answers nothing or a Status. It must not throw.
     [[nodiscard]] status_t<S> rhs(S t, const State& s, State& ds) const noexcept
     {
         const Half x = s.template head<N>(), v = s.template tail<N>();
         Half a;
-        if constexpr (is_velocity_free)
-            f_(t, x, a);
-        else
-            f_(t, x, v, a);
+        const status_t<S> status = [&] {
+            if constexpr (is_velocity_free)
+                return detail::answer_of<S>(f_, t, x, a);
+            else
+                return detail::answer_of<S>(f_, t, x, v, a);
+        }();
         ds.template head<N>() = v;
         ds.template tail<N>() = a;
-        return StatusOf<S>::good();
+        return status;
     }
 
   private:

@@ -83,6 +83,8 @@ class ErrorScale {
         return absolute_ + relative_ * larger;
     }
 
+    [[nodiscard]] Real of_size(const Real& size) const noexcept { return absolute_ + relative_ * size; }
+
   private:
     Real relative_, absolute_;
 };

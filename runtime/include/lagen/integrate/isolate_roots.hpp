@@ -79,7 +79,11 @@ class RootIsolation {
         const Signs signs = variations(b);
         if (signs == Signs::none) return;
         const Real middle = (from + to) / Real(2);
-        if (signs == Signs::one || to - from <= width_ || !(middle > from && middle < to)) return found(to);
+        const bool divided = to - from <= width_ || !(middle > from && middle < to) || parts_ >= most_parts;
+        if (signs == Signs::one || divided || is_noise(b)) {
+            ++parts_;
+            return found(to);
+        }
         // De Casteljau: the coefficients of both halves.
         std::array<Real, size> left = b, right = b;
         for (std::size_t j = 1; j < count_; ++j) {
@@ -90,6 +94,16 @@ class RootIsolation {
         search(right, middle, to, found);
     }
 
+    [[nodiscard]] bool is_noise(const std::array<Real, size>& b) const
+    {
+        for (std::size_t i = 0; i < count_; ++i)
+            if (b[i] > noise_ || b[i] < -noise_) return false;
+        return true;
+    }
+
+    static constexpr int most_parts = 1000; ///< more are no longer told apart
+
+    mutable int parts_ = 0;
     std::size_t count_;
     Real noise_;
     Real width_;
