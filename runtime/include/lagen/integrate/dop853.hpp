@@ -6,50 +6,38 @@
 /// with 50 digits on Kepler's problem at 3e-20, whatever the tolerance.
 #pragma once
 
-#include "lagen/integrate/control.hpp"
 #include "lagen/integrate/dop853_coefficients.hpp"
+#include "lagen/integrate/pair_steps.hpp"
 #include "lagen/integrate/stages.hpp"
 
 namespace lagen {
 
 /// See integrate/integrator.hpp for what is asked of a stepper.
 template <class M>
-class Dop853Stepper {
-    static_assert(!is_pack<typename M::Scalar>,
-                  "adaptive methods choose one step for one trajectory: use a fixed-step method with packs");
+class Dop853Stepper : public PairSteps<M, 8, tableau::Dop853::stages, 12> {
+    using Base = PairSteps<M, 8, tableau::Dop853::stages, 12>;
+    using Base::calls_, Base::dense_ready_, Base::error_, Base::k_, Base::scale_, Base::x_;
     static_assert(moves_by_sums<M>,
                   "the dense output of this method is made of sums: use Dopri5, or a fixed-step method");
 
   public:
-    using Scalar = typename M::Scalar;
-    using Real = Scalar;
-    using State = typename M::State;
+    using Real = typename Base::Real;
+    using State = typename Base::State;
     using Tableau = tableau::Dop853;
-    static constexpr bool adaptive = true;
-    static constexpr int order = 8;
     static constexpr int dense_order = 7;
     static constexpr int error_order = 8; ///< err5^2 / err3 is of this order in h
     static constexpr double beta_share = 0.2;
 
     template <class Method>
-    explicit Dop853Stepper(const Method& method) noexcept : control_(method.control()), scale_(control_)
+    explicit Dop853Stepper(const Method& method) noexcept : Base(method.control())
     {
     }
 
     Status begin(const M& model, Real t, const State& s) noexcept
     {
-        x_ = State::Zero(s.size());
-        for (State& stage : k_) stage = x_;
+        const Status status = Base::begin(model, t, s);
         for (State& coefficient : dense_) coefficient = x_;
-        ++calls_;
-        const Status status = model.rhs(t, s, k_[0]);
-        return status == Status::ok ? detail::check_finite(k_[0]) : status;
-    }
-
-    [[nodiscard]] Real first_step(const M& model, Real t, Real length, const State& s) noexcept
-    {
-        ++calls_;
-        return detail::first_step(model, control_, order, t, length, s, k_[0], x_, k_[1]);
+        return status;
     }
 
     Status attempt(const M& model, Real t, const State& s, Real h, State& s1) noexcept
@@ -62,20 +50,6 @@ class Dop853Stepper {
         estimate(s, h, s1);
         return detail::check_finite(s1);
     }
-
-    [[nodiscard]] Real error() const noexcept { return error_; }
-
-    /// The derivative at the end of a step that will be accepted.
-    Status finish(const M& model, Real t1, const State& s1) noexcept
-    {
-        ++calls_;
-        const Status status = model.rhs(t1, s1, k_[12]);
-        return status == Status::ok ? detail::check_finite(k_[12]) : status;
-    }
-
-    void accept() noexcept { k_[0] = k_[12]; }
-
-    [[nodiscard]] const State& derivative() const noexcept { return k_[0]; }
 
     /// Hairer's nested form: s + u (r2 + v (r3 + u (r4 + v (r5 + u (r6 + v (r7 + u r8)))))), u = theta, v = 1 - theta.
     Status interpolate(const M& model, Real t, const State& s, Real h, const State& s1, Real theta, State& out) noexcept
@@ -92,8 +66,6 @@ class Dop853Stepper {
         }
         return detail::check_finite(out);
     }
-
-    [[nodiscard]] std::size_t calls() const noexcept { return calls_; }
 
   private:
     /// error = |h| err5 / sqrt(n (err5^2 + err3^2 / 100)) err5, norms squared first.
@@ -134,14 +106,7 @@ class Dop853Stepper {
         return Status::ok;
     }
 
-    std::array<State, Tableau::stages> k_;
     std::array<State, 7> dense_;
-    State x_;
-    StepControl control_;
-    detail::ErrorScale<Real> scale_;
-    Real error_ = Real(0);
-    std::size_t calls_ = 0;
-    bool dense_ready_ = false;
 };
 
 /// Order 8(5,3); Hairer's classical controller (beta = 0), but with safety 0.8 for his 0.9: over Kepler's problem

@@ -3,47 +3,29 @@
 ///   s(t + theta h) = s + h sum_i weights[i] K_i.
 #pragma once
 
-#include "lagen/integrate/control.hpp"
+#include "lagen/integrate/pair_steps.hpp"
 #include "lagen/integrate/stages.hpp"
 
 namespace lagen {
 
 /// See integrate/integrator.hpp for what is asked of a stepper.
 template <class Tableau, class M>
-class EmbeddedStepper {
-    static_assert(!is_pack<typename M::Scalar>,
-                  "adaptive methods choose one step for one trajectory: use a fixed-step method with packs");
+class EmbeddedStepper : public PairSteps<M, Tableau::order, Tableau::dense_stages, Tableau::end> {
+    using Base = PairSteps<M, Tableau::order, Tableau::dense_stages, Tableau::end>;
+    using Base::calls_, Base::dense_ready_, Base::error_, Base::k_, Base::scale_, Base::x_;
     static_assert(std::is_same_v<typename M::State, tangent_t<M>>,
                   "step control measures errors by the lanes of the state: use a fixed-step method with this one");
 
   public:
-    using Scalar = typename M::Scalar;
-    using Real = Scalar;
-    using State = typename M::State;
-    static constexpr bool adaptive = true;
-    static constexpr int order = Tableau::order;
+    using Real = typename Base::Real;
+    using State = typename Base::State;
     static constexpr int dense_order = Tableau::dense_order;
     static constexpr int error_order = Tableau::embedded_order + 1; ///< the error of that formula is of it in h
     static constexpr double beta_share = 0.75;
 
     template <class Method>
-    explicit EmbeddedStepper(const Method& method) noexcept : control_(method.control()), scale_(control_)
+    explicit EmbeddedStepper(const Method& method) noexcept : Base(method.control())
     {
-    }
-
-    Status begin(const M& model, Real t, const State& s) noexcept
-    {
-        x_ = State::Zero(s.size());
-        for (State& stage : k_) stage = x_;
-        ++calls_;
-        const Status status = model.rhs(t, s, k_[0]);
-        return status == Status::ok ? detail::check_finite(k_[0]) : status;
-    }
-
-    [[nodiscard]] Real first_step(const M& model, Real t, Real length, const State& s) noexcept
-    {
-        ++calls_;
-        return detail::first_step(model, control_, order, t, length, s, k_[0], x_, k_[1]);
     }
 
     /// s1, which is X of the stage at the end, and the scaled error.
@@ -65,20 +47,11 @@ class EmbeddedStepper {
         return detail::check_finite(k_[end]);
     }
 
-    [[nodiscard]] Real error() const noexcept { return error_; }
-
-    /// The derivative at the end of a step that will be accepted.
     Status finish(const M& model, Real t1, const State& s1) noexcept
     {
         if constexpr (ends_in_stage) return Status::ok;
-        ++calls_;
-        const Status status = model.rhs(t1, s1, k_[end]);
-        return status == Status::ok ? detail::check_finite(k_[end]) : status;
+        return Base::finish(model, t1, s1);
     }
-
-    void accept() noexcept { k_.front() = k_[end]; }
-
-    [[nodiscard]] const State& derivative() const noexcept { return k_.front(); }
 
     /// Evaluates the stages behind the end once a step.
     Status interpolate(const M& model, Real t, const State& s, Real h, const State&, Real theta, State& out) noexcept
@@ -94,8 +67,6 @@ class EmbeddedStepper {
         out = detail::retracted(model, s, delta);
         return detail::check_finite(out);
     }
-
-    [[nodiscard]] std::size_t calls() const noexcept { return calls_; }
 
   private:
     static constexpr std::size_t end = Tableau::end, all = Tableau::dense_stages;
@@ -140,14 +111,6 @@ class EmbeddedStepper {
         else
             return true;
     }
-
-    std::array<State, all> k_;
-    State x_;
-    StepControl control_;
-    detail::ErrorScale<Real> scale_;
-    Real error_ = Real(0);
-    std::size_t calls_ = 0;
-    bool dense_ready_ = false;
 };
 
 } // namespace lagen

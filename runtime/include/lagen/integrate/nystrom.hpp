@@ -14,7 +14,7 @@
 /// polynomial of degree 5 (Rkng54).
 #pragma once
 
-#include "lagen/integrate/control.hpp"
+#include "lagen/integrate/pair_steps.hpp"
 #include "lagen/integrate/retract.hpp"
 #include "lagen/integrate/stages.hpp"
 
@@ -27,44 +27,26 @@ namespace lagen {
 
 /// See integrate/integrator.hpp for what is asked of a stepper.
 template <class Tableau, class M>
-class NystromStepper {
+class NystromStepper : public PairSteps<M, Tableau::order, Tableau::dense_stages, Tableau::end> {
+    using Base = PairSteps<M, Tableau::order, Tableau::dense_stages, Tableau::end>;
+    using Base::calls_, Base::dense_ready_, Base::error_, Base::k_, Base::scale_, Base::x_;
     static constexpr bool general = requires { Tableau::a; };
     static_assert(
         general ? second_order<M> != SecondOrder::no : second_order<M> == SecondOrder::velocity_free,
         "a Nystrom method needs a model of second order (SecondOrder in lagen/kernel.hpp): x' = v, and but for "
         "Rkng54 a v' that does not depend on v");
-    static_assert(!is_pack<typename M::Scalar>,
-                  "adaptive methods choose one step for one trajectory: use a fixed-step method with packs");
     static_assert(moves_by_sums<M>, "a Nystrom method moves its states by sums");
 
   public:
-    using Scalar = typename M::Scalar;
-    using Real = Scalar;
-    using State = typename M::State;
-    static constexpr bool adaptive = true;
-    static constexpr int order = Tableau::order;
+    using Real = typename Base::Real;
+    using State = typename Base::State;
     static constexpr int dense_order = Tableau::dense_order;
     static constexpr int error_order = Tableau::embedded_order + 1; ///< the error of that formula is of it in h
     static constexpr double beta_share = 0.75;
 
     template <class Method>
-    explicit NystromStepper(const Method& method) noexcept : control_(method.control()), scale_(control_)
+    explicit NystromStepper(const Method& method) noexcept : Base(method.control())
     {
-    }
-
-    Status begin(const M& model, Real t, const State& s) noexcept
-    {
-        x_ = State::Zero(s.size());
-        for (State& stage : k_) stage = x_;
-        ++calls_;
-        const Status status = model.rhs(t, s, k_[0]);
-        return status == Status::ok ? detail::check_finite(k_[0]) : status;
-    }
-
-    [[nodiscard]] Real first_step(const M& model, Real t, Real length, const State& s) noexcept
-    {
-        ++calls_;
-        return detail::first_step(model, control_, order, t, length, s, k_[0], x_, k_[1]);
     }
 
     Status attempt(const M& model, Real t, const State& s, Real h, State& s1) noexcept
@@ -89,8 +71,6 @@ class NystromStepper {
         return detail::check_finite(k_[end]);
     }
 
-    [[nodiscard]] Real error() const noexcept { return error_; }
-
     /// The derivative at the end of a step that will be accepted.
     Status finish(const M& model, Real t1, const State& s1) noexcept
     {
@@ -100,14 +80,8 @@ class NystromStepper {
             });
             return Status::ok;
         }
-        ++calls_;
-        const Status status = model.rhs(t1, s1, k_[end]);
-        return status == Status::ok ? detail::check_finite(k_[end]) : status;
+        return Base::finish(model, t1, s1);
     }
-
-    void accept() noexcept { k_.front() = k_[end]; }
-
-    [[nodiscard]] const State& derivative() const noexcept { return k_.front(); }
 
     /// v(theta) = v + h sum_i b_i(theta) F_i, x(theta) = x + theta h v + h^2 sum_i F_i int_0^theta b_i. Evaluates the
     /// stages behind the end once a step.
@@ -123,8 +97,6 @@ class NystromStepper {
         add_stages(h, theta, out, std::make_index_sequence<all>{});
         return detail::check_finite(out);
     }
-
-    [[nodiscard]] std::size_t calls() const noexcept { return calls_; }
 
   private:
     static constexpr std::size_t end = Tableau::end, all = Tableau::dense_stages;
@@ -218,8 +190,8 @@ class NystromStepper {
             Real v = Real(0), x = Real(0);
             const auto add = [&]<std::size_t stage>() {
                 if constexpr (detail::is_interpolated<Tableau, stage>()) {
-                    v += b[stage] * k_[stage][rate];
-                    x += bbar[stage] * k_[stage][rate];
+                    v += b[stage] * this->k_[stage][rate];
+                    x += bbar[stage] * this->k_[stage][rate];
                 }
             };
             (add.template operator()<i>(), ...);
@@ -227,14 +199,6 @@ class NystromStepper {
             out[rate] += h * v;
         }
     }
-
-    std::array<State, all> k_;
-    State x_;
-    StepControl control_;
-    detail::ErrorScale<Real> scale_;
-    Real error_ = Real(0);
-    std::size_t calls_ = 0;
-    bool dense_ready_ = false;
 };
 
 template <class Tableau>
