@@ -31,18 +31,20 @@ Preparation::Preparation(const Options& options, CheckedModel& checked)
                                         options.has("unchecked") ? "unchecked" : ""})),
       record_(find_record(file_))
 {
-    if (record_)
+    if (record_) {
         checked.warnings = record_->warnings;
-    else
-        prove(checked);
+        return;
+    }
+    prove(checked);
+    decided_ = true;
 }
 
 void Preparation::finish(const Scene& scene, const std::string& form, const MethodEntry& method,
                          const std::vector<long double>& parameters)
 {
-    if (record_ && holds_for(*record_, checked_, parameters)) return;
+    if (record_ && (is_decided_for(*record_, parameters) || says_the_same(*record_, checked(parameters)))) return;
     if (record_) prove(checked_);
-    proved_ = true;
+    decided_ = true;
     set_parameters(checked_, parameters);
     GenerateRequest request;
     request.form = form;
@@ -58,7 +60,8 @@ void Preparation::finish(const Scene& scene, const std::string& form, const Meth
 
 const CheckedModel& Preparation::checked(const std::vector<long double>& parameters)
 {
-    if (!proved_) decide_regularity(checked_, parameters);
+    if (!decided_) decide_regularity(checked_, parameters);
+    decided_ = true;
     return checked_;
 }
 

@@ -28,7 +28,7 @@ class Preparation {
     CheckedModel& checked_;
     std::string file_;
     std::optional<RunRecord> record_;
-    bool proved_ = false;
+    bool decided_ = false; ///< `checked_` has its system, and what is decided of it
 };
 
 } // namespace lagen

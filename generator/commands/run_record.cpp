@@ -161,10 +161,13 @@ void decide_regularity(CheckedModel& checked, const std::vector<long double>& pa
     checked.report.mechanics.regularity = verify_regularity(checked.system);
 }
 
-bool holds_for(const RunRecord& record, CheckedModel& checked, const std::vector<long double>& parameters)
+bool is_decided_for(const RunRecord& record, const std::vector<long double>& parameters)
 {
-    if (record.regularity.empty() || record.decided_for == parameters) return true;
-    decide_regularity(checked, parameters);
+    return record.regularity.empty() || record.decided_for == parameters;
+}
+
+bool says_the_same(const RunRecord& record, const CheckedModel& checked)
+{
     return line_of(checked.system, checked.report.mechanics.regularity) == record.regularity;
 }
 

@@ -41,9 +41,10 @@ void keep_record(const std::string& file, const RunRecord& record);
 /// The system of a model that was only read, and what is decided of d2L/dy2 for these values of the parameters.
 void decide_regularity(CheckedModel& checked, const std::vector<long double>& parameters);
 
-/// Whether what was decided holds for these values of the parameters, too: where it rested on others it is decided
-/// again, in `checked`.
-[[nodiscard]] bool holds_for(const RunRecord& record, CheckedModel& checked,
-                             const std::vector<long double>& parameters);
+/// Whether what `record` says was decided for these values of the parameters, or for all.
+[[nodiscard]] bool is_decided_for(const RunRecord& record, const std::vector<long double>& parameters);
+
+/// Whether the same is decided of `checked`.
+[[nodiscard]] bool says_the_same(const RunRecord& record, const CheckedModel& checked);
 
 } // namespace lagen

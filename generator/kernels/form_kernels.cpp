@@ -156,7 +156,15 @@ class ModuleBuilder {
         TaylorRecurrence written = recurrence_of(form_.derivative);
         Kernel kernel = table_kernel(form_, "taylor", column("ds", form_.derivative));
         kernel.checks->pivots = form_.pivots;
-        add(std::move(kernel));
+        if (has_kernel(module_, "rhs")) { // the same rates, which are simplified already
+            const Kernel& rhs = kernel_named(module_, "rhs");
+            kernel.inputs = rhs.inputs;
+            kernel.outputs = rhs.outputs;
+            kernel.checks->pivots = rhs.checks->pivots;
+            module_.kernels.push_back(std::move(kernel));
+        } else {
+            add(std::move(kernel));
+        }
         Kernel& added = module_.kernels.back();
         added.recurrence = recurrence_of(nodes_of(added));
         if (written.sums.size() >= added.recurrence->sums.size()) return;

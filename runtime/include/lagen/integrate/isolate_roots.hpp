@@ -74,7 +74,7 @@ class RootIsolation {
     }
 
     template <class Found>
-    void search(const std::array<Real, size>& b, const Real& from, const Real& to, const Found& found) const
+    void search(const std::array<Real, size>& b, const Real& from, const Real& to, const Found& found)
     {
         const Signs signs = variations(b);
         if (signs == Signs::none) return;
@@ -103,7 +103,7 @@ class RootIsolation {
 
     static constexpr int most_parts = 1000; ///< more are no longer told apart
 
-    mutable int parts_ = 0;
+    int parts_ = 0;
     std::size_t count_;
     Real noise_;
     Real width_;

@@ -140,7 +140,7 @@ class March {
         }
         if (ending != Status::ok) ++steps_.steps_;
         if (!watch_.empty())
-            for (const auto& crossed : watch_.look(parts(theta, t0, h), theta_width(t0, h), at)) {
+            for (const auto& crossed : watch_.look(parts(theta, h), theta_width(t0, h), at)) {
                 const auto [t, s] = at(crossed.theta);
                 run_.events.push_back({crossed.request, t, *s});
                 if (!crossed.stop) continue;
@@ -153,15 +153,13 @@ class March {
 
     /// The ends of the parts of (0, theta] in which events are looked for: where the stepper knows between which times
     /// they change their signs, those; else equal ones.
-    std::span<const Real> parts(const Real& theta, const Real& t0, const Real& h)
+    std::span<const Real> parts(const Real& theta, const Real& h)
     {
         parts_.clear();
         bool known = false;
-        if constexpr (requires(void (*found)(Real)) {
-                          steps_.stepper_.split(steps_.model_, t0, steps_.from_, h, theta, found);
-                      })
-            known = watch_.all_named() && steps_.stepper_.split(steps_.model_, t0, steps_.from_, h, theta,
-                                                                [this](const Real& end) { parts_.push_back(end); });
+        if constexpr (requires(void (*found)(Real)) { steps_.stepper_.split(h, theta, found); })
+            known = watch_.all_named() &&
+                    steps_.stepper_.split(h, theta, [this](const Real& end) { parts_.push_back(end); });
         for (int piece = 1; piece < pieces && !known; ++piece) parts_.push_back(theta * Real(piece) / Real(pieces));
         if (known) std::sort(parts_.begin(), parts_.end());
         if (parts_.empty() || parts_.back() != theta) parts_.push_back(theta);

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 namespace lagen {
 
@@ -79,6 +80,17 @@ template <class Real>
     return whole + (whole < wanted ? 1 : 0);
 }
 
+/// Of a model without events: nothing.
+template <class M, int order>
+struct EventSeries {
+};
+
+template <HasEventSeries M, int order>
+struct EventSeries<M, order> {
+    TaylorSeries<typename M::Scalar, static_cast<int>(M::events_names.size()), order> of{};
+    bool known = false;
+};
+
 /// For a tolerance that is the scalar's epsilon.
 template <class Real>
 inline constexpr int highest_taylor_order = taylor_order<Real>(0.69314718055994531 * std::numeric_limits<Real>::digits,
@@ -115,12 +127,12 @@ class TaylorStepper {
     {
         lost_.fill(Real(0));
         kept_ = lost_;
-        return expand(model, t, s, series_[now_], length_);
+        return expand(model, t, s, here());
     }
 
     [[nodiscard]] Real first_step(const M&, Real, Real length, const State&) noexcept
     {
-        const Real size = detail::size_of(length), wanted = length_ < unbounded() ? length_ : Real(1);
+        const Real size = detail::size_of(length), wanted = here().length < unbounded() ? here().length : Real(1);
         const Real first = wanted < size ? wanted : size;
         return length < Real(0) ? Real(-first) : first;
     }
@@ -132,9 +144,8 @@ class TaylorStepper {
     /// Equations with kinks are refused by the generator: a kink that is crossed twice in a step leaves no trace there.
     Status attempt(const M& model, Real t, const State& s, Real h, State& s1) noexcept
     {
-        const Series& x = series_[now_];
-        t_ = t;
-        s_ = s;
+        const Series& x = here().motion;
+        if constexpr (HasDomain<M>) begins_ = {t, s};
         Row move = x[order_], slope;
         for (std::size_t i = 0; i < lanes; ++i) slope[i] = Real(order_) * x[order_][i];
         for (int k = order_ - 1; k > 0; --k)
@@ -149,14 +160,14 @@ class TaylorStepper {
             s1[lane] = from + change;
             lost_[i] = change - (s1[lane] - from);
         }
-        const Status status = expand(model, t + h, s1, series_[1 - now_], next_length_);
+        const Status status = expand(model, t + h, s1, next());
         if (status != Status::ok) return status;
         if (const Status finite = detail::check_finite(s1); finite != Status::ok) return finite;
         error_ = Real(0);
         const Real epsilon = std::numeric_limits<Real>::epsilon();
         for (std::size_t i = 0; i < lanes; ++i) {
             const auto lane = static_cast<Eigen::Index>(i);
-            const Real rate = series_[1 - now_][1][i];
+            const Real rate = next().motion[1][i];
             const Real bound = scale_.template of<1>(s, s1, lane) +
                                Real(4) * epsilon * (detail::size_of(s1[lane]) + detail::size_of(h * rate));
             const Real defect = detail::size_of(h * (slope[i] - rate)) / (Real(16) * Real(order_ + 1) * bound);
@@ -172,12 +183,13 @@ class TaylorStepper {
     {
         if constexpr (HasDomain<M>) {
             constexpr int parts = 16;
+            const auto& [t, s] = begins_;
             State inside = s1;
             for (int k = 1; k < parts; ++k) {
                 const Real theta = Real(k) / Real(parts);
-                const Status status = interpolate(model, t_, s_, t1 - t_, s1, theta, inside);
+                const Status status = interpolate(model, t, s, t1 - t, s1, theta, inside);
                 if (status != Status::ok) return status;
-                const Status domain = detail::domain_status(model, t_ + theta * (t1 - t_), inside);
+                const Status domain = detail::domain_status(model, t + theta * (t1 - t), inside);
                 if (domain != Status::ok) return domain;
             }
         }
@@ -188,13 +200,12 @@ class TaylorStepper {
     {
         now_ = 1 - now_;
         kept_ = lost_;
-        length_ = next_length_;
     }
 
     /// As long as the series at its beginning allows; without a bound, ten times as long as the last one.
     [[nodiscard]] Real after_accepted(Real h, Real) noexcept
     {
-        return next_length_ < unbounded() ? next_length_ : Real(10) * h;
+        return next().length < unbounded() ? next().length : Real(10) * h;
     }
     [[nodiscard]] Real after_rejected(Real h, Real error) noexcept
     {
@@ -206,14 +217,14 @@ class TaylorStepper {
     [[nodiscard]] State derivative() const noexcept
     {
         State rate;
-        for (std::size_t i = 0; i < lanes; ++i) rate[static_cast<Eigen::Index>(i)] = series_[now_][1][i];
+        for (std::size_t i = 0; i < lanes; ++i) rate[static_cast<Eigen::Index>(i)] = here().motion[1][i];
         return rate;
     }
 
     /// The polynomial.
     Status interpolate(const M&, Real, const State& s, Real h, const State&, Real theta, State& out) noexcept
     {
-        const Series& x = series_[now_];
+        const Series& x = here().motion;
         const Real step = theta * h;
         Row move = x[order_];
         for (int k = order_ - 1; k > 0; --k)
@@ -228,12 +239,12 @@ class TaylorStepper {
     /// The ends of parts of the step, (0, last] in units of h, in each of which no event changes its sign twice:
     /// the roots of the events' own Taylor polynomials are isolated. False where there are none.
     template <class Found>
-    bool split(const M& model, Real t, const State& s, Real h, Real last, const Found& found) const
+    bool split(Real h, Real last, const Found& found) const
     {
         if constexpr (HasEventSeries<M>) {
+            if (!here().events.known) return false;
+            const auto& e = here().events.of;
             constexpr auto events = M::events_names.size();
-            TaylorSeries<Real, static_cast<int>(events), highest_order> e;
-            if (model.event_series(t, s, order_, series_[now_], e) != Status::ok) return false;
             const Real length = last * h;
             for (std::size_t r = 0; r < events; ++r) {
                 std::array<Real, highest_order + 1> coefficients;
@@ -273,25 +284,37 @@ class TaylorStepper {
         return std::clamp(detail::taylor_order<Real>(logarithm, sums), 3, highest_order);
     }
 
-    Status expand(const M& model, Real t, const State& s, Series& x, Real& length) noexcept
+    /// The motion's series and those of its events, and how far they hold.
+    struct Expansion {
+        Series motion;
+        [[no_unique_address]] detail::EventSeries<M, highest_order> events;
+        Real length = Real(0);
+    };
+    [[nodiscard]] Expansion& here() noexcept { return expansions_[now_]; }
+    [[nodiscard]] const Expansion& here() const noexcept { return expansions_[now_]; }
+    [[nodiscard]] Expansion& next() noexcept { return expansions_[1 - now_]; }
+
+    Status expand(const M& model, Real t, const State& s, Expansion& at) noexcept
     {
         ++calls_;
-        const Status status = model.taylor(t, s, order_, x);
+        const Status status = model.taylor(t, s, order_, at.motion);
         if (status != Status::ok) return status;
         Real total = Real(0);
-        for (const Real& coefficient : x[order_]) total += coefficient;
+        for (const Real& coefficient : at.motion[order_]) total += coefficient;
         if (total - total != Real(0)) return Status::non_finite;
-        length = length_of(s, x);
-        if constexpr (HasEventSeries<M>) length = std::min(length, length_of_events(model, t, s, x));
+        at.length = length_of(s, at.motion);
+        if constexpr (HasEventSeries<M>) {
+            at.events.known = model.event_series(t, s, order_, at.motion, at.events.of) == Status::ok;
+            if (at.events.known) at.length = std::min(at.length, length_of_events(at.events.of));
+        }
         return Status::ok;
     }
 
-    /// The same of the events' series, whose polynomials tell where they happen: |e_k| h^k within the tolerance,
-    /// relative to |e_0| + |e_1|, for the last two orders.
-    [[nodiscard]] Real length_of_events(const M& model, Real t, const State& s, const Series& x) const noexcept
+    /// The longest h for which the events' polynomials, which tell where they happen, hold too: |e_k| h^k within the
+    /// tolerance, relative to |e_0| + |e_1|, for the last two orders.
+    template <class Events>
+    [[nodiscard]] Real length_of_events(const Events& e) const noexcept
     {
-        TaylorSeries<Real, static_cast<int>(M::events_names.size()), highest_order> e;
-        if (model.event_series(t, s, order_, x, e) != Status::ok) return unbounded();
         Real length = unbounded();
         for (std::size_t r = 0; r < M::events_names.size(); ++r) {
             const Real scale = scale_.of_size(detail::size_of(e[0][r]) + detail::size_of(e[1][r]));
@@ -324,13 +347,12 @@ class TaylorStepper {
         return found == 0 ? unbounded() : detail::rough_power<Real>(-steepest);
     }
 
-    std::array<Series, 2> series_; ///< at the beginning of the step, and at its end
+    std::array<Expansion, 2> expansions_; ///< at the beginning of the step, and at its end
     Row kept_, lost_;
-    State s_; ///< where the step begins
-    Real t_ = Real(0);
+    std::pair<Real, State> begins_; ///< the last step that was tried, where the model has a domain
     StepControl control_;
     detail::ErrorScale<Real> scale_;
-    Real error_ = Real(0), length_ = Real(0), next_length_ = Real(0);
+    Real error_ = Real(0);
     int order_;
     std::size_t now_ = 0;
     std::size_t calls_ = 0;
