@@ -7,6 +7,7 @@
 #include "lagen/integrate/control.hpp"
 #include "lagen/integrate/isolate_roots.hpp"
 #include "lagen/integrate/lanes.hpp"
+#include "lagen/integrate/states.hpp"
 #include "lagen/series.hpp"
 
 #include <algorithm>
