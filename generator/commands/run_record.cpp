@@ -122,6 +122,9 @@ try {
     for (const auto& file : model.included) hash.add(file->text);
     for (const Size& size : model.sizes) hash.add(size.name).add(std::to_string(size.value));
     for (const std::string& option : options) hash.add(option);
+    if (std::ranges::any_of(model.parameters, &Parameter::bound))
+        for (const Parameter& parameter : model.parameters)
+            hash.add(parameter.bound ? "constant" : "").add(to_text(parameter.value));
     add_lagen(hash);
     add_compilation(hash);
     return fmt::format("{}/{}.run", cache_folder(), hash.hex32());
