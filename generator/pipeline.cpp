@@ -201,8 +201,7 @@ bool set_parameters(System& system, const std::vector<long double>& values)
 
 void set_parameters(CheckedModel& checked, const std::vector<long double>& values)
 {
-    const Regularity& known = checked.report.mechanics.regularity;
-    if (known.legendre_obstacle.empty() && known.legendre_values.empty()) return;
+    if (!rests_on_values(checked.report.mechanics.regularity)) return;
     if (set_parameters(checked.system, values)) checked.report.mechanics.regularity = verify_regularity(checked.system);
 }
 

@@ -143,7 +143,8 @@ std::string Options::choice(const std::string& name, const std::vector<std::stri
 Setting Options::binding_of(const std::string& entry) const
 {
     const std::size_t equals = entry.find('=');
-    const std::string name = entry.substr(0, equals);
+    std::string name = entry.substr(0, equals);
+    name.erase(name.find_last_not_of(' ') + 1);
     if (name.empty() || equals + 1 == entry.size())
         throw UsageError(fmt::format("lagen {}: --bind needs names or name=value, found '{}'", command_, entry));
     if (equals == std::string::npos) return {name, {}, true};

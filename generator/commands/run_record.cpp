@@ -33,13 +33,6 @@ std::string line_of(const System& system, const Regularity& known)
     return line;
 }
 
-/// Whether other values of the parameters might be decided otherwise.
-bool rests_on_values(const Regularity& known)
-{
-    return known.kind == Regularity::Kind::generically_regular || known.kind == Regularity::Kind::undecided ||
-           known.for_given_parameters || !known.legendre_obstacle.empty() || !known.legendre_values.empty();
-}
-
 /// The lists of a record, by the key of their lines.
 template <typename Record, typename Visit>
 void visit_lists(Record& record, Visit visit)

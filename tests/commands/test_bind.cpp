@@ -28,7 +28,7 @@ std::vector<double> end_of(std::vector<std::string> arguments)
     const json::Value value = json::parse(outcome.out);
     REQUIRE(value["status"].text == "ok");
     std::vector<double> row;
-    for (std::size_t k = 0; k < value["columns"].list.size(); ++k)
+    for (std::size_t k = 0; k < value["columns"].size(); ++k)
         row.push_back(static_cast<double>(value["rows"][0][k].number()));
     return row;
 }
@@ -61,8 +61,7 @@ TEST_CASE("a bound parameter is a constant of the header: no member, folded, tol
     const Outcome bound = call({"generate", "rigid_body.toml", "--bind", "I1=2,I2=2, I3 = 1"});
     REQUIRE(bound.code == 0);
     CHECK_THAT(bound.out, Contains("/// Constant: I1 = 2\n/// Constant: I2 = 2\n/// Constant: I3 = 1\n"));
-    CHECK_THAT(bound.out, Contains("lagen generate rigid_body.toml --bind I1=2 --bind I2=2 --bind 'I3 = 1' -o") ||
-                              Contains("lagen generate rigid_body.toml --bind I1=2 --bind I2=2 --bind I3=1 -o"));
+    CHECK_THAT(bound.out, Contains("lagen generate rigid_body.toml --bind I1=2 --bind I2=2 --bind 'I3= 1' -o"));
     CHECK_THAT(bound.out, !Contains("parameters.I1"));
     CHECK_THAT(plain, Contains("parameters.I1"));
     const std::vector<int> before = operations(plain, "rhs"), after = operations(bound.out, "rhs");
@@ -70,7 +69,7 @@ TEST_CASE("a bound parameter is a constant of the header: no member, folded, tol
     CHECK(after[1] < before[1]);
     CHECK(after[2] <= before[2]);
     // I1 = I2: the third rate is nought.
-    CHECK_THAT(bound.out, Contains("ds[2] = Scalar(0)") || Contains("ds[2] = 0"));
+    CHECK_THAT(bound.out, Contains("ds[2] = S(0);"));
 }
 
 TEST_CASE("a name alone is bound to the value that it has")
