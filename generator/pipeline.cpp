@@ -2,6 +2,7 @@
 #include "pipeline.hpp"
 
 #include "content_hash.hpp"
+#include "elaborate/bind_parameters.hpp"
 #include "emit/print_equations.hpp"
 #include "emit/print_header.hpp"
 #include "graph/core/evaluate.hpp"
@@ -78,7 +79,7 @@ std::string hash_of(const CheckedModel& checked)
     ContentHash hash;
     hash.add(checked.model.file->text);
     for (const auto& file : checked.model.included) hash.add(file->text);
-    for (const Setting& setting : checked.settings) hash.add(setting.name).add(setting.value.text);
+    for (const Setting& setting : checked.settings) hash.add(setting.binds ? "bind " + setting.name : setting.name).add(setting.value.text);
     return hash.hex16();
 }
 
@@ -100,7 +101,8 @@ std::string command_on(const CheckedModel& checked, const char* verb, const std:
     const std::string file = std::filesystem::path(checked.model.file->name).filename().string();
     std::string command = fmt::format("lagen {} {}", verb, shell_word(file));
     for (const Setting& setting : checked.settings)
-        command += " --set " + shell_word(setting.name + "=" + setting.value.text);
+        command += (setting.binds ? " --bind " : " --set ") +
+                   shell_word(setting.gives_value() ? setting.name + "=" + setting.value.text : setting.name);
     if (form != default_form(checked.model)) command += " --form " + form;
     return command;
 }
@@ -166,6 +168,7 @@ void prove(CheckedModel& checked)
 CheckedModel load(const std::string& path, const std::vector<Setting>& settings, bool unchecked)
 {
     CheckedModel checked = read(path, settings, unchecked);
+    settle_domain(checked.model);
     prove(checked);
     return checked;
 }
@@ -198,8 +201,7 @@ bool set_parameters(System& system, const std::vector<long double>& values)
 
 void set_parameters(CheckedModel& checked, const std::vector<long double>& values)
 {
-    const Regularity& known = checked.report.mechanics.regularity;
-    if (known.legendre_obstacle.empty() && known.legendre_values.empty()) return;
+    if (!rests_on_values(checked.report.mechanics.regularity)) return;
     if (set_parameters(checked.system, values)) checked.report.mechanics.regularity = verify_regularity(checked.system);
 }
 

@@ -32,6 +32,7 @@ CommandSyntax generate_syntax(const std::string& form, const std::string& only)
               "costliest terms; full, every form that was tried",
               nullptr, "summary"},
              {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
+             {"bind", "NAMES", bind_help},
              {"unchecked", nullptr, "go on although the model is refuted; the header says so"},
              {"format,f", "FORMAT", "text (the header) or json (what it holds, and the header)", "text"},
              {"depfile", "FILE", "write a dependency file for make or ninja (needs --output)"}}};

@@ -139,6 +139,18 @@ std::string Options::choice(const std::string& name, const std::vector<std::stri
                                  nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest)));
 }
 
+/// "I1=2" or "m".
+Setting Options::binding_of(const std::string& entry) const
+{
+    const std::size_t equals = entry.find('=');
+    std::string name = entry.substr(0, equals);
+    name.erase(name.find_last_not_of(' ') + 1);
+    if (name.empty() || equals + 1 == entry.size())
+        throw UsageError(fmt::format("lagen {}: --bind needs names or name=value, found '{}'", command_, entry));
+    if (equals == std::string::npos) return {name, {}, true};
+    return {name, whole_text("<--bind " + name + ">", entry.substr(equals + 1)), true};
+}
+
 std::vector<Setting> Options::settings() const
 {
     std::vector<Setting> settings;
@@ -149,6 +161,8 @@ std::vector<Setting> Options::settings() const
         settings.push_back(
             {text.substr(0, equals), whole_text("<--set " + text.substr(0, equals) + ">", text.substr(equals + 1))});
     }
+    for (const std::string& text : all("bind"))
+        for (const std::string& entry : split_list(text)) settings.push_back(binding_of(entry));
     return settings;
 }
 

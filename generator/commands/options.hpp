@@ -47,16 +47,22 @@ class Options {
 
     /// The value of `name`, which must be one of `allowed`.
     [[nodiscard]] std::string choice(const std::string& name, const std::vector<std::string>& allowed) const;
-    /// The `--set name=value` entries.
+    /// The `--set name=value` entries, then those of `--bind name=value,name`.
     [[nodiscard]] std::vector<Setting> settings() const;
 
   private:
+    [[nodiscard]] Setting binding_of(const std::string& entry) const;
+
     std::string command_;
     bool help_ = false;
     std::map<std::string, std::vector<std::string>> values_;
     std::map<std::string, std::string> standards_;
     std::vector<std::string> positional_;
 };
+
+/// What `--bind` is, for the help of a command that has it.
+inline constexpr const char* bind_help =
+    "parameters that become constants of the equations, with a value or the one that they have: I1=2,m";
 
 /// "a,b , c" as {"a", "b", "c"}; commas inside parentheses and brackets do not separate.
 [[nodiscard]] std::vector<std::string> split_list(const std::string& text);

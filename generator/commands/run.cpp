@@ -12,6 +12,7 @@
 #include "commands/start_state.hpp"
 #include "commands/temporary_folder.hpp"
 #include "commands/write_file.hpp"
+#include "elaborate/bind_parameters.hpp"
 #include "model/scene_form.hpp"
 #include "pipeline.hpp"
 
@@ -40,6 +41,7 @@ const CommandSyntax run_syntax{
       "rows at exactly these times; without --t-end the run ends with the scene's duration or the last of them, "
       "whichever is later"},
      {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
+     {"bind", "NAMES", bind_help},
      {"output,o", "FILE", "the rows as CSV"},
      {"plot", "FILE", "a picture (.svg, .png, .pdf)"},
      {"unchecked", nullptr, "go on although the model is refuted"},
@@ -150,6 +152,7 @@ ExitCode run_run(Arguments arguments)
 
     CheckedModel checked = read(model_path(options.positional()[0]), options.settings(), options.has("unchecked"));
     const Model& model = checked.model;
+    if (options.has("bind")) bind_in_scene(checked.model, find_scene(model, options.get("scene")));
     Preparation preparation(options, checked);
     for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
     const Scene scene = scene_of(options, model);

@@ -33,13 +33,6 @@ std::string line_of(const System& system, const Regularity& known)
     return line;
 }
 
-/// Whether other values of the parameters might be decided otherwise.
-bool rests_on_values(const Regularity& known)
-{
-    return known.kind == Regularity::Kind::generically_regular || known.kind == Regularity::Kind::undecided ||
-           known.for_given_parameters || !known.legendre_obstacle.empty() || !known.legendre_values.empty();
-}
-
 /// The lists of a record, by the key of their lines.
 template <typename Record, typename Visit>
 void visit_lists(Record& record, Visit visit)
@@ -122,6 +115,9 @@ try {
     for (const auto& file : model.included) hash.add(file->text);
     for (const Size& size : model.sizes) hash.add(size.name).add(std::to_string(size.value));
     for (const std::string& option : options) hash.add(option);
+    if (std::ranges::any_of(model.parameters, &Parameter::bound))
+        for (const Parameter& parameter : model.parameters)
+            hash.add(parameter.bound ? "constant" : "").add(to_text(parameter.value));
     add_lagen(hash);
     add_compilation(hash);
     return fmt::format("{}/{}.run", cache_folder(), hash.hex32());

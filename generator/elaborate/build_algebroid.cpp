@@ -145,7 +145,8 @@ WrittenAlgebroid build_algebroid(const Model& model)
     WrittenAlgebroid algebroid;
     algebroid.base = model.base.coordinates;
     algebroid.fibre = model.fibre.coordinates;
-    for (const Parameter& parameter : model.parameters) algebroid.parameters.push_back(parameter.symbol.name);
+    for (const Parameter& parameter : model.parameters)
+        if (!parameter.bound) algebroid.parameters.push_back(parameter.symbol.name);
     algebroid.rho = std::move(parts.rho);
     algebroid.C = std::move(parts.C);
     algebroid.constraints = model.base.constraints;

@@ -34,6 +34,7 @@ bool contains_frame(const AlgebroidBlock& block)
 
 BuildWorkspace::BuildWorkspace(const Model& model)
     : model_(model), lower_(graph_), x_([&] {
+          bind_parameters(graph_, model);
           std::vector<NodeId> x;
           for (const Symbol& symbol : model.base.coordinates) x.push_back(graph_.input(symbol.name));
           return x;
@@ -42,6 +43,7 @@ BuildWorkspace::BuildWorkspace(const Model& model)
 {
     setting_.variables = x_;
     for (const Parameter& parameter : model.parameters) {
+        if (parameter.bound) continue;
         setting_.parameters.push_back(graph_.input(parameter.symbol.name));
         order_.parameters.push_back(parameter.symbol.name);
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "elaborate/elaborate.hpp"
 
+#include "elaborate/bind_parameters.hpp"
 #include "elaborate/build_algebroid.hpp"
 #include "elaborate/lower_forms.hpp"
 #include "elaborate/model_trees.hpp"
@@ -26,6 +27,7 @@ class Elaboration {
         require_values(model_);
         system_.name = model_.name;
         system_.written = written(model_);
+        bind_parameters(graph_, model_);
         declare_inputs();
         lower_structure();
         lower_mechanics();
@@ -55,7 +57,7 @@ class Elaboration {
         const bool free = std::ranges::find(declared, "t") == declared.end();
         system_.time = graph_.input(free ? "t" : "time, which this model cannot name");
         for (const Parameter& parameter : model_.parameters)
-            system_.parameters.push_back(graph_.input(parameter.symbol.name));
+            if (!parameter.bound) system_.parameters.push_back(graph_.input(parameter.symbol.name));
         for (const Symbol& symbol : model_.base.coordinates) graph_.input(symbol.name);
     }
 
@@ -157,21 +159,9 @@ class Elaboration {
             append_parts(system_.casimirs[k].parts, model_.base.casimirs[k].value);
     }
 
-    /// Every value lowered after those that it uses; the model has made sure that there is no cycle.
     void give_parameter_values()
     {
-        Binding known;
-        while (known.size() < model_.parameters.size()) {
-            const std::size_t before = known.size();
-            for (const Parameter& parameter : model_.parameters) {
-                const std::vector<std::string> uses = names_in(parameter.value);
-                const bool ready =
-                    std::ranges::all_of(uses, [&](const std::string& use) { return known.contains(use); });
-                if (!ready || known.contains(parameter.symbol.name)) continue;
-                known[parameter.symbol.name] = Lowering(graph_, known)(parameter.value);
-            }
-            if (known.size() == before) throw InternalError("parameters that depend on each other in a cycle");
-        }
+        const Binding known = parameter_values(graph_, model_);
         for (const NodeId parameter : system_.parameters)
             system_.parameter_values.emplace_back(parameter, known.at(graph_.input_name(parameter)));
     }

@@ -112,6 +112,8 @@ void print_banner(TextBlock& out, const KernelModule& module)
     for (const std::string& warning : module.warnings) out.comment("WARNING: " + warning);
     print_equations(out, module);
     print_counts(out, module);
+    if (!module.constants.empty()) out.comment("");
+    for (const std::string& constant : module.constants) out.comment("Constant: " + constant);
     print_quantities(out, "Parameters:", module.parameters, false);
     print_quantities(out, "State:", lanes_of(module), true);
 }

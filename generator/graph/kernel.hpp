@@ -123,6 +123,7 @@ struct KernelModule {
     NodeId time = 0; ///< the input t
     std::vector<Quantity> parameters;
     std::vector<NodeId> parameter_defaults; ///< closed nodes without inputs, one a parameter
+    std::vector<std::string> constants;     ///< "m = 2": parameters of the model that are constants here
     /// Conditions on the parameters alone, as text, with a node each that is positive where it holds.
     std::vector<std::pair<std::string, NodeId>> parameter_conditions;
     ModuleKind kind = ModuleKind::vector_field;

@@ -92,8 +92,14 @@ class ModuleBuilder {
         module_.regenerate = fmt::format("lagen generate {}.toml", model_.name);
         module_.graph = graph_;
         module_.time = form_.time;
-        for (std::size_t k = 0; k < model_.parameters.size(); ++k)
-            module_.parameters.push_back(quantity(model_.parameters[k].symbol, form_.parameters[k]));
+        for (const Parameter& parameter : model_.parameters) {
+            const std::string& name = parameter.symbol.name;
+            const NodeId node = graph_->input(name);
+            if (parameter.bound)
+                module_.constants.push_back(fmt::format("{} = {}", name, to_text(*graph_, node)));
+            else
+                module_.parameters.push_back(quantity(parameter.symbol, node));
+        }
         LaneGroup base{"Base", "base", "Base coordinates, the first lanes of State.", {}};
         for (std::size_t i = 0; i < form_.x.size(); ++i)
             base.lanes.push_back(quantity(model_.base.coordinates[i], form_.x[i]));

@@ -61,7 +61,12 @@ DeclaredKey read_declaration(const ModelReader& reader, const Excerpt& key)
 
 std::string key_of(const ModelReader& reader, const Setting& setting)
 {
-    return entry_key(whole_text("<--set>", setting.name), reader.model.scope);
+    return entry_key(whole_text(option_of(setting), setting.name), reader.model.scope);
+}
+
+const char* option_of(const Setting& setting)
+{
+    return setting.binds ? "<--bind>" : "<--set>";
 }
 
 std::vector<Symbol> parameter_symbols(const Model& model)

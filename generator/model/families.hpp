@@ -53,6 +53,8 @@ struct DeclaredKey {
 
 /// What a setting names, with its indices as closing spells them: "x[n]" is "x[8]" where n is 8.
 [[nodiscard]] std::string key_of(const ModelReader& reader, const Setting& setting);
+/// Where messages say that it stands.
+[[nodiscard]] const char* option_of(const Setting& setting);
 
 /// A symbol, or the family that consecutive symbols x[1], x[2], .. make.
 struct SymbolGroup {

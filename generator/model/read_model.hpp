@@ -7,10 +7,14 @@
 namespace lagen {
 
 /// A parameter changed on the command line, `--set name=value`. It replaces the file's value before anything is derived
-/// from it (so "mgl = 'm*g*l'" follows m).
+/// from it (so "mgl = 'm*g*l'" follows m). `--bind name=value` makes it a constant of the equations as well, and
+/// `--bind name` does so with the value that it has.
 struct Setting {
     std::string name;
-    Excerpt value;
+    Excerpt value; ///< empty where the value stays
+    bool binds = false;
+
+    [[nodiscard]] bool gives_value() const { return value.file != nullptr; }
 };
 
 /// Reads and checks a model file. A missing or unreadable file, a folder, invalid UTF-8, a file above 16 MiB, TOML

@@ -38,10 +38,12 @@ void assign(ModelReader& reader, const ResolvedKey& key, const Tree& value, cons
 
 void apply(ModelReader& reader, const std::vector<Symbol>& symbols, const Setting& setting)
 {
-    const SourceRange where = setting.value.range(0, setting.value.text.size());
     if (const std::optional<ResolvedKey> key = resolve_key(symbols, key_of(reader, setting))) {
-        assign(reader, *key, parse_expression(setting.value),
-               fmt::format("the value set for parameter '{}'", key->name), where);
+        if (setting.gives_value())
+            assign(reader, *key, parse_expression(setting.value),
+                   fmt::format("the value set for parameter '{}'", key->name),
+                   setting.value.range(0, setting.value.text.size()));
+        for (const std::size_t k : key->indices) reader.model.parameters[k].bound |= setting.binds;
         return;
     }
     const Names::Entry* entry = reader.names.find(setting.name);
@@ -52,15 +54,16 @@ void apply(ModelReader& reader, const std::vector<Symbol>& symbols, const Settin
     const std::string what =
         entry != nullptr
             ? fmt::format("'{}' is {}, not a parameter", setting.name, role_text(entry->role))
-            : fmt::format("the model has no parameter{} '{}' to set", sizes.empty() ? "" : " or size", setting.name);
+            : fmt::format("the model has no parameter{} '{}' to {}", sizes.empty() ? "" : " or size", setting.name,
+                          setting.binds ? "bind" : "set");
     const std::string size = nearest_name(setting.name, sizes);
     const std::string hint = !size.empty() && nearest_name(setting.name, known) == size
                                  ? fmt::format("did you mean the size '{}'?", size)
                              : resolve_key(symbols, family_name(setting.name))
                                  ? hint_for_key(symbols, setting.name, "parameters")
                                  : hint_for(setting.name, known, sizes.empty() ? "parameters" : "parameters and sizes");
-    throw ModelError(what, whole_text("<--set>", setting.name + "=" + setting.value.text).range(0, setting.name.size()),
-                     hint);
+    const std::string given = setting.gives_value() ? setting.name + "=" + setting.value.text : setting.name;
+    throw ModelError(what, whole_text(option_of(setting), given).range(0, setting.name.size()), hint);
 }
 
 /// Strings of the list `key` of [base].

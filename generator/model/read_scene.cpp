@@ -157,6 +157,7 @@ Scene read_scene(const ModelReader& reader, Scene scene, const TomlEntry& block,
     if (const TomlEntry* entry = table.take("events")) read_scene_events(reader, scene, *entry);
     table.finish();
     for (const Setting& setting : settings) {
+        if (!setting.gives_value()) continue;
         const std::string key = key_of(reader, setting);
         std::erase_if(scene.parameters, [&](const NamedTree& each) { return names_entry(key, each.name); });
     }

@@ -106,7 +106,7 @@ void read_sizes(ModelReader& reader, const TomlEntry* block, const std::vector<S
         reader.names.declare(entry.name(), Role::size, entry.where());
         Tree value = read_expression(entry.value, fmt::format("the size '{}'", entry.name()));
         for (const Setting& setting : settings)
-            if (setting.name == entry.name()) value = parse_expression(setting.value);
+            if (setting.name == entry.name() && setting.gives_value()) value = parse_expression(setting.value);
         sizes.push_back(NamedTree{entry.name(), std::move(value), entry.where()});
     }
     std::map<std::string, Rational> values;

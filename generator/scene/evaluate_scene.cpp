@@ -157,6 +157,7 @@ SceneValues evaluate_scene(const Model& model, const Scene& scene)
     SceneValues out;
     const Values parameters = parameter_values(model, scene);
     for (const Parameter& parameter : model.parameters) {
+        if (parameter.bound) continue;
         out.parameters.emplace_back(parameter.symbol.name, parameters.at(parameter.symbol.name));
     }
     read_times(scene, parameters, out);

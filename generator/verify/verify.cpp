@@ -74,6 +74,12 @@ Report verify(const System& system, const std::vector<NamedTree>& extra_invarian
     return report;
 }
 
+bool rests_on_values(const Regularity& known)
+{
+    return known.kind == Regularity::Kind::generically_regular || known.kind == Regularity::Kind::undecided ||
+           known.for_given_parameters || !known.legendre_obstacle.empty() || !known.legendre_values.empty();
+}
+
 Regularity verify_regularity(const System& system)
 {
     return Claims(system, 0, {}).decide_regularity();

@@ -52,6 +52,9 @@ struct Regularity {
         kernel; ///< where degenerate: vectors k with W k = 0, proved, as components by fibre coordinate
 };
 
+/// Whether other values of the parameters might be decided otherwise.
+[[nodiscard]] bool rests_on_values(const Regularity& known);
+
 /// Of the controls of Pontryagin's equations.
 struct ControlMaximum {
     enum class Kind {

@@ -99,6 +99,14 @@ TEST_CASE("what a record decided for some values is decided again for others", "
     const Outcome refused = cache.run({"--form", "hamilton", "--set", "c=-3"});
     CHECK(refused.code == 1);
     CHECK(refused.err == other.run({"--form", "hamilton", "--set", "c=-3"}).err);
+    // The first run decides for the values that it runs with, as the second does: here that of the file is not asked.
+    const Cache lagrange;
+    const Outcome once = lagrange.run({"--set", "c=-0.05"});
+    REQUIRE(once.code == 0);
+    REQUIRE(lagrange.records().size() == 1);
+    const std::string decided = content_of(lagrange.records()[0]);
+    CHECK(lagrange.run({"--set", "c=-0.04"}).code == 0);
+    CHECK(content_of(lagrange.records()[0]) == decided);
     // Other forms and methods have records of their own.
     CHECK(cache.run({"--method", "tsit5"}).code == 0);
     CHECK(cache.records().size() == 2);

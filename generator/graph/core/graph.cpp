@@ -3,6 +3,8 @@
 #include "graph/core/graph.hpp"
 #include "graph/core/operators.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace lagen {
@@ -77,6 +79,11 @@ NodeId Graph::input(const std::string& name)
         inputs_.push_back(it->second);
     }
     return it->second;
+}
+
+void Graph::bind(const std::string& name, NodeId value)
+{
+    if (!input_ids_.emplace(name, value).second) throw InternalError(fmt::format("'{}' is bound too late", name));
 }
 
 std::span<const NodeId> Graph::operands(NodeId id) const

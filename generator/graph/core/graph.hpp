@@ -86,6 +86,8 @@ class Graph {
     NodeId constant(long value) { return constant(Rational(value)); }
     NodeId pi();
     NodeId input(const std::string& name); ///< the same name is the same node
+    /// From now on `name` is `value`: input(name) answers it. Throws InternalError where the name is known already.
+    void bind(const std::string& name, NodeId value);
 
     // Operations. Each applies the exact local rules that hold everywhere the operands are defined (x + 0, 1 * x,
     // constants folded exactly, -(-x), x - x, x + x = 2 x, x * x = x^2, a sign pulled out of products, 0 * x = 0), then

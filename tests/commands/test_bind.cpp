@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// `--bind`: parameters that become constants of the equations.
+#include "program.hpp"
+
+#include "support/json.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+using namespace lagen::testing;
+using Catch::Contains;
+namespace json = lagen::json;
+
+namespace {
+
+/// The last row of a run, with the warnings of the call apart.
+std::vector<double> end_of(std::vector<std::string> arguments)
+{
+    const std::vector<std::string> common{"--at", "2", "--tolerance", "1e-12", "--format", "json"};
+    arguments.insert(arguments.begin(), "run");
+    arguments.insert(arguments.end(), common.begin(), common.end());
+    const Outcome outcome = call(arguments);
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    const json::Value value = json::parse(outcome.out);
+    REQUIRE(value["status"].text == "ok");
+    std::vector<double> row;
+    for (std::size_t k = 0; k < value["columns"].size(); ++k)
+        row.push_back(static_cast<double>(value["rows"][0][k].number()));
+    return row;
+}
+
+double distance(const std::vector<double>& a, const std::vector<double>& b)
+{
+    REQUIRE(a.size() == b.size());
+    double most = 0;
+    for (std::size_t k = 0; k < a.size(); ++k) most = std::max(most, std::fabs(a[k] - b[k]));
+    return most;
+}
+
+/// Of the line of `kernel` in the table of operations: + -, *, /.
+std::vector<int> operations(const std::string& header, const std::string& kernel)
+{
+    const std::size_t line = header.find("///   " + kernel + " ");
+    REQUIRE(line != std::string::npos);
+    std::istringstream words(header.substr(line + 6 + kernel.size()));
+    std::vector<int> counts(3);
+    for (int& count : counts) words >> count;
+    REQUIRE(words);
+    return counts;
+}
+
+} // namespace
+
+TEST_CASE("a bound parameter is a constant of the header: no member, folded, told of, and in the command that makes it")
+{
+    const std::string plain = call({"generate", "rigid_body.toml"}).out;
+    const Outcome bound = call({"generate", "rigid_body.toml", "--bind", "I1=2,I2=2, I3 = 1"});
+    REQUIRE(bound.code == 0);
+    CHECK_THAT(bound.out, Contains("/// Constant: I1 = 2\n/// Constant: I2 = 2\n/// Constant: I3 = 1\n"));
+    CHECK_THAT(bound.out, Contains("lagen generate rigid_body.toml --bind I1=2 --bind I2=2 --bind 'I3= 1' -o"));
+    CHECK_THAT(bound.out, !Contains("parameters.I1"));
+    CHECK_THAT(plain, Contains("parameters.I1"));
+    const std::vector<int> before = operations(plain, "rhs"), after = operations(bound.out, "rhs");
+    CHECK(after[0] < before[0]);
+    CHECK(after[1] < before[1]);
+    CHECK(after[2] <= before[2]);
+    // I1 = I2: the third rate is nought.
+    CHECK_THAT(bound.out, Contains("ds[2] = S(0);"));
+}
+
+TEST_CASE("a name alone is bound to the value that it has")
+{
+    const Outcome one = call({"generate", "heavy_top.toml", "--set", "mgl=3", "--bind", "mgl"});
+    REQUIRE(one.code == 0);
+    CHECK_THAT(one.out, Contains("/// Constant: mgl = 3\n"));
+    const Outcome same = call({"generate", "heavy_top.toml", "--bind", "mgl=3"});
+    REQUIRE(same.code == 0);
+    CHECK(one.out.substr(one.out.find("#pragma once")) == same.out.substr(same.out.find("#pragma once")));
+}
+
+TEST_CASE("a family is bound whole or an entry at a time", "[run]")
+{
+    const Outcome whole = call({"generate", "pleiades.toml", "--bind", "m"});
+    REQUIRE(whole.code == 0);
+    CHECK_THAT(whole.out, Contains("/// Constant: m[7] = 7\n") && !Contains("parameters.m"));
+    const Outcome entry = call({"generate", "pleiades.toml", "--bind", "m[7]=2"});
+    REQUIRE(entry.code == 0);
+    CHECK_THAT(entry.out, Contains("/// Constant: m[7] = 2\n") && Contains("parameters.m_6"));
+}
+
+TEST_CASE("a run with bound parameters is the run without, in the scene's values too", "[run]")
+{
+    for (const std::vector<std::string>& scene : {std::vector<std::string>{}, {"--scene", "softer"}}) {
+        std::vector<std::string> arguments{"quartic_body.toml", "--form", "hamilton"};
+        arguments.insert(arguments.end(), scene.begin(), scene.end());
+        const std::vector<double> plain = end_of(arguments);
+        arguments.insert(arguments.end(), {"--bind", "I,c"});
+        CHECK(distance(plain, end_of(arguments)) < 1e-10);
+        // The second time the cache answers.
+        CHECK(distance(plain, end_of(arguments)) < 1e-10);
+    }
+    const std::vector<double> file = end_of({"quartic_body.toml", "--bind", "c"});
+    CHECK(distance(file, end_of({"quartic_body.toml", "--bind", "c", "--scene", "softer"})) > 1e-3);
+    CHECK(distance(file, end_of({"quartic_body.toml", "--bind", "c=0.25"})) > 1e-3);
+    CHECK(distance(end_of({"quartic_body.toml", "--set", "k=0.3", "--bind", "c"}),
+                   end_of({"quartic_body.toml", "--set", "k=0.3"})) < 1e-10);
+}
+
+TEST_CASE("what is proved for a bound value needs no warning and no condition on it")
+{
+    const Outcome bound = call({"generate", "quartic_body.toml", "--form", "hamilton", "--bind", "c"});
+    CHECK(bound.code == 0);
+    CHECK(bound.err.empty());
+    CHECK_THAT(bound.out, Contains("/// left_domain unless I > 0.\n") && !Contains("WARNING"));
+}
