@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace lagen {
@@ -40,15 +41,18 @@ class Options {
     Options(const CommandSyntax& syntax, std::span<const std::string> arguments);
 
     [[nodiscard]] bool help() const { return help_; }
+    [[nodiscard]] const std::string& command() const { return command_; }
     [[nodiscard]] bool has(const std::string& name) const { return values_.contains(name); }
     [[nodiscard]] std::string get(const std::string& name) const; ///< the last value, or the standard, or ""
     [[nodiscard]] std::vector<std::string> all(const std::string& name) const;
     [[nodiscard]] const std::vector<std::string>& positional() const { return positional_; }
+    /// Options and their values as they were given.
+    [[nodiscard]] const std::vector<std::pair<std::string, std::string>>& given() const { return given_; }
 
     /// The value of `name`, which must be one of `allowed`.
     [[nodiscard]] std::string choice(const std::string& name, const std::vector<std::string>& allowed) const;
-    /// The `--set name=value` entries.
-    [[nodiscard]] std::vector<Setting> settings() const;
+    /// The `--set name=value` entries, or those of another option.
+    [[nodiscard]] std::vector<Setting> settings(const std::string& option = "set") const;
 
   private:
     std::string command_;
@@ -56,7 +60,11 @@ class Options {
     std::map<std::string, std::vector<std::string>> values_;
     std::map<std::string, std::string> standards_;
     std::vector<std::string> positional_;
+    std::vector<std::pair<std::string, std::string>> given_;
 };
+
+/// `text` of --OPTION as name and expression; UsageError where it is not name=value.
+[[nodiscard]] Setting read_setting(const std::string& command, const std::string& option, const std::string& text);
 
 /// "a,b , c" as {"a", "b", "c"}; commas inside parentheses and brackets do not separate.
 [[nodiscard]] std::vector<std::string> split_list(const std::string& text);
