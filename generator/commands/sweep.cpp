@@ -6,7 +6,6 @@
 #include "commands/scene_options.hpp"
 #include "commands/sweep_run.hpp"
 #include "commands/write_file.hpp"
-#include "content_hash.hpp"
 #include "model/scene_form.hpp"
 
 #include <fmt/core.h>
@@ -44,17 +43,18 @@ const CommandSyntax sweep_syntax{
      {"t-end", "T", "end of each run; without it the scene's duration"},
      {"unchecked", nullptr, "go on although the model is refuted"}}};
 
-/// Everything that the rows of a table follow from.
-std::string key_of(const Options& options, const CheckedModel& checked, const SweepRows& rows,
-                   const std::string& heading)
+/// Which sweep a file belongs to: parts have the same key on all machines, and what is resumed the same build too.
+SweepIdentity identity_of(const Options& options, const Model& model, const SweepRows& rows, const Shard& shard,
+                          const std::string& heading)
 {
     ContentHash hash;
-    hash.add(std::filesystem::path(record_file(checked.model, {})).filename().string()).add(rows.text).add(heading);
+    add_model(hash, model);
+    hash.add(LAGEN_VERSION).add(rows.text).add(heading);
     for (const char* name : {"scene", "form", "method", "step", "tolerance", "t-end", "unchecked"})
         hash.add(options.has(name) ? name : "").add(options.get(name));
     for (const auto& [name, value] : options.given())
         if (name == "set" || name == "initial") hash.add(name).add(value);
-    return hash.hex32();
+    return {hash.hex32(), std::filesystem::path(record_file(model, {})).filename().string(), rows.count, shard, false};
 }
 
 std::size_t threads_of(const Options& options)
@@ -160,7 +160,7 @@ ExitCode run_sweep(Arguments arguments)
 
     const SweepSetting setting{model, scene, record.program, record.names, threads};
     const std::string heading = sweep_heading(setting, rows);
-    const SweepIdentity identity{key_of(options, checked, rows, heading), rows.count, shard};
+    const SweepIdentity identity = identity_of(options, model, rows, shard, heading);
     SweepFile file(path, identity, heading, options.has("resume"));
     SweepRun run(setting, rows, shard, std::move(start), file);
     run.run();

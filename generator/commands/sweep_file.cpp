@@ -29,8 +29,8 @@ std::string identity_file(const std::string& path)
 
 std::string text_of(const SweepIdentity& identity)
 {
-    return fmt::format("{}key={}\nrows={}\nshard={}\n{}", identity_line, identity.key, identity.rows,
-                       identity.shard.text(), identity.complete ? "complete=yes\n" : "");
+    return fmt::format("{}key={}\nbuild={}\nrows={}\nshard={}\n{}", identity_line, identity.key, identity.build,
+                       identity.rows, identity.shard.text(), identity.complete ? "complete=yes\n" : "");
 }
 
 [[noreturn]] void refuse_writing(const std::string& path, const std::string& hint = {})
@@ -49,6 +49,7 @@ std::optional<SweepIdentity> find_identity(const std::string& path)
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);) {
         if (line.starts_with("key=")) identity.key = line.substr(4);
+        if (line.starts_with("build=")) identity.build = line.substr(6);
         if (line.starts_with("rows=")) identity.rows = read_whole(line.substr(5)).value_or(0);
         if (line.starts_with("shard=")) identity.shard = read_shard(line.substr(6));
         if (line == "complete=yes") identity.complete = true;
@@ -65,7 +66,7 @@ SweepFile::SweepFile(std::string path, const SweepIdentity& identity, const std:
         refuse_writing(path_);
     }
     const std::optional<SweepIdentity> found = resume ? find_identity(path_) : std::nullopt;
-    if (found && (found->key != identity_.key || found->rows != identity_.rows || found->shard != identity_.shard))
+    if (found && (found->key != identity_.key || found->build != identity_.build || found->shard != identity_.shard))
         throw UsageError(
             fmt::format("lagen sweep: '{}' was begun by another sweep\nhint: --resume goes on with the same "
                         "model, options and lagen; without it the sweep begins anew",

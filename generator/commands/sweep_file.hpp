@@ -17,6 +17,7 @@ namespace lagen {
 /// What FILE.sweep says.
 struct SweepIdentity {
     std::string key;        ///< of everything that the rows follow from
+    std::string build;      ///< of lagen, the runtime and the compiler
     std::uint64_t rows = 0; ///< of the whole sweep
     Shard shard;
     bool complete = false;

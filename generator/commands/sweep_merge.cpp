@@ -115,8 +115,9 @@ bool merge_ranks(const std::string& path, const SweepIdentity& identity)
     const std::string lock = path + ".lock";
     const int file = ::open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (file < 0) return false;
-    // Two ranks that end at once: the second one finds nothing left to merge.
+    // Of ranks that end at once the first one merges; the others find that their parts are gone.
     bool ready = ::flock(file, LOCK_EX) == 0;
+    const bool merged = !find_identity(rank_file(path, identity.shard));
     std::vector<std::string> parts;
     for (std::uint64_t k = 0; k < identity.shard.count && ready; ++k) {
         parts.push_back(rank_file(path, {k, identity.shard.count}));
@@ -128,7 +129,7 @@ bool merge_ranks(const std::string& path, const SweepIdentity& identity)
         for (const std::string& part : parts)
             for (const std::string& name : {part, part + ".sweep"}) ::unlink(name.c_str());
     }
-    ::unlink(lock.c_str());
+    if (ready || merged) ::unlink(lock.c_str());
     ::close(file);
     return ready;
 }

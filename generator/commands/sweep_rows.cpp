@@ -4,12 +4,12 @@
 
 #include "commands/philox.hpp"
 #include "commands/scene_options.hpp"
+#include "emit/print_literal.hpp"
 #include "graph/core/evaluate.hpp"
 #include "graph/core/lower.hpp"
 #include "model/families.hpp"
 
 #include <fmt/core.h>
-#include <mpfr.h>
 
 #include <algorithm>
 #include <charconv>
@@ -26,16 +26,6 @@ struct Axis {
     std::uint64_t count = 0; ///< 0: a continuum
 };
 
-double rounded(const Rational& value)
-{
-    mpfr_t number;
-    mpfr_init2(number, 53);
-    mpfr_set_q(number, value.get_mpq_t(), MPFR_RNDN);
-    const double result = mpfr_get_d(number, MPFR_RNDN);
-    mpfr_clear(number);
-    return result;
-}
-
 /// An end of a range: exactly where its expression is rational, else the nearest double.
 Rational end_of_range(const Model& model, const std::string& option, const Excerpt& text)
 {
@@ -49,7 +39,7 @@ Rational end_of_range(const Model& model, const std::string& option, const Excer
     const NodeId root = Lowering(graph)(tree);
     const std::vector<Rational> exact = evaluate_exactly(graph, {&root, 1}, {});
     const auto value =
-        exact.empty() ? static_cast<double>(evaluate<long double>(graph, {&root, 1}, {})[0]) : rounded(exact[0]);
+        exact.empty() ? static_cast<double>(evaluate<long double>(graph, {&root, 1}, {})[0]) : nearest_double(exact[0]);
     if (!std::isfinite(value))
         throw ModelError(fmt::format("a range of --{} ends at {}, where a finite number is required", option, value),
                          where);
@@ -109,7 +99,7 @@ SweepRows grid_rows(std::vector<SweptName> names, std::vector<Axis> axes)
             at[k] = place;
             Rational part(place, std::max<std::uint64_t>(axes[k].count - 1, 1));
             part.canonicalize();
-            values[k] = rounded(axes[k].first + (axes[k].last - axes[k].first) * part);
+            values[k] = nearest_double(axes[k].first + (axes[k].last - axes[k].first) * part);
         }
         return values;
     };
@@ -122,7 +112,7 @@ SweepRows random_rows(std::vector<SweptName> names, const std::vector<Axis>& axe
 {
     SweepRows rows{std::move(names), count, fmt::format("random {}", seed), {}};
     std::vector<std::pair<double, double>> ends;
-    for (const Axis& axis : axes) ends.emplace_back(rounded(axis.first), rounded(axis.last));
+    for (const Axis& axis : axes) ends.emplace_back(nearest_double(axis.first), nearest_double(axis.last));
     rows.values = [ends = std::move(ends), seed](std::uint64_t index) {
         std::vector<double> values;
         for (std::uint32_t k = 0; k < ends.size(); ++k) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// `lagen sweep`: which rows there are, what stands in them, and that nothing but the command decides about their bytes.
+/// `lagen sweep`: which rows there are, what stands in them, and that nothing but the command decides about their
+/// bytes.
 #include "program.hpp"
 #include "sweep_table.hpp"
 
@@ -22,8 +23,8 @@ std::vector<std::string> options_of(const CsvTable& table, std::size_t row)
     for (std::size_t k = 0; k < table.heading.size(); ++k)
         for (const std::string option : {"set", "initial"})
             if (table.heading[k].starts_with(option + "."))
-                options.insert(options.end(), {"--" + option, table.heading[k].substr(option.size() + 1) + "=" +
-                                                                  table.rows[row][k]});
+                options.insert(options.end(),
+                               {"--" + option, table.heading[k].substr(option.size() + 1) + "=" + table.rows[row][k]});
     return options;
 }
 
@@ -58,8 +59,8 @@ void check_against_run(const CsvTable& sweep, std::size_t row, std::vector<std::
 TEST_CASE("a grid has the ends of its ranges and equal steps between them, the last range fastest", "[sweep]")
 {
     const std::string folder = fresh_folder();
-    const Outcome outcome = call({"sweep", "oscillator.toml", "--initial", "x=0:0.3:4", "--initial", "v=1:-1:2", "-o",
-                                  folder + "/a.csv"});
+    const Outcome outcome =
+        call({"sweep", "oscillator.toml", "--initial", "x=0:0.3:4", "--initial", "v=1:-1:2", "-o", folder + "/a.csv"});
     CHECK(outcome.code == 0);
     CHECK(outcome.out.empty());
     CHECK(outcome.err == folder + "/a.csv: 8 rows\n");
@@ -127,7 +128,7 @@ TEST_CASE("threads and parts change nothing", "[sweep]")
 {
     const std::string folder = fresh_folder();
     const auto sweep = [&](const std::string& name, const std::vector<std::string>& more) {
-        std::vector<std::string> arguments{"sweep",     "heavy_top.toml", "--random", "150",           "--seed", "7",
+        std::vector<std::string> arguments{"sweep",     "heavy_top.toml", "--random", "150",          "--seed", "7",
                                            "--initial", "w3=-4:4",        "--set",    "mgl=-0.5:0.5", "-o",     name};
         arguments.insert(arguments.end(), more.begin(), more.end());
         const Outcome outcome = call(arguments, {.folder = folder});
@@ -237,8 +238,8 @@ TEST_CASE("a row that cannot start or go on has a status, and the sweep goes on"
         return std::pair(found, outcome.err);
     };
     using Texts = std::vector<std::string>;
-    const auto [fall, told] = statuses({"fall.toml", "--scene", "leave", "--initial", "v=-5:5:3", "--initial",
-                                        "x=-1:1:3"});
+    const auto [fall, told] =
+        statuses({"fall.toml", "--scene", "leave", "--initial", "v=-5:5:3", "--initial", "x=-1:1:3"});
     CHECK(fall == Texts{"left_domain", "left_domain", "left_domain", "left_domain", "left_domain", "ok", "left_domain",
                         "left_domain", "ok"});
     CHECK(told == file + ": 9 rows, 7 failed: 7 left_domain\n  left_domain: row 0: the start of scene 'leave' lies "
@@ -254,7 +255,7 @@ TEST_CASE("run --initial changes a start, and names what it cannot change", "[sw
 {
     const Outcome changed = call({"run", "oscillator.toml", "--initial", "x=1/4", "--initial", "v=0", "--at", "0"});
     CHECK(changed.out == "t,x,v\r\n0,0.25,0\r\n");
-    const Outcome rested = call({"run", "heavy_top.toml", "--scene", "drop", "--initial", "w1=1/2*I1/1.2", "--at", "0",
-                                 "--t-end", "1"});
+    const Outcome rested =
+        call({"run", "heavy_top.toml", "--scene", "drop", "--initial", "w1=1/2*I1/1.2", "--at", "0", "--t-end", "1"});
     CHECK_THAT(rested.out, Contains("\r\n0,0.59999999999999998,0,0.80000000000000004,0.5,"));
 }

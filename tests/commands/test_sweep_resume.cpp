@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// 24 rows, each of which takes its time.
-const std::vector<std::string> slow{"sweep",  "oscillator.toml", "--initial", "x=1:24:24", "--method", "euler",
+const std::vector<std::string> slow{"sweep",  "oscillator.toml", "--initial", "x=1:24:24", "--method",  "euler",
                                     "--step", "1/65536",         "--t-end",   "30",        "--threads", "2"};
 
 std::vector<std::string> slow_into(const std::string& file, const std::vector<std::string>& more = {})
@@ -71,10 +71,22 @@ TEST_CASE("a sweep that was killed goes on without a row lost or twice", "[sweep
     CHECK(lines_in(file + ".partial") < 25);
     CHECK(whole().starts_with(kept));
     SECTION("after a whole row") {}
-    SECTION("in the middle of a row") { fs::resize_file(file + ".partial", kept.size() - 5); }
-    SECTION("in the middle of its heading") { fs::resize_file(file + ".partial", 7); }
-    SECTION("with nothing in the file") { fs::resize_file(file + ".partial", 0); }
-    SECTION("without the file") { fs::remove(file + ".partial"); }
+    SECTION("in the middle of a row")
+    {
+        fs::resize_file(file + ".partial", kept.size() - 5);
+    }
+    SECTION("in the middle of its heading")
+    {
+        fs::resize_file(file + ".partial", 7);
+    }
+    SECTION("with nothing in the file")
+    {
+        fs::resize_file(file + ".partial", 0);
+    }
+    SECTION("without the file")
+    {
+        fs::remove(file + ".partial");
+    }
     const Outcome resumed = call(slow_into(file, {"--resume", "--threads", "1"}));
     CHECK(resumed.code == 0);
     CHECK(resumed.err == file + ": 24 rows\n");
@@ -117,8 +129,8 @@ TEST_CASE("an interrupt keeps the rows that are done, and another sweep does not
 TEST_CASE("a full disk ends a sweep with the rows that were written", "[sweep]")
 {
     const std::string folder = fresh_folder();
-    const std::vector<std::string> arguments{"sweep", models_folder() + "/oscillator.toml", "--initial", "x=1:300:300",
-                                             "-o", "a.csv", "--resume"};
+    const std::vector<std::string> arguments{
+        "sweep", models_folder() + "/oscillator.toml", "--initial", "x=1:300:300", "-o", "a.csv", "--resume"};
     // The program is compiled before there is no room for it.
     std::vector<std::string> first = arguments;
     first[5] = "whole.csv";
@@ -161,16 +173,17 @@ TEST_CASE("processes of a launcher share a sweep, and the last one puts it toget
         CHECK(last.ends_with(name + ": 10 rows of " + std::to_string(count) + " parts\n"));
     };
     ranks("mpi.csv", 4, [](const std::string& k) {
-        return Environment{{"OMPI_COMM_WORLD_RANK", k}, {"OMPI_COMM_WORLD_SIZE", "4"}, {"SLURM_NTASKS", "9"},
-                           {"SLURM_PROCID", "0"}};
+        return Environment{
+            {"OMPI_COMM_WORLD_RANK", k}, {"OMPI_COMM_WORLD_SIZE", "4"}, {"SLURM_NTASKS", "9"}, {"SLURM_PROCID", "0"}};
     });
-    ranks("slurm.csv", 3, [](const std::string& k) {
-        return Environment{{"SLURM_PROCID", k}, {"SLURM_NTASKS", "3"}};
-    });
+    ranks("slurm.csv", 3, [](const std::string& k) { return Environment{{"SLURM_PROCID", k}, {"SLURM_NTASKS", "3"}}; });
     ranks("array.csv", 2, [](const std::string& k) {
-        return Environment{{"SLURM_ARRAY_TASK_ID", k == "0" ? "5" : "7"}, {"SLURM_ARRAY_TASK_MIN", "5"},
-                           {"SLURM_ARRAY_TASK_MAX", "7"},                 {"SLURM_ARRAY_TASK_STEP", "2"},
-                           {"SLURM_ARRAY_TASK_COUNT", "2"},               {"SLURM_PROCID", "0"},
+        return Environment{{"SLURM_ARRAY_TASK_ID", k == "0" ? "5" : "7"},
+                           {"SLURM_ARRAY_TASK_MIN", "5"},
+                           {"SLURM_ARRAY_TASK_MAX", "7"},
+                           {"SLURM_ARRAY_TASK_STEP", "2"},
+                           {"SLURM_ARRAY_TASK_COUNT", "2"},
+                           {"SLURM_PROCID", "0"},
                            {"SLURM_NTASKS", "1"}};
     });
     CHECK(names_in(folder) == std::vector<std::string>{"array.csv", "mpi.csv", "slurm.csv", "whole.csv"});
@@ -184,8 +197,10 @@ TEST_CASE("processes of a launcher share a sweep, and the last one puts it toget
     CHECK(sweep("no.csv", {{"SLURM_PROCID", "x"}, {"SLURM_NTASKS", "4"}}).err ==
           "lagen sweep: SLURM_PROCID is 'x', where a whole number is required\n"
           "hint: --shard k/n says which rows are computed\n");
-    CHECK(sweep("no.csv", {{"SLURM_ARRAY_TASK_ID", "7"}, {"SLURM_ARRAY_TASK_COUNT", "2"},
-                           {"SLURM_ARRAY_TASK_MIN", "1"}, {"SLURM_ARRAY_TASK_MAX", "7"}})
+    CHECK(sweep("no.csv", {{"SLURM_ARRAY_TASK_ID", "7"},
+                           {"SLURM_ARRAY_TASK_COUNT", "2"},
+                           {"SLURM_ARRAY_TASK_MIN", "1"},
+                           {"SLURM_ARRAY_TASK_MAX", "7"}})
               .err == "lagen sweep: task 7 of a Slurm array of 2 from 1 to 7 cannot be numbered\nhint: give the array "
                       "indices without gaps (--array=0-1), or --shard k/n\n");
 }

@@ -46,7 +46,8 @@ TEST_CASE("options of a sweep that exclude each other or are no numbers are refu
             "lagen sweep: --random is '0', where a whole number from 1 on is required\n");
     refused({"--random", "3", "--seed", "-1", "--set", "g=1:2"}, 4,
             "lagen sweep: --seed is '-1', where a whole number from 0 on is required\n");
-    refused(with({"--threads", "0"}), 4, "lagen sweep: --threads is '0', where a whole number from 1 to 4096 is required\n");
+    refused(with({"--threads", "0"}), 4,
+            "lagen sweep: --threads is '0', where a whole number from 1 to 4096 is required\n");
     for (const std::string shard : {"3/3", "1", "/", "-1/2", "0/0"})
         refused(with({"--shard", shard}), 4,
                 "lagen sweep: --shard is '" + shard + "', where k/n with 0 <= k < n is required\n");
@@ -67,15 +68,17 @@ TEST_CASE("options of a sweep that exclude each other or are no numbers are refu
 
 TEST_CASE("ends of ranges are numbers", "[sweep]")
 {
-    refused({"--set", "g=1:l:3"}, 3,
-            "<--set g>:1:3: error: a range of --set ends at an expression of 'l', where a number is required\n  1:l:3\n "
-            "   ^\n");
+    refused(
+        {"--set", "g=1:l:3"}, 3,
+        "<--set g>:1:3: error: a range of --set ends at an expression of 'l', where a number is required\n  1:l:3\n "
+        "   ^\n");
     refused({"--set", "g=1:log(0):3"}, 3,
             "<--set g>:1:3: error: a range of --set ends at -inf, where a finite number is required\n  1:log(0):3\n    "
             "^~~~~~\n");
-    refused({"--set", "g=th:1:3"}, 3,
-            "<--set g>:1:1: error: --set depends on 'th', which is no parameter\n  th:1:3\n  ^~\nhint: give numbers, or "
-            "expressions of parameters\n");
+    refused(
+        {"--set", "g=th:1:3"}, 3,
+        "<--set g>:1:1: error: --set depends on 'th', which is no parameter\n  th:1:3\n  ^~\nhint: give numbers, or "
+        "expressions of parameters\n");
 }
 
 TEST_CASE("an ensemble that is none is refused at its place", "[sweep]")
@@ -83,8 +86,8 @@ TEST_CASE("an ensemble that is none is refused at its place", "[sweep]")
     const std::string folder = fresh_folder();
     const auto answer = [&](const std::string& text) {
         write_text(folder + "/e.csv", text);
-        const Outcome outcome = call({"sweep", models_folder() + "/pendulum.toml", "--ensemble", "e.csv", "-o", "a.csv"},
-                                     {.folder = folder});
+        const Outcome outcome = call(
+            {"sweep", models_folder() + "/pendulum.toml", "--ensemble", "e.csv", "-o", "a.csv"}, {.folder = folder});
         CHECK(names_in(folder) == std::vector<std::string>{"e.csv"});
         CHECK(outcome.code != 0);
         return outcome.err;
@@ -92,10 +95,8 @@ TEST_CASE("an ensemble that is none is refused at its place", "[sweep]")
     CHECK(answer("") == "lagen sweep: the ensemble 'e.csv' is no file that can be read, or empty\n");
     CHECK(answer("\r\n\r\n") == "lagen sweep: the ensemble 'e.csv' has no heading\n");
     CHECK(answer("w\r\n") == "lagen sweep: the ensemble 'e.csv' has no rows\n");
-    CHECK(answer("w,w\n1,2\n") ==
-          "e.csv:1:3: error: the column 'w' stands there twice\n  w,w\n    ^\n");
-    CHECK(answer("w,g\n1,2\n3\n") ==
-          "e.csv:3:1: error: row 1 has 1 fields, where the heading has 2\n  3\n  ^\n");
+    CHECK(answer("w,w\n1,2\n") == "e.csv:1:3: error: the column 'w' stands there twice\n  w,w\n    ^\n");
+    CHECK(answer("w,g\n1,2\n3\n") == "e.csv:3:1: error: row 1 has 1 fields, where the heading has 2\n  3\n  ^\n");
 }
 
 TEST_CASE("names of columns are identifiers, and times are told in their two largest units", "[sweep]")

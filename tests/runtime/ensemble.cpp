@@ -55,7 +55,8 @@ TEST_CASE("An ensemble is handed over in order, with the bits of single runs, by
     for (std::size_t k = 0; k < 100; ++k)
         single.push_back(integrate(Pendulum{}, start_of(k), {0.0, 3.0}, Dop853{.tolerance = 1e-9}).state);
     for (const std::size_t threads : {1, 2, 3, 7})
-        for (const std::size_t block : {0, 1, 16, 1000}) CHECK(ends(100, {.threads = threads, .block = block}) == single);
+        for (const std::size_t block : {0, 1, 16, 1000})
+            CHECK(ends(100, {.threads = threads, .block = block}) == single);
     CHECK(ends(0, {}).empty());
     CHECK(ends(1, {.threads = 4}).size() == 1);
 }

@@ -118,8 +118,8 @@ class Sweep {
         for (std::size_t k = 0; k < block.numbers.size(); k += length_)
             append_line(block.lines, &block.numbers[k], given, plan);
         const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
-        seconds_ = std::max(passed.count(), 1e-9) * static_cast<double>(length_) /
-                   static_cast<double>(block.numbers.size());
+        seconds_ =
+            std::max(passed.count(), 1e-9) * static_cast<double>(length_) / static_cast<double>(block.numbers.size());
     }
 
     void append_line(std::string& lines, const double* from, DriveArguments& given, DrivePlan<M>& plan) const
