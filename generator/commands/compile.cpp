@@ -51,8 +51,8 @@ std::vector<std::string> find_compiler()
 std::vector<std::string> compile_command()
 {
     std::vector<std::string> command = find_compiler();
-    command.insert(command.end(),
-                   {"-std=c++20", "-O2", "-I" + runtime_folder(), "-I" + program_folder(), "-isystem", eigen_folder()});
+    command.insert(command.end(), {"-std=c++20", "-O2", "-pthread", "-I" + runtime_folder(), "-I" + program_folder(),
+                                   "-isystem", eigen_folder()});
     for (const std::string& flag : words(std::getenv("CXXFLAGS"))) command.push_back(flag);
     return command;
 }
@@ -109,7 +109,7 @@ void call_compiler(std::vector<std::string> command, const std::string& source, 
 void add_compilation(ContentHash& hash)
 {
     add_headers(hash, runtime_folder(), "lagen");
-    add_headers(hash, program_folder(), "lagen_run");
+    add_headers(hash, program_folder(), ".");
     add_compiler(hash, compile_command());
 }
 

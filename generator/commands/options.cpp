@@ -83,12 +83,15 @@ Options::Options(const CommandSyntax& syntax, std::span<const std::string> argum
     po::variables_map map;
     try {
         const int style = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
-        po::store(po::command_line_parser(with_bare_values(syntax, arguments))
-                      .options(everything)
-                      .positional(order)
-                      .style(style)
-                      .run(),
-                  map);
+        const po::parsed_options parsed = po::command_line_parser(with_bare_values(syntax, arguments))
+                                              .options(everything)
+                                              .positional(order)
+                                              .style(style)
+                                              .run();
+        for (const po::option& option : parsed.options)
+            if (option.position_key < 0)
+                given_.emplace_back(option.string_key, option.value.empty() ? "" : option.value[0]);
+        po::store(parsed, map);
     } catch (const po::unknown_option& error) {
         std::vector<std::string> known;
         for (const OptionEntry& entry : syntax.options) known.push_back("--" + long_name(entry));
@@ -151,19 +154,36 @@ Setting Options::binding_of(const std::string& entry) const
     return {name, whole_text("<--bind " + name + ">", entry.substr(equals + 1)), true};
 }
 
+std::vector<Setting> Options::bindings() const
+{
+    std::vector<Setting> bindings;
+    for (const std::string& text : all("bind"))
+        for (const std::string& entry : split_list(text)) bindings.push_back(binding_of(entry));
+    return bindings;
+}
+
 std::vector<Setting> Options::settings() const
 {
-    std::vector<Setting> settings;
-    for (const std::string& text : all("set")) {
-        const std::size_t equals = text.find('=');
-        if (equals == std::string::npos || equals == 0)
-            throw UsageError(fmt::format("lagen {}: --set needs name=value, found '{}'", command_, text));
-        settings.push_back(
-            {text.substr(0, equals), whole_text("<--set " + text.substr(0, equals) + ">", text.substr(equals + 1))});
-    }
-    for (const std::string& text : all("bind"))
-        for (const std::string& entry : split_list(text)) settings.push_back(binding_of(entry));
+    std::vector<Setting> settings = named("set");
+    const std::vector<Setting> bound = bindings();
+    settings.insert(settings.end(), bound.begin(), bound.end());
     return settings;
+}
+
+std::vector<Setting> Options::named(const std::string& option) const
+{
+    std::vector<Setting> settings;
+    for (const std::string& text : all(option)) settings.push_back(read_setting(command_, option, text));
+    return settings;
+}
+
+Setting read_setting(const std::string& command, const std::string& option, const std::string& text)
+{
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0)
+        throw UsageError(fmt::format("lagen {}: --{} needs name=value, found '{}'", command, option, text));
+    const std::string name = text.substr(0, equals);
+    return {name, whole_text(fmt::format("<--{} {}>", option, name), text.substr(equals + 1))};
 }
 
 std::vector<std::string> split_list(const std::string& text)

@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace lagen {
@@ -40,15 +41,21 @@ class Options {
     Options(const CommandSyntax& syntax, std::span<const std::string> arguments);
 
     [[nodiscard]] bool help() const { return help_; }
+    [[nodiscard]] const std::string& command() const { return command_; }
     [[nodiscard]] bool has(const std::string& name) const { return values_.contains(name); }
     [[nodiscard]] std::string get(const std::string& name) const; ///< the last value, or the standard, or ""
     [[nodiscard]] std::vector<std::string> all(const std::string& name) const;
     [[nodiscard]] const std::vector<std::string>& positional() const { return positional_; }
+    /// Options and their values as they were given.
+    [[nodiscard]] const std::vector<std::pair<std::string, std::string>>& given() const { return given_; }
 
     /// The value of `name`, which must be one of `allowed`.
     [[nodiscard]] std::string choice(const std::string& name, const std::vector<std::string>& allowed) const;
     /// The `--set name=value` entries, then those of `--bind name=value,name`.
     [[nodiscard]] std::vector<Setting> settings() const;
+    [[nodiscard]] std::vector<Setting> bindings() const;
+    /// The name=value entries of an option.
+    [[nodiscard]] std::vector<Setting> named(const std::string& option) const;
 
   private:
     [[nodiscard]] Setting binding_of(const std::string& entry) const;
@@ -58,11 +65,15 @@ class Options {
     std::map<std::string, std::vector<std::string>> values_;
     std::map<std::string, std::string> standards_;
     std::vector<std::string> positional_;
+    std::vector<std::pair<std::string, std::string>> given_;
 };
 
 /// What `--bind` is, for the help of a command that has it.
 inline constexpr const char* bind_help =
     "parameters that become constants of the equations, with a value or the one that they have: I1=2,m";
+
+/// `text` of --OPTION as name and expression; UsageError where it is not name=value.
+[[nodiscard]] Setting read_setting(const std::string& command, const std::string& option, const std::string& text);
 
 /// "a,b , c" as {"a", "b", "c"}; commas inside parentheses and brackets do not separate.
 [[nodiscard]] std::vector<std::string> split_list(const std::string& text);

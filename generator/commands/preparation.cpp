@@ -19,15 +19,15 @@ void require_system(const Options& options, const Scene& scene, const MethodEntr
                                          module.model, found.obstacle);
     const std::string hint = found.kind == Kind::general ? "rkng54 integrates x'' = f(t, x, x')"
                                                          : "dop853 and verner87 integrate every system";
-    if (options.has("method")) throw UsageError(fmt::format("lagen run: {}\nhint: {}", text, hint));
+    if (options.has("method")) throw UsageError(fmt::format("lagen {}: {}\nhint: {}", options.command(), text, hint));
     throw ModelError(text, scene.method_where, hint);
 }
 
 } // namespace
 
-Preparation::Preparation(const Options& options, CheckedModel& checked)
-    : options_(options), checked_(checked),
-      file_(record_file(checked.model, {options.get("scene"), options.get("form"), options.get("method"),
+Preparation::Preparation(const Options& options, CheckedModel& checked, const Driver& driver)
+    : options_(options), checked_(checked), driver_(driver),
+      file_(record_file(checked.model, {driver.folder, options.get("scene"), options.get("form"), options.get("method"),
                                         options.has("unchecked") ? "unchecked" : ""})),
       record_(find_record(file_))
 {
@@ -53,7 +53,7 @@ void Preparation::finish(const Scene& scene, const std::string& form, const Meth
     if (method.series && !scene.events.empty()) request.with.emplace_back("event_series");
     const Generated generated = generate(checked_, request);
     require_system(options_, scene, method, generated.module);
-    const Compiled compiled = compile_program(generated.header, program_text(generated.module.name, method));
+    const Compiled compiled = compile_program(generated.header, program_text(driver_, generated.module.name, method));
     record_ = record_of(checked_, generated.module, compiled.program, parameters);
     keep_record(file_, *record_);
 }

@@ -11,7 +11,7 @@ namespace lagen {
 class Preparation {
   public:
     /// `checked` was read; it is proved, or has the warnings of the record. Throws where it is refuted.
-    Preparation(const Options& options, CheckedModel& checked);
+    Preparation(const Options& options, CheckedModel& checked, const Driver& driver);
 
     /// Throws where the method asks for other equations.
     void finish(const Scene& scene, const std::string& form, const MethodEntry& method,
@@ -26,6 +26,7 @@ class Preparation {
   private:
     const Options& options_;
     CheckedModel& checked_;
+    Driver driver_;
     std::string file_;
     std::optional<RunRecord> record_;
     bool decided_ = false; ///< `checked_` has its system, and what is decided of it

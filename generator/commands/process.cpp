@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
+#include <optional>
 #include <poll.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -86,17 +87,25 @@ struct Pipe {
     }
 };
 
-pid_t spawn(const std::string& program, const std::vector<std::string>& arguments, const Pipe& output,
-            const Pipe& error, int& failure)
+/// The streams of a child; `input` where it is given any.
+struct Streams {
+    std::optional<Pipe> input;
+    Pipe output, error;
+};
+
+pid_t spawn(const std::string& program, const std::vector<std::string>& arguments, const Streams& streams, int& failure)
 {
     std::vector<char*> pointers;
     for (const std::string& argument : arguments) pointers.push_back(const_cast<char*>(argument.c_str()));
     pointers.push_back(nullptr);
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_adddup2(&actions, output.ends[1], STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, error.ends[1], STDERR_FILENO);
+    if (streams.input)
+        posix_spawn_file_actions_adddup2(&actions, streams.input->ends[0], STDIN_FILENO);
+    else
+        posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_adddup2(&actions, streams.output.ends[1], STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, streams.error.ends[1], STDERR_FILENO);
     // Its own process group: ctrl-C on the terminal reaches lagen alone, which passes it on once.
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
@@ -115,22 +124,50 @@ pid_t spawn(const std::string& program, const std::vector<std::string>& argument
     return child;
 }
 
-/// Reads both pipes until both are closed.
-void drain(Pipe& output, Pipe& error, ProcessResult& result, const std::function<void(const char*, std::size_t)>& sink)
+/// What is written to a child: asked for where it can be written.
+class Feed {
+  public:
+    Feed(std::optional<Pipe>& pipe, const std::function<std::string()>& source) : pipe_(pipe), source_(source) {}
+
+    /// -1 where there is nothing more to write: poll looks away.
+    [[nodiscard]] int file() const { return pipe_ ? pipe_->ends[1] : -1; }
+
+    void write()
+    {
+        if (text_.empty()) text_ = source_();
+        if (text_.empty()) return pipe_->close_end(1);
+        const ssize_t count = ::write(file(), text_.data(), text_.size());
+        if (count > 0) text_.erase(0, static_cast<std::size_t>(count));
+        // A child that reads no more says why on its own streams.
+        if (count < 0 && errno != EAGAIN && errno != EINTR) pipe_->close_end(1);
+    }
+
+  private:
+    std::optional<Pipe>& pipe_;
+    const std::function<std::string()>& source_;
+    std::string text_;
+};
+
+/// Serves the pipes until both of the child's outputs are closed.
+void serve(Streams& streams, ProcessResult& result, const std::function<void(const char*, std::size_t)>& sink,
+           const std::function<std::string()>& source)
 {
     std::array<char, 65536> buffer;
-    while (output.ends[0] >= 0 || error.ends[0] >= 0) {
-        std::array<pollfd, 2> waiting{pollfd{output.ends[0], POLLIN, 0}, pollfd{error.ends[0], POLLIN, 0}};
+    Feed feed(streams.input, source);
+    while (streams.output.ends[0] >= 0 || streams.error.ends[0] >= 0) {
+        std::array<pollfd, 3> waiting{pollfd{streams.output.ends[0], POLLIN, 0},
+                                      pollfd{streams.error.ends[0], POLLIN, 0}, pollfd{feed.file(), POLLOUT, 0}};
         if (::poll(waiting.data(), waiting.size(), -1) < 0) {
             if (errno == EINTR) continue;
             throw MachineError(fmt::format("error: cannot wait for a child process: {}", std::strerror(errno)));
         }
+        if (waiting[2].revents != 0) feed.write();
         for (std::size_t k = 0; k < 2; ++k) {
             if (waiting[k].revents == 0) continue;
             const ssize_t count = ::read(waiting[k].fd, buffer.data(), buffer.size());
             if (count < 0 && errno == EINTR) continue;
             if (count <= 0) {
-                (k == 0 ? output : error).close_end(0);
+                (k == 0 ? streams.output : streams.error).close_end(0);
             } else if (k == 0 && sink) {
                 sink(buffer.data(), static_cast<std::size_t>(count));
             } else {
@@ -140,10 +177,37 @@ void drain(Pipe& output, Pipe& error, ProcessResult& result, const std::function
     }
 }
 
+/// A child that is waited for, and killed first where its end is not seen.
+class Child {
+  public:
+    explicit Child(pid_t process) : process_(process) { running_child = process; }
+    ~Child()
+    {
+        if (process_ == 0) return;
+        ::kill(-process_, SIGKILL);
+        (void)wait();
+    }
+    Child(const Child&) = delete;
+    Child& operator=(const Child&) = delete;
+
+    int wait()
+    {
+        int status = 0;
+        while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+        }
+        process_ = 0;
+        return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    }
+
+  private:
+    pid_t process_;
+};
+
 } // namespace
 
 ProcessResult run_process(const std::vector<std::string>& arguments,
-                          const std::function<void(const char*, std::size_t)>& sink)
+                          const std::function<void(const char*, std::size_t)>& sink,
+                          const std::function<std::string()>& source)
 {
     ProcessResult result;
     const std::string program = find_program(arguments.at(0));
@@ -152,25 +216,26 @@ ProcessResult run_process(const std::vector<std::string>& arguments,
         result.error = "not found";
         return result;
     }
-    Pipe output;
-    Pipe error;
+    Streams streams;
+    if (source) streams.input.emplace();
     const InterruptsForwarded forwarded;
     int failure = 0;
-    const pid_t child = spawn(program, arguments, output, error, failure);
+    const pid_t process = spawn(program, arguments, streams, failure);
     if (failure != 0) {
         result.started = false;
         result.error = std::strerror(failure);
         return result;
     }
-    running_child = child;
-    if (interrupts > 0) ::kill(-child, SIGINT);
-    output.close_end(1);
-    error.close_end(1);
-    drain(output, error, result, sink);
-    int status = 0;
-    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    Child child(process);
+    if (interrupts > 0) ::kill(-process, SIGINT);
+    streams.output.close_end(1);
+    streams.error.close_end(1);
+    if (source) {
+        streams.input->close_end(0);
+        ::fcntl(streams.input->ends[1], F_SETFL, O_NONBLOCK);
     }
-    result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    serve(streams, result, sink, source);
+    result.exit_code = child.wait();
     result.interrupted = interrupts > 0;
     return result;
 }

@@ -16,11 +16,13 @@ struct ProcessResult {
     bool interrupted = false; ///< SIGINT, SIGTERM or SIGHUP reached lagen while the child ran
 };
 
-/// Runs `arguments[0]` (looked up in PATH) and waits. `sink` receives standard output piece by piece where given. An
-/// interrupt is passed to the child and its children (once; it may finish its report), then noted; a second one kills
-/// them.
+/// Runs `arguments[0]` (looked up in PATH) and waits. `sink` receives standard output piece by piece where given;
+/// `source` gives standard input piece by piece, an empty one at its end (without it there is none). What they throw
+/// kills the child and is passed on. An interrupt is passed to the child and its children (once; it may finish its
+/// report), then noted; a second one kills them.
 [[nodiscard]] ProcessResult run_process(const std::vector<std::string>& arguments,
-                                        const std::function<void(const char*, std::size_t)>& sink = {});
+                                        const std::function<void(const char*, std::size_t)>& sink = {},
+                                        const std::function<std::string()>& source = {});
 
 /// The full path of a program in PATH, or "" (a name with a slash is taken as it is).
 [[nodiscard]] std::string find_program(const std::string& name);

@@ -9,7 +9,6 @@
 #include "commands/progress.hpp"
 #include "commands/scene_options.hpp"
 #include "commands/scene_program.hpp"
-#include "commands/start_state.hpp"
 #include "commands/temporary_folder.hpp"
 #include "commands/write_file.hpp"
 #include "elaborate/bind_parameters.hpp"
@@ -19,7 +18,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace lagen {
 
@@ -42,24 +40,11 @@ const CommandSyntax run_syntax{
       "whichever is later"},
      {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
      {"bind", "NAMES", bind_help},
+     {"initial", "NAME=VALUE", "an initial value of the scene (may be repeated)"},
      {"output,o", "FILE", "the rows as CSV"},
      {"plot", "FILE", "a picture (.svg, .png, .pdf)"},
      {"unchecked", nullptr, "go on although the model is refuted"},
      {"format,f", "FORMAT", "text or json", "text"}}};
-
-/// In the order of `named`, each as the compiled scene can hold it.
-std::vector<long double> numbers(const std::vector<NamedNumber>& named, const Scene& scene)
-{
-    std::vector<long double> values;
-    for (const auto& [name, value] : named) {
-        if (!std::isfinite(static_cast<double>(value)))
-            throw ModelError(fmt::format("'{}' starts at {:.6g} in scene '{}', where at most 1.79769e+308 is possible",
-                                         name, value, scene.name),
-                             scene.where);
-        values.push_back(value);
-    }
-    return values;
-}
 
 /// Times and report go through files: an argument list has a limit.
 void use_folder(const TemporaryFolder& folder, ProgramInput& input)
@@ -68,7 +53,7 @@ void use_folder(const TemporaryFolder& folder, ProgramInput& input)
     input.report_file = folder.file("report");
     if (input.times.kind != Sampling::Kind::at) return;
     std::string times;
-    for (const long double time : input.times.at) times += fmt::format("{:.21g}\n", time);
+    for (const long double time : input.times.at) times += fmt::format("{}\n", static_cast<double>(time));
     write_file(input.at_file, times);
 }
 
@@ -153,34 +138,20 @@ ExitCode run_run(Arguments arguments)
     CheckedModel checked = read(model_path(options.positional()[0]), options.settings(), options.has("unchecked"));
     const Model& model = checked.model;
     if (options.has("bind")) bind_in_scene(checked.model, find_scene(model, options.get("scene")));
-    Preparation preparation(options, checked);
+    Preparation preparation(options, checked, run_driver);
     for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
-    const Scene scene = scene_of(options, model);
+    const Scene scene = scene_of(options, model, options.named("initial"));
     const std::string form = form_of(model, scene);
-    const MethodEntry& method = method_of(options, scene);
-    if (method.separable_only && model.base.coordinates.empty())
-        throw UsageError(
-            fmt::format("lagen run: {} splits a system x' = f(y), y' = g(x), and model '{}' has no base coordinates x",
-                        method.name, model.name));
-    if (method.adaptive && options.has("step"))
-        write_standard_error(fmt::format("warning: --step is not used: {} chooses its steps itself\n", method.name));
-    if (!method.adaptive && options.has("tolerance"))
-        write_standard_error(fmt::format("warning: --tolerance is not used: the steps of {} are fixed\n", method.name));
+    const MethodEntry& method = method_of(options, model, scene);
     const SceneValues values = evaluate_scene(model, scene);
-    ProgramInput input;
-    input.parameters = numbers(values.parameters, scene);
-    preparation.finish(scene, form, method, input.parameters);
+    const std::vector<long double> parameters = numbers(values.parameters, scene);
+    preparation.finish(scene, form, method, parameters);
     const RunRecord& record = preparation.record();
-    for (const std::vector<NamedNumber>* group : {&values.base, &values.fibre, &values.momenta})
-        (void)numbers(*group, scene);
-    input.initial =
-        start_state([&]() -> const CheckedModel& { return preparation.checked(input.parameters); }, form, values);
-    input.step = values.step;
-    input.relative = values.relative.value_or(standard_tolerance);
-    input.absolute = values.absolute.value_or(standard_tolerance);
+    ProgramInput input;
     input.events = &scene.events;
     input.columns = columns_of(record.names, scene);
-    input.times = sample_times(scene, values, input.columns.size() + 1, options.has("at") && !options.has("t-end"));
+    StartState start([&]() -> const CheckedModel& { return preparation.checked(parameters); }, form);
+    use_values(input, scene, values, start, options.has("at") && !options.has("t-end"));
 
     RunOutcome outcome;
     outcome.model = model.name;

@@ -5,7 +5,6 @@
 #include "commands/compile_cache.hpp"
 #include "commands/places.hpp"
 #include "commands/write_file.hpp"
-#include "content_hash.hpp"
 #include "graph/core/graph.hpp"
 
 #include <fmt/core.h>
@@ -108,12 +107,18 @@ RunRecord record_of(const CheckedModel& checked, const KernelModule& module, std
     return record;
 }
 
+void add_model(ContentHash& hash, const Model& model)
+{
+    hash.add(model.file->text);
+    for (const auto& file : model.included) hash.add(file->text);
+    for (const Size& size : model.sizes) hash.add(size.name).add(std::to_string(size.value));
+}
+
 std::string record_file(const Model& model, const std::vector<std::string>& options)
 try {
     ContentHash hash;
-    hash.add(first_line).add(model.file->text);
-    for (const auto& file : model.included) hash.add(file->text);
-    for (const Size& size : model.sizes) hash.add(size.name).add(std::to_string(size.value));
+    hash.add(first_line);
+    add_model(hash, model);
     for (const std::string& option : options) hash.add(option);
     if (std::ranges::any_of(model.parameters, &Parameter::bound))
         for (const Parameter& parameter : model.parameters)

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "commands/scene_program.hpp"
+#include "content_hash.hpp"
 #include "pipeline.hpp"
 
 #include <optional>
@@ -26,6 +27,9 @@ struct RunRecord {
 /// The record of a model, generated and compiled.
 [[nodiscard]] RunRecord record_of(const CheckedModel& checked, const KernelModule& module, std::string program,
                                   const std::vector<long double>& parameters);
+
+/// The text of the model and of the files that it includes, and its sizes.
+void add_model(ContentHash& hash, const Model& model);
 
 /// The file of the record of `model`, under a name made from what a run rests on besides the values of parameters and
 /// scenes: the text of the model and of the files that it includes, its sizes, `options` as they were given, lagen

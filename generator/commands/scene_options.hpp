@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// What the command line of `run` says about the scene and the method.
+/// What the command line of `run` and `sweep` says about the scene and the method.
 #pragma once
 
 #include "commands/methods.hpp"
@@ -11,11 +11,24 @@ namespace lagen {
 inline constexpr long double standard_tolerance = 1e-10L;
 inline constexpr const char* standard_method = "dop853";
 
-/// The scene as --scene, --method, --step, --tolerance, --t-end, --at and --set change it. With --at and without
-/// --t-end the run is as long as its rows ask for.
-[[nodiscard]] Scene scene_of(const Options& options, const Model& model);
+/// The scene as --scene, --method, --step, --tolerance, --t-end, --at and --set change it, and with `initial` values
+/// of the command line. With --at and without --t-end the run is as long as its rows ask for.
+[[nodiscard]] Scene scene_of(const Options& options, const Model& model, const std::vector<Setting>& initial);
 
-/// The scene's method; UsageError or ModelError (by where the name stands) where it is unknown or lacks a step.
-[[nodiscard]] const MethodEntry& method_of(const Options& options, const Scene& scene);
+/// Whether `initial` of the scene has momenta; else it has fibre coordinates, if any.
+[[nodiscard]] bool starts_from_momenta(const Model& model, const Scene& scene);
+
+/// The names that `initial` of the scene gives numbers to, or may give.
+[[nodiscard]] std::vector<Symbol> initial_symbols(const Model& model, const Scene& scene);
+
+/// Gives the start of `scene` another value; ModelError where it has none of that name.
+void set_initial(const Model& model, Scene& scene, const Setting& setting);
+
+/// What is given to --NAME, closed over parameters; ModelError where it depends on anything else.
+[[nodiscard]] Tree option_tree(const Model& model, const std::string& name, const Excerpt& text);
+
+/// The scene's method; UsageError or ModelError (by where the name stands) where it is unknown, lacks a step or splits
+/// what has no base coordinates. Warns on standard error of options that it does not use.
+[[nodiscard]] const MethodEntry& method_of(const Options& options, const Model& model, const Scene& scene);
 
 } // namespace lagen

@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/scene_program.hpp"
 
+#include "commands/scene_options.hpp"
 #include "diagnostic.hpp"
 #include "emit/print_header.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace lagen {
 
 namespace {
 
-/// Enough digits that the program reads the double nearest to the number.
+/// What the program reads as the double nearest to the number.
 std::string text_of(long double value)
 {
-    return fmt::format("{:.21g}", value);
+    return fmt::format("{}", static_cast<double>(value));
 }
 
 std::string list_of(const std::vector<long double>& values)
@@ -107,12 +109,12 @@ std::vector<std::string> entries_of(const KernelModule& module, const char* kern
 
 } // namespace
 
-std::string program_text(const std::string& name, const MethodEntry& method)
+std::string program_text(const Driver& driver, const std::string& name, const MethodEntry& method)
 {
     return fmt::format(
-        "#include \"model.hpp\"\n#include \"lagen_run/driver.hpp\"\nint main(int argc, char** argv)\n{{\n    return "
-        "lagen::drive<lagen::models::{}<double>, lagen::{}>(argc, argv);\n}}\n",
-        cpp_names({name})[0], method.type);
+        "#include \"model.hpp\"\n#include \"{}/driver.hpp\"\nint main(int argc, char** argv)\n{{\n    return "
+        "lagen::{}<lagen::models::{}<double>, lagen::{}>(argc, argv);\n}}\n",
+        driver.folder, driver.function, cpp_names({name})[0], method.type);
 }
 
 TableNames names_of(const KernelModule& module)
@@ -138,6 +140,39 @@ std::vector<TableColumn> columns_of(const TableNames& names, const Scene& scene)
     return columns;
 }
 
+std::vector<long double> numbers(const std::vector<NamedNumber>& named, const Scene& scene)
+{
+    std::vector<long double> values;
+    for (const auto& [name, value] : named) {
+        if (!std::isfinite(static_cast<double>(value)))
+            throw ModelError(fmt::format("'{}' starts at {:.6g} in scene '{}', where at most 1.79769e+308 is possible",
+                                         name, value, scene.name),
+                             scene.where);
+        values.push_back(value);
+    }
+    return values;
+}
+
+void use_values(ProgramInput& input, const Scene& scene, const SceneValues& values, StartState& start, bool stretch)
+{
+    input.parameters = numbers(values.parameters, scene);
+    for (const std::vector<NamedNumber>* group : {&values.base, &values.fibre, &values.momenta})
+        (void)numbers(*group, scene);
+    input.initial = start(values);
+    input.step = values.step;
+    input.relative = values.relative.value_or(standard_tolerance);
+    input.absolute = values.absolute.value_or(standard_tolerance);
+    input.times = sample_times(scene, values, input.columns.size() + 1, stretch);
+}
+
+std::vector<std::string> watch_arguments(const ProgramInput& input)
+{
+    std::vector<std::string> arguments;
+    if (input.events != nullptr && !input.events->empty()) arguments = {"--events", events_of(*input.events)};
+    arguments.insert(arguments.end(), {"--columns", columns_text(input.columns)});
+    return arguments;
+}
+
 std::vector<std::string> program_arguments(const std::string& program, const ProgramInput& input)
 {
     std::vector<std::string> arguments{program,
@@ -160,8 +195,8 @@ std::vector<std::string> program_arguments(const std::string& program, const Pro
     case Sampling::Kind::interval: give("--interval", text_of(*input.times.interval)); break;
     case Sampling::Kind::at: give("--at-file", input.at_file); break;
     }
-    if (input.events != nullptr && !input.events->empty()) give("--events", events_of(*input.events));
-    give("--columns", columns_text(input.columns));
+    const std::vector<std::string> watched = watch_arguments(input);
+    arguments.insert(arguments.end(), watched.begin(), watched.end());
     give("--report", input.report_file);
     return arguments;
 }

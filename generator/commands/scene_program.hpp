@@ -1,17 +1,26 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The program of a scene: its text, its arguments and its report, as runtime/program/lagen_run/driver.hpp defines
-/// them.
+/// them. That of a sweep takes the same ones.
 #pragma once
 
 #include "commands/methods.hpp"
 #include "commands/run_report.hpp"
+#include "commands/start_state.hpp"
 #include "graph/kernel.hpp"
 #include "scene/sample_times.hpp"
 
 namespace lagen {
 
+/// A program around a header: its folder in runtime/program, which has a driver.hpp, and the function in there.
+struct Driver {
+    const char* folder;
+    const char* function;
+};
+inline constexpr Driver run_driver{"lagen_run", "drive"};
+inline constexpr Driver sweep_driver{"lagen_sweep", "sweep"};
+
 /// The whole main of the program that integrates class `name` (of header "model.hpp") with `method`.
-[[nodiscard]] std::string program_text(const std::string& name, const MethodEntry& method);
+[[nodiscard]] std::string program_text(const Driver& driver, const std::string& name, const MethodEntry& method);
 
 /// A column of the table: a state lane or an entry of the observables.
 struct TableColumn {
@@ -40,6 +49,16 @@ struct ProgramInput {
     std::vector<TableColumn> columns;
     std::string report_file;
 };
+
+/// In the order of `named`, each as the compiled scene can hold it; ModelError where it cannot.
+[[nodiscard]] std::vector<long double> numbers(const std::vector<NamedNumber>& named, const Scene& scene);
+
+/// Gives `input`, whose columns are known, what the values of the scene say. Throws as `numbers`, `start` and
+/// sample_times (`stretch`) do.
+void use_values(ProgramInput& input, const Scene& scene, const SceneValues& values, StartState& start, bool stretch);
+
+/// Events and columns, as the program takes them.
+[[nodiscard]] std::vector<std::string> watch_arguments(const ProgramInput& input);
 
 [[nodiscard]] std::vector<std::string> program_arguments(const std::string& program, const ProgramInput& input);
 

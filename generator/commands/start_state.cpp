@@ -6,7 +6,6 @@
 #include "graph/unknowns/solve_unknowns.hpp"
 #include "mechanics/hamilton.hpp"
 #include "model/form.hpp"
-#include "scene/values.hpp"
 
 #include <fmt/core.h>
 
@@ -17,102 +16,106 @@ namespace lagen {
 
 namespace {
 
-/// value(z) = target for unknown lanes z, where `value` is the slope of `function`.
-struct Inversion {
-    std::vector<NodeId> unknowns, values;
-    NodeId function;
-    const char* given; ///< for the message
-    const char* wanted;
-};
-
-/// By Newton's method. Throws MathematicsError where the lanes are not shown to be unique, or not found.
-std::vector<long double> invert(Graph& graph, const Regularity& regularity, const Inversion& inversion,
-                                const std::vector<NamedNumber>& target, Values inputs)
+[[noreturn]] void fail_start(const char* given, const char* wanted, const std::string& why)
 {
-    const auto fail = [&](const std::string& why) {
-        throw MathematicsError(fmt::format("the {} of the start {}", inversion.given, why),
-                               fmt::format("give the {} in `initial` instead", inversion.wanted));
-    };
-    const std::string& obstacle = regularity.legendre_obstacle;
-    if (!obstacle.empty()) fail(fmt::format("are not shown to fix the {}: {}", inversion.wanted, obstacle));
-    std::vector<NodeId> residuals;
-    for (std::size_t a = 0; a < inversion.values.size(); ++a) {
-        const NodeId wanted = graph.input("start of " + graph.input_name(inversion.unknowns[a]));
-        inputs[graph.input_name(wanted)] = target[a].second;
-        residuals.push_back(graph.subtract(inversion.values[a], wanted));
-    }
-    const ImplicitBlock block = gradient_block(graph, inversion.wanted, "", inversion.unknowns, residuals,
-                                               inversion.function, regularity.newton_start);
-    try {
-        solve_unknowns<long double>(graph, {&block, 1}, inputs);
-    } catch (const MathematicsError&) {
-        fail(fmt::format("have no {} that Newton's method finds", inversion.wanted));
-    }
-    std::vector<long double> lanes;
-    for (const NodeId unknown : inversion.unknowns) lanes.push_back(inputs.at(graph.input_name(unknown)));
-    return lanes;
-}
-
-/// y with dL/dy = the given momenta.
-std::vector<long double> velocities_of(const CheckedModel& checked, const SceneValues& values, const Values& inputs)
-{
-    const System& system = checked.system;
-    Graph graph = system.graph;
-    const LagrangianNodes lagrangian = lagrangian_nodes(graph, system);
-    return invert(graph, checked.report.mechanics.regularity,
-                  {system.algebroid.y, lagrangian.fibre.momenta, *system.lagrangian, "momenta", "fibre coordinates"},
-                  values.momenta, inputs);
-}
-
-/// mu = dL/dy at the given fibre coordinates, or mu with dH/dmu = them.
-std::vector<long double> momenta_of(const CheckedModel& checked, const SceneValues& values, Values inputs)
-{
-    const System& system = checked.system;
-    Graph graph = system.graph;
-    if (!system.lagrangian)
-        return invert(
-            graph, checked.report.mechanics.regularity,
-            {system.mu, given_hamiltonian(graph, system).y, *system.hamiltonian, "fibre coordinates", "momenta"},
-            values.fibre, inputs);
-    for (const auto& [name, value] : values.fibre) inputs[name] = value;
-    if (values.fibre.empty()) return {};
-    const LagrangianNodes lagrangian = lagrangian_nodes(graph, system);
-    std::vector<long double> momenta = evaluate<long double>(graph, lagrangian.fibre.momenta, inputs);
-    if (!std::ranges::all_of(momenta, [](long double mu) { return std::isfinite(mu); }))
-        throw MathematicsError("the momenta dL/dy of the start are no finite numbers",
-                               "L is not defined, or not smooth, at the initial values");
-    return momenta;
+    throw MathematicsError(fmt::format("the {} of the start {}", given, why),
+                           fmt::format("give the {} in `initial` instead", wanted));
 }
 
 } // namespace
 
-std::vector<long double> start_state(const std::function<const CheckedModel&()>& checked, const std::string& form,
-                                     const SceneValues& values)
+/// z with values(z) = what is given, where `values` are the slopes of `function`. Throws MathematicsError where z is
+/// not shown to be unique.
+StartState::Conversion StartState::inversion(Graph graph, const Regularity& regularity, std::vector<NodeId> unknowns,
+                                             const std::vector<NodeId>& values, NodeId function, const char* given,
+                                             const char* wanted)
 {
-    Values inputs;
+    const std::string& obstacle = regularity.legendre_obstacle;
+    if (!obstacle.empty()) fail_start(given, wanted, fmt::format("are not shown to fix the {}: {}", wanted, obstacle));
+    std::vector<NodeId> residuals;
+    std::vector<std::string> targets;
+    for (std::size_t a = 0; a < values.size(); ++a) {
+        targets.push_back("start of " + graph.input_name(unknowns[a]));
+        residuals.push_back(graph.subtract(values[a], graph.input(targets[a])));
+    }
+    ImplicitBlock block = gradient_block(graph, wanted, "", unknowns, residuals, function, regularity.newton_start);
+    return {std::move(graph), std::move(unknowns), std::move(block), std::move(targets), given, wanted};
+}
+
+/// y with dL/dy = the given momenta.
+StartState::Conversion StartState::to_velocities(const CheckedModel& checked)
+{
+    const System& system = checked.system;
+    Graph graph = system.graph;
+    const std::vector<NodeId> momenta = lagrangian_nodes(graph, system).fibre.momenta;
+    return inversion(std::move(graph), checked.report.mechanics.regularity, system.algebroid.y, momenta,
+                     *system.lagrangian, "momenta", "fibre coordinates");
+}
+
+/// mu = dL/dy at the given fibre coordinates, or mu with dH/dmu = them.
+StartState::Conversion StartState::to_momenta(const CheckedModel& checked)
+{
+    const System& system = checked.system;
+    Graph graph = system.graph;
+    const char *given = "fibre coordinates", *wanted = "momenta";
+    if (!system.lagrangian) {
+        const std::vector<NodeId> velocities = given_hamiltonian(graph, system).y;
+        return inversion(std::move(graph), checked.report.mechanics.regularity, system.mu, velocities,
+                         *system.hamiltonian, given, wanted);
+    }
+    std::vector<NodeId> momenta = lagrangian_nodes(graph, system).fibre.momenta;
+    std::vector<std::string> targets;
+    for (const NodeId y : system.algebroid.y) targets.push_back(graph.input_name(y));
+    return {std::move(graph), std::move(momenta), std::nullopt, std::move(targets), given, wanted};
+}
+
+std::vector<long double> StartState::converted(const std::vector<NamedNumber>& given, Values inputs) const
+{
+    const Conversion& to = *conversion_;
+    for (std::size_t a = 0; a < given.size(); ++a) inputs[to.targets[a]] = given[a].second;
+    if (to.block) {
+        try {
+            solve_unknowns<long double>(to.graph, {&*to.block, 1}, inputs);
+        } catch (const MathematicsError&) {
+            fail_start(to.given, to.wanted, fmt::format("have no {} that Newton's method finds", to.wanted));
+        }
+    }
+    std::vector<long double> lanes = evaluate<long double>(to.graph, to.lanes, inputs);
+    if (!std::ranges::all_of(lanes, [](long double lane) { return std::isfinite(lane); }))
+        throw MathematicsError("the momenta dL/dy of the start are no finite numbers",
+                               "L is not defined, or not smooth, at the initial values");
+    return lanes;
+}
+
+bool StartState::prepare(bool has_momenta, bool any)
+{
+    const EquationForm& form = form_named(form_);
+    if (!any || has_momenta == form.momenta) return false;
+    if (form.kind == FormKind::pontryagin) throw InternalError("a scene in Pontryagin's form without momenta");
+    if (!conversion_) conversion_ = has_momenta ? to_velocities(checked_()) : to_momenta(checked_());
+    return true;
+}
+
+std::vector<long double> StartState::operator()(const SceneValues& values)
+{
     std::vector<long double> state;
-    for (const auto& [name, value] : values.parameters) inputs[name] = value;
-    for (const auto& [name, value] : values.base) {
-        inputs[name] = value;
-        state.push_back(value);
-    }
-    inputs["t"] = values.start;
-    const auto append = [&](const std::vector<long double>& lanes) {
-        state.insert(state.end(), lanes.begin(), lanes.end());
-        return state;
+    const auto append = [&](const std::vector<NamedNumber>& lanes) {
+        for (const auto& [name, value] : lanes) state.push_back(value);
     };
-    std::vector<long double> given;
-    for (const auto& [name, value] : values.momenta.empty() ? values.fibre : values.momenta) given.push_back(value);
+    append(values.base);
     const bool has_momenta = !values.momenta.empty();
-    switch (form_named(form).kind) {
-    case FormKind::lagrange: return append(has_momenta ? velocities_of(checked(), values, inputs) : given);
-    case FormKind::hamilton:
-        return append(has_momenta || given.empty() ? given : momenta_of(checked(), values, inputs));
-    case FormKind::pontryagin:
-        if (has_momenta || given.empty()) return append(given);
-        throw InternalError("a scene in Pontryagin's form without momenta");
+    const std::vector<NamedNumber>& given = has_momenta ? values.momenta : values.fibre;
+    if (!prepare(has_momenta, !given.empty())) {
+        append(given);
+        return state;
     }
-    throw InternalError("a form without a start");
+    Values inputs;
+    for (const std::vector<NamedNumber>* group : {&values.parameters, &values.base})
+        for (const auto& [name, value] : *group) inputs[name] = value;
+    inputs["t"] = values.start;
+    const std::vector<long double> lanes = converted(given, std::move(inputs));
+    state.insert(state.end(), lanes.begin(), lanes.end());
+    return state;
 }
 
 } // namespace lagen

@@ -2,18 +2,52 @@
 /// Where a run starts, in the lanes of the generated state.
 #pragma once
 
+#include "graph/unknowns/implicit.hpp"
 #include "pipeline.hpp"
 #include "scene/evaluate_scene.hpp"
 
 #include <functional>
+#include <optional>
 
 namespace lagen {
 
 /// Base lanes, then the other lanes of `form`. Lagrange's form with momenta given: y solves p_a(x, y) =
 /// mu_a. Hamilton's with fibre coordinates given: mu = dL/dy, or mu solves dH/dmu_a = y^a. By Newton's method from 0,
 /// in long double; throws MathematicsError where it does not converge. `checked` is called where the values given are
-/// not the lanes themselves.
-[[nodiscard]] std::vector<long double> start_state(const std::function<const CheckedModel&()>& checked,
-                                                   const std::string& form, const SceneValues& values);
+/// not the lanes themselves, once.
+class StartState {
+  public:
+    StartState(std::function<const CheckedModel&()> checked, std::string form)
+        : checked_(std::move(checked)), form_(std::move(form))
+    {
+    }
+
+    /// Makes ready for scenes that give momenta, or fibre coordinates, if there are `any`; false where nothing is
+    /// converted.
+    bool prepare(bool has_momenta, bool any);
+    /// The values of one scene after the other; all give fibre coordinates, or all momenta.
+    [[nodiscard]] std::vector<long double> operator()(const SceneValues& values);
+
+  private:
+    /// From the lanes that are given to those of the form.
+    struct Conversion {
+        Graph graph;
+        std::vector<NodeId> lanes;          ///< functions of what is given, or unknowns
+        std::optional<ImplicitBlock> block; ///< of the unknowns
+        std::vector<std::string> targets;   ///< names of the inputs that hold what is given
+        const char* given;                  ///< for the message
+        const char* wanted;
+    };
+    [[nodiscard]] static Conversion to_velocities(const CheckedModel& checked);
+    [[nodiscard]] static Conversion to_momenta(const CheckedModel& checked);
+    [[nodiscard]] static Conversion inversion(Graph graph, const Regularity& regularity, std::vector<NodeId> unknowns,
+                                              const std::vector<NodeId>& values, NodeId function, const char* given,
+                                              const char* wanted);
+    [[nodiscard]] std::vector<long double> converted(const std::vector<NamedNumber>& given, Values inputs) const;
+
+    std::function<const CheckedModel&()> checked_;
+    std::string form_;
+    std::optional<Conversion> conversion_;
+};
 
 } // namespace lagen

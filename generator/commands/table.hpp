@@ -21,6 +21,10 @@ struct Table {
 /// The fields of one CSV line of numbers; an empty one stands for what is no finite number.
 [[nodiscard]] std::vector<std::string_view> fields(std::string_view line);
 
+/// Names of columns as identifiers, all different: x[1] is x_1, W[1,1] is W_1_1; one that was there before gets a
+/// number.
+[[nodiscard]] std::vector<std::string> csv_names(const std::vector<std::string>& names);
+
 /// RFC 4180: a heading (quoted where needed), then the rows, CRLF line ends.
 [[nodiscard]] std::string to_csv(const Table& table);
 

@@ -10,17 +10,6 @@ namespace lagen {
 
 namespace {
 
-/// Round to nearest; mpq_get_d would truncate.
-double nearest_double(const Rational& value)
-{
-    mpfr_t number;
-    mpfr_init2(number, 53);
-    mpfr_set_q(number, value.get_mpq_t(), MPFR_RNDN);
-    const double result = mpfr_get_d(number, MPFR_RNDN);
-    mpfr_clear(number);
-    return result;
-}
-
 /// The shortest decimal that reads back as the same double, with a point so that C++ takes it for a double.
 std::string print_double(double value)
 {
@@ -56,6 +45,16 @@ Spelling print_two_doubles(const Rational& value)
 }
 
 } // namespace
+
+double nearest_double(const Rational& value)
+{
+    mpfr_t number;
+    mpfr_init2(number, 53);
+    mpfr_set_q(number, value.get_mpq_t(), MPFR_RNDN);
+    const double result = mpfr_get_d(number, MPFR_RNDN);
+    mpfr_clear(number);
+    return result;
+}
 
 Spelling print_literal(const Rational& value)
 {

@@ -12,6 +12,9 @@ struct Spelling {
     int precedence = 5; ///< 0 comparison, 1 sum and sign, 2 product and quotient, 5 closed
 };
 
+/// Rounded to nearest; mpq_get_d would truncate.
+[[nodiscard]] double nearest_double(const Rational& value);
+
 /// S(2), S(0.5), S(1) / S(10): the nearest value in float, double, long double and wider types alike. Where numerator
 /// or denominator needs more than 53 bits: the sum of two doubles (107 bits).
 [[nodiscard]] Spelling print_literal(const Rational& value);

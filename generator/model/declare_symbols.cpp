@@ -76,6 +76,14 @@ std::vector<Symbol> parameter_symbols(const Model& model)
     return out;
 }
 
+std::vector<Symbol> free_parameters(const Model& model)
+{
+    std::vector<Symbol> out;
+    for (const Parameter& parameter : model.parameters)
+        if (!parameter.bound) out.push_back(parameter.symbol);
+    return out;
+}
+
 void declare_symbols(ModelReader& reader, const std::vector<Symbol>& symbols, Role role)
 {
     const std::size_t first = count_of(reader.model, role);

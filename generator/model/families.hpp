@@ -71,6 +71,8 @@ struct SymbolGroup {
 void declare_symbols(ModelReader& reader, const std::vector<Symbol>& symbols, Role role);
 
 [[nodiscard]] std::vector<Symbol> parameter_symbols(const Model& model);
+/// Those that are not bound.
+[[nodiscard]] std::vector<Symbol> free_parameters(const Model& model);
 
 /// Declares the symbols of one role and their families in `scope`.
 void add_to_scope(Scope& scope, const Model& model, const std::vector<Symbol>& symbols, FamilyRole role);

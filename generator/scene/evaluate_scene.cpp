@@ -3,74 +3,18 @@
 #include "scene/evaluate_scene.hpp"
 
 #include "model/dependency_order.hpp"
-#include "scene/project_start.hpp"
-#include "scene/values.hpp"
+#include "model/families.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
-#include <set>
 
 namespace lagen {
 
 namespace {
 
 constexpr long double constraint_tolerance = 1e-10L;
-
-long double finite(const Tree& tree, const Values& values, const std::string& what, const SourceRange& where)
-{
-    const long double value = value_of(tree, values);
-    if (std::isfinite(value)) return value;
-    throw ModelError(fmt::format("{} is {}, where a finite number is required", what, static_cast<double>(value)),
-                     tree->where.file ? tree->where : where);
-}
-
-Values parameter_values(const Model& model, const Scene& scene)
-{
-    std::map<std::string, const NamedTree*> own;
-    for (const NamedTree& entry : scene.parameters) own.emplace(entry.name, &entry);
-    std::vector<NamedTree> trees;
-    for (const Parameter& parameter : model.parameters) {
-        const auto place = own.find(parameter.symbol.name);
-        trees.push_back(place != own.end() ? *place->second
-                                           : NamedTree{parameter.symbol.name, parameter.value, parameter.symbol.where});
-    }
-    Values values;
-    for (const std::size_t k : dependency_order(trees, "parameters")) {
-        const std::string what = fmt::format("the value of parameter '{}'", trees[k].name);
-        values[trees[k].name] = finite(trees[k].value, values, what, trees[k].where);
-    }
-    return values;
-}
-
-std::optional<long double> optional_value(const Tree& tree, const Values& values, const char* key, const Scene& scene,
-                                          bool positive)
-{
-    if (!tree) return std::nullopt;
-    const std::string what = fmt::format("'{}' of scene '{}'", key, scene.name);
-    const long double value = finite(tree, values, what, scene.where);
-    if (positive && !(value > 0)) {
-        throw ModelError(fmt::format("{} is {}, where a positive number is required", what, static_cast<double>(value)),
-                         tree->where.file ? tree->where : scene.where);
-    }
-    return value;
-}
-
-void read_times(const Scene& scene, const Values& values, SceneValues& out)
-{
-    out.start = optional_value(scene.start, values, "start", scene, false).value_or(0);
-    out.duration = optional_value(scene.duration, values, "duration", scene, false);
-    out.step = optional_value(scene.step, values, "step", scene, true);
-    const std::optional<long double> tolerance = optional_value(scene.tolerance, values, "tolerance", scene, true);
-    out.relative = optional_value(scene.relative, values, "relative", scene, true);
-    out.absolute = optional_value(scene.absolute, values, "absolute", scene, true);
-    if (tolerance) out.relative = out.absolute = tolerance;
-    out.interval = optional_value(scene.sampling.interval, values, "sample", scene, true);
-    for (const Tree& time : scene.sampling.at) {
-        out.at.push_back(finite(time, values, fmt::format("a time in 'at' of scene '{}'", scene.name), scene.where));
-    }
-}
 
 /// The whole text of a comparison or constraint as the user wrote it, or printed where its place is unknown.
 std::string written(const Tree& tree)
@@ -80,64 +24,11 @@ std::string written(const Tree& tree)
     return known ? where.file->text.substr(where.begin, where.end - where.begin) : to_text(tree);
 }
 
-void require_constraints(const Model& model, const Scene& scene, Values& values)
-{
-    if (model.base.constraints.empty()) return;
-    const ConstraintFunctions constraints(model);
-    if (scene.project && !project_start(constraints, values)) {
-        throw ModelError(
-            fmt::format("the start of scene '{}' cannot be moved onto the constraints by Newton's method", scene.name),
-            scene.where, "give a start that is nearer to them");
-    }
-    const std::vector<ConstraintValue> h = constraints.at(values);
-    for (std::size_t k = 0; k < h.size(); ++k) {
-        if (h[k].holds(constraint_tolerance)) continue;
-        throw ModelError(
-            fmt::format("the start of scene '{}' misses the constraint {} = 0: its left side is {:.6g}, where at most "
-                        "{:.3g} is allowed",
-                        scene.name, written(model.base.constraints[k]), static_cast<double>(h[k].value),
-                        static_cast<double>(constraint_tolerance * h[k].scale)),
-            scene.where, "correct the initial values, or let lagen move them: project = true");
-    }
-}
-
 bool has_coordinate(const Model& model, const Tree& tree)
 {
     const std::vector<std::string> names = names_in(tree);
     const auto stands = [&](const Symbol& each) { return std::ranges::find(names, each.name) != names.end(); };
     return std::ranges::any_of(model.base.coordinates, stands);
-}
-
-void require_domain(const Model& model, const Scene& scene, const Values& values)
-{
-    for (const Tree& condition : model.base.domain) {
-        if (value_of(condition, values) == 1) continue;
-        throw ModelError(
-            fmt::format(
-                "the start of scene '{}' lies outside the domain: {} is required, but the left side is {:.6g} and "
-                "the right side {:.6g}",
-                scene.name, written(condition), static_cast<double>(value_of(condition->arguments[0], values)),
-                static_cast<double>(value_of(condition->arguments[1], values))),
-            scene.where, has_coordinate(model, condition) ? "correct the initial values" : "correct the parameters");
-    }
-}
-
-/// Of bounds over parameters.
-void require_bounds(const Model& model, const Scene& scene, const Values& parameters)
-{
-    if (!model.control) return;
-    for (const ControlBound& bound : model.control->bounds) {
-        const std::string& name = model.control->controls[bound.control].name;
-        const std::string what = fmt::format("a bound of '{}'", name);
-        constexpr long double infinity = std::numeric_limits<long double>::infinity();
-        const long double lower = bound.lower ? finite(bound.lower, parameters, what, bound.where) : -infinity;
-        const long double upper = bound.upper ? finite(bound.upper, parameters, what, bound.where) : infinity;
-        if (lower < upper) continue;
-        throw ModelError(
-            fmt::format("in scene '{}' the bounds of '{}' are {:.6g} and {:.6g}, where the first must be the smaller",
-                        scene.name, name, static_cast<double>(lower), static_cast<double>(upper)),
-            bound.where, "correct the parameters");
-    }
 }
 
 std::vector<NamedNumber> pick(const std::vector<Symbol>& symbols, const Values& values)
@@ -152,37 +43,170 @@ std::vector<NamedNumber> pick(const std::vector<Symbol>& symbols, const Values& 
 
 } // namespace
 
-SceneValues evaluate_scene(const Model& model, const Scene& scene)
+SceneEvaluator::SceneEvaluator(const Model& model, const Scene& scene) : model_(model), scene_(scene)
+{
+    std::map<std::string, const NamedTree*> own;
+    for (const NamedTree& entry : scene_.parameters) own.emplace(entry.name, &entry);
+    std::vector<NamedTree> trees;
+    for (const Parameter& parameter : model_.parameters) {
+        const auto place = own.find(parameter.symbol.name);
+        trees.push_back(place != own.end() ? *place->second
+                                           : NamedTree{parameter.symbol.name, parameter.value, parameter.symbol.where});
+    }
+    for (const std::size_t k : dependency_order(trees, "parameters")) parameters_.push_back(std::move(trees[k]));
+}
+
+/// `what` with `name` in it calls the value in a message.
+long double SceneEvaluator::finite(const Tree& tree, const Values& values, const char* what, const std::string& name,
+                                   const SourceRange& where)
+{
+    const long double value = value_of_(tree, values);
+    if (std::isfinite(value)) return value;
+    throw StartError("non_finite",
+                     fmt::format("{} is {}, where a finite number is required", fmt::format(fmt::runtime(what), name),
+                                 static_cast<double>(value)),
+                     tree->where.file ? tree->where : where);
+}
+
+Values SceneEvaluator::parameter_values(const Values& given)
+{
+    Values values;
+    for (const NamedTree& parameter : parameters_) {
+        const auto place = given.find(parameter.name);
+        values[parameter.name] = place != given.end() ? place->second
+                                                      : finite(parameter.value, values, "the value of parameter '{}'",
+                                                               parameter.name, parameter.where);
+    }
+    return values;
+}
+
+/// `what` as for `finite`, of the scene.
+std::optional<long double> SceneEvaluator::optional_value(const Tree& tree, const Values& values, const char* what,
+                                                          bool positive)
+{
+    if (!tree) return std::nullopt;
+    const long double value = finite(tree, values, what, scene_.name, scene_.where);
+    if (positive && !(value > 0)) {
+        throw StartError("invalid_input",
+                         fmt::format("{} is {}, where a positive number is required",
+                                     fmt::format(fmt::runtime(what), scene_.name), static_cast<double>(value)),
+                         tree->where.file ? tree->where : scene_.where);
+    }
+    return value;
+}
+
+void SceneEvaluator::read_times(const Values& values, SceneValues& out)
+{
+    const auto number = [&](const Tree& tree, const char* what, bool positive) {
+        return optional_value(tree, values, what, positive);
+    };
+    out.start = number(scene_.start, "'start' of scene '{}'", false).value_or(0);
+    out.duration = number(scene_.duration, "'duration' of scene '{}'", false);
+    out.step = number(scene_.step, "'step' of scene '{}'", true);
+    const std::optional<long double> tolerance = number(scene_.tolerance, "'tolerance' of scene '{}'", true);
+    out.relative = number(scene_.relative, "'relative' of scene '{}'", true);
+    out.absolute = number(scene_.absolute, "'absolute' of scene '{}'", true);
+    if (tolerance) out.relative = out.absolute = tolerance;
+    out.interval = number(scene_.sampling.interval, "'sample' of scene '{}'", true);
+    for (const Tree& time : scene_.sampling.at)
+        out.at.push_back(finite(time, values, "a time in 'at' of scene '{}'", scene_.name, scene_.where));
+}
+
+void SceneEvaluator::require_constraints(Values& values)
+{
+    if (model_.base.constraints.empty()) return;
+    if (!constraints_) constraints_.emplace(model_);
+    if (scene_.project && !project_start(*constraints_, values)) {
+        throw StartError(
+            "off_constraint",
+            fmt::format("the start of scene '{}' cannot be moved onto the constraints by Newton's method", scene_.name),
+            scene_.where, "give a start that is nearer to them");
+    }
+    const std::vector<ConstraintValue> h = constraints_->at(values);
+    for (std::size_t k = 0; k < h.size(); ++k) {
+        if (h[k].holds(constraint_tolerance)) continue;
+        throw StartError(
+            "off_constraint",
+            fmt::format("the start of scene '{}' misses the constraint {} = 0: its left side is {:.6g}, where at most "
+                        "{:.3g} is allowed",
+                        scene_.name, written(model_.base.constraints[k]), static_cast<double>(h[k].value),
+                        static_cast<double>(constraint_tolerance * h[k].scale)),
+            scene_.where, "correct the initial values, or let lagen move them: project = true");
+    }
+}
+
+void SceneEvaluator::require_domain(const Values& values)
+{
+    for (const Tree& condition : model_.base.domain) {
+        if (value_of_(condition, values) == 1) continue;
+        throw StartError(
+            "left_domain",
+            fmt::format(
+                "the start of scene '{}' lies outside the domain: {} is required, but the left side is {:.6g} and "
+                "the right side {:.6g}",
+                scene_.name, written(condition), static_cast<double>(value_of_(condition->arguments[0], values)),
+                static_cast<double>(value_of_(condition->arguments[1], values))),
+            scene_.where, has_coordinate(model_, condition) ? "correct the initial values" : "correct the parameters");
+    }
+}
+
+/// Of bounds over parameters.
+void SceneEvaluator::require_bounds(const Values& parameters)
+{
+    if (!model_.control) return;
+    for (const ControlBound& bound : model_.control->bounds) {
+        const std::string& name = model_.control->controls[bound.control].name;
+        const auto value = [&](const Tree& tree, long double none) {
+            return tree ? finite(tree, parameters, "a bound of '{}'", name, bound.where) : none;
+        };
+        constexpr long double infinity = std::numeric_limits<long double>::infinity();
+        const long double lower = value(bound.lower, -infinity), upper = value(bound.upper, infinity);
+        if (lower < upper) continue;
+        throw StartError(
+            "invalid_input",
+            fmt::format("in scene '{}' the bounds of '{}' are {:.6g} and {:.6g}, where the first must be the smaller",
+                        scene_.name, name, static_cast<double>(lower), static_cast<double>(upper)),
+            bound.where, "correct the parameters");
+    }
+}
+
+std::vector<NamedNumber> SceneEvaluator::parameters(const Values& given)
+{
+    return pick(free_parameters(model_), parameter_values(given));
+}
+
+SceneValues SceneEvaluator::operator()(const Values& given, const Values& initial)
 {
     SceneValues out;
-    const Values parameters = parameter_values(model, scene);
-    for (const Parameter& parameter : model.parameters) {
-        if (parameter.bound) continue;
-        out.parameters.emplace_back(parameter.symbol.name, parameters.at(parameter.symbol.name));
-    }
-    read_times(scene, parameters, out);
+    const Values parameters = parameter_values(given);
+    out.parameters = pick(free_parameters(model_), parameters);
+    read_times(parameters, out);
     Values values = parameters;
-    std::set<std::string> given;
-    for (const NamedTree& entry : scene.initial) {
-        const std::string what = fmt::format("the initial value of '{}'", entry.name);
-        values[entry.name] = finite(entry.value, parameters, what, entry.where);
-        given.insert(entry.name);
+    bool has_momenta = false;
+    for (const NamedTree& entry : scene_.initial) {
+        const auto place = initial.find(entry.name);
+        values[entry.name] = place != initial.end() ? place->second
+                                                    : finite(entry.value, parameters, "the initial value of '{}'",
+                                                             entry.name, entry.where);
+        const auto is_entry = [&](const Symbol& symbol) { return symbol.name == entry.name; };
+        has_momenta = has_momenta || std::ranges::any_of(model_.fibre.momenta, is_entry);
     }
-    require_constraints(model, scene, values);
-    require_domain(model, scene, values);
-    require_bounds(model, scene, parameters);
-    out.base = pick(model.base.coordinates, values);
-    const auto is_given = [&](const Symbol& symbol) { return given.contains(symbol.name); };
-    const Fibre& fibre = model.fibre;
-    if (std::any_of(fibre.momenta.begin(), fibre.momenta.end(), is_given)) {
-        out.momenta = pick(fibre.momenta, values);
-    } else {
-        out.fibre = pick(fibre.coordinates, values);
-    }
-    for (const NamedTree& casimir : model.base.casimirs) {
-        out.casimirs.emplace_back(casimir.name, value_of(casimir.value, values));
-    }
+    require_constraints(values);
+    require_domain(values);
+    require_bounds(parameters);
+    out.base = pick(model_.base.coordinates, values);
+    if (has_momenta)
+        out.momenta = pick(model_.fibre.momenta, values);
+    else
+        out.fibre = pick(model_.fibre.coordinates, values);
+    for (const NamedTree& casimir : model_.base.casimirs)
+        out.casimirs.emplace_back(casimir.name, value_of_(casimir.value, values));
     return out;
+}
+
+SceneValues evaluate_scene(const Model& model, const Scene& scene)
+{
+    return SceneEvaluator(model, scene)({}, {});
 }
 
 } // namespace lagen

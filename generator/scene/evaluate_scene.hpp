@@ -2,7 +2,10 @@
 /// A scene in numbers: what a run starts from.
 #pragma once
 
+#include "diagnostic.hpp"
 #include "model/model.hpp"
+#include "scene/project_start.hpp"
+#include "scene/values.hpp"
 
 #include <optional>
 #include <string>
@@ -27,10 +30,51 @@ struct SceneValues {
     std::vector<long double> at;                   ///< of `at`
 };
 
-/// Evaluates every tree of the scene in long double. Throws ModelError: a value that is not finite, a step, tolerance
+/// A scene cannot start from its numbers. `status` says so in a word, as runs do: non_finite, invalid_input,
+/// left_domain or off_constraint.
+class StartError : public ModelError {
+  public:
+    StartError(const char* status, std::string message, SourceRange where, std::string hint = {})
+        : ModelError(std::move(message), std::move(where), std::move(hint)), status_(status)
+    {
+    }
+    [[nodiscard]] const char* status() const noexcept { return status_; }
+
+  private:
+    const char* status_;
+};
+
+/// Evaluates every tree of the scene in long double. Throws StartError: a value that is not finite, a step, tolerance
 /// or sampling interval that is not positive, a start outside the domain, and a start off a constraint h by more than
 /// 1e-10 relative to its terms, |h| > 1e-10 max(sum |terms of h|, sum_i |x^i dh/dx^i|). With `project` the start is
 /// first moved by Newton steps of least length, dx = -J^T (J J^T)^-1 h, in the base coordinates.
 [[nodiscard]] SceneValues evaluate_scene(const Model& model, const Scene& scene);
+
+/// The same again and again, with other numbers for some parameters and initial values. `model` outlives it.
+class SceneEvaluator {
+  public:
+    SceneEvaluator(const Model& model, const Scene& scene);
+
+    /// Numbers by name stand in the place of what model and scene say.
+    [[nodiscard]] SceneValues operator()(const Values& parameters, const Values& initial);
+    /// Every parameter, in order of declaration.
+    [[nodiscard]] std::vector<NamedNumber> parameters(const Values& given);
+
+  private:
+    long double finite(const Tree& tree, const Values& values, const char* what, const std::string& name,
+                       const SourceRange& where);
+    Values parameter_values(const Values& given);
+    std::optional<long double> optional_value(const Tree& tree, const Values& values, const char* what, bool positive);
+    void read_times(const Values& values, SceneValues& out);
+    void require_constraints(Values& values);
+    void require_domain(const Values& values);
+    void require_bounds(const Values& parameters);
+
+    const Model& model_;
+    Scene scene_;
+    TreeValues value_of_;
+    std::optional<ConstraintFunctions> constraints_;
+    std::vector<NamedTree> parameters_; ///< in the order in which they can be computed
+};
 
 } // namespace lagen

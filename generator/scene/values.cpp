@@ -6,11 +6,15 @@
 
 namespace lagen {
 
-long double value_of(const Tree& tree, const Values& values)
+long double TreeValues::operator()(const Tree& tree, const Values& values)
 {
-    Graph graph;
-    const NodeId output[] = {Lowering(graph)(tree)};
-    return evaluate<long double>(graph, output, values)[0];
+    auto place = lowered_.find(tree);
+    if (place == lowered_.end()) {
+        Lowered lowered;
+        lowered.root = Lowering(lowered.graph)(tree);
+        place = lowered_.emplace(tree, std::move(lowered)).first;
+    }
+    return evaluate<long double>(place->second.graph, {&place->second.root, 1}, values)[0];
 }
 
 } // namespace lagen

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// `lagen sweep`: one scene from many starts and with many parameters, a row for each.
+#include "commands/command.hpp"
+#include "commands/places.hpp"
+#include "commands/preparation.hpp"
+#include "commands/scene_options.hpp"
+#include "commands/sweep_run.hpp"
+#include "commands/write_file.hpp"
+#include "elaborate/bind_parameters.hpp"
+#include "model/scene_form.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace lagen {
+
+namespace {
+
+const std::string sweep_form_help = form_list() + "; without it the scene's, else the model's";
+
+const CommandSyntax sweep_syntax{
+    "sweep",
+    "MODEL...",
+    "Integrates a scene for many values of parameters and initial values: a row of CSV a trajectory, with the scene's "
+    "columns at its end.\nRanges FIRST:LAST:COUNT make a grid, ends included, the last of them fastest; with --random "
+    "they are FIRST:LAST.\nWith --merge the arguments are the parts of a sweep, which are put together.",
+    {{"output,o", "FILE", "the table; FILE.partial until it is complete"},
+     {"set", "NAME=RANGE", "a parameter's range, or one value for all rows (may be repeated)"},
+     {"initial", "NAME=RANGE", "the same of an initial value (may be repeated)"},
+     {"bind", "NAMES", bind_help},
+     {"random", "N", "N rows, drawn uniformly from the ranges"},
+     {"seed", "S", "of the draws; row k follows from S and k alone", "0"},
+     {"ensemble", "FILE", "a row for each row of a CSV file, whose heading names parameters and initial values"},
+     {"threads", "N", "without it as many as there are cores for this process"},
+     {"resume", nullptr, "go on where an interrupted call of the same command ended"},
+     {"shard", "K/N", "rows K, K + N, .. alone; without it rank and size that mpirun, srun or a Slurm array set"},
+     {"merge", nullptr, "put the parts of a sweep together"},
+     {"scene", "NAME", "the scene; without it `default`, else the first"},
+     {"form", "FORM", sweep_form_help.c_str()},
+     {"method", "METHOD", "see `lagen methods`; without it the scene's, else dop853"},
+     {"step", "H", "step of a fixed-step method"},
+     {"tolerance", "TOL", "relative and absolute tolerance of an adaptive method; without it the scene's, else 1e-10"},
+     {"t-end", "T", "end of each run; without it the scene's duration"},
+     {"unchecked", nullptr, "go on although the model is refuted"}}};
+
+/// Which sweep a file belongs to: parts have the same key on all machines, and what is resumed the same build too.
+SweepIdentity identity_of(const Options& options, const Model& model, const SweepRows& rows, const Shard& shard,
+                          const std::string& heading)
+{
+    ContentHash hash;
+    add_model(hash, model);
+    hash.add(LAGEN_VERSION).add(rows.text).add(heading);
+    for (const char* name : {"scene", "form", "method", "step", "tolerance", "t-end", "unchecked"})
+        hash.add(options.has(name) ? name : "").add(options.get(name));
+    for (const auto& [name, value] : options.given())
+        if (name == "set" || name == "initial" || name == "bind") hash.add(name).add(value);
+    return {hash.hex32(), std::filesystem::path(record_file(model, {})).filename().string(), rows.count, shard, false};
+}
+
+std::size_t threads_of(const Options& options)
+{
+    constexpr std::uint64_t most_threads = 4096;
+    if (!options.has("threads")) return launched_threads();
+    const std::optional<std::uint64_t> count = read_whole(options.get("threads"));
+    if (count && *count >= 1 && *count <= most_threads) return static_cast<std::size_t>(*count);
+    throw UsageError(fmt::format("lagen sweep: --threads is '{}', where a whole number from 1 to {} is required",
+                                 options.get("threads"), most_threads));
+}
+
+/// What became of the rows, for standard error.
+std::string summary(const std::string& path, const SweepFile& file, const std::map<std::string, std::string>& reasons)
+{
+    std::string kinds, why;
+    std::uint64_t failed = 0;
+    for (const auto& [status, count] : file.statuses()) {
+        if (status == "ok" || status == "stopped_by_event") continue;
+        failed += count;
+        kinds += fmt::format("{}{} {}", kinds.empty() ? "" : ", ", count, status);
+        if (const auto reason = reasons.find(status); reason != reasons.end())
+            why += fmt::format("  {}: {}\n", status, reason->second);
+    }
+    return fmt::format("{}: {} row{}{}\n{}", path, file.rows(), file.rows() == 1 ? "" : "s",
+                       failed == 0 ? "" : fmt::format(", {} failed: {}", failed, kinds), why);
+}
+
+void merge_parts(const Options& options)
+{
+    for (const auto& [name, value] : options.given())
+        if (name != "merge" && name != "output")
+            throw UsageError(fmt::format("lagen sweep: --merge takes the parts and --output alone, found --{}", name));
+    merge_sweep(options.positional(), options.get("output"));
+}
+
+/// The scene with an initial value for each that is swept.
+Scene with_swept(const Model& model, Scene scene, const SweepRows& rows)
+{
+    for (const SweptName& name : rows.names)
+        if (name.option == "initial") set_initial(model, scene, {name.name, whole_text("<--initial>", "0")});
+    if (!scene.duration)
+        throw ModelError(fmt::format("scene '{}' has no duration", scene.name), scene.where,
+                         "give `duration`, or --t-end");
+    return scene;
+}
+
+/// Where momenta and fibre coordinates are converted into each other, what is decided of that must hold in every row.
+void prepare_start(StartState& start, const Model& model, const Scene& scene, const RunRecord& record,
+                   const SweepRows& rows)
+{
+    if (!start.prepare(starts_from_momenta(model, scene), !model.fibre.coordinates.empty())) return;
+    const bool sets = std::ranges::any_of(rows.names, [](const SweptName& name) { return name.option == "set"; });
+    if (!sets || record.regularity.empty()) return;
+    throw MathematicsError("the start converts between momenta and fibre coordinates, which is decided for the "
+                           "parameters of the scene alone",
+                           "give `initial` the lanes of the form, or keep the parameters as they are");
+}
+
+/// The part of the command line, else of the launcher; `path` becomes the file of a rank.
+Shard shard_of(const Options& options, std::string& path)
+{
+    if (options.has("shard")) return read_shard(options.get("shard"));
+    const Shard shard = launched_shard();
+    if (shard.count == 1) return shard;
+    path = rank_file(path, shard);
+    write_standard_error(
+        fmt::format("lagen sweep: part {} of this launcher's processes writes '{}'\n", shard.text(), path));
+    return shard;
+}
+
+} // namespace
+
+ExitCode run_sweep(Arguments arguments)
+{
+    const Options options(sweep_syntax, arguments);
+    if (options.help()) return ExitCode::done;
+    const std::string output = options.get("output");
+    if (output.empty() || output == "-") throw UsageError("lagen sweep: --output FILE is missing");
+    if (options.has("merge")) return merge_parts(options), ExitCode::done;
+    if (options.positional().size() > 1)
+        throw UsageError(
+            fmt::format("lagen sweep: unexpected argument '{}' (see lagen sweep --help)", options.positional()[1]));
+    if (options.has("form")) (void)options.choice("form", form_names());
+    const SweepRequest request(options);
+    const std::size_t threads = threads_of(options);
+    std::string path = output;
+    const Shard shard = shard_of(options, path);
+
+    CheckedModel checked = read(model_path(options.positional()[0]), request.settings, options.has("unchecked"));
+    const Model& model = checked.model;
+    if (options.has("bind")) bind_in_scene(checked.model, find_scene(model, options.get("scene")));
+    Scene scene = scene_of(options, model, request.initial);
+    const SweepRows rows = sweep_rows(options, request, model, scene);
+    scene = with_swept(model, std::move(scene), rows);
+    Preparation preparation(options, checked, sweep_driver);
+    for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
+    const std::string form = form_of(model, scene);
+    const std::vector<long double> parameters = numbers(SceneEvaluator(model, scene).parameters({}), scene);
+    preparation.finish(scene, form, method_of(options, model, scene), parameters);
+    const RunRecord& record = preparation.record();
+    StartState start([&]() -> const CheckedModel& { return preparation.checked(parameters); }, form);
+    prepare_start(start, model, scene, record, rows);
+
+    const SweepSetting setting{model, scene, record.program, record.names, threads};
+    const std::string heading = sweep_heading(setting, rows);
+    const SweepIdentity identity = identity_of(options, model, rows, shard, heading);
+    SweepFile file(path, identity, heading, options.has("resume"));
+    SweepRun run(setting, rows, shard, std::move(start), file);
+    run.run();
+    file.complete();
+    write_standard_error(summary(path, file, run.reasons()));
+    if (path != output && merge_ranks(output, identity))
+        write_standard_error(fmt::format("{}: {} rows of {} parts\n", output, rows.count, shard.count));
+    return ExitCode::done;
+}
+
+} // namespace lagen

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/sweep_file.hpp"
+
+#include "commands/sweep_rows.hpp"
+#include "commands/write_file.hpp"
+#include "diagnostic.hpp"
+
+#include <fmt/core.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <sstream>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace lagen {
+
+namespace {
+
+constexpr const char* identity_line = "what `lagen sweep` writes\n";
+
+std::string identity_file(const std::string& path)
+{
+    return path + ".sweep";
+}
+
+std::string text_of(const SweepIdentity& identity)
+{
+    return fmt::format("{}key={}\nbuild={}\nrows={}\nshard={}\n{}", identity_line, identity.key, identity.build,
+                       identity.rows, identity.shard.text(), identity.complete ? "complete=yes\n" : "");
+}
+
+[[noreturn]] void refuse_writing(const std::string& path, const std::string& hint = {})
+{
+    throw MachineError(fmt::format("error: cannot write '{}': {}{}", path, std::strerror(errno), hint));
+}
+
+} // namespace
+
+std::optional<SweepIdentity> find_identity(const std::string& path)
+{
+    if (::access(identity_file(path).c_str(), R_OK) != 0) return std::nullopt;
+    const std::string text = content_of_file(identity_file(path));
+    if (!text.starts_with(identity_line)) return std::nullopt;
+    SweepIdentity identity;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with("key=")) identity.key = line.substr(4);
+        if (line.starts_with("build=")) identity.build = line.substr(6);
+        if (line.starts_with("rows=")) identity.rows = read_whole(line.substr(5)).value_or(0);
+        if (line.starts_with("shard=")) identity.shard = read_shard(line.substr(6));
+        if (line == "complete=yes") identity.complete = true;
+    }
+    return identity;
+}
+
+SweepFile::SweepFile(std::string path, const SweepIdentity& identity, const std::string& heading, bool resume)
+    : path_(std::move(path)), partial_(path_ + ".partial"), identity_(identity)
+{
+    struct stat status {};
+    if (::stat(path_.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) {
+        errno = S_ISDIR(status.st_mode) ? EISDIR : EINVAL;
+        refuse_writing(path_);
+    }
+    const std::optional<SweepIdentity> found = resume ? find_identity(path_) : std::nullopt;
+    if (found && (found->key != identity_.key || found->build != identity_.build || found->shard != identity_.shard))
+        throw UsageError(
+            fmt::format("lagen sweep: '{}' was begun by another sweep\nhint: --resume goes on with the same "
+                        "model, options and lagen; without it the sweep begins anew",
+                        partial_));
+    const bool is_partial = found && ::access(partial_.c_str(), F_OK) == 0;
+    if (found && found->complete && !is_partial && ::access(path_.c_str(), F_OK) == 0) {
+        rows_ = identity_.shard.size(identity_.rows);
+        return;
+    }
+    file_ = ::open(partial_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (file_ < 0) refuse_writing(partial_);
+    if (::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+        throw UsageError(fmt::format("lagen sweep: another sweep is writing '{}'", partial_));
+    is_partial ? go_on(heading) : begin(heading);
+}
+
+SweepFile::~SweepFile()
+{
+    if (file_ >= 0) ::close(file_);
+}
+
+void SweepFile::begin(const std::string& heading)
+{
+    if (::ftruncate(file_, 0) != 0) refuse_writing(partial_);
+    write_file(identity_file(path_), text_of(identity_));
+    write(heading);
+}
+
+/// The index at the beginning of a row and the status at its end.
+void SweepFile::see(std::string_view row)
+{
+    const std::uint64_t index = identity_.shard.index + rows_ * identity_.shard.count;
+    if (!row.starts_with(std::to_string(index) + ","))
+        throw UsageError(
+            fmt::format("lagen sweep: '{}' does not hold row {} where it must stand\nhint: without --resume "
+                        "the sweep begins anew",
+                        partial_, index));
+    ++rows_;
+    ++statuses_[std::string(row.substr(row.rfind(',') + 1))];
+}
+
+void SweepFile::go_on(const std::string& heading)
+{
+    std::string text;
+    std::array<char, 65536> buffer;
+    off_t whole = 0;
+    bool headed = false;
+    for (ssize_t count = 0; (count = ::read(file_, buffer.data(), buffer.size())) > 0;) {
+        text.append(buffer.data(), static_cast<std::size_t>(count));
+        std::size_t begin = 0;
+        for (std::size_t end = 0; (end = text.find("\r\n", begin)) != std::string::npos; begin = end + 2) {
+            const std::string_view line = std::string_view(text).substr(begin, end - begin);
+            if (headed) see(line);
+            headed = headed || std::string(line) + "\r\n" == heading;
+            if (!headed) break;
+        }
+        whole += static_cast<off_t>(begin);
+        text.erase(0, begin);
+    }
+    if (!headed) return begin(heading);
+    if (::ftruncate(file_, whole) != 0 || ::lseek(file_, whole, SEEK_SET) != whole) refuse_writing(partial_);
+}
+
+void SweepFile::write(std::string_view lines)
+{
+    while (!lines.empty()) {
+        const ssize_t count = ::write(file_, lines.data(), lines.size());
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0)
+            refuse_writing(partial_, fmt::format("\nhint: {} rows stay in it; --resume goes on with them", rows_));
+        lines.remove_prefix(static_cast<std::size_t>(count));
+    }
+}
+
+void SweepFile::append(std::string_view lines)
+{
+    write(lines);
+    for (std::size_t begin = 0, end = 0; (end = lines.find("\r\n", begin)) != std::string_view::npos; begin = end + 2)
+        see(lines.substr(begin, end - begin));
+}
+
+void SweepFile::complete()
+{
+    if (file_ < 0) return;
+    if ((::fsync(file_) != 0 && errno != EINVAL) || ::rename(partial_.c_str(), path_.c_str()) != 0)
+        refuse_writing(path_);
+    ::close(file_);
+    file_ = -1;
+    identity_.complete = true;
+    if (identity_.shard.count == 1)
+        ::unlink(identity_file(path_).c_str());
+    else
+        write_file(identity_file(path_), text_of(identity_));
+}
+
+} // namespace lagen

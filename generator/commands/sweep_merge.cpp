@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Row k of the whole is row k / n of part k mod n, so that one line of each part is held at a time.
+#include "commands/options.hpp"
+#include "commands/sweep_file.hpp"
+#include "diagnostic.hpp"
+
+#include <fmt/core.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <fstream>
+#include <sys/file.h>
+#include <unistd.h>
+
+namespace lagen {
+
+namespace {
+
+/// The parts in the order of their shards.
+std::vector<std::string> sorted_parts(const std::vector<std::string>& parts, SweepIdentity& whole)
+{
+    std::vector<std::string> sorted;
+    for (const std::string& part : parts) {
+        const std::optional<SweepIdentity> found = find_identity(part);
+        if (!found || !found->complete)
+            throw UsageError(
+                fmt::format("lagen sweep: '{0}' is no complete part of a sweep: '{0}.sweep' does not say so", part));
+        if (sorted.empty()) {
+            whole = *found;
+            sorted.resize(whole.shard.count);
+        }
+        if (found->key != whole.key || found->rows != whole.rows || found->shard.count != whole.shard.count)
+            throw UsageError(fmt::format("lagen sweep: '{}' and '{}' are not parts of the same sweep", parts[0], part));
+        std::string& place = sorted[found->shard.index];
+        if (!place.empty())
+            throw UsageError(
+                fmt::format("lagen sweep: part {} is given twice, by '{}' and '{}'", found->shard.text(), place, part));
+        place = part;
+    }
+    for (std::size_t k = 0; k < sorted.size(); ++k)
+        if (sorted[k].empty()) throw UsageError(fmt::format("lagen sweep: part {}/{} is missing", k, sorted.size()));
+    return sorted;
+}
+
+/// The next line of `file` with its end; it must begin with `begin`.
+std::string line_of(std::ifstream& file, const std::string& part, const std::string& begin)
+{
+    std::string line;
+    if (!std::getline(file, line) || !line.starts_with(begin) || !line.ends_with('\r'))
+        throw UsageError(
+            fmt::format("lagen sweep: '{}' has no line that begins with '{}' where it must stand", part, begin));
+    return line + '\n';
+}
+
+/// A file that is written under another name and gets its own at the end.
+class MergedFile {
+  public:
+    explicit MergedFile(const std::string& path) : path_(path), stream_(path + ".partial", std::ios::binary)
+    {
+        check(stream_.good());
+    }
+    void write(const std::string& line)
+    {
+        stream_ << line;
+        check(stream_.good());
+    }
+    void complete()
+    {
+        stream_.close();
+        check(!stream_.fail());
+        check(std::rename((path_ + ".partial").c_str(), path_.c_str()) == 0);
+    }
+
+  private:
+    void check(bool good) const
+    {
+        if (good) return;
+        throw MachineError(fmt::format("error: cannot write '{}': {}", path_, std::strerror(errno)));
+    }
+
+    std::string path_;
+    std::ofstream stream_;
+};
+
+} // namespace
+
+void merge_sweep(const std::vector<std::string>& parts, const std::string& path)
+{
+    SweepIdentity whole;
+    const std::vector<std::string> sorted = sorted_parts(parts, whole);
+    std::vector<std::ifstream> files;
+    std::string heading;
+    for (const std::string& part : sorted) {
+        files.emplace_back(part, std::ios::binary);
+        if (!files.back()) throw MachineError(fmt::format("error: cannot read '{}': {}", part, std::strerror(errno)));
+        heading = line_of(files.back(), part, heading.empty() ? "index," : heading.substr(0, heading.size() - 1));
+    }
+    MergedFile merged(path);
+    merged.write(heading);
+    for (std::uint64_t row = 0; row < whole.rows; ++row) {
+        const std::size_t part = static_cast<std::size_t>(row % sorted.size());
+        merged.write(line_of(files[part], sorted[part], std::to_string(row) + ","));
+    }
+    merged.complete();
+}
+
+std::string rank_file(const std::string& path, const Shard& shard)
+{
+    return fmt::format("{}.{}-of-{}", path, shard.index, shard.count);
+}
+
+bool merge_ranks(const std::string& path, const SweepIdentity& identity)
+{
+    const std::string lock = path + ".lock";
+    const int file = ::open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (file < 0) return false;
+    // Of ranks that end at once the first one merges; the others find that their parts are gone.
+    bool ready = ::flock(file, LOCK_EX) == 0;
+    const bool merged = !find_identity(rank_file(path, identity.shard));
+    std::vector<std::string> parts;
+    for (std::uint64_t k = 0; k < identity.shard.count && ready; ++k) {
+        parts.push_back(rank_file(path, {k, identity.shard.count}));
+        const std::optional<SweepIdentity> found = find_identity(parts.back());
+        ready = found && found->complete && found->key == identity.key && found->rows == identity.rows;
+    }
+    if (ready) {
+        merge_sweep(parts, path);
+        for (const std::string& part : parts)
+            for (const std::string& name : {part, part + ".sweep"}) ::unlink(name.c_str());
+    }
+    if (ready || merged) ::unlink(lock.c_str());
+    ::close(file);
+    return ready;
+}
+
+} // namespace lagen

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+/// Work by several threads on pieces that begin and end in their order.
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <exception>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+namespace lagen::detail {
+
+/// `begin(piece)` fills the next piece, or answers false: there are no more. `work(piece)` is done by several threads
+/// at once. `deliver(piece)` gets the pieces in the order in which they were begun. Of `begin` one call runs at a time,
+/// of `deliver` too. So many pieces exist as `slots`; they are used again and again.
+template <class Piece, class Begin, class Work, class Deliver>
+class InOrder {
+  public:
+    InOrder(std::size_t slots, Begin& begin, Work& work, Deliver& deliver)
+        : slots_(slots), begin_(begin), work_(work), deliver_(deliver)
+    {
+    }
+
+    /// By `threads` threads, the caller among them; fewer where the machine gives no more. What a call throws ends the
+    /// work and is thrown here.
+    void run(std::size_t threads)
+    {
+        std::vector<std::thread> others;
+        try {
+            for (std::size_t k = 1; k < threads; ++k) others.emplace_back([this] { work_on(); });
+        } catch (const std::system_error&) {
+            // Those that are there do it all.
+        }
+        work_on();
+        for (std::thread& other : others) other.join();
+        if (failure_) std::rethrow_exception(failure_);
+    }
+
+  private:
+    struct Slot {
+        Piece piece{};
+        bool done = false;
+    };
+
+    void work_on() noexcept
+    {
+        try {
+            while (Slot* slot = next()) {
+                work_(slot->piece);
+                hand_over(*slot);
+            }
+        } catch (...) {
+            const std::lock_guard lock(mutex_);
+            if (!failure_) failure_ = std::current_exception();
+            stopped_ = true;
+            room_.notify_all();
+        }
+    }
+
+    /// A piece that was begun, as soon as there is a slot for it; nullptr at the end.
+    Slot* next()
+    {
+        const std::lock_guard source(source_mutex_);
+        {
+            std::unique_lock lock(mutex_);
+            room_.wait(lock, [this] { return stopped_ || begun_ - delivered_ < slots_.size(); });
+            if (stopped_) return nullptr;
+        }
+        Slot& slot = slots_[begun_ % slots_.size()];
+        if (!begin_(slot.piece)) {
+            const std::lock_guard lock(mutex_);
+            stopped_ = true;
+            return nullptr;
+        }
+        ++begun_;
+        return &slot;
+    }
+
+    void hand_over(Slot& slot)
+    {
+        const std::lock_guard delivery(delivery_mutex_);
+        slot.done = true;
+        for (Slot* first = &slots_[delivered_ % slots_.size()]; first->done;
+             first = &slots_[delivered_ % slots_.size()]) {
+            first->done = false; // once, also where this throws
+            deliver_(first->piece);
+            const std::lock_guard lock(mutex_);
+            ++delivered_;
+            room_.notify_all();
+        }
+    }
+
+    std::vector<Slot> slots_;
+    Begin& begin_;
+    Work& work_;
+    Deliver& deliver_;
+    std::mutex source_mutex_, delivery_mutex_;
+    std::mutex
+        mutex_; ///< of what follows; `begun_` is written under source_mutex_, `delivered_` under delivery_mutex_ too
+    std::condition_variable room_;
+    std::size_t begun_ = 0, delivered_ = 0;
+    bool stopped_ = false;
+    std::exception_ptr failure_;
+};
+
+/// `threads`, or where that is 0 as many as the machine gives this process.
+[[nodiscard]] inline std::size_t thread_count(std::size_t threads) noexcept
+{
+    if (threads != 0) return threads;
+    const unsigned found = std::thread::hardware_concurrency();
+    return found == 0 ? 1 : found;
+}
+
+} // namespace lagen::detail

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+/// What the program behind `lagen sweep` keeps of a trajectory: the columns at its end and their extremes.
+#pragma once
+
+#include "lagen_run/record.hpp"
+
+#include <charconv>
+#include <limits>
+
+namespace lagen::detail {
+
+/// The shortest decimal that reads back as the same number; nothing for what is no finite number.
+inline void append_number(std::string& line, double value)
+{
+    if (!std::isfinite(value)) return;
+    char text[32];
+    line.append(text, std::to_chars(text, text + sizeof text, value).ptr);
+}
+
+/// The observer of a trajectory: the columns at accepted steps and at rows.
+template <class M>
+class SweepRecord {
+  public:
+    using State = typename M::State;
+
+    SweepRecord(const M& model, const std::vector<Column>& columns)
+        : model_(model), columns_(columns), values_(columns.size(), nothing), least_(values_), most_(values_)
+    {
+        for (const Column& column : columns) observes_ = observes_ || column.observable;
+    }
+
+    void row(double t, const State& s) { (*this)(t, s); }
+    void operator()(double t, const State& s)
+    {
+        if constexpr (Follows<M>) static_cast<void>(model_.follow(t, s));
+        if constexpr (requires { model_.observables(t, s); }) {
+            if (observes_) {
+                const auto observables = model_.observables(t, s);
+                return see([&](const Column& column) {
+                    return column.observable ? observables[column.index] : s[column.index];
+                });
+            }
+        }
+        see([&](const Column& column) { return s[column.index]; });
+    }
+
+    /// At the last step; NaN where there was none.
+    [[nodiscard]] const std::vector<double>& values() const noexcept { return values_; }
+    [[nodiscard]] const std::vector<double>& least() const noexcept { return least_; }
+    [[nodiscard]] const std::vector<double>& most() const noexcept { return most_; }
+
+  private:
+    static constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+    template <class Value>
+    void see(const Value& value)
+    {
+        for (std::size_t k = 0; k < columns_.size(); ++k) {
+            const double x = values_[k] = value(columns_[k]);
+            if (x < least_[k] || std::isnan(least_[k])) least_[k] = x;
+            if (x > most_[k] || std::isnan(most_[k])) most_[k] = x;
+        }
+    }
+
+    std::conditional_t<Follows<M>, M, const M&> model_; ///< a copy where it learns what it follows
+    const std::vector<Column>& columns_;
+    bool observes_ = false;
+    std::vector<double> values_, least_, most_;
+};
+
+} // namespace lagen::detail
