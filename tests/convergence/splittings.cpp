@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Order conditions of the splittings in 50 digits: word by word of drifts and kicks, or tree by tree where x' is affine
-/// in y; and what each of them takes: kinetic energies that are not quadratic, rates that depend on time.
+/// Order conditions of the splittings in 50 digits: word by word of drifts and kicks, or tree by tree where x' is
+/// affine in y; and what each of them takes: kinetic energies that are not quadratic, rates that depend on time.
 #include "lagen/integrate.hpp"
 #include "support/nystrom_trees.hpp"
 #include "support/order.hpp"
@@ -26,8 +26,8 @@ Weights weights()
     return list;
 }
 
-/// The coefficient of a word in exp(w_1 A) exp(w_2 B) exp(w_3 A) .., its letters the bits of `word`: 1 for the kind that
-/// comes first.
+/// The coefficient of a word in exp(w_1 A) exp(w_2 B) exp(w_3 A) .., its letters the bits of `word`: 1 for the kind
+/// that comes first.
 Wide coefficient(const Weights& w, unsigned word, unsigned length)
 {
     Weights sums(length + 1, Wide(0));

@@ -87,7 +87,7 @@ class SplittingStepper {
         const auto status = move(model, t, s, h, s1, last_);
         detail::for_lanes(s, [&]<int width>(detail::Width<width>, Eigen::Index lane) {
             using detail::load;
-            const auto gone = load<width>(s1, lane) - load<width>(s, lane);
+            const detail::Slice<State, width> gone = load<width>(s1, lane) - load<width>(s, lane);
             detail::store(next_lost_, lane, gone - load<width>(moved_, lane));
         });
         return StatusOf<Scalar>::first(status, detail::check_finite(s1));
@@ -166,7 +166,8 @@ class SplittingStepper {
     {
         Lanes<kick>::each([&]<int width>(detail::Width<width>, Eigen::Index lane) {
             using detail::load;
-            const auto sum = load<width>(moved_, lane) + length * detail::load_fresh<width>(rates, lane + shift);
+            const detail::Slice<State, width> sum =
+                load<width>(moved_, lane) + length * detail::load_fresh<width>(rates, lane + shift);
             detail::store(moved_, lane, sum);
             detail::store(s1, lane, load<width>(s, lane) + sum);
         });
