@@ -47,15 +47,27 @@ constexpr std::array entries{
     MethodEntry{"gauss4", "Gauss4", "4", false, false, "Gauss, two stages (Kuntzmann, Butcher 1964)", "symplectic"},
     MethodEntry{"gauss6", "Gauss6", "6", false, false, "Gauss, three stages (Kuntzmann, Butcher 1964)", "symplectic"},
     MethodEntry{"gauss8", "Gauss8", "8", false, false, "Gauss, four stages (Kuntzmann, Butcher 1964)", "symplectic"},
+    MethodEntry{"gauss12", "Gauss12", "12", false, false, "Gauss, six stages (Kuntzmann, Butcher 1964)", "symplectic"},
+    MethodEntry{"gauss16", "Gauss16", "16", false, false, "Gauss, eight stages (Kuntzmann, Butcher 1964)",
+                "symplectic"},
     MethodEntry{"radau5", "Radau5", "5(3)", true, false,
                 "Radau IIA (Hairer and Wanner 1991), stiff, dense output of order 3"},
     MethodEntry{"radau3_fixed", "Radau3Fixed", "3", false, false, "Radau IIA, two stages, fixed step, stiff"},
     MethodEntry{"radau5_fixed", "Radau5Fixed", "5", false, false, "Radau IIA, three stages, fixed step, stiff"},
     MethodEntry{"leapfrog_dkd", "LeapfrogDkd", "2", false, true, "Stoermer-Verlet, drift-kick-drift", "symplectic"},
     MethodEntry{"leapfrog_kdk", "LeapfrogKdk", "2", false, true, "Stoermer-Verlet, kick-drift-kick", "symplectic"},
-    MethodEntry{"mclachlan4", "McLachlan4", "4", false, true, "McLachlan and Atela 1992, four stages, kick first",
+    MethodEntry{"mclachlan4", "McLachlan4", "4", false, true, "McLachlan and Atela 1992, four stages", "symplectic",
+                SecondOrder::Kind::no, false, true},
+    MethodEntry{"blanesmoan4", "BlanesMoan4", "4", false, true, "Blanes and Moan 2002, six stages", "symplectic"},
+    MethodEntry{"srkn4", "Srkn4", "4", false, true, "Blanes and Moan 2002, six stages, best where x' is affine in y",
                 "symplectic"},
-    MethodEntry{"yoshida6", "Yoshida6", "6", false, true, "Yoshida 1990, solution A, kick-drift-kick", "symplectic"},
+    MethodEntry{"yoshida6", "Yoshida6", "6", false, true, "Yoshida 1990, solution A, seven leapfrogs", "symplectic"},
+    MethodEntry{"blanesmoan6", "BlanesMoan6", "6", false, true, "Blanes and Moan 2002, ten stages", "symplectic"},
+    MethodEntry{"srkn6", "Srkn6", "6", false, true, "Blanes and Moan 2002, fourteen stages", "symplectic",
+                SecondOrder::Kind::no, false, true},
+    MethodEntry{"kahanli8", "KahanLi8", "8", false, true, "Kahan and Li 1997, 17 leapfrogs", "symplectic"},
+    MethodEntry{"sofroniou10", "Sofroniou10", "10", false, true, "Sofroniou and Spaletta 2005, 35 leapfrogs",
+                "symplectic"},
 };
 
 /// What other programs and books call a method, in small letters.
@@ -122,7 +134,7 @@ std::string nearest_method(const std::string& name)
 
 std::string system_of(const MethodEntry& method)
 {
-    if (method.separable_only) return "x' = f(y), y' = g(x)";
+    if (method.separable_only) return method.affine ? "x' = M y + c, y' = g(x)" : "x' = f(y), y' = g(x)";
     switch (method.system) {
     case SecondOrder::Kind::no: return "";
     case SecondOrder::Kind::general: return "x'' = f(t, x, x')";

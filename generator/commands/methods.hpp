@@ -19,6 +19,7 @@ struct MethodEntry {
     const char* keeps = "";                           ///< what long runs keep
     SecondOrder::Kind system = SecondOrder::Kind::no; ///< for x'' = f(t, x, x') or f(t, x) only
     bool series = false;                              ///< needs the kernels of Taylor coefficients
+    bool affine = false;                              ///< of separable_only: xdot has to be affine in y
 };
 
 [[nodiscard]] std::span<const MethodEntry> method_table();

@@ -2,6 +2,7 @@
 #include "graph/kernel.hpp"
 
 #include "diagnostic.hpp"
+#include "graph/calculus/differentiate.hpp"
 
 #include <fmt/format.h>
 
@@ -53,6 +54,38 @@ SecondOrder second_order_of(const KernelModule& module, const std::vector<NodeId
                 return {Kind::general, fmt::format("{}' depends on what is solved for in every call", v[i].name)};
     }
     return {Kind::velocity_free, ""};
+}
+
+Separation separation_of(const KernelModule& module)
+{
+    using Kind = Separation::Kind;
+    const std::vector<Quantity>&x = module.groups.at(0).lanes, &y = module.groups.at(1).lanes;
+    const auto depends = [&](NodeId node, NodeId input) {
+        return depends_on_any(*module.graph, std::array{node}, std::array{input});
+    };
+    std::vector<NodeId> velocities, rates, inputs{module.time};
+    for (const KernelEntry& entry : kernel_named(module, "rhs").outputs.at(0).entries) {
+        const bool base = entry.row < x.size();
+        const std::string& name = base ? x[entry.row].name : y[entry.row - x.size()].name;
+        for (const Quantity& lane : base ? x : y)
+            if (depends(entry.node, lane.input)) return {Kind::no, fmt::format("{}' depends on {}", name, lane.name)};
+        // What an unknown depends on is said by its equations.
+        for (const ImplicitBlock& block : module.implicit)
+            for (const NodeId unknown : block.unknowns)
+                if (depends(entry.node, unknown))
+                    return {Kind::no, fmt::format("{}' depends on what is solved for in every call", name)};
+        if (base) velocities.push_back(entry.node);
+    }
+    for (const Quantity& lane : y) rates.push_back(lane.input);
+    inputs.insert(inputs.end(), rates.begin(), rates.end());
+    const auto slopes = jacobian(*module.graph, velocities, rates);
+    for (std::size_t i = 0; i < velocities.size(); ++i) {
+        if (depends(velocities[i], module.time)) return {Kind::separable, fmt::format("{}' depends on t", x[i].name)};
+        for (std::size_t j = 0; j < rates.size(); ++j)
+            if (depends_on_any(*module.graph, std::array{slopes[i][j]}, inputs))
+                return {Kind::separable, fmt::format("{}' is not affine in {}", x[i].name, y[j].name)};
+    }
+    return {Kind::affine, ""};
 }
 
 bool has_kernel(const KernelModule& module, const std::string& name)

@@ -108,6 +108,14 @@ struct SecondOrder {
     std::string obstacle; ///< to the next kind, in names of the model: "x' is not p_x", "u' depends on v"
 };
 
+/// Is x' free of the base coordinates x and y' of the other lanes y? And is x' affine in y, with coefficients that the
+/// parameters alone make?
+struct Separation {
+    enum class Kind { no, separable, affine };
+    Kind kind = Kind::no;
+    std::string obstacle; ///< to the next kind, in names of the model: "x' depends on x"
+};
+
 /// Everything that one generated class holds.
 struct KernelModule {
     std::string name;  ///< class name: model name, with _FORM for forms other than lagrange
@@ -142,6 +150,8 @@ struct KernelModule {
 /// What the graph proves of these rates, one a lane of State. What it calls `general` may be velocity_free, where terms
 /// cancel that no rule of the graph brings together; never the other way round.
 [[nodiscard]] SecondOrder second_order_of(const KernelModule& module, const std::vector<NodeId>& rates);
+/// Of a module with a right-hand side; adds derivatives to its graph.
+[[nodiscard]] Separation separation_of(const KernelModule& module);
 
 [[nodiscard]] bool has_kernel(const KernelModule& module, const std::string& name);
 /// Throws InternalError where the module has none of that name.

@@ -20,8 +20,9 @@ TEST_CASE("lagen methods names every integrator of the interface")
     const json::Value list = json::parse(call({"methods", "--format", "json"}).out);
     std::vector<std::string> names;
     for (const json::Value& entry : list.entries) names.push_back(entry["name"].text);
-    for (const char* name : {"euler", "midpoint", "rk4", "dopri5", "tsit5", "dop853", "verner65", "verner76",
-                             "verner87", "verner98", "rkn64", "rkn86", "rkn1210", "rkng54"})
+    for (const char* name : {"euler",    "midpoint", "rk4",         "dopri5",      "tsit5", "dop853",   "verner65",
+                             "verner76", "verner87", "verner98",    "rkn64",       "rkn86", "rkn1210",  "rkng54",
+                             "gauss12",  "gauss16",  "blanesmoan4", "blanesmoan6", "srkn6", "kahanli8", "sofroniou10"})
         CHECK(std::count(names.begin(), names.end(), name) == 1);
     CHECK(list.size() == lagen::method_table().size());
     CHECK(list[0].keys ==
@@ -39,8 +40,10 @@ TEST_CASE("lagen methods names every integrator of the interface")
     CHECK(systems["rkn64"] == "x'' = f(t, x)");
     CHECK(systems["rkng54"] == "x'' = f(t, x, x')");
     CHECK(systems["yoshida6"] == "x' = f(y), y' = g(x)");
+    CHECK(systems["srkn6"] == "x' = M y + c, y' = g(x)");
     CHECK(kept["gauss4"] == "symplectic");
     CHECK(kept["mclachlan4"] == "symplectic");
+    CHECK(kept["kahanli8"] == "symplectic");
     CHECK(kept["rkn64"].empty());
 }
 

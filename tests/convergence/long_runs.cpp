@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// A million steps of the rigid body: what Gauss' methods keep, they keep to rounding, and the rounding errors add up
-/// like a random walk [Brouwer 1937]. Fewer steps under sanitizers.
+/// A million steps: what Gauss' methods keep of the rigid body, and symplectic methods of Kepler's problem and Henon
+/// and Heiles' potential where their steps are short enough, they keep to rounding, and the rounding errors add up like
+/// a random walk [Brouwer 1937]. Fewer steps under sanitizers.
 #include "lagen/lagen.hpp"
 #include "support/problems.hpp"
 

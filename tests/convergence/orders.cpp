@@ -188,7 +188,13 @@ TEST_CASE("Splitting methods converge with their order, inside steps too")
     CHECK_ORDERS(LeapfrogDkd, 2, 2, 256, 0.1);
     CHECK_ORDERS(LeapfrogKdk, 2, 2, 256, 0.1);
     CHECK_ORDERS(McLachlan4, 4, 4, 64, 0.1);
+    CHECK_ORDERS(BlanesMoan4, 4, 4, 32, 0.1);
+    CHECK_ORDERS(Srkn4, 4, 4, 256, 0.1);
     CHECK_ORDERS(Yoshida6, 6, 6, 64, 0.2);
+    CHECK_ORDERS(BlanesMoan6, 6, 6, 32, 0.2);
+    CHECK_ORDERS(Srkn6, 6, 6, 16, 0.4);
+    CHECK_WIDE_ORDERS(KahanLi8, 8, 8, 32, 0.2);
+    CHECK_WIDE_ORDERS(Sofroniou10, 10, 10, 16, 0.2);
 }
 
 TEST_CASE("Gauss' methods converge with twice the number of their stages, Radau IIA with 3 and 5, inside steps too")
@@ -197,6 +203,8 @@ TEST_CASE("Gauss' methods converge with twice the number of their stages, Radau 
     CHECK_ORDERS(Gauss4, 4, 4, 32, 0.4);
     CHECK_ORDERS(Gauss6, 6, 6, 16, 0.8);
     CHECK_ORDERS(Gauss8, 8, 8, 8, 0.2);
+    CHECK_WIDE_ORDERS(Gauss12, 12, 12, 8, 0.4);
+    CHECK_WIDE_ORDERS(Gauss16, 16, 16, 4, 0.8);
     CHECK_ORDERS(Radau3Fixed, 3, 3, 64, 0.2);
     CHECK_ORDERS(Radau5Fixed, 5, 5, 32, 0.4);
     CHECK_THAT(period_order<lagen::Gauss2>(128), near(2));

@@ -67,3 +67,30 @@ TEST_CASE("rates that are no velocities are no system of second order", "[kernel
                                              "[lagrangian]\nL = \"a^2 + 2*b^2 + 3*c^2\"\n");
     check(lie_algebra, Kind::no, "the numbers of base coordinates and of other lanes are 0 and 3");
 }
+
+namespace {
+
+void check_split(const KernelModule& module, Separation::Kind kind, const std::string& obstacle)
+{
+    const Separation found = separation_of(module);
+    CHECK(found.kind == kind);
+    CHECK(found.obstacle == obstacle);
+}
+
+} // namespace
+
+TEST_CASE("constant mass matrices split into drifts that are affine in the rates, and kicks", "[kernels]")
+{
+    using Split = Separation::Kind;
+    check_split(plane("m*(u^2 + v^2)/2 + u*v/3 - k*q^4*x - q*sin(t)"), Split::affine, "");
+    check_split(plane("m*(u^2 + v^2)/2 + u*v/3 - q^4 - x^2", "", "hamilton"), Split::affine, "");
+    check_split(plane("m*(u^2 + v^2)/2 + t*u - k*q*x", "", "hamilton"), Split::separable, "q' depends on t");
+}
+
+TEST_CASE("what does not split names a rate and what it depends on", "[kernels]")
+{
+    using Split = Separation::Kind;
+    check_split(plane("m*(1 + x^2)*u^2/2 + v^2/2"), Split::no, "u' depends on u");
+    check_split(plane("m*(1 + x^2)*u^2/2 + v^2/2", "", "hamilton"), Split::no, "q' depends on x");
+    check_split(plane("m*(u^2 + v^2)/2 + q*v"), Split::no, "u' depends on v");
+}

@@ -52,11 +52,13 @@ TEST_CASE("A longer run allocates no more than a short one")
     check(Rk4{.step = 0.01});
     check(Rk4{.step = 0.01, .compensated = true});
     check(Yoshida6{.step = 0.01});
+    check(Srkn6{.step = 0.01});
     check(Dopri5{});
     check(Tsit5{});
     check(Dop853{});
     check(Gauss2{.step = 0.01});
     check(Gauss8{.step = 0.01});
+    check(Gauss16{.step = 0.01});
     check(Radau3Fixed{.step = 0.01});
     check(Radau5Fixed{.step = 0.01});
     check(Radau5{});
@@ -89,10 +91,12 @@ TEST_CASE("Steps of an Integrator, values inside them, turns and failures alloca
     check(Rk4{.step = 0.01});
     check(Rk4{.step = 0.01, .compensated = true});
     check(Yoshida6{.step = 0.01});
+    check(Srkn6{.step = 0.01});
     check(Dopri5{});
     check(Tsit5{});
     check(Dop853{});
     check(Gauss8{.step = 0.01});
+    check(Gauss16{.step = 0.01});
     check(Radau5{});
 }
 

@@ -220,6 +220,7 @@ TEST_CASE("Gauss' methods run back to where they came from, to rounding")
     check(Gauss4{.step = 0.0625}, 1e-12);
     check(Gauss6{.step = 0.0625}, 1e-12);
     check(Gauss8{.step = 0.0625}, 1e-12);
+    check(Gauss16{.step = 0.0625}, 1e-12);
     // Radau IIA is not symmetric.
     const auto there = integrate(Kepler{}, Kepler::exact(0.6, 0.5), {0.0, 20.0}, Radau5Fixed{.step = 0.0625});
     const auto back = integrate(Kepler{}, there.state, {20.0, 0.0}, Radau5Fixed{.step = 0.0625});
@@ -245,6 +246,8 @@ TEST_CASE("The Casimir of a rigid body is kept to the rounding of every scalar")
         if constexpr (std::is_same_v<S, double>) { // what the others keep by, collocation.cpp shows in every scalar
             CHECK(std::abs(lost(Gauss2{.step = 0.25})) < 4);
             CHECK(std::abs(lost(Gauss6{.step = 0.25})) < 4);
+            CHECK(std::abs(lost(Gauss12{.step = 0.25})) < 4);
+            CHECK(std::abs(lost(Gauss16{.step = 0.25})) < 4);
             CHECK(std::abs(lost(Radau5Fixed{.step = 0.25})) > 100); // it damps, by more than is rounding
         }
     };
@@ -279,6 +282,7 @@ TEST_CASE("Rows do not disturb an implicit run, and have the order of the method
     check(Gauss4{.step = 0.02}, 1e-8);
     check(Gauss6{.step = 0.05}, 1e-10);
     check(Gauss8{.step = 0.1}, 1e-11);
+    check(Gauss16{.step = 0.5}, 1e-11);
     check(Radau3Fixed{.step = 0.01}, 1e-6);
     check(Radau5Fixed{.step = 0.01}, 1e-11);
     check(Radau5{.tolerance = 1e-10}, 1e-8);
@@ -307,6 +311,7 @@ TEST_CASE("Rows and events leave every step as it is, also where Newton's method
             check(Gauss4{.step = step}, s);
             check(Gauss6{.step = step}, s);
             check(Gauss8{.step = step}, s);
+            check(Gauss16{.step = step}, s);
             check(Radau3Fixed{.step = step}, s);
             check(Radau5Fixed{.step = step}, s);
             check(Rk4{.step = step, .compensated = true}, s);

@@ -281,7 +281,16 @@ TEST_CASE("A partitioned method refuses a system that is not separable")
             return status;
         }
     };
+    struct Sheared : Pendulum {
+        Status rhs(double t, const State& s, State& ds) const noexcept
+        {
+            const Status status = Pendulum::rhs(t, s, ds);
+            ds[0] += 0.1 * s[0];
+            return status;
+        }
+    };
     CHECK(integrate(Damped{}, State(1, 0.5), {0.0, 1.0}, LeapfrogKdk{.step = 0.1}).status() == Status::not_separable);
+    CHECK(integrate(Sheared{}, State(1, 0.5), {0.0, 1.0}, KahanLi8{.step = 0.1}).status() == Status::not_separable);
     CHECK(integrate(Pendulum{}, State(1, 0.5), {0.0, 1.0}, LeapfrogKdk{.step = 0.1}).status() == Status::ok);
 }
 
@@ -317,7 +326,13 @@ TEST_CASE("Every method runs in float and double, each to its own accuracy; Dop8
     all(LeapfrogDkd{.step = 1e-2}, 1e-3);
     all(LeapfrogKdk{.step = 1e-2}, 1e-3);
     all(McLachlan4{.step = 1e-2}, 1e-7);
+    all(BlanesMoan4{.step = 1e-2}, 1e-7);
+    all(Srkn4{.step = 1e-2}, 1e-7);
     all(Yoshida6{.step = 1e-2}, 1e-8);
+    all(BlanesMoan6{.step = 5e-2}, 1e-8);
+    all(Srkn6{.step = 1e-1}, 1e-8);
+    all(KahanLi8{.step = 1e-1}, 1e-8);
+    all(Sofroniou10{.step = 2e-1}, 1e-8);
     all(Dopri5{.tolerance = 1e-6}, 1e-4);
     all(Tsit5{.tolerance = 1e-6}, 1e-4);
     all(Dop853{.tolerance = 1e-6}, 1e-4);

@@ -91,6 +91,8 @@ TEST_CASE("A pack of trajectories agrees with the trajectories one by one")
     check(LeapfrogKdk{.step = 0.02});
     check(McLachlan4{.step = 0.02});
     check(Yoshida6{.step = 0.02});
+    check(BlanesMoan6{.step = 0.02});
+    check(Srkn6{.step = 0.02});
 }
 
 TEST_CASE("A lane that fails keeps its last good state while the others go on")

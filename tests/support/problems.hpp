@@ -87,6 +87,29 @@ struct Pendulum {
     }
 };
 
+/// Henon and Heiles' potential, state (x, y, u, v); H = (u^2 + v^2 + x^2 + y^2)/2 + x^2 y - y^3/3.
+template <class S>
+struct HenonHeiles {
+    using Scalar = S;
+    using State = Eigen::Matrix<S, 4, 1>;
+    static constexpr int dimension = 4, base_dimension = 2, fibre_dimension = 2;
+
+    status_t<S> rhs(S, const State& s, State& ds) const noexcept
+    {
+        const S x = s[0], y = s[1];
+        ds[0] = s[2];
+        ds[1] = s[3];
+        ds[2] = -x - S(2) * x * y;
+        ds[3] = y * y - y - x * x;
+        return StatusOf<S>::good();
+    }
+    static constexpr std::array<int, 6> jacobian_rows{0, 1, 2, 2, 3, 3}, jacobian_columns{2, 3, 0, 1, 0, 1};
+    void jacobian_values(S, const State& s, std::array<S, 6>& values) const noexcept
+    {
+        values = {S(1), S(1), S(S(-1) - S(2) * s[1]), S(S(-2) * s[0]), S(S(-2) * s[0]), S(S(2) * s[1] - S(1))};
+    }
+};
+
 /// Lotka-Volterra, u' = u (v - 2), v' = v (1 - u); I = ln u - u + 2 ln v - v.
 template <class S>
 struct LotkaVolterra {

@@ -18,7 +18,7 @@ enum class Status : std::uint8_t {
     stopped_by_event, ///< not a failure: an event with stop = true
     interrupted,
     invalid_input,    ///< a step, tolerance or interval that makes no sense (not positive, not finite)
-    not_separable,    ///< a partitioned method was asked for, but xdot depends on x or ydot on y
+    not_separable,    ///< a partitioned method was asked for, but the equations are not what it splits
     not_a_maximum,    ///< the controls that are followed are no maximum of H: d2H/du2 is not negative definite
     singular_control, ///< H does not depend on a control: it has no maximum to be found at
 };

@@ -6,7 +6,7 @@
 /// Gauss' nodes that holds exactly here, for the rounded numbers: rounded a_ij would lose such an invariant in
 /// proportion to the number of steps [Antonana, Makazaga, Murua, Numer. Algorithms 76 (2017) 861; Hairer, McLachlan,
 /// Razakarivony, BIT 48 (2008) 231].
-/// Everything is computed in the scalar type from closed forms of the nodes.
+/// Everything is computed for the scalar type: what is irrational in a wider one where there is one.
 #pragma once
 
 #include "lagen/integrate/newton_matrix.hpp"
@@ -14,6 +14,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <utility>
 
 namespace lagen::detail {
 
@@ -37,102 +40,116 @@ std::array<Real, s + 1> legendre(const Real& x) noexcept
     return values;
 }
 
+/// A scalar in which coefficients of `Real` are computed, so that they are rounded once: the next wider built-in one.
+template <class Real>
+using Wider = std::conditional_t<std::is_same_v<Real, float>, double,
+                                 std::conditional_t<std::is_same_v<Real, double>, long double, Real>>;
+
+/// The zeros x of L_s in increasing order, by Newton's method from cos(pi (i + 3/4) / (s + 1/2)), every step of which
+/// doubles the number of right digits; and 1/(s L_{s-1}(x))^2 (1 - x^2), the weights on an interval of length 1.
+template <std::size_t s, class Real>
+std::pair<std::array<Real, s>, std::array<Real, s>> legendre_nodes() noexcept
+{
+    std::array<Real, s> x{}, b{};
+    for (std::size_t i = 0; i < s; ++i) {
+        const double angle = (static_cast<double>(i) + 0.75) / (static_cast<double>(s) + 0.5);
+        if (2 * i + 1 == s) {
+            x[i] = Real(0);
+        } else if (2 * i + 1 > s) {
+            x[i] = -x[s - 1 - i];
+        } else {
+            x[i] = Real(-std::cos(3.141592653589793 * angle));
+            for (int step = 0; step < 10; ++step) {
+                const auto at = legendre<s>(x[i]);
+                x[i] -= at[s] * (x[i] * x[i] - Real(1)) / (Real(s) * (x[i] * at[s] - at[s - 1]));
+            }
+        }
+        const Real last = Real(s) * legendre<s>(x[i])[s - 1];
+        b[i] = (Real(1) - x[i] * x[i]) / (last * last);
+    }
+    return {x, b};
+}
+
+/// Rounded so that b_i = b_{s-1-i} and their sum is exactly 1: whole numbers of units of the last place of 1/2.
+template <class Real, std::size_t s, class Wide>
+std::array<Real, s> rounded_weights(const std::array<Wide, s>& b) noexcept
+{
+    std::array<Real, s> result{};
+    const Real half = Real(1) / Real(2);
+    Real rest = half;
+    for (std::size_t i = 0; i < s / 2; ++i) {
+        const Real inner = Real(Real(b[i]) + half) - half;
+        result[i] = result[s - 1 - i] = s % 2 == 0 && i + 1 == s / 2 ? rest : inner;
+        rest -= result[i];
+    }
+    if (s % 2 != 0) result[s / 2] = rest + rest;
+    return result;
+}
+
 /// The coefficients of the nodes (1 + x_i) / 2, x the zeros of L_s in increasing order:
 ///   mu_ij = 1/2 + 1/2 sum_{k=1}^{s-1} (L_k(x_i) L_{k-1}(x_j) - L_{k-1}(x_i) L_k(x_j))
 /// [Hairer, Wanner IV.5, W-transformation]. For i > j it lies between 1/2 and 2, so that mu_ji = 1 - mu_ij is exact.
 template <class Real, std::size_t s>
-Collocation<Real, s> gauss_coefficients(const std::array<Real, s>& x, const std::array<Real, s>& b) noexcept
+Collocation<Real, s> gauss_coefficients() noexcept
 {
+    using Wide = Wider<Real>;
+    const auto [x, b] = legendre_nodes<s, Wide>();
     Collocation<Real, s> method;
-    method.b = b;
+    method.b = rounded_weights<Real>(b);
     for (std::size_t i = 0; i < s; ++i) {
-        method.c[i] = (Real(1) + x[i]) / Real(2);
+        method.c[i] = static_cast<Real>((Wide(1) + x[i]) / Wide(2));
         method.mu[i][i] = Real(1) / Real(2);
         const auto at_i = legendre<s>(x[i]);
         for (std::size_t j = 0; j < i; ++j) {
             const auto at_j = legendre<s>(x[j]);
-            Real sum = Real(1);
+            Wide sum = Wide(1);
             for (std::size_t k = 1; k < s; ++k) sum += at_i[k] * at_j[k - 1] - at_i[k - 1] * at_j[k];
-            method.mu[i][j] = sum / Real(2);
+            method.mu[i][j] = static_cast<Real>(sum / Wide(2));
             method.mu[j][i] = Real(1) - method.mu[i][j];
         }
     }
     return method;
 }
 
-/// Gauss' method with s stages, order 2 s. `denominator` is that of the stability function, a multiple of
-/// det(1 - z A) by rising powers of z; `poles` are close to its zeros, real ones first, one of each conjugate pair.
+/// Close to the zeros of Gauss' denominators, real ones first, one of each conjugate pair.
 template <std::size_t s>
-struct GaussScheme;
-
+inline constexpr std::array<Complex<double>, 0> gauss_poles{};
 template <>
-struct GaussScheme<1> {
-    static constexpr std::size_t stages = 1, real_poles = 1;
-    static constexpr int order = 2;
+inline constexpr std::array<Complex<double>, 1> gauss_poles<1>{{{2, 0}}};
+template <>
+inline constexpr std::array<Complex<double>, 1> gauss_poles<2>{{{3, 1.73}}};
+template <>
+inline constexpr std::array<Complex<double>, 2> gauss_poles<3>{{{4.64, 0}, {3.68, 3.51}}};
+template <>
+inline constexpr std::array<Complex<double>, 2> gauss_poles<4>{{{4.21, 5.31}, {5.79, 1.73}}};
+template <>
+inline constexpr std::array<Complex<double>, 3> gauss_poles<6>{{{5.03, 8.99}, {7.47, 5.25}, {8.5, 1.73}}};
+template <>
+inline constexpr std::array<Complex<double>, 4> gauss_poles<8>{
+    {{5.68, 12.71}, {8.74, 8.83}, {10.41, 5.23}, {11.18, 1.73}}};
+
+/// Gauss' method with s stages, order 2 s. `denominator` is that of the stability function, a multiple of
+/// det(1 - z A) by rising powers of z: (-1)^k (2 s - k)! / (k! (s - k)!). `poles` are close to its zeros.
+template <std::size_t s>
+struct GaussScheme {
+    static constexpr std::size_t stages = s, real_poles = s % 2;
+    static constexpr int order = 2 * static_cast<int>(s);
     static constexpr bool stiffly_accurate = false;
-    static constexpr std::array<int, 2> denominator{2, -1};
-    static constexpr std::array<Complex<double>, 1> poles{{{2, 0}}};
+    static constexpr auto poles = gauss_poles<s>;
+    static constexpr std::array<int, s + 1> denominator = [] {
+        std::array<int, s + 1> all{};
+        std::int64_t entry = s % 2 == 0 ? 1 : -1, degree = s;
+        for (std::int64_t k = degree; k >= 0; --k) {
+            all[static_cast<std::size_t>(k)] = static_cast<int>(entry);
+            entry = -entry * k * (2 * degree - k + 1) / (degree - k + 1);
+        }
+        return all;
+    }();
 
     template <class Real>
-    static Collocation<Real, 1> coefficients() noexcept
+    static Collocation<Real, s> coefficients() noexcept
     {
-        return gauss_coefficients<Real, 1>({Real(0)}, {Real(1)});
-    }
-};
-
-template <>
-struct GaussScheme<2> {
-    static constexpr std::size_t stages = 2, real_poles = 0;
-    static constexpr int order = 4;
-    static constexpr bool stiffly_accurate = false;
-    static constexpr std::array<int, 3> denominator{12, -6, 1};
-    static constexpr std::array<Complex<double>, 1> poles{{{3, 1.73}}};
-
-    template <class Real>
-    static Collocation<Real, 2> coefficients() noexcept
-    {
-        using std::sqrt;
-        const Real x = sqrt(Real(1) / Real(3)), half = Real(1) / Real(2);
-        return gauss_coefficients<Real, 2>({Real(-x), x}, {half, half});
-    }
-};
-
-template <>
-struct GaussScheme<3> {
-    static constexpr std::size_t stages = 3, real_poles = 1;
-    static constexpr int order = 6;
-    static constexpr bool stiffly_accurate = false;
-    static constexpr std::array<int, 4> denominator{120, -60, 12, -1};
-    static constexpr std::array<Complex<double>, 2> poles{{{4.64, 0}, {3.68, 3.51}}};
-
-    /// The weights 5/18, 4/9, 5/18, rounded so that their sum is exactly 1.
-    template <class Real>
-    static Collocation<Real, 3> coefficients() noexcept
-    {
-        using std::sqrt;
-        const Real x = sqrt(Real(3) / Real(5)), outer = Real(5) / Real(18);
-        return gauss_coefficients<Real, 3>({Real(-x), Real(0), x}, {outer, Real(Real(1) - Real(2) * outer), outer});
-    }
-};
-
-template <>
-struct GaussScheme<4> {
-    static constexpr std::size_t stages = 4, real_poles = 0;
-    static constexpr int order = 8;
-    static constexpr bool stiffly_accurate = false;
-    static constexpr std::array<int, 5> denominator{1680, -840, 180, -20, 1};
-    static constexpr std::array<Complex<double>, 2> poles{{{4.21, 5.31}, {5.79, 1.73}}};
-
-    /// x^2 = 3/7 +- 2/7 sqrt(6/5), the smaller one from their product 3/35; weights 1/4 -+ sqrt(30)/72, rounded so that
-    /// their sum is exactly 1.
-    template <class Real>
-    static Collocation<Real, 4> coefficients() noexcept
-    {
-        using std::sqrt;
-        const Real square = (Real(3) + Real(2) * sqrt(Real(6) / Real(5))) / Real(7);
-        const Real outer = sqrt(square), inner = sqrt(Real(Real(3) / (Real(35) * square)));
-        const Real large = Real(1) / Real(4) + sqrt(Real(30)) / Real(72), small = Real(1) / Real(2) - large;
-        return gauss_coefficients<Real, 4>({Real(-outer), Real(-inner), inner, outer}, {small, large, large, small});
+        return gauss_coefficients<Real, s>();
     }
 };
 

@@ -6,16 +6,18 @@
 /// Every step solves its equations by Newton's method, with the Jacobian at the beginning of the step, until the
 /// increments are rounding errors: what is kept is kept to rounding, and rounding errors are all that is left to add
 /// up. An iteration that converges slowly gets the Jacobian at an estimate of the step's middle; a step whose iteration
-/// does not converge is tried once more from there, then fails with `newton_diverged`. Where the method is
-/// `compensated`, the rounding error of the sum s1 = s + .. enters the next step [Kahan 1965], so that errors grow as
-/// Brouwer's law says [Hairer, McLachlan, Razakarivony, BIT 48 (2008) 231]. A value inside a step is a shorter step of
-/// the same method, begun with this step's collocation polynomial: it has the full order. Should Newton's method fail
-/// there, it is the value of the polynomial (order: the number of stages).
+/// does not converge is tried once more from there, then fails with `newton_diverged`. Methods of more than four stages
+/// iterate Z_i = h sum_j a_ij f(s + Z_j) without a Jacobian first, to rounding too, all stages of a generated model in
+/// the lanes of packs (packed_stages.hpp); a step in which that is slow is left to Newton's method, and so are some
+/// steps behind it. Where the method is `compensated`, the rounding error of the sum s1 = s + .. enters the next step
+/// [Kahan 1965], so that errors grow as Brouwer's law says [Hairer, McLachlan, Razakarivony, BIT 48 (2008) 231]. A
+/// value inside a step is a shorter step of the same method, begun with this step's collocation polynomial: it has the
+/// full order. Should Newton's method fail there, it is the value of the polynomial (order: the number of stages).
 #pragma once
 
+#include "lagen/integrate/convergence.hpp"
+#include "lagen/integrate/packed_stages.hpp"
 #include "lagen/integrate/stage_equations.hpp"
-
-#include <limits>
 
 namespace lagen {
 
@@ -38,19 +40,16 @@ class CollocationStepper {
     }
 
     /// No derivative is kept from step to step; the first step begins without a prediction.
-    Status begin(const M&, Real, const State& s) noexcept
+    Status begin(const M& model, Real, const State& s) noexcept
     {
         equations_.begin(s);
         lost_ = State::Zero(s.size());
         next_lost_ = lost_;
         middle_ = lost_;
-        scale_ = lost_;
-        least_ = lost_;
-        rounds_ = lost_;
-        steps_ = lost_;
-        relative_ = lost_;
+        convergence_.begin(lost_);
         for (State& stage : z_) stage = lost_;
         inner_ = z_;
+        if constexpr (packed) packs_.begin(model, s.size());
         return Status::ok;
     }
 
@@ -58,12 +57,7 @@ class CollocationStepper {
     {
         predict(h);
         h_ = h;
-        Status status = try_from(model, t, s, h, most_refreshments);
-        if (status != Status::ok) {
-            // Rarely, a Jacobian that stays as it is leads to stages that better ones lead away from.
-            for (State& stage : z_) stage.setZero();
-            status = try_from(model, t, s, h, 0);
-        }
+        const Status status = solve(model, t, s, h);
         if (status != Status::ok) return status;
         detail::for_each_lane(s, [&](Eigen::Index lane) {
             const Real increment = gain(z_, lane) - lost_[lane];
@@ -89,9 +83,16 @@ class CollocationStepper {
     /// The state at t + theta h, 0 <= theta <= 1: a step of length theta h.
     Status interpolate(const M& model, Real t, const State& s, Real h, const State&, Real theta, State& out) noexcept
     {
-        for (std::size_t i = 0; i < stages; ++i) along(Real(theta * equations_.method().c[i]), inner_[i]);
         const Real length = theta * h;
-        if (equations_.factor(length) && iterate(model, t, s, length, inner_, most_refreshments) == Status::ok) {
+        const auto guess = [&] {
+            for (std::size_t i = 0; i < stages; ++i) along(Real(theta * equations_.method().c[i]), inner_[i]);
+        };
+        guess();
+        bool solved = simple && iterate_simply(model, t, s, length, inner_) == Status::ok;
+        if (!solved && simple) equations_.linearise(model, t, s), guess();
+        solved = solved ||
+                 (equations_.factor(length) && iterate(model, t, s, length, inner_, most_refreshments) == Status::ok);
+        if (solved) {
             for (Eigen::Index lane = 0; lane < s.size(); ++lane)
                 out[lane] = s[lane] + (gain(inner_, lane) - lost_[lane]);
         } else {
@@ -107,19 +108,10 @@ class CollocationStepper {
 
   private:
     using Stages = std::array<State, stages>;
-    static Real epsilon() noexcept { return std::numeric_limits<Real>::epsilon(); }
-    static Real rounding() noexcept { return Real(2) * epsilon(); }
-    /// A Jacobian with which increments fall by less is replaced.
-    static Real slow_rate() noexcept { return Real(0.5); }
-    /// epsilon^(5/8), 1.6e-10 in double: increments that stop decreasing below this size are taken for rounding errors
-    /// of a right-hand side that is not computed to the last place.
-    static Real largest_noise() noexcept
-    {
-        using std::sqrt;
-        const Real half = sqrt(epsilon());
-        const Real quarter = sqrt(half);
-        return half * sqrt(quarter);
-    }
+    static constexpr bool simple = stages > 4; ///< iterates without a Jacobian first
+    static constexpr bool packed = simple && detail::TakesPacks<M>;
+    static constexpr int longest_wait = 63;
+    using Packs = std::conditional_t<packed, detail::PackedStages<stages, M>, detail::NoPacks>;
 
     /// s1 - s of a lane, of stages that have converged.
     Real gain(const Stages& z, Eigen::Index lane) const noexcept
@@ -170,6 +162,24 @@ class CollocationStepper {
         z_ = inner_;
     }
 
+    /// Stages in z_, which have the prediction. Where the iteration without a Jacobian fails, some steps do without it,
+    /// twice as many as the last time.
+    Status solve(const M& model, const Real& t, const State& s, const Real& h) noexcept
+    {
+        if (simple && waiting_-- <= 0) {
+            inner_ = z_;
+            const bool solved = iterate_simply(model, t, s, h, inner_) == Status::ok;
+            wait_ = solved ? 0 : std::min(2 * wait_ + 1, longest_wait);
+            waiting_ = wait_;
+            if (solved) return z_ = inner_, Status::ok;
+        }
+        const Status status = try_from(model, t, s, h, most_refreshments);
+        if (status == Status::ok) return status;
+        // Rarely, a Jacobian that stays as it is leads to stages that better ones lead away from.
+        for (State& stage : z_) stage.setZero();
+        return try_from(model, t, s, h, 0);
+    }
+
     /// Newton's method from z_ with the Jacobian at the beginning of the step, then, where it fails, once more.
     Status try_from(const M& model, const Real& t, const State& s, const Real& h, int refreshments) noexcept
     {
@@ -197,49 +207,77 @@ class CollocationStepper {
                                                     : Status::newton_diverged;
     }
 
-    /// Newton's method from z until the increments of every lane are rounding errors (see `move`). One that converges
-    /// slowly gets the Jacobian at an estimate of the middle of the step from where it is; increments that do not
-    /// decrease while they are large have diverged.
+    /// Newton's method from z until the increments of every lane are rounding errors. One that converges slowly gets
+    /// the Jacobian at an estimate of the middle of the step from where it is.
     Status iterate(const M& model, const Real& t, const State& s, const Real& h, Stages& z, int refreshments) noexcept
     {
         measure(s, h);
-        least_.setConstant(std::numeric_limits<Real>::max());
-        rounds_.setZero();
-        const Real noise = noise_;
-        Real before = Real(0), least = Real(0);
-        int rounds = 0;      // since the largest increment reached a new minimum
-        bool judged = false; // the increments of two Jacobians are not compared
-        fast_ = true;
-        for (int round = 0; round < most_iterations; ++round) {
+        const auto round = [&](Real& size) {
             const Status status = equations_.evaluate(model, t, s, lost_, z);
             if (status != Status::ok) return status;
             equations_.solve();
-            const Real size = move(z);
-            if (size - size != Real(0)) return equations_.runaway();
-            bool rests = false, wanders = false;
-            if (size <= noise) judge(noise, rests, wanders);
-            remember();
-            rounds = round == 0 || size < least ? 0 : rounds + 1;
-            if (rounds == 0) least = size;
-            if (rests || (wanders && rounds >= 2)) return Status::ok;
-            if (judged && size >= before && size > noise) return Status::newton_diverged;
-            if (judged && size > Real(4) * rounding()) fast_ = size <= slow_rate() * before;
-            const bool slow = judged && !fast_ && size > noise;
-            before = size;
-            judged = !slow || refreshments <= 0;
-            if (!slow || refreshments-- <= 0) continue;
-            if (!linearise_middle(model, t, s, h, z)) return Status::newton_diverged;
+            size = move(z);
+            return size - size == Real(0) ? Status::ok : equations_.runaway();
+        };
+        return converge(round, [&] {
+            if (refreshments-- <= 0) return true;
+            if (!linearise_middle(model, t, s, h, z)) return false;
             measure(s, h);
+            convergence_.renew();
+            return true;
+        });
+    }
+
+    /// The same without a Jacobian, where that converges well.
+    Status iterate_simply(const M& model, const Real& t, const State& s, const Real& h, Stages& z) noexcept
+    {
+        equations_.set_length(h);
+        detail::for_each_lane(s,
+                              [&](Eigen::Index lane) { convergence_.scale[lane] = detail::magnitude(Real(s[lane])); });
+        if constexpr (packed) packs_.load(z);
+        const auto round = [&](Real& size) {
+            if constexpr (packed) {
+                equations_.calls += stages;
+                if (!packs_.evaluate(t, h, s, lost_)) return Status::newton_diverged;
+                size = packs_.move(convergence_, [&](const auto& a) { return equations_.times_length(a); });
+            } else {
+                const Status status = equations_.evaluate(model, t, s, lost_, z);
+                if (status != Status::ok) return status;
+                size = move(z);
+            }
+            return size - size == Real(0) ? Status::ok : Status::newton_diverged;
+        };
+        const Status status = converge(round, [] { return false; });
+        if constexpr (packed)
+            if (status == Status::ok) packs_.unload(z, equations_.slopes);
+        return status;
+    }
+
+    /// Rounds until their increments, the largest relative one of which a round writes, are rounding errors; refresh()
+    /// is asked whether to go on where they fall slowly.
+    template <class Round, class Refresh>
+    Status converge(const Round& round, const Refresh& refresh) noexcept
+    {
+        using Verdict = typename detail::Convergence<State>::Verdict;
+        convergence_.start();
+        for (int k = 0; k < most_iterations; ++k) {
+            Real size = Real(0);
+            const Status status = round(size);
+            if (status != Status::ok) return status;
+            const Verdict verdict = convergence_.judge(size);
+            if (verdict == Verdict::done) return Status::ok;
+            if (verdict == Verdict::diverged || (verdict == Verdict::slow && !refresh())) break;
         }
         return Status::newton_diverged;
     }
 
-    /// scale_ = |s| + |h J| |s|: what increments are rounding errors of, but for |Z|.
+    /// Increments are rounding errors of |s| + |h J| |s|.
     void measure(const State& s, const Real& h) noexcept
     {
-        equations_.row_sizes(s, scale_);
+        State& scale = convergence_.scale;
+        equations_.row_sizes(s, scale);
         detail::for_each_lane(s, [&](Eigen::Index lane) {
-            scale_[lane] = detail::magnitude(s[lane]) + detail::magnitude(h) * scale_[lane];
+            scale[lane] = detail::magnitude(s[lane]) + detail::magnitude(h) * scale[lane];
         });
     }
 
@@ -259,7 +297,7 @@ class CollocationStepper {
         using detail::load;
         using detail::size_of;
         Real largest = Real(0), sum = Real(0);
-        detail::for_lanes(scale_, [&]<int width>(detail::Width<width>, Eigen::Index lane) {
+        detail::for_lanes(middle_, [&]<int width>(detail::Width<width>, Eigen::Index lane) {
             using Slice = detail::Slice<State, width>;
             Slice step = detail::uniform<State, width>(Real(0)), reach = step, all = step;
             detail::write_out<stages>([&](auto i) {
@@ -271,58 +309,24 @@ class CollocationStepper {
                 reach = far > reach ? far : reach;
                 all += increment;
             });
-            // Where everything is zero the quotient is, too.
-            const Slice least = detail::uniform<State, width>(std::numeric_limits<Real>::min());
-            const Slice relative = step / (load<width>(scale_, lane) + reach + least);
-            detail::store(steps_, lane, step);
-            detail::store(relative_, lane, relative);
+            const Slice relative = convergence_.template note<width>(lane, step, reach);
             sum += detail::total(all);
             largest = std::max<Real>(largest, detail::largest(relative));
         });
         return largest + (sum - sum);
     }
 
-    /// After `move`, of all increments (of a lane the largest of its stages):
-    ///   `rests` says that they are zero, or a few units of the last place and fell by less than a quarter after a fast
-    ///     convergence. (To stop at two units instead saves a tenth of the calls and lets invariants drift: what is
-    ///     left of Newton's method's error has a sign.)
-    ///   `wanders` says that they do so, or are below `noise` and reached no new minimum for two rounds: after a slow
-    ///     convergence, or with a right-hand side that is not computed to the last place. An oscillation comes close to
-    ///     zero in one lane or another: the largest increment has to stand still as well.
-    void judge(const Real& noise, bool& rests, bool& wanders) const noexcept
-    {
-        rests = wanders = true;
-        detail::for_each_lane(scale_, [&](Eigen::Index lane) {
-            const bool small = steps_[lane] == Real(0) || (relative_[lane] <= rounding() && fast_ &&
-                                                           !(Real(4) * steps_[lane] < Real(3) * least_[lane]));
-            const bool stands = steps_[lane] >= least_[lane] && rounds_[lane] >= Real(1);
-            rests = rests && small;
-            wanders = wanders && (small || (stands && relative_[lane] <= noise));
-        });
-    }
-
-    /// Keeps the least increment of every lane, and for how many rounds there has been no new one.
-    void remember() noexcept
-    {
-        detail::for_lanes(scale_, [&]<int width>(detail::Width<width>, Eigen::Index lane) {
-            using Slice = detail::Slice<State, width>;
-            const Slice step = detail::load<width>(steps_, lane), least = detail::load<width>(least_, lane);
-            const Slice more = detail::load<width>(rounds_, lane) + Real(1);
-            detail::store(rounds_, lane, step < least ? detail::uniform<State, width>(Real(0)) : more);
-            detail::store(least_, lane, step < least ? step : least);
-        });
-    }
-
     detail::StageEquations<Scheme, M> equations_;
     Stages z_, inner_;
     State lost_, next_lost_; ///< of the sum, before and behind a step that converged; values inside it leave them alone
-    State middle_, scale_, steps_, relative_, least_, rounds_;
-    Real noise_ = largest_noise();
+    State middle_;
+    detail::Convergence<State> convergence_;
     Weights at_end_{};                    ///< of the stages, in Z(1)
     std::array<Weights, stages> ahead_{}; ///< and in the next step's stages, h / last_h_ being ratio_
     Real h_ = Real(0), last_h_ = Real(0), ratio_ = Real(0);
+    [[no_unique_address]] Packs packs_{equations_.method()};
+    int wait_ = 0, waiting_ = 0; ///< steps without the iteration without a Jacobian: the last time, and left
     bool compensated_;
-    bool fast_ = true; ///< the increments of this iteration fall well
 };
 
 /// A collocation method with a fixed positive `step`; `compensated` carries the rounding errors of the sums along.
@@ -339,6 +343,8 @@ using Gauss2 = CollocationMethod<detail::GaussScheme<1>>; ///< the implicit midp
 using Gauss4 = CollocationMethod<detail::GaussScheme<2>>;
 using Gauss6 = CollocationMethod<detail::GaussScheme<3>>;
 using Gauss8 = CollocationMethod<detail::GaussScheme<4>>;
+using Gauss12 = CollocationMethod<detail::GaussScheme<6>>;
+using Gauss16 = CollocationMethod<detail::GaussScheme<8>>;
 using Radau3Fixed = CollocationMethod<detail::RadauScheme<2>>;
 using Radau5Fixed = CollocationMethod<detail::RadauScheme<3>>;
 

@@ -43,11 +43,23 @@ class StageEquations {
     /// J at (t, s). Entries that are no numbers make the next decomposition fail.
     void linearise(const M& model, const Real& t, const State& s) noexcept { model.jacobian_values(t, s, values_); }
 
+    /// Of the step: h = high + low, each with half the digits [Dekker 1971].
+    void set_length(const Real& h) noexcept
+    {
+        if (h == h_) return;
+        Real factor = Real(1);
+        for (int k = 0; k < (std::numeric_limits<Real>::digits + 1) / 2; ++k) factor *= Real(2);
+        const Real large = (factor + Real(1)) * h, rest = large - h;
+        high_ = large - rest;
+        low_ = h - high_;
+        h_ = h;
+    }
+
     /// Sets the length of the step and decomposes 1 - h lambda J; false where one of these matrices is singular.
     [[nodiscard]] bool factor(const Real& h) noexcept
     {
         ++decompositions;
-        split(h);
+        set_length(h);
         for (std::size_t k = 0; k < real_.size(); ++k)
             if (!factor(real_[k], Real(h * modes_.real[k].lambda))) return false;
         for (std::size_t k = 0; k < complex_.size(); ++k)
@@ -159,18 +171,6 @@ class StageEquations {
     std::size_t calls = 0, iterations = 0, decompositions = 0;
 
   private:
-    /// h = high + low, each with half the digits [Dekker 1971].
-    void split(const Real& h) noexcept
-    {
-        if (h == h_) return;
-        Real factor = Real(1);
-        for (int k = 0; k < (std::numeric_limits<Real>::digits + 1) / 2; ++k) factor *= Real(2);
-        const Real large = (factor + Real(1)) * h, rest = large - h;
-        high_ = large - rest;
-        low_ = h - high_;
-        h_ = h;
-    }
-
     template <class Entry>
     bool factor(MatrixLu<Entry, n>& lu, const Entry& scale) noexcept
     {

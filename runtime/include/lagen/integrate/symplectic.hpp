@@ -1,76 +1,43 @@
 // SPDX-License-Identifier: MIT
-/// Partitioned (splitting) methods for separable systems
+/// Partitioned (splitting) methods with a fixed step, `lagen::KahanLi8{.step = 0.1}`, for separable systems
 ///   xdot = f(y, t),   ydot = g(x, t),
 /// where x are the first M::base_dimension lanes and y the others: compositions of drifts x += a h f(y) and kicks
-/// y += b h g(x). Symplectic where x and y are canonical coordinates. Separability is the caller's to know: a probe at
-/// the start refuses a right-hand side that plainly is not separable, and can miss one that is only nearly so.
+/// y += b h g(x) in turn. Symplectic where x and y are canonical coordinates. Drifts have their own clock, which the
+/// kicks move, and kicks one that the drifts move: both are exact flows then, and the order is full where f and g
+/// depend on time.
+///
+/// A splitting is a type with the members `order`; `weights` of drifts and kicks in turn; `kick_first`; `affine`: its
+/// order needs f(y) = M y + c with constants M and c. (The kick and the drift as vector fields B and A have
+/// [B, [B, A]] = -2 g'(x) M g(x) d/dy then, which commutes with B: [B, [B, [B, A]]] = 0 is what methods of Nystrom's
+/// kind rest on.)
+///
+/// Separability is the caller's to know (`lagen run` proves it): a probe at the start refuses a right-hand side that
+/// plainly is not of this form, and can miss one that is only nearly so.
+///
+/// Where the method is `compensated`, the rounding error of the sum s1 = s + .. enters the next step [Kahan 1965], so
+/// that errors grow as Brouwer's law says.
 #pragma once
 
 #include "lagen/integrate/lanes.hpp"
 #include "lagen/integrate/retract.hpp"
-#include "lagen/integrate/tableau.hpp"
+#include "lagen/integrate/splitting_coefficients.hpp"
 
 namespace lagen {
-
-/// One substep: a drift or a kick of length weight * h.
-struct SplitStep {
-    bool kick = false;
-    Decimal weight;
-};
 
 namespace splitting {
 
 /// Stoermer-Verlet, drift-kick-drift.
 struct LeapfrogDkd {
     static constexpr int order = 2;
-    static constexpr std::array<SplitStep, 3> steps{{{false, {0.5L}}, {true, {1.0L}}, {false, {0.5L}}}};
+    static constexpr bool kick_first = false, affine = false;
+    static constexpr auto weights = mirrored<2>({{{0.5}, {1}}});
 };
 
 /// Stoermer-Verlet, kick-drift-kick.
 struct LeapfrogKdk {
     static constexpr int order = 2;
-    static constexpr std::array<SplitStep, 3> steps{{{true, {0.5L}}, {false, {1.0L}}, {true, {0.5L}}}};
-};
-
-/// Four stages, kick first [McLachlan and Atela 1992, table 1].
-struct McLachlan4 {
-    static constexpr int order = 4;
-    static constexpr std::array<SplitStep, 8> steps{{
-        {true, {0.134496199277431089L}},
-        {false, {0.515352837431122936L}},
-        {true, {-0.224819803079420806L}},
-        {false, {-0.085782019412973646L}},
-        {true, {0.756320000515668291L}},
-        {false, {0.441583023616466524L}},
-        {true, {0.334003603286321425L}},
-        {false, {0.128846158365384185L}},
-    }};
-};
-
-/// Seven leapfrogs kick-drift-kick with weights w3 w2 w1 w0 w1 w2 w3 [Yoshida 1990, solution A].
-struct Yoshida6 {
-    static constexpr int order = 6;
-    static constexpr long double w1 = -1.17767998417887100694641568096431573L;
-    static constexpr long double w2 = 0.235573213359358133684793182978534602L;
-    static constexpr long double w3 = 0.784513610477557263819497633866349876L;
-    static constexpr long double w0 = 1.0L - 2.0L * (w1 + w2 + w3);
-    static constexpr std::array<SplitStep, 15> steps{{
-        {true, {w3 / 2}},
-        {false, {w3}},
-        {true, {(w3 + w2) / 2}},
-        {false, {w2}},
-        {true, {(w2 + w1) / 2}},
-        {false, {w1}},
-        {true, {(w1 + w0) / 2}},
-        {false, {w0}},
-        {true, {(w0 + w1) / 2}},
-        {false, {w1}},
-        {true, {(w1 + w2) / 2}},
-        {false, {w2}},
-        {true, {(w2 + w3) / 2}},
-        {false, {w3}},
-        {true, {w3 / 2}},
-    }};
+    static constexpr bool kick_first = true, affine = false;
+    static constexpr auto weights = LeapfrogDkd::weights;
 };
 
 } // namespace splitting
@@ -91,78 +58,158 @@ class SplittingStepper {
     static constexpr int dense_order = Splitting::order;
 
     template <class Method>
-    explicit SplittingStepper(const Method&) noexcept
+    explicit SplittingStepper(const Method& method) noexcept : compensated_(method.compensated)
     {
     }
 
-    /// Probes separability: xdot must not change with x, nor ydot with y, by more than 1e-6 relative. Where the
-    /// displaced points cannot be evaluated the probe says nothing.
+    /// Probes the form of the right-hand side: xdot must not change with x, nor ydot with y, by more than 1e-6
+    /// relative, nor the change of xdot along y where the method needs that. Where the displaced points cannot be
+    /// evaluated the probe says nothing.
     status_t<Scalar> begin(const M& model, Real t, const State& s) noexcept
     {
-        State here = State::Zero(s.size());
-        const auto status = model.rhs(Scalar(t), s, here);
-        ds_ = here;
+        lost_ = State::Zero(s.size());
+        next_lost_ = moved_ = rates_ = first_ = last_ = lost_;
+        const auto status = model.rhs(Scalar(t), s, first_);
         ++calls_;
         if (!StatusOf<Scalar>::all_good(status)) return status;
-        auto verdict = probe(model, t, s, here, 0, M::base_dimension);
-        verdict = StatusOf<Scalar>::first(verdict, probe(model, t, s, here, M::base_dimension, M::dimension));
+        State change = lost_, change_of_two = lost_;
+        auto verdict = StatusOf<Scalar>::good();
+        if (probe(model, t, s, Lanes<false>(), 1, change)) refuse(verdict, change, Lanes<false>());
+        if (!probe(model, t, s, Lanes<true>(), 1, change)) return verdict;
+        refuse(verdict, change, Lanes<true>());
+        if (Splitting::affine && probe(model, t, s, Lanes<true>(), 2, change_of_two))
+            refuse(verdict, State(change_of_two - change - change), Lanes<false>());
         return verdict;
     }
 
     status_t<Scalar> attempt(const M& model, Real t, const State& s, Real h, State& s1) noexcept
     {
-        s1 = s;
-        auto status = StatusOf<Scalar>::good();
-        Real time = t;
-        for (const SplitStep& substep : Splitting::steps) {
-            const Real length = substep.weight.template as<Real>() * h;
-            status = StatusOf<Scalar>::first(status, model.rhs(Scalar(time), s1, ds_));
-            ++calls_;
-            const int begin = substep.kick ? M::base_dimension : 0;
-            const int end = substep.kick ? M::dimension : M::base_dimension;
-            for (int lane = begin; lane < end; ++lane) s1[lane] += length * ds_[lane];
-            if (!substep.kick) time += length;
-        }
+        const auto status = move(model, t, s, h, s1, last_);
+        detail::for_lanes(s, [&]<int width>(detail::Width<width>, Eigen::Index lane) {
+            using detail::load;
+            const detail::Slice<State, width> gone = load<width>(s1, lane) - load<width>(s, lane);
+            detail::store(next_lost_, lane, gone - load<width>(moved_, lane));
+        });
         return StatusOf<Scalar>::first(status, detail::check_finite(s1));
     }
 
-    void accept() noexcept {}
+    void accept() noexcept
+    {
+        if (compensated_) lost_ = next_lost_;
+        if constexpr (joins) first_ = last_;
+    }
 
     /// The state at t + theta h, 0 <= theta <= 1: a step of length theta h.
     status_t<Scalar> interpolate(const M& model, Real t, const State& s, Real h, const State&, Real theta,
                                  State& out) noexcept
     {
-        return attempt(model, t, s, theta * h, out);
+        const auto status = move(model, t, s, theta * h, out, rates_);
+        return StatusOf<Scalar>::first(status, detail::check_finite(out));
     }
 
     [[nodiscard]] std::size_t calls() const noexcept { return calls_; }
 
   private:
-    status_t<Scalar> probe(const M& model, Real t, const State& s, const State& here, int begin, int end) noexcept
-    {
-        State moved = s;
-        for (int lane = begin; lane < end; ++lane)
-            moved[lane] += Scalar(Real(1) / Real(64)) * (Scalar(1) + s[lane] * s[lane]);
-        auto verdict = StatusOf<Scalar>::good();
-        const auto status = model.rhs(Scalar(t), moved, ds_);
-        ++calls_;
-        if (!StatusOf<Scalar>::all_good(status)) return verdict;
-        for (int lane = begin; lane < end; ++lane) {
-            const Scalar change = ds_[lane] - here[lane];
-            const Scalar size = Scalar(1) + here[lane] * here[lane];
-            StatusOf<Scalar>::fail(verdict, change * change > Scalar(Real(1e-12)) * size, Status::not_separable);
+    static constexpr std::size_t count = Splitting::weights.size();
+    /// A step ends with rates that the next one begins with: those of its last kick, or of its last drift.
+    static constexpr bool joins = count % 2 == 1;
+
+    /// The lanes that a kick moves, or a drift.
+    template <bool kick>
+    struct Lanes {
+        static constexpr Eigen::Index begin = kick ? M::base_dimension : 0;
+        static constexpr Eigen::Index size = kick ? M::dimension - M::base_dimension : M::base_dimension;
+
+        template <class Function>
+        [[gnu::always_inline]] static void each(const Function& f) noexcept
+        {
+            detail::for_first_lanes<State, size>(
+                size, [&]<int width>(detail::Width<width> w, Eigen::Index lane) { f(w, begin + lane); });
         }
-        return verdict;
+    };
+
+    /// s1 = s - lost_ + moved_ by all drifts and kicks; `last` has the rates of the last one.
+    status_t<Scalar> move(const M& model, Real t, const State& s, Real h, State& s1, State& last) noexcept
+    {
+        auto status = StatusOf<Scalar>::good();
+        std::array<Real, 2> clocks{t, t}; // of drifts and of kicks
+        s1 = s;
+        moved_ = -lost_;
+        const auto substep = [&]<bool kick>(std::size_t k, Lanes<kick> lanes) {
+            const Real length = Splitting::weights[k].template as<Real>() * h;
+            if constexpr (!kick && second_order<M> != SecondOrder::no) {
+                go(s, length, lanes, M::base_dimension, s1, s1);
+            } else if (joins && k == 0) {
+                go(s, length, lanes, 0, first_, s1);
+            } else {
+                State& rates = joins && k + 1 == count ? last : rates_;
+                status = StatusOf<Scalar>::first(status, model.rhs(Scalar(clocks[kick]), s1, rates));
+                ++calls_;
+                go(s, length, lanes, 0, rates, s1);
+            }
+            clocks[!kick] += length;
+        };
+        constexpr bool kick_first = Splitting::kick_first;
+        for (std::size_t k = 0; k + 1 < count; k += 2) {
+            substep(k, Lanes<kick_first>());
+            substep(k + 1, Lanes<!kick_first>());
+            if (!is_pack<Scalar> && !StatusOf<Scalar>::all_good(status)) return status;
+        }
+        if constexpr (joins) substep(count - 1, Lanes<kick_first>());
+        return status;
     }
 
-    State ds_;
+    /// Moves these lanes by length * rates, whose lanes stand `shift` behind them.
+    template <bool kick>
+    [[gnu::always_inline]] void go(const State& s, const Real& length, Lanes<kick>, Eigen::Index shift,
+                                   const State& rates, State& s1) noexcept
+    {
+        Lanes<kick>::each([&]<int width>(detail::Width<width>, Eigen::Index lane) {
+            using detail::load;
+            const detail::Slice<State, width> sum =
+                load<width>(moved_, lane) + length * detail::load_fresh<width>(rates, lane + shift);
+            detail::store(moved_, lane, sum);
+            detail::store(s1, lane, load<width>(s, lane) + sum);
+        });
+    }
+
+    /// What the rates have more than at s where these lanes are displaced `times` times; false where there are none.
+    template <bool kick>
+    bool probe(const M& model, Real t, const State& s, Lanes<kick>, int times, State& change) noexcept
+    {
+        State moved = s;
+        const Eigen::Index begin = Lanes<kick>::begin, end = begin + Lanes<kick>::size;
+        for (Eigen::Index lane = begin; lane < end; ++lane)
+            moved[lane] += Scalar(Real(times) / Real(64)) * (Scalar(1) + s[lane] * s[lane]);
+        ++calls_;
+        if (!StatusOf<Scalar>::all_good(model.rhs(Scalar(t), moved, rates_))) return false;
+        change = rates_ - first_;
+        return true;
+    }
+
+    template <bool kick>
+    void refuse(status_t<Scalar>& verdict, const State& change, Lanes<kick>) const noexcept
+    {
+        const Eigen::Index begin = Lanes<kick>::begin, end = begin + Lanes<kick>::size;
+        for (Eigen::Index lane = begin; lane < end; ++lane) {
+            const Scalar size = Scalar(1) + first_[lane] * first_[lane];
+            StatusOf<Scalar>::fail(verdict, change[lane] * change[lane] > Scalar(Real(1e-12)) * size,
+                                   Status::not_separable);
+        }
+    }
+
+    State lost_, next_lost_; ///< of the sums, before and behind a step
+    State moved_;            ///< since the beginning of the step
+    State rates_, first_, last_;
     std::size_t calls_ = 0;
+    bool compensated_;
 };
 
-/// A splitting method with a fixed positive `step`.
+/// A splitting method with a fixed positive `step`; `compensated` carries the rounding errors of the sums along.
 template <class Splitting>
 struct SplittingMethod {
     double step = 0;
+    bool compensated = true;
 
     template <class M>
     using Stepper = SplittingStepper<Splitting, M>;
@@ -171,6 +218,12 @@ struct SplittingMethod {
 using LeapfrogDkd = SplittingMethod<splitting::LeapfrogDkd>;
 using LeapfrogKdk = SplittingMethod<splitting::LeapfrogKdk>;
 using McLachlan4 = SplittingMethod<splitting::McLachlan4>;
+using BlanesMoan4 = SplittingMethod<splitting::BlanesMoan4>;
+using Srkn4 = SplittingMethod<splitting::Srkn4>;
 using Yoshida6 = SplittingMethod<splitting::Yoshida6>;
+using BlanesMoan6 = SplittingMethod<splitting::BlanesMoan6>;
+using Srkn6 = SplittingMethod<splitting::Srkn6>;
+using KahanLi8 = SplittingMethod<splitting::KahanLi8>;
+using Sofroniou10 = SplittingMethod<splitting::Sofroniou10>;
 
 } // namespace lagen

@@ -54,8 +54,8 @@ struct Fraction {
 };
 
 /// A coefficient that is published as a decimal fraction only; exact to the digits of a long double (19 on x86), also
-/// where the scalar has more: methods made of Decimals (Tsit5, Dop853, McLachlan4, Yoshida6) satisfy their order
-/// conditions to about 1e-18 in any wider scalar, those made of Fractions to all its digits.
+/// where the scalar has more: methods made of Decimals (Tsit5, Dop853) satisfy their order conditions to about 1e-18 in
+/// any wider scalar, those made of Fractions to all its digits.
 struct Decimal {
     long double value = 0.0L;
 
@@ -88,6 +88,26 @@ struct Coefficient {
             return static_cast<Real>(head);
     }
 };
+
+namespace splitting {
+
+/// Coefficients as they stand.
+template <std::size_t n>
+constexpr std::array<Coefficient, n> listed(const std::array<Coefficient, n>& all) noexcept
+{
+    return all;
+}
+
+/// The palindrome that begins with `half`, the last entry of which is its middle.
+template <std::size_t n>
+constexpr std::array<Coefficient, 2 * n - 1> mirrored(const std::array<Coefficient, n>& half) noexcept
+{
+    std::array<Coefficient, 2 * n - 1> all{};
+    for (std::size_t k = 0; k < n; ++k) all[k] = all[2 * n - 2 - k] = half[k];
+    return all;
+}
+
+} // namespace splitting
 
 namespace detail {
 
