@@ -149,7 +149,8 @@ bool vanishes(const Formula& polynomial, const LocalAlgebroid& algebroid)
 {
     std::map<std::string, Formula> point;
     const auto place = [&](const std::string& name) {
-        point.emplace(name, mpq_class(static_cast<int>(37 + 14 * point.size()), static_cast<int>(53 + 6 * point.size())));
+        point.emplace(name,
+                      mpq_class(static_cast<int>(37 + 14 * point.size()), static_cast<int>(53 + 6 * point.size())));
     };
     for (std::size_t i = 0; i < algebroid.n(); ++i) place(algebroid.coordinate(i).text());
     for (const std::string& parameter : algebroid.parameters) place(parameter);
