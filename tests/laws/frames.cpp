@@ -2,6 +2,8 @@
 /// Elementary matrices of functions, and cofactors.
 #include "frames.hpp"
 
+#include <map>
+
 namespace lagen::laws {
 namespace {
 
@@ -141,6 +143,20 @@ LocalAlgebroid in_random_frame(const LocalAlgebroid& algebroid, FunctionClass ki
     return result;
 }
 
+/// Whether a polynomial of the algebroid's coordinates and parameters vanishes, which its terms need not show: at a
+/// point where few others do.
+bool vanishes(const Formula& polynomial, const LocalAlgebroid& algebroid)
+{
+    std::map<std::string, Formula> point;
+    const auto place = [&](const std::string& name) {
+        point.emplace(name,
+                      mpq_class(static_cast<int>(37 + 14 * point.size()), static_cast<int>(53 + 6 * point.size())));
+    };
+    for (std::size_t i = 0; i < algebroid.n(); ++i) place(algebroid.coordinate(i).text());
+    for (const std::string& parameter : algebroid.parameters) place(parameter);
+    return substitute(polynomial, point).is_zero();
+}
+
 LocalAlgebroid in_full_frame(const LocalAlgebroid& algebroid, Dice& dice)
 {
     const std::size_t r = algebroid.r();
@@ -153,7 +169,7 @@ LocalAlgebroid in_full_frame(const LocalAlgebroid& algebroid, Dice& dice)
     Formula determinant;
     for (std::size_t b = 0; b < r; ++b)
         determinant = determinant + Formula(b % 2 == 0 ? 1 : -1) * frame.A[b] * minor_2(frame.A, r, 0, b);
-    if (determinant.is_zero()) return in_random_frame(algebroid, FunctionClass::rational, dice);
+    if (vanishes(determinant, algebroid)) return in_random_frame(algebroid, FunctionClass::rational, dice);
     for (std::size_t a = 0; a < r; ++a)
         for (std::size_t b = 0; b < r; ++b)
             frame.inverse[b * r + a] = Formula((a + b) % 2 == 0 ? 1 : -1) * minor_2(frame.A, r, a, b) / determinant;

@@ -280,6 +280,7 @@ class TaylorStepper {
         const StepControl control = method.control();
         const double tolerance = control.relative_tolerance();
         const double logarithm = -std::log(tolerance > 0 ? tolerance : control.absolute_tolerance());
+        if (!std::isfinite(logarithm)) return highest_order; // integrate refuses such tolerances
         int sums = 0;
         if constexpr (requires { M::taylor_sums; }) sums = M::taylor_sums;
         return std::clamp(detail::taylor_order<Real>(logarithm, sums), 3, highest_order);
