@@ -28,6 +28,7 @@ constexpr std::array commands{
     CommandEntry{"derive", "print the equations of motion", run_derive},
     CommandEntry{"generate", "write the C++ header of a model", run_generate},
     CommandEntry{"run", "generate, compile and integrate a scene of a model", run_run},
+    CommandEntry{"chart", "chart what accuracy costs by every method", run_chart},
     CommandEntry{"models", "list the example models", run_models},
     CommandEntry{"methods", "list the integrators", run_methods},
 };

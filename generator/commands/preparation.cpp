@@ -25,9 +25,9 @@ void require_system(const Options& options, const Scene& scene, const MethodEntr
 
 } // namespace
 
-Preparation::Preparation(const Options& options, CheckedModel& checked)
+Preparation::Preparation(const Options& options, CheckedModel& checked, const std::string& method)
     : options_(options), checked_(checked),
-      file_(record_file(checked.model, {options.get("scene"), options.get("form"), options.get("method"),
+      file_(record_file(checked.model, {options.get("scene"), options.get("form"), method,
                                         options.has("unchecked") ? "unchecked" : ""})),
       record_(find_record(file_))
 {
@@ -53,8 +53,8 @@ void Preparation::finish(const Scene& scene, const std::string& form, const Meth
     if (method.series && !scene.events.empty()) request.with.emplace_back("event_series");
     const Generated generated = generate(checked_, request);
     require_system(options_, scene, method, generated.module);
-    const Compiled compiled = compile_program(generated.header, program_text(generated.module.name, method));
-    record_ = record_of(checked_, generated.module, compiled.program, parameters);
+    const std::string program = compile_program(generated.header, program_text(generated.module.name, method));
+    record_ = record_of(checked_, generated.module, program, parameters);
     keep_record(file_, *record_);
 }
 

@@ -6,12 +6,14 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
+#include <memory>
 #include <poll.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -23,17 +25,19 @@ namespace lagen {
 
 namespace {
 
+constexpr std::size_t most_children = 16;
 volatile std::sig_atomic_t interrupts = 0;
-volatile pid_t running_child = 0;
+volatile pid_t running_children[most_children];
 
 extern "C" void on_interrupt_of_child(int)
 {
     interrupts = interrupts + 1;
     // The whole group: a compiler driver's own children too.
-    if (running_child > 0) ::kill(-running_child, interrupts > 1 ? SIGKILL : SIGINT);
+    for (const volatile pid_t& child : running_children)
+        if (child > 0) ::kill(-child, interrupts > 1 ? SIGKILL : SIGINT);
 }
 
-/// Interrupts, also those that were held back before, go to the child while this lives; a second one kills it.
+/// Interrupts, also those that were held back before, go to the children while this lives; a second one kills them.
 class InterruptsForwarded {
   public:
     InterruptsForwarded()
@@ -49,7 +53,7 @@ class InterruptsForwarded {
     }
     ~InterruptsForwarded()
     {
-        running_child = 0;
+        for (volatile pid_t& child : running_children) child = 0;
         sigprocmask(SIG_SETMASK, &before_mask_, nullptr);
         sigaction(SIGINT, &before_int_, nullptr);
         sigaction(SIGTERM, &before_term_, nullptr);
@@ -115,64 +119,123 @@ pid_t spawn(const std::string& program, const std::vector<std::string>& argument
     return child;
 }
 
-/// Reads both pipes until both are closed.
-void drain(Pipe& output, Pipe& error, ProcessResult& result, const std::function<void(const char*, std::size_t)>& sink)
+using Sink = std::function<void(const char*, std::size_t)>;
+
+/// A program with its place among the running ones.
+struct Child {
+    Pipe output, error;
+    pid_t process = 0;
+    std::size_t place = 0;
+    std::size_t command = 0; ///< its place among the commands
+
+    [[nodiscard]] bool is_silent() const { return output.ends[0] < 0 && error.ends[0] < 0; }
+};
+
+/// Nothing where it could not be started; `result` says why.
+std::unique_ptr<Child> start_child(const std::vector<std::string>& arguments, ProcessResult& result)
 {
-    std::array<char, 65536> buffer;
-    while (output.ends[0] >= 0 || error.ends[0] >= 0) {
-        std::array<pollfd, 2> waiting{pollfd{output.ends[0], POLLIN, 0}, pollfd{error.ends[0], POLLIN, 0}};
-        if (::poll(waiting.data(), waiting.size(), -1) < 0) {
-            if (errno == EINTR) continue;
-            throw MachineError(fmt::format("error: cannot wait for a child process: {}", std::strerror(errno)));
-        }
-        for (std::size_t k = 0; k < 2; ++k) {
-            if (waiting[k].revents == 0) continue;
-            const ssize_t count = ::read(waiting[k].fd, buffer.data(), buffer.size());
-            if (count < 0 && errno == EINTR) continue;
-            if (count <= 0) {
-                (k == 0 ? output : error).close_end(0);
-            } else if (k == 0 && sink) {
-                sink(buffer.data(), static_cast<std::size_t>(count));
-            } else {
-                (k == 0 ? result.output : result.error).append(buffer.data(), static_cast<std::size_t>(count));
-            }
-        }
+    const std::string program = find_program(arguments.at(0));
+    auto child = std::make_unique<Child>();
+    int failure = 0;
+    if (!program.empty()) child->process = spawn(program, arguments, child->output, child->error, failure);
+    child->output.close_end(1);
+    child->error.close_end(1);
+    if (!program.empty() && failure == 0) return child;
+    result.started = false;
+    result.error = program.empty() ? "not found" : std::strerror(failure);
+    return nullptr;
+}
+
+/// One piece of what came through a pipe; closes it at its end.
+void read_piece(Pipe& pipe, const Sink& take)
+{
+    static std::array<char, 65536> buffer;
+    const ssize_t count = ::read(pipe.ends[0], buffer.data(), buffer.size());
+    if (count < 0 && errno == EINTR) return;
+    if (count <= 0)
+        pipe.close_end(0);
+    else
+        take(buffer.data(), static_cast<std::size_t>(count));
+}
+
+/// Waits until one of them has written something, and reads it.
+void read_pieces(const std::vector<std::unique_ptr<Child>>& children, std::vector<ProcessResult>& results,
+                 const Sink& sink)
+{
+    std::vector<pollfd> waiting;
+    for (const auto& child : children)
+        for (const Pipe* pipe : {&child->output, &child->error}) waiting.push_back({pipe->ends[0], POLLIN, 0});
+    if (::poll(waiting.data(), waiting.size(), -1) < 0) {
+        if (errno == EINTR) return;
+        throw MachineError(fmt::format("error: cannot wait for a child process: {}", std::strerror(errno)));
     }
+    for (std::size_t k = 0; k < children.size(); ++k) {
+        ProcessResult& result = results[children[k]->command];
+        const auto keep = [](std::string& text) {
+            return [&text](const char* bytes, std::size_t count) { text.append(bytes, count); };
+        };
+        if (waiting[2 * k].revents != 0) read_piece(children[k]->output, sink ? sink : keep(result.output));
+        if (waiting[2 * k + 1].revents != 0) read_piece(children[k]->error, keep(result.error));
+    }
+}
+
+void wait_for(const Child& child, ProcessResult& result)
+{
+    int status = 0;
+    while (::waitpid(child.process, &status, 0) < 0 && errno == EINTR) {
+    }
+    running_children[child.place] = 0;
+    result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+std::size_t free_place()
+{
+    std::size_t place = 0;
+    while (running_children[place] > 0) ++place;
+    return place;
+}
+
+std::vector<ProcessResult> run_all(const std::vector<std::vector<std::string>>& commands, std::size_t at_once,
+                                   const Sink& sink)
+{
+    std::vector<ProcessResult> results(commands.size());
+    std::vector<std::unique_ptr<Child>> children;
+    const InterruptsForwarded forwarded;
+    at_once = std::clamp<std::size_t>(at_once, 1, most_children);
+    for (std::size_t next = 0; next < commands.size() || !children.empty();) {
+        const bool more = next < commands.size() && (interrupts == 0 || next == 0);
+        if (more && children.size() < at_once) {
+            if (auto child = start_child(commands[next], results[next])) {
+                child->command = next;
+                child->place = free_place();
+                running_children[child->place] = child->process;
+                if (interrupts > 0) ::kill(-child->process, SIGINT);
+                children.push_back(std::move(child));
+            }
+            ++next;
+            continue;
+        }
+        if (children.empty()) break;
+        read_pieces(children, results, sink);
+        std::erase_if(children, [&](const std::unique_ptr<Child>& child) {
+            if (child->is_silent()) wait_for(*child, results[child->command]);
+            return child->is_silent();
+        });
+    }
+    for (ProcessResult& result : results) result.interrupted = interrupts > 0;
+    return results;
 }
 
 } // namespace
 
-ProcessResult run_process(const std::vector<std::string>& arguments,
-                          const std::function<void(const char*, std::size_t)>& sink)
+ProcessResult run_process(const std::vector<std::string>& arguments, const Sink& sink)
 {
-    ProcessResult result;
-    const std::string program = find_program(arguments.at(0));
-    if (program.empty()) {
-        result.started = false;
-        result.error = "not found";
-        return result;
-    }
-    Pipe output;
-    Pipe error;
-    const InterruptsForwarded forwarded;
-    int failure = 0;
-    const pid_t child = spawn(program, arguments, output, error, failure);
-    if (failure != 0) {
-        result.started = false;
-        result.error = std::strerror(failure);
-        return result;
-    }
-    running_child = child;
-    if (interrupts > 0) ::kill(-child, SIGINT);
-    output.close_end(1);
-    error.close_end(1);
-    drain(output, error, result, sink);
-    int status = 0;
-    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
-    result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    result.interrupted = interrupts > 0;
-    return result;
+    return std::move(run_all({arguments}, 1, sink)[0]);
+}
+
+std::vector<ProcessResult> run_processes(const std::vector<std::vector<std::string>>& commands, std::size_t at_once)
+{
+    return run_all(commands, at_once, {});
 }
 
 std::string find_program(const std::string& name)

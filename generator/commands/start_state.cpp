@@ -115,4 +115,17 @@ std::vector<long double> start_state(const std::function<const CheckedModel&()>&
     throw InternalError("a form without a start");
 }
 
+std::vector<long double> finite_numbers(const std::vector<NamedNumber>& named, const Scene& scene)
+{
+    std::vector<long double> values;
+    for (const auto& [name, value] : named) {
+        if (!std::isfinite(static_cast<double>(value)))
+            throw ModelError(fmt::format("'{}' starts at {:.6g} in scene '{}', where at most 1.79769e+308 is possible",
+                                         name, value, scene.name),
+                             scene.where);
+        values.push_back(value);
+    }
+    return values;
+}
+
 } // namespace lagen

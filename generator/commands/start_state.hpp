@@ -16,4 +16,8 @@ namespace lagen {
 [[nodiscard]] std::vector<long double> start_state(const std::function<const CheckedModel&()>& checked,
                                                    const std::string& form, const SceneValues& values);
 
+/// The numbers in the order of `named`. Throws ModelError where a double, as the compiled scene has it, cannot hold
+/// one.
+[[nodiscard]] std::vector<long double> finite_numbers(const std::vector<NamedNumber>& named, const Scene& scene);
+
 } // namespace lagen
