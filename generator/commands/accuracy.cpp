@@ -68,7 +68,7 @@ std::optional<AccurateMethod> accurate_method(const Options& options, const Chec
         write_standard_error("no chart of this scene is kept: it is made now\n");
         CheckedModel own = load(path, options.settings(), options.has("unchecked"));
         const Scene scene = scene_of(options, own.model);
-        kept = kept_chart(make_chart(own, {scene, form_of(own.model, scene), {}}));
+        kept = kept_chart(make_chart(own, {scene, form_of(own.model, scene)}));
         keep_chart(file, *kept);
     }
     return choose_method(*kept, accuracy);

@@ -31,6 +31,7 @@ const CommandSyntax chart_syntax{
     {{"scene", "NAME", "the scene; without it `default`, else the first"},
      {"form", "FORM", chart_form_help.c_str()},
      {"methods", "A,B,..", "these alone, see `lagen methods`; without it all that apply"},
+     {"peers", nullptr, "odeint, GSL and SUNDIALS too, where they are installed, with the same right-hand side"},
      {"t-end", "T", "end of the runs, backwards where it lies before the start; without it the scene's duration"},
      {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
      {"output,o", "DIR", "the folder of the files, made where it is missing", "."},
@@ -70,6 +71,7 @@ ExitCode run_chart(Arguments arguments)
     if (options.has("form")) (void)options.choice("form", form_names());
     ChartRequest request;
     request.methods = wanted_methods(options);
+    request.peers = options.has("peers");
     const std::string folder = options.get("output");
     const bool draws = !find_program("gnuplot").empty();
     if (!draws) write_standard_error("warning: gnuplot was not found: chart.svg and chart.png are not drawn\n");
@@ -82,7 +84,7 @@ ExitCode run_chart(Arguments arguments)
     const Chart chart = make_chart(checked, request);
     if (!chart.shortened.empty())
         write_standard_error(fmt::format("warning: the chart ends at t = {:.9g}: {}\n", chart.end, chart.shortened));
-    if (request.methods.empty()) keep_chart(chart_file(options, checked.model), kept_chart(chart));
+    if (request.methods.empty() && !request.peers) keep_chart(chart_file(options, checked.model), kept_chart(chart));
     write_file(folder + "/chart.json", chart_json(chart));
     write_file(folder + "/chart.csv", chart_csv(chart));
     if (draws)

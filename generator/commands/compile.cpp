@@ -170,6 +170,15 @@ std::vector<std::string> compile_programs(const std::vector<ProgramText>& progra
     return paths;
 }
 
+bool finds_header(const std::string& header)
+{
+    const TemporaryFolder scratch(shared_temporary_folder(), "lagen-look");
+    write_file(scratch.file("look.cpp"), fmt::format("#if !__has_include(<{}>)\n#error\n#endif\n", header));
+    std::vector<std::string> command = compile_command();
+    command.insert(command.end(), {"-fsyntax-only", scratch.file("look.cpp")});
+    return run_process(command).exit_code == 0;
+}
+
 std::string compiler_text()
 {
     std::vector<std::string> command = find_compiler();

@@ -25,6 +25,9 @@ struct ProgramText {
 /// many are missing.
 [[nodiscard]] std::vector<std::string> compile_programs(const std::vector<ProgramText>& programs);
 
+/// Whether the compiler finds a header, "gsl/gsl_odeiv2.h".
+[[nodiscard]] bool finds_header(const std::string& header);
+
 /// The compiler with its flags, as a user would type it.
 [[nodiscard]] std::string compiler_text();
 

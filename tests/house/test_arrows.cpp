@@ -14,11 +14,11 @@ using namespace lagen::house;
 
 namespace {
 
-/// The runtime's own headers are "lagen/...", those of the program of `lagen run` "lagen_run/...".
+/// The runtime's own headers are "lagen/...", those of the programs of `lagen run` and others "lagen_run/...".
 std::string room_included(const std::string& target)
 {
     if (target.starts_with("lagen/")) return "runtime";
-    return target.starts_with("lagen_run/") ? "program" : room_of("generator/" + target);
+    return target.starts_with("lagen_") ? "program" : room_of("generator/" + target);
 }
 
 /// "path:line includes X (room r)", one a line, for every include that no arrow allows.

@@ -33,8 +33,9 @@ void choose_methods(std::vector<MethodFamily>& families, std::vector<LeftOutMeth
             if (other.method == method->name) throw UsageError("lagen chart: " + other.reason);
     left_out.clear();
     for (MethodFamily& family : families)
-        std::erase_if(family.methods,
-                      [&](const MethodEntry* method) { return std::ranges::find(wanted, method) == wanted.end(); });
+        std::erase_if(family.methods, [&](const Contestant& method) {
+            return std::ranges::find(wanted, find_method(method.name)) == wanted.end();
+        });
 }
 
 /// What a probe of the right-hand side refused applies no more than what was left out before.
@@ -62,12 +63,12 @@ Chart make_chart(CheckedModel& checked, const ChartRequest& request)
     chart.scene = request.scene.name;
     chart.form = request.form;
     std::vector<MethodFamily> families = method_families(problem, chart.left_out);
-    std::vector<ProgramText> texts = reference_programs(problem);
-    for (const MethodFamily& family : families) texts.push_back(family_program(problem, family));
     choose_methods(families, chart.left_out, request.methods);
-    for (std::size_t k = families.size(); k-- > 0;)
-        if (families[k].methods.empty()) texts.erase(texts.begin() + 2 + static_cast<std::ptrdiff_t>(k));
     std::erase_if(families, [](const MethodFamily& family) { return family.methods.empty(); });
+    if (request.peers)
+        for (MethodFamily& peer : peer_families(problem, chart.left_out)) families.push_back(std::move(peer));
+    std::vector<ProgramText> texts = reference_programs(problem);
+    for (const MethodFamily& family : families) texts.push_back(family.text);
     const std::vector<std::string> programs = compile_programs(texts);
     for (std::size_t k = 0; k < families.size(); ++k) families[k].program = programs[k + 2];
     const std::array<std::string, 2> methods = reference_methods(problem);

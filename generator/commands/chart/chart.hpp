@@ -49,7 +49,8 @@ struct Chart {
 struct ChartRequest {
     Scene scene;
     std::string form;
-    std::vector<const MethodEntry*> methods; ///< empty: all that apply
+    std::vector<const MethodEntry*> methods = {}; ///< empty: all that apply
+    bool peers = false;                           ///< other libraries too, where they are installed
 };
 
 /// Generates, compiles, makes the reference and runs every method over its ladder, with a line of progress on standard

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/chart/contestants.hpp"
 
+#include "commands/options.hpp"
 #include "emit/print_header.hpp"
 
 #include <fmt/core.h>
 
+#include <array>
 #include <map>
 #include <string_view>
 
@@ -22,6 +24,32 @@ Kinship kinship_of(const MethodEntry& method)
     if (method.system != SecondOrder::Kind::no) return Kinship::nystrom;
     if (name.starts_with("gauss") || name.starts_with("radau")) return Kinship::implicit;
     return method.adaptive ? Kinship::pair : Kinship::explicit_steps;
+}
+
+/// A library that takes part where it is installed, by runtime/program/lagen_chart/NAME.hpp.
+struct PeerEntry {
+    const char* name;
+    const char* header;
+    const char* package;
+    const char* libraries;
+    std::array<const char*, 3> methods; ///< nullptr where there are fewer
+};
+
+constexpr std::array peers{
+    PeerEntry{"odeint", "boost/numeric/odeint.hpp", "libboost-dev", "", {"dopri5", "fehlberg78", "bulirsch_stoer"}},
+    PeerEntry{"gsl", "gsl/gsl_odeiv2.h", "libgsl-dev", "-lgsl,-lgslcblas", {"rk8pd", "rkf45", nullptr}},
+    PeerEntry{"sundials",
+              "cvode/cvode.h",
+              "libsundials-dev",
+              "-lsundials_cvode,-lsundials_nvecserial,-lsundials_sunnonlinsolfixedpoint",
+              {"cvode_adams", nullptr, nullptr}},
+};
+
+std::string main_with(const std::string& header, const std::string& call)
+{
+    return fmt::format("#include \"model.hpp\"\n#include \"lagen_chart/{}.hpp\"\nint main(int argc, char** "
+                       "argv)\n{{\n    return lagen::{};\n}}\n",
+                       header, call);
 }
 
 bool has_base(const KernelModule& module)
@@ -50,32 +78,52 @@ std::string obstacle_to(const MethodEntry& method, const ChartProblem& problem)
 
 std::vector<MethodFamily> method_families(const ChartProblem& problem, std::vector<LeftOutMethod>& left_out)
 {
-    std::map<Kinship, MethodFamily> families;
+    std::map<Kinship, std::vector<const MethodEntry*>> families;
     for (const MethodEntry& method : method_table()) {
         const std::string obstacle = obstacle_to(method, problem);
         if (obstacle.empty())
-            families[kinship_of(method)].methods.push_back(&method);
+            families[kinship_of(method)].push_back(&method);
         else
             left_out.push_back({method.name, obstacle});
     }
     std::vector<MethodFamily> list;
-    for (auto& [kinship, family] : families) list.push_back(std::move(family));
+    for (const auto& [kinship, methods] : families) {
+        MethodFamily family;
+        std::string types, names;
+        for (const MethodEntry* method : methods) {
+            family.methods.push_back({method->name, method->adaptive});
+            types += fmt::format(", lagen::{}", method->type);
+            names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", method->name);
+        }
+        family.text = {problem.header,
+                       main_with("points", fmt::format("chart_points<lagen::models::{}<double>{}>({{{}}}, argc, "
+                                                       "argv)",
+                                                       cpp_names({problem.module.name})[0], types, names))};
+        list.push_back(std::move(family));
+    }
     return list;
 }
 
-ProgramText family_program(const ChartProblem& problem, const MethodFamily& family)
+std::vector<MethodFamily> peer_families(const ChartProblem& problem, std::vector<LeftOutMethod>& left_out)
 {
-    std::string types, names;
-    for (const MethodEntry* method : family.methods) {
-        types += fmt::format(", lagen::{}", method->type);
-        names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", method->name);
+    std::vector<MethodFamily> list;
+    for (const PeerEntry& peer : peers) {
+        if (!finds_header(peer.header)) {
+            left_out.push_back({peer.name, fmt::format("the compiler does not find {} (Debian package {})", peer.header,
+                                                       peer.package)});
+            continue;
+        }
+        MethodFamily family;
+        family.peer = peer.name;
+        for (const char* method : peer.methods)
+            if (method != nullptr) family.methods.push_back({method, true});
+        family.text = {problem.header,
+                       main_with(peer.name, fmt::format("chart_peer<lagen::models::{}<double>>(argc, argv)",
+                                                        cpp_names({problem.module.name})[0])),
+                       split_list(peer.libraries)};
+        list.push_back(std::move(family));
     }
-    return {problem.header,
-            fmt::format("#include \"model.hpp\"\n#include \"lagen_chart/points.hpp\"\nint main(int argc, char** "
-                        "argv)\n{{\n    return lagen::chart_points<lagen::models::{}<double>{}>({{{}}}, argc, "
-                        "argv);\n}}\n",
-                        cpp_names({problem.module.name})[0], types, names),
-            {}};
+    return list;
 }
 
 } // namespace lagen

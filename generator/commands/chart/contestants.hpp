@@ -8,9 +8,16 @@
 
 namespace lagen {
 
+struct Contestant {
+    std::string name;
+    bool adaptive = true; ///< climbs a ladder of tolerances, else of steps
+};
+
 struct MethodFamily {
-    std::vector<const MethodEntry*> methods; ///< that apply
-    std::string program;                     ///< path, once it is compiled
+    std::string peer; ///< the library; empty: lagen's own
+    std::vector<Contestant> methods;
+    ProgramText text;
+    std::string program; ///< path, once it is compiled
 };
 
 /// Why the method does not apply, in terms of the model; empty where it does.
@@ -20,6 +27,8 @@ struct MethodFamily {
 [[nodiscard]] std::vector<MethodFamily> method_families(const ChartProblem& problem,
                                                         std::vector<LeftOutMethod>& left_out);
 
-[[nodiscard]] ProgramText family_program(const ChartProblem& problem, const MethodFamily& family);
+/// The libraries that are installed; those that are not are told with their packages.
+[[nodiscard]] std::vector<MethodFamily> peer_families(const ChartProblem& problem,
+                                                      std::vector<LeftOutMethod>& left_out);
 
 } // namespace lagen

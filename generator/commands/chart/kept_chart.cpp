@@ -21,7 +21,11 @@ constexpr const char* chart_heading = "what `lagen chart` measured\nobstacle=";
 
 std::string chart_file(const Options& options, const Model& model)
 {
-    std::vector<std::string> key{"chart", options.get("scene"), options.get("form"), options.get("t-end"), options.get("at"),
+    std::vector<std::string> key{"chart",
+                                 options.get("scene"),
+                                 options.get("form"),
+                                 options.get("t-end"),
+                                 options.get("at"),
                                  options.has("unchecked") ? "unchecked" : ""};
     for (const Setting& setting : options.settings()) key.push_back(setting.name + "=" + setting.value.text);
     return record_file(model, key);

@@ -36,7 +36,7 @@ double first_step_of(const ChartProblem& problem, const ChartReference& referenc
     return step;
 }
 
-std::string ladder_line(const MethodEntry& method, double first_step, std::size_t calls)
+std::string ladder_line(const Contestant& method, double first_step, std::size_t calls)
 {
     return method.adaptive ? fmt::format("ladder {} {:.17g} {:.17g} {:.17g} {}\n", method.name, largest_tolerance,
                                          between_tolerances, least_tolerance, calls)
@@ -71,7 +71,7 @@ ChartPoint point_of(const std::string& block)
 
 /// A program with its points so far.
 struct FamilyRuns {
-    std::string program, request;
+    std::string peer, program, request;
     std::vector<ChartPoint> points; ///< with their least seconds
     std::vector<double> slowest;
 
@@ -120,9 +120,9 @@ std::vector<ChartPoint> measure_points(const ChartProblem& problem, const ChartR
         request_of(problem) + fmt::format("most {}\nreference{}\n", calls, blank_list(reference.rows));
     std::vector<FamilyRuns> runs;
     for (const MethodFamily& family : families) {
-        runs.push_back({family.program, common, {}, {}});
-        for (const MethodEntry* method : family.methods)
-            runs.back().request += ladder_line(*method, first_step_of(problem, reference), calls);
+        runs.push_back({family.peer, family.program, common, {}, {}});
+        for (const Contestant& method : family.methods)
+            runs.back().request += ladder_line(method, first_step_of(problem, reference), calls);
     }
     const auto begin = std::chrono::steady_clock::now();
     repeats = quick_repeats;
@@ -138,6 +138,7 @@ std::vector<ChartPoint> measure_points(const ChartProblem& problem, const ChartR
     std::vector<ChartPoint> points;
     for (FamilyRuns& family : runs)
         for (std::size_t k = 0; k < family.points.size(); ++k) {
+            family.points[k].peer = family.peer;
             family.points[k].spread = family.slowest[k] / family.points[k].seconds;
             points.push_back(std::move(family.points[k]));
         }

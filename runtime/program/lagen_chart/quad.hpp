@@ -3,10 +3,9 @@
 /// generated models: g++ and clang++ know the type where a strict standard library has no functions of it.
 #pragma once
 
-#include <Eigen/Core>
-
 #include <concepts>
 #include <limits>
+#include <type_traits>
 
 extern "C" {
 __float128 acosq(__float128);
