@@ -21,8 +21,9 @@ constexpr double slow_round = 10; ///< seconds
 
 // The reference asks for an error of 1e-20 with order 9 or more; for 1e-12, where a method of high order is at home,
 // its calls are fewer by 10^(8/9) at least, for 1e-3, where a ladder of steps begins, its steps by 10^(17/9).
-constexpr std::size_t calls_allowed = 4; ///< times those of the reference: about thirty times those for 1e-12
-constexpr double longest_step = 64;      ///< times the mean one of the reference
+constexpr std::size_t calls_allowed = 4;    ///< times those of the reference: about thirty times those for 1e-12
+constexpr std::size_t least_calls = 20'000; ///< allowed in any case: milliseconds
+constexpr double longest_step = 64;         ///< times the mean one of the reference
 constexpr double least_tolerance = 1e-15, largest_tolerance = 1e-1, between_tolerances = 0.31622776601683794;
 
 /// The first step of a ladder: the longest part of the time between two of 21 samples by a power of two that is not
@@ -115,7 +116,7 @@ std::vector<ChartPoint> read_points(const std::string& answer)
 std::vector<ChartPoint> measure_points(const ChartProblem& problem, const ChartReference& reference,
                                        const std::vector<MethodFamily>& families, std::size_t& repeats)
 {
-    const std::size_t calls = calls_allowed * reference.calls;
+    const std::size_t calls = std::max(calls_allowed * reference.calls, least_calls);
     const std::string common =
         request_of(problem) + fmt::format("most {}\nreference{}\n", calls, blank_list(reference.rows));
     std::vector<FamilyRuns> runs;
