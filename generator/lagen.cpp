@@ -29,6 +29,7 @@ constexpr std::array commands{
     CommandEntry{"generate", "write the C++ header of a model", run_generate},
     CommandEntry{"run", "generate, compile and integrate a scene of a model", run_run},
     CommandEntry{"sweep", "integrate a scene for many parameters and initial values", run_sweep},
+    CommandEntry{"chart", "chart what accuracy costs by every method", run_chart},
     CommandEntry{"models", "list the example models", run_models},
     CommandEntry{"methods", "list the integrators", run_methods},
 };

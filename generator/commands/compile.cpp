@@ -11,10 +11,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
+#include <thread>
 
 namespace lagen {
 
@@ -89,19 +89,44 @@ void add_compiler(ContentHash& hash, const std::vector<std::string>& command)
     for (const std::string& word : command) hash.add(word);
 }
 
-void call_compiler(std::vector<std::string> command, const std::string& source, const std::string& program)
+std::string line_of(const std::vector<std::string>& command)
 {
-    command.insert(command.end(), {source, "-o", program});
-    const ProcessResult result = run_process(command);
+    std::string line;
+    for (const std::string& word : command) line += (line.empty() ? "" : " ") + word;
+    return line;
+}
+
+void require_success(const std::vector<std::string>& command, const ProcessResult& result)
+{
     if (result.interrupted) throw Error(ExitCode::interrupted, "lagen: interrupted while compiling");
     if (!result.started)
         throw MachineError(
             fmt::format("error: the C++ compiler '{}' could not be started: {}", command[0], result.error));
-    if (result.exit_code == 0) return;
-    std::string line;
-    for (const std::string& word : command) line += (line.empty() ? "" : " ") + word;
-    throw MachineError(fmt::format("error: the C++ compiler failed with exit code {}\n{}\n{}{}", result.exit_code, line,
-                                   result.error, result.output));
+    if (result.exit_code != 0)
+        throw MachineError(fmt::format("error: the C++ compiler failed with exit code {}\n{}\n{}{}", result.exit_code,
+                                       line_of(command), result.error, result.output));
+}
+
+/// Where a program is kept.
+std::string program_path(const std::string& cache, const ProgramText& text)
+{
+    ContentHash hash;
+    hash.add(code_of(text.header)).add(text.main);
+    for (const std::string& library : text.libraries) hash.add(library);
+    add_compilation(hash);
+    return fmt::format("{}/{}", cache, hash.hex32());
+}
+
+/// The compiler's command for a program whose files are written into `folder`, which is made.
+std::vector<std::string> command_in(const std::string& folder, const ProgramText& text)
+{
+    fs::create_directory(folder);
+    write_file(folder + "/model.hpp", text.header);
+    write_file(folder + "/main.cpp", text.main);
+    std::vector<std::string> command = compile_command();
+    command.insert(command.end(), {folder + "/main.cpp", "-o", folder + "/program"});
+    command.insert(command.end(), text.libraries.begin(), text.libraries.end());
+    return command;
 }
 
 } // namespace
@@ -113,28 +138,53 @@ void add_compilation(ContentHash& hash)
     add_compiler(hash, compile_command());
 }
 
-Compiled compile_program(const std::string& header, const std::string& main)
+std::string compile_program(const std::string& header, const std::string& main)
 {
-    ContentHash hash;
-    hash.add(code_of(header)).add(main);
-    add_compilation(hash);
+    return compile_programs({{header, main}})[0];
+}
 
+std::vector<std::string> compile_programs(const std::vector<ProgramText>& programs)
+{
     const std::string cache = cache_folder();
-    Compiled compiled{fmt::format("{}/{}", cache, hash.hex32()), true, 0};
-    if (use_cached(compiled.program)) return compiled;
-    const auto start = std::chrono::steady_clock::now();
+    std::vector<std::string> paths;
+    std::vector<std::size_t> missing;
+    for (const ProgramText& text : programs) {
+        paths.push_back(program_path(cache, text));
+        if (!use_cached(paths.back())) missing.push_back(paths.size() - 1);
+    }
+    if (missing.empty()) return paths;
+    if (missing.size() > 1) write_standard_error(fmt::format("compiling {} programs\n", missing.size()));
     const TemporaryFolder scratch(cache, "build");
-    write_file(scratch.file("model.hpp"), header);
-    write_file(scratch.file("main.cpp"), main);
-    call_compiler(compile_command(), scratch.file("main.cpp"), scratch.file("program"));
-    // Renamed into place whole: two runs at once may both compile, neither sees half a program.
-    std::error_code error;
-    fs::rename(scratch.file("program"), compiled.program, error);
-    if (error) throw MachineError(fmt::format("error: cannot write '{}': {}", compiled.program, error.message()));
+    std::vector<std::vector<std::string>> commands;
+    for (const std::size_t k : missing) commands.push_back(command_in(scratch.file(std::to_string(k)), programs[k]));
+    const std::vector<ProcessResult> results = run_processes(commands, std::thread::hardware_concurrency());
+    for (std::size_t k = 0; k < missing.size(); ++k) {
+        require_success(commands[k], results[k]);
+        // Renamed into place whole: two runs at once may both compile, neither sees half a program.
+        const std::string& program = paths[missing[k]];
+        std::error_code error;
+        fs::rename(scratch.file(std::to_string(missing[k])) + "/program", program, error);
+        if (error) throw MachineError(fmt::format("error: cannot write '{}': {}", program, error.message()));
+    }
     trim_cache(cache);
-    compiled.cached = false;
-    compiled.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    return compiled;
+    return paths;
+}
+
+bool finds_header(const std::string& header)
+{
+    const TemporaryFolder scratch(shared_temporary_folder(), "lagen-look");
+    write_file(scratch.file("look.cpp"), fmt::format("#if !__has_include(<{}>)\n#error\n#endif\n", header));
+    std::vector<std::string> command = compile_command();
+    command.insert(command.end(), {"-fsyntax-only", scratch.file("look.cpp")});
+    return run_process(command).exit_code == 0;
+}
+
+std::string compiler_text()
+{
+    std::vector<std::string> command = find_compiler();
+    command.insert(command.end(), {"-std=c++20", "-O2"});
+    for (const std::string& flag : words(std::getenv("CXXFLAGS"))) command.push_back(flag);
+    return line_of(command);
 }
 
 } // namespace lagen

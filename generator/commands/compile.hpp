@@ -5,20 +5,31 @@
 #include "content_hash.hpp"
 
 #include <string>
+#include <vector>
 
 namespace lagen {
 
-struct Compiled {
-    std::string program; ///< path of the executable
-    bool cached = false; ///< it was there already
-    double seconds = 0;  ///< of the compiler
+/// A program of two files, and the libraries that it is linked to ("-lquadmath").
+struct ProgramText {
+    std::string header, main;
+    std::vector<std::string> libraries = {};
 };
 
-/// Compiles a program of two files: `header` (included as "model.hpp") and `main`. The cache key is the content of
-/// both (comments apart), of every header of the runtime, the compiler (path, size, time) and the flags. CXX names the
-/// compiler (with arguments, if any), else c++, g++ or clang++; CXXFLAGS is added. The cache is kept below 200 programs
-/// and 1 GiB. Throws MachineError: no compiler, or its message when it fails.
-[[nodiscard]] Compiled compile_program(const std::string& header, const std::string& main);
+/// Compiles a program of two files and returns its path: `header` (included as "model.hpp") and `main`. The cache key
+/// is the content of both (comments apart), of every header of the runtime, the compiler (path, size, time) and the
+/// flags. CXX names the compiler (with arguments, if any), else c++, g++ or clang++; CXXFLAGS is added. The cache is
+/// kept below 200 programs and 1 GiB. Throws MachineError: no compiler, or its message when it fails.
+[[nodiscard]] std::string compile_program(const std::string& header, const std::string& main);
+
+/// The same for several at once, as many at a time as there are cores; standard error is told how
+/// many are missing.
+[[nodiscard]] std::vector<std::string> compile_programs(const std::vector<ProgramText>& programs);
+
+/// Whether the compiler finds a header, "gsl/gsl_odeiv2.h".
+[[nodiscard]] bool finds_header(const std::string& header);
+
+/// The compiler with its flags, as a user would type it.
+[[nodiscard]] std::string compiler_text();
 
 /// What a program depends on besides its two files.
 void add_compilation(ContentHash& hash);

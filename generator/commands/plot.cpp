@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/plot.hpp"
 
+#include "commands/gnuplot.hpp"
 #include "commands/options.hpp"
 #include "commands/process.hpp"
-#include "commands/temporary_folder.hpp"
-#include "commands/write_file.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
-#include <filesystem>
 
 namespace lagen {
 
@@ -28,33 +25,6 @@ constexpr int left_margin = 84;
 constexpr std::size_t longest_title = 110;
 constexpr std::size_t legend_lines = 10; ///< that fit beside a panel
 constexpr std::size_t longest_name = 28;
-
-std::string extension_of(const std::string& path)
-{
-    return std::filesystem::path(path).extension().string();
-}
-
-/// A gnuplot string that shows exactly these characters (enhanced text is off).
-std::string quoted(const std::string& text)
-{
-    std::string result = "'";
-    for (const char c : text) {
-        if (c == '\n' || c == '\r') continue;
-        result += c == '\'' ? std::string("''") : std::string(1, c);
-    }
-    return result + "'";
-}
-
-std::string terminal(const std::string& extension, int height)
-{
-    if (extension == ".svg")
-        return fmt::format("set terminal svg size {},{} noenhanced font 'sans,13' background rgb 'white'\n", width,
-                           height);
-    if (extension == ".png")
-        return fmt::format("set terminal pngcairo size {},{} noenhanced font 'sans,11'\n", width, height);
-    return fmt::format("set terminal pdfcairo size {:.2f},{:.2f} noenhanced font 'sans,11'\n", width / 100.0,
-                       height / 100.0);
-}
 
 /// The rows as gnuplot reads them: blanks for commas; an empty field becomes a gap.
 std::string data_block(const Table& table)
@@ -123,11 +93,10 @@ int legend_width(const Table& table, const std::vector<Panel>& panels)
     return 60 + 8 * static_cast<int>(std::min<std::size_t>(longest, longest_name + 12));
 }
 
-/// Eight colours that colour-blind readers tell apart [Okabe-Ito 2008], then the same dashed and dotted.
+/// The colours, then the same dashed and dotted.
 std::string line_styles()
 {
-    static constexpr std::array colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                           "#e69f00", "#56b4e9", "#000000", "#b8a800"};
+    constexpr auto& colours = picture_colours;
     std::string text;
     for (std::size_t k = 0; k < 3 * colours.size(); ++k)
         text += fmt::format("set linetype {} linecolor rgb '{}' linewidth 1.8 pointtype 7 dashtype {}\n", k + 1,
@@ -147,21 +116,22 @@ std::string place_of(std::size_t k, int height)
 
 std::string panel_text(const Table& table, const Panel& panel, bool last, const std::string& time_unit)
 {
-    std::string text = fmt::format("set ylabel {}\n", quoted(with_unit(panel.label, shared_unit(panel))));
-    text += last ? fmt::format("set format x '%g'\nset xlabel {}\n", quoted(with_unit(table.columns[0], time_unit)))
-                 : "set format x ''\n";
+    std::string text = fmt::format("set ylabel {}\n", gnuplot_text(with_unit(panel.label, shared_unit(panel))));
+    text +=
+        last ? fmt::format("set format x '%g'\nset xlabel {}\n", gnuplot_text(with_unit(table.columns[0], time_unit)))
+             : "set format x ''\n";
     text += "plot ";
     const char* separator = "";
     const std::size_t named = named_columns(panel);
     for (std::size_t k = 0; k < panel.columns.size(); ++k) {
         text += fmt::format("{}$rows using 1:{} with {} linetype {} {}", separator, panel.columns[k] + 1,
                             table.count == 1 ? "points" : "lines", k + 1,
-                            k < named ? "title " + quoted(legend_of(table, panel, k)) : "notitle");
+                            k < named ? "title " + gnuplot_text(legend_of(table, panel, k)) : "notitle");
         separator = ", \\\n     ";
     }
     if (named < panel.columns.size())
         text += fmt::format("{}NaN with lines linecolor rgb '#ffffff' title {}", separator,
-                            quoted(fmt::format("and {} more", panel.columns.size() - named)));
+                            gnuplot_text(fmt::format("and {} more", panel.columns.size() - named)));
     return text + "\n";
 }
 
@@ -170,10 +140,10 @@ std::string script_of(const Table& table, const std::vector<Panel>& panels, cons
 {
     const int height = top_margin + panel_height * static_cast<int>(panels.size()) + bottom_margin - panel_gap;
     const double right = 1 - static_cast<double>(legend_width(table, panels)) / width;
-    std::string script = terminal(extension, height);
-    script += fmt::format("set output {}\nset datafile missing '?'\n", quoted(picture)) + data_block(table);
+    std::string script = gnuplot_terminal(extension, width, height);
+    script += fmt::format("set output {}\nset datafile missing '?'\n", gnuplot_text(picture)) + data_block(table);
     script += line_styles();
-    script += fmt::format("set multiplot title {}\n", quoted(shortened(title, longest_title)));
+    script += fmt::format("set multiplot title {}\n", gnuplot_text(shortened(title, longest_title)));
     script += fmt::format("set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\n",
                           static_cast<double>(left_margin) / width, right);
     script += fmt::format("set key at screen {:.5f}, graph 1 left top Left reverse samplen 2 width -1\n", right + 0.01);
@@ -185,24 +155,9 @@ std::string script_of(const Table& table, const std::vector<Panel>& panels, cons
     return script + "unset multiplot\nunset output\n";
 }
 
-/// The bytes of the picture; gnuplot works in a folder of its own.
-std::string picture_of(const Table& table, const std::vector<Panel>& panels, const std::string& title,
-                       const std::string& extension, const std::string& time_unit)
-{
-    const TemporaryFolder folder(shared_temporary_folder(), "lagen-plot");
-    const std::string picture = folder.file("picture" + extension);
-    const std::string script = folder.file("script.gp");
-    write_file(script, script_of(table, panels, title, extension, picture, time_unit));
-    const ProcessResult result = run_process({"gnuplot", script});
-    if (result.interrupted) throw Error(ExitCode::interrupted, "lagen: interrupted while drawing");
-    if (!result.started || result.exit_code != 0)
-        throw MachineError(fmt::format("error: gnuplot failed with exit code {}\n{}", result.exit_code, result.error));
-    return content_of_file(picture);
-}
-
 bool is_picture(const std::string& path)
 {
-    const std::string extension = extension_of(path);
+    const std::string extension = picture_extension(path);
     return extension == ".svg" || extension == ".png" || extension == ".pdf";
 }
 
@@ -228,7 +183,9 @@ void plot_table(const Table& table, const std::vector<Panel>& panels, const std:
 {
     require_plot_format(path);
     if (table.count == 0 || panels.empty()) throw MachineError("error: there is nothing to plot: the run gave no rows");
-    write_file(path, picture_of(table, panels, title, extension_of(path), time_unit));
+    draw_picture(path, [&](const std::string& picture) {
+        return script_of(table, panels, title, picture_extension(path), picture, time_unit);
+    });
 }
 
 } // namespace lagen

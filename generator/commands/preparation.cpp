@@ -44,9 +44,9 @@ void require_system(const Options& options, const Scene& scene, const MethodEntr
 
 } // namespace
 
-Preparation::Preparation(const Options& options, CheckedModel& checked, const Driver& driver)
+Preparation::Preparation(const Options& options, CheckedModel& checked, const Driver& driver, const std::string& method)
     : options_(options), checked_(checked), driver_(driver),
-      file_(record_file(checked.model, {driver.folder, options.get("scene"), options.get("form"), options.get("method"),
+      file_(record_file(checked.model, {driver.folder, options.get("scene"), options.get("form"), method,
                                         options.has("unchecked") ? "unchecked" : ""})),
       record_(find_record(file_))
 {
@@ -72,8 +72,9 @@ void Preparation::finish(const Scene& scene, const std::string& form, const Meth
     if (method.series && !scene.events.empty()) request.with.emplace_back("event_series");
     const Generated generated = generate(checked_, request);
     require_system(options_, scene, method, generated.module);
-    const Compiled compiled = compile_program(generated.header, program_text(driver_, generated.module.name, method));
-    record_ = record_of(checked_, generated.module, compiled.program, parameters);
+    const std::string program =
+        compile_program(generated.header, program_text(driver_, generated.module.name, method));
+    record_ = record_of(checked_, generated.module, program, parameters);
     keep_record(file_, *record_);
 }
 

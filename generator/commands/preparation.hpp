@@ -10,8 +10,9 @@ namespace lagen {
 
 class Preparation {
   public:
-    /// `checked` was read; it is proved, or has the warnings of the record. Throws where it is refuted.
-    Preparation(const Options& options, CheckedModel& checked, const Driver& driver);
+    /// `checked` was read; it is proved, or has the warnings of the record. Throws where it is refuted. `method` is the
+    /// name that was asked for, or empty.
+    Preparation(const Options& options, CheckedModel& checked, const Driver& driver, const std::string& method);
 
     /// Throws where the method asks for other equations.
     void finish(const Scene& scene, const std::string& form, const MethodEntry& method,

@@ -6,12 +6,14 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
+#include <memory>
 #include <optional>
 #include <poll.h>
 #include <spawn.h>
@@ -24,17 +26,19 @@ namespace lagen {
 
 namespace {
 
+constexpr std::size_t most_children = 16;
 volatile std::sig_atomic_t interrupts = 0;
-volatile pid_t running_child = 0;
+volatile pid_t running_children[most_children];
 
 extern "C" void on_interrupt_of_child(int)
 {
     interrupts = interrupts + 1;
     // The whole group: a compiler driver's own children too.
-    if (running_child > 0) ::kill(-running_child, interrupts > 1 ? SIGKILL : SIGINT);
+    for (const volatile pid_t& child : running_children)
+        if (child > 0) ::kill(-child, interrupts > 1 ? SIGKILL : SIGINT);
 }
 
-/// Interrupts, also those that were held back before, go to the child while this lives; a second one kills it.
+/// Interrupts, also those that were held back before, go to the children while this lives; a second one kills them.
 class InterruptsForwarded {
   public:
     InterruptsForwarded()
@@ -50,7 +54,7 @@ class InterruptsForwarded {
     }
     ~InterruptsForwarded()
     {
-        running_child = 0;
+        for (volatile pid_t& child : running_children) child = 0;
         sigprocmask(SIG_SETMASK, &before_mask_, nullptr);
         sigaction(SIGINT, &before_int_, nullptr);
         sigaction(SIGTERM, &before_term_, nullptr);
@@ -124,120 +128,165 @@ pid_t spawn(const std::string& program, const std::vector<std::string>& argument
     return child;
 }
 
-/// What is written to a child: asked for where it can be written.
-class Feed {
-  public:
-    Feed(std::optional<Pipe>& pipe, const std::function<std::string()>& source) : pipe_(pipe), source_(source) {}
+using Sink = std::function<void(const char*, std::size_t)>;
 
-    /// -1 where there is nothing more to write: poll looks away.
-    [[nodiscard]] int file() const { return pipe_ ? pipe_->ends[1] : -1; }
+using Source = std::function<std::string()>;
 
-    void write()
-    {
-        if (text_.empty()) text_ = source_();
-        if (text_.empty()) return pipe_->close_end(1);
-        const ssize_t count = ::write(file(), text_.data(), text_.size());
-        if (count > 0) text_.erase(0, static_cast<std::size_t>(count));
-        // A child that reads no more says why on its own streams.
-        if (count < 0 && errno != EAGAIN && errno != EINTR) pipe_->close_end(1);
-    }
+/// A program with its place among the running ones: waited for, and killed first where its end is not seen.
+struct Child {
+    Streams streams;
+    pid_t process = 0;
+    std::size_t place = 0;
+    std::size_t command = 0; ///< its place among the commands
+    std::string unwritten;   ///< of its input
 
-  private:
-    std::optional<Pipe>& pipe_;
-    const std::function<std::string()>& source_;
-    std::string text_;
-};
-
-/// Serves the pipes until both of the child's outputs are closed.
-void serve(Streams& streams, ProcessResult& result, const std::function<void(const char*, std::size_t)>& sink,
-           const std::function<std::string()>& source)
-{
-    std::array<char, 65536> buffer;
-    Feed feed(streams.input, source);
-    while (streams.output.ends[0] >= 0 || streams.error.ends[0] >= 0) {
-        std::array<pollfd, 3> waiting{pollfd{streams.output.ends[0], POLLIN, 0},
-                                      pollfd{streams.error.ends[0], POLLIN, 0}, pollfd{feed.file(), POLLOUT, 0}};
-        if (::poll(waiting.data(), waiting.size(), -1) < 0) {
-            if (errno == EINTR) continue;
-            throw MachineError(fmt::format("error: cannot wait for a child process: {}", std::strerror(errno)));
-        }
-        if (waiting[2].revents != 0) feed.write();
-        for (std::size_t k = 0; k < 2; ++k) {
-            if (waiting[k].revents == 0) continue;
-            const ssize_t count = ::read(waiting[k].fd, buffer.data(), buffer.size());
-            if (count < 0 && errno == EINTR) continue;
-            if (count <= 0) {
-                (k == 0 ? streams.output : streams.error).close_end(0);
-            } else if (k == 0 && sink) {
-                sink(buffer.data(), static_cast<std::size_t>(count));
-            } else {
-                (k == 0 ? result.output : result.error).append(buffer.data(), static_cast<std::size_t>(count));
-            }
-        }
-    }
-}
-
-/// A child that is waited for, and killed first where its end is not seen.
-class Child {
-  public:
-    explicit Child(pid_t process) : process_(process) { running_child = process; }
+    Child() = default;
     ~Child()
     {
-        if (process_ == 0) return;
-        ::kill(-process_, SIGKILL);
+        if (process == 0) return;
+        ::kill(-process, SIGKILL);
         (void)wait();
     }
     Child(const Child&) = delete;
     Child& operator=(const Child&) = delete;
 
+    [[nodiscard]] bool is_silent() const { return streams.output.ends[0] < 0 && streams.error.ends[0] < 0; }
+
     int wait()
     {
         int status = 0;
-        while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+        while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
         }
-        process_ = 0;
+        running_children[place] = 0;
+        process = 0;
         return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     }
-
-  private:
-    pid_t process_;
 };
 
-} // namespace
-
-ProcessResult run_process(const std::vector<std::string>& arguments,
-                          const std::function<void(const char*, std::size_t)>& sink,
-                          const std::function<std::string()>& source)
+/// Nothing where it could not be started; `result` says why.
+std::unique_ptr<Child> start_child(const std::vector<std::string>& arguments, bool is_fed, ProcessResult& result)
 {
-    ProcessResult result;
     const std::string program = find_program(arguments.at(0));
-    if (program.empty()) {
-        result.started = false;
-        result.error = "not found";
-        return result;
-    }
-    Streams streams;
-    if (source) streams.input.emplace();
-    const InterruptsForwarded forwarded;
+    auto child = std::make_unique<Child>();
+    Streams& streams = child->streams;
+    if (is_fed) streams.input.emplace();
     int failure = 0;
-    const pid_t process = spawn(program, arguments, streams, failure);
-    if (failure != 0) {
-        result.started = false;
-        result.error = std::strerror(failure);
-        return result;
-    }
-    Child child(process);
-    if (interrupts > 0) ::kill(-process, SIGINT);
+    pid_t process = 0;
+    if (!program.empty()) process = spawn(program, arguments, streams, failure);
     streams.output.close_end(1);
     streams.error.close_end(1);
-    if (source) {
+    if (is_fed) {
         streams.input->close_end(0);
         ::fcntl(streams.input->ends[1], F_SETFL, O_NONBLOCK);
     }
-    serve(streams, result, sink, source);
-    result.exit_code = child.wait();
-    result.interrupted = interrupts > 0;
-    return result;
+    if (!program.empty() && failure == 0) {
+        child->process = process;
+        return child;
+    }
+    result.started = false;
+    result.error = program.empty() ? "not found" : std::strerror(failure);
+    return nullptr;
+}
+
+/// One piece of what came through a pipe; closes it at its end.
+void read_piece(Pipe& pipe, const Sink& take)
+{
+    static std::array<char, 65536> buffer;
+    const ssize_t count = ::read(pipe.ends[0], buffer.data(), buffer.size());
+    if (count < 0 && errno == EINTR) return;
+    if (count <= 0)
+        pipe.close_end(0);
+    else
+        take(buffer.data(), static_cast<std::size_t>(count));
+}
+
+/// Writes what a child can take; its input ends where `source` has no more, or the child reads no more.
+void write_piece(Child& child, const Source& source)
+{
+    Pipe& pipe = *child.streams.input;
+    if (child.unwritten.empty()) child.unwritten = source();
+    if (child.unwritten.empty()) return pipe.close_end(1);
+    const ssize_t count = ::write(pipe.ends[1], child.unwritten.data(), child.unwritten.size());
+    if (count > 0) child.unwritten.erase(0, static_cast<std::size_t>(count));
+    // A child that reads no more says why on its own streams.
+    if (count < 0 && errno != EAGAIN && errno != EINTR) pipe.close_end(1);
+}
+
+/// Waits until one of them has written something or can be written to, and serves it.
+void serve(const std::vector<std::unique_ptr<Child>>& children, std::vector<ProcessResult>& results, const Sink& sink,
+           const Source& source)
+{
+    std::vector<pollfd> waiting;
+    for (const auto& child : children) {
+        const Streams& streams = child->streams;
+        for (const Pipe* pipe : {&streams.output, &streams.error}) waiting.push_back({pipe->ends[0], POLLIN, 0});
+        waiting.push_back({streams.input ? streams.input->ends[1] : -1, POLLOUT, 0}); // -1: poll looks away
+    }
+    if (::poll(waiting.data(), waiting.size(), -1) < 0) {
+        if (errno == EINTR) return;
+        throw MachineError(fmt::format("error: cannot wait for a child process: {}", std::strerror(errno)));
+    }
+    for (std::size_t k = 0; k < children.size(); ++k) {
+        ProcessResult& result = results[children[k]->command];
+        const auto keep = [](std::string& text) {
+            return [&text](const char* bytes, std::size_t count) { text.append(bytes, count); };
+        };
+        Streams& streams = children[k]->streams;
+        if (waiting[3 * k].revents != 0) read_piece(streams.output, sink ? sink : keep(result.output));
+        if (waiting[3 * k + 1].revents != 0) read_piece(streams.error, keep(result.error));
+        if (waiting[3 * k + 2].revents != 0) write_piece(*children[k], source);
+    }
+}
+
+std::size_t free_place()
+{
+    std::size_t place = 0;
+    while (running_children[place] > 0) ++place;
+    return place;
+}
+
+/// `source` feeds the only one of them, or none.
+std::vector<ProcessResult> run_all(const std::vector<std::vector<std::string>>& commands, std::size_t at_once,
+                                   const Sink& sink, const Source& source)
+{
+    std::vector<ProcessResult> results(commands.size());
+    std::vector<std::unique_ptr<Child>> children;
+    const InterruptsForwarded forwarded;
+    at_once = std::clamp<std::size_t>(at_once, 1, most_children);
+    for (std::size_t next = 0; next < commands.size() || !children.empty();) {
+        const bool more = next < commands.size() && (interrupts == 0 || next == 0);
+        if (more && children.size() < at_once) {
+            if (auto child = start_child(commands[next], static_cast<bool>(source), results[next])) {
+                child->command = next;
+                child->place = free_place();
+                running_children[child->place] = child->process;
+                if (interrupts > 0) ::kill(-child->process, SIGINT);
+                children.push_back(std::move(child));
+            }
+            ++next;
+            continue;
+        }
+        if (children.empty()) break;
+        serve(children, results, sink, source);
+        std::erase_if(children, [&](const std::unique_ptr<Child>& child) {
+            if (child->is_silent()) results[child->command].exit_code = child->wait();
+            return child->is_silent();
+        });
+    }
+    for (ProcessResult& result : results) result.interrupted = interrupts > 0;
+    return results;
+}
+
+} // namespace
+
+ProcessResult run_process(const std::vector<std::string>& arguments, const Sink& sink, const Source& source)
+{
+    return std::move(run_all({arguments}, 1, sink, source)[0]);
+}
+
+std::vector<ProcessResult> run_processes(const std::vector<std::vector<std::string>>& commands, std::size_t at_once)
+{
+    return run_all(commands, at_once, {}, {});
 }
 
 std::string find_program(const std::string& name)

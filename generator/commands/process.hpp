@@ -2,6 +2,7 @@
 /// Child processes: no shell in between, so that no name or path is ever interpreted.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <vector>
@@ -23,6 +24,11 @@ struct ProcessResult {
 [[nodiscard]] ProcessResult run_process(const std::vector<std::string>& arguments,
                                         const std::function<void(const char*, std::size_t)>& sink = {},
                                         const std::function<std::string()>& source = {});
+
+/// The same for several, at most `at_once` of them at a time; results in the order of `commands`. Behind an interrupt
+/// no further one is started.
+[[nodiscard]] std::vector<ProcessResult> run_processes(const std::vector<std::vector<std::string>>& commands,
+                                                       std::size_t at_once);
 
 /// The full path of a program in PATH, or "" (a name with a slash is taken as it is).
 [[nodiscard]] std::string find_program(const std::string& name);

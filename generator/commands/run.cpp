@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// `lagen run`: generates, compiles (cached) and integrates a scene.
+#include "commands/accuracy.hpp"
 #include "commands/command.hpp"
+#include "commands/integrate_scene.hpp"
 #include "commands/options.hpp"
 #include "commands/places.hpp"
 #include "commands/plot.hpp"
 #include "commands/preparation.hpp"
-#include "commands/process.hpp"
-#include "commands/progress.hpp"
 #include "commands/scene_options.hpp"
 #include "commands/scene_program.hpp"
-#include "commands/temporary_folder.hpp"
 #include "commands/write_file.hpp"
 #include "elaborate/bind_parameters.hpp"
 #include "model/scene_form.hpp"
@@ -34,6 +33,8 @@ const CommandSyntax run_syntax{
      {"method", "METHOD", "see `lagen methods`; without it the scene's, else dop853"},
      {"step", "H", "step of a fixed-step method"},
      {"tolerance", "TOL", "relative and absolute tolerance of an adaptive method; without it the scene's, else 1e-10"},
+     {"accuracy", "E",
+      "largest error of the rows, relative to the state: method and tolerance from a chart of the scene"},
      {"t-end", "T", "end of the run, backwards where it lies before the start; without it the scene's duration"},
      {"at", "T1,T2,..",
       "rows at exactly these times; without --t-end the run ends with the scene's duration or the last of them, "
@@ -45,42 +46,6 @@ const CommandSyntax run_syntax{
      {"plot", "FILE", "a picture (.svg, .png, .pdf)"},
      {"unchecked", nullptr, "go on although the model is refuted"},
      {"format,f", "FORMAT", "text or json", "text"}}};
-
-/// Times and report go through files: an argument list has a limit.
-void use_folder(const TemporaryFolder& folder, ProgramInput& input)
-{
-    input.at_file = folder.file("times");
-    input.report_file = folder.file("report");
-    if (input.times.kind != Sampling::Kind::at) return;
-    std::string times;
-    for (const long double time : input.times.at) times += fmt::format("{}\n", static_cast<double>(time));
-    write_file(input.at_file, times);
-}
-
-/// Runs the program; the rows and the report go into `outcome`.
-void integrate_scene(const std::string& program, ProgramInput input, RunOutcome& outcome)
-{
-    const TemporaryFolder folder(shared_temporary_folder(), "lagen-run");
-    use_folder(folder, input);
-    Progress progress(static_cast<double>(input.times.start), static_cast<double>(input.times.end));
-    const ProcessResult result =
-        run_process(program_arguments(program, input), [&](const char* bytes, std::size_t count) {
-            outcome.table.rows.append(bytes, count);
-            progress.show(outcome.table.rows);
-        });
-    progress.clear();
-    if (!result.started)
-        throw MachineError(fmt::format(
-            "error: the compiled scene could not be started: {}\nhint: remove '{}' to have it compiled again",
-            result.error, program));
-    if (result.interrupted || result.exit_code == static_cast<int>(ExitCode::interrupted))
-        throw Error(ExitCode::interrupted, "lagen: interrupted, nothing was written");
-    if (result.exit_code != 0 && result.exit_code != 1)
-        throw MachineError(
-            fmt::format("error: the compiled scene ended with exit code {}\n{}", result.exit_code, result.error));
-    read_report(content_of_file(input.report_file), outcome);
-    outcome.table.count = outcome.table.lines().size();
-}
 
 /// The unit that [about] gives to a name, or "".
 const Symbol* control_called(const Model& model, const std::string& name)
@@ -135,16 +100,18 @@ ExitCode run_run(Arguments arguments)
     if (options.has("plot")) require_plot_format(options.get("plot"));
     if (options.has("output")) require_no_picture(options.get("output"));
 
-    CheckedModel checked = read(model_path(options.positional()[0]), options.settings(), options.has("unchecked"));
+    const std::string path = model_path(options.positional()[0]);
+    CheckedModel checked = read(path, options.settings(), options.has("unchecked"));
     const Model& model = checked.model;
     if (options.has("bind")) bind_in_scene(checked.model, find_scene(model, options.get("scene")));
-    Preparation preparation(options, checked, run_driver);
+    const std::optional<AccurateMethod> accurate = accurate_method(options, checked, path);
+    Preparation preparation(options, checked, run_driver, accurate ? accurate->method->name : options.get("method"));
     for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
     const Scene scene = scene_of(options, model, options.named("initial"));
     const std::string form = form_of(model, scene);
-    const MethodEntry& method = method_of(options, model, scene);
+    const MethodEntry& method = accurate ? *accurate->method : method_of(options, model, scene);
     const SceneValues values = evaluate_scene(model, scene);
-    const std::vector<long double> parameters = numbers(values.parameters, scene);
+    const std::vector<long double> parameters = finite_numbers(values.parameters, scene);
     preparation.finish(scene, form, method, parameters);
     const RunRecord& record = preparation.record();
     ProgramInput input;
@@ -152,6 +119,8 @@ ExitCode run_run(Arguments arguments)
     input.columns = columns_of(record.names, scene);
     StartState start([&]() -> const CheckedModel& { return preparation.checked(parameters); }, form);
     use_values(input, scene, values, start, options.has("at") && !options.has("t-end"));
+
+    const bool confirmed = !accurate || confirm_accuracy(*accurate, record, input);
 
     RunOutcome outcome;
     outcome.model = model.name;
@@ -170,7 +139,8 @@ ExitCode run_run(Arguments arguments)
         plot_table(outcome.table, panels_of(input.columns, model, form_named(form).lanes),
                    model.title.empty() ? model.name : model.title, options.get("plot"), unit_of(model, "t"));
     tell(options, outcome, as_json);
-    return outcome.status == "ok" || outcome.status == "stopped_by_event" ? ExitCode::done : ExitCode::refuted;
+    const bool done = outcome.status == "ok" || outcome.status == "stopped_by_event";
+    return done && confirmed ? ExitCode::done : ExitCode::refuted;
 }
 
 } // namespace lagen

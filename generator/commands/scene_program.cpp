@@ -140,24 +140,11 @@ std::vector<TableColumn> columns_of(const TableNames& names, const Scene& scene)
     return columns;
 }
 
-std::vector<long double> numbers(const std::vector<NamedNumber>& named, const Scene& scene)
-{
-    std::vector<long double> values;
-    for (const auto& [name, value] : named) {
-        if (!std::isfinite(static_cast<double>(value)))
-            throw ModelError(fmt::format("'{}' starts at {:.6g} in scene '{}', where at most 1.79769e+308 is possible",
-                                         name, value, scene.name),
-                             scene.where);
-        values.push_back(value);
-    }
-    return values;
-}
-
 void use_values(ProgramInput& input, const Scene& scene, const SceneValues& values, StartState& start, bool stretch)
 {
-    input.parameters = numbers(values.parameters, scene);
+    input.parameters = finite_numbers(values.parameters, scene);
     for (const std::vector<NamedNumber>* group : {&values.base, &values.fibre, &values.momenta})
-        (void)numbers(*group, scene);
+        (void)finite_numbers(*group, scene);
     input.initial = start(values);
     input.step = values.step;
     input.relative = values.relative.value_or(standard_tolerance);

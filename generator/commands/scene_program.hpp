@@ -50,10 +50,7 @@ struct ProgramInput {
     std::string report_file;
 };
 
-/// In the order of `named`, each as the compiled scene can hold it; ModelError where it cannot.
-[[nodiscard]] std::vector<long double> numbers(const std::vector<NamedNumber>& named, const Scene& scene);
-
-/// Gives `input`, whose columns are known, what the values of the scene say. Throws as `numbers`, `start` and
+/// Gives `input`, whose columns are known, what the values of the scene say. Throws as `finite_numbers`, `start` and
 /// sample_times (`stretch`) do.
 void use_values(ProgramInput& input, const Scene& scene, const SceneValues& values, StartState& start, bool stretch);
 

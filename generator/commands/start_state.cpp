@@ -118,4 +118,17 @@ std::vector<long double> StartState::operator()(const SceneValues& values)
     return state;
 }
 
+std::vector<long double> finite_numbers(const std::vector<NamedNumber>& named, const Scene& scene)
+{
+    std::vector<long double> values;
+    for (const auto& [name, value] : named) {
+        if (!std::isfinite(static_cast<double>(value)))
+            throw ModelError(fmt::format("'{}' starts at {:.6g} in scene '{}', where at most 1.79769e+308 is possible",
+                                         name, value, scene.name),
+                             scene.where);
+        values.push_back(value);
+    }
+    return values;
+}
+
 } // namespace lagen

@@ -50,4 +50,8 @@ class StartState {
     std::optional<Conversion> conversion_;
 };
 
+/// The numbers in the order of `named`. Throws ModelError where a double, as the compiled scene has it, cannot hold
+/// one.
+[[nodiscard]] std::vector<long double> finite_numbers(const std::vector<NamedNumber>& named, const Scene& scene);
+
 } // namespace lagen

@@ -152,10 +152,10 @@ ExitCode run_sweep(Arguments arguments)
     Scene scene = scene_of(options, model, request.initial);
     const SweepRows rows = sweep_rows(options, request, model, scene);
     scene = with_swept(model, std::move(scene), rows);
-    Preparation preparation(options, checked, sweep_driver);
+    Preparation preparation(options, checked, sweep_driver, options.get("method"));
     for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
     const std::string form = form_of(model, scene);
-    const std::vector<long double> parameters = numbers(SceneEvaluator(model, scene).parameters({}), scene);
+    const std::vector<long double> parameters = finite_numbers(SceneEvaluator(model, scene).parameters({}), scene);
     preparation.finish(scene, form, method_of(options, model, scene), parameters);
     const RunRecord& record = preparation.record();
     StartState start([&]() -> const CheckedModel& { return preparation.checked(parameters); }, form);

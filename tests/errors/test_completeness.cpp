@@ -80,6 +80,7 @@ constexpr std::array of_the_machine{
     "cannot be opened: {}",
     "cannot be read to its end",
     "error: Eigen's headers (Eigen/Core) were not found\nhint: set LAGEN_EIGEN_INCLUDE to the folder that holds Eigen/",
+    "error: a program of the chart ended with exit code {}\n{}",
     "error: cannot make a folder in '{}': {}",
     "error: cannot make a pipe: {}",
     "error: cannot read '{}': {}",

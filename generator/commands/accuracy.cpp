@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/accuracy.hpp"
+
+#include "commands/chart/kept_chart.hpp"
+#include "commands/chart/report.hpp"
+#include "commands/integrate_scene.hpp"
+#include "commands/scene_options.hpp"
+#include "commands/write_file.hpp"
+#include "model/scene_form.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <cstdlib>
+
+namespace lagen {
+
+namespace {
+
+constexpr int most_confirmations = 5;
+
+/// A smaller tolerance or step, as the next one of a chart's ladder.
+double tightened(const MethodEntry& method, double parameter)
+{
+    return parameter * (method.adaptive ? 0.31622776601683794 : 0.5);
+}
+
+double accuracy_option(const Options& options)
+{
+    for (const char* other : {"method", "step", "tolerance"})
+        if (options.has(other))
+            throw UsageError(
+                fmt::format("lagen run: --accuracy chooses method, tolerance and step: leave out --{}", other));
+    const std::string text = options.get("accuracy");
+    char* end = nullptr;
+    const double accuracy = std::strtod(text.c_str(), &end);
+    if (text.empty() || *end != '\0' || !(accuracy > 0) || !(accuracy < 1))
+        throw UsageError(fmt::format("lagen run: --accuracy needs a number between 0 and 1, found '{}'", text));
+    return accuracy;
+}
+
+/// The whole state in every row.
+Table states_with(double parameter, const MethodEntry& method, const RunRecord& record, ProgramInput input)
+{
+    (method.adaptive ? input.relative : input.step) = parameter;
+    if (method.adaptive) input.absolute = parameter;
+    input.columns.clear();
+    RunOutcome outcome;
+    for (std::size_t k = 0; k < record.names.lanes.size(); ++k) {
+        input.columns.push_back({record.names.lanes[k], true, k});
+        outcome.state.emplace_back(record.names.lanes[k], "");
+    }
+    integrate_scene(record.program, input, outcome);
+    const bool good = outcome.status == "ok" || outcome.status == "stopped_by_event";
+    return good ? outcome.table : Table{};
+}
+
+} // namespace
+
+std::optional<AccurateMethod> accurate_method(const Options& options, const CheckedModel& checked,
+                                              const std::string& path)
+{
+    if (!options.has("accuracy")) return std::nullopt;
+    const double accuracy = accuracy_option(options);
+    const std::string file = chart_file(options, checked.model);
+    std::optional<KeptChart> kept = find_chart(file);
+    if (!kept) {
+        write_standard_error("no chart of this scene is kept: it is made now\n");
+        CheckedModel own = charted_model(options, path);
+        const Scene scene = scene_of(options, own.model, options.named("initial"));
+        kept = kept_chart(make_chart(own, {scene, form_of(own.model, scene)}));
+        keep_chart(file, *kept);
+    }
+    return choose_method(*kept, accuracy);
+}
+
+AccurateMethod choose_method(const KeptChart& chart, double accuracy)
+{
+    if (!chart.obstacle.empty())
+        throw MathematicsError(fmt::format("no accuracy can be promised to the end of the run: {}", chart.obstacle),
+                               "--t-end makes the run shorter");
+    const ChartPoint* best = cheapest_within(chart.points, accuracy);
+    if (best != nullptr) return {find_method(best->method), best->parameter, accuracy, *best->error};
+    const ChartPoint* nearest = nullptr;
+    for (const ChartPoint& point : chart.points)
+        if (point.error && (nearest == nullptr || *point.error < *nearest->error)) nearest = &point;
+    const std::string least = nearest == nullptr
+                                  ? "none succeeds"
+                                  : fmt::format("the least error is {:.2g}, by {} with {}", *nearest->error,
+                                                nearest->method, parameter_text(*nearest));
+    throw MathematicsError(fmt::format("no method comes within {:g} of the reference: {}", accuracy, least));
+}
+
+bool confirm_accuracy(const AccurateMethod& accurate, const RunRecord& record, ProgramInput& input)
+{
+    const MethodEntry& method = *accurate.method;
+    const char* what = method.adaptive ? "tolerance" : "step";
+    double parameter = accurate.parameter, distance = 0;
+    Table rows = states_with(parameter, method, record, input);
+    for (int k = 0; k < most_confirmations; ++k) {
+        const double finer = tightened(method, parameter);
+        Table finer_rows = states_with(finer, method, record, input);
+        distance = row_distance(rows, finer_rows);
+        (method.adaptive ? input.relative : input.step) = parameter;
+        if (method.adaptive) input.absolute = parameter;
+        if (distance <= accurate.accuracy) {
+            write_standard_error(fmt::format("accuracy {:g}: {} with {} {:.3g}; {} {:.3g} moves no row by more than "
+                                             "{:.2g}\n",
+                                             accurate.accuracy, method.name, what, parameter, what, finer, distance));
+            return true;
+        }
+        parameter = finer;
+        rows = std::move(finer_rows);
+    }
+    write_standard_error(fmt::format("warning: accuracy {:g} is not confirmed: {} with {} {:.3g} and with the next one "
+                                     "differ by {:.2g}\n",
+                                     accurate.accuracy, method.name, what,
+                                     static_cast<double>(method.adaptive ? *input.relative : *input.step), distance));
+    return false;
+}
+
+double row_distance(const Table& a, const Table& b)
+{
+    const std::vector<std::string_view> rows = a.lines(), others = b.lines();
+    if (rows.empty() || rows.size() != others.size()) return HUGE_VAL;
+    double most = 0;
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+        const std::vector<std::string_view> x = fields(rows[row]), y = fields(others[row]);
+        double distance = 0, size = 0;
+        for (std::size_t k = 1; k < std::min(x.size(), y.size()); ++k) {
+            const double s = std::strtod(std::string(x[k]).c_str(), nullptr);
+            const double r = std::strtod(std::string(y[k]).c_str(), nullptr);
+            distance += (s - r) * (s - r);
+            size += r * r;
+        }
+        most = std::max(most, std::sqrt(size > 0 ? distance / size : distance));
+    }
+    return most;
+}
+
+} // namespace lagen

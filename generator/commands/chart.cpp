@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// `lagen chart`: what accuracy costs by every method, on one scene of a model.
+#include "commands/chart/chart.hpp"
+
+#include "commands/chart/kept_chart.hpp"
+#include "commands/chart/picture.hpp"
+#include "commands/chart/report.hpp"
+#include "commands/command.hpp"
+#include "commands/options.hpp"
+#include "commands/places.hpp"
+#include "commands/process.hpp"
+#include "commands/scene_options.hpp"
+#include "commands/write_file.hpp"
+#include "model/scene_form.hpp"
+
+#include <fmt/core.h>
+
+#include <filesystem>
+
+namespace lagen {
+
+namespace {
+
+const std::string chart_form_help = form_list() + "; without it the scene's, else the model's";
+
+const CommandSyntax chart_syntax{
+    "chart",
+    "MODEL",
+    "Runs a scene by every method that applies, over tolerances and steps, and charts time and calls against the error "
+    "of the state. Writes chart.svg, chart.png, chart.csv and chart.json.",
+    {{"scene", "NAME", "the scene; without it `default`, else the first"},
+     {"form", "FORM", chart_form_help.c_str()},
+     {"methods", "A,B,..", "these alone, see `lagen methods`; without it all that apply"},
+     {"peers", nullptr, "odeint, GSL and SUNDIALS too, where they are installed, with the same right-hand side"},
+     {"t-end", "T", "end of the runs, backwards where it lies before the start; without it the scene's duration"},
+     {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
+     {"output,o", "DIR", "the folder of the files, made where it is missing", "."},
+     {"unchecked", nullptr, "go on although the model is refuted"},
+     {"format,f", "FORMAT", "text or json", "text"}}};
+
+std::vector<const MethodEntry*> wanted_methods(const Options& options)
+{
+    std::vector<const MethodEntry*> wanted;
+    for (const std::string& name : split_list(options.get("methods"))) {
+        wanted.push_back(find_method(name));
+        if (wanted.back() != nullptr) continue;
+        const std::string nearest = nearest_method(name);
+        throw UsageError(
+            fmt::format("lagen chart: unknown method '{}'\nhint: {}", name,
+                        nearest.empty() ? "`lagen methods` lists them" : fmt::format("did you mean '{}'?", nearest)));
+    }
+    if (options.has("methods") && wanted.empty())
+        throw UsageError("lagen chart: --methods needs at least one method, e.g. --methods dop853,taylor");
+    return wanted;
+}
+
+void make_folder(const std::string& folder)
+{
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) throw MachineError(fmt::format("error: cannot make the folder '{}': {}", folder, error.message()));
+}
+
+} // namespace
+
+ExitCode run_chart(Arguments arguments)
+{
+    const Options options(chart_syntax, arguments);
+    if (options.help()) return ExitCode::done;
+    const bool as_json = options.choice("format", {"text", "json"}) == "json";
+    if (options.has("form")) (void)options.choice("form", form_names());
+    ChartRequest request;
+    request.methods = wanted_methods(options);
+    request.peers = options.has("peers");
+    const std::string folder = options.get("output");
+    const bool draws = !find_program("gnuplot").empty();
+    if (!draws) write_standard_error("warning: gnuplot was not found: chart.svg and chart.png are not drawn\n");
+
+    CheckedModel checked = charted_model(options, model_path(options.positional()[0]));
+    for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
+    request.scene = scene_of(options, checked.model, options.named("initial"));
+    request.form = form_of(checked.model, request.scene);
+    make_folder(folder);
+    const Chart chart = make_chart(checked, request);
+    if (!chart.shortened.empty())
+        write_standard_error(fmt::format("warning: the chart ends at t = {:.9g}: {}\n", chart.end, chart.shortened));
+    if (request.methods.empty() && !request.peers) keep_chart(chart_file(options, checked.model), kept_chart(chart));
+    write_file(folder + "/chart.json", chart_json(chart));
+    write_file(folder + "/chart.csv", chart_csv(chart));
+    if (draws)
+        for (const char* name : {"/chart.svg", "/chart.png"}) draw_chart(chart, folder + name);
+    write_standard_output(as_json ? chart_json(chart) : chart_text(chart));
+    return ExitCode::done;
+}
+
+} // namespace lagen

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Which methods a chart compares, and the programs that run them: one for all methods of a family.
+#pragma once
+
+#include "commands/chart/chart.hpp"
+#include "commands/chart/problem.hpp"
+#include "commands/compile.hpp"
+
+namespace lagen {
+
+struct Contestant {
+    std::string name;
+    bool adaptive = true; ///< climbs a ladder of tolerances, else of steps
+};
+
+struct MethodFamily {
+    std::string peer; ///< the library; empty: lagen's own
+    std::vector<Contestant> methods;
+    ProgramText text;
+    std::string program; ///< path, once it is compiled
+};
+
+/// Why the method does not apply, in terms of the model; empty where it does.
+[[nodiscard]] std::string obstacle_to(const MethodEntry& method, const ChartProblem& problem);
+
+/// All methods that apply, by families; those that do not are told with the reason.
+[[nodiscard]] std::vector<MethodFamily> method_families(const ChartProblem& problem,
+                                                        std::vector<LeftOutMethod>& left_out);
+
+/// The libraries that are installed; those that are not are told with their packages.
+[[nodiscard]] std::vector<MethodFamily> peer_families(const ChartProblem& problem,
+                                                      std::vector<LeftOutMethod>& left_out);
+
+} // namespace lagen

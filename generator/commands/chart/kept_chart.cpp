@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/chart/kept_chart.hpp"
+
+#include "commands/chart/measure.hpp"
+#include "commands/compile_cache.hpp"
+#include "commands/run_record.hpp"
+#include "commands/write_file.hpp"
+#include "diagnostic.hpp"
+
+#include <fmt/core.h>
+
+#include <filesystem>
+
+namespace lagen {
+
+namespace {
+
+constexpr const char* chart_heading = "what `lagen chart` measured\nobstacle=";
+
+} // namespace
+
+std::string chart_file(const Options& options, const Model& model)
+{
+    std::vector<std::string> key{"chart",
+                                 options.get("scene"),
+                                 options.get("form"),
+                                 options.get("t-end"),
+                                 options.get("at"),
+                                 options.has("unchecked") ? "unchecked" : ""};
+    for (const Setting& setting : options.settings()) key.push_back(setting.name + "=" + setting.value.text);
+    return record_file(model, key);
+}
+
+KeptChart kept_chart(const Chart& chart)
+{
+    return {chart.points, chart.ended_by_event ? "" : chart.shortened};
+}
+
+std::optional<KeptChart> find_chart(const std::string& file)
+{
+    std::error_code ignored;
+    if (file.empty() || !std::filesystem::is_regular_file(file, ignored)) return std::nullopt;
+    const std::string text = content_of_file(file), heading = chart_heading;
+    if (!text.starts_with(heading)) return std::nullopt;
+    const std::size_t end = text.find('\n', heading.size());
+    if (end == std::string::npos) return std::nullopt;
+    std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now(), ignored);
+    return KeptChart{read_points(text.substr(end + 1)), text.substr(heading.size(), end - heading.size())};
+}
+
+void keep_chart(const std::string& file, const KeptChart& chart)
+try {
+    if (file.empty()) return;
+    std::string text = chart_heading + chart.obstacle + "\n";
+    for (const ChartPoint& point : chart.points) {
+        text += fmt::format("point={}\nparameter={}\nstatus={}\n", point.method, point.parameter, point.status);
+        if (point.error) text += fmt::format("error={}\n", *point.error);
+        text += fmt::format("steps={}\nrejected={}\nrhs_calls={}\nseconds={}\n", point.steps, point.rejected,
+                            point.rhs_calls, point.seconds);
+    }
+    write_file(file, text);
+    trim_cache(std::filesystem::path(file).parent_path().string());
+} catch (const MachineError&) {
+    // The next run charts again.
+}
+
+} // namespace lagen

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/chart/reference.hpp"
+
+#include "commands/methods.hpp"
+#include "diagnostic.hpp"
+#include "emit/print_header.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
+
+namespace lagen {
+
+namespace {
+
+/// A chart shows errors down to 1e-15 or so, of which the reference is to spoil nothing that is seen.
+constexpr double reference_agreement = 1e-14;
+constexpr std::array reference_tolerances{1e-20, 1e-26};
+/// Of Taylor's method, which is cheap at any tolerance, beside that of the pair.
+constexpr double series_share = 1e-6;
+constexpr std::size_t most_reference_steps = 400'000;
+
+struct ReferenceRun {
+    std::string status;
+    double t = 0;
+    std::size_t steps = 0, calls = 0;
+    std::vector<double> rows;
+};
+
+ReferenceRun read_reference(const std::string& answer)
+{
+    ReferenceRun run;
+    std::istringstream lines(answer);
+    for (std::string line; std::getline(lines, line);) {
+        const std::size_t equals = line.find('=');
+        if (equals == std::string::npos) {
+            std::istringstream words(line);
+            for (std::string word; words >> word;) run.rows.push_back(std::strtod(word.c_str(), nullptr));
+            continue;
+        }
+        const std::string key = line.substr(0, equals), value = line.substr(equals + 1);
+        if (key == "status") run.status = value;
+        if (key == "t") run.t = std::strtod(value.c_str(), nullptr);
+        if (key == "steps") run.steps = std::strtoul(value.c_str(), nullptr, 10);
+        if (key == "rhs_calls") run.calls = std::strtoul(value.c_str(), nullptr, 10);
+    }
+    if (run.status.empty()) throw InternalError("a reference of a chart gave no status");
+    return run;
+}
+
+/// |a - b|_2/|a|_2 of the samples number `sample`.
+double distance_at(const std::vector<double>& a, const std::vector<double>& b, std::size_t sample, std::size_t lanes)
+{
+    double distance = 0, size = 0;
+    for (std::size_t k = 2 * lanes * sample; k < 2 * lanes * (sample + 1); k += 2) {
+        const double away = (a[k] - b[k]) + (a[k + 1] - b[k + 1]);
+        distance += away * away;
+        size += a[k] * a[k];
+    }
+    return std::sqrt(size > 0 ? distance / size : distance);
+}
+
+/// How many samples from the first on agree; `most` is their largest distance.
+std::size_t agreeing(const std::array<ReferenceRun, 2>& runs, std::size_t lanes, double& most)
+{
+    const std::size_t samples = std::min(runs[0].rows.size(), runs[1].rows.size()) / (2 * lanes);
+    most = 0;
+    for (std::size_t k = 0; k < samples; ++k) {
+        const double distance = distance_at(runs[0].rows, runs[1].rows, k, lanes);
+        if (!(distance <= reference_agreement)) return k;
+        most = std::max(most, distance);
+    }
+    return samples;
+}
+
+/// Whether an event ends the scene: the problem ends there too.
+bool end_at_event(ChartProblem& problem, const std::string& program)
+{
+    if (problem.events.empty()) return false;
+    std::string request =
+        request_of(problem) + fmt::format("tolerance {:g}\nmost {}\n", reference_tolerances[0], most_reference_steps);
+    for (const Event& event : problem.events) {
+        const char* direction = event.direction == Direction::rising    ? "rising"
+                                : event.direction == Direction::falling ? "falling"
+                                                                        : "any";
+        request += fmt::format("event {} {} {}\n", event.name, direction, event.count);
+    }
+    const ReferenceRun run = read_reference(answers_of({{program, request}}, 1)[0]);
+    if (run.status != "stopped_by_event") return false;
+    problem.end = run.t;
+    sample_evenly(problem, problem.times.size());
+    return true;
+}
+
+/// What ended the run that came less far, or that they disagree.
+std::string why_shortened(const std::array<ReferenceRun, 2>& runs, const std::array<std::string, 2>& methods)
+{
+    for (const std::size_t k : {0U, 1U})
+        if (runs[k].status != "ok")
+            return fmt::format("{} in 113 bits ends with {} at t = {:.9g}", methods[k], runs[k].status, runs[k].t);
+    return fmt::format("{} and {} in 113 bits differ by more than {:g} from then on", methods[0], methods[1],
+                       reference_agreement);
+}
+
+std::array<ReferenceRun, 2> run_references(const ChartProblem& problem, const std::array<std::string, 2>& programs,
+                                           const std::array<std::string, 2>& methods, double tolerance)
+{
+    std::vector<ChartCall> calls;
+    for (const std::size_t k : {0U, 1U}) {
+        const double own = tolerance * (methods[k] == "taylor" ? series_share : 1);
+        calls.push_back(
+            {programs[k], request_of(problem) + fmt::format("tolerance {:g}\nmost {}\n", own, most_reference_steps)});
+    }
+    const std::vector<std::string> answers = answers_of(calls, 2);
+    return {read_reference(answers[0]), read_reference(answers[1])};
+}
+
+} // namespace
+
+std::array<std::string, 2> reference_methods(const ChartProblem& problem)
+{
+    const bool velocity_free = problem.module.second_order.kind == SecondOrder::Kind::velocity_free;
+    const char* other = velocity_free ? "verner98" : "verner87";
+    return {problem.no_series.empty() ? "taylor" : other, velocity_free ? "rkn1210" : "verner98"};
+}
+
+std::vector<ProgramText> reference_programs(const ChartProblem& problem)
+{
+    std::vector<ProgramText> programs;
+    for (const std::string& method : reference_methods(problem)) {
+        const std::string text = fmt::format(
+            "#include \"lagen_chart/quad.hpp\"\n#include \"model.hpp\"\n#include \"lagen_chart/reference.hpp\"\nint "
+            "main(int argc, char** argv)\n{{\n    return lagen::chart_reference<lagen::models::{}<lagen::Quad>, "
+            "lagen::{}>(argc, argv);\n}}\n",
+            cpp_names({problem.module.name})[0], find_method(method)->type);
+        programs.push_back({problem.header, text, {"-lquadmath"}});
+    }
+    return programs;
+}
+
+ChartReference make_reference(ChartProblem& problem, const std::array<std::string, 2>& programs,
+                              const std::string& scene)
+{
+    const std::array<std::string, 2> methods = reference_methods(problem);
+    const std::size_t lanes = problem.initial.size();
+    ChartReference reference;
+    reference.ended_by_event = end_at_event(problem, programs[1]);
+    if (reference.ended_by_event) reference.shortened = "an event ends the scene";
+    std::array<ReferenceRun, 2> runs;
+    std::size_t samples = 0;
+    for (const double tolerance : reference_tolerances) {
+        runs = run_references(problem, programs, methods, tolerance);
+        samples = agreeing(runs, lanes, reference.error);
+        if (samples == problem.times.size() || runs[0].status != "ok" || runs[1].status != "ok") break;
+    }
+    if (samples < problem.times.size()) {
+        reference.ended_by_event = false;
+        reference.shortened = why_shortened(runs, methods);
+        if (samples < 2)
+            throw MathematicsError(fmt::format("no reference can be made for scene '{}' beyond t = {:.9g}: {}", scene,
+                                               problem.start, reference.shortened),
+                                   "--t-end makes the chart shorter");
+        problem.times.resize(samples);
+        problem.end = problem.times.back();
+    }
+    // Taylor's method is the nearer one of the two, as the tolerances are; else the pair of higher order.
+    const ReferenceRun& nearer = runs[methods[0] == "taylor" ? 0 : 1];
+    reference.rows.assign(nearer.rows.begin(), nearer.rows.begin() + static_cast<std::ptrdiff_t>(2 * lanes * samples));
+    reference.steps = runs[1].steps;
+    reference.calls = runs[1].calls;
+    return reference;
+}
+
+} // namespace lagen

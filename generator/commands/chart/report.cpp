@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/chart/report.hpp"
+
+#include "emit/json.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lagen {
+
+namespace {
+
+void point_json(JsonWriter& json, const ChartPoint& point)
+{
+    json.begin_object();
+    if (!point.peer.empty()) json.key("peer").value(point.peer);
+    json.key("method").value(point.method).key("parameter").value(point.parameter).key("error");
+    if (point.error)
+        json.value(*point.error);
+    else
+        json.null();
+    json.key("invariants").begin_object();
+    for (const auto& [name, drift] : point.drifts) json.key(name).value(drift);
+    json.end_object().key("seconds").value(point.seconds).key("spread").value(point.spread);
+    json.key("rhs_calls").value(point.rhs_calls).key("steps").value(point.steps).key("rejected").value(point.rejected);
+    json.key("status").value(point.status).end_object();
+}
+
+void best_json(JsonWriter& json, const Chart& chart)
+{
+    json.key("best").begin_array();
+    for (const double error : charted_errors) {
+        const ChartPoint* best = cheapest_within(chart.points, error);
+        if (best == nullptr) continue;
+        json.begin_object().key("error").value(error);
+        if (!best->peer.empty()) json.key("peer").value(best->peer);
+        json.key("method").value(best->method).key("parameter").value(best->parameter).key("seconds");
+        json.value(best->seconds).key("rhs_calls").value(best->rhs_calls).key("steps").value(best->steps).end_object();
+    }
+    json.end_array();
+}
+
+std::vector<std::string> drift_names(const Chart& chart)
+{
+    std::vector<std::string> names;
+    for (const ChartPoint& point : chart.points)
+        for (const auto& [name, drift] : point.drifts)
+            if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+    return names;
+}
+
+std::string best_lines(const Chart& chart)
+{
+    std::string text = "error  method          tolerance or step   its error  seconds   right-hand sides  steps\n";
+    for (const double error : charted_errors) {
+        const ChartPoint* best = cheapest_within(chart.points, error);
+        text += best == nullptr
+                    ? fmt::format("{:<7.0e}not reached\n", error)
+                    : fmt::format("{:<7.0e}{:<16}{:<20}{:<11.1e}{:<10.2e}{:<18}{}\n", error, name_of(*best),
+                                  parameter_text(*best), *best->error, best->seconds, best->rhs_calls, best->steps);
+    }
+    return text;
+}
+
+/// What each method takes for each error, in seconds.
+std::string method_lines(const Chart& chart)
+{
+    std::string text = "seconds for an error of";
+    for (const double error : charted_errors) text += fmt::format("{:>10.0e}", error);
+    text += '\n';
+    for (const std::string& name : charted_methods(chart)) {
+        std::vector<ChartPoint> own;
+        for (const ChartPoint& point : chart.points)
+            if (name_of(point) == name) own.push_back(point);
+        text += fmt::format("  {:<21}", name);
+        for (const double error : charted_errors) {
+            const ChartPoint* best = cheapest_within(own, error);
+            text += best == nullptr ? fmt::format("{:>10}", "-") : fmt::format("{:>10.1e}", best->seconds);
+        }
+        text += '\n';
+    }
+    return text;
+}
+
+/// "failed: gauss2, step 0.4: newton_diverged", one line a method and status.
+std::string failure_lines(const Chart& chart)
+{
+    std::string text;
+    for (std::size_t k = 0; k < chart.points.size();) {
+        const ChartPoint& first = chart.points[k];
+        std::size_t end = k;
+        while (end < chart.points.size() && name_of(chart.points[end]) == name_of(first) &&
+               chart.points[end].status == first.status)
+            ++end;
+        if (!first.error) {
+            text += fmt::format("failed: {}, {}", name_of(first), parameter_text(first));
+            if (end - k > 1) text += fmt::format(" to {:.2g}", chart.points[end - 1].parameter);
+            text += fmt::format(": {}\n", first.status);
+        }
+        k = end;
+    }
+    return text;
+}
+
+double median_spread(const Chart& chart)
+{
+    std::vector<double> spreads;
+    for (const ChartPoint& point : chart.points) spreads.push_back(point.spread);
+    std::ranges::sort(spreads);
+    return spreads.empty() ? 1 : spreads[spreads.size() / 2];
+}
+
+} // namespace
+
+std::string name_of(const ChartPoint& point)
+{
+    return point.peer.empty() ? point.method : point.peer + " " + point.method;
+}
+
+std::string parameter_text(const ChartPoint& point)
+{
+    const MethodEntry* method = point.peer.empty() ? find_method(point.method) : nullptr;
+    return fmt::format("{} {:.2g}", method == nullptr || method->adaptive ? "tolerance" : "step", point.parameter);
+}
+
+std::vector<std::string> charted_methods(const Chart& chart)
+{
+    std::vector<std::string> names;
+    for (const ChartPoint& point : chart.points)
+        if (std::ranges::find(names, name_of(point)) == names.end()) names.push_back(name_of(point));
+    return names;
+}
+
+std::string chart_json(const Chart& chart)
+{
+    JsonWriter json;
+    json.begin_object().key("model").value(chart.model).key("scene").value(chart.scene).key("form").value(chart.form);
+    json.key("start").value(chart.start).key("end").value(chart.end).key("times").begin_array();
+    for (const double time : chart.times) json.value(time);
+    json.end_array();
+    if (!chart.shortened.empty()) json.key("shortened").value(chart.shortened);
+    json.key("reference").begin_object().key("error").value(chart.reference_error).key("methods").begin_array();
+    for (const std::string& method : chart.reference_methods) json.value(method);
+    json.end_array().end_object();
+    json.key("machine").value(chart.machine).key("compiler").value(chart.compiler);
+    json.key("repeats").value(chart.repeats).key("points").begin_array();
+    for (const ChartPoint& point : chart.points) point_json(json, point);
+    json.end_array();
+    best_json(json, chart);
+    json.key("left_out").begin_array();
+    for (const LeftOutMethod& method : chart.left_out)
+        json.begin_object().key("method").value(method.method).key("reason").value(method.reason).end_object();
+    json.end_array().end_object();
+    return json.text() + "\n";
+}
+
+std::string chart_csv(const Chart& chart)
+{
+    const std::vector<std::string> names = drift_names(chart);
+    std::string text = "peer,method,parameter,status,error,seconds,spread,rhs_calls,steps,rejected";
+    for (const std::string& name : names) text += ",drift_" + name;
+    for (const ChartPoint& point : chart.points) {
+        text += fmt::format("\r\n{},{},{},{},{},{},{},{},{},{}", point.peer, point.method, point.parameter,
+                            point.status, point.error ? fmt::format("{}", *point.error) : "", point.seconds,
+                            point.spread, point.rhs_calls, point.steps, point.rejected);
+        for (const std::string& name : names) {
+            const auto drift = std::ranges::find(point.drifts, name, &std::pair<std::string, double>::first);
+            const bool known = drift != point.drifts.end() && std::isfinite(drift->second);
+            text += known ? fmt::format(",{}", drift->second) : ",";
+        }
+    }
+    return text + "\r\n";
+}
+
+std::string chart_text(const Chart& chart)
+{
+    std::string text = fmt::format("{}, scene {}, {} form, {} samples from t = {:.9g} to {:.9g}\n", chart.model,
+                                   chart.scene, chart.form, chart.times.size(), chart.start, chart.end);
+    if (!chart.shortened.empty()) text += fmt::format("the chart ends at t = {:.9g}: {}\n", chart.end, chart.shortened);
+    text += fmt::format("reference: {} and {} in 113 bits differ by {:.1e}\n", chart.reference_methods[0],
+                        chart.reference_methods[1], chart.reference_error);
+    text += fmt::format("machine: {}; {}; least of {} repeats, of which the largest is {:.2f} times that in the "
+                        "median\n\n",
+                        chart.machine, chart.compiler, chart.repeats, median_spread(chart));
+    text += best_lines(chart) + "\n" + method_lines(chart);
+    const std::string failures = failure_lines(chart);
+    if (!failures.empty() || !chart.left_out.empty()) text += "\n" + failures;
+    for (const LeftOutMethod& method : chart.left_out)
+        text += fmt::format("left out: {}: {}\n", method.method, method.reason);
+    return text;
+}
+
+} // namespace lagen

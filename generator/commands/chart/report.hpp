@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// A chart in words and numbers.
+#pragma once
+
+#include "commands/chart/chart.hpp"
+
+namespace lagen {
+
+/// The object of chart.json.
+[[nodiscard]] std::string chart_json(const Chart& chart);
+
+/// RFC 4180: a line a point; a field that does not apply is empty.
+[[nodiscard]] std::string chart_csv(const Chart& chart);
+
+/// For standard output: the reference, the best point for each of `charted_errors`, what each method takes for them,
+/// and what failed or was left out.
+[[nodiscard]] std::string chart_text(const Chart& chart);
+
+/// "tolerance 1e-09" or "step 0.1".
+[[nodiscard]] std::string parameter_text(const ChartPoint& point);
+
+/// The methods of a chart, peers with their libraries ("odeint dopri5"), in the order of its points.
+[[nodiscard]] std::vector<std::string> charted_methods(const Chart& chart);
+[[nodiscard]] std::string name_of(const ChartPoint& point);
+
+} // namespace lagen

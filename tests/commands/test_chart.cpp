@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// `lagen chart` and `lagen run --accuracy`: the choice among points, the three files, and errors against references
+/// that were made elsewhere.
+#include "program.hpp"
+
+#include "support/golden.hpp"
+#include "support/json.hpp"
+#include "support/tolerances.hpp"
+
+#include "commands/accuracy.hpp"
+#include "commands/chart/measure.hpp"
+#include "commands/chart/picture.hpp"
+#include "commands/chart/report.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <cstdlib>
+#include <map>
+
+using namespace lagen::testing;
+namespace json = lagen::json;
+
+namespace {
+
+lagen::ChartPoint charted(const char* method, double parameter, double error, double seconds)
+{
+    lagen::ChartPoint point;
+    point.method = method;
+    point.parameter = parameter;
+    point.status = "ok";
+    point.error = error;
+    point.seconds = seconds;
+    point.rhs_calls = 40;
+    point.drifts = {{"energy", 1e-3 * error}};
+    return point;
+}
+
+/// Two methods that cross, a failure among them.
+lagen::Chart small_chart()
+{
+    lagen::Chart chart;
+    chart.model = "ring";
+    chart.scene = "default";
+    chart.form = "lagrange";
+    chart.end = 1;
+    chart.times = {0, 1};
+    chart.reference_methods = {"taylor", "verner98"};
+    chart.reference_error = 1e-20;
+    chart.machine = "a machine, with a comma";
+    chart.repeats = 3;
+    chart.points = {charted("rk4", 0.5, 1e-2, 1e-6), charted("rk4", 0.25, 1e-4, 2e-6),
+                    charted("rk4", 0.125, 1e-7, 8e-6), charted("dop853", 1e-3, 5e-4, 3e-6),
+                    charted("dop853", 1e-6, 1e-7, 4e-6)};
+    lagen::ChartPoint failed;
+    failed.method = "gauss2";
+    failed.parameter = 1;
+    failed.status = "newton_diverged";
+    failed.seconds = 1e-6;
+    chart.points.push_back(failed);
+    chart.left_out = {{"rkn64", "rkn64 integrates x'' = f(t, x), and in model 'ring' v' depends on v"}};
+    return chart;
+}
+
+double number_of(const json::Value& value)
+{
+    return std::strtod(value.text.c_str(), nullptr);
+}
+
+} // namespace
+
+TEST_CASE("the best point for an error is the cheapest that was measured within it, and failures are none")
+{
+    const lagen::Chart chart = small_chart();
+    CHECK(lagen::cheapest_within(chart.points, 1e-2)->parameter == 0.5);
+    CHECK(lagen::cheapest_within(chart.points, 9e-3)->parameter == 0.25);
+    CHECK(lagen::cheapest_within(chart.points, 1e-7)->method == "dop853");
+    CHECK(lagen::cheapest_within(chart.points, 0.9e-7) == nullptr);
+}
+
+TEST_CASE("methods lead a picture where they are the cheapest, or nearly, for some error")
+{
+    const lagen::Chart chart = small_chart();
+    CHECK(lagen::leading_methods(chart, 1) == std::vector<std::string>{"rk4", "dop853"});
+    lagen::Chart slow = chart;
+    for (lagen::ChartPoint& point : slow.points)
+        if (point.method == "dop853") point.seconds *= 2.5;
+    CHECK(lagen::leading_methods(slow, 1) == std::vector<std::string>{"rk4"});
+    CHECK(lagen::leading_methods(slow, 1.3) == std::vector<std::string>{"rk4", "dop853"});
+}
+
+TEST_CASE("chart.json has the members of the interface")
+{
+    const json::Value chart = json::parse(lagen::chart_json(small_chart()));
+    for (const char* key : {"model", "scene", "reference", "points", "best"}) CHECK(chart.has(key));
+    CHECK(number_of(chart["reference"]["error"]) == 1e-20);
+    CHECK(chart["reference"]["methods"].texts() == std::vector<std::string>{"taylor", "verner98"});
+    const json::Value& point = chart["points"][0];
+    CHECK(point.keys == std::vector<std::string>{"method", "parameter", "error", "invariants", "seconds", "spread",
+                                                 "rhs_calls", "steps", "rejected", "status"});
+    CHECK(point["parameter"].kind == json::Kind::number);
+    CHECK(number_of(point["invariants"]["energy"]) == 1e-5);
+    CHECK(chart["points"][5]["error"].kind == json::Kind::null);
+    CHECK(chart["points"][5]["status"].text == "newton_diverged");
+    REQUIRE(chart["best"].size() == 2); // nothing comes within 1e-9
+    CHECK(chart["best"][1]["method"].text == "dop853");
+    CHECK(number_of(chart["best"][1]["error"]) == 1e-6);
+    CHECK(number_of(chart["best"][1]["seconds"]) == 4e-6);
+    CHECK(chart["left_out"][0]["method"].text == "rkn64");
+}
+
+TEST_CASE("chart.csv has a line a point, and the text names the best, the failures and what was left out")
+{
+    const std::string csv = lagen::chart_csv(small_chart());
+    CHECK_THAT(csv, Catch::StartsWith("peer,method,parameter,status,error,seconds,spread,rhs_calls,steps,rejected,"
+                                      "drift_energy\r\n,rk4,0.5,ok,0.01,1e-06,1,40,0,0,1e-05\r\n"));
+    CHECK_THAT(csv, Catch::EndsWith("\r\n,gauss2,1,newton_diverged,,1e-06,1,0,0,0,\r\n"));
+    const std::string text = lagen::chart_text(small_chart());
+    for (const char* part : {"ring, scene default, lagrange form, 2 samples from t = 0 to 1\n",
+                             "reference: taylor and verner98 in 113 bits differ by 1.0e-20\n",
+                             "1e-06  dop853          tolerance 1e-06     1.0e-07    4.00e-06", "\n1e-09  not reached\n",
+                             "failed: gauss2, step 1: newton_diverged\n",
+                             "left out: rkn64: rkn64 integrates x'' = f(t, x), and in model 'ring' v' depends on v\n"})
+        CHECK_THAT(text, Catch::Contains(part));
+}
+
+TEST_CASE("points are read as a chart's program prints them")
+{
+    const std::vector<lagen::ChartPoint> points = lagen::read_points(
+        "point=rk4\nparameter=0.5\nstatus=ok\nerror=0.25\nsteps=2\nrejected=0\nrhs_calls=8\nseconds=1e-06\n"
+        "energy=3,0.125\ninvariant:area=1,0.5\npoint=euler\nparameter=0.125\nstatus=non_finite\nsteps=7\nrejected=1\n"
+        "rhs_calls=7\nseconds=2e-06\n");
+    REQUIRE(points.size() == 2);
+    CHECK(points[0].method == "rk4");
+    CHECK(points[0].error == 0.25);
+    CHECK(points[0].rhs_calls == 8);
+    CHECK(points[0].drifts == std::vector<std::pair<std::string, double>>{{"energy", 0.125}, {"area", 0.5}});
+    CHECK(points[1].status == "non_finite");
+    CHECK(points[1].parameter == 0.125);
+    CHECK(points[1].rejected == 1);
+    CHECK_FALSE(points[1].error);
+}
+
+TEST_CASE("--accuracy takes the cheapest method within it, and says where there is none")
+{
+    const lagen::KeptChart kept = lagen::kept_chart(small_chart());
+    const lagen::AccurateMethod chosen = lagen::choose_method(kept, 1e-6);
+    CHECK(chosen.method == lagen::find_method("dop853"));
+    CHECK(chosen.parameter == 1e-6);
+    CHECK(chosen.error == 1e-7);
+    const auto said = [](const lagen::KeptChart& chart) -> std::string {
+        try {
+            (void)lagen::choose_method(chart, 1e-9);
+        } catch (const lagen::MathematicsError& error) {
+            return error.message() + (error.hint().empty() ? "" : "; " + error.hint());
+        }
+        return "";
+    };
+    CHECK(said(kept) ==
+          "no method comes within 1e-09 of the reference: the least error is 1e-07, by rk4 with step 0.12");
+    CHECK(said({{}, ""}) == "no method comes within 1e-09 of the reference: none succeeds");
+    CHECK(said({{}, "taylor and verner98 part"}) ==
+          "no accuracy can be promised to the end of the run: taylor and verner98 part; --t-end makes the run shorter");
+    lagen::Chart ended = small_chart();
+    ended.shortened = "an event ends the scene";
+    ended.ended_by_event = true;
+    CHECK(lagen::kept_chart(ended).obstacle.empty());
+    ended.ended_by_event = false;
+    CHECK(lagen::kept_chart(ended).obstacle == "an event ends the scene");
+}
+
+TEST_CASE("a kept chart is read as it was written, and other files are none")
+{
+    const std::string file = fresh_folder() + "/0123456789abcdef0123456789abcdef.run";
+    lagen::KeptChart kept = lagen::kept_chart(small_chart());
+    kept.obstacle = "chaos";
+    lagen::keep_chart(file, kept);
+    const std::optional<lagen::KeptChart> found = lagen::find_chart(file);
+    REQUIRE(found);
+    CHECK(found->obstacle == "chaos");
+    REQUIRE(found->points.size() == kept.points.size());
+    for (std::size_t k = 0; k < kept.points.size(); ++k) {
+        CHECK(found->points[k].method == kept.points[k].method);
+        CHECK(found->points[k].parameter == kept.points[k].parameter);
+        CHECK(found->points[k].error == kept.points[k].error);
+        CHECK(found->points[k].seconds == kept.points[k].seconds);
+        CHECK(found->points[k].status == kept.points[k].status);
+    }
+    write_text(file, "what `lagen run` proved and compiled\n");
+    CHECK_FALSE(lagen::find_chart(file));
+}
+
+TEST_CASE("the distance of two tables is that of their rows, relative to the second")
+{
+    const lagen::Table a{{"t", "x", "y"}, "0,3,4\n1,0,1\n", 2}, b{{"t", "x", "y"}, "0,3,4.5\n1,0,2\n", 2};
+    CHECK(lagen::row_distance(a, b) == 0.5);
+    CHECK(lagen::row_distance(a, a) == 0);
+    CHECK(std::isinf(lagen::row_distance(a, {})));
+    CHECK(lagen::row_distance({{"t", "x"}, "0,0.25\n", 1}, {{"t", "x"}, "0,0\n", 1}) == 0.25);
+}
+
+TEST_CASE("the errors of a chart are those of lagen run against 28 digits", "[chart]")
+{
+    const std::string folder = fresh_folder();
+    const Outcome outcome = call({"chart", "rigid_body.toml", "--methods", "dop853,rk4", "-o", folder + "/new/files"});
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    for (const char* name : {"chart.csv", "chart.json", "chart.png", "chart.svg"})
+        CHECK(read_text(folder + "/new/files/" + name).size() > 1000);
+    const json::Value chart = json::read_file(folder + "/new/files/chart.json");
+    CHECK(number_of(chart["reference"]["error"]) < 1e-15);
+    CHECK(chart["reference"]["methods"].texts() == std::vector<std::string>{"taylor", "verner98"});
+
+    const json::Value exact = json::read_file(LAGEN_SOURCE_DIR "/tests/data/continuous/rigid_body_near_axis1.json");
+    std::map<std::string, int> compared;
+    for (const json::Value& point : chart["points"].entries) {
+        const double error = number_of(point["error"]);
+        if (!(error > 1e-9 && error < 1e-4)) continue;
+        const bool steps = point["method"].text == "rk4";
+        const Outcome run = call({"run", "rigid_body.toml", "--method", point["method"].text,
+                                  steps ? "--step" : "--tolerance", point["parameter"].text, "--at",
+                                  "0,1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17,18,19,20", "--format", "json"});
+        REQUIRE(run.code == 0);
+        const json::Value rows = json::parse(run.out)["rows"];
+        REQUIRE(rows.size() == exact["samples"].size());
+        double most = 0;
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+            double distance = 0, size = 0;
+            for (std::size_t i = 0; i < 3; ++i) {
+                const double r = number_of(exact["samples"][k]["state"][i]), away = number_of(rows[k][i + 1]) - r;
+                distance += away * away;
+                size += r * r;
+            }
+            most = std::max(most, std::sqrt(distance / size));
+        }
+        CHECK(std::abs(error - most) < 1e-4 * most);
+        ++compared[point["method"].text];
+    }
+    CHECK(compared["dop853"] >= 3);
+    CHECK(compared["rk4"] >= 3);
+    const Outcome second = call({"chart", "rigid_body.toml", "--methods", "dop853,rk4", "-o", folder});
+    CHECK(outcome.err.find("compiling ") != std::string::npos);
+    CHECK(second.err.find("compiling ") == std::string::npos);
+    const json::Value again = json::read_file(folder + "/chart.json");
+    REQUIRE(again["points"].size() == chart["points"].size());
+    for (std::size_t k = 0; k < again["points"].size(); ++k)
+        for (const char* key : {"method", "parameter", "error", "rhs_calls", "steps", "status"})
+            CHECK(again["points"][k][key].text == chart["points"][k][key].text);
+}
+
+TEST_CASE("a chart ends where its reference ends, or the event of its scene, and says so", "[chart]")
+{
+    const std::string folder = fresh_folder();
+    write_text(folder + "/pole.toml", R"(title = "x'' = 6 x^2: x = 1/(1 - t)^2"
+[base]
+coordinates = ["x"]
+[fibre]
+coordinates = ["v"]
+[algebroid]
+kind = "tangent"
+[lagrangian]
+L = "v^2/2 + 2*x^3"
+[scene.default]
+initial = { x = 1, v = 2 }
+duration = 2
+[scene.late]
+like = "default"
+at = [2]
+[scene.half]
+like = "default"
+[scene.half.events]
+four = { when = "x - 4", stop = true }
+)");
+    const Surroundings there{.folder = folder};
+    const Outcome whole = call({"chart", "pole.toml", "--methods", "rkn86"}, there);
+    INFO(whole.err);
+    REQUIRE(whole.code == 0);
+    CHECK_THAT(whole.err, Catch::Contains("warning: the chart ends at t = 0.9: "));
+    CHECK(number_of(json::read_file(folder + "/chart.json")["end"]) == Approx(0.9));
+    const Outcome late = call({"chart", "pole.toml", "--scene", "late", "--methods", "rkn86"}, there);
+    CHECK(late.code == 1);
+    CHECK_THAT(late.err, Catch::Contains("error: no reference can be made for scene 'late' beyond t = 0: ") &&
+                             Catch::EndsWith("hint: --t-end makes the chart shorter\n"));
+    REQUIRE(call({"chart", "pole.toml", "--scene", "half", "--methods", "rkn86"}, there).code == 0);
+    const json::Value half = json::read_file(folder + "/chart.json");
+    CHECK(std::abs(number_of(half["end"]) - 0.5) < 1e-15);
+    CHECK(half["shortened"].text == "an event ends the scene");
+    const Outcome split = call({"chart", "pole.toml", "--methods", "rkn86,gauss4"}, there);
+    CHECK(split.code == 0);
+}
+
+TEST_CASE("--accuracy keeps its promise, says by what, and charts once", "[chart]")
+{
+    const auto run = [](const char* accuracy) {
+        return call({"run", "oscillator.toml", "--accuracy", accuracy, "--at", "0,1/3,1", "--format", "json"});
+    };
+    const Outcome first = run("1e-9");
+    INFO(first.err);
+    REQUIRE(first.code == 0);
+    CHECK_THAT(first.err, Catch::Contains("no chart of this scene is kept: it is made now\n") &&
+                              Catch::Contains("accuracy 1e-09: ") && Catch::Contains(" moves no row by more than "));
+    const Outcome second = run("1e-6");
+    REQUIRE(second.code == 0);
+    CHECK_THAT(second.err, Catch::StartsWith("accuracy 1e-06: "));
+    for (const auto& [outcome, accuracy] : {std::pair(first, 1e-9), std::pair(second, 1e-6)})
+        for (const json::Value& row : json::parse(outcome.out)["rows"].entries) {
+            const double t = number_of(row[0]);
+            CHECK(std::hypot(number_of(row[1]) - std::cos(t), number_of(row[2]) + std::sin(t)) < accuracy);
+        }
+}
