@@ -3,6 +3,7 @@
 #pragma once
 
 #include "commands/methods.hpp"
+#include "commands/options.hpp"
 #include "pipeline.hpp"
 
 #include <optional>
