@@ -17,7 +17,7 @@ namespace json = lagen::json;
 namespace {
 
 /// The last row of a run, with the warnings of the call apart.
-std::vector<double> end_of(std::vector<std::string> arguments)
+std::vector<double> bound_end_of(std::vector<std::string> arguments)
 {
     const std::vector<std::string> common{"--at", "2", "--tolerance", "1e-12", "--format", "json"};
     arguments.insert(arguments.begin(), "run");
@@ -33,7 +33,7 @@ std::vector<double> end_of(std::vector<std::string> arguments)
     return row;
 }
 
-double distance(const std::vector<double>& a, const std::vector<double>& b)
+double row_difference(const std::vector<double>& a, const std::vector<double>& b)
 {
     REQUIRE(a.size() == b.size());
     double most = 0;
@@ -97,17 +97,17 @@ TEST_CASE("a run with bound parameters is the run without, in the scene's values
     for (const std::vector<std::string>& scene : {std::vector<std::string>{}, {"--scene", "softer"}}) {
         std::vector<std::string> arguments{"quartic_body.toml", "--form", "hamilton"};
         arguments.insert(arguments.end(), scene.begin(), scene.end());
-        const std::vector<double> plain = end_of(arguments);
+        const std::vector<double> plain = bound_end_of(arguments);
         arguments.insert(arguments.end(), {"--bind", "I,c"});
-        CHECK(distance(plain, end_of(arguments)) < 1e-10);
+        CHECK(row_difference(plain, bound_end_of(arguments)) < 1e-10);
         // The second time the cache answers.
-        CHECK(distance(plain, end_of(arguments)) < 1e-10);
+        CHECK(row_difference(plain, bound_end_of(arguments)) < 1e-10);
     }
-    const std::vector<double> file = end_of({"quartic_body.toml", "--bind", "c"});
-    CHECK(distance(file, end_of({"quartic_body.toml", "--bind", "c", "--scene", "softer"})) > 1e-3);
-    CHECK(distance(file, end_of({"quartic_body.toml", "--bind", "c=0.25"})) > 1e-3);
-    CHECK(distance(end_of({"quartic_body.toml", "--set", "k=0.3", "--bind", "c"}),
-                   end_of({"quartic_body.toml", "--set", "k=0.3"})) < 1e-10);
+    const std::vector<double> file = bound_end_of({"quartic_body.toml", "--bind", "c"});
+    CHECK(row_difference(file, bound_end_of({"quartic_body.toml", "--bind", "c", "--scene", "softer"})) > 1e-3);
+    CHECK(row_difference(file, bound_end_of({"quartic_body.toml", "--bind", "c=0.25"})) > 1e-3);
+    CHECK(row_difference(bound_end_of({"quartic_body.toml", "--set", "k=0.3", "--bind", "c"}),
+                   bound_end_of({"quartic_body.toml", "--set", "k=0.3"})) < 1e-10);
 }
 
 TEST_CASE("what is proved for a bound value needs no warning and no condition on it")

@@ -42,7 +42,7 @@ const std::string& whole()
     return text;
 }
 
-std::size_t lines_in(const std::string& file)
+std::size_t sweep_lines_in(const std::string& file)
 {
     const std::string text = fs::exists(file) ? read_text(file) : "";
     return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
@@ -53,7 +53,7 @@ Outcome cut_short(const std::string& file, int signal)
 {
     const Started started = start_call(slow_into(file));
     const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-    while (lines_in(file + ".partial") < 4 && std::chrono::steady_clock::now() < patience)
+    while (sweep_lines_in(file + ".partial") < 4 && std::chrono::steady_clock::now() < patience)
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
     ::kill(started.process, signal);
     return finish(started);
@@ -68,7 +68,7 @@ TEST_CASE("a sweep that was killed goes on without a row lost or twice", "[sweep
     CHECK(cut_short(file, SIGKILL).code == 128 + SIGKILL);
     CHECK_FALSE(fs::exists(file));
     const std::string kept = read_text(file + ".partial");
-    CHECK(lines_in(file + ".partial") < 25);
+    CHECK(sweep_lines_in(file + ".partial") < 25);
     CHECK(whole().starts_with(kept));
     SECTION("after a whole row") {}
     SECTION("in the middle of a row")
@@ -101,7 +101,7 @@ TEST_CASE("an interrupt keeps the rows that are done, and another sweep does not
     const Outcome interrupted = cut_short(file, SIGINT);
     CHECK(interrupted.code == 130);
     const std::string kept = read_text(file + ".partial");
-    const std::string done = std::to_string(lines_in(file + ".partial") - 1);
+    const std::string done = std::to_string(sweep_lines_in(file + ".partial") - 1);
     CHECK(interrupted.err == "lagen: interrupted, " + done + " of 24 rows are done; --resume goes on with them\n");
     CHECK(whole().starts_with(kept));
     const std::string refusal = "lagen sweep: '" + file +
