@@ -37,15 +37,10 @@ void integrate_scene(const std::string& program, ProgramInput input, RunOutcome&
             progress.show(outcome.table.rows);
         });
     progress.clear();
-    if (!result.started)
-        throw MachineError(fmt::format(
-            "error: the compiled scene could not be started: {}\nhint: remove '{}' to have it compiled again",
-            result.error, program));
+    require_started(result, program);
     if (result.interrupted || result.exit_code == static_cast<int>(ExitCode::interrupted))
         throw Error(ExitCode::interrupted, "lagen: interrupted, nothing was written");
-    if (result.exit_code != 0 && result.exit_code != 1)
-        throw MachineError(
-            fmt::format("error: the compiled scene ended with exit code {}\n{}", result.exit_code, result.error));
+    if (result.exit_code != 0 && result.exit_code != 1) refuse_end(result);
     read_report(content_of_file(input.report_file), outcome);
     outcome.table.count = outcome.table.lines().size();
 }

@@ -188,6 +188,20 @@ std::vector<std::string> program_arguments(const std::string& program, const Pro
     return arguments;
 }
 
+void require_started(const ProcessResult& result, const std::string& program)
+{
+    if (result.started) return;
+    throw MachineError(
+        fmt::format("error: the compiled scene could not be started: {}\nhint: remove '{}' to have it compiled again",
+                    result.error, program));
+}
+
+void refuse_end(const ProcessResult& result, const std::string& rest)
+{
+    throw MachineError(
+        fmt::format("error: the compiled scene ended with exit code {}\n{}", result.exit_code, result.error + rest));
+}
+
 void read_report(const std::string& text, RunOutcome& outcome)
 {
     for (std::size_t begin = 0; begin < text.size();) {

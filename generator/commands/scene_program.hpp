@@ -4,6 +4,7 @@
 #pragma once
 
 #include "commands/methods.hpp"
+#include "commands/process.hpp"
 #include "commands/run_report.hpp"
 #include "commands/start_state.hpp"
 #include "graph/kernel.hpp"
@@ -58,6 +59,11 @@ void use_values(ProgramInput& input, const Scene& scene, const SceneValues& valu
 [[nodiscard]] std::vector<std::string> watch_arguments(const ProgramInput& input);
 
 [[nodiscard]] std::vector<std::string> program_arguments(const std::string& program, const ProgramInput& input);
+
+/// Throws MachineError where the program was not started.
+void require_started(const ProcessResult& result, const std::string& program);
+/// MachineError of a program that ended as none may; `rest` stands behind what it said.
+[[noreturn]] void refuse_end(const ProcessResult& result, const std::string& rest = {});
 
 /// Reads the report's KEY=VALUE lines into `outcome`, whose state has its names.
 void read_report(const std::string& text, RunOutcome& outcome);

@@ -90,7 +90,7 @@ SweepFile::~SweepFile()
 
 void SweepFile::begin(const std::string& heading)
 {
-    if (::ftruncate(file_, 0) != 0) refuse_writing(partial_);
+    if (::ftruncate(file_, 0) != 0 || ::lseek(file_, 0, SEEK_SET) != 0) refuse_writing(partial_);
     write_file(identity_file(path_), text_of(identity_));
     write(heading);
 }

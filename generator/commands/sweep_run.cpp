@@ -3,7 +3,6 @@
 /// has the same bits.
 #include "commands/sweep_run.hpp"
 
-#include "commands/process.hpp"
 #include "diagnostic.hpp"
 
 #include <fmt/core.h>
@@ -172,19 +171,13 @@ void SweepRun::run()
         arguments(), [this](const char* bytes, std::size_t count) { take(bytes, count); },
         [this] { return next_starts(); });
     progress_.clear();
-    if (!result.started)
-        throw MachineError(fmt::format(
-            "error: the compiled sweep could not be started: {}\nhint: remove '{}' to have it compiled again",
-            result.error, setting_.program));
+    require_started(result, setting_.program);
     if (file_.rows() == wanted) return;
     if (result.interrupted)
         throw Error(ExitCode::interrupted,
                     fmt::format("lagen: interrupted, {} of {} rows are done; --resume goes on with them", file_.rows(),
                                 wanted));
-    throw MachineError(
-        fmt::format("error: the compiled sweep ended with exit code {} after {} of {} rows; --resume goes on with "
-                    "them\n{}",
-                    result.exit_code, file_.rows(), wanted, result.error));
+    refuse_end(result, fmt::format("hint: {} of {} rows are done; --resume goes on with them", file_.rows(), wanted));
 }
 
 } // namespace lagen

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <functional>
 #include <thread>
 
 using namespace lagen::testing;
@@ -17,46 +18,58 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// 24 rows, each of which takes its time.
-const std::vector<std::string> slow{"sweep",  "oscillator.toml", "--initial", "x=1:24:24", "--method",  "euler",
-                                    "--step", "1/65536",         "--t-end",   "30",        "--threads", "2"};
+/// A folder for a.csv, the table of 24 rows each of which takes its time.
+struct Slow {
+    std::string folder = fresh_folder();
 
-std::vector<std::string> slow_into(const std::string& file, const std::vector<std::string>& more = {})
-{
-    std::vector<std::string> arguments = slow;
-    arguments.insert(arguments.end(), {"-o", file});
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return arguments;
-}
+    [[nodiscard]] static std::vector<std::string> arguments(const std::vector<std::string>& more = {})
+    {
+        std::vector<std::string> all{"sweep",     models_folder() + "/oscillator.toml",
+                                     "-o",        "a.csv",
+                                     "--step",    "1/65536",
+                                     "--method",  "euler",
+                                     "--t-end",   "30",
+                                     "--initial", "x=1:24:24"};
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    }
+    [[nodiscard]] Outcome sweep(const std::vector<std::string>& more = {}) const
+    {
+        return call(arguments(more), {.folder = folder});
+    }
+    [[nodiscard]] std::string table() const { return read_text(folder + "/a.csv"); }
+    [[nodiscard]] std::string partial() const { return folder + "/a.csv.partial"; }
+
+    [[nodiscard]] std::size_t lines() const
+    {
+        const std::string text = fs::exists(partial()) ? read_text(partial()) : "";
+        return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+    }
+
+    /// Starts the sweep; as soon as some rows are there, does `meanwhile` and sends `signal`.
+    [[nodiscard]] Outcome cut_short(int signal, const std::function<void()>& meanwhile) const
+    {
+        const Started started = start_call(arguments({"--threads", "2"}), {.folder = folder});
+        const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+        while (lines() < 4 && std::chrono::steady_clock::now() < patience)
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        meanwhile();
+        ::kill(started.process, signal);
+        return finish(started);
+    }
+};
 
 /// The table of an undisturbed sweep.
 const std::string& whole()
 {
     static const std::string text = [] {
-        const std::string file = fresh_folder() + "/whole.csv";
-        const Outcome outcome = call(slow_into(file));
+        const Slow slow;
+        const Outcome outcome = slow.sweep();
         INFO(outcome.err);
         REQUIRE(outcome.code == 0);
-        return read_text(file);
+        return slow.table();
     }();
     return text;
-}
-
-std::size_t sweep_lines_in(const std::string& file)
-{
-    const std::string text = fs::exists(file) ? read_text(file) : "";
-    return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
-}
-
-/// Starts the sweep and sends `signal` as soon as some rows are there.
-Outcome cut_short(const std::string& file, int signal)
-{
-    const Started started = start_call(slow_into(file));
-    const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-    while (sweep_lines_in(file + ".partial") < 4 && std::chrono::steady_clock::now() < patience)
-        std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    ::kill(started.process, signal);
-    return finish(started);
 }
 
 } // namespace
@@ -64,66 +77,68 @@ Outcome cut_short(const std::string& file, int signal)
 TEST_CASE("a sweep that was killed goes on without a row lost or twice", "[sweep]")
 {
     (void)whole();
-    const std::string folder = fresh_folder(), file = folder + "/a.csv";
-    CHECK(cut_short(file, SIGKILL).code == 128 + SIGKILL);
-    CHECK_FALSE(fs::exists(file));
-    const std::string kept = read_text(file + ".partial");
-    CHECK(sweep_lines_in(file + ".partial") < 25);
+    const Slow slow;
+    CHECK(slow.cut_short(SIGKILL, [] {}).code == 128 + SIGKILL);
+    CHECK_FALSE(fs::exists(slow.folder + "/a.csv"));
+    const std::string kept = read_text(slow.partial());
+    CHECK(slow.lines() < 25);
     CHECK(whole().starts_with(kept));
     SECTION("after a whole row") {}
     SECTION("in the middle of a row")
     {
-        fs::resize_file(file + ".partial", kept.size() - 5);
+        fs::resize_file(slow.partial(), kept.size() - 5);
     }
     SECTION("in the middle of its heading")
     {
-        fs::resize_file(file + ".partial", 7);
+        fs::resize_file(slow.partial(), 7);
     }
     SECTION("with nothing in the file")
     {
-        fs::resize_file(file + ".partial", 0);
+        fs::resize_file(slow.partial(), 0);
     }
     SECTION("without the file")
     {
-        fs::remove(file + ".partial");
+        fs::remove(slow.partial());
     }
-    const Outcome resumed = call(slow_into(file, {"--resume", "--threads", "1"}));
+    const Outcome resumed = slow.sweep({"--resume", "--threads", "1"});
     CHECK(resumed.code == 0);
-    CHECK(resumed.err == file + ": 24 rows\n");
-    CHECK(read_text(file) == whole());
-    CHECK(names_in(folder) == std::vector<std::string>{"a.csv"});
+    CHECK(resumed.err == "a.csv: 24 rows\n");
+    CHECK(slow.table() == whole());
+    CHECK(names_in(slow.folder) == std::vector<std::string>{"a.csv"});
 }
 
 TEST_CASE("an interrupt keeps the rows that are done, and another sweep does not go on with them", "[sweep]")
 {
     (void)whole();
-    const std::string folder = fresh_folder(), file = folder + "/a.csv";
-    const Outcome interrupted = cut_short(file, SIGINT);
+    const Slow slow;
+    const Outcome interrupted = slow.cut_short(SIGINT, [&] {
+        const Outcome second = slow.sweep();
+        CHECK(second.code == 4);
+        CHECK(second.err == "lagen sweep: another sweep is writing 'a.csv.partial'\n");
+    });
     CHECK(interrupted.code == 130);
-    const std::string kept = read_text(file + ".partial");
-    const std::string done = std::to_string(sweep_lines_in(file + ".partial") - 1);
-    CHECK(interrupted.err == "lagen: interrupted, " + done + " of 24 rows are done; --resume goes on with them\n");
+    const std::string kept = read_text(slow.partial());
+    std::string told = "lagen: interrupted, 3 of 24 rows are done; --resume goes on with them\n";
+    told.replace(told.find('3'), 1, std::to_string(slow.lines() - 1));
+    CHECK(interrupted.err == told);
     CHECK(whole().starts_with(kept));
-    const std::string refusal = "lagen sweep: '" + file +
-                                ".partial' was begun by another sweep\nhint: --resume goes on with the same model, "
-                                "options and lagen; without it the sweep begins anew\n";
     for (const std::vector<std::string>& other :
          {std::vector<std::string>{"--t-end", "29"}, {"--initial", "v=1/3"}, {"--shard", "0/2"}}) {
-        std::vector<std::string> arguments = slow_into(file, {"--resume"});
-        arguments.insert(arguments.end(), other.begin(), other.end());
-        const Outcome refused = call(arguments);
+        std::vector<std::string> more = other;
+        more.push_back("--resume");
+        const Outcome refused = slow.sweep(more);
         CHECK(refused.code == 4);
-        CHECK(refused.err == refusal);
-        CHECK(read_text(file + ".partial") == kept);
+        CHECK(refused.err == "lagen sweep: 'a.csv.partial' was begun by another sweep\nhint: --resume goes on with the "
+                             "same model, options and lagen; without it the sweep begins anew\n");
+        CHECK(read_text(slow.partial()) == kept);
     }
     std::string damaged = kept;
     damaged.replace(damaged.find("\r\n1,") + 2, 1, "7");
-    write_text(file + ".partial", damaged);
-    CHECK(call(slow_into(file, {"--resume"})).err ==
-          "lagen sweep: '" + file +
-              ".partial' does not hold row 1 where it must stand\nhint: without --resume the sweep begins anew\n");
-    CHECK(call(slow_into(file)).code == 0);
-    CHECK(read_text(file) == whole());
+    write_text(slow.partial(), damaged);
+    CHECK(slow.sweep({"--resume"}).err == "lagen sweep: 'a.csv.partial' does not hold row 1 where it must stand\nhint: "
+                                          "without --resume the sweep begins anew\n");
+    CHECK(slow.sweep().code == 0);
+    CHECK(slow.table() == whole());
 }
 
 TEST_CASE("a full disk ends a sweep with the rows that were written", "[sweep]")

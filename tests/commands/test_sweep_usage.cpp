@@ -14,7 +14,7 @@ using namespace lagen::testing;
 namespace {
 
 /// Nothing is written, and this is said.
-void refused_sweep(std::vector<std::string> arguments, int code, const std::string& text)
+void sweep_refused(std::vector<std::string> arguments, int code, const std::string& text)
 {
     const std::string folder = fresh_folder();
     arguments.insert(arguments.begin(), {"sweep", models_folder() + "/pendulum.toml", "-o", "a.csv"});
@@ -38,25 +38,26 @@ std::vector<std::string> with(std::vector<std::string> more)
 
 TEST_CASE("options of a sweep that exclude each other or are no numbers are refused", "[sweep]")
 {
-    refused_sweep({"--random", "3", "--ensemble", "a"}, 4, "lagen sweep: --random and --ensemble exclude each other\n");
-    refused_sweep(with({"--seed", "3"}), 4, "lagen sweep: --seed needs --random\n");
-    refused_sweep({"--ensemble", "a", "--set", "g=1:2:3"}, 4,
-            "lagen sweep: --set g=1:2:3: the values of an ensemble stand in its file\n");
-    refused_sweep({"--random", "0", "--set", "g=1:2"}, 4,
-            "lagen sweep: --random is '0', where a whole number from 1 on is required\n");
-    refused_sweep({"--random", "3", "--seed", "-1", "--set", "g=1:2"}, 4,
-            "lagen sweep: --seed is '-1', where a whole number from 0 on is required\n");
-    refused_sweep(with({"--threads", "0"}), 4,
-            "lagen sweep: --threads is '0', where a whole number from 1 to 4096 is required\n");
+    sweep_refused({"--random", "3", "--ensemble", "a"}, 4, "lagen sweep: --random and --ensemble exclude each other\n");
+    sweep_refused(with({"--seed", "3"}), 4, "lagen sweep: --seed needs --random\n");
+    sweep_refused({"--ensemble", "a", "--set", "g=1:2:3"}, 4,
+                  "lagen sweep: --set g=1:2:3: the values of an ensemble stand in its file\n");
+    sweep_refused({"--random", "0", "--set", "g=1:2"}, 4,
+                  "lagen sweep: --random is '0', where a whole number from 1 on is required\n");
+    sweep_refused({"--random", "3", "--seed", "-1", "--set", "g=1:2"}, 4,
+                  "lagen sweep: --seed is '-1', where a whole number from 0 on is required\n");
+    sweep_refused(with({"--threads", "0"}), 4,
+                  "lagen sweep: --threads is '0', where a whole number from 1 to 4096 is required\n");
     for (const std::string shard : {"3/3", "1", "/", "-1/2", "0/0"})
-        refused_sweep(with({"--shard", shard}), 4,
-                "lagen sweep: --shard is '" + shard + "', where k/n with 0 <= k < n is required\n");
-    refused_sweep(with({"--initial", "w=1:2:3"}), 4, "lagen sweep: --initial w=1:2:3: it is swept twice\n");
-    refused_sweep(with({"--set", "g=1:2:999999999999999", "--set", "l=1:2:2"}), 4,
-            "lagen sweep: the grid has more than 1e15 points\n");
-    refused_sweep({"b.toml", "--set", "g=1:2:3"}, 4, "lagen sweep: unexpected argument 'b.toml' (see lagen sweep --help)\n");
-    refused_sweep({"--merge", "--set", "g=1:2:3"}, 4,
-            "lagen sweep: --merge takes the parts and --output alone, found --set\n");
+        sweep_refused(with({"--shard", shard}), 4,
+                      "lagen sweep: --shard is '" + shard + "', where k/n with 0 <= k < n is required\n");
+    sweep_refused(with({"--initial", "w=1:2:3"}), 4, "lagen sweep: --initial w=1:2:3: it is swept twice\n");
+    sweep_refused(with({"--set", "g=1:2:999999999999999", "--set", "l=1:2:2"}), 4,
+                  "lagen sweep: the grid has more than 1e15 points\n");
+    sweep_refused({"b.toml", "--set", "g=1:2:3"}, 4,
+                  "lagen sweep: unexpected argument 'b.toml' (see lagen sweep --help)\n");
+    sweep_refused({"--merge", "--set", "g=1:2:3"}, 4,
+                  "lagen sweep: --merge takes the parts and --output alone, found --set\n");
     const Outcome nowhere = call({"sweep", "pendulum.toml", "--set", "g=1:2:3"});
     CHECK(nowhere.code == 4);
     CHECK(nowhere.err == "lagen sweep: --output FILE is missing\n");
@@ -68,14 +69,15 @@ TEST_CASE("options of a sweep that exclude each other or are no numbers are refu
 
 TEST_CASE("ends of ranges are numbers", "[sweep]")
 {
-    refused_sweep(
+    sweep_refused(
         {"--set", "g=1:l:3"}, 3,
         "<--set g>:1:3: error: a range of --set ends at an expression of 'l', where a number is required\n  1:l:3\n "
         "   ^\n");
-    refused_sweep({"--set", "g=1:log(0):3"}, 3,
-            "<--set g>:1:3: error: a range of --set ends at -inf, where a finite number is required\n  1:log(0):3\n    "
-            "^~~~~~\n");
-    refused_sweep(
+    sweep_refused(
+        {"--set", "g=1:log(0):3"}, 3,
+        "<--set g>:1:3: error: a range of --set ends at -inf, where a finite number is required\n  1:log(0):3\n    "
+        "^~~~~~\n");
+    sweep_refused(
         {"--set", "g=th:1:3"}, 3,
         "<--set g>:1:1: error: --set depends on 'th', which is no parameter\n  th:1:3\n  ^~\nhint: give numbers, or "
         "expressions of parameters\n");
