@@ -124,8 +124,9 @@ Wide distance(const Entry& x, const Entry& y)
     return lagen::detail::magnitude(Entry(x - y));
 }
 
+/// To `close`; no entry of the right vector is below `least`.
 template <class Scheme, class Mode>
-void check_mode(const Mode& mode)
+void check_mode(const Mode& mode, const Wide& close, double least)
 {
     const auto a = matrix<Scheme>();
     using Entry = std::remove_cvref_t<decltype(mode.lambda)>;
@@ -136,9 +137,9 @@ void check_mode(const Mode& mode)
             right = right + a[i][j] * mode.right[j];
             left = left + a[j][i] * mode.left[j];
         }
-        CHECK(distance<Entry>(right, mode.lambda * mode.right[i]) < tiny);
-        CHECK(distance<Entry>(left, mode.lambda * mode.left[i]) < tiny);
-        CHECK(lagen::detail::magnitude(mode.right[i]) > 0.01);
+        CHECK(distance<Entry>(right, mode.lambda * mode.right[i]) < close);
+        CHECK(distance<Entry>(left, mode.lambda * mode.left[i]) < close);
+        CHECK(lagen::detail::magnitude(mode.right[i]) > least);
         product = product + mode.left[i] * mode.right[i];
     }
     Entry one{};
@@ -146,16 +147,16 @@ void check_mode(const Mode& mode)
         one = 1;
     else
         one.re = 1;
-    CHECK(distance<Entry>(product, one) < tiny);
+    CHECK(distance<Entry>(product, one) < close);
 }
 
 template <class Scheme>
-void check_modes()
+void check_modes(const Wide& close = tiny, double least = 0.01)
 {
     const auto modes = lagen::detail::modes<Scheme, Wide>(Scheme::template coefficients<Wide>().c);
     CHECK(modes.real.size() + 2 * modes.complex.size() == Scheme::stages);
-    for (const auto& mode : modes.real) check_mode<Scheme>(mode);
-    for (const auto& mode : modes.complex) check_mode<Scheme>(mode);
+    for (const auto& mode : modes.real) check_mode<Scheme>(mode, close, least);
+    for (const auto& mode : modes.complex) check_mode<Scheme>(mode, close, least);
 }
 
 } // namespace
@@ -227,8 +228,8 @@ TEST_CASE("The modes of a collocation method diagonalise its matrix")
     check_modes<GaussScheme<2>>();
     check_modes<GaussScheme<3>>();
     check_modes<GaussScheme<4>>();
-    check_modes<GaussScheme<6>>();
-    check_modes<GaussScheme<8>>();
+    check_modes<GaussScheme<6>>(tiny * 100, 1e-3);
+    check_modes<GaussScheme<8>>(tiny * 100, 1e-4);
     check_modes<RadauScheme<2>>();
     check_modes<RadauScheme<3>>();
     // gamma_0 of radau5.f: (6 + 81^(1/3) - 9^(1/3)) / 30 is the real eigenvalue of A.

@@ -53,6 +53,51 @@ double largest_walk(const Method& method)
     return static_cast<double>(largest);
 }
 
+template <class S>
+struct Orbit : problems::Kepler<S> {
+    static constexpr auto second_order = SecondOrder::velocity_free;
+    static constexpr bool takes_packs = true;
+};
+
+template <class S>
+struct Stars : problems::HenonHeiles<S> {
+    static constexpr auto second_order = SecondOrder::velocity_free;
+    static constexpr bool takes_packs = true;
+};
+
+/// The largest error of the energy, as above, of steps so short that the method's own error is less than rounding.
+template <template <class> class Problem, class Method>
+double largest_energy_walk(const Problem<double>& problem, const typename Problem<double>::State& start,
+                           const Method& method)
+{
+    const auto energy = [](const auto& s) { return Problem<long double>{}.energy(0, s.template cast<long double>()); };
+    const long double begin = energy(start);
+    std::size_t step = 0, next = 1000;
+    long double largest = 0;
+    const auto watch = [&](double, const auto& s) {
+        if (step++ != next) return;
+        const long double error = std::abs(energy(s) - begin) / std::numeric_limits<double>::epsilon();
+        largest = std::max(largest, error / std::sqrt(static_cast<long double>(next)));
+        next *= 10;
+    };
+    const auto run = integrate(problem, start, {0.0, method.step * static_cast<double>(most_steps)}, method, {}, watch);
+    CHECK(run.status() == Status::ok);
+    CHECK(run.steps == most_steps);
+    return static_cast<double>(largest);
+}
+
+template <class Method>
+double orbit_walk(const Method& method)
+{
+    return largest_energy_walk(Orbit<double>{}, problems::Kepler<double>::exact(0.2, 0.5), method);
+}
+
+template <class Method>
+double star_walk(const Method& method)
+{
+    return largest_energy_walk(Stars<double>{}, {0.1, 0.2, 0.3, 0.1}, method);
+}
+
 } // namespace
 
 // A drift of 1e-4 units a step, which is what a product with 0.1 rounded to one side amounts to, would be 0.1 here.
@@ -64,7 +109,20 @@ TEST_CASE("Casimir and energy of a rigid body walk by less than 0.06 units of th
     CHECK(largest_walk(Gauss8{.step = 0.1}) < 0.06);
 }
 
+// By a drift of 1e-4 units a step it would be 0.1 at the end.
+TEST_CASE("The energy of symplectic methods walks by less than 0.1 units of the last place per root of steps")
+{
+    CHECK(orbit_walk(Srkn6{.step = 0.01}) < 0.1);
+    CHECK(star_walk(Srkn6{.step = 0.02}) < 0.1);
+    CHECK(orbit_walk(KahanLi8{.step = 0.02}) < 0.1);
+    CHECK(star_walk(KahanLi8{.step = 0.05}) < 0.1);
+    CHECK(star_walk(Sofroniou10{.step = 0.1}) < 0.1);
+    CHECK(orbit_walk(Gauss12{.step = 0.1}) < 0.1);
+    CHECK(star_walk(Gauss16{.step = 0.3}) < 0.1);
+}
+
 TEST_CASE("Without the compensation the walk is many times longer")
 {
     CHECK(largest_walk(Gauss4{.step = 0.1, .compensated = false}) > 0.15);
+    CHECK(orbit_walk(KahanLi8{.step = 0.02, .compensated = false}) > 0.3);
 }

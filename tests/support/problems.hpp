@@ -103,6 +103,11 @@ struct HenonHeiles {
         ds[3] = y * y - y - x * x;
         return StatusOf<S>::good();
     }
+    S energy(S, const State& s) const noexcept
+    {
+        const S x = s[0], y = s[1];
+        return (s[2] * s[2] + s[3] * s[3] + x * x + y * y) / S(2) + x * x * y - y * y * y / S(3);
+    }
     static constexpr std::array<int, 6> jacobian_rows{0, 1, 2, 2, 3, 3}, jacobian_columns{2, 3, 0, 1, 0, 1};
     void jacobian_values(S, const State& s, std::array<S, 6>& values) const noexcept
     {

@@ -7,12 +7,13 @@
 /// increments are rounding errors: what is kept is kept to rounding, and rounding errors are all that is left to add
 /// up. An iteration that converges slowly gets the Jacobian at an estimate of the step's middle; a step whose iteration
 /// does not converge is tried once more from there, then fails with `newton_diverged`. Methods of more than four stages
-/// iterate Z_i = h sum_j a_ij f(s + Z_j) without a Jacobian first, to rounding too, all stages of a generated model in
-/// the lanes of packs (packed_stages.hpp); a step in which that is slow is left to Newton's method, and so are some
-/// steps behind it. Where the method is `compensated`, the rounding error of the sum s1 = s + .. enters the next step
-/// [Kahan 1965], so that errors grow as Brouwer's law says [Hairer, McLachlan, Razakarivony, BIT 48 (2008) 231]. A
-/// value inside a step is a shorter step of the same method, begun with this step's collocation polynomial: it has the
-/// full order. Should Newton's method fail there, it is the value of the polynomial (order: the number of stages).
+/// (of four with packs) iterate Z_i = h sum_j a_ij f(s + Z_j) without a Jacobian first, to rounding too, all stages of
+/// a generated model in the lanes of packs (packed_stages.hpp); a step in which that is slow is left to Newton's
+/// method, and so are some steps behind it. Where the method is `compensated`, the rounding error of the sum s1 = s +
+/// .. enters the next step [Kahan 1965], so that errors grow as Brouwer's law says [Hairer, McLachlan, Razakarivony,
+/// BIT 48 (2008) 231]. A value inside a step is a shorter step of the same method, begun with this step's collocation
+/// polynomial: it has the full order. Should Newton's method fail there, it is the value of the polynomial (order: the
+/// number of stages).
 #pragma once
 
 #include "lagen/integrate/convergence.hpp"
@@ -108,7 +109,7 @@ class CollocationStepper {
 
   private:
     using Stages = std::array<State, stages>;
-    static constexpr bool simple = stages > 4; ///< iterates without a Jacobian first
+    static constexpr bool simple = stages > 4 || (stages == 4 && detail::TakesPacks<M>); ///< no Jacobian at first
     static constexpr bool packed = simple && detail::TakesPacks<M>;
     static constexpr int longest_wait = 63;
     using Packs = std::conditional_t<packed, detail::PackedStages<stages, M>, detail::NoPacks>;

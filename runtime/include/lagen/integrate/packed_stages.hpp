@@ -13,6 +13,7 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <cstring>
 #include <type_traits>
 
 namespace lagen::detail {
@@ -121,17 +122,24 @@ class PackedStages {
     Real move(Convergence& convergence, const TimesLength& times_length) noexcept
     {
         Real most = Real(0);
-        P sum = P(Real(0));
+        Vector all{};
         for (Eigen::Index lane = 0; lane < z_.size(); ++lane) {
-            P integral = mu_[0] * P(slopes_[lane][0]);
-            for (std::size_t j = 1; j < s; ++j) integral += mu_[j] * P(slopes_[lane][static_cast<int>(j)]);
-            const P moved = times_length(integral), increment = moved - z_[lane];
-            z_[lane] = moved;
-            sum += increment;
-            most = std::max(most, convergence.template note<1>(lane, largest_of(increment), largest_of(moved)));
+            const P& slopes = slopes_[lane];
+            Vector step{}, reach{};
+            write_out<parts>([&](auto k) {
+                Vector sum = part(mu_[0], k) * slopes[0];
+                write_out<s - 1>([&](auto j) { sum += part(mu_[j + 1], k) * slopes[static_cast<int>(j + 1)]; });
+                const Vector moved = times_length(sum), increment = moved - part(z_[lane], k);
+                put(z_[lane], k, moved);
+                all += increment;
+                const Vector size = absolute(increment), far = absolute(moved);
+                step = size > step ? size : step;
+                reach = far > reach ? far : reach;
+            });
+            most = std::max(most, convergence.template note<1>(lane, largest(step), largest(reach)));
         }
-        Real total = sum[0];
-        for (int i = 1; i < width; ++i) total += sum[i];
+        Real total = all[0];
+        for (int i = 1; i < held; ++i) total += all[i];
         return most + (total - total);
     }
 
@@ -139,12 +147,37 @@ class PackedStages {
     /// Stage i of lane l of the state is lane i of entry l; lanes that are no stages have weight 0.
     using Lanes = typename Model::State;
 
-    /// The largest |x_i|.
-    static Real largest_of(const P& x) noexcept
+    // What a register holds: a compiler keeps longer vectors in memory.
+#if defined(__AVX512F__)
+    static constexpr std::size_t register_bytes = 64;
+#elif defined(__AVX__)
+    static constexpr std::size_t register_bytes = 32;
+#else
+    static constexpr std::size_t register_bytes = 16;
+#endif
+    static constexpr int held = std::min(width, static_cast<int>(register_bytes / sizeof(Real)));
+    static constexpr std::size_t parts = width / held;
+    using Vector = typename VectorOf<Real, held>::type;
+    using Bits = typename Mask<Real, held>::Vector;
+
+    static Vector part(const P& pack, std::size_t k) noexcept
     {
-        const P size = select(x < P(Real(0)), -x, x);
-        Real most = size[0];
-        for (int i = 1; i < width; ++i) most = size[i] > most ? size[i] : most;
+        Vector vector;
+        std::memcpy(&vector, reinterpret_cast<const char*>(&pack.lanes) + k * sizeof vector, sizeof vector);
+        return vector;
+    }
+    static void put(P& pack, std::size_t k, const Vector& vector) noexcept
+    {
+        std::memcpy(reinterpret_cast<char*>(&pack.lanes) + k * sizeof vector, &vector, sizeof vector);
+    }
+    static Vector absolute(const Vector& x) noexcept
+    {
+        return (Vector)((Bits)x & ~(Bits)(-Vector{}));
+    }
+    static Real largest(const Vector& x) noexcept
+    {
+        Real most = x[0];
+        for (int i = 1; i < held; ++i) most = x[i] > most ? x[i] : most;
         return most;
     }
 
