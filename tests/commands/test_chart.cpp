@@ -120,7 +120,7 @@ TEST_CASE("chart.csv has a line a point, and the text names the best, the failur
                              "reference: taylor and verner98 in 113 bits differ by 1.0e-20\n",
                              "1e-06  dop853          tolerance 1e-06     1.0e-07    4.00e-06", "\n1e-09  not reached\n",
                              "failed: gauss2, step 1: newton_diverged\n",
-                             "left out: rkn64: rkn64 integrates x'' = f(t, x), and in model 'ring' v' depends on v\n"})
+                             "left out: rkn64 integrates x'' = f(t, x), and in model 'ring' v' depends on v\n"})
         CHECK_THAT(text, Catch::Contains(part));
 }
 

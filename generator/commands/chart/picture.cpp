@@ -15,13 +15,13 @@ namespace {
 
 // Pixels, and what they are fractions of.
 constexpr int chart_width = 1240, chart_height = 600;
-constexpr double chart_left = 0.06, chart_right = 0.865, chart_middle = 0.09, chart_top = 0.9, chart_bottom = 0.1;
+constexpr double chart_left = 0.068, chart_right = 0.865, chart_middle = 0.095, chart_top = 0.9, chart_bottom = 0.1;
 constexpr double panel_width = (chart_right - chart_left - chart_middle) / 2;
 constexpr double label_width = 78, label_height = 11;
 
 constexpr double largest_error = 10;   ///< of the picture
 constexpr double failure_column = 300; ///< where failures are drawn
-constexpr double near_the_best = 1.3;  ///< times the cheapest: a method that leads
+constexpr double near_the_best = 1.1;  ///< times the cheapest: a method that leads
 
 struct Curve {
     std::string name;
@@ -116,8 +116,8 @@ ChartPanel panel_of(const Chart& chart, int column, const char* label, double (*
             value,
             std::log10(failed ? 7 * failure_column : largest_error),
             std::floor(std::log10(least)) - 1.5,
-            std::floor(std::log10(bottom)),
-            std::max(std::ceil(std::log10(top)), std::floor(std::log10(bottom)) + 1)};
+            std::log10(bottom) - 0.2,
+            std::log10(top) + 0.2};
 }
 
 /// Names at the ends of the curves, where there is room for them; the leading ones come first.
@@ -186,7 +186,7 @@ std::string chart_script(const Chart& chart, const std::string& picture)
     script += "set grid linecolor rgb '#dddddd' linetype 1 linewidth 0.7 dashtype 1\n"
               "set border 3 linecolor rgb '#444444'\nset tics nomirror out scale 0.6\nset logscale xy\n"
               "set format y '%.0e'\nset xlabel 'error of the state, largest over the samples'\n"
-              "set ylabel offset 1,0\nset xtics ('1' 1";
+              "set ylabel offset -0.3,0\nset xtics ('1' 1";
     for (int k = 2; k <= 16; k += 2) script += fmt::format(", '1e-{0}' 1e-{0}", k);
     script += fmt::format(", 'failed' {:g})\n", failure_column);
     const ChartPanel panels[] = {panel_of(chart, 2, "seconds", seconds_shown),
@@ -205,7 +205,7 @@ std::string chart_script(const Chart& chart, const std::string& picture)
 std::vector<std::string> leading_methods(const Chart& chart, double times)
 {
     std::vector<std::string> leading;
-    for (double error = 1e-1; error > 1e-15; error *= 0.31622776601683794) {
+    for (double error = 1e-2; error > 1e-15; error *= 0.31622776601683794) {
         const ChartPoint* best = cheapest_within(chart.points, error);
         if (best == nullptr) break;
         for (const ChartPoint& point : chart.points)

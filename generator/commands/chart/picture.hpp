@@ -10,7 +10,7 @@ namespace lagen {
 /// their curves, the others thin; runs that failed are crosses in the column on the left.
 void draw_chart(const Chart& chart, const std::string& path);
 
-/// Methods that are the cheapest for some error of the picture, or take at most so many times as long as that.
+/// Methods that are the cheapest for some error of 1e-2 or less, or take at most so many times as long as that.
 [[nodiscard]] std::vector<std::string> leading_methods(const Chart& chart, double times);
 
 } // namespace lagen

@@ -188,7 +188,8 @@ std::string chart_text(const Chart& chart)
     const std::string failures = failure_lines(chart);
     if (!failures.empty() || !chart.left_out.empty()) text += "\n" + failures;
     for (const LeftOutMethod& method : chart.left_out)
-        text += fmt::format("left out: {}: {}\n", method.method, method.reason);
+        text += fmt::format("left out: {}{}\n", method.reason.starts_with(method.method) ? "" : method.method + ": ",
+                            method.reason);
     return text;
 }
 
