@@ -54,8 +54,8 @@ TEST_CASE("An ensemble is handed over in order, with the bits of single runs, by
     std::vector<State> single;
     for (std::size_t k = 0; k < 100; ++k)
         single.push_back(integrate(Pendulum{}, start_of(k), {0.0, 3.0}, Dop853{.tolerance = 1e-9}).state);
-    for (const std::size_t threads : {1, 2, 3, 7})
-        for (const std::size_t block : {0, 1, 16, 1000})
+    for (const std::size_t threads : {1U, 2U, 3U, 7U})
+        for (const std::size_t block : {0U, 1U, 16U, 1000U})
             CHECK(ends(100, {.threads = threads, .block = block}) == single);
     CHECK(ends(0, {}).empty());
     CHECK(ends(1, {.threads = 4}).size() == 1);
@@ -82,7 +82,7 @@ TEST_CASE("Each trajectory of an ensemble has a model of its own")
 
 TEST_CASE("What a call throws ends an ensemble and reaches the caller, after the trajectories before it")
 {
-    for (const std::size_t threads : {1, 4}) {
+    for (const std::size_t threads : {1U, 4U}) {
         std::size_t taken = 0;
         const auto thrown_by_start = [&] {
             ensemble(

@@ -134,6 +134,7 @@ class Sweep {
         SweepRecord<M> record(plan.model, plan.columns);
         Run<M> run;
         run.outcome = Status::invalid_input;
+        run.t = std::numeric_limits<double>::quiet_NaN();
         if (usable)
             run = integrate(plan.model, plan.initial, plan.span, method,
                             Options<M>{.at = plan.times, .events = plan.events}, record);
