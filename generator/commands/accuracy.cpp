@@ -17,7 +17,7 @@ namespace lagen {
 
 namespace {
 
-constexpr int most_confirmations = 5;
+constexpr int most_confirmations = 5, most_same = 10;
 
 /// A smaller tolerance or step, as the next one of a chart's ladder.
 double tightened(const MethodEntry& method, double parameter)
@@ -98,8 +98,13 @@ bool confirm_accuracy(const AccurateMethod& accurate, const RunRecord& record, P
     double parameter = accurate.parameter, distance = 0;
     Table rows = states_with(parameter, method, record, input);
     for (int k = 0; k < most_confirmations; ++k) {
-        const double finer = tightened(method, parameter);
+        double finer = tightened(method, parameter);
         Table finer_rows = states_with(finer, method, record, input);
+        // The same steps confirm nothing.
+        for (int same = 0; same < most_same && finer_rows.rows == rows.rows; ++same) {
+            finer = tightened(method, finer);
+            finer_rows = states_with(finer, method, record, input);
+        }
         distance = row_distance(rows, finer_rows);
         (method.adaptive ? input.relative : input.step) = parameter;
         if (method.adaptive) input.absolute = parameter;

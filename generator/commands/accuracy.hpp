@@ -25,8 +25,8 @@ struct AccurateMethod {
 [[nodiscard]] AccurateMethod choose_method(const KeptChart& chart, double accuracy);
 
 /// Sets the tolerance or step of `input`. It holds where a run with a smaller one (by half the step, or half a power of
-/// ten of the tolerance) moves no row by more than the accuracy; else that smaller one is tried, five times. Standard
-/// error is told which. False where none holds.
+/// ten of the tolerance, or more where that changes nothing) moves no row by more than the accuracy; else that smaller
+/// one is tried, five times. Standard error is told which. False where none holds.
 [[nodiscard]] bool confirm_accuracy(const AccurateMethod& accurate, const RunRecord& record, ProgramInput& input);
 
 /// The largest over the rows of |a - b|_2/|b|_2 (|a|_2 where b = 0), over those that both have; the first column is t.

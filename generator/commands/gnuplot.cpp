@@ -14,12 +14,18 @@ namespace lagen {
 
 std::string gnuplot_text(const std::string& text)
 {
-    std::string result = "'";
+    // In single quotes all stands for itself, but the titles of some commands end at a doubled quote.
+    const bool plain = text.find('\'') == std::string::npos;
+    const char quote = plain ? '\'' : '"';
+    std::string result(1, quote);
     for (const char c : text) {
         if (c == '\n' || c == '\r') continue;
-        result += c == '\'' ? std::string("''") : std::string(1, c);
+        if (!plain && (c == '"' || c == '\\' || c == '`'))
+            result += fmt::format("\\{:03o}", static_cast<unsigned>(static_cast<unsigned char>(c)));
+        else
+            result += c;
     }
-    return result + "'";
+    return result + quote;
 }
 
 std::string picture_extension(const std::string& path)

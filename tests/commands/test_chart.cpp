@@ -291,20 +291,23 @@ four = { when = "x - 4", stop = true }
 
 TEST_CASE("--accuracy keeps its promise, says by what, and charts once", "[chart]")
 {
-    const auto run = [](const char* accuracy) {
+    const auto accurate = [](const char* accuracy) {
         return call({"run", "oscillator.toml", "--accuracy", accuracy, "--at", "0,1/3,1", "--format", "json"});
     };
-    const Outcome first = run("1e-9");
+    const Outcome first = accurate("1e-9");
     INFO(first.err);
     REQUIRE(first.code == 0);
     CHECK_THAT(first.err, Catch::Contains("no chart of this scene is kept: it is made now\n") &&
                               Catch::Contains("accuracy 1e-09: ") && Catch::Contains(" moves no row by more than "));
-    const Outcome second = run("1e-6");
+    const Outcome second = accurate("1e-6");
     REQUIRE(second.code == 0);
     CHECK_THAT(second.err, Catch::StartsWith("accuracy 1e-06: "));
-    for (const auto& [outcome, accuracy] : {std::pair(first, 1e-9), std::pair(second, 1e-6)})
-        for (const json::Value& row : json::parse(outcome.out)["rows"].entries) {
+    for (const auto& [outcome, accuracy] : {std::pair(first, 1e-9), std::pair(second, 1e-6)}) {
+        const json::Value run = json::parse(outcome.out);
+        CHECK(run["rows"].size() == 3);
+        for (const json::Value& row : run["rows"].entries) {
             const double t = number_of(row[0]);
             CHECK(std::hypot(number_of(row[1]) - std::cos(t), number_of(row[2]) + std::sin(t)) < accuracy);
         }
+    }
 }
