@@ -79,7 +79,8 @@ std::string hash_of(const CheckedModel& checked)
     ContentHash hash;
     hash.add(checked.model.file->text);
     for (const auto& file : checked.model.included) hash.add(file->text);
-    for (const Setting& setting : checked.settings) hash.add(setting.binds ? "bind " + setting.name : setting.name).add(setting.value.text);
+    for (const Setting& setting : checked.settings)
+        hash.add(setting.binds ? "bind " + setting.name : setting.name).add(setting.value.text);
     return hash.hex16();
 }
 

@@ -38,7 +38,8 @@ void require_system(const Options& options, const Scene& scene, const MethodEntr
     const std::string text =
         fmt::format("{} {} {}, and in model '{}' {}", method.name, method.separable_only ? "splits" : "integrates",
                     system_of(method), module.model, obstacle->first);
-    if (options.has("method")) throw UsageError(fmt::format("lagen {}: {}\nhint: {}", options.command(), text, obstacle->second));
+    if (options.has("method"))
+        throw UsageError(fmt::format("lagen {}: {}\nhint: {}", options.command(), text, obstacle->second));
     throw ModelError(text, scene.method_where, obstacle->second);
 }
 
@@ -72,8 +73,7 @@ void Preparation::finish(const Scene& scene, const std::string& form, const Meth
     if (method.series && !scene.events.empty()) request.with.emplace_back("event_series");
     const Generated generated = generate(checked_, request);
     require_system(options_, scene, method, generated.module);
-    const std::string program =
-        compile_program(generated.header, program_text(driver_, generated.module.name, method));
+    const std::string program = compile_program(generated.header, program_text(driver_, generated.module.name, method));
     record_ = record_of(checked_, generated.module, program, parameters);
     keep_record(file_, *record_);
 }

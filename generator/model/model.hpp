@@ -36,7 +36,7 @@ struct Family {
 
 struct Parameter {
     Symbol symbol;
-    Tree value; ///< closed over the other parameters; acyclic
+    Tree value;         ///< closed over the other parameters; acyclic
     bool bound = false; ///< a constant of the equations, no parameter of what is generated
 };
 

@@ -52,10 +52,9 @@ void apply(ModelReader& reader, const std::vector<Symbol>& symbols, const Settin
     known.insert(known.end(), sizes.begin(), sizes.end());
     if (entry != nullptr && entry->role == Role::size) return; // read_sizes has seen it
     const std::string what =
-        entry != nullptr
-            ? fmt::format("'{}' is {}, not a parameter", setting.name, role_text(entry->role))
-            : fmt::format("the model has no parameter{} '{}' to {}", sizes.empty() ? "" : " or size", setting.name,
-                          setting.binds ? "bind" : "set");
+        entry != nullptr ? fmt::format("'{}' is {}, not a parameter", setting.name, role_text(entry->role))
+                         : fmt::format("the model has no parameter{} '{}' to {}", sizes.empty() ? "" : " or size",
+                                       setting.name, setting.binds ? "bind" : "set");
     const std::string size = nearest_name(setting.name, sizes);
     const std::string hint = !size.empty() && nearest_name(setting.name, known) == size
                                  ? fmt::format("did you mean the size '{}'?", size)

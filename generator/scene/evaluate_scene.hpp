@@ -18,9 +18,9 @@ using NamedNumber = std::pair<std::string, long double>;
 
 struct SceneValues {
     std::vector<NamedNumber>
-        parameters;                 ///< every parameter that is not bound, in order of declaration, with the scene's values
-    std::vector<NamedNumber> base;  ///< every base coordinate, in order; on the constraints
-    std::vector<NamedNumber> fibre; ///< every fibre coordinate, in order; empty where the scene gives momenta
+        parameters; ///< every parameter that is not bound, in order of declaration, with the scene's values
+    std::vector<NamedNumber> base;     ///< every base coordinate, in order; on the constraints
+    std::vector<NamedNumber> fibre;    ///< every fibre coordinate, in order; empty where the scene gives momenta
     std::vector<NamedNumber> momenta;  ///< every momentum, in order; empty where the scene gives fibre coordinates
     std::vector<NamedNumber> casimirs; ///< the declared Casimirs at the start
     long double start = 0;

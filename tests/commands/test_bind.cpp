@@ -108,7 +108,7 @@ TEST_CASE("a run with bound parameters is the run without, in the scene's values
     CHECK(row_difference(file, bound_end_of({"quartic_body.toml", "--bind", "c", "--scene", "softer"})) > 1e-3);
     CHECK(row_difference(file, bound_end_of({"quartic_body.toml", "--bind", "c=0.25"})) > 1e-3);
     CHECK(row_difference(bound_end_of({"quartic_body.toml", "--set", "k=0.3", "--bind", "c"}),
-                   bound_end_of({"quartic_body.toml", "--set", "k=0.3"})) < 1e-10);
+                         bound_end_of({"quartic_body.toml", "--set", "k=0.3"})) < 1e-10);
 }
 
 TEST_CASE("what is proved for a bound value needs no warning and no condition on it")

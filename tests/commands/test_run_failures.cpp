@@ -154,17 +154,17 @@ TEST_CASE("a table that would exhaust the memory is refused with its bound")
 TEST_CASE("a scene that cannot start is an error of the model file, and nothing is written")
 {
     refused_run("s", "initial = { x = 1 }\nduration = 1\n",
-            "m.toml:18:8: error: scene 's' leaves out the initial value of v\n  [scene.s]\n         ^\n"
-            "hint: rest = true sets the fibre coordinates left out to zero\n");
+                "m.toml:18:8: error: scene 's' leaves out the initial value of v\n  [scene.s]\n         ^\n"
+                "hint: rest = true sets the fibre coordinates left out to zero\n");
     refused_run("s", "initial = { x = 1, v = 0 }\n",
-            "m.toml:18:8: error: scene 's' has no duration\n  [scene.s]\n         ^\n"
-            "hint: give `duration`, or --t-end\n");
+                "m.toml:18:8: error: scene 's' has no duration\n  [scene.s]\n         ^\n"
+                "hint: give `duration`, or --t-end\n");
     refused_run("s", "initial = { x = \"10^400\", v = 0 }\nduration = 1\n",
-            "m.toml:18:8: error: 'x' starts at 1e+400 in scene 's', where at most 1.79769e+308 is possible\n"
-            "  [scene.s]\n         ^\n");
+                "m.toml:18:8: error: 'x' starts at 1e+400 in scene 's', where at most 1.79769e+308 is possible\n"
+                "  [scene.s]\n         ^\n");
     refused_run("s", "initial = { x = 1, v = 0 }\nduration = 1\nmethod = \"rk44\"\n",
-            "m.toml:21:10: error: unknown method 'rk44'\n  method = \"rk44\"\n           ^~~~~~\n"
-            "hint: did you mean 'rk4'?\n");
+                "m.toml:21:10: error: unknown method 'rk44'\n  method = \"rk44\"\n           ^~~~~~\n"
+                "hint: did you mean 'rk4'?\n");
     refused_run(
         "s", "initial = { x = 1, v = 0 }\nduration = 1\nat = [0, 2]\n",
         "m.toml:21:10: error: a row is wanted at t = 2, outside of the run from 0 to 1\n  at = [0, 2]\n           ^\n");
