@@ -45,9 +45,9 @@ std::vector<const MethodEntry*> wanted_methods(const Options& options)
         wanted.push_back(find_method(name));
         if (wanted.back() != nullptr) continue;
         const std::string nearest = nearest_method(name);
-        throw UsageError(
-            fmt::format("lagen chart: unknown method '{}'\nhint: {}", name,
-                        nearest.empty() ? "`lagen methods` lists them" : fmt::format("did you mean '{}'?", nearest)));
+        const std::string hint =
+            nearest.empty() ? "`lagen methods` lists them" : fmt::format("did you mean '{}'?", nearest);
+        throw UsageError(fmt::format("lagen chart: unknown method '{}'\nhint: {}", name, hint));
     }
     if (options.has("methods") && wanted.empty())
         throw UsageError("lagen chart: --methods needs at least one method, e.g. --methods dop853,taylor");

@@ -202,7 +202,18 @@ TEST_CASE("the distance of two tables is that of their rows, relative to the sec
 TEST_CASE("the errors of a chart are those of lagen run against 28 digits", "[chart]")
 {
     const std::string folder = fresh_folder();
-    const Outcome outcome = call({"chart", "rigid_body.toml", "--methods", "dop853,rk4", "-o", folder + "/new/files"});
+    const json::Value exact = json::read_file(LAGEN_SOURCE_DIR "/tests/data/continuous/rigid_body_near_axis1.json");
+    std::string times;
+    for (const json::Value& sample : exact["samples"].entries) times += (times.empty() ? "" : ", ") + sample["t"].text;
+    write_text(folder + "/body.toml", read_text(models_folder() + "/rigid_body.toml") +
+                                          "[scene.sampled]\nlike = \"default\"\nat = [" + times + "]\n");
+    const std::vector<std::string> scene{folder + "/body.toml", "--scene", "sampled"};
+    const auto with = [&](const char* command, std::vector<std::string> options) {
+        options.insert(options.begin(), scene.begin(), scene.end());
+        options.insert(options.begin(), command);
+        return call(options);
+    };
+    const Outcome outcome = with("chart", {"--methods", "dop853,rk4", "-o", folder + "/new/files"});
     INFO(outcome.err);
     REQUIRE(outcome.code == 0);
     for (const char* name : {"chart.csv", "chart.json", "chart.png", "chart.svg"})
@@ -211,15 +222,13 @@ TEST_CASE("the errors of a chart are those of lagen run against 28 digits", "[ch
     CHECK(number_of(chart["reference"]["error"]) < 1e-15);
     CHECK(chart["reference"]["methods"].texts() == std::vector<std::string>{"taylor", "verner98"});
 
-    const json::Value exact = json::read_file(LAGEN_SOURCE_DIR "/tests/data/continuous/rigid_body_near_axis1.json");
     std::map<std::string, int> compared;
     for (const json::Value& point : chart["points"].entries) {
         const double error = number_of(point["error"]);
         if (!(error > 1e-9 && error < 1e-4)) continue;
         const bool steps = point["method"].text == "rk4";
-        const Outcome run = call({"run", "rigid_body.toml", "--method", point["method"].text,
-                                  steps ? "--step" : "--tolerance", point["parameter"].text, "--at",
-                                  "0,1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17,18,19,20", "--format", "json"});
+        const Outcome run = with("run", {"--method", point["method"].text, steps ? "--step" : "--tolerance",
+                                         point["parameter"].text, "--format", "json"});
         REQUIRE(run.code == 0);
         const json::Value rows = json::parse(run.out)["rows"];
         REQUIRE(rows.size() == exact["samples"].size());
@@ -238,7 +247,7 @@ TEST_CASE("the errors of a chart are those of lagen run against 28 digits", "[ch
     }
     CHECK(compared["dop853"] >= 3);
     CHECK(compared["rk4"] >= 3);
-    const Outcome second = call({"chart", "rigid_body.toml", "--methods", "dop853,rk4", "-o", folder});
+    const Outcome second = with("chart", {"--methods", "dop853,rk4", "-o", folder});
     CHECK(outcome.err.find("compiling ") != std::string::npos);
     CHECK(second.err.find("compiling ") == std::string::npos);
     const json::Value again = json::read_file(folder + "/chart.json");
