@@ -225,7 +225,7 @@ TEST_CASE("Splittings have their order where the kinetic energy is not quadratic
     CHECK_THAT((order_on<Relativistic, lagen::Yoshida6>(16)), near(6));
     CHECK_THAT((order_on<Relativistic, lagen::BlanesMoan6>(16)), near(6));
     CHECK_THAT((order_on<Relativistic, lagen::KahanLi8>(32)), near(8));
-    CHECK_THAT((order_on<Relativistic, lagen::Sofroniou10>(12)), near(10));
+    CHECK_THAT((order_on<Relativistic, lagen::Sofroniou10>(16)), near(10));
     CHECK(status_on<Relativistic, lagen::McLachlan4>() == lagen::Status::not_separable);
     CHECK(status_on<Relativistic, lagen::Srkn6>() == lagen::Status::not_separable);
 }
