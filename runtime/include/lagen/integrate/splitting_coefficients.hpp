@@ -35,7 +35,8 @@ struct BlanesMoan4 {
 };
 
 /// Six stages of order 4, kick first, with the least errors where x' is affine in y [S. Blanes, P. C. Moan, Journal of
-/// Computational and Applied Mathematics 142 (2002) 313, table 3, SRKN 6b], to the digits that the order conditions give.
+/// Computational and Applied Mathematics 142 (2002) 313, table 3, SRKN 6b], to the digits that the order conditions
+/// give.
 struct Srkn4 {
     static constexpr int order = 4;
     static constexpr bool kick_first = true, affine = false;
