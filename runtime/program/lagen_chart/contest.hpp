@@ -15,6 +15,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <string_view>
 #include <utility>
@@ -97,6 +98,14 @@ std::pair<PointOutcome, double> show_point(const Entrant& entrant, const M& mode
     return {outcome, error};
 }
 
+/// A tolerance as a person would give it: three digits.
+inline double short_number(double x)
+{
+    char text[24];
+    std::snprintf(text, sizeof text, "%.3g", x);
+    return std::strtod(text, nullptr);
+}
+
 /// The points of one ladder, told one by one. It ends with its last rung, where more calls are expected than are
 /// allowed, where three rungs of small errors brought none that is smaller by three tenths (rounding), and where rungs
 /// fail: the second one behind a good one, or the eighth.
@@ -106,12 +115,13 @@ void climb(const Entrant& entrant, const M& model, const Request& request, const
     const auto most = static_cast<double>(ladder.calls);
     double best = std::numeric_limits<double>::infinity(), expected = 0;
     int idle = 0, failures = 0, good = 0;
-    for (double parameter = ladder.first; parameter >= ladder.last * (1 - 1e-9); parameter *= ladder.ratio) {
+    for (double rung = ladder.first; rung >= ladder.last * (1 - 1e-9); rung *= ladder.ratio) {
+        const double parameter = entrant.steps_of(1) > 0 ? rung : short_number(rung);
         if (expected > most || entrant.steps_of(parameter) > most) return;
         const auto [outcome, error] = show_point(entrant, model, request, ladder.method, parameter);
-        expected = 2 * static_cast<double>(outcome.calls);
         if (outcome.good) {
             ++good;
+            expected = 2 * static_cast<double>(outcome.calls);
             idle = error < 0.7 * best ? 0 : idle + 1;
             best = std::min(best, error);
         } else {
