@@ -149,8 +149,9 @@ bool vanishes(const Formula& polynomial, const LocalAlgebroid& algebroid)
 {
     std::map<std::string, Formula> point;
     const auto place = [&](const std::string& name) {
-        point.emplace(name,
-                      mpq_class(static_cast<int>(37 + 14 * point.size()), static_cast<int>(53 + 6 * point.size())));
+        mpq_class value(static_cast<int>(37 + 14 * point.size()), static_cast<int>(53 + 6 * point.size()));
+        value.canonicalize();
+        point.emplace(name, value);
     };
     for (std::size_t i = 0; i < algebroid.n(); ++i) place(algebroid.coordinate(i).text());
     for (const std::string& parameter : algebroid.parameters) place(parameter);
