@@ -41,7 +41,7 @@ std::vector<Curve> curves_of(const Chart& chart)
             if (name_of(point) == name) (point.error ? curve.points : curve.failures).push_back(&point);
         curves.push_back(std::move(curve));
     }
-    std::ranges::stable_partition(curves, [](const Curve& curve) { return curve.leads; });
+    std::stable_partition(curves.begin(), curves.end(), [](const Curve& curve) { return curve.leads; });
     return curves;
 }
 
