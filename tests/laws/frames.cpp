@@ -149,7 +149,7 @@ bool vanishes(const Formula& polynomial, const LocalAlgebroid& algebroid)
 {
     std::map<std::string, Formula> point;
     const auto place = [&](const std::string& name) {
-        mpq_class value(static_cast<int>(37 + 14 * point.size()), static_cast<int>(53 + 6 * point.size()));
+        mpq_class value(static_cast<int>(41 + 16 * point.size()), static_cast<int>(59 + 6 * point.size()));
         value.canonicalize();
         point.emplace(name, value);
     };
