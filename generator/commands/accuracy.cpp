@@ -97,6 +97,15 @@ bool confirm_accuracy(const AccurateMethod& accurate, const RunRecord& record, P
     const char* what = method.adaptive ? "tolerance" : "step";
     double parameter = accurate.parameter, distance = 0;
     Table rows = states_with(parameter, method, record, input);
+    if (rows.rows.empty()) { // the run itself will say why
+        (method.adaptive ? input.relative : input.step) = parameter;
+        if (method.adaptive) input.absolute = parameter;
+        write_standard_error(
+            fmt::format("warning: accuracy {:g} is not confirmed: {} with {} {:.3g} does not come to the "
+                        "end\n",
+                        accurate.accuracy, method.name, what, parameter));
+        return false;
+    }
     for (int k = 0; k < most_confirmations; ++k) {
         double finer = tightened(method, parameter);
         Table finer_rows = states_with(finer, method, record, input);
@@ -108,7 +117,8 @@ bool confirm_accuracy(const AccurateMethod& accurate, const RunRecord& record, P
         distance = row_distance(rows, finer_rows);
         (method.adaptive ? input.relative : input.step) = parameter;
         if (method.adaptive) input.absolute = parameter;
-        if (distance <= accurate.accuracy) {
+        // With the next one half as wrong, the error of this one is at most twice their distance.
+        if (2 * distance <= accurate.accuracy) {
             write_standard_error(fmt::format("accuracy {:g}: {} with {} {:.3g}; {} {:.3g} moves no row by more than "
                                              "{:.2g}\n",
                                              accurate.accuracy, method.name, what, parameter, what, finer, distance));

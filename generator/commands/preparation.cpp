@@ -12,7 +12,21 @@ namespace lagen {
 
 namespace {
 
-/// What the equations have that the method does not take, and what takes it; nothing where all is well.
+/// Throws where the equations are not what the method asks for.
+void require_system(const Options& options, const Scene& scene, const MethodEntry& method, const KernelModule& module)
+{
+    const auto obstacle = obstacle_of(method, module);
+    if (!obstacle) return;
+    const std::string text =
+        fmt::format("{} {} {}, and in model '{}' {}", method.name, method.separable_only ? "splits" : "integrates",
+                    system_of(method), module.model, obstacle->first);
+    if (options.has("method"))
+        throw UsageError(fmt::format("lagen {}: {}\nhint: {}", options.command(), text, obstacle->second));
+    throw ModelError(text, scene.method_where, obstacle->second);
+}
+
+} // namespace
+
 std::optional<std::pair<std::string, std::string>> obstacle_of(const MethodEntry& method, const KernelModule& module)
 {
     if (method.separable_only) {
@@ -29,21 +43,6 @@ std::optional<std::pair<std::string, std::string>> obstacle_of(const MethodEntry
     return std::pair{found.obstacle, found.kind == Kind::general ? "rkng54 integrates x'' = f(t, x, x')"
                                                                  : "dop853 and verner87 integrate every system"};
 }
-
-/// Throws where the equations are not what the method asks for.
-void require_system(const Options& options, const Scene& scene, const MethodEntry& method, const KernelModule& module)
-{
-    const auto obstacle = obstacle_of(method, module);
-    if (!obstacle) return;
-    const std::string text =
-        fmt::format("{} {} {}, and in model '{}' {}", method.name, method.separable_only ? "splits" : "integrates",
-                    system_of(method), module.model, obstacle->first);
-    if (options.has("method"))
-        throw UsageError(fmt::format("lagen {}: {}\nhint: {}", options.command(), text, obstacle->second));
-    throw ModelError(text, scene.method_where, obstacle->second);
-}
-
-} // namespace
 
 Preparation::Preparation(const Options& options, CheckedModel& checked, const Driver& driver, const std::string& method)
     : options_(options), checked_(checked), driver_(driver),

@@ -6,7 +6,15 @@
 #include "commands/options.hpp"
 #include "commands/run_record.hpp"
 
+#include <optional>
+#include <string>
+#include <utility>
+
 namespace lagen {
+
+/// What the equations have that the method does not take, and what takes it; nothing where all is well.
+[[nodiscard]] std::optional<std::pair<std::string, std::string>> obstacle_of(const MethodEntry& method,
+                                                                             const KernelModule& module);
 
 class Preparation {
   public:

@@ -103,7 +103,11 @@ ExitCode run_run(Arguments arguments)
     const std::string path = model_path(options.positional()[0]);
     CheckedModel checked = read(path, options.settings(), options.has("unchecked"));
     const Model& model = checked.model;
-    if (options.has("bind")) bind_in_scene(checked.model, find_scene(model, options.get("scene")));
+    // What a chart chooses is chosen for the equations that it ran: those of the values.
+    if (options.has("accuracy"))
+        for (Parameter& parameter : checked.model.parameters) parameter.bound = true;
+    if (options.has("bind") || options.has("accuracy"))
+        bind_in_scene(checked.model, find_scene(model, options.get("scene")));
     const std::optional<AccurateMethod> accurate = accurate_method(options, checked, path);
     Preparation preparation(options, checked, run_driver, accurate ? accurate->method->name : options.get("method"));
     for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));

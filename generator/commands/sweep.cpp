@@ -151,6 +151,7 @@ ExitCode run_sweep(Arguments arguments)
     if (options.has("bind")) bind_in_scene(checked.model, find_scene(model, options.get("scene")));
     Scene scene = scene_of(options, model, request.initial);
     const SweepRows rows = sweep_rows(options, request, model, scene);
+    require_constants(model, rows);
     scene = with_swept(model, std::move(scene), rows);
     Preparation preparation(options, checked, sweep_driver, options.get("method"));
     for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));

@@ -114,7 +114,8 @@ void SweepFile::go_on(const std::string& heading)
     std::array<char, 65536> buffer;
     off_t whole = 0;
     bool headed = false;
-    for (ssize_t count = 0; (count = ::read(file_, buffer.data(), buffer.size())) > 0;) {
+    ssize_t count = 0;
+    while ((count = ::read(file_, buffer.data(), buffer.size())) > 0) {
         text.append(buffer.data(), static_cast<std::size_t>(count));
         std::size_t begin = 0;
         for (std::size_t end = 0; (end = text.find("\r\n", begin)) != std::string::npos; begin = end + 2) {
@@ -126,6 +127,7 @@ void SweepFile::go_on(const std::string& heading)
         whole += static_cast<off_t>(begin);
         text.erase(0, begin);
     }
+    if (count < 0) refuse_writing(partial_);
     if (!headed) return begin(heading);
     if (::ftruncate(file_, whole) != 0 || ::lseek(file_, whole, SEEK_SET) != whole) refuse_writing(partial_);
 }

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
+#include <filesystem>
 #include <fstream>
 #include <sys/file.h>
 #include <unistd.h>
@@ -87,6 +88,10 @@ class MergedFile {
 
 void merge_sweep(const std::vector<std::string>& parts, const std::string& path)
 {
+    std::error_code ignored;
+    for (const std::string& part : parts)
+        if (part == path || std::filesystem::equivalent(part, path, ignored))
+            throw UsageError(fmt::format("lagen sweep: '{}' is a part, and cannot be --output as well", part));
     SweepIdentity whole;
     const std::vector<std::string> sorted = sorted_parts(parts, whole);
     std::vector<std::ifstream> files;

@@ -51,6 +51,16 @@ Rational end_of_range(const Model& model, const std::string& option, const Excer
     throw UsageError(fmt::format("lagen sweep: --{} {}: {}", range.name.option, range.text, what));
 }
 
+/// Whether the value of a parameter follows from that of another one.
+bool follows_from(const Model& model, const Parameter& parameter, const std::string& name)
+{
+    const std::vector<std::string> uses = names_in(parameter.value);
+    return std::ranges::any_of(model.parameters, [&](const Parameter& each) {
+        const bool used = std::ranges::find(uses, each.symbol.name) != uses.end();
+        return used && (each.symbol.name == name || follows_from(model, each, name));
+    });
+}
+
 /// The name as the model has it.
 SweptName resolved(const SweepRequest::Range& range, const Model& model, const Scene& scene)
 {
@@ -150,6 +160,16 @@ std::optional<std::uint64_t> read_whole(const std::string& text)
 std::vector<Symbol> swept_symbols(const std::string& option, const Model& model, const Scene& scene)
 {
     return option == "set" ? free_parameters(model) : initial_symbols(model, scene);
+}
+
+void require_constants(const Model& model, const SweepRows& rows)
+{
+    for (const Parameter& parameter : model.parameters)
+        for (const SweptName& name : rows.names)
+            if (parameter.bound && name.option == "set" && follows_from(model, parameter, name.name))
+                throw UsageError(
+                    fmt::format("lagen sweep: '{}' is bound, and its value follows from '{}', which is swept",
+                                parameter.symbol.name, name.name));
 }
 
 SweepRequest::SweepRequest(const Options& options)

@@ -47,6 +47,9 @@ struct SweepRequest {
 /// then numbers. It is read twice: here, where every row is looked at, and while the sweep goes on.
 [[nodiscard]] SweepRows ensemble_rows(const std::string& path, const Model& model, const Scene& scene);
 
+/// Throws UsageError where the value of a bound parameter follows from one that is swept.
+void require_constants(const Model& model, const SweepRows& rows);
+
 /// The symbols that `option` names: parameters, or what the scene starts from.
 [[nodiscard]] std::vector<Symbol> swept_symbols(const std::string& option, const Model& model, const Scene& scene);
 

@@ -3,13 +3,16 @@
 /// has the same bits.
 #include "commands/sweep_run.hpp"
 
+#include "commands/sweep_rows.hpp"
 #include "diagnostic.hpp"
+#include "model/families.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
 
 namespace lagen {
 
@@ -122,7 +125,7 @@ void SweepRun::append_start(std::string& bytes, std::uint64_t index)
     }
     const auto failure = std::ranges::find(failures_, status) - failures_.begin();
     append_doubles(bytes, {status.empty() ? 0 : static_cast<long double>(failure + 1)});
-    input_.parameters.resize(setting_.model.parameters.size());
+    input_.parameters.resize(free_parameters(setting_.model).size());
     input_.initial.resize(setting_.names.lanes.size());
     append_doubles(bytes, input_.parameters);
     append_doubles(bytes, input_.initial);
@@ -139,6 +142,15 @@ std::string SweepRun::next_starts()
     return bytes;
 }
 
+/// Of the start that the program was told not to integrate.
+const std::string& SweepRun::failed_status(const std::string& number) const
+{
+    const std::optional<std::uint64_t> place = read_whole(number);
+    if (!place || *place == 0 || *place > failures_.size())
+        throw InternalError("the program of a sweep names a failure that it was not told of");
+    return failures_[static_cast<std::size_t>(*place - 1)];
+}
+
 void SweepRun::take(const char* bytes, std::size_t count)
 {
     unfinished_.append(bytes, count);
@@ -149,7 +161,7 @@ void SweepRun::take(const char* bytes, std::size_t count)
         std::string line = unfinished_.substr(begin, end - begin);
         if (line.starts_with('#'))
             line = std::string(inner_fields(input_.columns.size(), setting_.scene.events.size()), ',') +
-                   failures_.at(std::stoul(line.substr(1)) - 1);
+                   failed_status(line.substr(1));
         lines += pending_.front() + ',' + line + "\r\n";
         pending_.pop_front();
     }
@@ -172,7 +184,7 @@ void SweepRun::run()
         [this] { return next_starts(); });
     progress_.clear();
     require_started(result, setting_.program);
-    if (file_.rows() == wanted) return;
+    if (file_.rows() == wanted && result.exit_code == 0) return;
     if (result.interrupted)
         throw Error(ExitCode::interrupted,
                     fmt::format("lagen: interrupted, {} of {} rows are done; --resume goes on with them", file_.rows(),

@@ -40,6 +40,7 @@ class SweepRun {
     std::string next_starts();
     void append_start(std::string& bytes, std::uint64_t index);
     std::string start_of(const std::vector<std::string>& texts);
+    [[nodiscard]] const std::string& failed_status(const std::string& number) const;
     void take(const char* bytes, std::size_t count);
 
     const SweepSetting& setting_;

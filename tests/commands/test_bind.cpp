@@ -2,6 +2,7 @@
 /// `--bind`: parameters that become constants of the equations.
 #include "program.hpp"
 
+#include "support/golden.hpp"
 #include "support/json.hpp"
 
 #include <catch2/catch.hpp>
@@ -109,6 +110,36 @@ TEST_CASE("a run with bound parameters is the run without, in the scene's values
     CHECK(row_difference(file, bound_end_of({"quartic_body.toml", "--bind", "c=0.25"})) > 1e-3);
     CHECK(row_difference(bound_end_of({"quartic_body.toml", "--set", "k=0.3", "--bind", "c"}),
                          bound_end_of({"quartic_body.toml", "--set", "k=0.3"})) < 1e-10);
+}
+
+TEST_CASE("rows of a sweep with bound parameters are the runs with them", "[sweep]")
+{
+    const std::string folder = fresh_folder();
+    const Outcome swept = call({"sweep", "rigid_body.toml", "--bind", "I1", "--initial", "w3=4:6:2", "--t-end", "1",
+                                "--tolerance", "1e-12", "-o", folder + "/a.csv"});
+    INFO(swept.err);
+    REQUIRE(swept.code == 0);
+    std::istringstream rows(read_text(folder + "/a.csv"));
+    std::string heading, row;
+    REQUIRE(std::getline(rows, heading));
+    for (const char* w3 : {"4", "6"}) {
+        REQUIRE(std::getline(rows, row));
+        const Outcome run = call({"run", "rigid_body.toml", "--bind", "I1", "--initial", std::string("w3=") + w3,
+                                  "--at", "1", "--tolerance", "1e-12"});
+        REQUIRE(run.code == 0);
+        std::istringstream lines(run.out), values;
+        std::string line, value;
+        REQUIRE(std::getline(lines, line));
+        REQUIRE(std::getline(lines, line));
+        std::istringstream swept_values(row);
+        std::string field;
+        for (int skipped = 0; skipped < 2; ++skipped) REQUIRE(std::getline(swept_values, field, ','));
+        values.str(line);
+        while (std::getline(values, value, ',')) {
+            REQUIRE(std::getline(swept_values, field, ','));
+            CHECK(std::stod(field) == std::stod(value));
+        }
+    }
 }
 
 TEST_CASE("what is proved for a bound value needs no warning and no condition on it")

@@ -2,6 +2,7 @@
 #include "commands/chart/contestants.hpp"
 
 #include "commands/options.hpp"
+#include "commands/preparation.hpp"
 #include "emit/print_header.hpp"
 
 #include <fmt/core.h>
@@ -68,12 +69,10 @@ std::string obstacle_to(const MethodEntry& method, const ChartProblem& problem)
         return fmt::format("{} splits a system x' = f(y), y' = g(x), and model '{}' has no base coordinates x",
                            method.name, module.model);
     if (method.series) return problem.no_series;
-    const SecondOrder& found = module.second_order;
-    if (method.system == SecondOrder::Kind::no || found.kind == method.system ||
-        found.kind == SecondOrder::Kind::velocity_free)
-        return "";
-    return fmt::format("{} integrates {}, and in model '{}' {}", method.name, system_of(method), module.model,
-                       found.obstacle);
+    const auto obstacle = obstacle_of(method, module);
+    if (!obstacle) return "";
+    return fmt::format("{} {} {}, and in model '{}' {}", method.name, method.separable_only ? "splits" : "integrates",
+                       system_of(method), module.model, obstacle->first);
 }
 
 std::vector<MethodFamily> method_families(const ChartProblem& problem, std::vector<LeftOutMethod>& left_out)

@@ -27,8 +27,13 @@ std::string chart_file(const Options& options, const Model& model)
                                  options.get("t-end"),
                                  options.get("at"),
                                  options.has("unchecked") ? "unchecked" : ""};
-    for (const Setting& setting : options.settings()) key.push_back(setting.name + "=" + setting.value.text);
-    return record_file(model, key);
+    for (const Setting& setting : options.settings())
+        key.push_back((setting.binds ? "bind " : "set ") + setting.name + "=" + setting.value.text);
+    for (const Setting& setting : options.named("initial"))
+        key.push_back("initial " + setting.name + "=" + setting.value.text);
+    Model charted = model; // the same whether parameters are bound yet or not
+    for (Parameter& parameter : charted.parameters) parameter.bound = false;
+    return record_file(charted, key);
 }
 
 KeptChart kept_chart(const Chart& chart)

@@ -31,8 +31,8 @@ struct EnsembleOptions {
 /// @param take       take(k, run) is called once for each trajectory, in the order of k, one call at a time; `run` may
 ///                   be moved from. It may be called by any of the threads.
 /// The runs are those of `integrate`, with the same bits, whatever the number of threads. At most 4 blocks a thread
-/// exist at a time. What make_state or take throws ends the work and is thrown to the caller; trajectories before it
-/// were handed over.
+/// exist at a time. What make_state or take throws ends the work and is thrown to the caller; those of the blocks
+/// before it were handed over.
 template <RightHandSide M, class MakeState, class Method, class Take>
 void ensemble(const M& model, std::size_t count, MakeState&& make_state,
               std::type_identity_t<Interval<real_t<typename M::Scalar>>> span, const Method& method, Take&& take,
