@@ -125,7 +125,7 @@ TEST_CASE("rows of a sweep with bound parameters are the runs with them", "[swee
     for (const char* w3 : {"4", "6"}) {
         REQUIRE(std::getline(rows, row));
         const Outcome run = call({"run", "rigid_body.toml", "--bind", "I1", "--initial", std::string("w3=") + w3,
-                                  "--at", "1", "--tolerance", "1e-12"});
+                                  "--at", "1", "--t-end", "1", "--tolerance", "1e-12"});
         REQUIRE(run.code == 0);
         std::istringstream lines(run.out), values;
         std::string line, value;
