@@ -39,11 +39,17 @@ double accuracy_option(const Options& options)
     return accuracy;
 }
 
-/// The whole state in every row.
-Table states_with(double parameter, const MethodEntry& method, const RunRecord& record, ProgramInput input)
+/// The tolerance, or the step.
+void use_parameter(double parameter, const MethodEntry& method, ProgramInput& input)
 {
     (method.adaptive ? input.relative : input.step) = parameter;
     if (method.adaptive) input.absolute = parameter;
+}
+
+/// The whole state in every row.
+Table states_with(double parameter, const MethodEntry& method, const RunRecord& record, ProgramInput input)
+{
+    use_parameter(parameter, method, input);
     input.columns.clear();
     RunOutcome outcome;
     for (std::size_t k = 0; k < record.names.lanes.size(); ++k) {
@@ -98,8 +104,7 @@ bool confirm_accuracy(const AccurateMethod& accurate, const RunRecord& record, P
     double parameter = accurate.parameter, distance = 0;
     Table rows = states_with(parameter, method, record, input);
     if (rows.rows.empty()) { // the run itself will say why
-        (method.adaptive ? input.relative : input.step) = parameter;
-        if (method.adaptive) input.absolute = parameter;
+        use_parameter(parameter, method, input);
         write_standard_error(
             fmt::format("warning: accuracy {:g} is not confirmed: {} with {} {:.3g} does not come to the "
                         "end\n",
@@ -115,8 +120,7 @@ bool confirm_accuracy(const AccurateMethod& accurate, const RunRecord& record, P
             finer_rows = states_with(finer, method, record, input);
         }
         distance = row_distance(rows, finer_rows);
-        (method.adaptive ? input.relative : input.step) = parameter;
-        if (method.adaptive) input.absolute = parameter;
+        use_parameter(parameter, method, input);
         // With the next one half as wrong, the error of this one is at most twice their distance.
         if (2 * distance <= accurate.accuracy) {
             write_standard_error(fmt::format("accuracy {:g}: {} with {} {:.3g}; {} {:.3g} moves no row by more than "

@@ -44,10 +44,7 @@ std::vector<const MethodEntry*> wanted_methods(const Options& options)
     for (const std::string& name : split_list(options.get("methods"))) {
         wanted.push_back(find_method(name));
         if (wanted.back() != nullptr) continue;
-        const std::string nearest = nearest_method(name);
-        const std::string hint =
-            nearest.empty() ? "`lagen methods` lists them" : fmt::format("did you mean '{}'?", nearest);
-        throw UsageError(fmt::format("lagen chart: unknown method '{}'\nhint: {}", name, hint));
+        throw UsageError(fmt::format("lagen chart: unknown method '{}'\nhint: {}", name, hint_for_method(name)));
     }
     if (options.has("methods") && wanted.empty())
         throw UsageError("lagen chart: --methods needs at least one method, e.g. --methods dop853,taylor");

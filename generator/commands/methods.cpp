@@ -132,6 +132,12 @@ std::string nearest_method(const std::string& name)
     return nearest_name(small, method_names());
 }
 
+std::string hint_for_method(const std::string& name)
+{
+    const std::string nearest = nearest_method(name);
+    return nearest.empty() ? "`lagen methods` lists them" : fmt::format("did you mean '{}'?", nearest);
+}
+
 std::string system_of(const MethodEntry& method)
 {
     if (method.separable_only) return method.affine ? "x' = M y + c, y' = g(x)" : "x' = f(y), y' = g(x)";

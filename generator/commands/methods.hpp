@@ -26,6 +26,8 @@ struct MethodEntry {
 [[nodiscard]] const MethodEntry* find_method(const std::string& name); ///< nullptr where there is none
 /// The method that was meant: one of a name like it, or what other programs call so; empty where there is none.
 [[nodiscard]] std::string nearest_method(const std::string& name);
+/// What to write instead, for a message.
+[[nodiscard]] std::string hint_for_method(const std::string& name);
 /// What a method asks of the equations, "x'' = f(t, x)"; empty where it takes all.
 [[nodiscard]] std::string system_of(const MethodEntry& method);
 /// Every method name, in the order of the table.

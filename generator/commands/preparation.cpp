@@ -15,33 +15,36 @@ namespace {
 /// Throws where the equations are not what the method asks for.
 void require_system(const Options& options, const Scene& scene, const MethodEntry& method, const KernelModule& module)
 {
-    const auto obstacle = obstacle_of(method, module);
+    const std::optional<Obstacle> obstacle = obstacle_of(method, module);
     if (!obstacle) return;
-    const std::string text =
-        fmt::format("{} {} {}, and in model '{}' {}", method.name, method.separable_only ? "splits" : "integrates",
-                    system_of(method), module.model, obstacle->first);
     if (options.has("method"))
-        throw UsageError(fmt::format("lagen {}: {}\nhint: {}", options.command(), text, obstacle->second));
-    throw ModelError(text, scene.method_where, obstacle->second);
+        throw UsageError(fmt::format("lagen {}: {}\nhint: {}", options.command(), obstacle->text, obstacle->hint));
+    throw ModelError(obstacle->text, scene.method_where, obstacle->hint);
 }
 
 } // namespace
 
-std::optional<std::pair<std::string, std::string>> obstacle_of(const MethodEntry& method, const KernelModule& module)
+std::optional<Obstacle> obstacle_of(const MethodEntry& method, const KernelModule& module)
 {
+    const auto found_in = [&](const std::string& found, const char* hint) {
+        return Obstacle{fmt::format("{} {} {}, and in model '{}' {}", method.name,
+                                    method.separable_only ? "splits" : "integrates", system_of(method), module.model,
+                                    found),
+                        hint};
+    };
     if (method.separable_only) {
         using Kind = Separation::Kind;
         const Separation found = separation_of(module);
         if (found.kind >= (method.affine ? Kind::affine : Kind::separable)) return std::nullopt;
-        return std::pair{found.obstacle, found.kind == Kind::no ? "gauss4 to gauss16 are symplectic and split nothing"
-                                                                : "blanesmoan6 and kahanli8 take every x' = f(y)"};
+        return found_in(found.obstacle, found.kind == Kind::no ? "gauss4 to gauss16 are symplectic and split nothing"
+                                                               : "blanesmoan6 and kahanli8 take every x' = f(y)");
     }
     using Kind = SecondOrder::Kind;
     const SecondOrder& found = module.second_order;
     if (method.system == Kind::no || found.kind == method.system || found.kind == Kind::velocity_free)
         return std::nullopt;
-    return std::pair{found.obstacle, found.kind == Kind::general ? "rkng54 integrates x'' = f(t, x, x')"
-                                                                 : "dop853 and verner87 integrate every system"};
+    return found_in(found.obstacle, found.kind == Kind::general ? "rkng54 integrates x'' = f(t, x, x')"
+                                                                : "dop853 and verner87 integrate every system");
 }
 
 Preparation::Preparation(const Options& options, CheckedModel& checked, const Driver& driver, const std::string& method)

@@ -8,13 +8,15 @@
 
 #include <optional>
 #include <string>
-#include <utility>
 
 namespace lagen {
 
-/// What the equations have that the method does not take, and what takes it; nothing where all is well.
-[[nodiscard]] std::optional<std::pair<std::string, std::string>> obstacle_of(const MethodEntry& method,
-                                                                             const KernelModule& module);
+/// What the equations have that a method does not take, as a sentence, and what takes it.
+struct Obstacle {
+    std::string text, hint;
+};
+/// Nothing where all is well.
+[[nodiscard]] std::optional<Obstacle> obstacle_of(const MethodEntry& method, const KernelModule& module);
 
 class Preparation {
   public:

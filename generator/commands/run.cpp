@@ -105,8 +105,8 @@ ExitCode run_run(Arguments arguments)
     const Model& model = checked.model;
     // What a chart chooses is chosen for the equations that it ran: those of the values.
     if (options.has("accuracy"))
-        for (Parameter& parameter : checked.model.parameters) parameter.bound = true;
-    if (options.has("bind") || options.has("accuracy"))
+        bind_all_in_scene(checked.model, find_scene(model, options.get("scene")));
+    else if (options.has("bind"))
         bind_in_scene(checked.model, find_scene(model, options.get("scene")));
     const std::optional<AccurateMethod> accurate = accurate_method(options, checked, path);
     Preparation preparation(options, checked, run_driver, accurate ? accurate->method->name : options.get("method"));

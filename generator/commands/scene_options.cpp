@@ -107,9 +107,7 @@ const MethodEntry& method_of(const Options& options, const Model& model, const S
     const std::string lagen = "lagen " + options.command() + ": ";
     const MethodEntry* method = find_method(name);
     if (method == nullptr) {
-        const std::string nearest = nearest_method(name);
-        const std::string hint =
-            nearest.empty() ? "`lagen methods` lists them" : fmt::format("did you mean '{}'?", nearest);
+        const std::string hint = hint_for_method(name);
         if (options.has("method")) throw UsageError(fmt::format("{}unknown method '{}'\nhint: {}", lagen, name, hint));
         throw ModelError(fmt::format("unknown method '{}'", name), scene.method_where, hint);
     }

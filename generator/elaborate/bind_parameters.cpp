@@ -71,4 +71,10 @@ void bind_in_scene(Model& model, const Scene& scene)
     settle_domain(model);
 }
 
+void bind_all_in_scene(Model& model, const Scene& scene)
+{
+    for (Parameter& parameter : model.parameters) parameter.bound = true;
+    bind_in_scene(model, scene);
+}
+
 } // namespace lagen

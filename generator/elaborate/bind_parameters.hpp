@@ -18,5 +18,7 @@ void settle_domain(Model& model);
 
 /// The same with the values of `scene`, which the parameters take.
 void bind_in_scene(Model& model, const Scene& scene);
+/// The same with all parameters bound.
+void bind_all_in_scene(Model& model, const Scene& scene);
 
 } // namespace lagen

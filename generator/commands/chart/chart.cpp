@@ -58,8 +58,7 @@ void leave_out_refused(Chart& chart, bool wanted)
 CheckedModel charted_model(const Options& options, const std::string& path)
 {
     CheckedModel checked = read(path, options.settings(), options.has("unchecked"));
-    for (Parameter& parameter : checked.model.parameters) parameter.bound = true;
-    bind_in_scene(checked.model, find_scene(checked.model, options.get("scene")));
+    bind_all_in_scene(checked.model, find_scene(checked.model, options.get("scene")));
     prove(checked);
     return checked;
 }

@@ -69,10 +69,8 @@ std::string obstacle_to(const MethodEntry& method, const ChartProblem& problem)
         return fmt::format("{} splits a system x' = f(y), y' = g(x), and model '{}' has no base coordinates x",
                            method.name, module.model);
     if (method.series) return problem.no_series;
-    const auto obstacle = obstacle_of(method, module);
-    if (!obstacle) return "";
-    return fmt::format("{} {} {}, and in model '{}' {}", method.name, method.separable_only ? "splits" : "integrates",
-                       system_of(method), module.model, obstacle->first);
+    const std::optional<Obstacle> obstacle = obstacle_of(method, module);
+    return obstacle ? obstacle->text : "";
 }
 
 std::vector<MethodFamily> method_families(const ChartProblem& problem, std::vector<LeftOutMethod>& left_out)
