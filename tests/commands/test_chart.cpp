@@ -124,6 +124,17 @@ TEST_CASE("chart.csv has a line a point, and the text names the best, the failur
         CHECK_THAT(text, Catch::Contains(part));
 }
 
+TEST_CASE("where peers were charted, the text says what the best of them takes beside the best of lagen")
+{
+    lagen::Chart chart = small_chart();
+    CHECK_THAT(lagen::chart_text(chart), !Catch::Contains("of the time of"));
+    chart.points.push_back(charted("dopri5", 1e-3, 1e-4, 1e-6));
+    chart.points.back().peer = "odeint";
+    const std::string text = lagen::chart_text(chart);
+    CHECK_THAT(text, Catch::Contains("\nerror 1e-03: rk4 takes 2.00 of the time of odeint dopri5\n\n"));
+    CHECK_THAT(text, !Catch::Contains("error 1e-06:")); // no peer comes within
+}
+
 TEST_CASE("points are read as a chart's program prints them")
 {
     const std::vector<lagen::ChartPoint> points = lagen::read_points(

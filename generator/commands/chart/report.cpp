@@ -64,6 +64,22 @@ std::string best_lines(const Chart& chart)
     return text;
 }
 
+/// "error 1e-06: dop853 takes 0.57 of the time of odeint fehlberg78", one line an error, where peers were charted.
+std::string peer_lines(const Chart& chart)
+{
+    std::vector<ChartPoint> own, peers;
+    for (const ChartPoint& point : chart.points) (point.peer.empty() ? own : peers).push_back(point);
+    std::string text;
+    for (const double error : charted_errors) {
+        const ChartPoint* ours = cheapest_within(own, error);
+        const ChartPoint* theirs = cheapest_within(peers, error);
+        if (ours == nullptr || theirs == nullptr) continue;
+        text += fmt::format("error {:.0e}: {} takes {:.2f} of the time of {}\n", error, ours->method,
+                            ours->seconds / theirs->seconds, name_of(*theirs));
+    }
+    return text.empty() ? text : text + "\n";
+}
+
 /// What each method takes for each error, in seconds.
 std::string method_lines(const Chart& chart)
 {
@@ -184,7 +200,7 @@ std::string chart_text(const Chart& chart)
     text += fmt::format("machine: {}; {}; least of {} repeats, of which the largest is {:.2f} times that in the "
                         "median\n\n",
                         chart.machine, chart.compiler, chart.repeats, median_spread(chart));
-    text += best_lines(chart) + "\n" + method_lines(chart);
+    text += best_lines(chart) + "\n" + peer_lines(chart) + method_lines(chart);
     const std::string failures = failure_lines(chart);
     if (!failures.empty() || !chart.left_out.empty()) text += "\n" + failures;
     for (const LeftOutMethod& method : chart.left_out)
