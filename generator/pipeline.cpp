@@ -213,6 +213,7 @@ Generated generate(const CheckedModel& checked, const GenerateRequest& request)
     kernels.form = request.form.empty() ? default_form(model) : request.form;
     kernels.only = request.only;
     kernels.with = request.with;
+    kernels.flows = request.flows;
     kernels.scene = request.scene;
     Generated generated;
     if (request.report) kernels.reports = &generated.reports;

@@ -113,7 +113,7 @@ ExitCode run_run(Arguments arguments)
     for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
     const Scene scene = scene_of(options, model, options.named("initial"));
     const std::string form = form_of(model, scene);
-    const MethodEntry& method = accurate ? *accurate->method : method_of(options, model, scene);
+    const MethodEntry& method = accurate ? *accurate->method : method_of(options, scene);
     const SceneValues values = evaluate_scene(model, scene);
     const std::vector<long double> parameters = finite_numbers(values.parameters, scene);
     preparation.finish(scene, form, method, parameters);

@@ -29,6 +29,6 @@ void set_initial(const Model& model, Scene& scene, const Setting& setting);
 
 /// The scene's method; UsageError or ModelError (by where the name stands) where it is unknown, lacks a step or splits
 /// what has no base coordinates. Warns on standard error of options that it does not use.
-[[nodiscard]] const MethodEntry& method_of(const Options& options, const Model& model, const Scene& scene);
+[[nodiscard]] const MethodEntry& method_of(const Options& options, const Scene& scene);
 
 } // namespace lagen
