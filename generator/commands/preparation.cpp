@@ -35,7 +35,7 @@ std::optional<Obstacle> obstacle_to_splitting(const MethodEntry& method, const K
     if (found.kind != Kind::no || module.flows.count > 0)
         obstacle.hint = "blanesmoan6 and kahanli8 take every x' = f(y), and sums of exact flows";
     else if (!module.flows.obstacle.empty())
-        obstacle.text += "; nor is it a sum of exact flows: " + module.flows.obstacle;
+        obstacle.text += ", and " + module.flows.obstacle;
     else if (module.form == "lagrange")
         obstacle.hint += "; with --form hamilton it may be a sum of exact flows";
     return obstacle;
@@ -59,7 +59,7 @@ std::optional<Obstacle> obstacle_of(const MethodEntry& method, const KernelModul
 Preparation::Preparation(const Options& options, CheckedModel& checked, const Driver& driver, const std::string& method)
     : options_(options), checked_(checked), driver_(driver),
       file_(record_file(checked.model, {driver.folder, options.get("scene"), options.get("form"), method,
-                                        options.has("unchecked") ? "unchecked" : ""})),
+                                        options.get("time-scale"), options.has("unchecked") ? "unchecked" : ""})),
       record_(find_record(file_))
 {
     if (record_) {
@@ -81,11 +81,12 @@ void Preparation::finish(const Scene& scene, const std::string& form, const Meth
     request.form = form;
     request.scene = &scene;
     request.flows = method.separable_only;
+    request.time_scale = time_scale_of(options_, checked_.model);
     if (method.series) request.with = {"taylor"};
     if (method.series && !scene.events.empty()) request.with.emplace_back("event_series");
     const Generated generated = generate(checked_, request);
     require_system(options_, scene, method, generated.module);
-    const std::string program = compile_program(generated.header, program_text(driver_, generated.module.name, method));
+    const std::string program = compile_program(generated.header, program_text(driver_, generated.module.name, method, request.time_scale != nullptr));
     record_ = record_of(checked_, generated.module, program, parameters);
     keep_record(file_, *record_);
 }

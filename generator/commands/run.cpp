@@ -32,6 +32,8 @@ const CommandSyntax run_syntax{
      {"form", "FORM", run_form_help.c_str()},
      {"method", "METHOD", "see `lagen methods`; without it the scene's, else dop853"},
      {"step", "H", "step of a fixed-step method"},
+     {"time-scale", "EXPR",
+      "of a splitting: steps of H times this function of the state, so chosen that runs stay reversible"},
      {"tolerance", "TOL", "relative and absolute tolerance of an adaptive method; without it the scene's, else 1e-10"},
      {"accuracy", "E",
       "largest error of the rows, relative to the state: method and tolerance from a chart of the scene"},

@@ -54,6 +54,12 @@ Tree option_tree(const Model& model, const std::string& name, const Excerpt& tex
     return tree;
 }
 
+Tree time_scale_of(const Options& options, const Model& model)
+{
+    if (!options.has("time-scale")) return nullptr;
+    return model.observer.close(parse_expression(whole_text("<--time-scale>", options.get("time-scale"))));
+}
+
 bool starts_from_momenta(const Model& model, const Scene& scene)
 {
     const std::vector<Symbol>& momenta = model.fibre.momenta;
@@ -117,6 +123,10 @@ const MethodEntry& method_of(const Options& options, const Scene& scene)
         if (options.has("method")) throw UsageError(lagen + text);
         throw ModelError(text, scene.where);
     }
+    if (options.has("time-scale") && !is_symmetric_splitting(*method))
+        throw UsageError(fmt::format("{}--time-scale makes the steps of a symmetric splitting, and {} is none\nhint: "
+                                     "leapfrog_kdk and kahanli8 are",
+                                     lagen, method->name));
     warn_of_unused(options, *method);
     return *method;
 }

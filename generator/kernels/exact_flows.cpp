@@ -279,7 +279,8 @@ class FlowBuilder {
             }
         }
         flow.part = fmt::format("T({})", fmt::join(names, ", "));
-        flows_.parts.push_back(std::move(flow));
+        const bool moves = !std::ranges::all_of(flow.increments, [this](NodeId node) { return graph_.is_zero(node); });
+        if (moves) flows_.parts.push_back(std::move(flow));
         return true;
     }
 

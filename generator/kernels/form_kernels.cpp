@@ -72,6 +72,7 @@ class ModuleBuilder {
         if (wants("event_series") && has_kernel(module_, "events")) add_event_series(kernel_named(module_, "events"));
         if (wants("jacobian")) add_jacobian();
         if (wants("variational")) add_variational();
+        if (request_.time_scale != nullptr) add_time_scale();
         if (form_.hamiltonian && wants_flows()) add_flows(exact_flows(*graph_, system_, *form_.hamiltonian));
         simplify_implicit();
         return std::move(module_);
@@ -308,6 +309,18 @@ class ModuleBuilder {
             directional(*graph_, form_.derivative, seeds_through(*graph_, form_.implicit, std::move(seeds)));
         Kernel kernel = table_kernel(form_, "variational", column("dv", tangent));
         kernel.inputs = {std::move(along)};
+        add(std::move(kernel));
+    }
+
+    void add_time_scale()
+    {
+        std::vector<std::pair<NodeId, NodeId>> seeds = replacements(state_of(form_), form_.derivative);
+        seeds.emplace_back(form_.time, graph_->constant(1));
+        const NodeId scale = lower_(request_.time_scale);
+        const NodeId rate =
+            directional(*graph_, std::array{scale}, seeds_through(*graph_, form_.implicit, std::move(seeds)))[0];
+        Kernel kernel{.name = "time_scale", .inputs = {}, .outputs = {column("value", {scale, rate})}};
+        kernel.documentation = {"A time scale of the motion, and its rate along it, for lagen::Reversible."};
         add(std::move(kernel));
     }
 

@@ -213,6 +213,7 @@ template <class Splitting>
 struct SplittingMethod {
     double step = 0;
     bool compensated = true;
+    static constexpr bool is_symmetric = splitting::is_palindrome(Splitting::weights);
 
     template <class M>
     using Stepper =
