@@ -86,7 +86,8 @@ void Preparation::finish(const Scene& scene, const std::string& form, const Meth
     if (method.series && !scene.events.empty()) request.with.emplace_back("event_series");
     const Generated generated = generate(checked_, request);
     require_system(options_, scene, method, generated.module);
-    const std::string program = compile_program(generated.header, program_text(driver_, generated.module.name, method, request.time_scale != nullptr));
+    const std::string program = compile_program(
+        generated.header, program_text(driver_, generated.module.name, method, request.time_scale != nullptr));
     record_ = record_of(checked_, generated.module, program, parameters);
     keep_record(file_, *record_);
 }

@@ -111,7 +111,7 @@ std::vector<std::string> entries_of(const KernelModule& module, const char* kern
 
 std::string program_text(const Driver& driver, const std::string& name, const MethodEntry& method, bool reversible)
 {
-    const std::string type = fmt::format(reversible ? "Reversible<lagen::{}>" : "{}", method.type);
+    const std::string type = reversible ? fmt::format("Reversible<lagen::{}>", method.type) : method.type;
     return fmt::format(
         "#include \"model.hpp\"\n#include \"{}/driver.hpp\"\nint main(int argc, char** argv)\n{{\n    return "
         "lagen::{}<lagen::models::{}<double>, lagen::{}>(argc, argv);\n}}\n",

@@ -92,8 +92,8 @@ class FlowBuilder {
         for (const NodeId slope : hamiltonian_.dH_dx) balance.df_dx.push_back(graph_.negate(slope));
         balance.p = hamiltonian_.mu;
         balance.y.assign(system_.r(), graph_.constant(0));
-        balance.forces = substitute(graph_, system_.forces_or_zero(graph_),
-                                    replacements(system_.algebroid.y, hamiltonian_.y));
+        balance.forces =
+            substitute(graph_, system_.forces_or_zero(graph_), replacements(system_.algebroid.y, hamiltonian_.y));
         const std::vector<NodeId> rates = momentum_rates(graph_, system_.algebroid, balance);
         ExactFlow kick{std::vector<NodeId>(system_.n(), graph_.constant(0)), "V(x)"};
         bool moves = false;
@@ -142,9 +142,8 @@ class FlowBuilder {
             if (vanishes(hamiltonian_.y[a])) continue;
             Momenta joined{a};
             std::erase_if(sets, [&](const Momenta& set) {
-                if (std::ranges::none_of(set, [&](std::size_t b) {
-                        return dependence(hamiltonian_.y[a], {system_.mu[b]}).has_value();
-                    }))
+                if (std::ranges::none_of(
+                        set, [&](std::size_t b) { return dependence(hamiltonian_.y[a], {system_.mu[b]}).has_value(); }))
                     return false;
                 joined.insert(joined.end(), set.begin(), set.end());
                 return true;
@@ -181,10 +180,7 @@ class FlowBuilder {
                                    [this](NodeId id) { return graph_.op(id) == Op::solve; });
     }
 
-    NodeId along(const Replacements& seeds, NodeId node)
-    {
-        return directional(graph_, std::array{node}, seeds)[0];
-    }
+    NodeId along(const Replacements& seeds, NodeId node) { return directional(graph_, std::array{node}, seeds)[0]; }
 
     /// theta^j / j! A^j z for 0 < j < end.
     NodeId polynomial(const std::vector<NodeId>& derivatives, std::size_t end)
@@ -207,8 +203,8 @@ class FlowBuilder {
         if (above == graph_.negate(below)) return graph_.constant(-1);
         const NodeId quotient = graph_.divide(above, below);
         if (!decider_ || is_long(quotient) || has_solve(quotient)) return std::nullopt;
-        const auto reduced = reduced_fraction(graph_, quotient, to_tree(graph_, quotient),
-                                              writing_order(graph_, setting_), *decider_);
+        const auto reduced =
+            reduced_fraction(graph_, quotient, to_tree(graph_, quotient), writing_order(graph_, setting_), *decider_);
         if (!reduced) return std::nullopt;
         const NodeId c = Lowering(graph_)(*reduced);
         if (!vanishes(along(seeds, c)) || !vanishes(graph_.subtract(above, graph_.multiply(c, below))))
@@ -246,8 +242,8 @@ class FlowBuilder {
             const std::optional<NodeId> c = ratio(seeds, next, derivatives[k]);
             if (!c) continue;
             const auto [first, second] = functions(k, *c);
-            const NodeId ends = graph_.add(graph_.multiply(first, derivatives[k]),
-                                           graph_.multiply(second, derivatives[k + 1]));
+            const NodeId ends =
+                graph_.add(graph_.multiply(first, derivatives[k]), graph_.multiply(second, derivatives[k + 1]));
             return graph_.add(polynomial(derivatives, k), ends);
         }
         return std::nullopt;

@@ -25,8 +25,8 @@ struct Formulation {
     std::vector<std::string> documentation; ///< of the right-hand side
     std::string failures;                   ///< of the right-hand side, as in KernelChecks
     std::vector<ImplicitBlock> implicit;
-    std::vector<Kernel> kernels;       ///< of this form alone, in order; empty outputs are left out
-    std::vector<std::string> controls; ///< their names, pontryagin
+    std::vector<Kernel> kernels;                 ///< of this form alone, in order; empty outputs are left out
+    std::vector<std::string> controls;           ///< their names, pontryagin
     std::optional<HamiltonianNodes> hamiltonian; ///< of Hamilton's form
     /// As in KernelModule: what this form asks of the parameters, beside the domain.
     std::vector<std::pair<std::string, NodeId>> parameter_conditions;

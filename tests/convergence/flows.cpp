@@ -85,8 +85,7 @@ double order_of(int coarsest, Quad clocked)
 {
     const Top<Quad> top{.clocked = clocked};
     const auto end = [&](int steps) {
-        const auto run =
-            lagen::integrate(top, Top<Quad>::start(), {Quad(0), Quad(4)}, Method{.step = 4.0 / steps});
+        const auto run = lagen::integrate(top, Top<Quad>::start(), {Quad(0), Quad(4)}, Method{.step = 4.0 / steps});
         REQUIRE(run.status() == lagen::Status::ok);
         return run.state;
     };

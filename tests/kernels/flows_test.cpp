@@ -154,6 +154,14 @@ std::string obstacle_of(const std::string& text)
     return module.flows.obstacle;
 }
 
+Flows with_flows_of_file(const std::string& name)
+{
+    KernelRequest request;
+    request.form = "hamilton";
+    request.flows = true;
+    return kernels_of(read_model(std::string(LAGEN_SOURCE_DIR) + "/models/" + name + ".toml"), request).flows;
+}
+
 } // namespace
 
 TEST_CASE("heavy tops are a kick and three rotations", "[kernels]")
@@ -193,7 +201,8 @@ coordinates = ["a", "b", "c", "d"]
 [algebroid.anchor]
 d = { q = "1" }
 [algebroid.bracket]
-"a,b" = { c = "k*(1 + q^2)" }
+"a,b" = { c = "k*(1 + q^2)"
+}
 "c,a" = { b = "1" }
 "d,c" = { c = "2*q/(1 + q^2)" }
 [hamiltonian]
@@ -216,6 +225,8 @@ TEST_CASE("what is no sum of exact flows says why", "[kernels]")
     CHECK(obstacle_of(body("a^2 + b^2 + k*c^4 + c^2")) == "the velocities are solved for in every call");
     CHECK(obstacle_of(body("(1 + t^2)*a^2 + b^2 + c^2")) == "a depends on t");
     CHECK(obstacle_of(plane("m*(1 + x^2)*u^2/2 + v^2/2")) == "u depends on x");
+    CHECK(with_flows_of_file("heavy_top_quasivelocities").obstacle ==
+          "where w1 alone is not 0, the motion of ph is not known in closed form");
 }
 
 TEST_CASE("flows are printed on request, and of themselves only where the equations do not separate", "[kernels]")

@@ -115,7 +115,8 @@ class FlowStepper {
     void flow(Way& way, const Real& h) noexcept
     {
         constexpr std::size_t part = Splitting::kick_first ? place : parts - 1 - place;
-        const auto status = way.model.template flow<static_cast<int>(part)>(Scalar(way.clock), way.s1, Scalar(h), increment_);
+        const auto status =
+            way.model.template flow<static_cast<int>(part)>(Scalar(way.clock), way.s1, Scalar(h), increment_);
         way.status = StatusOf<Scalar>::first(way.status, status);
         if constexpr (part == 0) ++calls_;
         if constexpr (part + 1 == parts) way.clock += h;
@@ -132,7 +133,7 @@ class FlowStepper {
     template <bool forwards, std::size_t... inner>
     void sweep(Way& way, const Real& h, std::index_sequence<inner...>) noexcept
     {
-        (flow<forwards ? inner + 1 : sizeof...(inner) - inner>(way, h), ...);
+        (flow < forwards ? inner + 1 : sizeof...(inner) - inner > (way, h), ...);
     }
 
     /// s1 = s - lost_ + moved_ by all flows.
