@@ -116,6 +116,7 @@ std::string regenerate_command(const CheckedModel& checked, const GenerateReques
     std::string command = command_on(checked, "generate", kernels_form);
     for (const auto& [option, kernels] : {std::pair(" --only ", &request.only), std::pair(" --with ", &request.with)})
         if (!kernels->empty()) command += option + shell_word(fmt::format("{}", fmt::join(*kernels, ",")));
+    if (request.time_scale != nullptr) command += " --time-scale " + shell_word(to_text(request.time_scale));
     if (checked.unchecked && checked.report.structure.verdict == Verdict::invalid) command += " --unchecked";
     const std::string output = std::filesystem::path(request.output).filename().string();
     return fmt::format("{} -o {}", command, shell_word(output.empty() ? name + ".hpp" : output));
@@ -213,6 +214,8 @@ Generated generate(const CheckedModel& checked, const GenerateRequest& request)
     kernels.form = request.form.empty() ? default_form(model) : request.form;
     kernels.only = request.only;
     kernels.with = request.with;
+    kernels.flows = request.flows;
+    kernels.time_scale = request.time_scale;
     kernels.scene = request.scene;
     Generated generated;
     if (request.report) kernels.reports = &generated.reports;

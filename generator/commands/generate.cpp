@@ -4,6 +4,7 @@
 #include "commands/options.hpp"
 #include "commands/places.hpp"
 #include "commands/report_operations.hpp"
+#include "commands/scene_options.hpp"
 #include "commands/write_file.hpp"
 #include "emit/json.hpp"
 #include "kernels/requested_kernels.hpp"
@@ -26,6 +27,7 @@ CommandSyntax generate_syntax(const std::string& form, const std::string& only)
              {"form", "FORM", form.c_str()},
              {"only", "KERNELS", only.c_str()},
              {"with", "KERNELS", "kernels beside those that every header has, e.g. taylor"},
+             {"time-scale", "EXPR", "a kernel time_scale of this function of the state, for lagen::Reversible"},
              {"report", "WHAT",
               "on standard error: summary, the operations of each kernel before and after the passes that changed them "
               "and its "
@@ -106,6 +108,7 @@ ExitCode run_generate(Arguments arguments)
     if (options.has("only") && request.only.empty())
         throw UsageError("lagen generate: --only names no kernel (see lagen generate --help)");
     request.with = split_list(options.get("with"));
+    request.time_scale = time_scale_of(options, checked.model);
     const std::string output = options.has("output") ? options.get("output") : "-";
     const Generated generated = generate(checked, request);
     if (request.report) write_standard_error(operations_text(generated.reports, full_report));

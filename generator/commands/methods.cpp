@@ -57,7 +57,7 @@ constexpr std::array entries{
     MethodEntry{"leapfrog_dkd", "LeapfrogDkd", "2", false, true, "Stoermer-Verlet, drift-kick-drift", "symplectic"},
     MethodEntry{"leapfrog_kdk", "LeapfrogKdk", "2", false, true, "Stoermer-Verlet, kick-drift-kick", "symplectic"},
     MethodEntry{"mclachlan4", "McLachlan4", "4", false, true, "McLachlan and Atela 1992, four stages", "symplectic",
-                SecondOrder::Kind::no, false, true},
+                SecondOrder::Kind::no, false, true, false},
     MethodEntry{"blanesmoan4", "BlanesMoan4", "4", false, true, "Blanes and Moan 2002, six stages", "symplectic"},
     MethodEntry{"srkn4", "Srkn4", "4", false, true, "Blanes and Moan 2002, six stages, best where x' is affine in y",
                 "symplectic"},
@@ -138,9 +138,15 @@ std::string hint_for_method(const std::string& name)
     return nearest.empty() ? "`lagen methods` lists them" : fmt::format("did you mean '{}'?", nearest);
 }
 
+bool is_symmetric_splitting(const MethodEntry& method)
+{
+    return method.separable_only && method.symmetric;
+}
+
 std::string system_of(const MethodEntry& method)
 {
-    if (method.separable_only) return method.affine ? "x' = M y + c, y' = g(x)" : "x' = f(y), y' = g(x)";
+    if (method.separable_only)
+        return method.affine ? "x' = M y + c, y' = g(x)" : "x' = f(y), y' = g(x) or a sum of exact flows";
     switch (method.system) {
     case SecondOrder::Kind::no: return "";
     case SecondOrder::Kind::general: return "x'' = f(t, x, x')";

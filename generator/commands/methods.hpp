@@ -20,6 +20,7 @@ struct MethodEntry {
     SecondOrder::Kind system = SecondOrder::Kind::no; ///< for x'' = f(t, x, x') or f(t, x) only
     bool series = false;                              ///< needs the kernels of Taylor coefficients
     bool affine = false;                              ///< of separable_only: xdot has to be affine in y
+    bool symmetric = true;                            ///< of separable_only: a step back undoes one
 };
 
 [[nodiscard]] std::span<const MethodEntry> method_table();
@@ -30,6 +31,8 @@ struct MethodEntry {
 [[nodiscard]] std::string hint_for_method(const std::string& name);
 /// What a method asks of the equations, "x'' = f(t, x)"; empty where it takes all.
 [[nodiscard]] std::string system_of(const MethodEntry& method);
+/// Whether its steps may have a time scale (`lagen::Reversible`).
+[[nodiscard]] bool is_symmetric_splitting(const MethodEntry& method);
 /// Every method name, in the order of the table.
 [[nodiscard]] std::span<const std::string> method_names();
 

@@ -22,35 +22,44 @@ void require_system(const Options& options, const Scene& scene, const MethodEntr
     throw ModelError(obstacle->text, scene.method_where, obstacle->hint);
 }
 
+/// What neither separates nor is a sum of exact flows.
+std::optional<Obstacle> obstacle_to_splitting(const MethodEntry& method, const KernelModule& module)
+{
+    using Kind = Separation::Kind;
+    const Separation found = separation_of(module);
+    if (found.kind >= (method.affine ? Kind::affine : Kind::separable)) return std::nullopt;
+    if (!method.affine && module.flows.count > 0) return std::nullopt;
+    Obstacle obstacle{
+        fmt::format("{} splits {}, and in model '{}' {}", method.name, system_of(method), module.model, found.obstacle),
+        "gauss4 to gauss16 are symplectic and split nothing"};
+    if (found.kind != Kind::no || module.flows.count > 0)
+        obstacle.hint = "blanesmoan6 and kahanli8 take every x' = f(y), and sums of exact flows";
+    else if (!module.flows.obstacle.empty())
+        obstacle.text += ", and " + module.flows.obstacle;
+    else if (module.form == "lagrange")
+        obstacle.hint += "; with --form hamilton it may be a sum of exact flows";
+    return obstacle;
+}
+
 } // namespace
 
 std::optional<Obstacle> obstacle_of(const MethodEntry& method, const KernelModule& module)
 {
-    const auto found_in = [&](const std::string& found, const char* hint) {
-        return Obstacle{fmt::format("{} {} {}, and in model '{}' {}", method.name,
-                                    method.separable_only ? "splits" : "integrates", system_of(method), module.model,
-                                    found),
-                        hint};
-    };
-    if (method.separable_only) {
-        using Kind = Separation::Kind;
-        const Separation found = separation_of(module);
-        if (found.kind >= (method.affine ? Kind::affine : Kind::separable)) return std::nullopt;
-        return found_in(found.obstacle, found.kind == Kind::no ? "gauss4 to gauss16 are symplectic and split nothing"
-                                                               : "blanesmoan6 and kahanli8 take every x' = f(y)");
-    }
+    if (method.separable_only) return obstacle_to_splitting(method, module);
     using Kind = SecondOrder::Kind;
     const SecondOrder& found = module.second_order;
     if (method.system == Kind::no || found.kind == method.system || found.kind == Kind::velocity_free)
         return std::nullopt;
-    return found_in(found.obstacle, found.kind == Kind::general ? "rkng54 integrates x'' = f(t, x, x')"
-                                                                : "dop853 and verner87 integrate every system");
+    return Obstacle{fmt::format("{} integrates {}, and in model '{}' {}", method.name, system_of(method), module.model,
+                                found.obstacle),
+                    found.kind == Kind::general ? "rkng54 integrates x'' = f(t, x, x')"
+                                                : "dop853 and verner87 integrate every system"};
 }
 
 Preparation::Preparation(const Options& options, CheckedModel& checked, const Driver& driver, const std::string& method)
     : options_(options), checked_(checked), driver_(driver),
       file_(record_file(checked.model, {driver.folder, options.get("scene"), options.get("form"), method,
-                                        options.has("unchecked") ? "unchecked" : ""})),
+                                        options.get("time-scale"), options.has("unchecked") ? "unchecked" : ""})),
       record_(find_record(file_))
 {
     if (record_) {
@@ -71,11 +80,14 @@ void Preparation::finish(const Scene& scene, const std::string& form, const Meth
     GenerateRequest request;
     request.form = form;
     request.scene = &scene;
+    request.flows = method.separable_only;
+    request.time_scale = time_scale_of(options_, checked_.model);
     if (method.series) request.with = {"taylor"};
     if (method.series && !scene.events.empty()) request.with.emplace_back("event_series");
     const Generated generated = generate(checked_, request);
     require_system(options_, scene, method, generated.module);
-    const std::string program = compile_program(generated.header, program_text(driver_, generated.module.name, method));
+    const std::string program = compile_program(
+        generated.header, program_text(driver_, generated.module.name, method, request.time_scale != nullptr));
     record_ = record_of(checked_, generated.module, program, parameters);
     keep_record(file_, *record_);
 }

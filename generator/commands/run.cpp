@@ -32,6 +32,8 @@ const CommandSyntax run_syntax{
      {"form", "FORM", run_form_help.c_str()},
      {"method", "METHOD", "see `lagen methods`; without it the scene's, else dop853"},
      {"step", "H", "step of a fixed-step method"},
+     {"time-scale", "EXPR",
+      "of a splitting: steps of H times this function of the state, so chosen that runs stay reversible"},
      {"tolerance", "TOL", "relative and absolute tolerance of an adaptive method; without it the scene's, else 1e-10"},
      {"accuracy", "E",
       "largest error of the rows, relative to the state: method and tolerance from a chart of the scene"},
@@ -113,7 +115,7 @@ ExitCode run_run(Arguments arguments)
     for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
     const Scene scene = scene_of(options, model, options.named("initial"));
     const std::string form = form_of(model, scene);
-    const MethodEntry& method = accurate ? *accurate->method : method_of(options, model, scene);
+    const MethodEntry& method = accurate ? *accurate->method : method_of(options, scene);
     const SceneValues values = evaluate_scene(model, scene);
     const std::vector<long double> parameters = finite_numbers(values.parameters, scene);
     preparation.finish(scene, form, method, parameters);

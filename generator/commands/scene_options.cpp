@@ -54,6 +54,12 @@ Tree option_tree(const Model& model, const std::string& name, const Excerpt& tex
     return tree;
 }
 
+Tree time_scale_of(const Options& options, const Model& model)
+{
+    if (!options.has("time-scale")) return nullptr;
+    return model.observer.close(parse_expression(whole_text("<--time-scale>", options.get("time-scale"))));
+}
+
 bool starts_from_momenta(const Model& model, const Scene& scene)
 {
     const std::vector<Symbol>& momenta = model.fibre.momenta;
@@ -101,7 +107,7 @@ Scene scene_of(const Options& options, const Model& model, const std::vector<Set
     return in_form(model, scene, options.has("form") ? options.get("form") : form_of(model, scene));
 }
 
-const MethodEntry& method_of(const Options& options, const Model& model, const Scene& scene)
+const MethodEntry& method_of(const Options& options, const Scene& scene)
 {
     const std::string name = scene.method.empty() ? standard_method : scene.method;
     const std::string lagen = "lagen " + options.command() + ": ";
@@ -117,10 +123,10 @@ const MethodEntry& method_of(const Options& options, const Model& model, const S
         if (options.has("method")) throw UsageError(lagen + text);
         throw ModelError(text, scene.where);
     }
-    if (method->separable_only && model.base.coordinates.empty())
-        throw UsageError(fmt::format("{}{} splits a system x' = f(y), y' = g(x), and model '{}' has no base "
-                                     "coordinates x",
-                                     lagen, method->name, model.name));
+    if (options.has("time-scale") && !is_symmetric_splitting(*method))
+        throw UsageError(fmt::format("{}--time-scale makes the steps of a symmetric splitting, and {} is none\nhint: "
+                                     "leapfrog_kdk and kahanli8 are",
+                                     lagen, method->name));
     warn_of_unused(options, *method);
     return *method;
 }

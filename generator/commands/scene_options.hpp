@@ -27,8 +27,11 @@ void set_initial(const Model& model, Scene& scene, const Setting& setting);
 /// What is given to --NAME, closed over parameters; ModelError where it depends on anything else.
 [[nodiscard]] Tree option_tree(const Model& model, const std::string& name, const Excerpt& text);
 
-/// The scene's method; UsageError or ModelError (by where the name stands) where it is unknown, lacks a step or splits
-/// what has no base coordinates. Warns on standard error of options that it does not use.
-[[nodiscard]] const MethodEntry& method_of(const Options& options, const Model& model, const Scene& scene);
+/// What --time-scale gives, closed over the model's names; null where it is not given.
+[[nodiscard]] Tree time_scale_of(const Options& options, const Model& model);
+
+/// The scene's method; UsageError or ModelError (by where the name stands) where it is unknown, lacks a step, or
+/// takes no --time-scale. Warns on standard error of options that it does not use.
+[[nodiscard]] const MethodEntry& method_of(const Options& options, const Scene& scene);
 
 } // namespace lagen

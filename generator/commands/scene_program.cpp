@@ -109,12 +109,13 @@ std::vector<std::string> entries_of(const KernelModule& module, const char* kern
 
 } // namespace
 
-std::string program_text(const Driver& driver, const std::string& name, const MethodEntry& method)
+std::string program_text(const Driver& driver, const std::string& name, const MethodEntry& method, bool reversible)
 {
+    const std::string type = reversible ? fmt::format("Reversible<lagen::{}>", method.type) : method.type;
     return fmt::format(
         "#include \"model.hpp\"\n#include \"{}/driver.hpp\"\nint main(int argc, char** argv)\n{{\n    return "
         "lagen::{}<lagen::models::{}<double>, lagen::{}>(argc, argv);\n}}\n",
-        driver.folder, driver.function, cpp_names({name})[0], method.type);
+        driver.folder, driver.function, cpp_names({name})[0], type);
 }
 
 TableNames names_of(const KernelModule& module)

@@ -21,7 +21,8 @@ inline constexpr Driver run_driver{"lagen_run", "drive"};
 inline constexpr Driver sweep_driver{"lagen_sweep", "sweep"};
 
 /// The whole main of the program that integrates class `name` (of header "model.hpp") with `method`.
-[[nodiscard]] std::string program_text(const Driver& driver, const std::string& name, const MethodEntry& method);
+[[nodiscard]] std::string program_text(const Driver& driver, const std::string& name, const MethodEntry& method,
+                                       bool reversible = false);
 
 /// A column of the table: a state lane or an entry of the observables.
 struct TableColumn {

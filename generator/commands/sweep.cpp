@@ -157,7 +157,7 @@ ExitCode run_sweep(Arguments arguments)
     for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
     const std::string form = form_of(model, scene);
     const std::vector<long double> parameters = finite_numbers(SceneEvaluator(model, scene).parameters({}), scene);
-    preparation.finish(scene, form, method_of(options, model, scene), parameters);
+    preparation.finish(scene, form, method_of(options, scene), parameters);
     const RunRecord& record = preparation.record();
     StartState start([&]() -> const CheckedModel& { return preparation.checked(parameters); }, form);
     prepare_start(start, model, scene, record, rows);

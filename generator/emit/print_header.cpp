@@ -136,6 +136,20 @@ void print_constants(TextBlock& out, const KernelModule& module)
     out.line(name_array("parameter_names", module.parameters));
 }
 
+void print_flows(TextBlock& out, const KernelModule& module)
+{
+    if (module.flows.count == 0) return;
+    out.blank();
+    out.comment("The flow of part 0, 1, ..; the fields of all parts add up to the right-hand side.");
+    out.line(fmt::format("static constexpr int flows = {};", module.flows.count));
+    out.line("template <int part>");
+    open_block(out, "[[nodiscard]] status_t<S> flow(S t, const State& s, S h, State& ds) const noexcept");
+    out.line("static_assert(part >= 0 && part < flows);");
+    for (std::size_t k = 0; k < module.flows.count; ++k)
+        out.line(fmt::format("if constexpr (part == {0}) return flow_{0}(t, s, h, ds);", k));
+    close_block(out);
+}
+
 /// Parameters by number, for programs that know them by parameter_names only.
 void print_parameter_access(TextBlock& out, const ModuleNames& names)
 {
@@ -172,6 +186,7 @@ std::string print_header(const KernelModule& module)
     for (const ImplicitBlock& block : module.implicit) print_implicit(kernels, module, names, block, includes);
     print_follow(kernels, module, names);
     for (const Kernel& kernel : module.kernels) print_kernel(kernels, module, names, kernel, includes);
+    print_flows(kernels, module);
 
     TextBlock out;
     print_banner(out, module);

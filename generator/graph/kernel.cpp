@@ -63,6 +63,7 @@ Separation separation_of(const KernelModule& module)
     const auto depends = [&](NodeId node, NodeId input) {
         return depends_on_any(*module.graph, std::array{node}, std::array{input});
     };
+    if (x.empty()) return {Kind::no, "there are no base coordinates x"};
     std::vector<NodeId> velocities, rates, inputs{module.time};
     for (const KernelEntry& entry : kernel_named(module, "rhs").outputs.at(0).entries) {
         const bool base = entry.row < x.size();

@@ -116,6 +116,12 @@ struct Separation {
     std::string obstacle; ///< to the next kind, in names of the model: "x' depends on x"
 };
 
+/// Kernels flow_0, flow_1, .. of parts that add up to the right-hand side.
+struct Flows {
+    std::size_t count = 0;
+    std::string obstacle = {}; ///< where they were looked for and there are none, in names of the model
+};
+
 /// Everything that one generated class holds.
 struct KernelModule {
     std::string name;  ///< class name: model name, with _FORM for forms other than lagrange
@@ -137,6 +143,7 @@ struct KernelModule {
     ModuleKind kind = ModuleKind::vector_field;
     std::vector<LaneGroup> groups;       ///< of the lanes of State, in their order
     SecondOrder second_order;            ///< of the right-hand side
+    Flows flows;
     std::vector<ImplicitBlock> implicit; ///< unknowns of the kernels at (t, s), in the order in which they are solved
     std::vector<Kernel> kernels;
 };

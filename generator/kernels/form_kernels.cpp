@@ -2,6 +2,7 @@
 #include "kernels/form_kernels.hpp"
 
 #include "graph/calculus/differentiate.hpp"
+#include "kernels/exact_flows.hpp"
 #include "kernels/formulation.hpp"
 #include "kernels/kernel_table.hpp"
 #include "kernels/requested_kernels.hpp"
@@ -71,6 +72,8 @@ class ModuleBuilder {
         if (wants("event_series") && has_kernel(module_, "events")) add_event_series(kernel_named(module_, "events"));
         if (wants("jacobian")) add_jacobian();
         if (wants("variational")) add_variational();
+        if (request_.time_scale != nullptr) add_time_scale();
+        if (form_.hamiltonian && wants_flows()) add_flows(exact_flows(*graph_, system_, *form_.hamiltonian));
         simplify_implicit();
         return std::move(module_);
     }
@@ -307,6 +310,40 @@ class ModuleBuilder {
         Kernel kernel = table_kernel(form_, "variational", column("dv", tangent));
         kernel.inputs = {std::move(along)};
         add(std::move(kernel));
+    }
+
+    void add_time_scale()
+    {
+        std::vector<std::pair<NodeId, NodeId>> seeds = replacements(state_of(form_), form_.derivative);
+        seeds.emplace_back(form_.time, graph_->constant(1));
+        const NodeId scale = lower_(request_.time_scale);
+        const NodeId rate =
+            directional(*graph_, std::array{scale}, seeds_through(*graph_, form_.implicit, std::move(seeds)))[0];
+        Kernel kernel{.name = "time_scale", .inputs = {}, .outputs = {column("value", {scale, rate})}};
+        kernel.documentation = {"A time scale of the motion, and its rate along it, for lagen::Reversible."};
+        add(std::move(kernel));
+    }
+
+    [[nodiscard]] bool wants_flows() const
+    {
+        if (wants("flows")) return true;
+        return request_.flows && has_kernel(module_, "rhs") && separation_of(module_).kind == Separation::Kind::no;
+    }
+
+    void add_flows(ExactFlows flows)
+    {
+        module_.flows = {flows.parts.size(), std::move(flows.obstacle)};
+        for (std::size_t k = 0; k < flows.parts.size(); ++k) {
+            const std::vector<NodeId>& increments = flows.parts[k].increments;
+            KernelOutput output{"ds", {1, increments.size(), 1}, {}};
+            for (std::size_t lane = 0; lane < increments.size(); ++lane)
+                if (!graph_->is_zero(increments[lane])) output.entries.push_back({lane, 0, increments[lane]});
+            Kernel kernel = table_kernel(form_, "flows", std::move(output));
+            kernel.name = fmt::format("flow_{}", k);
+            kernel.inputs = {{"h", ArrayRole::value, {}, {{"h", {}, {}, flows.length}}}};
+            kernel.documentation.front() += fmt::format(" The part is {}.", flows.parts[k].part);
+            add(std::move(kernel));
+        }
     }
 
     /// Residuals, Jacobian and guess of each block, simplified together.

@@ -3,6 +3,7 @@
 /// State lanes: x^i (n), then y^a or mu_a (r).
 ///   rhs           the equations of motion (kernels/formulation.hpp)
 ///   jacobian      d rhs / d state, sparse;  variational: d rhs / d state * v
+///   of hamilton, on request: flows, the exact flows of parts of H (kernels/exact_flows.hpp), as flow_0, flow_1, ..
 ///   taylor        the Taylor coefficients of the motion, order by order, on request
 ///   constraints, domain, observables, invariants, events: vectors in the order of the model
 ///   of lagrange: mass_matrix, momentum, energy, power, lagrangian; lagrangian_hessian on request
@@ -27,6 +28,8 @@ struct KernelRequest {
     std::string form;              ///< empty: default_form(model)
     std::vector<std::string> only; ///< kernel names wanted; empty: all that are not made on request alone
     std::vector<std::string> with; ///< and these
+    bool flows = false;            ///< and `flows` where the right-hand side does not separate and there are any
+    Tree time_scale = nullptr;     ///< not null: and the kernel time_scale, of this observable
     const Scene* scene = nullptr;  ///< events and observed expressions of this scene only; null: events of every scene
     std::vector<KernelReport>* reports = nullptr; ///< receives one a kernel, in their order
 };

@@ -8,7 +8,7 @@
 
 #include "graph/core/lower.hpp"
 #include "graph/kernel.hpp"
-#include "mechanics/phase_motion.hpp"
+#include "mechanics/hamilton.hpp"
 #include "model/form.hpp"
 #include "verify/verify.hpp"
 
@@ -25,8 +25,9 @@ struct Formulation {
     std::vector<std::string> documentation; ///< of the right-hand side
     std::string failures;                   ///< of the right-hand side, as in KernelChecks
     std::vector<ImplicitBlock> implicit;
-    std::vector<Kernel> kernels;       ///< of this form alone, in order; empty outputs are left out
-    std::vector<std::string> controls; ///< their names, pontryagin
+    std::vector<Kernel> kernels;                 ///< of this form alone, in order; empty outputs are left out
+    std::vector<std::string> controls;           ///< their names, pontryagin
+    std::optional<HamiltonianNodes> hamiltonian; ///< of Hamilton's form
     /// As in KernelModule: what this form asks of the parameters, beside the domain.
     std::vector<std::pair<std::string, NodeId>> parameter_conditions;
     Binding binding;

@@ -65,6 +65,7 @@ Formulation hamilton_form(Graph& graph, const System& system, const Report& repo
                                              : "H is the Legendre transform of L: y = dH/dmu solves mu_a = dL/dy^a.",
                           "s and ds may be the same object."};
     add_kernels(graph, system, hamiltonian, phase.energy_rate, hessians, form);
+    form.hamiltonian = hamiltonian;
     return form;
 }
 

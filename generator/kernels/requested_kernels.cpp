@@ -65,7 +65,10 @@ void require_requested(const KernelModule& module, const Model& model, const Sys
     std::vector<std::string> asked = request.only;
     asked.insert(asked.end(), request.with.begin(), request.with.end());
     for (const std::string& name : asked) {
-        if (has_kernel(module, name)) continue;
+        if (has_kernel(module, name) || (name == "flows" && module.flows.count > 0)) continue;
+        if (name == "flows" && !module.flows.obstacle.empty())
+            throw MathematicsError(
+                fmt::format("model '{}' is no sum of exact flows: {}", model.name, module.flows.obstacle));
         KernelRequest every;
         every.form = module.form;
         every.scene = request.scene;

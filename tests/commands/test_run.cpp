@@ -239,3 +239,27 @@ TEST_CASE("a run by an implicit method tells its Newton iterations and factorisa
     const Outcome explicitly = call({"run", "oscillator.toml", "--method", "rk4", "--step", "1/2", "--at", "1"});
     CHECK_THAT(explicitly.err, !Catch::Contains("Newton"));
 }
+
+TEST_CASE("splittings compose exact flows where Hamilton's equations do not separate", "[run]")
+{
+    for (const std::string model : {"heavy_top.toml", "kirchhoff.toml"}) {
+        INFO(model);
+        const json::Value exact = run({model, "--form", "hamilton", "--at", "2", "--tolerance", "1e-13"});
+        const json::Value split =
+            run({model, "--form", "hamilton", "--at", "2", "--method", "kahanli8", "--step", "0.05"});
+        CHECK(split["status"].text == "ok");
+        CHECK(number(split["steps"]) == 40);
+        for (std::size_t k = 1; k < exact["columns"].size(); ++k)
+            CHECK(column(split, k)[0] == Approx(column(exact, k)[0]).epsilon(1e-9).margin(1e-9));
+        for (const std::string& name : split["invariants"].keys)
+            CHECK(number(split["invariants"][name]["max_drift"]) < 1e-9);
+    }
+}
+
+TEST_CASE("--time-scale makes reversible steps, with the published error of an eccentric orbit", "[run]")
+{
+    const json::Value value = run({"kepler.toml", "--method", "leapfrog_kdk", "--step", "0.05", "--time-scale",
+                                   "r^(3/2)", "--t-end", "200*pi", "--at", "0,200*pi"});
+    CHECK(number(value["invariants"]["energy"]["max_drift"]) == Approx(8.921e-4).epsilon(1e-4));
+    CHECK(number(value["steps"]) / 100 == Approx(136).epsilon(4e-3));
+}

@@ -60,6 +60,7 @@ ChartProblem chart_problem(CheckedModel& checked, const Scene& whole, const std:
     request.form = form;
     request.scene = &scene;
     request.with = {"taylor"};
+    request.flows = true;
     Generated generated;
     try {
         generated = generate(checked, request);

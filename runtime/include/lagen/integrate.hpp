@@ -12,6 +12,7 @@
 #include "lagen/integrate/march.hpp"
 #include "lagen/integrate/nystrom.hpp"
 #include "lagen/integrate/radau5.hpp"
+#include "lagen/integrate/reversible.hpp"
 #include "lagen/integrate/run.hpp"
 #include "lagen/integrate/symplectic.hpp"
 #include "lagen/integrate/taylor.hpp"

@@ -84,6 +84,18 @@ concept RightHandSide = requires(const M& model, typename M::Scalar t, const typ
     requires KeepsPromise<typename M::Scalar, noexcept(model.rhs(t, s, ds))>;
 };
 
+/// A right-hand side that is a sum of M::flows vector fields, each with its flow: s + ds is where part k takes s in the
+/// time h,
+///   status_t<Scalar> flow<k>(Scalar t, const State& s, Scalar h, State& ds) const noexcept.
+/// Part 0 alone may know of time.
+template <class M>
+concept HasFlows = requires(const M& model, typename M::Scalar t, const typename M::State& s, typename M::State& ds)
+{
+    requires std::convertible_to<decltype(M::flows), int>;
+    requires std::same_as<decltype(model.template flow<0>(t, s, t, ds)), status_t<typename M::Scalar>>;
+    requires KeepsPromise<typename M::Scalar, noexcept(model.template flow<0>(t, s, t, ds))>;
+};
+
 /// Kernels with optional parts; `count` of each is a static constexpr and its names an array of C strings.
 template <class M>
 concept HasEnergy = requires(const M& model, typename M::Scalar t, const typename M::State& s)

@@ -11,6 +11,8 @@
 /// [B, [B, A]] = -2 g'(x) M g(x) d/dy then, which commutes with B: [B, [B, [B, A]]] = 0 is what methods of Nystrom's
 /// kind rest on.)
 ///
+/// Of a model that `HasFlows` they compose these instead (integrate/flow_stepper.hpp).
+///
 /// Separability is the caller's to know (`lagen run` proves it): a probe at the start refuses a right-hand side that
 /// plainly is not of this form, and can miss one that is only nearly so.
 ///
@@ -18,6 +20,7 @@
 /// that errors grow as Brouwer's law says.
 #pragma once
 
+#include "lagen/integrate/flow_stepper.hpp"
 #include "lagen/integrate/lanes.hpp"
 #include "lagen/integrate/retract.hpp"
 #include "lagen/integrate/splitting_coefficients.hpp"
@@ -210,9 +213,10 @@ template <class Splitting>
 struct SplittingMethod {
     double step = 0;
     bool compensated = true;
+    static constexpr bool is_symmetric = splitting::is_palindrome(Splitting::weights);
 
     template <class M>
-    using Stepper = SplittingStepper<Splitting, M>;
+    using Stepper = std::conditional_t<HasFlows<M>, FlowStepper<Splitting, M>, SplittingStepper<Splitting, M>>;
 };
 
 using LeapfrogDkd = SplittingMethod<splitting::LeapfrogDkd>;

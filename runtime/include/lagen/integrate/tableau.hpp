@@ -107,6 +107,14 @@ constexpr std::array<Coefficient, 2 * n - 1> mirrored(const std::array<Coefficie
     return all;
 }
 
+template <std::size_t n>
+constexpr bool is_palindrome(const std::array<Coefficient, n>& all) noexcept
+{
+    for (std::size_t k = 0; k < n / 2; ++k)
+        if (all[k].count_of(all[n - 1 - k]) != 1) return false;
+    return true;
+}
+
 } // namespace splitting
 
 namespace detail {
