@@ -23,6 +23,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 namespace lagen {
@@ -31,6 +32,9 @@ namespace detail {
 
 template <class M, class Method, class Observer>
 class March;
+
+template <class M, class Method, int N, class Observer>
+class Abreast;
 
 } // namespace detail
 
@@ -125,6 +129,8 @@ class Integrator {
   private:
     template <class, class, class>
     friend class detail::March;
+    template <class, class, int, class>
+    friend class detail::Abreast;
 
     static constexpr bool adaptive = Stepper::adaptive;
     static constexpr bool chooses_lengths = requires(Stepper stepper, Real h) { stepper.after_failure(h); };
@@ -202,44 +208,70 @@ class Integrator {
     template <class Between>
     [[gnu::always_inline]] Status take(std::size_t most, const Between& between)
     {
-        open();
-        const auto [h, last] = next_length();
-        if constexpr (adaptive)
-            if (!last && is_lost_in_time(h_)) return fail(Status::step_too_small, t_);
-        if (!way_.bounded && !detail::is_finite_number(Real(t_ + h))) [[unlikely]]
-            return fail(Status::non_finite, Real(t_ + h));
-        for (std::size_t left = last || adaptive ? 1 : way_.steps_inside(h_, t_, most);;) {
-            // Compensated sum of the times [Kahan 1965].
-            const Real increment = h - lost_;
-            Real t1 = t_ + increment, lost = (t1 - t_) - increment;
-            if (last) [[unlikely]]
-                t1 = way_.end, lost = Real(0);
-            const auto status = stepper_.attempt(model_, t_from_, from_, h, s_);
-            if constexpr (adaptive) {
-                const Status verdict = judge(status, h, t1);
-                if (verdict != Status::ok) return fail(verdict, t1);
-                if (retry_) return Status::ok;
-            } else if constexpr (!is_pack<Scalar>) {
-                const Status verdict = follow(status, t1);
-                if (verdict != Status::ok) return fail(detail::loss_of_maximum(verdict, model_, t_from_, from_, h), t1);
-            }
-            t_ = t1;
-            const auto ending = accepted();
-            if constexpr (is_pack<Scalar>) {
-                const Status verdict =
-                    detail::settle<Scalar>(lanes_, follow(StatusOf<Scalar>::first(status, ending), t1));
-                if (verdict != Status::ok) return fail(verdict, t1);
-                detail::freeze<Scalar>(lanes_, from_, s_);
-            }
-            fresh_ = true;
-            if constexpr (!is_pack<Scalar>)
-                if (ending != Status::ok) return failed_at_ = t1, ending;
-            ++steps_;
-            lost_ = lost;
-            if (adaptive || --left == 0) return Status::ok;
+        Attempt next{};
+        const Status refused = propose(next);
+        if (refused != Status::ok) return refused;
+        for (std::size_t left = next.last || adaptive ? 1 : way_.steps_inside(h_, t_, most);;) {
+            const auto status = stepper_.attempt(model_, t_from_, from_, next.h, s_);
+            const Status ending = conclude(status, next);
+            if (adaptive || ending != Status::ok || --left == 0) return ending;
             between();
             open();
         }
+    }
+
+    /// A signed length, and whether it ends at the end.
+    struct Attempt {
+        Real h;
+        bool last;
+    };
+
+    /// What the stepper is to attempt next, from (t_from_, from_); not ok where there is no next step.
+    [[gnu::always_inline]] Status propose(Attempt& next)
+    {
+        open();
+        std::tie(next.h, next.last) = next_length();
+        if constexpr (adaptive)
+            if (!next.last && is_lost_in_time(h_)) return fail(Status::step_too_small, t_);
+        if (!way_.bounded && !detail::is_finite_number(Real(t_ + next.h))) [[unlikely]]
+            return fail(Status::non_finite, Real(t_ + next.h));
+        return Status::ok;
+    }
+
+    /// Where it ends: a compensated sum of the times [Kahan 1965].
+    [[gnu::always_inline]] Real end_of(const Attempt& made) const noexcept
+    {
+        if (made.last) [[unlikely]]
+            return way_.end;
+        return t_ + (made.h - lost_);
+    }
+
+    /// Takes an attempt that brought s_ and `status`.
+    [[gnu::always_inline]] Status conclude(const status_t<Scalar>& status, const Attempt& made)
+    {
+        const Real t1 = end_of(made), lost = made.last ? Real(0) : Real((t1 - t_) - (made.h - lost_));
+        if constexpr (adaptive) {
+            const Status verdict = judge(status, made.h, t1);
+            if (verdict != Status::ok) return fail(verdict, t1);
+            if (retry_) return Status::ok;
+        } else if constexpr (!is_pack<Scalar>) {
+            const Status verdict = follow(status, t1);
+            if (verdict != Status::ok)
+                return fail(detail::loss_of_maximum(verdict, model_, t_from_, from_, made.h), t1);
+        }
+        t_ = t1;
+        const auto ending = accepted();
+        if constexpr (is_pack<Scalar>) {
+            const Status verdict = detail::settle<Scalar>(lanes_, follow(StatusOf<Scalar>::first(status, ending), t1));
+            if (verdict != Status::ok) return fail(verdict, t1);
+            detail::freeze<Scalar>(lanes_, from_, s_);
+        }
+        fresh_ = true;
+        if constexpr (!is_pack<Scalar>)
+            if (ending != Status::ok) return failed_at_ = t1, ending;
+        ++steps_;
+        lost_ = lost;
+        return Status::ok;
     }
 
     /// The step before counts, and the next one begins where it ended.

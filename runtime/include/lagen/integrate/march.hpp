@@ -38,10 +38,23 @@ class March {
     Run<M> run()
     {
         Status status = begin();
-        while (status == Status::ok && steps_.t_ != span_.end) {
-            status = interruption();
-            if (status == Status::ok) status = steps();
-        }
+        while (goes_on(status)) status = steps();
+        return finish(status);
+    }
+
+  private:
+    template <class, class, int, class>
+    friend class Abreast;
+
+    /// Is there another step to make, where the last one ended with `status`?
+    bool goes_on(Status& status)
+    {
+        if (status == Status::ok && steps_.t_ != span_.end) status = interruption();
+        return status == Status::ok && steps_.t_ != span_.end;
+    }
+
+    Run<M> finish(Status status)
+    {
         run_.t = steps_.t();
         run_.state = steps_.state();
         run_.steps = steps_.steps();
@@ -61,7 +74,6 @@ class March {
         return std::move(run_);
     }
 
-  private:
     Status begin()
     {
         const Real length = span_.end - span_.start;
@@ -111,6 +123,16 @@ class March {
             show();
             if (steps_.t_ == span_.end || steps_.steps_ + steps_.rejected_ >= limit_) return Status::ok;
         }
+    }
+
+    /// The same of one step that is attempted elsewhere.
+    Status conclude(const status_t<Scalar>& status, const typename Steps::Attempt& made)
+    {
+        const Status ending = steps_.conclude(status, made);
+        if (!steps_.fresh_) return ending;
+        if (ending != Status::ok || looks_) return look(ending);
+        show();
+        return Status::ok;
     }
 
     Status look(Status ending)
