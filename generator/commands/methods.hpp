@@ -30,6 +30,8 @@ struct MethodEntry {
 [[nodiscard]] std::string hint_for_method(const std::string& name);
 /// What a method asks of the equations, "x'' = f(t, x)"; empty where it takes all.
 [[nodiscard]] std::string system_of(const MethodEntry& method);
+/// Several trajectories at a time, on the lanes of packs (lagen/integrate/abreast.hpp)?
+[[nodiscard]] bool goes_abreast(const MethodEntry& method);
 /// Every method name, in the order of the table.
 [[nodiscard]] std::span<const std::string> method_names();
 

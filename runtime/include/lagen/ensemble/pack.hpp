@@ -93,16 +93,16 @@ struct Pack {
     using Vector = typename detail::VectorOf<T, N>::type;
     Vector lanes;
 
-    Pack() noexcept : lanes{} {}
+    Pack() = default; ///< as a scalar: without a value, Pack{} is zero
     /// The same value in every lane.
     Pack(T value) noexcept : lanes(Vector{} + value) {}
     /// A literal of generated code, S(0.5), rounded to a lane of float.
     explicit Pack(double value) noexcept requires(!std::is_same_v<T, double>) : Pack(static_cast<T>(value)) {}
     /// An integer literal in every lane.
     Pack(int value) noexcept requires(!std::is_same_v<T, int>) : Pack(static_cast<T>(value)) {}
-    explicit Pack(const std::array<T, static_cast<std::size_t>(N)>& values) noexcept : lanes{}
+    explicit Pack(const std::array<T, static_cast<std::size_t>(N)>& values) noexcept
     {
-        for (int lane = 0; lane < N; ++lane) lanes[lane] = values[static_cast<std::size_t>(lane)];
+        std::memcpy(&lanes, values.data(), sizeof lanes);
     }
 
     [[nodiscard]] static Pack of(const Vector& vector) noexcept
@@ -163,7 +163,7 @@ namespace detail {
 template <class T, int N, class Function>
 [[nodiscard]] Pack<T, N> by_lane(const Pack<T, N>& a, Function function) noexcept
 {
-    Pack<T, N> result;
+    Pack<T, N> result{};
     for (int lane = 0; lane < N; ++lane) result.set(lane, function(a[lane]));
     return result;
 }
@@ -171,7 +171,7 @@ template <class T, int N, class Function>
 template <class T, int N, class Function>
 [[nodiscard]] Pack<T, N> by_lane(const Pack<T, N>& a, const Pack<T, N>& b, Function function) noexcept
 {
-    Pack<T, N> result;
+    Pack<T, N> result{};
     for (int lane = 0; lane < N; ++lane) result.set(lane, function(a[lane], b[lane]));
     return result;
 }
@@ -196,11 +196,11 @@ struct SinCosOf<Pack<T, N>> {
 template <class T, int N>
 [[nodiscard]] Pack<T, N> sqrt(const Pack<T, N>& a) noexcept
 {
-#if defined(__AVX512F__)
+#if defined(__AVX512F__) // with a mask: without one g++ 12 warns of what its own header leaves unset
     if constexpr (sizeof a == 64 && std::is_same_v<T, double>)
-        return Pack<T, N>::of((typename Pack<T, N>::Vector)_mm512_sqrt_pd((__m512d)a.lanes));
+        return Pack<T, N>::of((typename Pack<T, N>::Vector)_mm512_maskz_sqrt_pd(0xff, (__m512d)a.lanes));
     if constexpr (sizeof a == 64 && std::is_same_v<T, float>)
-        return Pack<T, N>::of((typename Pack<T, N>::Vector)_mm512_sqrt_ps((__m512)a.lanes));
+        return Pack<T, N>::of((typename Pack<T, N>::Vector)_mm512_maskz_sqrt_ps(0xffff, (__m512)a.lanes));
 #endif
     std::array<T, static_cast<std::size_t>(N)> lanes;
     std::memcpy(&lanes, &a.lanes, sizeof lanes);

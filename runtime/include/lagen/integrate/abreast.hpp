@@ -7,87 +7,18 @@
 /// has ended takes the next one.
 #pragma once
 
-#include "lagen/ensemble/pack.hpp"
 #include "lagen/integrate/march.hpp"
-#include "lagen/integrate/packed_stages.hpp"
+#include "lagen/integrate/shared_steps.hpp"
 #include "lagen/series.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstring>
+#include <limits>
 #include <optional>
 #include <utility>
 
 namespace lagen::detail {
-
-/// A model over packs whose lanes have times of their own.
-template <class Model>
-struct OwnTimes : Model {
-    using Time = typename Model::Scalar;
-};
-
-/// What the lanes of a pack share: the model, the stepper, and the step that is attempted.
-template <class M, class Method, int N>
-struct SharedSteps {
-    using Real = typename M::Scalar;
-    using P = Pack<Real, N>;
-    using Model = OwnTimes<typename WithScalar<M, P>::type>;
-    using Stepper = typename Method::template Stepper<Model>;
-    using State = typename Model::State;
-    static constexpr auto lanes = static_cast<std::size_t>(N);
-
-    explicit SharedSteps(const Method& method) noexcept : stepper(method) {}
-
-    /// A trajectory of `own`, the stepper of it alone, begins on a lane; the first one on all, so that none computes
-    /// with nothing.
-    template <class Own>
-    void adopt(int lane, const M& own_model, const typename M::State& s, const Own& own) noexcept
-    {
-        if constexpr (!std::is_empty_v<M>) {
-            M copy = own_model;
-            for (std::size_t k = 0; k < M::parameter_names.size(); ++k)
-                for (int i = empty ? 0 : lane; i <= (empty ? N - 1 : lane); ++i)
-                    model.parameter(k).set(i, copy.parameter(k));
-        }
-        if (empty) to = from = State::Zero(s.size());
-        for (int i = empty ? 0 : lane; i <= (empty ? N - 1 : lane); ++i) {
-            stepper.adopt(i, own);
-            for (Eigen::Index k = 0; k < s.size(); ++k) from[k].set(i, s[k]);
-        }
-        counts[static_cast<std::size_t>(lane)] = 0;
-        empty = false;
-    }
-
-    /// What the lanes have accepted counts; then the next step of all of them.
-    void attempt() noexcept
-    {
-        Mask<Real, N> where{};
-        static_assert(sizeof where == sizeof counts);
-        std::memcpy(&where, counts.data(), sizeof where);
-        stepper.accept(where);
-        for (Eigen::Index i = 0; i < from.size(); ++i) from[i] = select(where, to[i], from[i]);
-        counts.fill(0);
-        const P begin(times), length(lengths);
-        const std::size_t before = stepper.calls();
-        status = stepper.attempt(model, begin, from, length, to);
-        calls = stepper.calls() - before;
-        if constexpr (Stepper::adaptive) {
-            error = stepper.error();
-            finished = stepper.finish(model, P(ends), to);
-        }
-        calls_at_end = stepper.calls() - before - calls;
-    }
-
-    Model model{};
-    Stepper stepper;
-    State from, to;
-    std::array<Real, lanes> times{}, lengths{}, ends{};
-    std::array<typename IntegerOf<sizeof(Real)>::type, lanes> counts{}; ///< -1: the lane's last step was accepted
-    PackStatus<N> status, finished;
-    P error;
-    std::size_t calls = 0, calls_at_end = 0; ///< of one attempt, and of finish
-    bool empty = true;
-};
 
 /// A stepper whose lengths come from the state alone says so; that of a lane says the same.
 template <class Own>
@@ -102,7 +33,7 @@ struct ForeseesAs<Own> {
     static constexpr bool foresees = true;
 };
 
-/// The stepper of one trajectory on a lane: see integrate/integrator.hpp for what is asked of a stepper.
+/// The stepper of one trajectory on a lane: see integrate/stepper.hpp for what is asked of a stepper.
 template <class M, class Method, int N>
 class LaneStepper : public ForeseesAs<typename Method::template Stepper<M>> {
     using Own = typename Method::template Stepper<M>;
@@ -145,6 +76,12 @@ class LaneStepper : public ForeseesAs<typename Method::template Stepper<M>> {
         has_slopes_ = false;
         for (Eigen::Index i = 0; i < s1.size(); ++i) s1[i] = shared_.to[i][lane_];
         return shared_.status[lane_];
+    }
+    /// So many steps were made, and count.
+    void made(std::size_t steps, State& s) noexcept
+    {
+        calls_ += steps * shared_.calls;
+        for (Eigen::Index i = 0; i < s.size(); ++i) s[i] = shared_.from[i][lane_];
     }
     [[nodiscard]] Real error() const noexcept { return shared_.error[lane_]; }
     Status finish(const M&, Real, const State&) noexcept
@@ -241,8 +178,8 @@ class Abreast {
     using Given = Trajectory<M, Method, Observer>;
 
     /// Integrates until no lane has anything to do.
-    /// @param next next(lane) answers a pointer to the next trajectory of a lane, which lives until it is done, or
-    ///             nullptr: there is none now. It is asked again at every step.
+    /// @param next next(lane) answers a pointer to the next trajectory of a lane, or nullptr: there is none now. It is
+    ///             asked again at every step. What the trajectory points to lives until it is done.
     /// @param done done(lane, run)
     template <class Next, class Done>
     void run(const Next& next, const Done& done)
@@ -251,6 +188,8 @@ class Abreast {
             bool busy = false;
             for (int lane = 0; lane < N; ++lane) busy = keep_busy(lane, next, done) || busy;
             if (!busy) return;
+            shared_->accept();
+            if (hurries()) continue;
             shared_->attempt();
             for (int lane = 0; lane < N; ++lane)
                 if (marches_[at(lane)]) conclude(lane);
@@ -314,6 +253,36 @@ class Abreast {
         shared_->lengths[at(lane)] = attempts_[at(lane)].h;
         shared_->ends[at(lane)] = march.steps_.end_of(attempts_[at(lane)]);
         return status == Status::ok;
+    }
+
+    /// Steps of fixed length at which nothing has to be looked at, in all lanes; false where there are none.
+    bool hurries()
+    {
+        constexpr bool shows = requires(Observer observer, typename M::Scalar t, const typename M::State& s)
+        {
+            observer(t, s);
+        };
+        if constexpr (!Shared::Stepper::adaptive && !shows) {
+            std::size_t most = std::numeric_limits<std::size_t>::max();
+            std::array<typename M::Scalar, static_cast<std::size_t>(N)> lost{};
+            for (int lane = 0; lane < N; ++lane) {
+                if (!marches_[at(lane)]) continue;
+                most = std::min(most, marches_[at(lane)]->unseen_steps());
+                lost[at(lane)] = marches_[at(lane)]->steps_.lost_;
+            }
+            if (most < 2) return false;
+            const std::size_t made = shared_->hurry(most, lost);
+            for (int lane = 0; lane < N && made > 0; ++lane)
+                if (marches_[at(lane)]) {
+                    auto& steps = marches_[at(lane)]->steps_;
+                    steps.stepper_.made(made, steps.s_);
+                    steps.t_ = shared_->times[at(lane)];
+                    steps.lost_ = lost[at(lane)];
+                    steps.steps_ += made;
+                }
+            return made > 0;
+        }
+        return false;
     }
 
     void conclude(int lane)

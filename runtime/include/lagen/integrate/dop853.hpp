@@ -12,11 +12,11 @@
 
 namespace lagen {
 
-/// See integrate/integrator.hpp for what is asked of a stepper.
+/// See integrate/stepper.hpp for what is asked of a stepper.
 template <class M>
 class Dop853Stepper : public PairSteps<M, 8, tableau::Dop853::stages, 12> {
     using Base = PairSteps<M, 8, tableau::Dop853::stages, 12>;
-    using Base::calls_, Base::dense_ready_, Base::error_, Base::k_, Base::scale_, Base::x_;
+    using Base::calls_, Base::dense_ready_, Base::error_, Base::fails, Base::k_, Base::scale_, Base::x_;
     static_assert(moves_by_sums<M>,
                   "the dense output of this method is made of sums: use Dopri5, or a fixed-step method");
 
@@ -47,7 +47,7 @@ class Dop853Stepper : public PairSteps<M, 8, tableau::Dop853::stages, 12> {
         calls_ += 11;
         dense_ready_ = false;
         const auto status = detail::evaluate_stages<Tableau, 1, 12>(model, t, s, h, x_, k_);
-        if (!is_pack<Scalar> && !StatusOf<Scalar>::all_good(status)) return status;
+        if (fails(status)) return status;
         detail::move_along<Tableau::a, detail::lower_index(12, 0), 12>(model, s, h, k_, s1);
         estimate(s, h, s1);
         return StatusOf<Scalar>::first(status, detail::check_finite(s1));

@@ -8,11 +8,11 @@
 
 namespace lagen {
 
-/// See integrate/integrator.hpp for what is asked of a stepper.
+/// See integrate/stepper.hpp for what is asked of a stepper.
 template <class Tableau, class M>
 class EmbeddedStepper : public PairSteps<M, Tableau::order, Tableau::dense_stages, Tableau::end> {
     using Base = PairSteps<M, Tableau::order, Tableau::dense_stages, Tableau::end>;
-    using Base::calls_, Base::dense_ready_, Base::error_, Base::k_, Base::scale_, Base::x_;
+    using Base::calls_, Base::dense_ready_, Base::error_, Base::fails, Base::k_, Base::scale_, Base::x_;
     static_assert(std::is_same_v<typename M::State, tangent_t<M>>,
                   "step control measures errors by the lanes of the state: use a fixed-step method with this one");
 
@@ -35,7 +35,6 @@ class EmbeddedStepper : public PairSteps<M, Tableau::order, Tableau::dense_stage
     {
         dense_ready_ = false;
         calls_ += ends_in_stage ? end : end - 1;
-        const auto fails = [](const auto& status) { return !is_pack<Scalar> && !Lanes::all_good(status); };
         auto status = detail::evaluate_stages<Tableau, 1, end>(model, t, s, h, x_, k_);
         if (fails(status)) return status;
         if constexpr (ends_in_stage) {

@@ -75,7 +75,7 @@ struct Rk38 {
 
 } // namespace tableau
 
-/// The stepper of an explicit fixed-step method on model M: see integrate/integrator.hpp for what is asked of it.
+/// The stepper of an explicit fixed-step method on model M: see integrate/stepper.hpp for what is asked of it.
 template <class Tableau, class M>
 class FixedStepper {
   public:

@@ -3,14 +3,7 @@
 ///   integrator.step()              a step of the method, as long as it likes
 ///   integrator.advance_to(t)       steps to exactly t
 ///   integrator.at(t)               the state inside the last step
-/// A stepper, which does the work, offers
-///   begin(model, t, s)                        once, at the start
-///   attempt(model, t, s, h, s1)               a step of length h into s1; `error()` where adaptive
-///   finish(model, t1, s1), accept()           the derivative at the end where it is needed; then the step counts
-///   interpolate(model, t, s, h, s1, theta, out)   a value inside the last attempted step, before accept()
-///   calls()                                   of the right-hand side so far
-/// Adaptive ones may choose their steps themselves: after_accepted(h, error), after_rejected(h, error),
-/// after_failure(h). Implicit ones count newton_iterations() and decompositions().
+/// A stepper does the work: integrate/stepper.hpp.
 #pragma once
 
 #include "lagen/integrate/control.hpp"
@@ -19,6 +12,7 @@
 #include "lagen/integrate/lanes.hpp"
 #include "lagen/integrate/retract.hpp"
 #include "lagen/integrate/states.hpp"
+#include "lagen/integrate/stepper.hpp"
 #include "lagen/integrate/way.hpp"
 
 #include <algorithm>
@@ -27,16 +21,6 @@
 #include <utility>
 
 namespace lagen {
-
-namespace detail {
-
-template <class M, class Method, class Observer>
-class March;
-
-template <class M, class Method, int N, class Observer>
-class Abreast;
-
-} // namespace detail
 
 /// An initial-value problem and where it stands. It keeps the model and allocates nothing in a step. Every status is
 /// that of `integrate`; a step that fails leaves time and state as they are. Of a pack, lanes that fail keep their
@@ -220,11 +204,7 @@ class Integrator {
         }
     }
 
-    /// A signed length, and whether it ends at the end.
-    struct Attempt {
-        Real h;
-        bool last;
-    };
+    using Attempt = detail::Attempt<Real>;
 
     /// What the stepper is to attempt next, from (t_from_, from_); not ok where there is no next step.
     [[gnu::always_inline]] Status propose(Attempt& next)
@@ -232,7 +212,7 @@ class Integrator {
         open();
         std::tie(next.h, next.last) = next_length();
         if constexpr (adaptive)
-            if (!next.last && is_lost_in_time(h_)) return fail(Status::step_too_small, t_);
+            if (!next.last && way_.is_lost(h_, t_)) return fail(Status::step_too_small, t_);
         if (!way_.bounded && !detail::is_finite_number(Real(t_ + next.h))) [[unlikely]]
             return fail(Status::non_finite, Real(t_ + next.h));
         return Status::ok;
@@ -365,17 +345,10 @@ class Integrator {
             return controller_;
     }
 
-    /// Within the rounding of time?
-    bool is_lost_in_time(const Real& length) const noexcept
-    {
-        const Real scale = std::max<Real>(size(t_), epsilon() * way_.length);
-        return !(Real(0.1) * length > epsilon() * scale);
-    }
-
     /// `reason` where the next step would be lost in the rounding of time; left_domain in a run into the boundary.
     Status size_verdict(Status reason, const Real& t1) noexcept requires(adaptive)
     {
-        if (!is_lost_in_time(h_)) return Status::ok;
+        if (!way_.is_lost(h_, t_)) return Status::ok;
         if constexpr (HasDomain<M>) {
             inner_ = s_ + failed_length_ * stepper_.derivative();
             if (reason != Status::step_too_small && detail::domain_status(model_, t1, inner_) != Status::ok)

@@ -91,6 +91,12 @@ class PairSteps {
   protected:
     explicit PairSteps(const StepControl& control) noexcept : control_(control), scale_(control) {}
 
+    /// Ends this the attempt? Where lanes of a pack fail, the others go on.
+    static bool fails(const status_t<Scalar>& status) noexcept
+    {
+        return !is_pack<Scalar> && !StatusOf<Scalar>::all_good(status);
+    }
+
     std::array<State, slopes> k_;
     State x_; ///< a stage
     StepControl control_;
@@ -107,7 +113,7 @@ class PairSteps {
     {
         ++calls_;
         const auto status = model.rhs(t, s, slope);
-        if (!is_pack<Scalar> && !StatusOf<Scalar>::all_good(status)) return status;
+        if (fails(status)) return status;
         return StatusOf<Scalar>::first(status, detail::check_finite(slope));
     }
 };

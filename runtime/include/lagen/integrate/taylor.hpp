@@ -8,98 +8,17 @@
 #include "lagen/integrate/isolate_roots.hpp"
 #include "lagen/integrate/lanes.hpp"
 #include "lagen/integrate/states.hpp"
-#include "lagen/series.hpp"
+#include "lagen/integrate/taylor_order.hpp"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <utility>
 
 namespace lagen {
 
-/// A model with Taylor coefficients: `lagen generate MODEL --with taylor`.
-template <class M>
-concept HasTaylor = requires(const M& model, typename M::Scalar t, const typename M::State& s,
-                             TaylorSeries<typename M::Scalar, M::dimension, 8>& x)
-{
-    {
-        model.taylor(t, s, 8, x)
-    }
-    noexcept->std::same_as<status_t<typename M::Scalar>>;
-};
-
-/// And with those of its events along the motion: `--with taylor,event_series`.
-template <class M>
-concept HasEventSeries = HasTaylor<M> && requires(const M& model, typename M::Scalar t, const typename M::State& s,
-                                                  const TaylorSeries<typename M::Scalar, M::dimension, 8>& x)
-{
-    M::events_names;
-    requires requires(TaylorSeries<typename M::Scalar, static_cast<int>(M::events_names.size()), 8> & e)
-    {
-        model.event_series(t, s, 8, x, e);
-    };
-};
-
-namespace detail {
-
-/// log2(x) within 0.09 of a positive number, from its exponent.
-template <class Real>
-[[nodiscard]] double rough_logarithm(const Real& x) noexcept
-{
-    if constexpr (std::is_same_v<Real, float> || std::is_same_v<Real, double>) {
-        const auto bits = std::bit_cast<std::int64_t>(static_cast<double>(x));
-        return static_cast<double>(bits) * 0x1p-52 - 1023.0;
-    } else {
-        using std::log;
-        return static_cast<double>(log(plain_number(x))) * 1.4426950408889634;
-    }
-}
-
-/// 2^x, within 6 %, as the inverse of rough_logarithm.
-template <class Real>
-[[nodiscard]] Real rough_power(double x) noexcept
-{
-    if (x < -1000) return Real(0);
-    if (x > 1000) x = 1000;
-    return static_cast<Real>(std::bit_cast<double>(static_cast<std::int64_t>((x + 1023.0) * 0x1p52)));
-}
-
-/// The order for L = -ln(tolerance), where a coefficient takes so many sums. A step is as long as e^(-L/p). Its work
-/// grows like p^2 where products of scalars are all that takes time, and p = L/2 + 1 is cheapest [Jorba-Zou 2005,
-/// section 3.1]; with eight products at a time it grows little faster than p while there are few sums. Measured, by
-/// powers of ten from 1e-6 to 1e-15: least at 16, 20, 24, 28 for a heavy top (9 sums), a rigid body and a double
-/// pendulum, within 5 % from one less to four more; near 10, 14, 17, 20 for seven bodies in the plane (126 sums).
-template <class Real>
-[[nodiscard]] constexpr int taylor_order(double logarithm, int sums) noexcept
-{
-    constexpr bool in_registers = std::is_floating_point_v<Real> && sizeof(Real) <= 8;
-    const double wanted = !in_registers ? 1 + logarithm / 2 : (sums <= 32 ? 7 + 0.6 * logarithm : 3 + 0.5 * logarithm);
-    const int whole = static_cast<int>(wanted);
-    return whole + (whole < wanted ? 1 : 0);
-}
-
-/// Of a model without events: nothing.
-template <class M, int order>
-struct EventSeries {
-};
-
-template <HasEventSeries M, int order>
-struct EventSeries<M, order> {
-    TaylorSeries<typename M::Scalar, static_cast<int>(M::events_names.size()), order> of{};
-    typename StatusOf<typename M::Scalar>::mask known{};
-};
-
-/// For a tolerance that is the scalar's epsilon.
-template <class Real>
-inline constexpr int highest_taylor_order = taylor_order<Real>(0.69314718055994531 * std::numeric_limits<Real>::digits,
-                                                               0);
-
-} // namespace detail
-
-/// See integrate/integrator.hpp for what is asked of a stepper.
+/// See integrate/stepper.hpp for what is asked of a stepper.
 template <class M>
 class TaylorStepper {
     static_assert(HasTaylor<M>,
@@ -390,92 +309,15 @@ class TaylorStepper {
         for (const Real& coefficient : at.motion[order_]) total += coefficient;
         Lanes::fail(status, total - total != Real(0), Status::non_finite);
         if (fails(status)) return status;
-        at.length = length_of(s, at.motion);
+        const detail::TaylorLength<Scalar> lengths{scale_, order_};
+        at.length = lengths.of_motion(s, at.motion);
         if constexpr (HasEventSeries<M>) {
-            at.events.known = known_from(model.event_series(t, s, order_, at.motion, at.events.of));
-            at.length = select(at.events.known, least_of(at.length, length_of_events(at.events.of)), at.length);
+            const auto known = model.event_series(t, s, order_, at.motion, at.events.of);
+            at.events.known = detail::is_good<Scalar>(known);
+            const Scalar with_events = lengths.of_events(at.length, at.events.of, M::events_names.size());
+            at.length = select(at.events.known, with_events, at.length);
         }
         return status;
-    }
-
-    static typename Lanes::mask known_from(const status_t<Scalar>& status) noexcept
-    {
-        if constexpr (is_pack<Scalar>) {
-            typename Lanes::mask good{};
-            for (int lane = 0; lane < RealOf<Scalar>::lanes; ++lane) good.lanes[lane] = status[lane] == Status::ok ? -1 : 0;
-            return good;
-        } else {
-            return status == Status::ok;
-        }
-    }
-    static Real least_of(const Real& a, const Real& b) noexcept { return select(b < a, b, a); }
-
-    /// f(lane of a, ..) of scalars, a lane.
-    template <class F, class... Given>
-    static Real by_lane(const F& f, const Given&... given) noexcept
-    {
-        if constexpr (is_pack<Scalar>) {
-            Real result;
-            for (int lane = 0; lane < RealOf<Scalar>::lanes; ++lane) result.set(lane, f(given[lane]...));
-            return result;
-        } else {
-            return f(given...);
-        }
-    }
-
-    /// The longest h for which the events' polynomials, which tell where they happen, hold too: |e_k| h^k within the
-    /// tolerance, relative to |e_0| + |e_1|, for the last two orders.
-    template <class Events>
-    [[nodiscard]] Real length_of_events(const Events& e) const noexcept
-    {
-        Real length = Real(unbounded());
-        for (std::size_t r = 0; r < M::events_names.size(); ++r) {
-            const Real scale = scale_.of_size(detail::size_of(e[0][r]) + detail::size_of(e[1][r]));
-            for (int k = order_ - 1; k <= order_; ++k)
-                length = by_lane(
-                    [k](const Number& so_far, const Number& size) {
-                        if (!(size > Number(0)) || size - size != Number(0)) return so_far;
-                        return std::min(so_far, detail::rough_power<Number>(-detail::rough_logarithm(size) / k));
-                    },
-                    length, Real(detail::size_of(e[k][r]) / scale));
-        }
-        return length;
-    }
-
-    /// The longest h with |x_k| h^k within the tolerance in every lane, for two of the last four orders; without a
-    /// bound where these are 0, as those of a polynomial are.
-    [[nodiscard]] Real length_of(const State& s, const Series& x) const noexcept
-    {
-        Row scale;
-        for (std::size_t i = 0; i < lanes; ++i)
-            scale[i] = Real(1) / scale_.template of<1>(s, s, static_cast<Eigen::Index>(i));
-        std::array<Real, 4> largest{};
-        for (int back = 0; back < 4 && order_ - back > std::max(1, order_ - 4); ++back) {
-            Real& most = largest[static_cast<std::size_t>(back)] = Real(0);
-            for (std::size_t i = 0; i < lanes; ++i) {
-                const Real size = detail::size_of(x[order_ - back][i]) * scale[i];
-                most = select(most < size, size, most);
-            }
-        }
-        return by_lane([order = order_](const auto&... sizes) { return length_from(order, sizes...); }, largest[0],
-                       largest[1], largest[2], largest[3]);
-    }
-
-    /// The same from the largest coefficients of orders p, p - 1, ..
-    template <class... Sizes>
-    static Number length_from(int order, const Sizes&... sizes) noexcept
-    {
-        double steepest = -std::numeric_limits<double>::infinity();
-        int found = 0, k = order;
-        const auto look = [&](const Number& size) {
-            if (size > Number(0) && found < 2) {
-                steepest = std::max(steepest, detail::rough_logarithm(size) / k);
-                ++found;
-            }
-            --k;
-        };
-        (look(sizes), ...);
-        return found == 0 ? unbounded() : detail::rough_power<Number>(-steepest);
     }
 
     std::array<Expansion, 2> expansions_; ///< at the beginning of the step, and at its end
