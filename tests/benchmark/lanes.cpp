@@ -30,8 +30,7 @@ namespace {
 template <class S>
 using Model = lagen::models::MODEL<S>;
 
-struct Nobody {
-};
+struct Nobody {};
 
 constexpr std::size_t count = 256;
 

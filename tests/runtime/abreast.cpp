@@ -164,7 +164,7 @@ void check_abreast(const std::vector<Task<M>>& tasks, const std::vector<Method>&
             if (next == tasks.size()) return nullptr;
             const Task<M>& task = tasks[next];
             Given& place = given[std::size_t(lane)];
-            place = {&task.model, &task.start, {0.0, task.end}, &methods[next % methods.size()],
+            place = {&task.model, &task.start,     {0.0, task.end}, &methods[next % methods.size()],
                      &options,    &observers[next]};
             places[std::size_t(lane)] = next++;
             return &place;
@@ -323,13 +323,12 @@ TEST_CASE("Ensembles of models that can be had over packs are those of single ru
         for (const std::size_t threads : {1U, 3U})
             for (const std::size_t block : {1U, 3U, 16U}) {
                 std::size_t taken = 0;
-                ensemble(
-                    Top{}, alone.size(), start, {0.0, 2.0}, method,
-                    [&](std::size_t k, const Run<Top>& run) {
-                        REQUIRE(k == taken++);
-                        check_same(run, alone[k]);
-                    },
-                    {.threads = threads, .block = block});
+                ensemble(Top{}, alone.size(), start, {0.0, 2.0}, method,
+                         [&](std::size_t k, const Run<Top>& run) {
+                             REQUIRE(k == taken++);
+                             check_same(run, alone[k]);
+                         },
+                         {.threads = threads, .block = block});
                 CHECK(taken == alone.size());
             }
     };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// `lagen::ensemble`: many trajectories of one model, by several threads and by the lanes of packs, handed over in their
-/// order.
+/// `lagen::ensemble`: many trajectories of one model, by several threads and by the lanes of packs, handed over in
+/// their order.
 ///   lagen::ensemble(top, 1'000'000,
 ///                   [](std::size_t k, Top& each) { return Top::state({.g3 = 1}, {.w3 = 5 + 1e-6 * double(k)}); },
 ///                   {0.0, 10.0}, lagen::Dop853{}, [&](std::size_t k, const lagen::Run<Top>& run) { .. });
@@ -116,9 +116,10 @@ void integrate_blocks(const M& model, MakeState& make_state, Interval<real_t<typ
 ///                   be moved from. It may be called by any of the threads.
 /// The runs are those of `integrate`, with the same bits, whatever the number of threads. Where the model can be had
 /// over packs (a generated one, or one that says so by a member `takes_packs`) and the method is an explicit
-/// Runge-Kutta or Nystrom method or Taylor's, trajectories go by the lanes of packs: integrate/abreast.hpp says when the
-/// bits depend on the compiler's options. What make_state or take throws ends the work and is thrown to the caller; those of
-/// the blocks before it were handed over. At most 4 blocks a thread exist at a time, and as many more as the lanes take.
+/// Runge-Kutta or Nystrom method or Taylor's, trajectories go by the lanes of packs: integrate/abreast.hpp says when
+/// the bits depend on the compiler's options. What make_state or take throws ends the work and is thrown to the caller;
+/// those of the blocks before it were handed over. At most 4 blocks a thread exist at a time, and as many more as the
+/// lanes take.
 template <RightHandSide M, class MakeState, class Method, class Take>
 void ensemble(const M& model, std::size_t count, MakeState&& make_state,
               std::type_identity_t<Interval<real_t<typename M::Scalar>>> span, const Method& method, Take&& take,

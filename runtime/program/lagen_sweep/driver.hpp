@@ -202,7 +202,9 @@ class Sweep {
                 asked = {&row.plan.model, &row.plan.initial, row.plan.span, &row.method, &row.options, &*row.record};
                 return &asked;
             };
-            const auto done = [&](int lane, const Run<M>& run) { rows.done(each[static_cast<std::size_t>(lane)], run); };
+            const auto done = [&](int lane, const Run<M>& run) {
+                rows.done(each[static_cast<std::size_t>(lane)], run);
+            };
             Abreast<M, Method, lanes, SweepRecord<M>>().run(next, done);
         } else {
             for (Row row(plan_); rows.next(row);)
@@ -270,7 +272,7 @@ class Sweep {
     const DrivePlan<M>& plan_;
     std::size_t parameters_ = 0, length_ = 0;
     mutable std::atomic<double> seconds_ = 1; ///< of a trajectory of the last block
-    std::atomic<bool> cut_ = false;   ///< what is read or written ended early
+    std::atomic<bool> cut_ = false;           ///< what is read or written ended early
 };
 
 } // namespace detail

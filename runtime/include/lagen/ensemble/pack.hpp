@@ -219,10 +219,10 @@ LAGEN_PACK_FUNCTION(asin) LAGEN_PACK_FUNCTION(acos) LAGEN_PACK_FUNCTION(atan)
 LAGEN_PACK_FUNCTION(sinh) LAGEN_PACK_FUNCTION(cosh) LAGEN_PACK_FUNCTION(tanh)
 LAGEN_PACK_FUNCTION(exp) LAGEN_PACK_FUNCTION(log) LAGEN_PACK_FUNCTION(erf)
 #undef LAGEN_PACK_FUNCTION
-// clang-format on
+    // clang-format on
 
-template <class T, int N>
-[[nodiscard]] Pack<T, N> abs(const Pack<T, N>& a) noexcept
+    template <class T, int N>
+    [[nodiscard]] Pack<T, N> abs(const Pack<T, N>& a) noexcept
 {
     using Bits = typename Mask<T, N>::Vector;
     using Vector = typename Pack<T, N>::Vector;
@@ -285,7 +285,10 @@ struct StatusOf<Pack<T, N>> {
     {
         for (Status& lane : status.lanes) StatusOf<T>::fail(lane, where, reason);
     }
-    [[nodiscard]] static bool all_good(const type& status) noexcept { return !detail::any_bit<sizeof status.lanes>(&status.lanes); }
+    [[nodiscard]] static bool all_good(const type& status) noexcept
+    {
+        return !detail::any_bit<sizeof status.lanes>(&status.lanes);
+    }
     [[nodiscard]] static type first(type earlier, const type& later) noexcept
     {
         if (all_good(later)) [[likely]]

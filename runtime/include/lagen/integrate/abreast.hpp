@@ -239,8 +239,7 @@ class Abreast {
             return;
         }
         statuses_[at(lane)] = march->begin();
-        if (statuses_[at(lane)] == Status::ok)
-            march->steps_.stepper_.enter(march->steps_.model_, march->steps_.s_);
+        if (statuses_[at(lane)] == Status::ok) march->steps_.stepper_.enter(march->steps_.model_, march->steps_.s_);
     }
 
     bool proposes(int lane)

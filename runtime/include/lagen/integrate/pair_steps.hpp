@@ -84,8 +84,7 @@ class PairSteps {
     /// The step counts in these lanes.
     void accept(const typename StatusOf<Scalar>::mask& where) noexcept requires(is_pack<Scalar>)
     {
-        for (Eigen::Index i = 0; i < x_.size(); ++i)
-            k_.front()[i] = select(where, k_[end][i], k_.front()[i]);
+        for (Eigen::Index i = 0; i < x_.size(); ++i) k_.front()[i] = select(where, k_[end][i], k_.front()[i]);
     }
 
   protected:

@@ -77,7 +77,8 @@ template <auto& weights, std::size_t offset, int width, std::size_t... j, class 
 }
 
 /// out = h sum_j weights[j] k[j].
-template <auto& weights, std::size_t offset = 0, std::size_t count = weights.size(), class Time, class Column, class Stages>
+template <auto& weights, std::size_t offset = 0, std::size_t count = weights.size(), class Time, class Column,
+          class Stages>
 [[gnu::always_inline]] inline void weighted_sum(const Time& h, const Stages& k, Column& out) noexcept
 {
     for_lanes(out, [&]<int width>(Width<width>, Eigen::Index lane) {
@@ -88,9 +89,8 @@ template <auto& weights, std::size_t offset = 0, std::size_t count = weights.siz
 /// out = s + h sum_j weights[offset + j] k[j], j < count: of vectors in one pass without temporaries. (Measured: the
 /// same sums as Eigen expressions execute half as many instructions again in DOP853.)
 template <auto& weights, std::size_t offset, std::size_t count, class M, class Stages>
-[[gnu::always_inline]] inline void move_along(const M& model, const typename M::State& s,
-                                              const step_time_t<M>& h, const Stages& k,
-                                              typename M::State& out) noexcept
+[[gnu::always_inline]] inline void move_along(const M& model, const typename M::State& s, const step_time_t<M>& h,
+                                              const Stages& k, typename M::State& out) noexcept
 {
     if constexpr (moves_by_sums<M>) {
         for_lanes(s, [&]<int width>(Width<width>, Eigen::Index lane) {
@@ -106,9 +106,9 @@ template <auto& weights, std::size_t offset, std::size_t count, class M, class S
 
 /// move_along, and whether the result is finite.
 template <auto& weights, std::size_t offset, std::size_t count, class M, class Stages>
-[[gnu::always_inline]] inline status_t<typename M::Scalar>
-move_checked(const M& model, const typename M::State& s, const step_time_t<M>& h, const Stages& k,
-             typename M::State& out) noexcept
+[[gnu::always_inline]] inline status_t<typename M::Scalar> move_checked(const M& model, const typename M::State& s,
+                                                                        const step_time_t<M>& h, const Stages& k,
+                                                                        typename M::State& out) noexcept
 {
     if constexpr (moves_by_sums<M>) {
         move_along<weights, offset, count>(model, s, h, k, out);
