@@ -48,11 +48,12 @@ std::vector<std::string> find_compiler()
 }
 
 /// The compiler with all that it is told besides its files.
-std::vector<std::string> compile_command()
+std::vector<std::string> compile_command(const std::vector<std::string>& options = {})
 {
     std::vector<std::string> command = find_compiler();
     command.insert(command.end(), {"-std=c++20", "-O2", "-pthread", "-I" + runtime_folder(), "-I" + program_folder(),
                                    "-isystem", eigen_folder()});
+    command.insert(command.end(), options.begin(), options.end());
     for (const std::string& flag : words(std::getenv("CXXFLAGS"))) command.push_back(flag);
     return command;
 }
@@ -113,6 +114,7 @@ std::string program_path(const std::string& cache, const ProgramText& text)
     ContentHash hash;
     hash.add(code_of(text.header)).add(text.main);
     for (const std::string& library : text.libraries) hash.add(library);
+    for (const std::string& option : text.options) hash.add(option);
     add_compilation(hash);
     return fmt::format("{}/{}", cache, hash.hex32());
 }
@@ -123,7 +125,7 @@ std::vector<std::string> command_in(const std::string& folder, const ProgramText
     fs::create_directory(folder);
     write_file(folder + "/model.hpp", text.header);
     write_file(folder + "/main.cpp", text.main);
-    std::vector<std::string> command = compile_command();
+    std::vector<std::string> command = compile_command(text.options);
     command.insert(command.end(), {folder + "/main.cpp", "-o", folder + "/program"});
     command.insert(command.end(), text.libraries.begin(), text.libraries.end());
     return command;
@@ -138,9 +140,23 @@ void add_compilation(ContentHash& hash)
     add_compiler(hash, compile_command());
 }
 
-std::string compile_program(const std::string& header, const std::string& main)
+std::string compile_program(const ProgramText& program)
 {
-    return compile_programs({{header, main}})[0];
+    return compile_programs({program})[0];
+}
+
+std::vector<std::string> vector_options()
+{
+#if defined(__x86_64__)
+    const char* level = nullptr;
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2"))
+        level = "-march=x86-64-v3";
+    if (level != nullptr && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+        __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
+        level = "-march=x86-64-v4";
+    if (level != nullptr && words(std::getenv("CXXFLAGS")).empty()) return {level, "-ffp-contract=off", "-O3"};
+#endif
+    return {};
 }
 
 std::vector<std::string> compile_programs(const std::vector<ProgramText>& programs)

@@ -13,13 +13,18 @@ namespace lagen {
 struct ProgramText {
     std::string header, main;
     std::vector<std::string> libraries = {};
+    std::vector<std::string> options = {}; ///< of the compiler, before CXXFLAGS
 };
 
 /// Compiles a program of two files and returns its path: `header` (included as "model.hpp") and `main`. The cache key
 /// is the content of both (comments apart), of every header of the runtime, the compiler (path, size, time) and the
 /// flags. CXX names the compiler (with arguments, if any), else c++, g++ or clang++; CXXFLAGS is added. The cache is
 /// kept below 200 programs and 1 GiB. Throws MachineError: no compiler, or its message when it fails.
-[[nodiscard]] std::string compile_program(const std::string& header, const std::string& main);
+[[nodiscard]] std::string compile_program(const ProgramText& program);
+
+/// The options with which a compiler uses the vectors of this machine, and rounds every sum and product as without
+/// them. None where CXXFLAGS say how to compile.
+[[nodiscard]] std::vector<std::string> vector_options();
 
 /// The same for several at once, as many at a time as there are cores; standard error is told how
 /// many are missing.

@@ -9,6 +9,7 @@
 #include <fmt/core.h>
 
 #include <array>
+#include <string_view>
 #include <utility>
 
 namespace lagen {
@@ -141,6 +142,12 @@ std::string hint_for_method(const std::string& name)
 bool is_symmetric_splitting(const MethodEntry& method)
 {
     return method.separable_only && method.symmetric;
+}
+
+bool goes_abreast(const MethodEntry& method)
+{
+    const std::string_view type = method.type;
+    return !method.separable_only && !type.starts_with("Gauss") && !type.starts_with("Radau");
 }
 
 std::string system_of(const MethodEntry& method)

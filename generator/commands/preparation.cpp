@@ -41,6 +41,13 @@ std::optional<Obstacle> obstacle_to_splitting(const MethodEntry& method, const K
     return obstacle;
 }
 
+/// What of this machine the program depends on: another machine may see the same cache.
+std::string vectors_of(const Driver& driver)
+{
+    const std::vector<std::string> options = driver.abreast ? vector_options() : std::vector<std::string>();
+    return options.empty() ? "" : options.front();
+}
+
 } // namespace
 
 std::optional<Obstacle> obstacle_of(const MethodEntry& method, const KernelModule& module)
@@ -59,7 +66,8 @@ std::optional<Obstacle> obstacle_of(const MethodEntry& method, const KernelModul
 Preparation::Preparation(const Options& options, CheckedModel& checked, const Driver& driver, const std::string& method)
     : options_(options), checked_(checked), driver_(driver),
       file_(record_file(checked.model, {driver.folder, options.get("scene"), options.get("form"), method,
-                                        options.get("time-scale"), options.has("unchecked") ? "unchecked" : ""})),
+                                        options.get("time-scale"), options.has("unchecked") ? "unchecked" : "",
+                                        vectors_of(driver)})),
       record_(find_record(file_))
 {
     if (record_) {
@@ -86,8 +94,10 @@ void Preparation::finish(const Scene& scene, const std::string& form, const Meth
     if (method.series && !scene.events.empty()) request.with.emplace_back("event_series");
     const Generated generated = generate(checked_, request);
     require_system(options_, scene, method, generated.module);
-    const std::string program = compile_program(
-        generated.header, program_text(driver_, generated.module.name, method, request.time_scale != nullptr));
+    ProgramText text{generated.header,
+                     program_text(driver_, generated.module.name, method, request.time_scale != nullptr)};
+    if (driver_.abreast && goes_abreast(method)) text.options = vector_options();
+    const std::string program = compile_program(text);
     record_ = record_of(checked_, generated.module, program, parameters);
     keep_record(file_, *record_);
 }

@@ -122,6 +122,10 @@ TEST_CASE("each row has the bits of lagen run with the values that stand in it",
     {
         sweep({"duffing.toml", "--method", "rk4", "--step", "1/64"}, {"--initial", "q=0.1:1:4"}, 4);
     }
+    SECTION("trajectories on the lanes of packs, with functions and series")
+    {
+        sweep({"double_pendulum.toml", "--method", "taylor"}, {"--initial", "a=0.2:2.2:21"}, 21);
+    }
 }
 
 TEST_CASE("threads and parts change nothing", "[sweep]")

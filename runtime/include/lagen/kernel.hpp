@@ -39,6 +39,29 @@ struct TangentOf<M> {
 template <class M>
 using tangent_t = typename detail::TangentOf<M>::type;
 
+namespace detail {
+
+template <class M>
+concept NamesTime = requires
+{
+    typename M::Time;
+};
+
+template <class M>
+struct TimeOf {
+    using type = real_t<typename M::Scalar>;
+};
+template <NamesTime M>
+struct TimeOf<M> {
+    using type = typename M::Time;
+};
+
+} // namespace detail
+
+/// The type of times and steps of a model: real_t of its scalar, unless every lane of a pack has its own (M::Time).
+template <class M>
+using step_time_t = typename detail::TimeOf<M>::type;
+
 /// Scalars whose copies are noexcept promise a call that is: the whole of it, its arguments by value included. Where a
 /// copy may throw (derivatives on the heap), no call can promise that, and none is asked to.
 template <class Scalar, bool call_is_noexcept>

@@ -22,12 +22,15 @@
 #pragma once
 
 #include "lagen/ensemble/in_order.hpp"
+#include "lagen/integrate/abreast.hpp"
 #include "lagen_run/driver.hpp"
 #include "lagen_sweep/record.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
+#include <optional>
 
 namespace lagen {
 
@@ -61,10 +64,11 @@ inline Complaint read_sweep_arguments(int argc, char** argv, SweepArguments& int
     return {};
 }
 
-/// Trajectories that one thread integrates one after the other: what is read, and the lines that are written.
+/// Trajectories that are read together, and their lines, which are written together.
 struct SweepBlock {
     std::vector<double> numbers;
-    std::string lines;
+    std::vector<std::string> lines;
+    std::size_t begun = 0, ended = 0;
 };
 
 template <class M, class Method>
@@ -79,14 +83,15 @@ class Sweep {
     int run()
     {
         const auto begin = [this](SweepBlock& block) { return read(block); };
-        const auto work = [this](SweepBlock& block) { integrate_all(block); };
+        const auto work = [this](auto& source) { integrate_all(source); };
         const auto deliver = [this](SweepBlock& block) {
-            if (std::fwrite(block.lines.data(), 1, block.lines.size(), stdout) != block.lines.size() ||
-                std::fflush(stdout) != 0)
+            std::string text;
+            for (const std::string& line : block.lines) text += line;
+            if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
                 cut_ = true;
         };
-        const std::size_t threads = thread_count(given_.threads);
-        InOrder<SweepBlock, decltype(begin), decltype(work), decltype(deliver)> pieces(4 * threads, begin, work,
+        const std::size_t threads = thread_count(given_.threads), slots = slots_a_thread(1);
+        InOrder<SweepBlock, decltype(begin), decltype(work), decltype(deliver)> pieces(slots * threads, begin, work,
                                                                                        deliver);
         pieces.run(threads);
         return cut_ ? complain("the trajectories could not be read or written to their end", 5) : 0;
@@ -109,43 +114,116 @@ class Sweep {
         return !block.numbers.empty();
     }
 
-    void integrate_all(SweepBlock& block)
+    /// A trajectory that is integrated, and what its march asks for.
+    struct Row {
+        explicit Row(const DrivePlan<M>& common) : plan(common) {}
+
+        SweepBlock* block = nullptr;
+        std::size_t index = 0;
+        DrivePlan<M> plan;
+        Method method{};
+        Options<M> options;
+        std::optional<SweepRecord<M>> record;
+    };
+
+    /// What one thread does: a row after another from the blocks of `source`.
+    template <class Source>
+    class Rows {
+      public:
+        Rows(const Sweep& sweep, Source& source) : sweep_(sweep), source_(source), given_(sweep.given_.run) {}
+
+        /// Sets `row` to the next one that there is something to integrate of; false where there is none now.
+        bool next(Row& row)
+        {
+            for (;;) {
+                if (open_ == nullptr) {
+                    open_ = source_.next(unfinished_ == 0);
+                    if (open_ == nullptr) return false;
+                    open_->lines.assign(open_->numbers.size() / sweep_.length_, {});
+                    open_->begun = open_->ended = 0;
+                    ++unfinished_;
+                }
+                row.block = open_;
+                row.index = open_->begun;
+                if (++open_->begun == open_->lines.size()) open_ = nullptr;
+                const double* from = &row.block->numbers[row.index * sweep_.length_];
+                const double failure = *from++;
+                if (failure != 0) {
+                    done(row, '#' + std::to_string(static_cast<int>(failure)) + '\n');
+                    continue;
+                }
+                const bool usable = sweep_.use(from, given_, row.plan, row.method);
+                row.options = {.at = row.plan.times, .events = row.plan.events};
+                row.record.emplace(row.plan.model, row.plan.columns);
+                if (usable) return true;
+                Run<M> run;
+                run.outcome = Status::invalid_input;
+                run.t = std::numeric_limits<double>::quiet_NaN();
+                done(row, run);
+            }
+        }
+
+        void done(Row& row, const Run<M>& run) { done(row, sweep_.line_of(*row.record, run)); }
+
+      private:
+        void done(Row& row, std::string line)
+        {
+            SweepBlock& block = *row.block;
+            block.lines[row.index] = std::move(line);
+            if (++block.ended < block.lines.size()) return;
+            --unfinished_;
+            const auto now = std::chrono::steady_clock::now();
+            const std::chrono::duration<double> passed = now - last_;
+            last_ = now;
+            sweep_.seconds_ = std::max(passed.count(), 1e-9) / static_cast<double>(block.lines.size());
+            source_.done(block);
+        }
+
+        const Sweep& sweep_;
+        Source& source_;
+        DriveArguments given_;
+        SweepBlock* open_ = nullptr; ///< the block that is being begun
+        std::size_t unfinished_ = 0;
+        std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+    };
+
+    template <class Source>
+    void integrate_all(Source& source) const
     {
-        DrivePlan<M> plan = plan_;
-        DriveArguments given = given_.run;
-        block.lines.clear();
-        const auto begin = std::chrono::steady_clock::now();
-        for (std::size_t k = 0; k < block.numbers.size(); k += length_)
-            append_line(block.lines, &block.numbers[k], given, plan);
-        const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
-        seconds_ =
-            std::max(passed.count(), 1e-9) * static_cast<double>(length_) / static_cast<double>(block.numbers.size());
+        Rows<Source> rows(*this, source);
+        if constexpr (GoesAbreast<M, Method>) {
+            constexpr int lanes = abreast_lanes<double>;
+            std::vector<Row> each(static_cast<std::size_t>(lanes), Row(plan_));
+            std::array<Trajectory<M, Method, SweepRecord<M>>, static_cast<std::size_t>(lanes)> given;
+            const auto next = [&](int lane) -> const Trajectory<M, Method, SweepRecord<M>>* {
+                Row& row = each[static_cast<std::size_t>(lane)];
+                if (!rows.next(row)) return nullptr;
+                auto& asked = given[static_cast<std::size_t>(lane)];
+                asked = {&row.plan.model, &row.plan.initial, row.plan.span, &row.method, &row.options, &*row.record};
+                return &asked;
+            };
+            const auto done = [&](int lane, const Run<M>& run) {
+                rows.done(each[static_cast<std::size_t>(lane)], run);
+            };
+            Abreast<M, Method, lanes, SweepRecord<M>>().run(next, done);
+        } else {
+            for (Row row(plan_); rows.next(row);)
+                rows.done(row, integrate(row.plan.model, row.plan.initial, row.plan.span, row.method, row.options,
+                                         *row.record));
+        }
     }
 
-    void append_line(std::string& lines, const double* from, DriveArguments& given, DrivePlan<M>& plan) const
+    std::string line_of(const SweepRecord<M>& record, const Run<M>& run) const
     {
-        const double failure = *from++;
-        if (failure != 0) {
-            lines += '#' + std::to_string(static_cast<int>(failure)) + '\n';
-            return;
-        }
-        Method method{};
-        const bool usable = use(from, given, plan, method);
-        SweepRecord<M> record(plan.model, plan.columns);
-        Run<M> run;
-        run.outcome = Status::invalid_input;
-        run.t = std::numeric_limits<double>::quiet_NaN();
-        if (usable)
-            run = integrate(plan.model, plan.initial, plan.span, method,
-                            Options<M>{.at = plan.times, .events = plan.events}, record);
-        append_number(lines, run.t);
-        for (const double value : record.values()) append_field(lines, value);
-        append_events(lines, run);
+        std::string line;
+        append_number(line, run.t);
+        for (const double value : record.values()) append_field(line, value);
+        append_events(line, run);
         for (std::size_t k = 0; k < record.values().size(); ++k) {
-            append_field(lines, record.least()[k]);
-            append_field(lines, record.most()[k]);
+            append_field(line, record.least()[k]);
+            append_field(line, record.most()[k]);
         }
-        lines += std::string(",") + to_text(run.status()) + '\n';
+        return line + ',' + to_text(run.status()) + '\n';
     }
 
     /// What the numbers of a trajectory say; false where they make no sense.
@@ -193,8 +271,8 @@ class Sweep {
     const SweepArguments& given_;
     const DrivePlan<M>& plan_;
     std::size_t parameters_ = 0, length_ = 0;
-    std::atomic<double> seconds_ = 1; ///< of a trajectory of the last block
-    std::atomic<bool> cut_ = false;   ///< what is read or written ended early
+    mutable std::atomic<double> seconds_ = 1; ///< of a trajectory of the last block
+    std::atomic<bool> cut_ = false;           ///< what is read or written ended early
 };
 
 } // namespace detail

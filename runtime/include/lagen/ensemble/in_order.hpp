@@ -12,9 +12,10 @@
 
 namespace lagen::detail {
 
-/// `begin(piece)` fills the next piece, or answers false: there are no more. `work(piece)` is done by several threads
-/// at once. `deliver(piece)` gets the pieces in the order in which they were begun. Of `begin` one call runs at a time,
-/// of `deliver` too. So many pieces exist as `slots`; they are used again and again.
+/// `begin(piece)` fills the next piece, or answers false: there are no more. `work(source)` is what several threads do
+/// at once: source.next(..) answers a piece to work on, source.done(*piece) gives it back; a thread may have several.
+/// `deliver(piece)` gets the pieces in the order in which they were begun. Of `begin` one call runs at a time, of
+/// `deliver` too. So many pieces exist as `slots`; they are used again and again.
 template <class Piece, class Begin, class Work, class Deliver>
 class InOrder {
   public:
@@ -38,38 +39,23 @@ class InOrder {
         if (failure_) std::rethrow_exception(failure_);
     }
 
-  private:
-    struct Slot {
-        Piece piece{};
-        bool done = false;
-    };
-
-    void work_on() noexcept
+    /// A piece that was begun. nullptr at the end, and where there is none now: a thread with pieces in its hands must
+    /// not `wait` for a slot, which may be theirs.
+    Piece* next(bool wait)
     {
-        try {
-            while (Slot* slot = next()) {
-                work_(slot->piece);
-                hand_over(*slot);
-            }
-        } catch (...) {
-            const std::lock_guard lock(mutex_);
-            if (!failure_) failure_ = std::current_exception();
-            stopped_ = true;
-            room_.notify_all();
-        }
-    }
-
-    /// A piece that was begun, as soon as there is a slot for it; nullptr at the end.
-    Slot* next()
-    {
-        const std::lock_guard source(source_mutex_);
+        std::unique_lock source(source_mutex_, std::defer_lock);
+        if (wait)
+            source.lock();
+        else if (!source.try_lock())
+            return nullptr;
         {
             std::unique_lock lock(mutex_);
-            room_.wait(lock, [this] { return stopped_ || begun_ - delivered_ < slots_.size(); });
-            if (stopped_) return nullptr;
+            const auto ready = [this] { return stopped_ || begun_ - delivered_ < slots_.size(); };
+            if (wait) room_.wait(lock, ready);
+            if (stopped_ || !ready()) return nullptr;
         }
         Slot& slot = slots_[begun_ % slots_.size()];
-        if (!begin_(slot.piece)) {
+        if (!begin_(slot)) {
             const std::lock_guard lock(mutex_);
             stopped_ = true;
             return nullptr;
@@ -78,16 +64,33 @@ class InOrder {
         return &slot;
     }
 
-    void hand_over(Slot& slot)
+    void done(Piece& piece)
     {
         const std::lock_guard delivery(delivery_mutex_);
-        slot.done = true;
-        for (Slot* first = &slots_[delivered_ % slots_.size()]; first->done;
+        static_cast<Slot&>(piece).is_done = true;
+        for (Slot* first = &slots_[delivered_ % slots_.size()]; first->is_done;
              first = &slots_[delivered_ % slots_.size()]) {
-            first->done = false; // once, also where this throws
-            deliver_(first->piece);
+            first->is_done = false; // once, also where this throws
+            deliver_(*first);
             const std::lock_guard lock(mutex_);
             ++delivered_;
+            room_.notify_all();
+        }
+    }
+
+  private:
+    struct Slot : Piece {
+        bool is_done = false;
+    };
+
+    void work_on() noexcept
+    {
+        try {
+            work_(*this);
+        } catch (...) {
+            const std::lock_guard lock(mutex_);
+            if (!failure_) failure_ = std::current_exception();
+            stopped_ = true;
             room_.notify_all();
         }
     }

@@ -31,13 +31,31 @@ struct IntegerOf<8> {
     using type = std::int64_t;
 };
 
-// A member typedef is what both compilers take as a dependent vector type. The alignment is at most 16 bytes, because
-// Eigen aligns its arrays to no more than that without AVX, and clang refuses an array less aligned than its entries.
+// A member typedef is what both compilers take as a dependent vector type. The alignment is at most that of Eigen's
+// arrays (16 bytes without AVX), because clang refuses an array less aligned than its entries.
 template <class T, int N>
 struct VectorOf {
     static constexpr std::size_t bytes = sizeof(T) * static_cast<std::size_t>(N);
-    typedef T type __attribute__((vector_size(bytes), aligned(bytes < 16 ? bytes : 16)));
+    static constexpr std::size_t most = EIGEN_MAX_STATIC_ALIGN_BYTES < 16 ? 16 : EIGEN_MAX_STATIC_ALIGN_BYTES;
+    typedef T type __attribute__((vector_size(bytes), aligned(bytes < most ? bytes : most)));
 };
+
+/// Is any bit of these 2^n bytes set?
+template <std::size_t bytes>
+[[nodiscard]] [[gnu::always_inline]] inline bool any_bit(const void* x) noexcept
+{
+    if constexpr (bytes <= sizeof(std::uint64_t)) {
+        std::uint64_t bits = 0;
+        std::memcpy(&bits, x, bytes);
+        return bits != 0;
+    } else {
+        typename VectorOf<std::int64_t, static_cast<int>(bytes / 16)>::type low, high;
+        std::memcpy(&low, x, sizeof low);
+        std::memcpy(&high, static_cast<const char*>(x) + sizeof low, sizeof high);
+        low |= high;
+        return any_bit<bytes / 2>(&low);
+    }
+}
 
 } // namespace detail
 
@@ -59,9 +77,7 @@ struct Mask {
 template <class T, int N>
 [[nodiscard]] bool any(const Mask<T, N>& mask) noexcept
 {
-    bool found = false;
-    for (int lane = 0; lane < N; ++lane) found = found || mask[lane];
-    return found;
+    return detail::any_bit<sizeof mask.lanes>(&mask.lanes);
 }
 
 template <class T, int N>
@@ -77,16 +93,16 @@ struct Pack {
     using Vector = typename detail::VectorOf<T, N>::type;
     Vector lanes;
 
-    Pack() noexcept : lanes{} {}
+    Pack() = default; ///< as a scalar: without a value, Pack{} is zero
     /// The same value in every lane.
     Pack(T value) noexcept : lanes(Vector{} + value) {}
     /// A literal of generated code, S(0.5), rounded to a lane of float.
     explicit Pack(double value) noexcept requires(!std::is_same_v<T, double>) : Pack(static_cast<T>(value)) {}
     /// An integer literal in every lane.
     Pack(int value) noexcept requires(!std::is_same_v<T, int>) : Pack(static_cast<T>(value)) {}
-    explicit Pack(const std::array<T, static_cast<std::size_t>(N)>& values) noexcept : lanes{}
+    explicit Pack(const std::array<T, static_cast<std::size_t>(N)>& values) noexcept
     {
-        for (int lane = 0; lane < N; ++lane) lanes[lane] = values[static_cast<std::size_t>(lane)];
+        std::memcpy(&lanes, values.data(), sizeof lanes);
     }
 
     [[nodiscard]] static Pack of(const Vector& vector) noexcept
@@ -147,7 +163,7 @@ namespace detail {
 template <class T, int N, class Function>
 [[nodiscard]] Pack<T, N> by_lane(const Pack<T, N>& a, Function function) noexcept
 {
-    Pack<T, N> result;
+    Pack<T, N> result{};
     for (int lane = 0; lane < N; ++lane) result.set(lane, function(a[lane]));
     return result;
 }
@@ -155,7 +171,7 @@ template <class T, int N, class Function>
 template <class T, int N, class Function>
 [[nodiscard]] Pack<T, N> by_lane(const Pack<T, N>& a, const Pack<T, N>& b, Function function) noexcept
 {
-    Pack<T, N> result;
+    Pack<T, N> result{};
     for (int lane = 0; lane < N; ++lane) result.set(lane, function(a[lane], b[lane]));
     return result;
 }
@@ -180,6 +196,12 @@ struct SinCosOf<Pack<T, N>> {
 template <class T, int N>
 [[nodiscard]] Pack<T, N> sqrt(const Pack<T, N>& a) noexcept
 {
+#if defined(__AVX512F__) // with a mask: without one g++ 12 warns of what its own header leaves unset
+    if constexpr (sizeof a == 64 && std::is_same_v<T, double>)
+        return Pack<T, N>::of((typename Pack<T, N>::Vector)_mm512_maskz_sqrt_pd(0xff, (__m512d)a.lanes));
+    if constexpr (sizeof a == 64 && std::is_same_v<T, float>)
+        return Pack<T, N>::of((typename Pack<T, N>::Vector)_mm512_maskz_sqrt_ps(0xffff, (__m512)a.lanes));
+#endif
     std::array<T, static_cast<std::size_t>(N)> lanes;
     std::memcpy(&lanes, &a.lanes, sizeof lanes);
     lanes = square_roots(lanes);
@@ -196,12 +218,25 @@ LAGEN_PACK_FUNCTION(sin) LAGEN_PACK_FUNCTION(cos) LAGEN_PACK_FUNCTION(tan)
 LAGEN_PACK_FUNCTION(asin) LAGEN_PACK_FUNCTION(acos) LAGEN_PACK_FUNCTION(atan)
 LAGEN_PACK_FUNCTION(sinh) LAGEN_PACK_FUNCTION(cosh) LAGEN_PACK_FUNCTION(tanh)
 LAGEN_PACK_FUNCTION(exp) LAGEN_PACK_FUNCTION(log) LAGEN_PACK_FUNCTION(erf)
-LAGEN_PACK_FUNCTION(abs) LAGEN_PACK_FUNCTION(fabs)
 #undef LAGEN_PACK_FUNCTION
     // clang-format on
 
     template <class T, int N>
-    [[nodiscard]] Pack<T, N> atan2(const Pack<T, N>& y, const Pack<T, N>& x) noexcept
+    [[nodiscard]] Pack<T, N> abs(const Pack<T, N>& a) noexcept
+{
+    using Bits = typename Mask<T, N>::Vector;
+    using Vector = typename Pack<T, N>::Vector;
+    return Pack<T, N>::of((Vector)((Bits)a.lanes & ~(Bits)(-Vector{})));
+}
+
+template <class T, int N>
+[[nodiscard]] Pack<T, N> fabs(const Pack<T, N>& a) noexcept
+{
+    return abs(a);
+}
+
+template <class T, int N>
+[[nodiscard]] Pack<T, N> atan2(const Pack<T, N>& y, const Pack<T, N>& x) noexcept
 {
     return detail::by_lane(y, x, [](T a, T b) { return std::atan2(a, b); });
 }
@@ -240,6 +275,8 @@ struct StatusOf<Pack<T, N>> {
     [[nodiscard]] static type good() noexcept { return {}; }
     static void fail(type& status, const mask& where, Status reason) noexcept
     {
+        if (!any(where)) [[likely]]
+            return;
         for (int lane = 0; lane < N; ++lane)
             StatusOf<T>::fail(status.lanes[static_cast<std::size_t>(lane)], where[lane], reason);
     }
@@ -248,9 +285,14 @@ struct StatusOf<Pack<T, N>> {
     {
         for (Status& lane : status.lanes) StatusOf<T>::fail(lane, where, reason);
     }
-    [[nodiscard]] static bool all_good(const type& status) noexcept { return status == type{}; }
+    [[nodiscard]] static bool all_good(const type& status) noexcept
+    {
+        return !detail::any_bit<sizeof status.lanes>(&status.lanes);
+    }
     [[nodiscard]] static type first(type earlier, const type& later) noexcept
     {
+        if (all_good(later)) [[likely]]
+            return earlier;
         for (std::size_t lane = 0; lane < earlier.lanes.size(); ++lane)
             earlier.lanes[lane] = StatusOf<T>::first(earlier.lanes[lane], later.lanes[lane]);
         return earlier;

@@ -68,8 +68,9 @@ class ErrorScale {
   public:
     /// No scale is 0, so that an error of 0 is none; every other one is too large for it.
     explicit ErrorScale(const StepControl& control) noexcept
-        : relative_(static_cast<Real>(control.relative_tolerance())),
-          absolute_(std::max<Real>(static_cast<Real>(control.absolute_tolerance()), std::numeric_limits<Real>::min()))
+        : relative_(static_cast<Number>(control.relative_tolerance())),
+          absolute_(
+              std::max<Number>(static_cast<Number>(control.absolute_tolerance()), std::numeric_limits<Number>::min()))
     {
     }
 
@@ -79,13 +80,23 @@ class ErrorScale {
     {
         using Size = Slice<State, width>;
         const Size before = size_of(load<width>(s, lane)), after = size_of(load<width>(s1, lane));
-        const Size larger = before > after ? before : after;
-        return absolute_ + relative_ * larger;
+        return absolute_ + relative_ * larger_of(before, after);
     }
 
     [[nodiscard]] Real of_size(const Real& size) const noexcept { return absolute_ + relative_ * size; }
 
+    /// Of a pack: lane `lane` is measured as `own` measures.
+    void set_lane(int lane, const ErrorScale<real_t<Real>>& own) noexcept requires(is_pack<Real>)
+    {
+        relative_.set(lane, own.relative_);
+        absolute_.set(lane, own.absolute_);
+    }
+
   private:
+    template <class>
+    friend class ErrorScale;
+    using Number = real_t<Real>;
+
     Real relative_, absolute_;
 };
 

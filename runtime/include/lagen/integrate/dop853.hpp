@@ -12,17 +12,19 @@
 
 namespace lagen {
 
-/// See integrate/integrator.hpp for what is asked of a stepper.
+/// See integrate/stepper.hpp for what is asked of a stepper.
 template <class M>
 class Dop853Stepper : public PairSteps<M, 8, tableau::Dop853::stages, 12> {
     using Base = PairSteps<M, 8, tableau::Dop853::stages, 12>;
-    using Base::calls_, Base::dense_ready_, Base::error_, Base::k_, Base::scale_, Base::x_;
+    using Base::calls_, Base::dense_ready_, Base::error_, Base::fails, Base::k_, Base::scale_, Base::x_;
     static_assert(moves_by_sums<M>,
                   "the dense output of this method is made of sums: use Dopri5, or a fixed-step method");
 
   public:
+    using Scalar = typename Base::Scalar;
     using Real = typename Base::Real;
     using State = typename Base::State;
+    static constexpr bool abreast = true;
     using Tableau = tableau::Dop853;
     static constexpr int dense_order = 7;
     static constexpr int error_order = 8; ///< err5^2 / err3 is of this order in h
@@ -33,22 +35,22 @@ class Dop853Stepper : public PairSteps<M, 8, tableau::Dop853::stages, 12> {
     {
     }
 
-    Status begin(const M& model, Real t, const State& s) noexcept
+    status_t<Scalar> begin(const M& model, Real t, const State& s) noexcept
     {
-        const Status status = Base::begin(model, t, s);
+        const auto status = Base::begin(model, t, s);
         for (State& coefficient : dense_) coefficient = x_;
         return status;
     }
 
-    Status attempt(const M& model, Real t, const State& s, Real h, State& s1) noexcept
+    status_t<Scalar> attempt(const M& model, Real t, const State& s, Real h, State& s1) noexcept
     {
         calls_ += 11;
         dense_ready_ = false;
-        const Status status = detail::evaluate_stages<Tableau, 1, 12>(model, t, s, h, x_, k_);
-        if (status != Status::ok) return status;
+        const auto status = detail::evaluate_stages<Tableau, 1, 12>(model, t, s, h, x_, k_);
+        if (fails(status)) return status;
         detail::move_along<Tableau::a, detail::lower_index(12, 0), 12>(model, s, h, k_, s1);
         estimate(s, h, s1);
-        return detail::check_finite(s1);
+        return StatusOf<Scalar>::first(status, detail::check_finite(s1));
     }
 
     /// Hairer's nested form: s + u (r2 + v (r3 + u (r4 + v (r5 + u (r6 + v (r7 + u r8)))))), u = theta, v = 1 - theta.
@@ -83,7 +85,11 @@ class Dop853Stepper : public PairSteps<M, 8, tableau::Dop853::stages, 12> {
             three += detail::total(Slice(e3 * e3));
         });
         const Real sum = five + Real(0.01) * three;
-        error_ = sum > Real(0) ? five / sqrt(sum * static_cast<Real>(s.size())) : sum;
+        const Real size = sqrt(sum * Real(static_cast<real_t<Real>>(s.size())));
+        if constexpr (is_pack<Real>)
+            error_ = select(sum > Real(0), five / size, sum);
+        else
+            error_ = sum > Real(0) ? Real(five / size) : sum;
     }
 
     Status prepare_dense(const M& model, Real t, const State& s, Real h, const State& s1) noexcept

@@ -8,17 +8,19 @@
 
 namespace lagen {
 
-/// See integrate/integrator.hpp for what is asked of a stepper.
+/// See integrate/stepper.hpp for what is asked of a stepper.
 template <class Tableau, class M>
 class EmbeddedStepper : public PairSteps<M, Tableau::order, Tableau::dense_stages, Tableau::end> {
     using Base = PairSteps<M, Tableau::order, Tableau::dense_stages, Tableau::end>;
-    using Base::calls_, Base::dense_ready_, Base::error_, Base::k_, Base::scale_, Base::x_;
+    using Base::calls_, Base::dense_ready_, Base::error_, Base::fails, Base::k_, Base::scale_, Base::x_;
     static_assert(std::is_same_v<typename M::State, tangent_t<M>>,
                   "step control measures errors by the lanes of the state: use a fixed-step method with this one");
 
   public:
+    using Scalar = typename Base::Scalar;
     using Real = typename Base::Real;
     using State = typename Base::State;
+    static constexpr bool abreast = true;
     static constexpr int dense_order = Tableau::dense_order;
     static constexpr int error_order = Tableau::embedded_order + 1; ///< the error of that formula is of it in h
     static constexpr double beta_share = 0.75;
@@ -29,27 +31,27 @@ class EmbeddedStepper : public PairSteps<M, Tableau::order, Tableau::dense_stage
     }
 
     /// s1, which is X of the stage at the end, and the scaled error.
-    Status attempt(const M& model, Real t, const State& s, Real h, State& s1) noexcept
+    status_t<Scalar> attempt(const M& model, Real t, const State& s, Real h, State& s1) noexcept
     {
         dense_ready_ = false;
         calls_ += ends_in_stage ? end : end - 1;
-        Status status = detail::evaluate_stages<Tableau, 1, end>(model, t, s, h, x_, k_);
-        if (status != Status::ok) return status;
+        auto status = detail::evaluate_stages<Tableau, 1, end>(model, t, s, h, x_, k_);
+        if (fails(status)) return status;
         if constexpr (ends_in_stage) {
-            status = detail::evaluate_stages<Tableau, end, end + 1>(model, t, s, h, s1, k_);
-            if (status != Status::ok) return status;
+            status = Lanes::first(status, detail::evaluate_stages<Tableau, end, end + 1>(model, t, s, h, s1, k_));
+            if (fails(status)) return status;
         } else {
             detail::move_along<Tableau::a, detail::lower_index(end, 0), end>(model, s, h, k_, s1);
         }
         estimate(s, h, s1);
-        status = detail::check_finite(s1);
-        if (!ends_in_stage || status != Status::ok) return status;
-        return detail::check_finite(k_[end]);
+        status = Lanes::first(status, detail::check_finite(s1));
+        if (!ends_in_stage || fails(status)) return status;
+        return Lanes::first(status, detail::check_finite(k_[end]));
     }
 
-    Status finish(const M& model, Real t1, const State& s1) noexcept
+    status_t<Scalar> finish(const M& model, Real t1, const State& s1) noexcept
     {
-        if constexpr (ends_in_stage) return Status::ok;
+        if constexpr (ends_in_stage) return Lanes::good();
         return Base::finish(model, t1, s1);
     }
 
@@ -69,6 +71,7 @@ class EmbeddedStepper : public PairSteps<M, Tableau::order, Tableau::dense_stage
     }
 
   private:
+    using Lanes = StatusOf<Scalar>;
     static constexpr std::size_t end = Tableau::end, all = Tableau::dense_stages;
     static constexpr bool ends_in_stage = end < Tableau::stages;
 
@@ -84,7 +87,7 @@ class EmbeddedStepper : public PairSteps<M, Tableau::order, Tableau::dense_stage
             const Slice ratio = e / scale_.template of<width>(s, s1, lane);
             sum += detail::total(Slice(ratio * ratio));
         });
-        error_ = sqrt(sum / static_cast<Real>(s.size()));
+        error_ = sqrt(sum / Real(static_cast<real_t<Real>>(s.size())));
     }
 
     /// delta = h sum_i b_i(theta) K_i, over the stages that the interpolant uses.

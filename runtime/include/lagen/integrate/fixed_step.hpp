@@ -75,15 +75,16 @@ struct Rk38 {
 
 } // namespace tableau
 
-/// The stepper of an explicit fixed-step method on model M: see integrate/integrator.hpp for what is asked of it.
+/// The stepper of an explicit fixed-step method on model M: see integrate/stepper.hpp for what is asked of it.
 template <class Tableau, class M>
 class FixedStepper {
   public:
     using Scalar = typename M::Scalar;
-    using Real = real_t<Scalar>;
+    using Real = step_time_t<M>;
     using State = typename M::State;
     using Tangent = tangent_t<M>;
     static constexpr bool adaptive = false;
+    static constexpr bool abreast = true;
     static constexpr int order = Tableau::order;
     static constexpr int dense_order = Tableau::order;
 
@@ -129,7 +130,40 @@ class FixedStepper {
 
     [[nodiscard]] std::size_t calls() const noexcept { return calls_; }
 
+    // ---- of packs whose lanes are trajectories: integrate/abreast.hpp ----
+
+    /// Can a trajectory of `own` go on a lane beside the others?
+    template <class Own>
+    [[nodiscard]] bool suits(const Own& own) const noexcept requires(is_pack<Scalar>)
+    {
+        return own.compensated_ == compensated_;
+    }
+    template <class Own>
+    void adopt(int lane, const Own& own) noexcept requires(is_pack<Scalar>)
+    {
+        const Eigen::Index size = own.lost_.size();
+        if (lost_.size() != size) {
+            next_lost_ = lost_ = Tangent::Zero(size);
+            if constexpr (!is_local) {
+                for (Tangent& slope : scratch_.k) slope = lost_;
+                scratch_.x = lost_;
+            }
+        }
+        for (Eigen::Index i = 0; i < size; ++i) lost_[i].set(lane, own.lost_[i]);
+    }
+    template <class Own>
+    void hand_over(int, Own&) const noexcept requires(is_pack<Scalar>)
+    {
+    }
+    void accept(const typename StatusOf<Scalar>::mask& where) noexcept requires(is_pack<Scalar>)
+    {
+        if (compensated_)
+            for (Eigen::Index i = 0; i < lost_.size(); ++i) lost_[i] = select(where, next_lost_[i], lost_[i]);
+    }
+
   private:
+    template <class, class>
+    friend class FixedStepper;
     using Scratch = detail::StageScratch<M, Tableau::stages>;
     struct Nothing {};
     /// What a step alone needs is local to it where it is short and of a built-in scalar, so that it may live in

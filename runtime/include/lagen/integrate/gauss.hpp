@@ -22,7 +22,7 @@
 
 namespace lagen {
 
-/// The stepper of a collocation method: see integrate/integrator.hpp for what is asked of it.
+/// The stepper of a collocation method: see integrate/stepper.hpp for what is asked of it.
 template <class Scheme, class M>
 class CollocationStepper {
   public:

@@ -3,14 +3,7 @@
 ///   integrator.step()              a step of the method, as long as it likes
 ///   integrator.advance_to(t)       steps to exactly t
 ///   integrator.at(t)               the state inside the last step
-/// A stepper, which does the work, offers
-///   begin(model, t, s)                        once, at the start
-///   attempt(model, t, s, h, s1)               a step of length h into s1; `error()` where adaptive
-///   finish(model, t1, s1), accept()           the derivative at the end where it is needed; then the step counts
-///   interpolate(model, t, s, h, s1, theta, out)   a value inside the last attempted step, before accept()
-///   calls()                                   of the right-hand side so far
-/// Adaptive ones may choose their steps themselves: after_accepted(h, error), after_rejected(h, error),
-/// after_failure(h). Implicit ones count newton_iterations() and decompositions().
+/// A stepper does the work: integrate/stepper.hpp.
 #pragma once
 
 #include "lagen/integrate/control.hpp"
@@ -19,20 +12,15 @@
 #include "lagen/integrate/lanes.hpp"
 #include "lagen/integrate/retract.hpp"
 #include "lagen/integrate/states.hpp"
+#include "lagen/integrate/stepper.hpp"
 #include "lagen/integrate/way.hpp"
 
 #include <algorithm>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 namespace lagen {
-
-namespace detail {
-
-template <class M, class Method, class Observer>
-class March;
-
-} // namespace detail
 
 /// An initial-value problem and where it stands. It keeps the model and allocates nothing in a step. Every status is
 /// that of `integrate`; a step that fails leaves time and state as they are. Of a pack, lanes that fail keep their
@@ -125,6 +113,8 @@ class Integrator {
   private:
     template <class, class, class>
     friend class detail::March;
+    template <class, class, int, class>
+    friend class detail::Abreast;
 
     static constexpr bool adaptive = Stepper::adaptive;
     static constexpr bool chooses_lengths = requires(Stepper stepper, Real h) { stepper.after_failure(h); };
@@ -202,44 +192,66 @@ class Integrator {
     template <class Between>
     [[gnu::always_inline]] Status take(std::size_t most, const Between& between)
     {
-        open();
-        const auto [h, last] = next_length();
-        if constexpr (adaptive)
-            if (!last && is_lost_in_time(h_)) return fail(Status::step_too_small, t_);
-        if (!way_.bounded && !detail::is_finite_number(Real(t_ + h))) [[unlikely]]
-            return fail(Status::non_finite, Real(t_ + h));
-        for (std::size_t left = last || adaptive ? 1 : way_.steps_inside(h_, t_, most);;) {
-            // Compensated sum of the times [Kahan 1965].
-            const Real increment = h - lost_;
-            Real t1 = t_ + increment, lost = (t1 - t_) - increment;
-            if (last) [[unlikely]]
-                t1 = way_.end, lost = Real(0);
-            const auto status = stepper_.attempt(model_, t_from_, from_, h, s_);
-            if constexpr (adaptive) {
-                const Status verdict = judge(status, h, t1);
-                if (verdict != Status::ok) return fail(verdict, t1);
-                if (retry_) return Status::ok;
-            } else if constexpr (!is_pack<Scalar>) {
-                const Status verdict = follow(status, t1);
-                if (verdict != Status::ok) return fail(detail::loss_of_maximum(verdict, model_, t_from_, from_, h), t1);
-            }
-            t_ = t1;
-            const auto ending = accepted();
-            if constexpr (is_pack<Scalar>) {
-                const Status verdict =
-                    detail::settle<Scalar>(lanes_, follow(StatusOf<Scalar>::first(status, ending), t1));
-                if (verdict != Status::ok) return fail(verdict, t1);
-                detail::freeze<Scalar>(lanes_, from_, s_);
-            }
-            fresh_ = true;
-            if constexpr (!is_pack<Scalar>)
-                if (ending != Status::ok) return failed_at_ = t1, ending;
-            ++steps_;
-            lost_ = lost;
-            if (adaptive || --left == 0) return Status::ok;
+        Attempt next{};
+        const Status refused = propose(next);
+        if (refused != Status::ok) return refused;
+        for (std::size_t left = next.last || adaptive ? 1 : way_.steps_inside(h_, t_, most);;) {
+            const auto status = stepper_.attempt(model_, t_from_, from_, next.h, s_);
+            const Status ending = conclude(status, next);
+            if (adaptive || ending != Status::ok || --left == 0) return ending;
             between();
             open();
         }
+    }
+
+    using Attempt = detail::Attempt<Real>;
+
+    /// What the stepper is to attempt next, from (t_from_, from_); not ok where there is no next step.
+    [[gnu::always_inline]] Status propose(Attempt& next)
+    {
+        open();
+        std::tie(next.h, next.last) = next_length();
+        if constexpr (adaptive)
+            if (!next.last && way_.is_lost(h_, t_)) return fail(Status::step_too_small, t_);
+        if (!way_.bounded && !detail::is_finite_number(Real(t_ + next.h))) [[unlikely]]
+            return fail(Status::non_finite, Real(t_ + next.h));
+        return Status::ok;
+    }
+
+    /// Where it ends: a compensated sum of the times [Kahan 1965].
+    [[gnu::always_inline]] Real end_of(const Attempt& made) const noexcept
+    {
+        if (made.last) [[unlikely]]
+            return way_.end;
+        return t_ + (made.h - lost_);
+    }
+
+    /// Takes an attempt that brought s_ and `status`.
+    [[gnu::always_inline]] Status conclude(const status_t<Scalar>& status, const Attempt& made)
+    {
+        const Real t1 = end_of(made), lost = made.last ? Real(0) : Real((t1 - t_) - (made.h - lost_));
+        if constexpr (adaptive) {
+            const Status verdict = judge(status, made.h, t1);
+            if (verdict != Status::ok) return fail(verdict, t1);
+            if (retry_) return Status::ok;
+        } else if constexpr (!is_pack<Scalar>) {
+            const Status verdict = follow(status, t1);
+            if (verdict != Status::ok)
+                return fail(detail::loss_of_maximum(verdict, model_, t_from_, from_, made.h), t1);
+        }
+        t_ = t1;
+        const auto ending = accepted();
+        if constexpr (is_pack<Scalar>) {
+            const Status verdict = detail::settle<Scalar>(lanes_, follow(StatusOf<Scalar>::first(status, ending), t1));
+            if (verdict != Status::ok) return fail(verdict, t1);
+            detail::freeze<Scalar>(lanes_, from_, s_);
+        }
+        fresh_ = true;
+        if constexpr (!is_pack<Scalar>)
+            if (ending != Status::ok) return failed_at_ = t1, ending;
+        ++steps_;
+        lost_ = lost;
+        return Status::ok;
     }
 
     /// The step before counts, and the next one begins where it ended.
@@ -333,17 +345,10 @@ class Integrator {
             return controller_;
     }
 
-    /// Within the rounding of time?
-    bool is_lost_in_time(const Real& length) const noexcept
-    {
-        const Real scale = std::max<Real>(size(t_), epsilon() * way_.length);
-        return !(Real(0.1) * length > epsilon() * scale);
-    }
-
     /// `reason` where the next step would be lost in the rounding of time; left_domain in a run into the boundary.
     Status size_verdict(Status reason, const Real& t1) noexcept requires(adaptive)
     {
-        if (!is_lost_in_time(h_)) return Status::ok;
+        if (!way_.is_lost(h_, t_)) return Status::ok;
         if constexpr (HasDomain<M>) {
             inner_ = s_ + failed_length_ * stepper_.derivative();
             if (reason != Status::step_too_small && detail::domain_status(model_, t1, inner_) != Status::ok)

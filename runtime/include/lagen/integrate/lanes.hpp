@@ -14,9 +14,9 @@
 namespace lagen::detail {
 
 /// True of a column of doubles. Two of them are a vector of every 64-bit processor's base; at -O2 g++ 12 makes none by
-/// itself.
+/// itself. Packs of doubles go by pairs too, so that a sum over a column has the same order in every lane of theirs.
 template <class Column>
-inline constexpr bool has_pairs = std::is_same_v<typename Column::Scalar, double>;
+inline constexpr bool has_pairs = std::is_same_v<real_t<typename Column::Scalar>, double>;
 
 /// True of columns that a function may hold several of.
 template <class Column>
@@ -30,16 +30,42 @@ struct Pair {
     typedef long long bits __attribute__((vector_size(16)));
 };
 
+/// Two scalars that are no vector: packs.
+template <class S>
+struct Twin {
+    S first, second;
+
+    Twin() noexcept : first(0), second(0) {}
+    Twin(const S& both) noexcept : first(both), second(both) {}
+    Twin(real_t<S> both) noexcept requires(is_pack<S>) : first(both), second(both) {}
+    Twin(const S& a, const S& b) noexcept : first(a), second(b) {}
+
+    Twin& operator+=(const Twin& b) noexcept { return *this = *this + b; }
+    friend Twin operator+(const Twin& a, const Twin& b) noexcept { return {a.first + b.first, a.second + b.second}; }
+    friend Twin operator-(const Twin& a, const Twin& b) noexcept { return {a.first - b.first, a.second - b.second}; }
+    friend Twin operator*(const Twin& a, const Twin& b) noexcept { return {a.first * b.first, a.second * b.second}; }
+    friend Twin operator/(const Twin& a, const Twin& b) noexcept { return {a.first / b.first, a.second / b.second}; }
+};
+
+template <class S>
+struct PairOf {
+    using type = Twin<S>;
+};
+template <>
+struct PairOf<double> {
+    using type = Pair::type;
+};
+
 /// One lane of a column, or two.
 template <class Column, int width>
-using Slice = std::conditional_t<width == 2, Pair::type, typename Column::Scalar>;
+using Slice = std::conditional_t<width == 2, typename PairOf<typename Column::Scalar>::type, typename Column::Scalar>;
 
 /// The same number in every lane; a scalar's default constructor need not make a number.
 template <class Column, int width>
 [[gnu::always_inline]] inline Slice<Column, width> uniform(const typename Column::Scalar& x) noexcept
 {
     if constexpr (width == 2)
-        return Pair::type{x, x};
+        return Slice<Column, width>{x, x};
     else
         return x;
 }
@@ -48,7 +74,9 @@ template <class Column, int width>
 template <int width, class Column>
 [[gnu::always_inline]] inline Slice<Column, width> load(const Column& column, Eigen::Index lane) noexcept
 {
-    if constexpr (width == 2) {
+    if constexpr (width == 2 && is_pack<typename Column::Scalar>) {
+        return {column[lane], column[lane + 1]};
+    } else if constexpr (width == 2) {
         Pair::type pair;
         std::memcpy(&pair, column.data() + lane, sizeof pair);
         return pair;
@@ -63,7 +91,7 @@ template <int width, class Column>
 [[gnu::always_inline]] inline Slice<Column, width> load_fresh(const Column& column, Eigen::Index lane) noexcept
 {
     if constexpr (width == 2)
-        return Pair::type{column[lane], column[lane + 1]};
+        return Slice<Column, width>{column[lane], column[lane + 1]};
     else
         return column[lane];
 }
@@ -79,6 +107,13 @@ requires has_pairs<Column>
 [[gnu::always_inline]] inline void store(Column& column, Eigen::Index lane, Pair::type value) noexcept
 {
     std::memcpy(column.data() + lane, &value, sizeof value);
+}
+template <class Column>
+[[gnu::always_inline]] inline void store(Column& column, Eigen::Index lane,
+                                         const Twin<typename Column::Scalar>& value) noexcept
+{
+    column[lane] = value.first;
+    column[lane + 1] = value.second;
 }
 
 template <int width>
@@ -97,6 +132,27 @@ template <class Scalar>
     return (Pair::type)((Bits)x & ~(Bits)Pair::type{-0.0, -0.0});
 }
 
+template <class S>
+[[gnu::always_inline]] inline Twin<S> size_of(const Twin<S>& x) noexcept
+{
+    return {size_of(x.first), size_of(x.second)};
+}
+
+/// a where it is larger, else b; a lane.
+template <class Scalar>
+[[gnu::always_inline]] inline Scalar larger_of(const Scalar& a, const Scalar& b) noexcept
+{
+    if constexpr (is_pack<Scalar>)
+        return select(a > b, a, b);
+    else
+        return a > b ? a : b;
+}
+template <class S>
+[[gnu::always_inline]] inline Twin<S> larger_of(const Twin<S>& a, const Twin<S>& b) noexcept
+{
+    return {larger_of(a.first, b.first), larger_of(a.second, b.second)};
+}
+
 /// The sum of the lanes, in their order.
 template <class Scalar>
 [[gnu::always_inline]] inline const Scalar& total(const Scalar& x) noexcept
@@ -106,6 +162,11 @@ template <class Scalar>
 [[gnu::always_inline]] inline double total(Pair::type x) noexcept
 {
     return x[0] + x[1];
+}
+template <class S>
+[[gnu::always_inline]] inline S total(const Twin<S>& x) noexcept
+{
+    return x.first + x.second;
 }
 
 /// The largest of the lanes; of one that is no number, that or another.
@@ -171,7 +232,7 @@ template <class Column>
 {
     constexpr Eigen::Index size = Column::SizeAtCompileTime;
     typename Column::Scalar sum = s[0];
-    if constexpr (has_pairs<Column> && size >= 2) {
+    if constexpr (has_pairs<Column> && !is_pack<typename Column::Scalar> && size >= 2) {
         Pair::type pairs = load_fresh<2>(s, 0);
         for_lanes(s, [&]<int width>(Width<width>, Eigen::Index lane) {
             if constexpr (width == 2)

@@ -38,10 +38,23 @@ class March {
     Run<M> run()
     {
         Status status = begin();
-        while (status == Status::ok && steps_.t_ != span_.end) {
-            status = interruption();
-            if (status == Status::ok) status = steps();
-        }
+        while (goes_on(status)) status = steps();
+        return finish(status);
+    }
+
+  private:
+    template <class, class, int, class>
+    friend class Abreast;
+
+    /// Is there another step to make, where the last one ended with `status`?
+    bool goes_on(Status& status)
+    {
+        if (status == Status::ok && steps_.t_ != span_.end) status = interruption();
+        return status == Status::ok && steps_.t_ != span_.end;
+    }
+
+    Run<M> finish(Status status)
+    {
         run_.t = steps_.t();
         run_.state = steps_.state();
         run_.steps = steps_.steps();
@@ -61,7 +74,6 @@ class March {
         return std::move(run_);
     }
 
-  private:
     Status begin()
     {
         const Real length = span_.end - span_.start;
@@ -98,6 +110,14 @@ class March {
         return Status::ok;
     }
 
+    /// How many steps may be made before something has to be looked at; of adaptive ones, and near the end, one.
+    [[nodiscard]] std::size_t unseen_steps() const noexcept
+    {
+        const std::size_t tried = steps_.steps_ + steps_.rejected_;
+        const std::size_t most = looks_ || tried >= limit_ ? 1 : limit_ - tried;
+        return Stepper::adaptive ? 1 : steps_.way_.steps_inside(steps_.h_, steps_.t_, most);
+    }
+
     /// Steps until something has to be looked at. The loop has no other way on than accepted steps, so that a compiler
     /// takes out of it what is the same in all of them.
     Status steps()
@@ -111,6 +131,16 @@ class March {
             show();
             if (steps_.t_ == span_.end || steps_.steps_ + steps_.rejected_ >= limit_) return Status::ok;
         }
+    }
+
+    /// The same of one step that is attempted elsewhere.
+    Status conclude(const status_t<Scalar>& status, const typename Steps::Attempt& made)
+    {
+        const Status ending = steps_.conclude(status, made);
+        if (!steps_.fresh_) return ending;
+        if (ending != Status::ok || looks_) return look(ending);
+        show();
+        return Status::ok;
     }
 
     Status look(Status ending)

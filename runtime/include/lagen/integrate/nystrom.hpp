@@ -25,11 +25,11 @@
 
 namespace lagen {
 
-/// See integrate/integrator.hpp for what is asked of a stepper.
+/// See integrate/stepper.hpp for what is asked of a stepper.
 template <class Tableau, class M>
 class NystromStepper : public PairSteps<M, Tableau::order, Tableau::dense_stages, Tableau::end> {
     using Base = PairSteps<M, Tableau::order, Tableau::dense_stages, Tableau::end>;
-    using Base::calls_, Base::dense_ready_, Base::error_, Base::k_, Base::scale_, Base::x_;
+    using Base::calls_, Base::dense_ready_, Base::error_, Base::fails, Base::k_, Base::scale_, Base::x_;
     static constexpr bool general = requires { Tableau::a; };
     static_assert(
         general ? second_order<M> != SecondOrder::no : second_order<M> == SecondOrder::velocity_free,
@@ -38,8 +38,10 @@ class NystromStepper : public PairSteps<M, Tableau::order, Tableau::dense_stages
     static_assert(moves_by_sums<M>, "a Nystrom method moves its states by sums");
 
   public:
+    using Scalar = typename Base::Scalar;
     using Real = typename Base::Real;
     using State = typename Base::State;
+    static constexpr bool abreast = true;
     static constexpr int dense_order = Tableau::dense_order;
     static constexpr int error_order = Tableau::embedded_order + 1; ///< the error of that formula is of it in h
     static constexpr double beta_share = 0.75;
@@ -49,36 +51,36 @@ class NystromStepper : public PairSteps<M, Tableau::order, Tableau::dense_stages
     {
     }
 
-    Status attempt(const M& model, Real t, const State& s, Real h, State& s1) noexcept
+    status_t<Scalar> attempt(const M& model, Real t, const State& s, Real h, State& s1) noexcept
     {
         dense_ready_ = false;
         calls_ += ends_in_stage ? end : end - 1;
         if constexpr (!general) keep_rates(s, x_);
-        Status status = evaluate<1, end>(model, t, s, h);
-        if (status != Status::ok) return status;
+        auto status = evaluate<1, end>(model, t, s, h);
+        if (fails(status)) return status;
         move_positions<Tableau::bbar, 0, end>(s, h, h, s1);
         // Of x'' = f(t, x) the last stage does not ask for v1, which may depend on it.
         if constexpr (ends_in_stage && !general) {
             keep_rates(s, s1);
-            status = model.rhs(t + h, s1, k_[end]);
+            status = Lanes::first(status, model.rhs(t + h, s1, k_[end]));
         }
         move_rates<Tableau::b, 0, Tableau::stages>(s, h, s1);
-        if constexpr (ends_in_stage && general) status = model.rhs(t + h, s1, k_[end]);
-        if (status != Status::ok) return status;
+        if constexpr (ends_in_stage && general) status = Lanes::first(status, model.rhs(t + h, s1, k_[end]));
+        if (fails(status)) return status;
         estimate(s, h, s1);
-        status = detail::check_finite(s1);
-        if (!ends_in_stage || status != Status::ok) return status;
-        return detail::check_finite(k_[end]);
+        status = Lanes::first(status, detail::check_finite(s1));
+        if (!ends_in_stage || fails(status)) return status;
+        return Lanes::first(status, detail::check_finite(k_[end]));
     }
 
     /// The derivative at the end of a step that will be accepted.
-    Status finish(const M& model, Real t1, const State& s1) noexcept
+    status_t<Scalar> finish(const M& model, Real t1, const State& s1) noexcept
     {
         if constexpr (ends_in_stage) {
             for_positions(s1, [&]<int width>(detail::Width<width>, Eigen::Index lane) {
                 detail::store(k_[end], lane, detail::load<width>(s1, half(s1) + lane));
             });
-            return Status::ok;
+            return Lanes::good();
         }
         return Base::finish(model, t1, s1);
     }
@@ -99,6 +101,7 @@ class NystromStepper : public PairSteps<M, Tableau::order, Tableau::dense_stages
     }
 
   private:
+    using Lanes = StatusOf<Scalar>;
     static constexpr std::size_t end = Tableau::end, all = Tableau::dense_stages;
     static constexpr bool ends_in_stage = end < Tableau::stages;
 
@@ -147,17 +150,18 @@ class NystromStepper : public PairSteps<M, Tableau::order, Tableau::dense_stages
 
     /// Stages first..last-1.
     template <std::size_t first, std::size_t last>
-    [[gnu::always_inline]] Status evaluate(const M& model, const Real& t, const State& s, const Real& h) noexcept
+    [[gnu::always_inline]] status_t<Scalar> evaluate(const M& model, const Real& t, const State& s,
+                                                     const Real& h) noexcept
     {
         if constexpr (first < last) {
             constexpr std::size_t row = detail::lower_index(first, 0);
-            const Real reach = Tableau::c[first].template as<Real>() * h;
+            const Real reach = Tableau::c[first].template as<real_t<Real>>() * h;
             move_positions<Tableau::abar, row, first>(s, h, reach, x_);
             if constexpr (general) move_rates<Tableau::a, row, first>(s, h, x_);
-            const Status status = model.rhs(t + reach, x_, k_[first]);
-            return status == Status::ok ? evaluate<first + 1, last>(model, t, s, h) : status;
+            const auto status = model.rhs(t + reach, x_, k_[first]);
+            return fails(status) ? status : Lanes::first(status, evaluate<first + 1, last>(model, t, s, h));
         }
-        return Status::ok;
+        return Lanes::good();
     }
 
     /// The norm of h^2 sum_i error_bar_i F_i and h sum_i error_i F_i.
@@ -176,7 +180,7 @@ class NystromStepper : public PairSteps<M, Tableau::order, Tableau::dense_stages
                              scale_.template of<width>(s, s1, rate);
             sum += detail::total(Slice(ex * ex + ev * ev));
         });
-        error_ = sqrt(sum / static_cast<Real>(s.size()));
+        error_ = sqrt(sum / Real(static_cast<real_t<Real>>(s.size())));
     }
 
     /// s, in `out`, moved to theta.

@@ -182,7 +182,7 @@ class PackedStages {
     }
 
     Model model_{};
-    P c_, b_;
+    P c_{}, b_{};
     std::array<P, s> mu_{}; ///< mu_ij is lane i of entry j
     Lanes z_, x_, slopes_;
 };

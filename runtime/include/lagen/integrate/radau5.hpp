@@ -82,7 +82,7 @@ class PredictiveControl {
 
 } // namespace detail
 
-/// See integrate/integrator.hpp for what is asked of a stepper.
+/// See integrate/stepper.hpp for what is asked of a stepper.
 template <class M>
 class Radau5Stepper {
     using Scheme = detail::RadauScheme<3>;

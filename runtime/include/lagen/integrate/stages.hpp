@@ -39,9 +39,9 @@ constexpr bool have_a_measure() noexcept
 /// exactly zero cost nothing, and the sum begins with its first term, since a compiler may not drop 0 + x. Where the
 /// weights have a measure it is taken out of the sum, as h/6 (k_1 + 2 k_2 + 2 k_3 + k_4). The last slope was just
 /// written.
-template <auto& weights, std::size_t offset, int width, std::size_t... j, class Stages>
-[[gnu::always_inline]] inline auto weighted_lanes(const real_t<typename Stages::value_type::Scalar>& h, const Stages& k,
-                                                  Eigen::Index lane, std::index_sequence<j...>) noexcept
+template <auto& weights, std::size_t offset, int width, std::size_t... j, class Time, class Stages>
+[[gnu::always_inline]] inline auto weighted_lanes(const Time& h, const Stages& k, Eigen::Index lane,
+                                                  std::index_sequence<j...>) noexcept
 {
     using Column = typename Stages::value_type;
     using Real = real_t<typename Column::Scalar>;
@@ -70,16 +70,16 @@ template <auto& weights, std::size_t offset, int width, std::size_t... j, class 
         };
         (add.template operator()<j>(), ...);
         if constexpr (measured)
-            return Sum(Real(h * weights[offset + first].template as<Real>()) * sum);
+            return Sum(Time(h * weights[offset + first].template as<Real>()) * sum);
         else
             return Sum(h * sum);
     }
 }
 
 /// out = h sum_j weights[j] k[j].
-template <auto& weights, std::size_t offset = 0, std::size_t count = weights.size(), class Column, class Stages>
-[[gnu::always_inline]] inline void weighted_sum(const real_t<typename Column::Scalar>& h, const Stages& k,
-                                                Column& out) noexcept
+template <auto& weights, std::size_t offset = 0, std::size_t count = weights.size(), class Time, class Column,
+          class Stages>
+[[gnu::always_inline]] inline void weighted_sum(const Time& h, const Stages& k, Column& out) noexcept
 {
     for_lanes(out, [&]<int width>(Width<width>, Eigen::Index lane) {
         store(out, lane, weighted_lanes<weights, offset, width>(h, k, lane, std::make_index_sequence<count>{}));
@@ -89,9 +89,8 @@ template <auto& weights, std::size_t offset = 0, std::size_t count = weights.siz
 /// out = s + h sum_j weights[offset + j] k[j], j < count: of vectors in one pass without temporaries. (Measured: the
 /// same sums as Eigen expressions execute half as many instructions again in DOP853.)
 template <auto& weights, std::size_t offset, std::size_t count, class M, class Stages>
-[[gnu::always_inline]] inline void move_along(const M& model, const typename M::State& s,
-                                              const real_t<typename M::Scalar>& h, const Stages& k,
-                                              typename M::State& out) noexcept
+[[gnu::always_inline]] inline void move_along(const M& model, const typename M::State& s, const step_time_t<M>& h,
+                                              const Stages& k, typename M::State& out) noexcept
 {
     if constexpr (moves_by_sums<M>) {
         for_lanes(s, [&]<int width>(Width<width>, Eigen::Index lane) {
@@ -107,9 +106,9 @@ template <auto& weights, std::size_t offset, std::size_t count, class M, class S
 
 /// move_along, and whether the result is finite.
 template <auto& weights, std::size_t offset, std::size_t count, class M, class Stages>
-[[gnu::always_inline]] inline status_t<typename M::Scalar>
-move_checked(const M& model, const typename M::State& s, const real_t<typename M::Scalar>& h, const Stages& k,
-             typename M::State& out) noexcept
+[[gnu::always_inline]] inline status_t<typename M::Scalar> move_checked(const M& model, const typename M::State& s,
+                                                                        const step_time_t<M>& h, const Stages& k,
+                                                                        typename M::State& out) noexcept
 {
     if constexpr (moves_by_sums<M>) {
         move_along<weights, offset, count>(model, s, h, k, out);
@@ -133,15 +132,15 @@ struct StageScratch {
 /// which has other lanes.
 template <class Tableau, std::size_t first, std::size_t last, class M, class Stages>
 [[gnu::always_inline]] inline status_t<typename M::Scalar>
-evaluate_stages(const M& model, const real_t<typename M::Scalar>& t, const typename M::State& s,
-                const real_t<typename M::Scalar>& h, typename M::State& x, Stages& k) noexcept
+evaluate_stages(const M& model, const step_time_t<M>& t, const typename M::State& s, const step_time_t<M>& h,
+                typename M::State& x, Stages& k) noexcept
 {
     using Scalar = typename M::Scalar;
-    using Real = real_t<Scalar>;
+    using Time = step_time_t<M>;
     auto status = StatusOf<Scalar>::good();
     if constexpr (first < last) {
         move_along<Tableau::a, lower_index(first, 0), first>(model, s, h, k, x);
-        const Real time = t + Tableau::c[first].template as<Real>() * h;
+        const Time time = t + Tableau::c[first].template as<real_t<Scalar>>() * h;
         status = model.rhs(Scalar(time), x, k[first]);
         if (!is_pack<Scalar> && !StatusOf<Scalar>::all_good(status)) return status;
         status = StatusOf<Scalar>::first(status, evaluate_stages<Tableau, first + 1, last>(model, t, s, h, x, k));

@@ -12,7 +12,7 @@ namespace lagen::detail {
 /// left_domain where one of the model's strict inequalities fails, a lane.
 template <class M>
 [[gnu::always_inline]] inline status_t<typename M::Scalar>
-domain_status([[maybe_unused]] const M& model, [[maybe_unused]] const real_t<typename M::Scalar>& t,
+domain_status([[maybe_unused]] const M& model, [[maybe_unused]] const step_time_t<M>& t,
               [[maybe_unused]] const typename M::State& s) noexcept
 {
     using Scalar = typename M::Scalar;

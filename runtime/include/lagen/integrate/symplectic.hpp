@@ -45,7 +45,7 @@ struct LeapfrogKdk {
 
 } // namespace splitting
 
-/// The stepper of a splitting method: see integrate/integrator.hpp for what is asked of it.
+/// The stepper of a splitting method: see integrate/stepper.hpp for what is asked of it.
 template <class Splitting, class M>
 class SplittingStepper {
     static_assert(M::base_dimension > 0 && M::base_dimension < M::dimension,

@@ -8,111 +8,33 @@
 #include "lagen/integrate/isolate_roots.hpp"
 #include "lagen/integrate/lanes.hpp"
 #include "lagen/integrate/states.hpp"
-#include "lagen/series.hpp"
+#include "lagen/integrate/taylor_order.hpp"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <utility>
 
 namespace lagen {
 
-/// A model with Taylor coefficients: `lagen generate MODEL --with taylor`.
-template <class M>
-concept HasTaylor = requires(const M& model, typename M::Scalar t, const typename M::State& s,
-                             TaylorSeries<typename M::Scalar, M::dimension, 8>& x)
-{
-    {
-        model.taylor(t, s, 8, x)
-    }
-    noexcept->std::same_as<status_t<typename M::Scalar>>;
-};
-
-/// And with those of its events along the motion: `--with taylor,event_series`.
-template <class M>
-concept HasEventSeries = HasTaylor<M> && requires(const M& model, typename M::Scalar t, const typename M::State& s,
-                                                  const TaylorSeries<typename M::Scalar, M::dimension, 8>& x)
-{
-    M::events_names;
-    requires requires(TaylorSeries<typename M::Scalar, static_cast<int>(M::events_names.size()), 8> & e)
-    {
-        model.event_series(t, s, 8, x, e);
-    };
-};
-
-namespace detail {
-
-/// log2(x) within 0.09 of a positive number, from its exponent.
-template <class Real>
-[[nodiscard]] double rough_logarithm(const Real& x) noexcept
-{
-    if constexpr (std::is_same_v<Real, float> || std::is_same_v<Real, double>) {
-        const auto bits = std::bit_cast<std::int64_t>(static_cast<double>(x));
-        return static_cast<double>(bits) * 0x1p-52 - 1023.0;
-    } else {
-        using std::log;
-        return static_cast<double>(log(plain_number(x))) * 1.4426950408889634;
-    }
-}
-
-/// 2^x, within 6 %, as the inverse of rough_logarithm.
-template <class Real>
-[[nodiscard]] Real rough_power(double x) noexcept
-{
-    if (x < -1000) return Real(0);
-    if (x > 1000) x = 1000;
-    return static_cast<Real>(std::bit_cast<double>(static_cast<std::int64_t>((x + 1023.0) * 0x1p52)));
-}
-
-/// The order for L = -ln(tolerance), where a coefficient takes so many sums. A step is as long as e^(-L/p). Its work
-/// grows like p^2 where products of scalars are all that takes time, and p = L/2 + 1 is cheapest [Jorba-Zou 2005,
-/// section 3.1]; with eight products at a time it grows little faster than p while there are few sums. Measured, by
-/// powers of ten from 1e-6 to 1e-15: least at 16, 20, 24, 28 for a heavy top (9 sums), a rigid body and a double
-/// pendulum, within 5 % from one less to four more; near 10, 14, 17, 20 for seven bodies in the plane (126 sums).
-template <class Real>
-[[nodiscard]] constexpr int taylor_order(double logarithm, int sums) noexcept
-{
-    constexpr bool in_registers = std::is_floating_point_v<Real> && sizeof(Real) <= 8;
-    const double wanted = !in_registers ? 1 + logarithm / 2 : (sums <= 32 ? 7 + 0.6 * logarithm : 3 + 0.5 * logarithm);
-    const int whole = static_cast<int>(wanted);
-    return whole + (whole < wanted ? 1 : 0);
-}
-
-/// Of a model without events: nothing.
-template <class M, int order>
-struct EventSeries {
-};
-
-template <HasEventSeries M, int order>
-struct EventSeries<M, order> {
-    TaylorSeries<typename M::Scalar, static_cast<int>(M::events_names.size()), order> of{};
-    bool known = false;
-};
-
-/// For a tolerance that is the scalar's epsilon.
-template <class Real>
-inline constexpr int highest_taylor_order = taylor_order<Real>(0.69314718055994531 * std::numeric_limits<Real>::digits,
-                                                               0);
-
-} // namespace detail
-
-/// See integrate/integrator.hpp for what is asked of a stepper.
+/// See integrate/stepper.hpp for what is asked of a stepper.
 template <class M>
 class TaylorStepper {
     static_assert(HasTaylor<M>,
                   "Taylor's method needs the recurrences of the model: lagen generate MODEL --with taylor");
-    static_assert(!is_pack<typename M::Scalar>,
-                  "adaptive methods choose one step for one trajectory: use a fixed-step method with packs");
+    static_assert(!is_pack<typename M::Scalar> || detail::NamesTime<M>,
+                  "adaptive methods choose one step for one trajectory: use a fixed-step method with packs, or "
+                  "lagen::ensemble");
 
   public:
     using Scalar = typename M::Scalar;
     using Real = Scalar;
+    using Number = real_t<Real>;
     using State = typename M::State;
     static constexpr bool adaptive = true;
-    static constexpr int highest_order = detail::highest_taylor_order<Real>;
+    static constexpr bool abreast = true;
+    static constexpr int highest_order = detail::highest_taylor_order<Number>;
     static constexpr int dense_order = highest_order;
     static constexpr int error_order = highest_order;
     static constexpr double beta_share = 0;
@@ -124,7 +46,7 @@ class TaylorStepper {
     {
     }
 
-    Status begin(const M& model, Real t, const State& s) noexcept
+    status_t<Scalar> begin(const M& model, Real t, const State& s) noexcept
     {
         lost_.fill(Real(0));
         kept_ = lost_;
@@ -143,7 +65,7 @@ class TaylorStepper {
     /// radius of convergence:
     ///   h |P'(h) - f(P(h))| / (p + 1).
     /// Equations with kinks are refused by the generator: a kink that is crossed twice in a step leaves no trace there.
-    Status attempt(const M& model, Real t, const State& s, Real h, State& s1) noexcept
+    status_t<Scalar> attempt(const M& model, Real t, const State& s, Real h, State& s1) noexcept
     {
         const Series& x = here().motion;
         if constexpr (HasDomain<M>) begins_ = {t, s};
@@ -161,40 +83,43 @@ class TaylorStepper {
             s1[lane] = from + change;
             lost_[i] = change - (s1[lane] - from);
         }
-        const Status status = expand(model, t + h, s1, next());
-        if (status != Status::ok) return status;
-        if (const Status finite = detail::check_finite(s1); finite != Status::ok) return finite;
+        auto status = expand(model, t + h, s1, next());
+        if (fails(status)) return status;
+        status = Lanes::first(status, detail::check_finite(s1));
+        if (fails(status)) return status;
         error_ = Real(0);
-        const Real epsilon = std::numeric_limits<Real>::epsilon();
+        const Real epsilon = Real(std::numeric_limits<Number>::epsilon());
         for (std::size_t i = 0; i < lanes; ++i) {
             const auto lane = static_cast<Eigen::Index>(i);
             const Real rate = next().motion[1][i];
             const Real bound = scale_.template of<1>(s, s1, lane) +
                                Real(4) * epsilon * (detail::size_of(s1[lane]) + detail::size_of(h * rate));
             const Real defect = detail::size_of(h * (slope[i] - rate)) / (Real(16) * Real(order_ + 1) * bound);
-            if (error_ == error_ && !(defect <= error_)) error_ = defect;
+            error_ = select(error_ == error_ && !(defect <= error_), defect, error_);
         }
-        return Status::ok;
+        return status;
     }
 
     [[nodiscard]] Real error() const noexcept { return error_; }
 
     /// A step is long: the domain is looked at inside it too, at equal parts.
-    Status finish(const M& model, Real t1, const State& s1) noexcept
+    status_t<Scalar> finish([[maybe_unused]] const M& model, [[maybe_unused]] Real t1,
+                            [[maybe_unused]] const State& s1) noexcept
     {
+        auto status = Lanes::good();
         if constexpr (HasDomain<M>) {
             constexpr int parts = 16;
             const auto& [t, s] = begins_;
             State inside = s1;
             for (int k = 1; k < parts; ++k) {
                 const Real theta = Real(k) / Real(parts);
-                const Status status = interpolate(model, t, s, t1 - t, s1, theta, inside);
-                if (status != Status::ok) return status;
-                const Status domain = detail::domain_status(model, t + theta * (t1 - t), inside);
-                if (domain != Status::ok) return domain;
+                status = Lanes::first(status, interpolate(model, t, s, t1 - t, s1, theta, inside));
+                if (fails(status)) return status;
+                status = Lanes::first(status, detail::domain_status(model, t + theta * (t1 - t), inside));
+                if (fails(status)) return status;
             }
         }
-        return Status::ok;
+        return status;
     }
 
     void accept() noexcept
@@ -223,7 +148,7 @@ class TaylorStepper {
     }
 
     /// The polynomial.
-    Status interpolate(const M&, Real, const State& s, Real h, const State&, Real theta, State& out) noexcept
+    status_t<Scalar> interpolate(const M&, Real, const State& s, Real h, const State&, Real theta, State& out) noexcept
     {
         const Series& x = here().motion;
         const Real step = theta * h;
@@ -267,11 +192,90 @@ class TaylorStepper {
     [[nodiscard]] std::size_t calls() const noexcept { return calls_; }
     [[nodiscard]] int order() const noexcept { return order_; }
 
+    // ---- of packs whose lanes are trajectories: integrate/abreast.hpp ----
+
+    /// Can a trajectory of `own` go on a lane beside the others?
+    template <class One>
+    [[nodiscard]] bool suits(const TaylorStepper<One>& own) const noexcept requires(is_pack<Scalar>)
+    {
+        return own.order_ == order_;
+    }
+
+    /// Lane `lane` begins as `own`, the stepper of its trajectory, has begun.
+    template <class One>
+    void adopt(int lane, const TaylorStepper<One>& own) noexcept requires(is_pack<Scalar>)
+    {
+        scale_.set_lane(lane, own.scale_);
+        set_lane(here().motion, lane, own.here().motion);
+        here().length.set(lane, own.here().length);
+        if constexpr (HasEventSeries<M>) {
+            set_lane(here().events.of, lane, own.here().events.of);
+            here().events.known.lanes[lane] = own.here().events.known ? -1 : 0;
+        }
+        for (std::size_t i = 0; i < lanes; ++i) kept_[i].set(lane, own.kept_[i]);
+    }
+
+    /// What values inside the last step of lane `lane` are made of, and how long the step behind it may be.
+    template <class One>
+    void hand_over(int lane, TaylorStepper<One>& own) const noexcept requires(is_pack<Scalar>)
+    {
+        get_lane(here().motion, lane, own.here().motion);
+        if constexpr (HasEventSeries<M>) {
+            get_lane(here().events.of, lane, own.here().events.of);
+            own.here().events.known = here().events.known[lane];
+        }
+        for (std::size_t i = 0; i < lanes; ++i) own.kept_[i] = kept_[i][lane];
+    }
+    template <class One>
+    void hand_over_length(int lane, TaylorStepper<One>& own) const noexcept requires(is_pack<Scalar>)
+    {
+        own.next().length = expansions_[1 - now_].length[lane];
+    }
+
+    /// The step counts in these lanes.
+    void accept(const typename StatusOf<Scalar>::mask& where) noexcept requires(is_pack<Scalar>)
+    {
+        for (std::size_t i = 0; i < lanes; ++i) kept_[i] = select(where, lost_[i], kept_[i]);
+        now_ = 1 - now_;
+        if (all(where)) return;
+        choose(where, here().motion, next().motion);
+        here().length = select(where, here().length, next().length);
+        if constexpr (HasEventSeries<M>) {
+            choose(where, here().events.of, next().events.of);
+            here().events.known = (where && here().events.known) || (!where && next().events.known);
+        }
+    }
+
   private:
+    template <class>
+    friend class TaylorStepper;
+    using Lanes = StatusOf<Scalar>;
+    static bool fails(const status_t<Scalar>& status) noexcept { return !is_pack<Scalar> && !Lanes::all_good(status); }
+
+    template <class Of, class One>
+    void set_lane(Of& series, int lane, const One& own) const noexcept
+    {
+        for (int k = 0; k <= order_; ++k)
+            for (std::size_t i = 0; i < own[k].size(); ++i) series[k][i].set(lane, own[k][i]);
+    }
+    template <class Of, class One>
+    void get_lane(const Of& series, int lane, One& own) const noexcept
+    {
+        for (int k = 0; k <= order_; ++k)
+            for (std::size_t i = 0; i < own[k].size(); ++i) own[k][i] = series[k][i][lane];
+    }
+    /// Lanes that are not `where` become those of `other`.
+    template <class Where, class Of>
+    void choose(const Where& where, Of& series, const Of& other) const noexcept
+    {
+        for (int k = 0; k <= order_; ++k)
+            for (std::size_t i = 0; i < series[k].size(); ++i) series[k][i] = select(where, series[k][i], other[k][i]);
+    }
+
     static constexpr auto lanes = static_cast<std::size_t>(M::dimension);
     using Series = TaylorSeries<Real, M::dimension, highest_order>;
     using Row = typename Series::Row;
-    static Real unbounded() noexcept { return std::numeric_limits<Real>::max(); }
+    static Number unbounded() noexcept { return std::numeric_limits<Number>::max(); }
 
     template <class Method>
     static int order_of(const Method& method) noexcept
@@ -283,7 +287,7 @@ class TaylorStepper {
         if (!std::isfinite(logarithm)) return highest_order; // integrate refuses such tolerances
         int sums = 0;
         if constexpr (requires { M::taylor_sums; }) sums = M::taylor_sums;
-        return std::clamp(detail::taylor_order<Real>(logarithm, sums), 3, highest_order);
+        return std::clamp(detail::taylor_order<Number>(logarithm, sums), 3, highest_order);
     }
 
     /// The motion's series and those of its events, and how far they hold.
@@ -296,57 +300,24 @@ class TaylorStepper {
     [[nodiscard]] const Expansion& here() const noexcept { return expansions_[now_]; }
     [[nodiscard]] Expansion& next() noexcept { return expansions_[1 - now_]; }
 
-    Status expand(const M& model, Real t, const State& s, Expansion& at) noexcept
+    status_t<Scalar> expand(const M& model, Real t, const State& s, Expansion& at) noexcept
     {
         ++calls_;
-        const Status status = model.taylor(t, s, order_, at.motion);
-        if (status != Status::ok) return status;
+        auto status = model.taylor(t, s, order_, at.motion);
+        if (fails(status)) return status;
         Real total = Real(0);
         for (const Real& coefficient : at.motion[order_]) total += coefficient;
-        if (total - total != Real(0)) return Status::non_finite;
-        at.length = length_of(s, at.motion);
+        Lanes::fail(status, total - total != Real(0), Status::non_finite);
+        if (fails(status)) return status;
+        const detail::TaylorLength<Scalar> lengths{scale_, order_};
+        at.length = lengths.of_motion(s, at.motion);
         if constexpr (HasEventSeries<M>) {
-            at.events.known = model.event_series(t, s, order_, at.motion, at.events.of) == Status::ok;
-            if (at.events.known) at.length = std::min(at.length, length_of_events(at.events.of));
+            const auto known = model.event_series(t, s, order_, at.motion, at.events.of);
+            at.events.known = detail::is_good<Scalar>(known);
+            const Scalar with_events = lengths.of_events(at.length, at.events.of, M::events_names.size());
+            at.length = select(at.events.known, with_events, at.length);
         }
-        return Status::ok;
-    }
-
-    /// The longest h for which the events' polynomials, which tell where they happen, hold too: |e_k| h^k within the
-    /// tolerance, relative to |e_0| + |e_1|, for the last two orders.
-    template <class Events>
-    [[nodiscard]] Real length_of_events(const Events& e) const noexcept
-    {
-        Real length = unbounded();
-        for (std::size_t r = 0; r < M::events_names.size(); ++r) {
-            const Real scale = scale_.of_size(detail::size_of(e[0][r]) + detail::size_of(e[1][r]));
-            for (int k = order_ - 1; k <= order_; ++k) {
-                const Real size = detail::size_of(e[k][r]) / scale;
-                if (!(size > Real(0)) || size - size != Real(0)) continue;
-                length = std::min(length, detail::rough_power<Real>(-detail::rough_logarithm(size) / k));
-            }
-        }
-        return length;
-    }
-
-    /// The longest h with |x_k| h^k within the tolerance in every lane, for two of the last four orders; without a
-    /// bound where these are 0, as those of a polynomial are.
-    [[nodiscard]] Real length_of(const State& s, const Series& x) const noexcept
-    {
-        Row scale;
-        for (std::size_t i = 0; i < lanes; ++i)
-            scale[i] = Real(1) / scale_.template of<1>(s, s, static_cast<Eigen::Index>(i));
-        double steepest = -std::numeric_limits<double>::infinity();
-        int found = 0;
-        for (int k = order_; k > std::max(1, order_ - 4) && found < 2; --k) {
-            Real largest = Real(0);
-            for (std::size_t i = 0; i < lanes; ++i)
-                largest = std::max<Real>(largest, detail::size_of(x[k][i]) * scale[i]);
-            if (!(largest > Real(0))) continue;
-            steepest = std::max(steepest, detail::rough_logarithm(largest) / k);
-            ++found;
-        }
-        return found == 0 ? unbounded() : detail::rough_power<Real>(-steepest);
+        return status;
     }
 
     std::array<Expansion, 2> expansions_; ///< at the beginning of the step, and at its end

@@ -61,6 +61,13 @@ struct Way {
         return {directed(last ? rest : step), last};
     }
 
+    /// Is a step of length h from t within the rounding of time?
+    [[nodiscard]] bool is_lost(const Real& h, const Real& t) const noexcept
+    {
+        const Real epsilon = std::numeric_limits<Real>::epsilon();
+        return !(Real(0.1) * h > epsilon * std::max<Real>(size_of(t), epsilon * length));
+    }
+
     /// How many steps of fixed length h from t, one at least and `most` at most, surely end before the last one would
     /// begin: up to two steps short of the end, whatever the rounding of times.
     [[nodiscard]] std::size_t steps_inside(const Real& h, const Real& t, std::size_t most) const noexcept

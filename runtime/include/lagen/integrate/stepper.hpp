@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+/// What integrate/integrator.hpp asks of a stepper, which makes the steps of a method:
+///   begin(model, t, s)                        once, at the start
+///   attempt(model, t, s, h, s1)               a step of length h into s1; `error()` where adaptive
+///   finish(model, t1, s1), accept()           the derivative at the end where it is needed; then the step counts
+///   interpolate(model, t, s, h, s1, theta, out)   a value inside the last attempted step, before accept()
+///   calls()                                   of the right-hand side so far
+/// Adaptive ones may choose their steps themselves: after_accepted(h, error), after_rejected(h, error),
+/// after_failure(h). Implicit ones count newton_iterations() and decompositions().
+/// One whose lanes can be trajectories of their own (integrate/abreast.hpp) says so by `abreast`, and over packs offers
+///   suits(own)                a trajectory of `own`, the stepper of it alone, can go on a lane beside the others
+///   adopt(lane, own)          it begins there
+///   accept(where)             the step counts in these lanes
+///   hand_over(lane, own)      `own` gets what values inside the step of a lane are made of
+///   hand_over_length(lane, own)   and, where it chooses lengths itself, how long the next step may be
+#pragma once
+
+namespace lagen::detail {
+
+/// A step that is attempted: its signed length, and whether it ends at the end.
+template <class Real>
+struct Attempt {
+    Real h;
+    bool last;
+};
+
+template <class M, class Method, class Observer>
+class March;
+
+template <class M, class Method, int N, class Observer>
+class Abreast;
+
+} // namespace lagen::detail

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+/// Order and length of the steps of Taylor's method, from the tolerance and the last coefficients [Jorba-Zou 2005], and
+/// what it asks of a model.
+#pragma once
+
+#include "lagen/integrate/control.hpp"
+#include "lagen/series.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace lagen {
+
+/// A model with Taylor coefficients: `lagen generate MODEL --with taylor`.
+template <class M>
+concept HasTaylor = requires(const M& model, typename M::Scalar t, const typename M::State& s,
+                             TaylorSeries<typename M::Scalar, M::dimension, 8>& x)
+{
+    {
+        model.taylor(t, s, 8, x)
+    }
+    noexcept->std::same_as<status_t<typename M::Scalar>>;
+};
+
+/// And with those of its events along the motion: `--with taylor,event_series`.
+template <class M>
+concept HasEventSeries = HasTaylor<M> && requires(const M& model, typename M::Scalar t, const typename M::State& s,
+                                                  const TaylorSeries<typename M::Scalar, M::dimension, 8>& x)
+{
+    M::events_names;
+    requires requires(TaylorSeries<typename M::Scalar, static_cast<int>(M::events_names.size()), 8> & e)
+    {
+        model.event_series(t, s, 8, x, e);
+    };
+};
+
+namespace detail {
+
+/// log2(x) within 0.09 of a positive number, from its exponent.
+template <class Real>
+[[nodiscard]] double rough_logarithm(const Real& x) noexcept
+{
+    if constexpr (std::is_same_v<Real, float> || std::is_same_v<Real, double>) {
+        const auto bits = std::bit_cast<std::int64_t>(static_cast<double>(x));
+        return static_cast<double>(bits) * 0x1p-52 - 1023.0;
+    } else {
+        using std::log;
+        return static_cast<double>(log(plain_number(x))) * 1.4426950408889634;
+    }
+}
+
+/// 2^x, within 6 %, as the inverse of rough_logarithm.
+template <class Real>
+[[nodiscard]] Real rough_power(double x) noexcept
+{
+    if (x < -1000) return Real(0);
+    if (x > 1000) x = 1000;
+    return static_cast<Real>(std::bit_cast<double>(static_cast<std::int64_t>((x + 1023.0) * 0x1p52)));
+}
+
+/// The order for L = -ln(tolerance), where a coefficient takes so many sums. A step is as long as e^(-L/p). Its work
+/// grows like p^2 where products of scalars are all that takes time, and p = L/2 + 1 is cheapest [Jorba-Zou 2005,
+/// section 3.1]; with eight products at a time it grows little faster than p while there are few sums. Measured, by
+/// powers of ten from 1e-6 to 1e-15: least at 16, 20, 24, 28 for a heavy top (9 sums), a rigid body and a double
+/// pendulum, within 5 % from one less to four more; near 10, 14, 17, 20 for seven bodies in the plane (126 sums).
+template <class Real>
+[[nodiscard]] constexpr int taylor_order(double logarithm, int sums) noexcept
+{
+    constexpr bool in_registers = std::is_floating_point_v<Real> && sizeof(Real) <= 8;
+    const double wanted = !in_registers ? 1 + logarithm / 2 : (sums <= 32 ? 7 + 0.6 * logarithm : 3 + 0.5 * logarithm);
+    const int whole = static_cast<int>(wanted);
+    return whole + (whole < wanted ? 1 : 0);
+}
+
+/// Of a model without events: nothing.
+template <class M, int order>
+struct EventSeries {
+};
+
+template <HasEventSeries M, int order>
+struct EventSeries<M, order> {
+    TaylorSeries<typename M::Scalar, static_cast<int>(M::events_names.size()), order> of{};
+    typename StatusOf<typename M::Scalar>::mask known{};
+};
+
+/// For a tolerance that is the scalar's epsilon.
+template <class Real>
+inline constexpr int highest_taylor_order = taylor_order<Real>(0.69314718055994531 * std::numeric_limits<Real>::digits,
+                                                               0);
+
+/// f(lane of a, ..), a lane; of a scalar, f(a, ..).
+template <class Scalar, class F, class... Given>
+[[nodiscard]] Scalar by_lanes(const F& f, const Given&... given) noexcept
+{
+    if constexpr (is_pack<Scalar>) {
+        Scalar result{};
+        for (int lane = 0; lane < RealOf<Scalar>::lanes; ++lane) result.set(lane, f(given[lane]...));
+        return result;
+    } else {
+        return f(given...);
+    }
+}
+
+/// Where a status is good, a lane.
+template <class Scalar>
+[[nodiscard]] typename StatusOf<Scalar>::mask is_good(const status_t<Scalar>& status) noexcept
+{
+    if constexpr (is_pack<Scalar>) {
+        typename StatusOf<Scalar>::mask good{};
+        for (int lane = 0; lane < RealOf<Scalar>::lanes; ++lane) good.lanes[lane] = status[lane] == Status::ok ? -1 : 0;
+        return good;
+    } else {
+        return status == Status::ok;
+    }
+}
+
+/// How far Taylor polynomials of order p hold, in every lane of a state, or for ever: the largest number.
+template <class Scalar>
+struct TaylorLength {
+    using Number = real_t<Scalar>;
+    const ErrorScale<Scalar>& scale;
+    int order;
+
+    static Number unbounded() noexcept { return std::numeric_limits<Number>::max(); }
+
+    /// The longest h with |e_k| h^k within the tolerance, relative to |e_0| + |e_1|, for the last two orders of `count`
+    /// events, and no longer than `length`.
+    template <class Events>
+    [[nodiscard]] Scalar of_events(Scalar length, const Events& e, std::size_t count) const noexcept
+    {
+        for (std::size_t r = 0; r < count; ++r) {
+            const Scalar size = scale.of_size(size_of(e[0][r]) + size_of(e[1][r]));
+            for (int k = order - 1; k <= order; ++k)
+                length = by_lanes<Scalar>(
+                    [k](const Number& so_far, const Number& relative) {
+                        if (!(relative > Number(0)) || relative - relative != Number(0)) return so_far;
+                        return std::min<Number>(so_far, rough_power<Number>(-rough_logarithm(relative) / k));
+                    },
+                    length, Scalar(size_of(e[k][r]) / size));
+        }
+        return length;
+    }
+
+    /// The longest h with |x_k| h^k within the tolerance in every lane, for two of the last four orders; without a
+    /// bound where these are 0, as those of a polynomial are.
+    template <class State, class Series>
+    [[nodiscard]] Scalar of_motion(const State& s, const Series& x) const noexcept
+    {
+        auto inverse = x[0];
+        for (std::size_t i = 0; i < inverse.size(); ++i)
+            inverse[i] = Scalar(1) / scale.template of<1>(s, s, static_cast<Eigen::Index>(i));
+        std::array<Scalar, 4> largest{Scalar(0), Scalar(0), Scalar(0), Scalar(0)};
+        for (int back = 0; back < 4 && order - back > 1; ++back) {
+            Scalar& most = largest[static_cast<std::size_t>(back)];
+            for (std::size_t i = 0; i < inverse.size(); ++i) {
+                const Scalar size = size_of(x[order - back][i]) * inverse[i];
+                most = select(most < size, size, most);
+            }
+        }
+        return by_lanes<Scalar>([p = order](const auto&... sizes) { return from_largest(p, sizes...); }, largest[0],
+                                largest[1], largest[2], largest[3]);
+    }
+
+  private:
+    /// The same from the largest coefficients of orders p, p - 1, ..
+    template <class... Sizes>
+    static Number from_largest(int k, const Sizes&... sizes) noexcept
+    {
+        double steepest = -std::numeric_limits<double>::infinity();
+        int found = 0;
+        const auto look = [&](const Number& size) {
+            if (size > Number(0) && found < 2) {
+                steepest = std::max(steepest, rough_logarithm(size) / k);
+                ++found;
+            }
+            --k;
+        };
+        (look(sizes), ...);
+        return found == 0 ? unbounded() : rough_power<Number>(-steepest);
+    }
+};
+
+} // namespace detail
+
+} // namespace lagen
