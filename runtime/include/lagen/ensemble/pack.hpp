@@ -7,7 +7,6 @@
 
 #include "lagen/kernel.hpp"
 #include "lagen/roots.hpp"
-#include "lagen/series.hpp"
 #include "lagen/sincos.hpp"
 
 #include <array>
@@ -305,46 +304,6 @@ struct RealOf<Pack<T, N>> {
     using type = T;
     static constexpr int lanes = N;
 };
-
-namespace detail {
-
-/// Several packs, for sums of Taylor coefficients: one chain of sums waits for itself, several do not.
-template <class P, std::size_t count>
-struct Packs {
-    std::array<P, count> of;
-
-    Packs() = default;
-    template <class... Each>
-    requires(sizeof...(Each) == count) explicit Packs(const Each&... each) noexcept : of{{each...}} {}
-
-    [[nodiscard]] const P& operator[](std::size_t i) const noexcept { return of[i]; }
-    [[gnu::always_inline]] Packs& operator+=(const Packs& b) noexcept { return *this = *this + b; }
-    [[gnu::always_inline]] friend Packs operator+(const Packs& a, const Packs& b) noexcept
-    {
-        Packs sum;
-        for (std::size_t i = 0; i < count; ++i) sum.of[i] = a.of[i] + b.of[i];
-        return sum;
-    }
-    [[gnu::always_inline]] friend Packs operator*(const Packs& a, const Packs& b) noexcept
-    {
-        Packs product;
-        for (std::size_t i = 0; i < count; ++i) product.of[i] = a.of[i] * b.of[i];
-        return product;
-    }
-};
-
-template <class T, int N>
-inline constexpr std::size_t register_lanes<Pack<T, N>> = 4;
-template <class T, int N>
-struct RegisterOf<Pack<T, N>, 2> {
-    using type = Packs<Pack<T, N>, 2>;
-};
-template <class T, int N>
-struct RegisterOf<Pack<T, N>, 4> {
-    using type = Packs<Pack<T, N>, 4>;
-};
-
-} // namespace detail
 
 } // namespace lagen
 
