@@ -3,7 +3,7 @@
 /// abreast.hpp), in float and double, by adaptive methods and with a fixed step. Compiled by scripts/lanes-table with
 /// -D MODEL=heavy_top; the header has the kernel `taylor`. Prints a line a method and scalar: thousands of trajectories
 /// a second at 1, 4 and 8 lanes, the least time of interleaved rounds, the ratios, and how many lanes' runs differ in a
-/// bit from those of `integrate`.
+/// bit from those of `integrate`. An argument "double taylor" measures this alone.
 #define TEXT_OF_(x) #x
 #define TEXT_OF(x) TEXT_OF_(x)
 // A space here would stand in the name of the file.
@@ -22,6 +22,7 @@
 #include <cstdio>
 #include <cstring>
 #include <ctime>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -92,9 +93,12 @@ void abreast(const std::vector<typename M::State>& starts, double end, const Met
         [&](int lane, lagen::Run<M>&& run) { runs[places[std::size_t(lane)]] = std::move(run); });
 }
 
+std::string_view only; ///< "double taylor": this alone is measured
+
 template <class S, class Method>
 void measure(const char* scalar, const char* name, const Method& method)
 {
+    if (!only.empty() && only != std::string(scalar) + ' ' + name) return;
     using M = Model<S>;
     std::vector<typename M::State> starts;
     const double end = make_starts<S>(starts);
@@ -138,8 +142,9 @@ void measure_all(const char* scalar)
 
 } // namespace
 
-int main()
+int main(int argc, char** argv)
 {
+    if (argc > 1) only = argv[1];
     measure_all<double>("double");
     measure_all<float>("float");
 }

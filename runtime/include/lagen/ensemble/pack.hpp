@@ -95,7 +95,7 @@ struct Pack {
 
     Pack() = default; ///< as a scalar: without a value, Pack{} is zero
     /// The same value in every lane.
-    Pack(T value) noexcept : lanes(Vector{} + value) {}
+    Pack(T value) noexcept : lanes(value - Vector{}) {} // which keeps the sign of 0
     /// A literal of generated code, S(0.5), rounded to a lane of float.
     explicit Pack(double value) noexcept requires(!std::is_same_v<T, double>) : Pack(static_cast<T>(value)) {}
     /// An integer literal in every lane.
