@@ -113,7 +113,7 @@ ExitCode run_run(Arguments arguments)
     for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
     const Scene scene = scene_of(options, model, options.named("initial"));
     const std::string form = form_of(model, scene);
-    const MethodEntry& method = accurate ? *accurate->method : method_of(options, model, scene);
+    const MethodEntry& method = accurate ? *accurate->method : method_of(options, scene);
     const SceneValues values = evaluate_scene(model, scene);
     const std::vector<long double> parameters = finite_numbers(values.parameters, scene);
     preparation.finish(scene, form, method, parameters);
@@ -121,7 +121,8 @@ ExitCode run_run(Arguments arguments)
     ProgramInput input;
     input.events = &scene.events;
     input.columns = columns_of(record.names, scene);
-    StartState start([&]() -> const CheckedModel& { return preparation.checked(parameters); }, form);
+    StartState start([&](bool decided) -> const CheckedModel& { return preparation.checked(parameters, decided); },
+                     form);
     use_values(input, scene, values, start, options.has("at") && !options.has("t-end"));
 
     const bool confirmed = !accurate || confirm_accuracy(*accurate, record, input);
@@ -143,8 +144,7 @@ ExitCode run_run(Arguments arguments)
         plot_table(outcome.table, panels_of(input.columns, model, form_named(form).lanes),
                    model.title.empty() ? model.name : model.title, options.get("plot"), unit_of(model, "t"));
     tell(options, outcome, as_json);
-    const bool done = outcome.status == "ok" || outcome.status == "stopped_by_event";
-    return done && confirmed ? ExitCode::done : ExitCode::refuted;
+    return succeeded(outcome.status) && confirmed ? ExitCode::done : ExitCode::refuted;
 }
 
 } // namespace lagen

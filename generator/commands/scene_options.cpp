@@ -101,7 +101,7 @@ Scene scene_of(const Options& options, const Model& model, const std::vector<Set
     return in_form(model, scene, options.has("form") ? options.get("form") : form_of(model, scene));
 }
 
-const MethodEntry& method_of(const Options& options, const Model& model, const Scene& scene)
+const MethodEntry& method_of(const Options& options, const Scene& scene)
 {
     const std::string name = scene.method.empty() ? standard_method : scene.method;
     const std::string lagen = "lagen " + options.command() + ": ";
@@ -117,10 +117,6 @@ const MethodEntry& method_of(const Options& options, const Model& model, const S
         if (options.has("method")) throw UsageError(lagen + text);
         throw ModelError(text, scene.where);
     }
-    if (method->separable_only && model.base.coordinates.empty())
-        throw UsageError(fmt::format("{}{} splits a system x' = f(y), y' = g(x), and model '{}' has no base "
-                                     "coordinates x",
-                                     lagen, method->name, model.name));
     warn_of_unused(options, *method);
     return *method;
 }

@@ -27,8 +27,8 @@ void set_initial(const Model& model, Scene& scene, const Setting& setting);
 /// What is given to --NAME, closed over parameters; ModelError where it depends on anything else.
 [[nodiscard]] Tree option_tree(const Model& model, const std::string& name, const Excerpt& text);
 
-/// The scene's method; UsageError or ModelError (by where the name stands) where it is unknown, lacks a step or splits
-/// what has no base coordinates. Warns on standard error of options that it does not use.
-[[nodiscard]] const MethodEntry& method_of(const Options& options, const Model& model, const Scene& scene);
+/// The scene's method; UsageError or ModelError (by where the name stands) where it is unknown or lacks a step.
+/// Warns on standard error of options that it does not use.
+[[nodiscard]] const MethodEntry& method_of(const Options& options, const Scene& scene);
 
 } // namespace lagen

@@ -53,23 +53,12 @@ std::string main_with(const std::string& header, const std::string& call)
                        header, call);
 }
 
-bool has_base(const KernelModule& module)
-{
-    for (const LaneGroup& group : module.groups)
-        if (group.role == "base") return !group.lanes.empty();
-    return false;
-}
-
 } // namespace
 
 std::string obstacle_to(const MethodEntry& method, const ChartProblem& problem)
 {
-    const KernelModule& module = problem.module;
-    if (method.separable_only && !has_base(module))
-        return fmt::format("{} splits a system x' = f(y), y' = g(x), and model '{}' has no base coordinates x",
-                           method.name, module.model);
     if (method.series) return problem.no_series;
-    const std::optional<Obstacle> obstacle = obstacle_of(method, module);
+    const std::optional<Obstacle> obstacle = obstacle_of(method, problem.module);
     return obstacle ? obstacle->text : "";
 }
 
