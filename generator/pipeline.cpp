@@ -178,13 +178,24 @@ CheckedModel load(const std::string& path, const std::vector<Setting>& settings,
 std::vector<std::string> warnings_of(const CheckedModel& checked, const std::string& form)
 {
     std::vector<std::string> warnings = checked.warnings;
-    std::string values;
-    for (const auto& [parameter, value] : checked.report.mechanics.regularity.legendre_values)
-        values += fmt::format("{}{} = {}", values.empty() ? "" : ", ", checked.system.graph.input_name(parameter),
-                              to_text(checked.system.graph, value));
-    if (!values.empty() && is_form(form, FormKind::hamilton) && !checked.system.hamiltonian)
-        warnings.push_back(fmt::format("that the momenta fix the velocities is proved for {} alone", values));
+    if (const std::vector<std::string> values = proved_values(checked, form); !values.empty())
+        warnings.push_back(proved_for_alone(values));
     return warnings;
+}
+
+std::vector<std::string> proved_values(const CheckedModel& checked, const std::string& form)
+{
+    std::vector<std::string> values;
+    if (!is_form(form, FormKind::hamilton) || checked.system.hamiltonian) return values;
+    for (const auto& [parameter, value] : checked.report.mechanics.regularity.legendre_values)
+        values.push_back(
+            fmt::format("{} = {}", checked.system.graph.input_name(parameter), to_text(checked.system.graph, value)));
+    return values;
+}
+
+std::string proved_for_alone(const std::vector<std::string>& values)
+{
+    return fmt::format("that the momenta fix the velocities is proved for {} alone", fmt::join(values, ", "));
 }
 
 bool set_parameters(System& system, const std::vector<long double>& values)

@@ -35,6 +35,11 @@ void prove(CheckedModel& checked);
 /// `warnings`, and what holds of this form alone.
 [[nodiscard]] std::vector<std::string> warnings_of(const CheckedModel& checked, const std::string& form);
 
+/// "c = 3/5" for each parameter for whose value alone the equations of this form are proved.
+[[nodiscard]] std::vector<std::string> proved_values(const CheckedModel& checked, const std::string& form);
+/// The sentence that says so.
+[[nodiscard]] std::string proved_for_alone(const std::vector<std::string>& values);
+
 /// Gives the parameters other values, in order of declaration; false where they had them already.
 bool set_parameters(System& system, const std::vector<long double>& values);
 /// The same, and decides anew what was not shown for all values.

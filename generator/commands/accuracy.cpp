@@ -4,14 +4,17 @@
 #include "commands/chart/kept_chart.hpp"
 #include "commands/chart/report.hpp"
 #include "commands/integrate_scene.hpp"
+#include "commands/preparation.hpp"
 #include "commands/scene_options.hpp"
 #include "commands/write_file.hpp"
 #include "model/scene_form.hpp"
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 
 namespace lagen {
 
@@ -57,8 +60,24 @@ Table states_with(double parameter, const MethodEntry& method, const RunRecord& 
         outcome.state.emplace_back(record.names.lanes[k], "");
     }
     integrate_scene(record.program, input, outcome);
-    const bool good = outcome.status == "ok" || outcome.status == "stopped_by_event";
-    return good ? outcome.table : Table{};
+    return succeeded(outcome.status) ? outcome.table : Table{};
+}
+
+/// The program for this accuracy, and those that other ones will ask for, at once.
+void compile_best(const CheckedModel& checked, const Scene& scene, const std::string& form, const KeptChart& chart,
+                  double accuracy)
+{
+    std::vector<double> errors{accuracy};
+    errors.insert(errors.end(), std::begin(charted_errors), std::end(charted_errors));
+    std::vector<std::string> methods;
+    std::vector<ProgramText> programs;
+    for (const double error : errors) {
+        const ChartPoint* best = cheapest_within(chart.points, error);
+        if (best == nullptr || std::ranges::find(methods, best->method) != methods.end()) continue;
+        methods.push_back(best->method);
+        programs.push_back(scene_text(checked, scene, form, *find_method(best->method), run_driver).text);
+    }
+    if (chart.obstacle.empty()) compile_programs(programs);
 }
 
 } // namespace
@@ -74,8 +93,10 @@ std::optional<AccurateMethod> accurate_method(const Options& options, const Chec
         write_standard_error("no chart of this scene is kept: it is made now\n");
         CheckedModel own = charted_model(options, path);
         const Scene scene = scene_of(options, own.model, options.named("initial"));
-        kept = kept_chart(make_chart(own, {scene, form_of(own.model, scene)}));
+        const std::string form = form_of(own.model, scene);
+        kept = kept_chart(make_chart(own, {scene, form}));
         keep_chart(file, *kept);
+        compile_best(own, scene, form, *kept, accuracy);
     }
     return choose_method(*kept, accuracy);
 }

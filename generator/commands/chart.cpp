@@ -27,7 +27,9 @@ const CommandSyntax chart_syntax{
     "chart",
     "MODEL",
     "Runs a scene by every method that applies, over tolerances and steps, and charts time and calls against the error "
-    "of the state. Writes chart.svg, chart.png, chart.csv and chart.json.",
+    "of the state. Writes chart.svg, chart.png, chart.csv and chart.json, and drift.svg and drift.png where something "
+    "is "
+    "conserved.",
     {{"scene", "NAME", "the scene; without it `default`, else the first"},
      {"form", "FORM", chart_form_help.c_str()},
      {"methods", "A,B,..", "these alone, see `lagen methods`; without it all that apply"},
@@ -85,7 +87,10 @@ ExitCode run_chart(Arguments arguments)
     write_file(folder + "/chart.json", chart_json(chart));
     write_file(folder + "/chart.csv", chart_csv(chart));
     if (draws)
-        for (const char* name : {"/chart.svg", "/chart.png"}) draw_chart(chart, folder + name);
+        for (const char* extension : {".svg", ".png"}) {
+            draw_chart(chart, folder + "/chart" + extension);
+            (void)draw_drifts(chart, folder + "/drift" + extension);
+        }
     write_standard_output(as_json ? chart_json(chart) : chart_text(chart));
     return ExitCode::done;
 }

@@ -58,18 +58,6 @@ std::vector<std::string> compile_command(const std::vector<std::string>& options
     return command;
 }
 
-/// The lines that are not comments alone: a new scene or title is no new program.
-std::string code_of(const std::string& header)
-{
-    std::istringstream stream(header);
-    std::string code;
-    for (std::string line; std::getline(stream, line);) {
-        const std::size_t first = line.find_first_not_of(' ');
-        if (first != std::string::npos && line.compare(first, 2, "//") != 0) code += line + '\n';
-    }
-    return code;
-}
-
 /// Every header below folder/part, by path: a change to any of them is a new key.
 void add_headers(ContentHash& hash, const std::string& folder, const char* part)
 {
@@ -112,7 +100,7 @@ void require_success(const std::vector<std::string>& command, const ProcessResul
 std::string program_path(const std::string& cache, const ProgramText& text)
 {
     ContentHash hash;
-    hash.add(code_of(text.header)).add(text.main);
+    hash.add(lines_of_code(text.header, "//")).add(text.main); // a new scene or title is no new program
     for (const std::string& library : text.libraries) hash.add(library);
     for (const std::string& option : text.options) hash.add(option);
     add_compilation(hash);
@@ -131,18 +119,35 @@ std::vector<std::string> command_in(const std::string& folder, const ProgramText
     return command;
 }
 
+/// Whether the compiler takes a text with these further arguments; what it makes is thrown away.
+bool takes(const std::string& text, const std::vector<std::string>& arguments)
+{
+    const TemporaryFolder scratch(shared_temporary_folder(), "lagen-look");
+    write_file(scratch.file("look.cpp"), text);
+    std::vector<std::string> command = compile_command();
+    command.insert(command.end(), {scratch.file("look.cpp"), "-o", scratch.file("look")});
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    return run_process(command).exit_code == 0;
+}
+
 } // namespace
+
+std::string lines_of_code(const std::string& text, std::string_view comment)
+{
+    std::istringstream stream(text);
+    std::string code;
+    for (std::string line; std::getline(stream, line);) {
+        const std::size_t first = line.find_first_not_of(" \t\r");
+        if (first != std::string::npos && line.compare(first, comment.size(), comment) != 0) code += line + '\n';
+    }
+    return code;
+}
 
 void add_compilation(ContentHash& hash)
 {
     add_headers(hash, runtime_folder(), "lagen");
     add_headers(hash, program_folder(), ".");
     add_compiler(hash, compile_command());
-}
-
-std::string compile_program(const ProgramText& program)
-{
-    return compile_programs({program})[0];
 }
 
 std::vector<std::string> vector_options()
@@ -188,11 +193,32 @@ std::vector<std::string> compile_programs(const std::vector<ProgramText>& progra
 
 bool finds_header(const std::string& header)
 {
-    const TemporaryFolder scratch(shared_temporary_folder(), "lagen-look");
-    write_file(scratch.file("look.cpp"), fmt::format("#if !__has_include(<{}>)\n#error\n#endif\n", header));
-    std::vector<std::string> command = compile_command();
-    command.insert(command.end(), {"-fsyntax-only", scratch.file("look.cpp")});
-    return run_process(command).exit_code == 0;
+    return takes(fmt::format("#if !__has_include(<{}>)\n#error\n#endif\n", header), {"-fsyntax-only"});
+}
+
+void require_quad()
+{
+    const char* text =
+        "extern \"C\" __float128 sqrtq(__float128);\nint main(int count, char**)\n{\n    return sqrtq(count) "
+        "> 2;\n}\n";
+    if (takes(text, {"-lquadmath"})) return;
+    throw MachineError(fmt::format("error: the reference of a chart has 113 bits, and the C++ compiler '{}' makes no "
+                                   "program with __float128 and libquadmath\nhint: g++ on x86 does; CXX names the "
+                                   "compiler",
+                                   find_compiler()[0]));
+}
+
+std::string build_text()
+{
+    ContentHash hash;
+    hash.add(content_of_file("/proc/self/exe"));
+    add_headers(hash, runtime_folder(), "lagen");
+    add_headers(hash, program_folder(), ".");
+    std::vector<std::string> question = find_compiler();
+    question.emplace_back("--version");
+    const std::string answer = run_process(question).output;
+    return fmt::format("lagen {} ({}), {}: {}", LAGEN_VERSION, hash.hex16(), compiler_text(),
+                       answer.substr(0, answer.find('\n')));
 }
 
 std::string compiler_text()

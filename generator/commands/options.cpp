@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/options.hpp"
 
+#include "model/families.hpp"
+
 #include <boost/program_options.hpp>
 #include <fmt/core.h>
 
@@ -154,19 +156,25 @@ Setting Options::binding_of(const std::string& entry) const
     return {name, whole_text("<--bind " + name + ">", entry.substr(equals + 1)), true};
 }
 
-std::vector<Setting> Options::bindings() const
+void Options::add_bindings(std::vector<Setting>& settings) const
 {
     std::vector<Setting> bindings;
     for (const std::string& text : all("bind"))
         for (const std::string& entry : split_list(text)) bindings.push_back(binding_of(entry));
-    return bindings;
+    for (const Setting& set : settings)
+        for (const Setting& bound : bindings)
+            if (bound.gives_value() && (names_entry(bound.name, set.name) || names_entry(set.name, bound.name)))
+                throw UsageError(fmt::format("lagen {}: --set gives '{}' the value {} and --bind gives '{}' the value "
+                                             "{}\nhint: --bind {} takes the value of --set",
+                                             command_, set.name, set.value.text, bound.name, bound.value.text,
+                                             bound.name));
+    settings.insert(settings.end(), bindings.begin(), bindings.end());
 }
 
 std::vector<Setting> Options::settings() const
 {
     std::vector<Setting> settings = named("set");
-    const std::vector<Setting> bound = bindings();
-    settings.insert(settings.end(), bound.begin(), bound.end());
+    add_bindings(settings);
     return settings;
 }
 

@@ -51,9 +51,11 @@ class Options {
 
     /// The value of `name`, which must be one of `allowed`.
     [[nodiscard]] std::string choice(const std::string& name, const std::vector<std::string>& allowed) const;
-    /// The `--set name=value` entries, then those of `--bind name=value,name`.
+    /// The `--set name=value` entries, then those of `--bind name=value,name`. UsageError where both give a value to
+    /// the same parameter.
     [[nodiscard]] std::vector<Setting> settings() const;
-    [[nodiscard]] std::vector<Setting> bindings() const;
+    /// Puts those of --bind behind the settings that --set gives.
+    void add_bindings(std::vector<Setting>& settings) const;
     /// The name=value entries of an option.
     [[nodiscard]] std::vector<Setting> named(const std::string& option) const;
 

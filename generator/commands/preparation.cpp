@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/preparation.hpp"
 
-#include "commands/compile.hpp"
-
 #include <fmt/core.h>
 
 #include <optional>
@@ -63,6 +61,23 @@ std::optional<Obstacle> obstacle_of(const MethodEntry& method, const KernelModul
                                                 : "dop853 and verner87 integrate every system"};
 }
 
+SceneText scene_text(const CheckedModel& checked, const Scene& scene, const std::string& form,
+                     const MethodEntry& method, const Driver& driver, const Tree& time_scale)
+{
+    GenerateRequest request;
+    request.form = form;
+    request.scene = &scene;
+    request.flows = method.separable_only;
+    request.time_scale = time_scale;
+    if (method.series) request.with = {"taylor"};
+    if (method.series && !scene.events.empty()) request.with.emplace_back("event_series");
+    Generated generated = generate(checked, request);
+    ProgramText text{std::move(generated.header),
+                     program_text(driver, generated.module.name, method, time_scale != nullptr)};
+    if (driver.abreast && goes_abreast(method)) text.options = vector_options();
+    return {std::move(generated.module), std::move(text)};
+}
+
 Preparation::Preparation(const Options& options, CheckedModel& checked, const Driver& driver, const std::string& method)
     : options_(options), checked_(checked), driver_(driver),
       file_(record_file(checked.model, {driver.folder, options.get("scene"), options.get("form"), method,
@@ -75,37 +90,32 @@ Preparation::Preparation(const Options& options, CheckedModel& checked, const Dr
         return;
     }
     prove(checked);
-    decided_ = true;
+    elaborated_ = decided_ = true;
 }
 
 void Preparation::finish(const Scene& scene, const std::string& form, const MethodEntry& method,
                          const std::vector<long double>& parameters)
 {
-    if (record_ && (is_decided_for(*record_, parameters) || says_the_same(*record_, checked(parameters)))) return;
+    if (record_ && (is_decided_for(*record_, parameters) || says_the_same(*record_, checked(parameters, true)))) return;
     if (record_) prove(checked_);
-    decided_ = true;
+    elaborated_ = decided_ = true;
     set_parameters(checked_, parameters);
-    GenerateRequest request;
-    request.form = form;
-    request.scene = &scene;
-    request.flows = method.separable_only;
-    request.time_scale = time_scale_of(options_, checked_.model);
-    if (method.series) request.with = {"taylor"};
-    if (method.series && !scene.events.empty()) request.with.emplace_back("event_series");
-    const Generated generated = generate(checked_, request);
-    require_system(options_, scene, method, generated.module);
-    ProgramText text{generated.header,
-                     program_text(driver_, generated.module.name, method, request.time_scale != nullptr)};
-    if (driver_.abreast && goes_abreast(method)) text.options = vector_options();
-    const std::string program = compile_program(text);
-    record_ = record_of(checked_, generated.module, program, parameters);
+    const SceneText made =
+        scene_text(checked_, scene, form, method, driver_, time_scale_of(options_, checked_.model));
+    require_system(options_, scene, method, made.module);
+    record_ = record_of(checked_, made.module, form, compile_programs({made.text})[0], parameters);
     keep_record(file_, *record_);
 }
 
-const CheckedModel& Preparation::checked(const std::vector<long double>& parameters)
+const CheckedModel& Preparation::checked(const std::vector<long double>& parameters, bool decided)
 {
-    if (!decided_) decide_regularity(checked_, parameters);
-    decided_ = true;
+    if (!elaborated_) {
+        checked_.system = elaborate(checked_.model);
+        (void)set_parameters(checked_.system, parameters);
+    }
+    elaborated_ = true;
+    if (decided && !decided_) checked_.report.mechanics.regularity = verify_regularity(checked_.system);
+    decided_ = decided_ || decided;
     return checked_;
 }
 

@@ -3,6 +3,7 @@
 /// proofs, kernels and the compiler.
 #pragma once
 
+#include "commands/compile.hpp"
 #include "commands/options.hpp"
 #include "commands/run_record.hpp"
 
@@ -18,6 +19,15 @@ struct Obstacle {
 /// Nothing where all is well.
 [[nodiscard]] std::optional<Obstacle> obstacle_of(const MethodEntry& method, const KernelModule& module);
 
+/// The program of a scene by one method, not yet compiled.
+struct SceneText {
+    KernelModule module;
+    ProgramText text;
+};
+/// `checked` is proved and decided for the scene's parameters. `time_scale` is that of the steps, or null.
+[[nodiscard]] SceneText scene_text(const CheckedModel& checked, const Scene& scene, const std::string& form,
+                                   const MethodEntry& method, const Driver& driver, const Tree& time_scale = nullptr);
+
 class Preparation {
   public:
     /// `checked` was read; it is proved, or has the warnings of the record. Throws where it is refuted. `method` is the
@@ -31,8 +41,8 @@ class Preparation {
     /// After `finish`.
     [[nodiscard]] const RunRecord& record() const { return *record_; }
 
-    /// With its system, and what is decided for `parameters`.
-    const CheckedModel& checked(const std::vector<long double>& parameters);
+    /// With its system and, if that is wanted, with what is decided for `parameters`.
+    const CheckedModel& checked(const std::vector<long double>& parameters, bool decided);
 
   private:
     const Options& options_;
@@ -40,7 +50,7 @@ class Preparation {
     Driver driver_;
     std::string file_;
     std::optional<RunRecord> record_;
-    bool decided_ = false; ///< `checked_` has its system, and what is decided of it
+    bool elaborated_ = false, decided_ = false; ///< `checked_` has its system, and what is decided of it
 };
 
 } // namespace lagen

@@ -123,7 +123,8 @@ ExitCode run_run(Arguments arguments)
     ProgramInput input;
     input.events = &scene.events;
     input.columns = columns_of(record.names, scene);
-    StartState start([&]() -> const CheckedModel& { return preparation.checked(parameters); }, form);
+    StartState start([&](bool decided) -> const CheckedModel& { return preparation.checked(parameters, decided); },
+                     form);
     use_values(input, scene, values, start, options.has("at") && !options.has("t-end"));
 
     const bool confirmed = !accurate || confirm_accuracy(*accurate, record, input);
@@ -145,8 +146,7 @@ ExitCode run_run(Arguments arguments)
         plot_table(outcome.table, panels_of(input.columns, model, form_named(form).lanes),
                    model.title.empty() ? model.name : model.title, options.get("plot"), unit_of(model, "t"));
     tell(options, outcome, as_json);
-    const bool done = outcome.status == "ok" || outcome.status == "stopped_by_event";
-    return done && confirmed ? ExitCode::done : ExitCode::refuted;
+    return succeeded(outcome.status) && confirmed ? ExitCode::done : ExitCode::refuted;
 }
 
 } // namespace lagen

@@ -6,10 +6,12 @@
 #include "commands/places.hpp"
 #include "commands/write_file.hpp"
 #include "graph/core/graph.hpp"
+#include "model/families.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
@@ -40,6 +42,7 @@ void visit_lists(Record& record, Visit visit)
     visit("lane", record.names.lanes);
     visit("control", record.names.controls);
     visit("observable", record.names.observables);
+    visit("proved_for", record.proved_for);
 }
 
 constexpr const char* first_line = "what `lagen run` proved and compiled\n";
@@ -91,8 +94,8 @@ void add_lagen(ContentHash& hash)
 
 } // namespace
 
-RunRecord record_of(const CheckedModel& checked, const KernelModule& module, std::string program,
-                    const std::vector<long double>& parameters)
+RunRecord record_of(const CheckedModel& checked, const KernelModule& module, const std::string& form,
+                    std::string program, const std::vector<long double>& parameters)
 {
     RunRecord record;
     record.program = std::move(program);
@@ -104,13 +107,14 @@ RunRecord record_of(const CheckedModel& checked, const KernelModule& module, std
     if (!rests_on_values(checked.report.mechanics.regularity)) return record;
     record.regularity = line_of(checked.system, checked.report.mechanics.regularity);
     record.decided_for = parameters;
+    record.proved_for = proved_values(checked, form);
     return record;
 }
 
 void add_model(ContentHash& hash, const Model& model)
 {
-    hash.add(model.file->text);
-    for (const auto& file : model.included) hash.add(file->text);
+    hash.add(lines_of_code(model.file->text, "#"));
+    for (const auto& file : model.included) hash.add(lines_of_code(file->text, "#"));
     for (const Size& size : model.sizes) hash.add(size.name).add(std::to_string(size.value));
 }
 
@@ -155,16 +159,22 @@ try {
     // The next run proves again.
 }
 
-void decide_regularity(CheckedModel& checked, const std::vector<long double>& parameters)
-{
-    checked.system = elaborate(checked.model);
-    (void)set_parameters(checked.system, parameters);
-    checked.report.mechanics.regularity = verify_regularity(checked.system);
-}
-
 bool is_decided_for(const RunRecord& record, const std::vector<long double>& parameters)
 {
     return record.regularity.empty() || record.decided_for == parameters;
+}
+
+bool is_proved_for(const RunRecord& record, const Model& model, const std::vector<long double>& parameters)
+{
+    constexpr long double nearly = 1e-12L; // of the kernel: require_proved_values
+    const std::vector<Symbol> symbols = free_parameters(model);
+    for (const std::string& each : record.proved_for) {
+        const auto symbol = std::ranges::find(symbols, each.substr(0, each.find(" = ")), &Symbol::name);
+        const auto k = static_cast<std::size_t>(symbol - symbols.begin());
+        const long double value = record.decided_for.at(k);
+        if (!(std::fabs(parameters.at(k) - value) < nearly * (value == 0 ? 1 : std::fabs(value)))) return false;
+    }
+    return true;
 }
 
 bool says_the_same(const RunRecord& record, const CheckedModel& checked)

@@ -22,13 +22,15 @@ struct RunRecord {
     /// What was decided of d2L/dy2 for `decided_for`, in a line; empty where it was decided for all values.
     std::string regularity;
     std::vector<long double> decided_for; ///< the values of the parameters; empty with `regularity`
+    /// Parameters with the values for which alone the equations are proved, "c = 3/5"; the program takes no others.
+    std::vector<std::string> proved_for;
 };
 
 /// The record of a model, generated and compiled.
-[[nodiscard]] RunRecord record_of(const CheckedModel& checked, const KernelModule& module, std::string program,
-                                  const std::vector<long double>& parameters);
+[[nodiscard]] RunRecord record_of(const CheckedModel& checked, const KernelModule& module, const std::string& form,
+                                  std::string program, const std::vector<long double>& parameters);
 
-/// The text of the model and of the files that it includes, and its sizes.
+/// The text of the model and of the files that it includes, without lines of comments, and its sizes.
 void add_model(ContentHash& hash, const Model& model);
 
 /// The file of the record of `model`, under a name made from what a run rests on besides the values of parameters and
@@ -42,11 +44,12 @@ void add_model(ContentHash& hash, const Model& model);
 /// A failure to write is no failure of the run.
 void keep_record(const std::string& file, const RunRecord& record);
 
-/// The system of a model that was only read, and what is decided of d2L/dy2 for these values of the parameters.
-void decide_regularity(CheckedModel& checked, const std::vector<long double>& parameters);
-
 /// Whether what `record` says was decided for these values of the parameters, or for all.
 [[nodiscard]] bool is_decided_for(const RunRecord& record, const std::vector<long double>& parameters);
+
+/// Whether these parameters have the values of `proved_for`, as nearly as the program asks.
+[[nodiscard]] bool is_proved_for(const RunRecord& record, const Model& model,
+                                 const std::vector<long double>& parameters);
 
 /// Whether the same is decided of `checked`.
 [[nodiscard]] bool says_the_same(const RunRecord& record, const CheckedModel& checked);

@@ -91,6 +91,11 @@ const char* start_hint(const RunOutcome& outcome)
 
 } // namespace
 
+bool succeeded(const std::string& status)
+{
+    return status == "ok" || status == "stopped_by_event";
+}
+
 std::string report_json(const RunOutcome& outcome)
 {
     std::string invariants = "{";
@@ -111,12 +116,13 @@ std::string report_json(const RunOutcome& outcome)
         state += fmt::format("{}{}: {}", state.empty() ? "" : ", ", string_text(name), number_text(value));
     return fmt::format(
         "{{\"model\": {}, \"scene\": {}, \"form\": {}, \"method\": {}, \"status\": {}, \"t\": {}, "
-        "\"state\": {{{}}}, \"failed_at\": {},\n \"steps\": {}, "
+        "\"state\": {{{}}},{}\n \"steps\": {}, "
         "\"rejected\": {}, \"rhs_calls\": {},{} \"seconds\": {},\n \"columns\": {},\n \"rows\": {},\n \"events\": "
         "{},\n "
         "\"invariants\": {}}}\n",
         string_text(outcome.model), string_text(outcome.scene), string_text(outcome.form), string_text(outcome.method),
-        string_text(outcome.status), number_text(outcome.time), state, number_text(outcome.failed_at),
+        string_text(outcome.status), number_text(outcome.time), state,
+        succeeded(outcome.status) ? "" : fmt::format(" \"failed_at\": {},", number_text(outcome.failed_at)),
         number_text(outcome.steps), number_text(outcome.rejected), number_text(outcome.rhs_calls), implicit,
         number_text(outcome.seconds),
         list_text(outcome.table.columns, [](const std::string& column) { return string_text(column); }),
@@ -140,7 +146,7 @@ std::string report_text(const RunOutcome& outcome)
                             counted(outcome.decompositions, "factorisation"));
     for (const EventReport& event : outcome.events)
         text += fmt::format("  event {} at t = {}\n", event.name, brief(event.time, 15));
-    const bool failed = outcome.status != "ok" && outcome.status != "stopped_by_event";
+    const bool failed = !succeeded(outcome.status);
     if (const std::string reason = control_text(outcome.status); !reason.empty())
         text += fmt::format("  {}\n{}", reason, last_state(outcome));
     else if (failed && outcome.steps != "0")

@@ -40,6 +40,9 @@ struct RunOutcome {
     Table table;
 };
 
+/// Whether a run came to its end, or to that of its own event.
+[[nodiscard]] bool succeeded(const std::string& status);
+
 /// The object of `run --format json`; numbers keep their digits, what is not finite is null.
 [[nodiscard]] std::string report_json(const RunOutcome& outcome);
 

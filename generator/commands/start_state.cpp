@@ -53,15 +53,15 @@ StartState::Conversion StartState::to_velocities(const CheckedModel& checked)
 }
 
 /// mu = dL/dy at the given fibre coordinates, or mu with dH/dmu = them.
-StartState::Conversion StartState::to_momenta(const CheckedModel& checked)
+StartState::Conversion StartState::to_momenta(const Checked& checked)
 {
-    const System& system = checked.system;
+    const System& system = checked(false).system;
     Graph graph = system.graph;
     const char *given = "fibre coordinates", *wanted = "momenta";
     if (!system.lagrangian) {
         const std::vector<NodeId> velocities = given_hamiltonian(graph, system).y;
-        return inversion(std::move(graph), checked.report.mechanics.regularity, system.mu, velocities,
-                         *system.hamiltonian, given, wanted);
+        const Regularity& known = checked(true).report.mechanics.regularity;
+        return inversion(std::move(graph), known, system.mu, velocities, *system.hamiltonian, given, wanted);
     }
     std::vector<NodeId> momenta = lagrangian_nodes(graph, system).fibre.momenta;
     std::vector<std::string> targets;
@@ -92,7 +92,7 @@ bool StartState::prepare(bool has_momenta, bool any)
     const EquationForm& form = form_named(form_);
     if (!any || has_momenta == form.momenta) return false;
     if (form.kind == FormKind::pontryagin) throw InternalError("a scene in Pontryagin's form without momenta");
-    if (!conversion_) conversion_ = has_momenta ? to_velocities(checked_()) : to_momenta(checked_());
+    if (!conversion_) conversion_ = has_momenta ? to_velocities(checked_(true)) : to_momenta(checked_);
     return true;
 }
 

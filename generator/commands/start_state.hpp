@@ -14,17 +14,17 @@ namespace lagen {
 /// Base lanes, then the other lanes of `form`. Lagrange's form with momenta given: y solves p_a(x, y) =
 /// mu_a. Hamilton's with fibre coordinates given: mu = dL/dy, or mu solves dH/dmu_a = y^a. By Newton's method from 0,
 /// in long double; throws MathematicsError where it does not converge. `checked` is called where the values given are
-/// not the lanes themselves, once.
+/// not the lanes themselves, once; with `true` where it is needed what is decided of the regularity.
 class StartState {
   public:
-    StartState(std::function<const CheckedModel&()> checked, std::string form)
-        : checked_(std::move(checked)), form_(std::move(form))
-    {
-    }
+    using Checked = std::function<const CheckedModel&(bool decided)>;
+    StartState(Checked checked, std::string form) : checked_(std::move(checked)), form_(std::move(form)) {}
 
     /// Makes ready for scenes that give momenta, or fibre coordinates, if there are `any`; false where nothing is
     /// converted.
     bool prepare(bool has_momenta, bool any);
+    /// Whether the conversion, once it is prepared, is one only because of what is decided.
+    [[nodiscard]] bool rests_on_decision() const { return conversion_ && conversion_->block; }
     /// The values of one scene after the other; all give fibre coordinates, or all momenta.
     [[nodiscard]] std::vector<long double> operator()(const SceneValues& values);
 
@@ -39,13 +39,13 @@ class StartState {
         const char* wanted;
     };
     [[nodiscard]] static Conversion to_velocities(const CheckedModel& checked);
-    [[nodiscard]] static Conversion to_momenta(const CheckedModel& checked);
+    [[nodiscard]] static Conversion to_momenta(const Checked& checked);
     [[nodiscard]] static Conversion inversion(Graph graph, const Regularity& regularity, std::vector<NodeId> unknowns,
                                               const std::vector<NodeId>& values, NodeId function, const char* given,
                                               const char* wanted);
     [[nodiscard]] std::vector<long double> converted(const std::vector<NamedNumber>& given, Values inputs) const;
 
-    std::function<const CheckedModel&()> checked_;
+    Checked checked_;
     std::string form_;
     std::optional<Conversion> conversion_;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// `lagen sweep`: one scene from many starts and with many parameters, a row for each.
 #include "commands/command.hpp"
+#include "commands/compile.hpp"
 #include "commands/places.hpp"
 #include "commands/preparation.hpp"
 #include "commands/scene_options.hpp"
@@ -12,7 +13,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <filesystem>
 
 namespace lagen {
 
@@ -45,7 +45,19 @@ const CommandSyntax sweep_syntax{
      {"t-end", "T", "end of each run; without it the scene's duration"},
      {"unchecked", nullptr, "go on although the model is refuted"}}};
 
-/// Which sweep a file belongs to: parts have the same key on all machines, and what is resumed the same build too.
+/// What the rows follow from, as it was typed, in a line.
+std::string command_of(const Options& options)
+{
+    std::string text = "lagen sweep " + options.positional()[0];
+    for (const auto& [name, value] : options.given())
+        if (name != "output" && name != "resume" && name != "threads" && name != "shard")
+            text += fmt::format(" --{}{}{}", name, value.empty() ? "" : " ", value);
+    for (char& c : text)
+        if (static_cast<unsigned char>(c) < ' ') c = ' ';
+    return text;
+}
+
+/// Which sweep a file belongs to: the same key and build on all machines.
 SweepIdentity identity_of(const Options& options, const Model& model, const SweepRows& rows, const Shard& shard,
                           const std::string& heading)
 {
@@ -56,7 +68,7 @@ SweepIdentity identity_of(const Options& options, const Model& model, const Swee
         hash.add(options.has(name) ? name : "").add(options.get(name));
     for (const auto& [name, value] : options.given())
         if (name == "set" || name == "initial" || name == "bind") hash.add(name).add(value);
-    return {hash.hex32(), std::filesystem::path(record_file(model, {})).filename().string(), rows.count, shard, false};
+    return {hash.hex32(), build_text(), command_of(options), rows.count, shard, false};
 }
 
 std::size_t threads_of(const Options& options)
@@ -75,7 +87,7 @@ std::string summary(const std::string& path, const SweepFile& file, const std::m
     std::string kinds, why;
     std::uint64_t failed = 0;
     for (const auto& [status, count] : file.statuses()) {
-        if (status == "ok" || status == "stopped_by_event") continue;
+        if (succeeded(status)) continue;
         failed += count;
         kinds += fmt::format("{}{} {}", kinds.empty() ? "" : ", ", count, status);
         if (const auto reason = reasons.find(status); reason != reasons.end())
@@ -108,7 +120,8 @@ Scene with_swept(const Model& model, Scene scene, const SweepRows& rows)
 void prepare_start(StartState& start, const Model& model, const Scene& scene, const RunRecord& record,
                    const SweepRows& rows)
 {
-    if (!start.prepare(starts_from_momenta(model, scene), !model.fibre.coordinates.empty())) return;
+    (void)start.prepare(starts_from_momenta(model, scene), !model.fibre.coordinates.empty());
+    if (!start.rests_on_decision()) return;
     const bool sets = std::ranges::any_of(rows.names, [](const SweptName& name) { return name.option == "set"; });
     if (!sets || record.regularity.empty()) return;
     throw MathematicsError("the start converts between momenta and fibre coordinates, which is decided for the "
@@ -159,17 +172,31 @@ ExitCode run_sweep(Arguments arguments)
     const std::vector<long double> parameters = finite_numbers(SceneEvaluator(model, scene).parameters({}), scene);
     preparation.finish(scene, form, method_of(options, scene), parameters);
     const RunRecord& record = preparation.record();
-    StartState start([&]() -> const CheckedModel& { return preparation.checked(parameters); }, form);
+    StartState start([&](bool decided) -> const CheckedModel& { return preparation.checked(parameters, decided); },
+                     form);
     prepare_start(start, model, scene, record, rows);
 
-    const SweepSetting setting{model, scene, record.program, record.names, threads};
+    const SweepSetting setting{model, scene, record, threads};
     const std::string heading = sweep_heading(setting, rows);
     const SweepIdentity identity = identity_of(options, model, rows, shard, heading);
+    SweepIdentity whole = identity;
+    whole.shard = {};
+    if (path != output && options.has("resume") && is_finished(output, whole)) {
+        write_standard_error(fmt::format("{}: {} rows, complete\n", output, rows.count));
+        return ExitCode::done;
+    }
     SweepFile file(path, identity, heading, options.has("resume"));
     SweepRun run(setting, rows, shard, std::move(start), file);
+    const bool resumed = file.rows() > 0;
     run.run();
     file.complete();
     write_standard_error(summary(path, file, run.reasons()));
+    if (run.unproved() > 0)
+        write_standard_error(fmt::format(
+            "warning: {}{} left out with left_domain: {}\nhint: conditions on parameters in [base] domain under which "
+            "it can be proved make it hold for all of them\n",
+            resumed ? "at least " : "", run.unproved() == 1 ? "1 row is" : fmt::format("{} rows are", run.unproved()),
+            proved_for_alone(record.proved_for)));
     if (path != output && merge_ranks(output, identity))
         write_standard_error(fmt::format("{}: {} rows of {} parts\n", output, rows.count, shard.count));
     return ExitCode::done;

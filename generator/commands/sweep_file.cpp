@@ -29,8 +29,14 @@ std::string identity_file(const std::string& path)
 
 std::string text_of(const SweepIdentity& identity)
 {
-    return fmt::format("{}key={}\nbuild={}\nrows={}\nshard={}\n{}", identity_line, identity.key, identity.build,
-                       identity.rows, identity.shard.text(), identity.complete ? "complete=yes\n" : "");
+    return fmt::format("{}key={}\nbuild={}\ncommand={}\nrows={}\nshard={}\n{}", identity_line, identity.key,
+                       identity.build, identity.command, identity.rows, identity.shard.text(),
+                       identity.complete ? "complete=yes\n" : "");
+}
+
+bool exists(const std::string& path)
+{
+    return ::access(path.c_str(), F_OK) == 0;
 }
 
 [[noreturn]] void refuse_writing(const std::string& path, const std::string& hint = {})
@@ -38,7 +44,67 @@ std::string text_of(const SweepIdentity& identity)
     throw MachineError(fmt::format("error: cannot write '{}': {}{}", path, std::strerror(errno), hint));
 }
 
+/// Throws where the rows of `file` are not those of `identity`.
+void require_same(const std::string& file, const std::optional<SweepIdentity>& found, const SweepIdentity& identity)
+{
+    const char* hint = "\nhint: --resume goes on with the same model, options and lagen; without it the sweep begins "
+                       "anew";
+    if (!found) throw UsageError(fmt::format("lagen sweep: nothing says of which sweep '{}' is{}", file, hint));
+    std::string why;
+    if (found->key != identity.key)
+        why = found->command == identity.command ? "the model has changed" : found->command;
+    else if (found->shard != identity.shard)
+        why = fmt::format("part {}", found->shard.text());
+    else if (found->build != identity.build)
+        why = found->build;
+    else
+        return;
+    throw UsageError(fmt::format("lagen sweep: '{}' is of another sweep: {}{}", file, why, hint));
+}
+
 } // namespace
+
+int open_locked(const std::string& path, bool waits)
+{
+    while (true) {
+        const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        if (file < 0) return -1;
+        int locked = 0;
+        while ((locked = ::flock(file, waits ? LOCK_EX : LOCK_EX | LOCK_NB)) != 0 && errno == EINTR) {
+        }
+        if (locked != 0 && (waits || errno == EWOULDBLOCK)) {
+            const int error = errno;
+            ::close(file);
+            errno = error;
+            return -1;
+        }
+        struct stat held {
+        }, named{};
+        // Its last holder may have given it another name, or none, before it let go of it.
+        if (::fstat(file, &held) == 0 && ::stat(path.c_str(), &named) == 0 && held.st_ino == named.st_ino &&
+            held.st_dev == named.st_dev)
+            return file;
+        ::close(file);
+    }
+}
+
+bool put_in_place(int file, const std::string& partial, const std::string& path)
+{
+    return (::fsync(file) == 0 || errno == EINVAL) && ::rename(partial.c_str(), path.c_str()) == 0;
+}
+
+void write_identity(const std::string& path, const SweepIdentity& identity)
+{
+    write_file(identity_file(path), text_of(identity));
+}
+
+bool is_finished(const std::string& path, const SweepIdentity& identity)
+{
+    if (!exists(path)) return false;
+    const std::optional<SweepIdentity> found = find_identity(path);
+    require_same(path, found, identity);
+    return found->complete;
+}
 
 std::optional<SweepIdentity> find_identity(const std::string& path)
 {
@@ -50,6 +116,7 @@ std::optional<SweepIdentity> find_identity(const std::string& path)
     for (std::string line; std::getline(lines, line);) {
         if (line.starts_with("key=")) identity.key = line.substr(4);
         if (line.starts_with("build=")) identity.build = line.substr(6);
+        if (line.starts_with("command=")) identity.command = line.substr(8);
         if (line.starts_with("rows=")) identity.rows = read_whole(line.substr(5)).value_or(0);
         if (line.starts_with("shard=")) identity.shard = read_shard(line.substr(6));
         if (line == "complete=yes") identity.complete = true;
@@ -57,41 +124,60 @@ std::optional<SweepIdentity> find_identity(const std::string& path)
     return identity;
 }
 
-SweepFile::SweepFile(std::string path, const SweepIdentity& identity, const std::string& heading, bool resume)
+SweepFile::SweepFile(std::string path, const SweepIdentity& identity)
     : path_(std::move(path)), partial_(path_ + ".partial"), identity_(identity)
+{
+}
+
+// The other constructor has made the object: what is thrown here lets go of the file.
+SweepFile::SweepFile(std::string path, const SweepIdentity& identity, const std::string& heading, bool resume)
+    : SweepFile(std::move(path), identity)
 {
     struct stat status {};
     if (::stat(path_.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) {
         errno = S_ISDIR(status.st_mode) ? EISDIR : EINVAL;
         refuse_writing(path_);
     }
-    const std::optional<SweepIdentity> found = resume ? find_identity(path_) : std::nullopt;
-    if (found && (found->key != identity_.key || found->build != identity_.build || found->shard != identity_.shard))
-        throw UsageError(
-            fmt::format("lagen sweep: '{}' was begun by another sweep\nhint: --resume goes on with the same "
-                        "model, options and lagen; without it the sweep begins anew",
-                        partial_));
-    const bool is_partial = found && ::access(partial_.c_str(), F_OK) == 0;
-    if (found && found->complete && !is_partial && ::access(path_.c_str(), F_OK) == 0) {
-        rows_ = identity_.shard.size(identity_.rows);
-        return;
-    }
-    file_ = ::open(partial_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (file_ < 0) refuse_writing(partial_);
-    if (::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    file_ = open_locked(partial_, false);
+    if (file_ < 0 && errno == EWOULDBLOCK)
         throw UsageError(fmt::format("lagen sweep: another sweep is writing '{}'", partial_));
-    is_partial ? go_on(heading) : begin(heading);
+    if (file_ < 0) refuse_writing(partial_);
+    start(heading, resume);
+}
+
+void SweepFile::start(const std::string& heading, bool resume)
+{
+    struct stat status {};
+    const bool is_partial = ::fstat(file_, &status) == 0 && status.st_size > 0;
+    if (!resume) return begin(heading);
+    if (is_partial) {
+        require_same(partial_, find_identity(path_), identity_);
+        return go_on(heading);
+    }
+    if (!is_finished(path_, identity_)) return begin(heading);
+    let_go();
+    rows_ = identity_.shard.size(identity_.rows);
+}
+
+/// An empty file is no part of a table.
+void SweepFile::let_go()
+{
+    if (file_ < 0) return;
+    struct stat status {};
+    if (::fstat(file_, &status) == 0 && status.st_size == 0) ::unlink(partial_.c_str());
+    ::close(file_);
+    file_ = -1;
 }
 
 SweepFile::~SweepFile()
 {
-    if (file_ >= 0) ::close(file_);
+    let_go();
 }
 
 void SweepFile::begin(const std::string& heading)
 {
     if (::ftruncate(file_, 0) != 0 || ::lseek(file_, 0, SEEK_SET) != 0) refuse_writing(partial_);
-    write_file(identity_file(path_), text_of(identity_));
+    write_identity(path_, identity_);
     write(heading);
 }
 
@@ -153,15 +239,11 @@ void SweepFile::append(std::string_view lines)
 void SweepFile::complete()
 {
     if (file_ < 0) return;
-    if ((::fsync(file_) != 0 && errno != EINVAL) || ::rename(partial_.c_str(), path_.c_str()) != 0)
-        refuse_writing(path_);
+    if (!put_in_place(file_, partial_, path_)) refuse_writing(path_);
     ::close(file_);
     file_ = -1;
     identity_.complete = true;
-    if (identity_.shard.count == 1)
-        ::unlink(identity_file(path_).c_str());
-    else
-        write_file(identity_file(path_), text_of(identity_));
+    write_identity(path_, identity_);
 }
 
 } // namespace lagen

@@ -7,11 +7,11 @@
 #include <fmt/core.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
-#include <sys/file.h>
 #include <unistd.h>
 
 namespace lagen {
@@ -33,6 +33,10 @@ std::vector<std::string> sorted_parts(const std::vector<std::string>& parts, Swe
         }
         if (found->key != whole.key || found->rows != whole.rows || found->shard.count != whole.shard.count)
             throw UsageError(fmt::format("lagen sweep: '{}' and '{}' are not parts of the same sweep", parts[0], part));
+        if (found->build != whole.build)
+            throw UsageError(fmt::format("lagen sweep: two builds have made these parts:\n  '{}': {}\n  '{}': "
+                                         "{}\nhint: make all parts with one of them",
+                                         parts[0], whole.build, part, found->build));
         std::string& place = sorted[found->shard.index];
         if (!place.empty())
             throw UsageError(
@@ -54,23 +58,27 @@ std::string line_of(std::ifstream& file, const std::string& part, const std::str
     return line + '\n';
 }
 
-/// A file that is written under another name and gets its own at the end.
+/// A file that is written under another name and gets its own at the end, when all of it is on the disk.
 class MergedFile {
   public:
-    explicit MergedFile(const std::string& path) : path_(path), stream_(path + ".partial", std::ios::binary)
+    explicit MergedFile(const std::string& path)
+        : path_(path), partial_(path + ".partial"), file_(std::fopen(partial_.c_str(), "wb"))
     {
-        check(stream_.good());
+        check(file_ != nullptr);
     }
-    void write(const std::string& line)
+    ~MergedFile()
     {
-        stream_ << line;
-        check(stream_.good());
+        if (file_ != nullptr) std::fclose(file_);
+        if (!complete_) ::unlink(partial_.c_str());
     }
+    MergedFile(const MergedFile&) = delete;
+    MergedFile& operator=(const MergedFile&) = delete;
+
+    void write(const std::string& line) { check(std::fwrite(line.data(), 1, line.size(), file_) == line.size()); }
     void complete()
     {
-        stream_.close();
-        check(!stream_.fail());
-        check(std::rename((path_ + ".partial").c_str(), path_.c_str()) == 0);
+        check(std::fflush(file_) == 0 && put_in_place(::fileno(file_), partial_, path_));
+        complete_ = true;
     }
 
   private:
@@ -80,9 +88,40 @@ class MergedFile {
         throw MachineError(fmt::format("error: cannot write '{}': {}", path_, std::strerror(errno)));
     }
 
-    std::string path_;
-    std::ofstream stream_;
+    std::string path_, partial_;
+    std::FILE* file_;
+    bool complete_ = false;
 };
+
+/// FILE.lock, held while this lives and gone afterwards.
+class RankLock {
+  public:
+    explicit RankLock(const std::string& path) : path_(path + ".lock"), file_(open_locked(path_, true)) {}
+    ~RankLock()
+    {
+        if (file_ < 0) return;
+        ::unlink(path_.c_str());
+        ::close(file_);
+    }
+    RankLock(const RankLock&) = delete;
+    RankLock& operator=(const RankLock&) = delete;
+
+    [[nodiscard]] bool held() const { return file_ >= 0; }
+
+  private:
+    std::string path_;
+    int file_;
+};
+
+/// What was written, and its name, outlast a crash of the machine.
+void sync_folder_of(const std::string& path)
+{
+    const std::string folder = std::filesystem::path(path).parent_path().string();
+    const int file = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (file < 0) return;
+    (void)::fsync(file); // a file system that cannot do this does it by itself
+    ::close(file);
+}
 
 } // namespace
 
@@ -108,6 +147,8 @@ void merge_sweep(const std::vector<std::string>& parts, const std::string& path)
         merged.write(line_of(files[part], sorted[part], std::to_string(row) + ","));
     }
     merged.complete();
+    whole.shard = {};
+    write_identity(path, whole);
 }
 
 std::string rank_file(const std::string& path, const Shard& shard)
@@ -117,26 +158,20 @@ std::string rank_file(const std::string& path, const Shard& shard)
 
 bool merge_ranks(const std::string& path, const SweepIdentity& identity)
 {
-    const std::string lock = path + ".lock";
-    const int file = ::open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (file < 0) return false;
     // Of ranks that end at once the first one merges; the others find that their parts are gone.
-    bool ready = ::flock(file, LOCK_EX) == 0;
-    const bool merged = !find_identity(rank_file(path, identity.shard));
+    const RankLock lock(path);
+    if (!lock.held()) return false;
     std::vector<std::string> parts;
-    for (std::uint64_t k = 0; k < identity.shard.count && ready; ++k) {
+    for (std::uint64_t k = 0; k < identity.shard.count; ++k) {
         parts.push_back(rank_file(path, {k, identity.shard.count}));
         const std::optional<SweepIdentity> found = find_identity(parts.back());
-        ready = found && found->complete && found->key == identity.key && found->rows == identity.rows;
+        if (!found || !found->complete || found->key != identity.key || found->rows != identity.rows) return false;
     }
-    if (ready) {
-        merge_sweep(parts, path);
-        for (const std::string& part : parts)
-            for (const std::string& name : {part, part + ".sweep"}) ::unlink(name.c_str());
-    }
-    if (ready || merged) ::unlink(lock.c_str());
-    ::close(file);
-    return ready;
+    merge_sweep(parts, path);
+    sync_folder_of(path);
+    for (const std::string& part : parts)
+        for (const std::string& name : {part, part + ".sweep"}) ::unlink(name.c_str());
+    return true;
 }
 
 } // namespace lagen

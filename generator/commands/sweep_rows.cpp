@@ -195,8 +195,7 @@ SweepRequest::SweepRequest(const Options& options)
             refuse_range(range, random ? "with --random a range is FIRST:LAST" : "a range is FIRST:LAST:COUNT");
         ranges.push_back(std::move(range));
     }
-    const std::vector<Setting> bound = options.bindings();
-    settings.insert(settings.end(), bound.begin(), bound.end());
+    options.add_bindings(settings);
     if (ranges.empty() && !ensemble)
         throw UsageError("lagen sweep: nothing is swept: give ranges (--set a=0:2:101, --initial x=-1:1:21), with "
                          "--random N or without, or --ensemble FILE.csv");

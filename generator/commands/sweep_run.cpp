@@ -42,7 +42,7 @@ void append_doubles(std::string& bytes, const std::vector<long double>& values)
 std::string sweep_heading(const SweepSetting& setting, const SweepRows& rows)
 {
     std::vector<std::string> names{"index", "status", "t"};
-    for (const TableColumn& column : columns_of(setting.names, setting.scene)) names.push_back(column.name);
+    for (const TableColumn& column : columns_of(setting.record.names, setting.scene)) names.push_back(column.name);
     const std::vector<std::string> columns = csv_names(names);
     std::string text = columns[0];
     const auto put = [&](const std::string& name) { text += ',' + name; };
@@ -67,13 +67,13 @@ SweepRun::SweepRun(const SweepSetting& setting, const SweepRows& rows, const Sha
       progress_(file.rows(), shard.size(rows.count)), evaluate_(setting.model, setting.scene),
       next_(shard.index + file.rows() * shard.count)
 {
-    input_.columns = columns_of(setting_.names, setting_.scene);
+    input_.columns = columns_of(setting_.record.names, setting_.scene);
     input_.events = &setting_.scene.events;
 }
 
 std::vector<std::string> SweepRun::arguments() const
 {
-    std::vector<std::string> list{setting_.program, "--threads", std::to_string(setting_.threads)};
+    std::vector<std::string> list{setting_.record.program, "--threads", std::to_string(setting_.threads)};
     const Sampling& sampling = setting_.scene.sampling;
     switch (sampling.kind) {
     case Sampling::Kind::standard: break;
@@ -96,7 +96,14 @@ std::string SweepRun::start_of(const std::vector<std::string>& texts)
         (option == "set" ? parameters_ : initial_)[name] = std::strtold(texts[k].c_str(), nullptr);
     }
     try {
-        use_values(input_, setting_.scene, evaluate_(parameters_, initial_), start_, false);
+        const SceneValues values = evaluate_(parameters_, initial_);
+        const RunRecord& record = setting_.record;
+        if (!record.proved_for.empty() &&
+            !is_proved_for(record, setting_.model, finite_numbers(values.parameters, setting_.scene))) {
+            ++unproved_;
+            return "left_domain";
+        }
+        use_values(input_, setting_.scene, values, start_, false);
         return "";
     } catch (const StartError& error) {
         return reasons_.try_emplace(error.status(), error.diagnostic().message).first->first;
@@ -119,14 +126,12 @@ void SweepRun::append_start(std::string& bytes, std::uint64_t index)
     pending_.push_back(std::move(fields));
     const std::size_t known = reasons_.size();
     const std::string status = start_of(texts);
-    if (reasons_.size() > known) {
-        failures_.push_back(status);
-        reasons_[status] = fmt::format("row {}: {}", index, reasons_[status]);
-    }
+    if (reasons_.size() > known) reasons_[status] = fmt::format("row {}: {}", index, reasons_[status]);
     const auto failure = std::ranges::find(failures_, status) - failures_.begin();
+    if (!status.empty() && failure == std::ssize(failures_)) failures_.push_back(status);
     append_doubles(bytes, {status.empty() ? 0 : static_cast<long double>(failure + 1)});
     input_.parameters.resize(free_parameters(setting_.model).size());
-    input_.initial.resize(setting_.names.lanes.size());
+    input_.initial.resize(setting_.record.names.lanes.size());
     append_doubles(bytes, input_.parameters);
     append_doubles(bytes, input_.initial);
     append_doubles(bytes, {input_.times.start, input_.times.end, input_.step.value_or(0), input_.relative.value_or(0),
@@ -167,11 +172,9 @@ void SweepRun::take(const char* bytes, std::size_t count)
     }
     unfinished_.erase(0, begin);
     file_.append(lines);
-    std::uint64_t failed = file_.rows();
-    for (const char* success : {"ok", "stopped_by_event"}) {
-        const auto found = file_.statuses().find(success);
-        if (found != file_.statuses().end()) failed -= found->second;
-    }
+    std::uint64_t failed = 0;
+    for (const auto& [status, rows] : file_.statuses())
+        if (!succeeded(status)) failed += rows;
     progress_.show(file_.rows(), failed);
 }
 
@@ -183,7 +186,7 @@ void SweepRun::run()
         arguments(), [this](const char* bytes, std::size_t count) { take(bytes, count); },
         [this] { return next_starts(); });
     progress_.clear();
-    require_started(result, setting_.program);
+    require_started(result, setting_.record.program);
     if (file_.rows() == wanted && result.exit_code == 0) return;
     if (result.interrupted)
         throw Error(ExitCode::interrupted,

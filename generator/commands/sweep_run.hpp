@@ -2,7 +2,7 @@
 /// The rows of a sweep on their way through its program: starts in, finished lines out.
 #pragma once
 
-#include "commands/scene_program.hpp"
+#include "commands/run_record.hpp"
 #include "commands/sweep_file.hpp"
 #include "commands/sweep_progress.hpp"
 #include "commands/sweep_rows.hpp"
@@ -15,8 +15,7 @@ namespace lagen {
 struct SweepSetting {
     const Model& model;
     const Scene& scene;
-    std::string program;
-    TableNames names;
+    const RunRecord& record;
     std::size_t threads = 1;
 };
 
@@ -34,6 +33,9 @@ class SweepRun {
 
     /// Why rows had no start, once a status: "row 3: ..".
     [[nodiscard]] const std::map<std::string, std::string>& reasons() const { return reasons_; }
+
+    /// How many rows have values for which their equations are not proved.
+    [[nodiscard]] std::uint64_t unproved() const { return unproved_; }
 
   private:
     [[nodiscard]] std::vector<std::string> arguments() const;
@@ -56,6 +58,7 @@ class SweepRun {
     std::deque<std::string> pending_;   ///< the first fields of rows that the program has
     std::vector<std::string> failures_; ///< statuses of rows without a start, by the program's number from 1 on
     std::map<std::string, std::string> reasons_;
+    std::uint64_t unproved_ = 0;
     std::string unfinished_; ///< the beginning of a line
 };
 

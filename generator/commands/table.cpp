@@ -19,14 +19,6 @@ std::vector<std::string_view> pieces(std::string_view text, char separator)
     return list;
 }
 
-std::string quoted(const std::string& field)
-{
-    if (field.find_first_of(",\"\r\n") == std::string::npos) return field;
-    std::string text = "\"";
-    for (const char c : field) text += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return text + "\"";
-}
-
 } // namespace
 
 std::vector<std::string_view> Table::lines() const
@@ -64,7 +56,7 @@ std::vector<std::string> csv_names(const std::vector<std::string>& names)
 std::string to_csv(const Table& table)
 {
     std::string text;
-    for (const std::string& column : table.columns) text += (text.empty() ? "" : ",") + quoted(column);
+    for (const std::string& column : csv_names(table.columns)) text += (text.empty() ? "" : ",") + column;
     text += "\r\n";
     text.reserve(text.size() + table.rows.size() + table.count);
     for (const std::string_view line : table.lines()) text.append(line).append("\r\n");

@@ -25,7 +25,7 @@ struct Table {
 /// number.
 [[nodiscard]] std::vector<std::string> csv_names(const std::vector<std::string>& names);
 
-/// RFC 4180: a heading (quoted where needed), then the rows, CRLF line ends.
+/// RFC 4180: a heading of `csv_names`, then the rows, CRLF line ends.
 [[nodiscard]] std::string to_csv(const Table& table);
 
 } // namespace lagen

@@ -60,6 +60,7 @@ Separation separation_of(const KernelModule& module)
 {
     using Kind = Separation::Kind;
     const std::vector<Quantity>&x = module.groups.at(0).lanes, &y = module.groups.at(1).lanes;
+    if (x.empty()) return {Kind::no, "there are no base coordinates x"};
     const auto depends = [&](NodeId node, NodeId input) {
         return depends_on_any(*module.graph, std::array{node}, std::array{input});
     };

@@ -3,6 +3,9 @@
 #include "program.hpp"
 
 #include "support/golden.hpp"
+#include "support/json.hpp"
+
+#include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <cstdlib>
@@ -111,6 +114,21 @@ Outcome finish(const Started& started)
 Outcome call(const std::vector<std::string>& arguments, const Surroundings& around)
 {
     return finish(start_call(arguments, around));
+}
+
+std::vector<double> last_row(std::vector<std::string> arguments)
+{
+    arguments.insert(arguments.begin(), "run");
+    arguments.insert(arguments.end(), {"--format", "json"});
+    const Outcome outcome = call(arguments);
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    const json::Value value = json::parse(outcome.out);
+    REQUIRE(value["status"].text == "ok");
+    std::vector<double> row;
+    for (const json::Value& entry : value["rows"].entries.back().entries)
+        row.push_back(static_cast<double>(entry.number()));
+    return row;
 }
 
 std::string fresh_folder()

@@ -38,6 +38,9 @@ struct Started {
 [[nodiscard]] Started start_call(const std::vector<std::string>& arguments, const Surroundings& around = {});
 [[nodiscard]] Outcome finish(const Started& started);
 
+/// The last row of `lagen run` with these arguments, which must come to its end: t, then the columns.
+[[nodiscard]] std::vector<double> last_row(std::vector<std::string> arguments);
+
 /// A new empty folder, removed with everything else when the test program ends.
 [[nodiscard]] std::string fresh_folder();
 /// A folder with a copy of models/*.toml and of tests/commands/models/*.toml.

@@ -3,7 +3,6 @@
 #include "program.hpp"
 
 #include "support/golden.hpp"
-#include "support/json.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -14,25 +13,14 @@
 
 using namespace lagen::testing;
 using Catch::Contains;
-namespace json = lagen::json;
 
 namespace {
 
-/// The last row of a run, with the warnings of the call apart.
+/// t = 2 and the state there.
 std::vector<double> bound_end_of(std::vector<std::string> arguments)
 {
-    const std::vector<std::string> common{"--at", "2", "--tolerance", "1e-12", "--format", "json"};
-    arguments.insert(arguments.begin(), "run");
-    arguments.insert(arguments.end(), common.begin(), common.end());
-    const Outcome outcome = call(arguments);
-    INFO(outcome.err);
-    REQUIRE(outcome.code == 0);
-    const json::Value value = json::parse(outcome.out);
-    REQUIRE(value["status"].text == "ok");
-    std::vector<double> row;
-    for (std::size_t k = 0; k < value["columns"].size(); ++k)
-        row.push_back(static_cast<double>(value["rows"][0][k].number()));
-    return row;
+    arguments.insert(arguments.end(), {"--at", "2", "--tolerance", "1e-12"});
+    return last_row(arguments);
 }
 
 double row_difference(const std::vector<double>& a, const std::vector<double>& b)
@@ -82,6 +70,19 @@ TEST_CASE("a name alone is bound to the value that it has")
     REQUIRE(same.code == 0);
     const std::string_view kernels = "rhs(";
     CHECK(one.out.substr(one.out.find(kernels)) == same.out.substr(same.out.find(kernels)));
+}
+
+TEST_CASE("--set and --bind do not both give a value to the same parameter")
+{
+    const std::pair<const char*, const char*> pairs[] = {{"m=1", "m=2"}, {"m[7]=1", "m=2"}, {"m=1", "m[7]=2"}};
+    for (const auto& [set, bind] : pairs) {
+        const Outcome outcome = call({"generate", "pleiades.toml", "--set", set, "--bind", bind});
+        CHECK(outcome.code == 4);
+        CHECK_THAT(outcome.err, Catch::StartsWith("lagen generate: --set gives 'm"));
+    }
+    // The names are different entries, or --bind takes the value of --set.
+    CHECK(call({"generate", "pleiades.toml", "--set", "m[1]=2", "--bind", "m[7]=2"}).code == 0);
+    CHECK(call({"generate", "pleiades.toml", "--set", "m[7]=2", "--bind", "m"}).code == 0);
 }
 
 TEST_CASE("a family is bound whole or an entry at a time", "[run]")

@@ -16,6 +16,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <map>
 
 using namespace lagen::testing;
@@ -87,6 +88,17 @@ TEST_CASE("methods lead a picture where they are the cheapest, or nearly, for so
         if (point.method == "dop853") point.seconds *= 2.5;
     CHECK(lagen::leading_methods(slow, 1) == std::vector<std::string>{"rk4"});
     CHECK(lagen::leading_methods(slow, 1.3) == std::vector<std::string>{"rk4", "dop853"});
+}
+
+TEST_CASE("drifts are drawn of what the equations conserve")
+{
+    lagen::Chart chart = small_chart();
+    CHECK(lagen::charted_invariants(chart) == std::vector<std::string>{"energy"});
+    chart.energy_changes = true;
+    CHECK(lagen::charted_invariants(chart).empty());
+    const std::string folder = fresh_folder();
+    CHECK_FALSE(lagen::draw_drifts(chart, folder + "/drift.svg"));
+    CHECK(names_in(folder).empty());
 }
 
 TEST_CASE("chart.json has the members of the interface")
@@ -227,7 +239,7 @@ TEST_CASE("the errors of a chart are those of lagen run against 28 digits", "[ch
     const Outcome outcome = with("chart", {"--methods", "dop853,rk4", "-o", folder + "/new/files"});
     INFO(outcome.err);
     REQUIRE(outcome.code == 0);
-    for (const char* name : {"chart.csv", "chart.json", "chart.png", "chart.svg"})
+    for (const char* name : {"chart.csv", "chart.json", "chart.png", "chart.svg", "drift.png", "drift.svg"})
         CHECK(read_text(folder + "/new/files/" + name).size() > 1000);
     const json::Value chart = json::read_file(folder + "/new/files/chart.json");
     CHECK(number_of(chart["reference"]["error"]) < 1e-15);
@@ -309,19 +321,49 @@ four = { when = "x - 4", stop = true }
     CHECK(split.code == 0);
 }
 
+TEST_CASE("without numbers of 113 bits there is no chart, and no compiler speaks of it", "[chart]")
+{
+    const std::string folder = fresh_folder(), model = models_folder() + "/oscillator.toml";
+    write_text(folder + "/c++",
+               "#!/bin/sh\nfor word; do [ \"$word\" = -lquadmath ] && { echo no such library >&2; exit 1; "
+               "}; done\nexec c++ \"$@\"\n");
+    std::filesystem::permissions(folder + "/c++", std::filesystem::perms::owner_all);
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"chart", model, "-o", folder}, {"run", model, "--accuracy", "1e-3"}}) {
+        const Outcome outcome = call(arguments, {.environment = {{"CXX", "./c++"}}, .folder = folder});
+        CHECK(outcome.code == 5);
+        CHECK_THAT(
+            outcome.err,
+            Catch::EndsWith("error: the reference of a chart has 113 bits, and the C++ compiler './c++' makes no "
+                            "program with __float128 and libquadmath\nhint: g++ on x86 does; CXX names the "
+                            "compiler\n"));
+    }
+}
+
 TEST_CASE("--accuracy keeps its promise, says by what, and charts once", "[chart]")
 {
-    const auto accurate = [](const char* accuracy) {
-        return call({"run", "oscillator.toml", "--accuracy", accuracy, "--at", "0,1/3,1", "--format", "json"});
+    const std::string cache = fresh_folder();
+    const auto accurate = [&](const char* accuracy) {
+        return call({"run", "oscillator.toml", "--accuracy", accuracy, "--at", "0,1/3,1", "--format", "json"},
+                    {.environment = {{"LAGEN_CACHE", cache}}});
+    };
+    const auto programs = [&] {
+        std::vector<std::string> names = names_in(cache);
+        std::erase_if(names, [](const std::string& name) { return name.ends_with(".run"); });
+        return names;
     };
     const Outcome first = accurate("1e-9");
     INFO(first.err);
     REQUIRE(first.code == 0);
     CHECK_THAT(first.err, Catch::Contains("no chart of this scene is kept: it is made now\n") &&
                               Catch::Contains("accuracy 1e-09: ") && Catch::Contains(" moves no row by more than "));
+    // What is best for other accuracies was compiled with the first one.
+    const std::vector<std::string> compiled = programs();
     const Outcome second = accurate("1e-6");
     REQUIRE(second.code == 0);
     CHECK_THAT(second.err, Catch::StartsWith("accuracy 1e-06: "));
+    CHECK(accurate("1e-3").code == 0);
+    CHECK(programs() == compiled);
     for (const auto& [outcome, accuracy] : {std::pair(first, 1e-9), std::pair(second, 1e-6)}) {
         const json::Value run = json::parse(outcome.out);
         CHECK(run["rows"].size() == 3);

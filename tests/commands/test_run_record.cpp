@@ -62,6 +62,14 @@ TEST_CASE("the second run reads a record, whatever the values; a lost program or
         CHECK_THAT(other.err, Catch::StartsWith("warning: this was read\n"));
         CHECK(other.out != first.out);
     }
+    // A line of comment is no other model.
+    const std::string folder = fresh_folder();
+    std::ofstream(folder + "/quartic_body.toml")
+        << "# A comment\n\n"
+        << content_of(models_folder() + "/quartic_body.toml") << "  # and another one\n";
+    CHECK(call({"run", "quartic_body.toml", "--at", "2"},
+               {.environment = {{"LAGEN_CACHE", cache.folder}}, .folder = folder})
+              .err == second.err);
     CHECK(cache.records().size() == 1);
     CHECK(call({"check", "quartic_body.toml"}, {.environment = {{"LAGEN_CACHE", cache.folder}}}).err.empty());
 

@@ -3,15 +3,20 @@
 #include "program.hpp"
 #include "sweep_table.hpp"
 
+#include "commands/sweep_file.hpp"
 #include "support/golden.hpp"
+#include "support/sanitized.hpp"
 
 #include <catch2/catch.hpp>
 
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <functional>
+#include <sys/stat.h>
 #include <thread>
+#include <unistd.h>
 
 using namespace lagen::testing;
 namespace fs = std::filesystem;
@@ -59,6 +64,9 @@ struct Slow {
     }
 };
 
+const std::string resume_hint = "\nhint: --resume goes on with the same model, options and lagen; without it the sweep "
+                                "begins anew\n";
+
 /// The table of an undisturbed sweep.
 const std::string& whole()
 {
@@ -104,7 +112,7 @@ TEST_CASE("a sweep that was killed goes on without a row lost or twice", "[sweep
     CHECK(resumed.code == 0);
     CHECK(resumed.err == "a.csv: 24 rows\n");
     CHECK(slow.table() == whole());
-    CHECK(names_in(slow.folder) == std::vector<std::string>{"a.csv"});
+    CHECK(names_in(slow.folder) == std::vector<std::string>{"a.csv", "a.csv.sweep"});
 }
 
 TEST_CASE("an interrupt keeps the rows that are done, and another sweep does not go on with them", "[sweep]")
@@ -122,14 +130,13 @@ TEST_CASE("an interrupt keeps the rows that are done, and another sweep does not
     told.replace(told.find('3'), 1, std::to_string(slow.lines() - 1));
     CHECK(interrupted.err == told);
     CHECK(whole().starts_with(kept));
-    for (const std::vector<std::string>& other :
-         {std::vector<std::string>{"--t-end", "29"}, {"--initial", "v=1/3"}, {"--shard", "0/2"}}) {
-        std::vector<std::string> more = other;
-        more.push_back("--resume");
-        const Outcome refused = slow.sweep(more);
+    const std::string command = "lagen sweep " + models_folder() +
+                                "/oscillator.toml --step 1/65536 --method euler --t-end 30 --initial x=1:24:24";
+    for (const auto& [name, value] : {std::pair("--t-end", "29"), {"--initial", "v=1/3"}, {"--shard", "0/2"}}) {
+        const Outcome refused = slow.sweep({name, value, "--resume"});
         CHECK(refused.code == 4);
-        CHECK(refused.err == "lagen sweep: 'a.csv.partial' was begun by another sweep\nhint: --resume goes on with the "
-                             "same model, options and lagen; without it the sweep begins anew\n");
+        CHECK(refused.err == "lagen sweep: 'a.csv.partial' is of another sweep: " +
+                                 (value == std::string("0/2") ? "part 0/1" : command) + resume_hint);
         CHECK(read_text(slow.partial()) == kept);
     }
     std::string damaged = kept;
@@ -139,6 +146,112 @@ TEST_CASE("an interrupt keeps the rows that are done, and another sweep does not
                                           "without --resume the sweep begins anew\n");
     CHECK(slow.sweep().code == 0);
     CHECK(slow.table() == whole());
+}
+
+TEST_CASE("--resume leaves a complete table as it is, and none of another sweep is replaced by it", "[sweep]")
+{
+    const std::string folder = fresh_folder(), file = folder + "/a.csv";
+    write_text(folder + "/oscillator.toml", read_text(models_folder() + "/oscillator.toml"));
+    const auto sweep = [&](const std::string& end, const std::vector<std::string>& more = {}) {
+        std::vector<std::string> arguments{"sweep", "oscillator.toml", "--initial", "x=1:5:5", "--t-end", end, "-o",
+                                           "a.csv"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return call(arguments, {.folder = folder});
+    };
+    REQUIRE(sweep("1").code == 0);
+    const std::string table = read_text(file);
+    const auto written = fs::last_write_time(file);
+    CHECK(sweep("1", {"--resume"}).err == "a.csv: 5 rows\n");
+    CHECK(fs::last_write_time(file) == written);
+    const Outcome other = sweep("2", {"--resume"});
+    CHECK(other.code == 4);
+    CHECK(other.err ==
+          "lagen sweep: 'a.csv' is of another sweep: lagen sweep oscillator.toml --initial x=1:5:5 --t-end 1" +
+              resume_hint);
+    fs::remove(file + ".sweep");
+    const Outcome unknown = sweep("1", {"--resume"});
+    CHECK(unknown.code == 4);
+    CHECK(unknown.err == "lagen sweep: nothing says of which sweep 'a.csv' is" + resume_hint);
+    CHECK(read_text(file) == table);
+    CHECK(names_in(folder) == std::vector<std::string>{"a.csv", "oscillator.toml"});
+    CHECK(sweep("2").code == 0);
+    CHECK(read_text(file) != table);
+}
+
+TEST_CASE("a file that gets another name while somebody waits for it is not the one that is held")
+{
+    const std::string folder = fresh_folder(), file = folder + "/a", other = folder + "/b";
+    const int first = lagen::open_locked(file, false);
+    REQUIRE(first >= 0);
+    CHECK(lagen::open_locked(file, false) == -1);
+    CHECK(errno == EWOULDBLOCK);
+    int second = -1;
+    std::thread waiting([&] { second = lagen::open_locked(file, true); });
+    std::this_thread::sleep_for(std::chrono::milliseconds(200)); // it has opened the file, most likely
+    fs::rename(file, other);
+    ::close(first);
+    waiting.join();
+    REQUIRE(second >= 0);
+    REQUIRE(fs::exists(file));
+    struct stat held {
+    }, named{};
+    REQUIRE((::fstat(second, &held) == 0 && ::stat(file.c_str(), &named) == 0));
+    CHECK(held.st_ino == named.st_ino);
+    ::close(second);
+}
+
+TEST_CASE("the parts of a sweep are removed when the whole is on the disk", "[sweep]")
+{
+    const std::string folder = fresh_folder();
+    // A library in front of the system's notes what happens to files.
+    write_text(folder + "/notes.c", R"(
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+static void note(const char* what, const char* name)
+{
+    FILE* file = fopen("notes", "a");
+    fprintf(file, "%s %s\n", what, strrchr(name, '/') ? strrchr(name, '/') + 1 : name);
+    fclose(file);
+}
+int fsync(int file)
+{
+    char link[64], name[4096] = "";
+    snprintf(link, sizeof link, "/proc/self/fd/%d", file);
+    if (readlink(link, name, sizeof name - 1) > 0) note("fsync", name);
+    return ((int (*)(int))dlsym(RTLD_NEXT, "fsync"))(file);
+}
+int rename(const char* from, const char* to)
+{
+    note("rename", to);
+    return ((int (*)(const char*, const char*))dlsym(RTLD_NEXT, "rename"))(from, to);
+}
+int unlink(const char* name)
+{
+    note("unlink", name);
+    return ((int (*)(const char*))dlsym(RTLD_NEXT, "unlink"))(name);
+}
+)");
+    if (LAGEN_SANITIZED ||
+        run_shell("cc -shared -fPIC '" + folder + "/notes.c' -o '" + folder + "/notes.so' -ldl").status)
+        return;
+    for (const std::string rank : {"0", "1"})
+        REQUIRE(call({"sweep", models_folder() + "/oscillator.toml", "--initial", "x=1:4:4", "-o", "all.csv"},
+                     {.environment = {{"PMI_RANK", rank}, {"PMI_SIZE", "2"}, {"LD_PRELOAD", folder + "/notes.so"}},
+                      .folder = folder})
+                    .code == 0);
+    const std::string notes = read_text(folder + "/notes");
+    const std::size_t whole = notes.find("fsync all.csv.partial\n"), named = notes.find("rename all.csv\n"),
+                      part = notes.find("unlink all.csv.0-of-2\n");
+    INFO(notes);
+    REQUIRE(part != std::string::npos);
+    CHECK(whole < named);
+    CHECK(named < part);
+    CHECK(notes.substr(named, part - named).find("fsync " + fs::path(folder).filename().string() + "\n") !=
+          std::string::npos);
 }
 
 TEST_CASE("a full disk ends a sweep with the rows that were written", "[sweep]")
@@ -201,7 +314,16 @@ TEST_CASE("processes of a launcher share a sweep, and the last one puts it toget
                            {"SLURM_PROCID", "0"},
                            {"SLURM_NTASKS", "1"}};
     });
-    CHECK(names_in(folder) == std::vector<std::string>{"array.csv", "mpi.csv", "slurm.csv", "whole.csv"});
+    CHECK(names_in(folder) == std::vector<std::string>{"array.csv", "array.csv.sweep", "mpi.csv", "mpi.csv.sweep",
+                                                       "slurm.csv", "slurm.csv.sweep", "whole.csv", "whole.csv.sweep"});
+    // A rank that is started again finds the whole; no rank leaves a lock behind, also where others are missing.
+    const Environment again{{"SLURM_PROCID", "1"}, {"SLURM_NTASKS", "3"}};
+    CHECK(sweep("slurm.csv", again, {"--resume"}).err.ends_with("slurm.csv: 10 rows, complete\n"));
+    const Outcome other = sweep("slurm.csv", again, {"--resume", "--t-end", "2"});
+    CHECK(other.code == 4);
+    CHECK_THAT(other.err, Catch::Contains("'slurm.csv' is of another sweep: lagen sweep "));
+    REQUIRE(sweep("alone.csv", again).code == 0);
+    CHECK_FALSE(fs::exists(folder + "/alone.csv.lock"));
 
     // --shard wins; what numbers no part is refused.
     CHECK(sweep("own.csv", {{"SLURM_PROCID", "1"}, {"SLURM_NTASKS", "3"}}, {"--shard", "0/1"}).code == 0);

@@ -4,9 +4,11 @@
 #include "support/sanitized.hpp"
 #if !LAGEN_SANITIZED
 
+#include "lagen/ensemble/in_order.hpp"
 #include "lagen/lagen.hpp"
 #include "runtime/pendulum.hpp"
 
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <new>
@@ -14,12 +16,14 @@
 namespace {
 
 std::size_t allocations = 0;
+std::atomic<long> allowed = -1; ///< further allocations; as many as are wanted where it is negative
 
 } // namespace
 
 void* operator new(std::size_t size)
 {
     ++allocations;
+    if (allowed >= 0 && allowed-- == 0) throw std::bad_alloc();
     if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
     throw std::bad_alloc();
 }
@@ -98,6 +102,31 @@ TEST_CASE("Steps of an Integrator, values inside them, turns and failures alloca
     check(Gauss8{.step = 0.01});
     check(Gauss16{.step = 0.01});
     check(Radau5{});
+}
+
+TEST_CASE("Where there is no memory for another thread, those that are there do all the work")
+{
+    int begun = 0, delivered = 0;
+    const auto begin = [&](int& piece) { return (piece = begun) < 100 && ++begun > 0; };
+    const auto work = [](int& piece) { piece *= 2; };
+    const auto deliver = [&](int& piece) {
+        if (piece == 2 * delivered) ++delivered;
+    };
+    // None for a thread; none for the second one, while the first one works.
+    for (const long enough : {0, 1, 2, 3}) {
+        begun = delivered = 0;
+        detail::InOrder<int, decltype(begin), decltype(work), decltype(deliver)> pieces(8, begin, work, deliver);
+        allowed = enough;
+        std::exception_ptr thrown;
+        try {
+            pieces.run(4);
+        } catch (...) {
+            thrown = std::current_exception();
+        }
+        allowed = -1;
+        CHECK(thrown == nullptr);
+        CHECK(delivered == 100);
+    }
 }
 
 TEST_CASE("A lambda is called without an allocation, and a dense solution allocates outside of the steps alone")

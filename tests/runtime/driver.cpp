@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
+#include <new>
 #include <sstream>
 #include <unistd.h>
 
@@ -41,6 +42,11 @@ struct Bare {
         ds[0] = 1;
         return Status::ok;
     }
+};
+
+/// Finds no memory for what it observes.
+struct Greedy : Full {
+    Eigen::Vector2d observables(double, const State&) const { throw std::bad_alloc(); }
 };
 
 struct WithJacobian : Bare {
@@ -108,6 +114,16 @@ TEST_CASE("The driver writes rows and a report")
     CHECK(run.out == "0,0.5\n0.5,1\n1,1.5\n");
     CHECK(without_seconds(run.report) ==
           "status=ok\nt=1\nfailed_at=1\nsteps=4\nrejected=0\nrhs_calls=16\nrows=3\nstate=1.5\n");
+}
+
+TEST_CASE("Numbers of rows and report are the shortest that read back, and what a run throws is a sentence")
+{
+    const auto run = drive_with<Bare, Rk4>({"--initial", "0.1", "--end", "0.3", "--step", "0.3", "--samples", "2"});
+    CHECK(run.out == "0,0.1\n0.3,0.4\n");
+    const auto greedy = drive_with<Greedy, Rk4>(
+        {"--initial", "0.5,0", "--end", "1", "--step", "0.25", "--columns", "o0", "--samples", "3"});
+    CHECK(greedy.code == 5);
+    CHECK(greedy.err == "error: the scene cannot be integrated: std::bad_alloc\n");
 }
 
 TEST_CASE("The report of an implicit method says what its calls were spent on")

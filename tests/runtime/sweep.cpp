@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <new>
 #include <sstream>
 #include <unistd.h>
 
@@ -31,8 +32,14 @@ std::string content(const fs::path& path)
     return text.str();
 }
 
+/// Finds no memory for what it observes.
+struct Greedy : Pendulum {
+    static constexpr std::array<const char*, 1> observables_names{"much"};
+    Eigen::Matrix<double, 1, 1> observables(double, const State&) const { throw std::bad_alloc(); }
+};
+
 /// Runs the program in this process with its streams in files.
-template <class Method>
+template <class Method, class M = Pendulum>
 Answer sweep_with(std::vector<std::string> arguments, const std::vector<double>& numbers, std::size_t cut = 0)
 {
     const fs::path folder = fs::temp_directory_path() / ("lagen_sweep_test_" + std::to_string(getpid()));
@@ -58,7 +65,7 @@ Answer sweep_with(std::vector<std::string> arguments, const std::vector<double>&
         std::clearerr(stream);
     };
     const int in = redirect(stdin, "in", "r"), out = redirect(stdout, "out", "w"), err = redirect(stderr, "err", "w");
-    const int code = sweep<Pendulum, Method>(static_cast<int>(pointers.size()), pointers.data());
+    const int code = sweep<M, Method>(static_cast<int>(pointers.size()), pointers.data());
     restore(stdin, in);
     restore(stdout, out);
     restore(stderr, err);
@@ -113,6 +120,17 @@ TEST_CASE("The program of a sweep writes the end, events and extremes of each tr
         CHECK(values[8] == 0);
         CHECK(std::string(status) == "ok");
         CHECK(wrong == ",,,0,,,,,,invalid_input");
+    }
+}
+
+TEST_CASE("What a trajectory throws ends the program of a sweep with a sentence, whatever the number of threads")
+{
+    for (const std::string threads : {"1", "3"}) {
+        const Answer answer = sweep_with<Rk4, Greedy>({"--threads", threads, "--columns", "o0"},
+                                                      joined({start(1, 0, 1), start(1, 0, 2), start(1, 0, 3)}));
+        CHECK(answer.code == 5);
+        CHECK(answer.out.empty());
+        CHECK(answer.err == "error: the trajectories cannot be integrated: std::bad_alloc\n");
     }
 }
 

@@ -71,11 +71,13 @@ Chart make_chart(CheckedModel& checked, const ChartRequest& request)
     chart.title = checked.model.title;
     chart.scene = request.scene.name;
     chart.form = request.form;
+    chart.energy_changes = has_kernel(problem.module, "power");
     std::vector<MethodFamily> families = method_families(problem, chart.left_out);
     choose_methods(families, chart.left_out, request.methods);
     std::erase_if(families, [](const MethodFamily& family) { return family.methods.empty(); });
     if (request.peers)
         for (MethodFamily& peer : peer_families(problem, chart.left_out)) families.push_back(std::move(peer));
+    require_quad();
     std::vector<ProgramText> texts = reference_programs(problem);
     for (const MethodFamily& family : families) texts.push_back(family.text);
     const std::vector<std::string> programs = compile_programs(texts);

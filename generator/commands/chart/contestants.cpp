@@ -57,9 +57,8 @@ std::string main_with(const std::string& header, const std::string& call)
 
 std::string obstacle_to(const MethodEntry& method, const ChartProblem& problem)
 {
-    const KernelModule& module = problem.module;
     if (method.series) return problem.no_series;
-    const std::optional<Obstacle> obstacle = obstacle_of(method, module);
+    const std::optional<Obstacle> obstacle = obstacle_of(method, problem.module);
     return obstacle ? obstacle->text : "";
 }
 

@@ -8,20 +8,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace lagen {
 
 namespace {
 
-// Pixels, and what they are fractions of.
-constexpr int chart_width = 1240, chart_height = 600;
-constexpr double chart_left = 0.068, chart_right = 0.865, chart_middle = 0.095, chart_top = 0.9, chart_bottom = 0.1;
-constexpr double panel_width = (chart_right - chart_left - chart_middle) / 2;
+// Pixels, and what they are fractions of; a row of panels is as high as a picture of one row.
+constexpr int chart_width = 1240, row_height = 600;
+constexpr double chart_left = 0.068, chart_right = 0.865, chart_middle = 0.095, row_top = 0.1, row_bottom = 0.1;
 constexpr double label_width = 78, label_height = 11;
 
-constexpr double largest_error = 10;   ///< of the picture
-constexpr double failure_column = 300; ///< where failures are drawn
-constexpr double near_the_best = 1.1;  ///< times the cheapest: a method that leads
+constexpr double largest_error = 10;       ///< of the picture
+constexpr double failures_at = 30;         ///< times the largest that is shown: where failures are drawn
+constexpr double near_the_best = 1.1;      ///< times the cheapest: a method that leads
+constexpr std::size_t most_invariants = 4; ///< with panels of their own
+constexpr double least_shown = 1e-17;
+
+using Measure = std::function<double(const ChartPoint&)>;
 
 struct Curve {
     std::string name;
@@ -31,9 +35,8 @@ struct Curve {
 };
 
 /// Leading methods first.
-std::vector<Curve> curves_of(const Chart& chart)
+std::vector<Curve> curves_of(const Chart& chart, const std::vector<std::string>& leading)
 {
-    const std::vector<std::string> leading = leading_methods(chart, near_the_best);
     std::vector<Curve> curves;
     for (const std::string& name : charted_methods(chart)) {
         Curve curve{name, {}, {}, std::ranges::find(leading, name) != leading.end()};
@@ -43,21 +46,6 @@ std::vector<Curve> curves_of(const Chart& chart)
     }
     std::stable_partition(curves.begin(), curves.end(), [](const Curve& curve) { return curve.leads; });
     return curves;
-}
-
-double shown_error(const ChartPoint& point)
-{
-    return std::clamp(*point.error, 1e-17, largest_error);
-}
-
-/// A block of gnuplot: error, seconds and calls of each point.
-std::string points_block(const std::string& name, const std::vector<const ChartPoint*>& points)
-{
-    std::string text = fmt::format("${} << LAGEN_END\n", name);
-    for (const ChartPoint* point : points)
-        text += fmt::format("{:.6g} {:.6g} {}\n", point->error ? shown_error(*point) : failure_column, point->seconds,
-                            std::max<std::size_t>(point->rhs_calls, 1));
-    return text + "LAGEN_END\n";
 }
 
 /// Colours of curves that do not lead.
@@ -76,19 +64,29 @@ std::string style_of(const Curve& curve, std::size_t k)
                        curve.leads ? k / picture_colours.size() + 1 : 1);
 }
 
-/// A panel: what is charted over the error, and the decades of both axes.
+/// What is charted over what, and the decades of both axes.
 struct ChartPanel {
-    int column = 2; ///< of the blocks
-    const char* label = "";
-    double (*value)(const ChartPoint&) = nullptr;
+    std::string x_label, y_label;
+    Measure x, y;                                     ///< x of points with an error
+    double largest = largest_error;                   ///< x that is shown
     double worst = 0, least = 0, bottom = 0, top = 0; ///< log10
+    double width = 0;                                 ///< pixels
 
+    [[nodiscard]] double shown(const ChartPoint& point) const
+    {
+        return point.error ? std::clamp(x(point), least_shown, largest) : failures_at * largest;
+    }
     [[nodiscard]] std::pair<double, double> pixels(const ChartPoint& point) const
     {
-        return {(worst - std::log10(shown_error(point))) / (worst - least) * panel_width * chart_width,
-                (std::log10(value(point)) - bottom) / (top - bottom) * (chart_top - chart_bottom) * chart_height};
+        return {(worst - std::log10(shown(point))) / (worst - least) * width,
+                (std::log10(y(point)) - bottom) / (top - bottom) * (1 - row_top - row_bottom) * row_height};
     }
 };
+
+double error_shown(const ChartPoint& point)
+{
+    return *point.error;
+}
 
 double seconds_shown(const ChartPoint& point)
 {
@@ -100,24 +98,42 @@ double calls_shown(const ChartPoint& point)
     return static_cast<double>(std::max<std::size_t>(point.rhs_calls, 1));
 }
 
-ChartPanel panel_of(const Chart& chart, int column, const char* label, double (*value)(const ChartPoint&))
+/// Of the invariant `name`; what is not known or not finite counts as the worst.
+Measure drift_shown(const std::string& name)
 {
-    double least = 1e-3, bottom = HUGE_VAL, top = 0;
+    return [name](const ChartPoint& point) {
+        const auto found = std::ranges::find(point.drifts, name, &std::pair<std::string, double>::first);
+        return found == point.drifts.end() || !std::isfinite(found->second) ? HUGE_VAL : found->second;
+    };
+}
+
+/// Ten times what nine tenths of the points stay below, as a power of ten.
+double largest_drift(const Chart& chart, const Measure& drift)
+{
+    std::vector<double> drifts;
+    for (const ChartPoint& point : chart.points)
+        if (point.error && std::isfinite(drift(point))) drifts.push_back(drift(point));
+    std::ranges::sort(drifts);
+    if (drifts.empty()) return largest_error;
+    return std::pow(10, std::ceil(std::log10(std::max(10 * drifts[drifts.size() * 9 / 10], 1e-12))));
+}
+
+/// The limits of both axes.
+ChartPanel fitted(const Chart& chart, ChartPanel panel)
+{
+    double least = 1e-3 * panel.largest / largest_error, bottom = HUGE_VAL, top = 0;
     bool failed = false;
     for (const ChartPoint& point : chart.points) {
         failed = failed || !point.error;
-        if (point.error) least = std::min(least, shown_error(point));
-        bottom = std::min(bottom, value(point));
-        top = std::max(top, value(point));
+        if (point.error) least = std::min(least, panel.shown(point));
+        bottom = std::min(bottom, panel.y(point));
+        top = std::max(top, panel.y(point));
     }
-    // Room for names behind the last points.
-    return {column,
-            label,
-            value,
-            std::log10(failed ? 7 * failure_column : largest_error),
-            std::floor(std::log10(least)) - 1.5,
-            std::log10(bottom) - 0.2,
-            std::log10(top) + 0.2};
+    panel.worst = std::log10((failed ? 7 * failures_at : 1) * panel.largest);
+    panel.least = std::floor(std::log10(least)) - 1.5; // room for names behind the last points
+    panel.bottom = std::log10(bottom) - 0.2;
+    panel.top = std::log10(top) + 0.2;
+    return panel;
 }
 
 /// Names at the ends of the curves, where there is room for them; the leading ones come first.
@@ -134,29 +150,50 @@ std::string names_script(const std::vector<Curve>& curves, const ChartPanel& pan
             }))
             continue;
         taken.emplace_back(x, y);
-        text +=
-            fmt::format("set label {} at first {:g}, first {:g} left offset 0.6,0.1 font ',9' textcolor rgb '{}'\n",
-                        gnuplot_text(curves[k].name), shown_error(last), panel.value(last), colour_of(curves[k], k));
+        text += fmt::format("set label {} at first {:g}, first {:g} left offset 0.6,0.1 font ',9' textcolor rgb '{}'\n",
+                            gnuplot_text(curves[k].name), panel.shown(last), panel.y(last), colour_of(curves[k], k));
     }
     return text;
 }
 
+/// Every second decade that is shown, and the column of failures.
+std::string tics_script(const ChartPanel& panel)
+{
+    std::string text = fmt::format("set xtics ('failed' {:g}", failures_at * panel.largest);
+    const int first = static_cast<int>(std::floor(std::log10(panel.largest) / 2)) * 2;
+    for (int k = first; k > panel.least; k -= 2)
+        text += k == 0 ? std::string(", '1' 1") : fmt::format(", '1e{0}' 1e{0}", k);
+    return text + ")\n";
+}
+
+/// A block of gnuplot, x and y of each point.
+std::string points_block(const std::string& name, const std::vector<const ChartPoint*>& points, const ChartPanel& panel)
+{
+    std::string text = fmt::format("${} << LAGEN_END\n", name);
+    for (const ChartPoint* point : points) text += fmt::format("{:.6g} {:.6g}\n", panel.shown(*point), panel.y(*point));
+    return text + "LAGEN_END\n";
+}
+
 std::string panel_script(const std::vector<Curve>& curves, const ChartPanel& panel, bool legend)
 {
-    std::string text = fmt::format("unset label\n{}set ylabel '{}'\n{}\nset xrange [{:g}:{:g}]\nset yrange "
-                                   "[{:g}:{:g}]\nplot ",
-                                   names_script(curves, panel), panel.label, legend ? "set key" : "unset key",
-                                   std::pow(10, panel.worst), std::pow(10, panel.least), std::pow(10, panel.bottom),
-                                   std::pow(10, panel.top));
+    std::string text, plots;
     for (std::size_t k = curves.size(); k-- > 0;) { // leading ones on top of the others
-        if (!curves[k].points.empty())
-            text += fmt::format("$curve{} using 1:{} with linespoints {} notitle, \\\n     ", k, panel.column,
-                                style_of(curves[k], k));
-        if (!curves[k].failures.empty())
-            text += fmt::format("$failed{} using 1:{} with points linecolor rgb '{}' pointtype 2 pointsize 0.8 "
-                                "notitle, \\\n     ",
-                                k, panel.column, colour_of(curves[k], k));
+        if (!curves[k].points.empty()) {
+            text += points_block(fmt::format("curve{}", k), curves[k].points, panel);
+            plots += fmt::format("$curve{} with linespoints {} notitle, \\\n     ", k, style_of(curves[k], k));
+        }
+        if (!curves[k].failures.empty()) {
+            text += points_block(fmt::format("failed{}", k), curves[k].failures, panel);
+            plots +=
+                fmt::format("$failed{} with points linecolor rgb '{}' pointtype 2 pointsize 0.8 notitle, \\\n     ", k,
+                            colour_of(curves[k], k));
+        }
     }
+    text += fmt::format("unset label\n{}{}set xlabel {}\nset ylabel {}\n{}\nset xrange [{:g}:{:g}]\nset yrange "
+                        "[{:g}:{:g}]\nplot {}",
+                        names_script(curves, panel), tics_script(panel), gnuplot_text(panel.x_label),
+                        gnuplot_text(panel.y_label), legend ? "set key" : "unset key", std::pow(10, panel.worst),
+                        std::pow(10, panel.least), std::pow(10, panel.bottom), std::pow(10, panel.top), plots);
     for (std::size_t k = 0; k < curves.size(); ++k)
         text += fmt::format("{}NaN with linespoints {} title {}", k == 0 ? "" : ", \\\n     ", style_of(curves[k], k),
                             gnuplot_text(curves[k].name));
@@ -170,55 +207,85 @@ std::string title_of(const Chart& chart)
                        chart.reference_methods[0], chart.reference_methods[1], chart.reference_error);
 }
 
-std::string chart_script(const Chart& chart, const std::string& picture)
+/// Panels in rows of two.
+std::string picture_script(const Chart& chart, const std::vector<std::string>& leading, std::vector<ChartPanel> panels,
+                           const std::string& picture)
 {
-    const std::vector<Curve> curves = curves_of(chart);
-    std::string script = gnuplot_terminal(picture_extension(picture), chart_width, chart_height);
-    script += fmt::format("set output {}\n", gnuplot_text(picture));
-    for (std::size_t k = 0; k < curves.size(); ++k) {
-        if (!curves[k].points.empty()) script += points_block(fmt::format("curve{}", k), curves[k].points);
-        if (!curves[k].failures.empty()) script += points_block(fmt::format("failed{}", k), curves[k].failures);
-    }
-    script += fmt::format("set multiplot title {}\n", gnuplot_text(title_of(chart)));
-    script += fmt::format("set tmargin at screen {}\nset bmargin at screen {}\n", chart_top, chart_bottom);
-    script += fmt::format("set key at screen {}, screen {} left top Left reverse samplen 3 spacing 0.92 font ',10'\n",
-                          chart_right + 0.008, chart_top + 0.02);
-    script += "set grid linecolor rgb '#dddddd' linetype 1 linewidth 0.7 dashtype 1\n"
-              "set border 3 linecolor rgb '#444444'\nset tics nomirror out scale 0.6\nset logscale xy\n"
-              "set format y '%.0e'\nset xlabel 'error of the state, largest over the samples'\n"
-              "set ylabel offset -0.3,0\nset xtics ('1' 1";
-    for (int k = 2; k <= 16; k += 2) script += fmt::format(", '1e-{0}' 1e-{0}", k);
-    script += fmt::format(", 'failed' {:g})\n", failure_column);
-    const ChartPanel panels[] = {panel_of(chart, 2, "seconds", seconds_shown),
-                                 panel_of(chart, 3, "calls of the right-hand side", calls_shown)};
-    for (const std::size_t k : {0U, 1U}) {
-        const double left = chart_left + static_cast<double>(k) * (panel_width + chart_middle);
-        script +=
-            fmt::format("set lmargin at screen {:.4f}\nset rmargin at screen {:.4f}\n", left, left + panel_width) +
-            panel_script(curves, panels[k], k == 1);
+    const std::vector<Curve> curves = curves_of(chart, leading);
+    const std::size_t columns = std::min<std::size_t>(panels.size(), 2), rows = (panels.size() + 1) / 2;
+    const double width =
+        (chart_right - chart_left - chart_middle * static_cast<double>(columns - 1)) / static_cast<double>(columns);
+    const double height = 1 / static_cast<double>(rows);
+    std::string script =
+        gnuplot_terminal(picture_extension(picture), chart_width, static_cast<int>(rows) * row_height) +
+        fmt::format("set output {}\nset multiplot title {}\n", gnuplot_text(picture), gnuplot_text(title_of(chart))) +
+        fmt::format("set key at screen {}, screen {} left top Left reverse samplen 3 spacing 0.92 font ',10'\n",
+                    chart_right + 0.008, 1 - (row_top - 0.02) * height) +
+        "set grid linecolor rgb '#dddddd' linetype 1 linewidth 0.7 dashtype 1\n"
+        "set border 3 linecolor rgb '#444444'\nset tics nomirror out scale 0.6\nset logscale xy\n"
+        "set format y '%.0e'\nset ylabel offset -0.3,0\n";
+    for (std::size_t k = 0; k < panels.size(); ++k) {
+        const double left = chart_left + static_cast<double>(k % 2) * (width + chart_middle);
+        const double top = 1 - static_cast<double>(k / 2) * height;
+        panels[k].width = width * chart_width;
+        script += fmt::format("set lmargin at screen {:.4f}\nset rmargin at screen {:.4f}\nset tmargin at screen "
+                              "{:.4f}\nset bmargin at screen {:.4f}\n",
+                              left, left + width, top - row_top * height, top - (1 - row_bottom) * height) +
+                  panel_script(curves, fitted(chart, panels[k]), k + 1 == panels.size());
     }
     return script + "unset multiplot\nunset output\n";
 }
 
-} // namespace
-
-std::vector<std::string> leading_methods(const Chart& chart, double times)
+/// Methods that are the cheapest for some x of `first` or less, or take at most so many times as long as that.
+std::vector<std::string> leading_in(const Chart& chart, const Measure& x, double first, double last, double times)
 {
     std::vector<std::string> leading;
-    for (double error = 1e-2; error > 1e-15; error *= 0.31622776601683794) {
-        const ChartPoint* best = cheapest_within(chart.points, error);
-        if (best == nullptr) break;
+    for (double level = first; level > last; level *= 0.31622776601683794) {
+        double best = HUGE_VAL;
         for (const ChartPoint& point : chart.points)
-            if (point.error && *point.error <= error && point.seconds <= times * best->seconds &&
+            if (point.error && x(point) <= level) best = std::min(best, point.seconds);
+        for (const ChartPoint& point : chart.points)
+            if (point.error && x(point) <= level && point.seconds <= times * best &&
                 std::ranges::find(leading, name_of(point)) == leading.end())
                 leading.push_back(name_of(point));
     }
     return leading;
 }
 
+} // namespace
+
+std::vector<std::string> leading_methods(const Chart& chart, double times)
+{
+    return leading_in(chart, error_shown, 1e-2, 1e-15, times);
+}
+
 void draw_chart(const Chart& chart, const std::string& path)
 {
-    draw_picture(path, [&](const std::string& picture) { return chart_script(chart, picture); });
+    const std::string label = "error of the state, largest over the samples";
+    draw_picture(path, [&](const std::string& picture) {
+        return picture_script(chart, leading_methods(chart, near_the_best),
+                              {{label, "seconds", error_shown, seconds_shown},
+                               {label, "calls of the right-hand side", error_shown, calls_shown}},
+                              picture);
+    });
+}
+
+bool draw_drifts(const Chart& chart, const std::string& path)
+{
+    std::vector<ChartPanel> panels;
+    std::vector<std::string> leading;
+    for (const std::string& name : charted_invariants(chart)) {
+        if (panels.size() == most_invariants) break;
+        const Measure drift = drift_shown(name);
+        const double largest = largest_drift(chart, drift);
+        panels.push_back(
+            {fmt::format("drift of {}, largest over the steps", name), "seconds", drift, seconds_shown, largest});
+        for (std::string& method : leading_in(chart, drift, 1e-3 * largest, 1e-15, near_the_best))
+            if (std::ranges::find(leading, method) == leading.end()) leading.push_back(std::move(method));
+    }
+    if (panels.empty()) return false;
+    draw_picture(path, [&](const std::string& picture) { return picture_script(chart, leading, panels, picture); });
+    return true;
 }
 
 } // namespace lagen

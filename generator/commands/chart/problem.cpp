@@ -45,7 +45,7 @@ ChartProblem chart_problem(CheckedModel& checked, const Scene& whole, const std:
     set_parameters(checked, parameters);
     ChartProblem problem;
     problem.parameters = doubles(parameters);
-    problem.initial = doubles(StartState([&]() -> const CheckedModel& { return checked; }, form)(values));
+    problem.initial = doubles(StartState([&](bool) -> const CheckedModel& { return checked; }, form)(values));
     const SampleTimes times = sample_times(scene, values, problem.initial.size() + 1, true);
     problem.start = static_cast<double>(times.start);
     problem.end = static_cast<double>(times.end);

@@ -149,6 +149,14 @@ std::vector<std::string> charted_methods(const Chart& chart)
     return names;
 }
 
+std::vector<std::string> charted_invariants(const Chart& chart)
+{
+    std::vector<std::string> names = drift_names(chart);
+    if (chart.energy_changes)
+        std::erase_if(names, [](const std::string& name) { return name == "energy" || name == "hamiltonian"; });
+    return names;
+}
+
 std::string chart_json(const Chart& chart)
 {
     JsonWriter json;

@@ -23,4 +23,7 @@ namespace lagen {
 [[nodiscard]] std::vector<std::string> charted_methods(const Chart& chart);
 [[nodiscard]] std::string name_of(const ChartPoint& point);
 
+/// What the equations conserve, by the names of its drifts.
+[[nodiscard]] std::vector<std::string> charted_invariants(const Chart& chart);
+
 } // namespace lagen

@@ -20,14 +20,14 @@
 ///   header
 ///   --columns c,c,..      s0, s1, .. state lanes; o0, o1, .. entries of observables(); left out: every state lane;
 ///   "-": none
-///   --format csv|binary   rows on standard output: CSV numbers by %.17g (an empty field for what is no finite number),
-///   commas, "\n", no heading; or native doubles, row after row
+///   --format csv|binary   rows on standard output: CSV of shortest decimals (an empty field for what is no finite
+///   number), commas, "\n", no heading; or native doubles, row after row
 ///   --report FILE         where the report goes ("-": standard error)
 ///
 /// A row is t, then the columns. Rows appear while the run goes on, at exactly the times asked for; where an event or a
 /// failure ends the run after its start, one more row stands at the end, the last good state at its time (unless that
 /// was asked for anyway; times of --at-file are exactly what is written). The report, at the end of every run, has
-/// lines KEY=VALUE in this order, numbers by %.17g, those in brackets only where the model has the part:
+/// lines KEY=VALUE in this order, numbers as shortest decimals, those in brackets only where the model has the part:
 ///   status=ok             as to_text(Status)
 ///   t=10                  time of the last good state
 ///   failed_at=10          time at which the run met what ended it; the same as t where nothing failed
@@ -38,8 +38,8 @@
 ///                         over all accepted steps
 ///   state=v,v,..          the last good state
 /// Exit codes: 0 ok or stopped by an event, 1 another status, 4 wrong arguments (one sentence on standard error, no
-/// report), 5 a file could not be read or written, 130 interrupted (SIGINT, SIGTERM: rows so far are kept, the report
-/// is written).
+/// report), 5 a file could not be read or written, or there is not memory enough, 130 interrupted (SIGINT, SIGTERM:
+/// rows so far are kept, the report is written).
 #pragma once
 
 #include "lagen/integrate.hpp"
@@ -49,6 +49,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <exception>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -244,7 +245,7 @@ inline int complain(const std::string& complaint, int code)
 /// The whole program; see the top of the file. Returns the exit code.
 template <class M, class Method>
 int drive(int argc, char** argv)
-{
+try {
     static_assert(std::is_same_v<typename M::Scalar, double>, "lagen run integrates in double");
     detail::DriveArguments given;
     detail::DrivePlan<M> plan;
@@ -272,6 +273,8 @@ int drive(int argc, char** argv)
         return detail::complain("the report could not be written to \"" + given.report + "\"", 5);
     if (run.status() == Status::interrupted) return 130;
     return run ? 0 : 1;
+} catch (const std::exception& error) {
+    return detail::complain(std::string("the scene cannot be integrated: ") + error.what(), 5);
 }
 
 } // namespace lagen

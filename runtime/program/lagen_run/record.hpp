@@ -5,6 +5,7 @@
 #include "lagen/integrate/run.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -16,11 +17,17 @@
 
 namespace lagen::detail {
 
+/// The shortest decimal that reads back as the same number; "nan" and "inf" for what is no finite number.
 inline std::string number_text(double value)
 {
-    char text[40];
-    std::snprintf(text, sizeof text, "%.17g", value);
-    return text;
+    char text[32];
+    return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+/// The same as a field: nothing for what is no finite number.
+inline void append_number(std::string& line, double value)
+{
+    if (std::isfinite(value)) line += number_text(value);
 }
 
 /// A column: state lane or entry of observables().
@@ -122,7 +129,7 @@ class DriveRecord {
         if constexpr (Follows<M>) static_cast<void>(model_.follow(t, s));
     }
 
-    /// A value that is no finite number is an empty field.
+    /// As append_number.
     void write(double value, bool first)
     {
         if (binary_) {
@@ -130,7 +137,7 @@ class DriveRecord {
             return;
         }
         if (!first) std::fputc(',', out_);
-        if (std::isfinite(value)) std::fprintf(out_, "%.17g", value);
+        if (std::isfinite(value)) std::fputs(number_text(value).c_str(), out_);
     }
 
     std::conditional_t<Follows<M>, M, const M&> model_; ///< a copy where it learns what it follows

@@ -18,7 +18,8 @@
 /// good state, the columns there, for each event how often it happened and when it did last, for each column its least
 /// and largest value at accepted steps and rows, the status as to_text(Status). Numbers are shortest decimals; what is
 /// no finite number is an empty field. The bits are those of lagen_run/driver.hpp, whatever the number of threads. Exit
-/// codes: 0 done, 4 wrong arguments, 5 standard input ends within a trajectory, or standard output takes no more.
+/// codes: 0 done, 4 wrong arguments, 5 standard input ends within a trajectory, standard output takes no more, or there
+/// is not memory enough.
 #pragma once
 
 #include "lagen/ensemble/in_order.hpp"
@@ -280,7 +281,7 @@ class Sweep {
 /// The whole program; see the top of the file. Returns the exit code.
 template <class M, class Method>
 int sweep(int argc, char** argv)
-{
+try {
     static_assert(std::is_same_v<typename M::Scalar, double>, "lagen sweep integrates in double");
     detail::SweepArguments given;
     detail::DrivePlan<M> plan;
@@ -290,6 +291,8 @@ int sweep(int argc, char** argv)
         if (complaint.empty()) complaint = detail::plan_event(event, plan);
     if (!complaint.empty()) return detail::complain(complaint, 4);
     return detail::Sweep<M, Method>(given, plan).run();
+} catch (const std::exception& error) {
+    return detail::complain(std::string("the trajectories cannot be integrated: ") + error.what(), 5);
 }
 
 } // namespace lagen

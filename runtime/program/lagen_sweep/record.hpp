@@ -4,18 +4,9 @@
 
 #include "lagen_run/record.hpp"
 
-#include <charconv>
 #include <limits>
 
 namespace lagen::detail {
-
-/// The shortest decimal that reads back as the same number; nothing for what is no finite number.
-inline void append_number(std::string& line, double value)
-{
-    if (!std::isfinite(value)) return;
-    char text[32];
-    line.append(text, std::to_chars(text, text + sizeof text, value).ptr);
-}
 
 /// The observer of a trajectory: the columns at accepted steps and at rows.
 template <class M>

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <exception>
 #include <mutex>
-#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -24,15 +23,15 @@ class InOrder {
     {
     }
 
-    /// By `threads` threads, the caller among them; fewer where the machine gives no more. What a call throws ends the
-    /// work and is thrown here.
+    /// By `threads` threads, the caller among them; fewer where the machine has no room for more. What a call throws
+    /// ends the work and is thrown here, when all threads have ended.
     void run(std::size_t threads)
     {
         std::vector<std::thread> others;
         try {
             for (std::size_t k = 1; k < threads; ++k) others.emplace_back([this] { work_on(); });
-        } catch (const std::system_error&) {
-            // Those that are there do it all.
+        } catch (...) {
+            // std::system_error or std::bad_alloc: those that are there do it all.
         }
         work_on();
         for (std::thread& other : others) other.join();
