@@ -137,7 +137,9 @@ void measure_all(const char* scalar)
     measure<S>(scalar, "rk4", lagen::Rk4{.step = 0.01});
     measure<S>(scalar, "dopri5", lagen::Dopri5{.tolerance = tolerance});
     measure<S>(scalar, "dop853", lagen::Dop853{.tolerance = tolerance});
-    measure<S>(scalar, "taylor", lagen::Taylor{.tolerance = std::is_same_v<S, float> ? 1e-6 : 2.2e-16});
+    const double finest = std::is_same_v<S, float> ? 1e-6 : 2.2e-16;
+    measure<S>(scalar, "taylor", lagen::Taylor{.tolerance = finest});
+    if (std::is_same_v<S, double>) measure<S>(scalar, "taylor 20", lagen::Taylor{.tolerance = finest, .order = 20});
 }
 
 } // namespace
