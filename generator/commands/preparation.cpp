@@ -30,8 +30,10 @@ std::optional<Obstacle> obstacle_to_splitting(const MethodEntry& method, const K
     Obstacle obstacle{
         fmt::format("{} splits {}, and in model '{}' {}", method.name, system_of(method), module.model, found.obstacle),
         "gauss4 to gauss16 are symplectic and split nothing"};
-    if (found.kind != Kind::no || module.flows.count > 0)
-        obstacle.hint = "blanesmoan6 and kahanli8 take every x' = f(y), and sums of exact flows";
+    if (found.kind != Kind::no)
+        obstacle.hint = "blanesmoan6 and kahanli8 take every x' = f(y)";
+    else if (module.flows.count > 0)
+        obstacle.hint = "blanesmoan6 and kahanli8 compose its exact flows";
     else if (!module.flows.obstacle.empty())
         obstacle.text += ", and " + module.flows.obstacle;
     else if (module.form == "lagrange")

@@ -23,12 +23,16 @@ using Momenta = std::vector<std::size_t>;
 class FlowBuilder {
   public:
     FlowBuilder(Graph& graph, const System& system, const HamiltonianNodes& hamiltonian)
-        : graph_(graph), system_(system), hamiltonian_(hamiltonian), setting_(setting_of(system)),
-          decider_(ZeroDecider::make(graph, setting_)), lanes_(system.algebroid.x),
+        : graph_(graph), system_(system), hamiltonian_(hamiltonian), lanes_(system.algebroid.x),
           time_(graph.input("time along a field"))
     {
         lanes_.insert(lanes_.end(), system.mu.begin(), system.mu.end());
         flows_.length = graph.input("length of a flow");
+        setting_ = proof_setting(system);
+        setting_.variables.push_back(flows_.length);
+        for (const NodeId mu : system.mu)
+            if (std::ranges::find(setting_.variables, mu) == setting_.variables.end()) setting_.variables.push_back(mu);
+        decider_ = ZeroDecider::make(graph, setting_);
     }
 
     ExactFlows build()
@@ -38,14 +42,6 @@ class FlowBuilder {
     }
 
   private:
-    static ProofSetting setting_of(const System& system)
-    {
-        ProofSetting setting = proof_setting(system);
-        for (const NodeId mu : system.mu)
-            if (std::ranges::find(setting.variables, mu) == setting.variables.end()) setting.variables.push_back(mu);
-        return setting;
-    }
-
     // Each of these is false where it meets an obstacle.
 
     bool refuse(std::string obstacle)
@@ -275,7 +271,11 @@ class FlowBuilder {
             }
         }
         flow.part = fmt::format("T({})", fmt::join(names, ", "));
-        const bool moves = !std::ranges::all_of(flow.increments, [this](NodeId node) { return graph_.is_zero(node); });
+        bool moves = false;
+        for (NodeId& increment : flow.increments) {
+            if (vanishes(increment)) increment = graph_.constant(0); // as of two that cancel
+            moves = moves || !graph_.is_zero(increment);
+        }
         if (moves) flows_.parts.push_back(std::move(flow));
         return true;
     }

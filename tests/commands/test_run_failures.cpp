@@ -141,6 +141,15 @@ TEST_CASE("a method for separable systems refuses a system that is none", "[run]
         Catch::Contains("leapfrog_dkd splits x' = f(y), y' = g(x) or a sum of exact flows, and in model 'heavy_top' "));
 }
 
+TEST_CASE("a splitting whose order rests on an affine x' says which compose exact flows", "[run]")
+{
+    const Outcome outcome =
+        call({"run", "heavy_top.toml", "--form", "hamilton", "--method", "srkn6", "--step", "0.01"});
+    CHECK(outcome.code == 4);
+    CHECK_THAT(outcome.err, Catch::Contains("srkn6 splits x' = M y + c, y' = g(x), and in model 'heavy_top' g1' "
+                                            "depends on g2\nhint: blanesmoan6 and kahanli8 compose its exact flows"));
+}
+
 TEST_CASE("a table that would exhaust the memory is refused with its bound")
 {
     const Outcome many = call({"run", "fall.toml", "--scene", "rows"});

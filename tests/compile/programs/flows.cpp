@@ -35,8 +35,7 @@ void compare(const char* name, const typename Model<double>::State& start)
                                         {0.0, 2.0}, lagen::KahanLi8{.step = 0.0625});
     double apart = 0;
     for (Eigen::Index k = 0; k < start.size(); ++k)
-        for (std::size_t lane = 0; lane < 4; ++lane)
-            apart = std::max(apart, std::abs(lanes.state[k][lane] - split.state[k]));
+        for (int lane = 0; lane < 4; ++lane) apart = std::max(apart, std::abs(lanes.state[k][lane] - split.state[k]));
     const bool fine = exact.status() == lagen::Status::ok && split.status() == lagen::Status::ok &&
                       lanes.status() == lagen::Status::ok;
     std::printf("%s errors %.3e %.3e %.3e %d\n", name, (exact.state - split.state).norm(), apart,
