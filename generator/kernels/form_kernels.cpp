@@ -2,7 +2,7 @@
 #include "kernels/form_kernels.hpp"
 
 #include "graph/calculus/differentiate.hpp"
-#include "graph/calculus/tangent_size.hpp"
+#include "graph/unknowns/tangent_size.hpp"
 #include "kernels/formulation.hpp"
 #include "kernels/kernel_table.hpp"
 #include "kernels/requested_kernels.hpp"

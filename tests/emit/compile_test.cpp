@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "../support/compiled.hpp"
 #include "graph/calculus/differentiate.hpp"
-#include "graph/calculus/tangent_size.hpp"
 #include "graph/core/operators.hpp"
+#include "graph/unknowns/tangent_size.hpp"
 #include "hand_built.hpp"
 
 #include <random>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "graph/calculus/tangent_size.hpp"
+#include "graph/unknowns/tangent_size.hpp"
 
 #include <bit>
 
