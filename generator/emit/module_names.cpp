@@ -52,6 +52,9 @@ std::set<std::string> class_scope_names(const KernelModule& module, const std::s
         names.insert(kernel.name);
         for (const char* suffix : {"_names", "_rows", "_columns", "_values", "_sums"})
             names.insert(kernel.name + suffix);
+        if (!kernel.directions.empty())
+            names.insert({kernel.name + "_point", kernel.name + "_sweep", "known", "v", "dv", "columns", "columns_t",
+                          "sweep_columns"});
         for (const KernelInput& input : kernel.inputs) names.insert({input.name, copy_of(input)});
         if (returns_value(kernel)) continue;
         for (const KernelOutput& output : kernel.outputs) names.insert(output.name);

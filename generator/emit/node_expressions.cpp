@@ -7,7 +7,8 @@
 
 namespace lagen {
 
-NodeExpressions::NodeExpressions(const Graph& graph) : graph_(graph), names_(graph.size()), latest_(graph.size())
+NodeExpressions::NodeExpressions(const Graph& graph, std::string type)
+    : graph_(graph), type_(std::move(type)), names_(graph.size()), latest_(graph.size())
 {
     for (NodeId id = 0; id < graph.size(); ++id) {
         latest_[id] = graph.op(id) == Op::input ? id : 0;
@@ -39,6 +40,7 @@ Expression NodeExpressions::operation(NodeId id) const
         result.value = graph_.value(id);
         result.payload = 0;
     }
+    if (op == Op::select) result.name = type_;
     for (const NodeId operand : graph_.operands(id)) result.operands.push_back((*this)(operand));
     if (op == Op::multiply && !comes_first(graph_.operands(id)[0], graph_.operands(id)[1]))
         std::swap(result.operands[0], result.operands[1]);

@@ -8,7 +8,8 @@ namespace lagen {
 
 class NodeExpressions {
   public:
-    explicit NodeExpressions(const Graph& graph);
+    /// `type`: of the values that `select` chooses between.
+    explicit NodeExpressions(const Graph& graph, std::string type = "S");
 
     /// From now on the node stands as this variable (or number).
     void name(NodeId id, Expression variable) { names_[id] = std::move(variable); }
@@ -24,6 +25,7 @@ class NodeExpressions {
     [[nodiscard]] bool comes_first(NodeId a, NodeId b) const;
 
     const Graph& graph_;
+    std::string type_;
     std::vector<std::optional<Expression>> names_;
     std::vector<NodeId> latest_; ///< by node: the latest input that it depends on
 };

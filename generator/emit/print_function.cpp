@@ -165,7 +165,7 @@ std::string part_arguments(const Body& body, const FunctionRequest& request, boo
         add(type_of(input), !types && is_overwritten(input, request) ? copy_of(input) : input.name);
     for (const ImplicitBlock* block : blocks_of(body, request))
         add(fmt::format("const std::array<S, {}>&", block->unknowns.size()), "solved_" + block->name);
-    add(fmt::format("std::array<S, {}>&", body.workspace), "work");
+    add(fmt::format("std::array<{}, {}>&", body.type, body.workspace), "work");
     for (const OutputArgument& output : request.outputs) add(output.type + "&", output.name);
     return joined(arguments);
 }
@@ -179,7 +179,7 @@ void call_parts(TextBlock& out, const Body& body, const FunctionRequest& request
                              told ? "" : " // an output may stand in its place"));
         told = true;
     }
-    out.line(fmt::format("std::array<S, {}> work;", body.workspace));
+    out.line(fmt::format("std::array<{}, {}> work;", body.type, body.workspace));
     for (std::size_t k = 0; k < body.parts.size(); ++k) {
         const std::string call = fmt::format("{}({})", part_name(request, k), part_arguments(body, request, false));
         out.line(has_checks(body.parts[k]) ? fmt::format("status = StatusOf<S>::first(status, {});", call)

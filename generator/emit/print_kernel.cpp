@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "emit/print_kernel.hpp"
 
+#include "emit/print_columns.hpp"
 #include "emit/print_function.hpp"
 #include "emit/print_series.hpp"
 #include "emit/spell.hpp"
@@ -65,9 +66,10 @@ std::vector<std::vector<std::size_t>> arrangements_of(const Kernel& kernel)
 /// A kernel as a function, by the rule of graph/kernel.hpp.
 class KernelPrinter {
   public:
+    /// `lines`: what stands in the place of the body, where that is not empty.
     KernelPrinter(TextBlock& out, const KernelModule& module, const ModuleNames& names, const Kernel& kernel,
-                  const Body& body)
-        : out_(out), kernel_(kernel), body_(body),
+                  const Body& body, std::vector<std::string> lines = {})
+        : out_(out), kernel_(kernel), body_(body), lines_(std::move(lines)),
           returned_(returns_value(kernel)), request_{module,        names, kernel.name, kernel.checks.has_value(),
                                                      kernel.inputs, {},    {}}
     {
@@ -89,7 +91,8 @@ class KernelPrinter {
             out_.comment(kernel_.checks->failures);
         open_block(out_, signature());
         begin_outputs();
-        const bool has_status = print_lines(out_, body_, request_);
+        for (const std::string& line : lines_) out_.line(line);
+        const bool has_status = lines_.empty() && print_lines(out_, body_, request_);
         end_outputs();
         if (kernel_.checks) out_.line(has_status ? "return status;" : "return StatusOf<S>::good();");
         if (returned_ && !returns_at_once()) out_.line("return result;");
@@ -209,6 +212,7 @@ class KernelPrinter {
     TextBlock& out_;
     const Kernel& kernel_;
     const Body& body_;
+    std::vector<std::string> lines_;
     bool returned_; ///< the output, by value
     FunctionRequest request_;
 };
@@ -244,6 +248,13 @@ void print_kernel(TextBlock& out, const KernelModule& module, const ModuleNames&
                   Includes& includes)
 {
     if (kernel.recurrence) return print_series(out, module, names, kernel, includes);
+    if (!kernel.directions.empty()) {
+        out.blank();
+        Body body; // reads everything
+        body.inputs = module.graph->inputs();
+        std::vector<std::string> lines = print_columns(out, module, names, kernel, longest_part, includes);
+        return KernelPrinter(out, module, names, kernel, body, std::move(lines)).print();
+    }
     const std::vector<NodeId> outputs = nodes_of(kernel);
     const std::vector<NodeId> pivots = kernel.checks ? kernel.checks->pivots : std::vector<NodeId>{};
     const Body body =

@@ -88,15 +88,22 @@ std::string condition(const Expression& expression)
                        at_least(1, expression.operands[1]));
 }
 
+/// Makes a value of `type` of an expression; no type but S is made of a number by its own name.
+std::string made(const std::string& type, const std::string& value)
+{
+    return fmt::format("{}({})", type == "S" ? "S" : "columns<S>", value);
+}
+
 /// S(..): a scalar with expression templates has another type for every sum.
 Spelling spell_choice(const Expression& choice)
 {
     const auto value = [&](std::size_t k) {
         const Expression& operand = choice.operands[k];
         const Spelling spelling = spell(operand);
-        const bool plain = operand.is_variable() || operand.op == Op::pi || is_choice(operand.op) ||
-                           (operand.op == Op::constant && spelling.precedence == 5 && spelling.text.front() != '(');
-        return plain ? spelling.text : "S(" + spelling.text + ")";
+        const bool number = operand.op == Op::pi ||
+                            (operand.op == Op::constant && spelling.precedence == 5 && spelling.text.front() != '(');
+        const bool plain = operand.is_variable() || is_choice(operand.op) || (number && choice.name == "S");
+        return plain ? spelling.text : made(choice.name, spelling.text);
     };
     return {fmt::format("select({}, {}, {})", condition(choice.operands[0]), value(1), value(2)), 5};
 }
@@ -143,6 +150,19 @@ std::vector<std::string> spell_factor(const Statement& factor)
                            : fmt::format("static_cast<void>({});", call)};
 }
 
+/// A right-hand side of another type is linear in what it varies with: a number in it is zero.
+std::string spell_solve(const Statement& solve)
+{
+    if (solve.type == "S")
+        return fmt::format("const std::array<S, {}> {} = {}.solve({{{}}});", solve.expressions.size(), solve.names[0],
+                           solve.names[1], list_of(solve.expressions));
+    std::vector<std::string> right;
+    for (const Expression& each : solve.expressions)
+        right.push_back(each.op == Op::constant ? made(solve.type, spell(each).text) : spell(each).text);
+    return fmt::format("const auto {} = {}.solve(std::array<{}, {}>{{{}}});", solve.names[0], solve.names[1],
+                       solve.type, right.size(), fmt::join(right, ", "));
+}
+
 } // namespace
 
 Spelling spell(const Expression& expression)
@@ -174,7 +194,7 @@ std::vector<std::string> spell(const Statement& statement)
         return fmt::format("{}<S, {}>({{{}}})", function, statement.expressions.size(), list_of(statement.expressions));
     };
     switch (statement.kind) {
-    case Kind::define: return {fmt::format("const S {} = {};", names[0], argument())};
+    case Kind::define: return {fmt::format("const {} {} = {};", statement.type, names[0], argument())};
     case Kind::angles:
         return {fmt::format("const auto [{}, {}] = {};", names[0], names[1],
                             statement.expressions.size() > 1 ? call("sincos") : "sincos<S>(" + argument() + ")")};
@@ -184,12 +204,10 @@ std::vector<std::string> spell(const Statement& statement)
         return {fmt::format("const auto {} = stumpff_orders<{}, {}, S>({});", names[0], statement.index, statement.last,
                             argument())};
     case Kind::factor: return spell_factor(statement);
-    case Kind::solve:
-        return {fmt::format("const std::array<S, {}> {} = {}.solve({{{}}});", statement.expressions.size(), names[0],
-                            names[1], list_of(statement.expressions))};
+    case Kind::solve: return {spell_solve(statement)};
     case Kind::check: return {spell_check(statement)};
     case Kind::keep: return {fmt::format("work[{}] = {};", statement.index, argument())};
-    case Kind::recall: return {fmt::format("const S {} = work[{}];", names[0], statement.index)};
+    case Kind::recall: return {fmt::format("const {} {} = work[{}];", statement.type, names[0], statement.index)};
     case Kind::load:
     case Kind::store: break;
     }

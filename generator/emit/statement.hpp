@@ -17,7 +17,7 @@ struct Expression {
     Op op = Op::input;         ///< constant: `value`; input: the variable `name`
     std::uint32_t payload = 0; ///< the exponent of a power, the order of a Stumpff function
     Rational value = {};
-    std::string name = {};
+    std::string name = {};                 ///< of select: the type of what it chooses between
     std::optional<std::size_t> entry = {}; ///< of the array `name`
     std::vector<Expression> operands = {};
 
@@ -51,7 +51,8 @@ struct Statement {
     std::size_t index = 0;
     std::size_t last = 0;
     NodeId node = 0;
-    bool checked = false; ///< factor: fails where the matrix is singular
+    bool checked = false;   ///< factor: fails where the matrix is singular
+    std::string type = "S"; ///< of what it defines
 };
 
 /// Statements one after the other; longer bodies are several of them, which hand values on by a workspace.
@@ -61,6 +62,7 @@ struct Body {
     std::vector<BodyPart> parts;
     std::size_t workspace = 0;  ///< places
     std::vector<NodeId> inputs; ///< that are read, ascending
+    std::string type = "S";     ///< of the places
 };
 
 /// Whether a statement may fail.

@@ -34,8 +34,9 @@ std::string choose_prefix(const std::set<std::string>& taken)
 class BodyWriter {
   public:
     explicit BodyWriter(const BodyRequest& request)
-        : request_(request), graph_(request.graph), expressions_(request.graph), taken_(request.names.taken),
-          prefix_(choose_prefix(request.names.taken)), moves_(depends_on(request.graph, request.moving))
+        : request_(request), graph_(request.graph), expressions_(request.graph, request.type),
+          taken_(request.names.taken), prefix_(choose_prefix(request.names.taken)),
+          moves_(depends_on(request.graph, request.moving))
     {
     }
 
@@ -51,6 +52,7 @@ class BodyWriter {
                        {request_.outputs, std::span(roots).subspan(request_.outputs.size()), request_.arrangements});
         const CutBody cut = cut_body(graph_, steps, request_.longest_part);
         body_.workspace = cut.workspace;
+        body_.type = request_.type;
         for (const std::vector<BodyStep>& part : cut.parts) {
             body_.parts.emplace_back();
             for (const BodyStep& step : part) write_step(step);
@@ -85,7 +87,12 @@ class BodyWriter {
         }
     }
 
-    void add(Statement statement) { body_.parts.back().push_back(std::move(statement)); }
+    void add(Statement statement, const std::string& type)
+    {
+        statement.type = type;
+        body_.parts.back().push_back(std::move(statement));
+    }
+    void add(Statement statement) { add(std::move(statement), request_.type); }
 
     void write_step(const BodyStep& step)
     {
@@ -202,15 +209,15 @@ class BodyWriter {
         return exponent > 0 ? *product : operation(Op::divide, literal(1), *product);
     }
 
-    [[nodiscard]] SolveContext context()
+    [[nodiscard]] SolveContext context(const std::string& type)
     {
-        return {graph_, expressions_, [this](Statement statement) { add(std::move(statement)); },
+        return {graph_, expressions_, [this, type](Statement statement) { add(std::move(statement), type); },
                 [this](const std::string& wish) { return fresh(wish); }};
     }
 
     void define_factor(NodeId id)
     {
-        factors_[id] = unroll_factor(context(), id, factors_.size(), is_checked(id), plan_.users.contains(id));
+        factors_[id] = unroll_factor(context("S"), id, factors_.size(), is_checked(id), plan_.users.contains(id));
     }
 
     void define_solution(NodeId id)
@@ -224,7 +231,7 @@ class BodyWriter {
             components[graph_.payload(user)] = user;
         }
         const UnrolledFactor& factor = factors_.at(graph_.operands(id)[0]);
-        const std::vector<Expression> values = unroll_solution(context(), factor, id, solves_++, wanted);
+        const std::vector<Expression> values = unroll_solution(context(request_.type), factor, id, solves_++, wanted);
         for (std::size_t k = 0; k < n; ++k)
             if (wanted[k]) expressions_.name(components[k], values[k]);
     }

@@ -72,6 +72,7 @@ struct KernelChecks {
 ///   else                              void NAME(inputs, outputs by reference)
 /// An output may stand in the place of a state or a tangent that is read. A kernel of one sparse output is called
 /// NAME_values; NAME gives the same as a dense matrix, where that is small.
+/// With directions its one output, sparse, is computed by columns, several at once (emit/print_columns.hpp).
 ///   with a recurrence                 status_t<S> NAME(inputs, int order, TaylorSeries<S, lanes, most>& x)
 /// Its one output is the rate of the state, and x the Taylor coefficients of the motion.
 struct Kernel {
@@ -80,7 +81,10 @@ struct Kernel {
     std::vector<KernelOutput> outputs;
     std::optional<KernelChecks> checks = {};
     std::optional<TaylorRecurrence> recurrence = {}; ///< of the output, along the state and time
-    std::vector<std::string> documentation = {};     ///< lines of its docstring: formula, shape, index order, units
+    /// Inputs, one a column of the output: with the unit vector of a column in their place the node of an entry in it
+    /// is its value; linear in them. Entries of one row share their node.
+    std::vector<NodeId> directions = {};
+    std::vector<std::string> documentation = {}; ///< lines of its docstring: formula, shape, index order, units
 };
 
 /// The nodes of all entries of all outputs.

@@ -3,6 +3,7 @@
 
 #include "graph/calculus/differentiate.hpp"
 #include "kernels/exact_flows.hpp"
+#include "graph/unknowns/tangent_size.hpp"
 #include "kernels/formulation.hpp"
 #include "kernels/kernel_table.hpp"
 #include "kernels/requested_kernels.hpp"
@@ -120,8 +121,10 @@ class ModuleBuilder {
         return (form_.form->momenta ? model_.fibre.momenta : model_.fibre.coordinates)[a];
     }
 
-    /// Adds a kernel at (t, s) with its entries and pivots simplified together.
-    void add(Kernel kernel)
+    void add(Kernel kernel) { module_.kernels.push_back(simplified(std::move(kernel))); }
+
+    /// A kernel at (t, s) with its entries and pivots simplified together.
+    [[nodiscard]] Kernel simplified(Kernel kernel)
     {
         std::vector<KernelInput> inputs = point_inputs(module_);
         kernel.inputs.insert(kernel.inputs.begin(), inputs.begin(), inputs.end());
@@ -136,19 +139,24 @@ class ModuleBuilder {
         if (request_.reports != nullptr) request_.reports->push_back({kernel.name, std::move(report)});
         for (const NodeId divisor : divisors)
             if (std::ranges::find(pivots, divisor) == pivots.end()) pivots.push_back(divisor);
-        module_.kernels.push_back(std::move(kernel));
+        return kernel;
     }
 
-    void add_right_hand_side()
+    /// The right-hand side, made once.
+    [[nodiscard]] const Kernel& right_hand_side()
     {
+        if (rhs_) return *rhs_;
         Kernel kernel = table_kernel(form_, "rhs", column("ds", form_.derivative));
         kernel.checks->pivots = form_.pivots;
         kernel.checks->failures = form_.failures;
         kernel.documentation = form_.documentation;
-        add(std::move(kernel));
-        std::vector<NodeId> rates;
-        for (const KernelEntry& entry : module_.kernels.back().outputs[0].entries) rates.push_back(entry.node);
-        module_.second_order = second_order_of(module_, rates);
+        return rhs_.emplace(simplified(std::move(kernel)));
+    }
+
+    void add_right_hand_side()
+    {
+        module_.kernels.push_back(right_hand_side());
+        module_.second_order = second_order_of(module_, nodes_of(right_hand_side()));
     }
 
     [[nodiscard]] TaylorRecurrence recurrence_of(const std::vector<NodeId>& functions)
@@ -290,14 +298,37 @@ class ModuleBuilder {
     void add_jacobian()
     {
         const std::vector<NodeId> lanes = state_of(form_);
+        if (is_made_by_columns(*graph_, form_.derivative, lanes, form_.implicit)) {
+            const Kernel& tangent = variational();
+            std::vector<NodeId> directions;
+            for (const Quantity& entry : tangent.inputs.back().entries) directions.push_back(entry.input);
+            Kernel kernel =
+                table_kernel(form_, "jacobian", entries_along(*graph_, "values", nodes_of(tangent), directions));
+            kernel.inputs = point_inputs(module_);
+            kernel.directions = std::move(directions);
+            return module_.kernels.push_back(std::move(kernel));
+        }
         const std::vector<NodeId> values =
             joined_rows(jacobian_through(*graph_, form_.derivative, lanes, form_.implicit));
         add(table_kernel(form_, "jacobian", matrix(*graph_, "values", lanes.size(), lanes.size(), values)));
     }
 
-    /// The directional derivative of the right-hand side along v: one sweep, however many lanes there are.
-    void add_variational()
+    /// True where the right-hand side has no factorisation left of those that it was written with.
+    [[nodiscard]] bool is_eliminated()
     {
+        const auto factors = [&](const std::vector<NodeId>& nodes) {
+            return std::ranges::any_of(reachable(*graph_, nodes),
+                                       [&](NodeId id) { return graph_->op(id) == Op::factor; });
+        };
+        return factors(form_.derivative) && !factors(nodes_of(right_hand_side()));
+    }
+
+    /// The directional derivative of the right-hand side along v: one sweep, however many lanes there are. Made once;
+    /// of the right-hand side with its systems eliminated where they were, since the derivative of a solution has the
+    /// products of all entries of the matrix.
+    [[nodiscard]] const Kernel& variational()
+    {
+        if (variational_) return *variational_;
         std::vector<std::pair<NodeId, NodeId>> seeds;
         KernelInput along{"v", ArrayRole::tangent, {1, state_of(form_).size(), 1}, {}};
         for (const NodeId lane : state_of(form_)) {
@@ -305,12 +336,17 @@ class ModuleBuilder {
             along.entries.push_back({"d_" + name, {}, {}, graph_->input("tangent of " + name)});
             seeds.emplace_back(lane, along.entries.back().input);
         }
+        seeds = seeds_through(*graph_, form_.implicit, std::move(seeds));
+        const bool eliminated = is_eliminated();
         const std::vector<NodeId> tangent =
-            directional(*graph_, form_.derivative, seeds_through(*graph_, form_.implicit, std::move(seeds)));
+            directional(*graph_, eliminated ? nodes_of(right_hand_side()) : form_.derivative, seeds);
         Kernel kernel = table_kernel(form_, "variational", column("dv", tangent));
         kernel.inputs = {std::move(along)};
-        add(std::move(kernel));
+        if (eliminated) kernel.checks->pivots = right_hand_side().checks->pivots;
+        return variational_.emplace(simplified(std::move(kernel)));
     }
+
+    void add_variational() { module_.kernels.push_back(variational()); }
 
     void add_time_scale()
     {
@@ -369,6 +405,7 @@ class ModuleBuilder {
     Formulation form_;
     Lowering lower_;
     KernelModule module_;
+    std::optional<Kernel> rhs_, variational_;
 };
 
 } // namespace

@@ -2,7 +2,7 @@
 /// The kernels of one form of a model, differentiated on the graph from the user's own form of rho, C, L, H, cost.
 /// State lanes: x^i (n), then y^a or mu_a (r).
 ///   rhs           the equations of motion (kernels/formulation.hpp)
-///   jacobian      d rhs / d state, sparse;  variational: d rhs / d state * v
+///   jacobian      d rhs / d state, sparse, by columns where entries would be long;  variational: d rhs / d state * v
 ///   of hamilton, on request: flows, the exact flows of parts of H (kernels/exact_flows.hpp), as flow_0, flow_1, ..
 ///   taylor        the Taylor coefficients of the motion, order by order, on request
 ///   constraints, domain, observables, invariants, events: vectors in the order of the model

@@ -2,6 +2,7 @@
 #include "kernels/formulation.hpp"
 
 #include "graph/calculus/differentiate.hpp"
+#include "graph/unknowns/tangent_size.hpp"
 #include "kernels/kernel_table.hpp"
 
 #include <fmt/format.h>
@@ -87,6 +88,17 @@ KernelOutput matrix(const Graph& graph, std::string name, std::size_t rows, std:
     KernelOutput output{std::move(name), {2, rows, columns}, {}};
     for (std::size_t k = 0; k < values.size(); ++k)
         if (!graph.is_zero(values[k])) output.entries.push_back({k / columns, k % columns, values[k]});
+    return output;
+}
+
+KernelOutput entries_along(const Graph& graph, std::string name, const std::vector<NodeId>& rows,
+                           const std::vector<NodeId>& directions)
+{
+    KernelOutput output{std::move(name), {2, rows.size(), directions.size()}, {}};
+    const InputSets sets(graph, rows, directions);
+    for (std::size_t row = 0; row < rows.size(); ++row)
+        for (std::size_t column = 0; column < directions.size(); ++column)
+            if (sets.holds(rows[row], column)) output.entries.push_back({row, column, rows[row]});
     return output;
 }
 

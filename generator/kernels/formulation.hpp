@@ -60,6 +60,9 @@ void require_regular_lagrangian(const System& system, const Regularity& regulari
 /// The entries of a rows x columns matrix that are no zeros by structure.
 [[nodiscard]] KernelOutput matrix(const Graph& graph, std::string name, std::size_t rows, std::size_t columns,
                                   const std::vector<NodeId>& values);
+/// The entries that `rows` have along unit vectors in the place of `directions`, but zeros by structure.
+[[nodiscard]] KernelOutput entries_along(const Graph& graph, std::string name, const std::vector<NodeId>& rows,
+                                         const std::vector<NodeId>& directions);
 /// The lanes of the state: x, then the others.
 [[nodiscard]] std::vector<NodeId> state_of(const Formulation& form);
 /// A kernel at (t, s) as its row in the table of kernels says; its inputs are not there yet.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "../support/compiled.hpp"
+#include "graph/calculus/differentiate.hpp"
 #include "graph/core/operators.hpp"
+#include "graph/unknowns/tangent_size.hpp"
 #include "hand_built.hpp"
 
 #include <random>
@@ -89,6 +91,57 @@ KernelModule batches_module()
     return module;
 }
 
+/// A Jacobian by columns, more of them than a register has lanes for: of choices (one of them constant), of systems
+/// that are solved in each of the three ways, one of whose right sides stands still, and a row without entries.
+KernelModule columns_module()
+{
+    KernelModule module = empty_module("columns_of");
+    Graph& g = *module.graph;
+    module.parameters = {declare(g, "p")};
+    module.parameter_defaults = {g.constant(2)};
+    std::vector<NodeId> x;
+    for (int k = 0; k < 9; ++k) {
+        base_of(module).push_back(declare(g, "x" + std::to_string(k)));
+        x.push_back(base_of(module).back().input);
+    }
+    const NodeId p = module.parameters[0].input;
+    const auto shifted = [&](NodeId a) { return g.add(g.constant(4), a); };
+    std::vector<NodeId> rates{x[1], g.constant(3),
+                              g.apply(Op::maximum, x[0], g.divide(x[6], g.add(p, g.power(x[1], 2)))),
+                              g.select(g.apply(Op::less, x[0], x[2]), g.multiply(p, g.power(x[3], 2)), g.constant(1)),
+                              g.select(g.apply(Op::less, x[0], x[2]), g.multiply(g.apply(Op::sin, x[3]), x[4]), x[5])};
+    const std::vector<NodeId> matrix{shifted(x[0]), x[1], x[2], x[1], shifted(x[3]), p, x[2], p, shifted(x[4])};
+    for (const auto structure : {MatrixStructure::general, MatrixStructure::positive_definite})
+        rates.push_back(
+            g.sum(g.solve(matrix, std::vector<NodeId>{x[5], g.constant(1), g.multiply(x[5], x[6])}, structure)));
+    const std::vector<NodeId> pair{shifted(x[7]), p, p, shifted(x[8])};
+    const std::vector<NodeId> two =
+        g.solve(pair, std::vector<NodeId>{p, g.multiply(x[7], rates[4])}, MatrixStructure::general);
+    rates.insert(rates.end(), two.begin(), two.end());
+    const std::vector<NodeId> constant{p, g.constant(1), g.pi(),    g.constant(1), shifted(p), p,
+                                       p, g.constant(2), shifted(p)};
+    rates.push_back(
+        g.sum(g.solve(constant, std::vector<NodeId>{g.multiply(g.pi(), x[8]), p, p}, MatrixStructure::general)));
+
+    std::vector<std::pair<NodeId, NodeId>> seeds;
+    std::vector<NodeId> directions;
+    for (const NodeId lane : x) {
+        directions.push_back(g.input("tangent of " + g.input_name(lane)));
+        seeds.emplace_back(lane, directions.back());
+    }
+    const std::vector<NodeId> tangents = directional(g, rates, seeds);
+    const InputSets sets(g, tangents, directions);
+    Kernel kernel{
+        .name = "jacobian", .inputs = point_inputs(module), .outputs = {{"values", {2, rates.size(), 9}, {}}}};
+    kernel.outputs[0].sparse = true;
+    for (std::size_t row = 0; row < rates.size(); ++row)
+        for (std::size_t column = 0; column < 9; ++column)
+            if (sets.holds(tangents[row], column)) kernel.outputs[0].entries.push_back({row, column, tangents[row]});
+    kernel.directions = std::move(directions);
+    module.kernels = {std::move(kernel)};
+    return module;
+}
+
 std::vector<CompiledCase> all_cases()
 {
     const std::vector<std::vector<bool>> arrow{
@@ -98,6 +151,7 @@ std::vector<CompiledCase> all_cases()
             sampled(pendulum_module(), 2),
             sampled(operators_module(), 3),
             sampled(batches_module(), 9),
+            sampled(columns_module(), 10),
             sampled(solve_module("arrow", arrow, MatrixStructure::positive_definite), 4),
             sampled(solve_module("definite", full(5), MatrixStructure::positive_definite), 5),
             sampled(solve_module("pivoted", full(4), MatrixStructure::general), 6),

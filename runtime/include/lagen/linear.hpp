@@ -56,8 +56,9 @@ class PivotedLu {
         return singular;
     }
 
-    /// x with A x = b.
-    [[nodiscard]] std::array<S, size> solve(std::array<S, size> b) const noexcept
+    /// x with A x = b; the entries of b may be several right-hand sides each (lagen/columns.hpp).
+    template <class Entry = S>
+    [[nodiscard]] std::array<Entry, size> solve(std::array<Entry, size> b) const noexcept
     {
         for (std::size_t k = 0; k < size; ++k) // the exchanges, in the order in which they were made
             for (std::size_t i = k + 1; i < size; ++i) exchange(swaps_[k * size + i], b[k], b[i]);
@@ -74,11 +75,12 @@ class PivotedLu {
     [[nodiscard]] S& at(std::size_t i, std::size_t j) noexcept { return lu_[i * size + j]; }
     [[nodiscard]] const S& at(std::size_t i, std::size_t j) const noexcept { return lu_[i * size + j]; }
 
-    static void exchange(Mask where, S& a, S& b) noexcept
+    template <class Entry>
+    static void exchange(Mask where, Entry& a, Entry& b) noexcept
     {
         if constexpr (std::is_same_v<Mask, bool>) {
             if (!where) return;
-            const S kept = a;
+            const Entry kept = a;
             a = b;
             b = kept;
         } else {

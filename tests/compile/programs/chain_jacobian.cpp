@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Kernels of a long chain, of which the Jacobian is printed in parts. Prints the largest difference, relative to the
+/// Kernels of a long chain. Prints the largest difference, relative to the
 /// largest entry, of the Jacobian from central differences of the right-hand side, and of Jacobian times v from the
 /// directional derivative.
 #include "chain.hpp"
