@@ -32,16 +32,15 @@ class SeriesPrinter {
                                                                                               fresh("squares"),
                                                                                               fresh("lower_squares"),
                                                                                               {}},
-          reciprocal_(fresh("reciprocal")), next_(fresh("next"))
+          share_(fresh("share")), next_(fresh("next"))
     {
         name_late(series_.order, fmt::format("S({})", k_));
-        name_late(series_.reciprocal, reciprocal_);
         for (std::size_t i = 0; i < lanes_; ++i) name_late(series_.curve[i], fmt::format("{}[{}][{}]", x_, k_, i));
         name_late(series_.curve[lanes_], fmt::format("S({} == 1 ? 1 : 0)", k_));
         sort_pairs();
         for (const auto* group : {&products_, &squares_})
             for (std::size_t m = 0; m < group->pairs.size(); ++m)
-                name_late(series_.sums[group->pairs[m]], fmt::format("{}[{}]", group->values, m));
+                name_late(series_.sums[group->pairs[m]], sum_text(*group, m));
     }
 
     Includes print()
@@ -98,6 +97,12 @@ class SeriesPrinter {
         return name;
     }
 
+    [[nodiscard]] std::string sum_text(const Sums& group, std::size_t m) const
+    {
+        const std::string sum = fmt::format("{}[{}]", group.values, m);
+        return series_.are_means[group.pairs[m]] ? fmt::format("({} * {})", share_, sum) : sum;
+    }
+
     void name_late(NodeId input, std::string text)
     {
         late_.insert(text);
@@ -120,7 +125,7 @@ class SeriesPrinter {
         last_late_ = nodes.size();
         std::vector<NodeId> inputs = series_.curve;
         inputs.insert(inputs.end(), series_.sums.begin(), series_.sums.end());
-        inputs.insert(inputs.end(), {series_.order, series_.reciprocal});
+        inputs.push_back(series_.order);
         const std::vector<bool> moves = depends_on(*module_.graph, inputs);
         std::set<NodeId> read;
         for (const NodeId id : reachable(*module_.graph, late))
@@ -169,8 +174,9 @@ class SeriesPrinter {
         out_.indent(1);
         for (const Sums* sums : {&products_, &squares_})
             if (!sums->pairs.empty()) out_.line(fmt::format("const auto {} = {}({});", sums->values, sums->object, k_));
-        out_.line(fmt::format("[[maybe_unused]] const S {} = S(1) / S({}), {} = S(1) / S({} + 1);", reciprocal_, k_,
-                              next_, k_));
+        if (std::ranges::find(series_.are_means, true) != series_.are_means.end())
+            out_.line(fmt::format("const OneOver<S> {}({});", share_, k_));
+        if (is_rate_) out_.line(fmt::format("const OneOver<S> {}({} + 1);", next_, k_));
         std::vector<std::string> sides[2] = {std::vector<std::string>(count), std::vector<std::string>(count)};
         for (const Statement& statement : loop_) {
             if (statement.kind != Statement::Kind::store) {
@@ -215,7 +221,7 @@ class SeriesPrinter {
     std::size_t outputs_, lanes_;
     std::string x_, y_, order_, k_;
     Sums products_, squares_;
-    std::string reciprocal_, next_;
+    std::string share_, next_; ///< 1/k and 1/(k + 1)
     std::set<std::string> late_; ///< what stands in the loop alone
     std::size_t last_late_ = 0;  ///< outputs from here on are there to get a name
     BodyPart loop_;

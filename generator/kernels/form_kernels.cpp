@@ -148,18 +148,22 @@ class ModuleBuilder {
         module_.second_order = second_order_of(module_, rates);
     }
 
+    [[nodiscard]] std::vector<NodeId> curve() const
+    {
+        std::vector<NodeId> coordinates = state_of(form_);
+        coordinates.push_back(form_.time);
+        return coordinates;
+    }
+
     [[nodiscard]] TaylorRecurrence recurrence_of(const std::vector<NodeId>& functions)
     {
-        std::vector<NodeId> curve = state_of(form_);
-        curve.push_back(form_.time);
-        require_analytic(*graph_, functions, curve, form_.implicit);
-        return taylor_recurrence(*graph_, functions, curve, form_.implicit);
+        require_analytic(*graph_, functions, curve(), form_.implicit);
+        return taylor_recurrence(*graph_, functions, curve(), form_.implicit);
     }
 
     /// The rates as they were written or as they were simplified, whichever takes fewer sums over lower orders.
     void add_taylor()
     {
-        TaylorRecurrence written = recurrence_of(form_.derivative);
         Kernel kernel = table_kernel(form_, "taylor", column("ds", form_.derivative));
         kernel.checks->pivots = form_.pivots;
         if (has_kernel(module_, "rhs")) { // the same rates, which are simplified already
@@ -172,12 +176,19 @@ class ModuleBuilder {
             add(std::move(kernel));
         }
         Kernel& added = module_.kernels.back();
-        added.recurrence = recurrence_of(nodes_of(added));
-        if (written.sums.size() >= added.recurrence->sums.size()) return;
-        for (std::size_t i = 0; i < form_.derivative.size(); ++i)
-            added.outputs[0].entries[i].node = form_.derivative[i];
-        added.checks->pivots = form_.pivots;
-        added.recurrence = std::move(written);
+        std::vector<NodeId> moving = curve();
+        for (const ImplicitBlock& block : form_.implicit)
+            moving.insert(moving.end(), block.unknowns.begin(), block.unknowns.end());
+        const std::vector<NodeId> written = with_static_reciprocals(*graph_, form_.derivative, moving);
+        std::vector<NodeId> rates = with_static_reciprocals(*graph_, nodes_of(added), moving);
+        TaylorRecurrence as_written = recurrence_of(written);
+        added.recurrence = recurrence_of(rates);
+        if (as_written.sums.size() < added.recurrence->sums.size()) {
+            added.checks->pivots = form_.pivots;
+            added.recurrence = std::move(as_written);
+            rates = written;
+        }
+        for (std::size_t i = 0; i < rates.size(); ++i) added.outputs[0].entries[i].node = rates[i];
     }
 
     void add_event_series(const Kernel& events)

@@ -35,13 +35,12 @@ std::vector<std::vector<Real>> run_recurrence(Graph& graph, const std::vector<No
     std::vector<std::vector<Real>> known(sides.size(), {0});
     for (int k = 1; k <= orders; ++k) {
         values[graph.input_name(series.order)] = k;
-        values[graph.input_name(series.reciprocal)] = 1.0L / k;
         values[graph.input_name(series.curve[0])] = k == 1 ? 1 : 0;
         for (std::size_t m = 0; m < series.sums.size(); ++m) {
             Real sum = 0;
             for (std::size_t j = 1; j < static_cast<std::size_t>(k); ++j)
                 sum += known[2 * m][j] * known[2 * m + 1][static_cast<std::size_t>(k) - j];
-            values[graph.input_name(series.sums[m])] = sum;
+            values[graph.input_name(series.sums[m])] = series.are_means[m] ? sum / k : sum;
         }
         const std::vector<Real> next = evaluate<Real>(graph, series.outputs, values);
         for (std::size_t i = 0; i < next.size(); ++i) result[i].push_back(next[i]);

@@ -159,7 +159,8 @@ class TaylorStepper {
             const Real change = h * move[i] + kept_[i];
             const Real from = s[lane];
             s1[lane] = from + change;
-            lost_[i] = change - (s1[lane] - from);
+            const Real moved = s1[lane] - from; // exact whichever of the two is larger [Knuth 1997, 4.2.2]
+            lost_[i] = (from - (s1[lane] - moved)) + (change - moved);
         }
         const Status status = expand(model, t + h, s1, next());
         if (status != Status::ok) return status;
@@ -309,6 +310,7 @@ class TaylorStepper {
             at.events.known = model.event_series(t, s, order_, at.motion, at.events.of) == Status::ok;
             if (at.events.known) at.length = std::min(at.length, length_of_events(at.events.of));
         }
+        if (at.length < unbounded()) at.length *= Real(0.8);
         return Status::ok;
     }
 
