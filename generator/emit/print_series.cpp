@@ -32,11 +32,11 @@ class SeriesPrinter {
                                                                                               fresh("squares"),
                                                                                               fresh("lower_squares"),
                                                                                               {}},
-          share_(fresh("share")), next_(fresh("next"))
+          share_(fresh("share")), next_(fresh("next")), unit_(fresh("unit"))
     {
         name_late(series_.order, fmt::format("S({})", k_));
         for (std::size_t i = 0; i < lanes_; ++i) name_late(series_.curve[i], fmt::format("{}[{}][{}]", x_, k_, i));
-        name_late(series_.curve[lanes_], fmt::format("S({} == 1 ? 1 : 0)", k_));
+        name_late(series_.curve[lanes_], fmt::format("({} == 1 ? {} : S(0))", k_, unit_));
         sort_pairs();
         for (const auto* group : {&products_, &squares_})
             for (std::size_t m = 0; m < group->pairs.size(); ++m)
@@ -50,17 +50,18 @@ class SeriesPrinter {
         out_.line(fmt::format("static constexpr int {}_sums = {};", kernel_.name, series_.sums.size()));
         out_.blank();
         for (const std::string& line : kernel_.documentation) out_.comment(line);
-        out_.comment(fmt::format("{}[k][i], k <= order <= most: (d/dt)^k / k! of entry i.", y_));
+        out_.comment(fmt::format("{}[k][i], k <= order <= most: unit^k (d/dt)^k / k! of entry i; a power of two as the unit is exact.", y_));
         out_.line("template <int most>");
         const FunctionRequest request = request_for([this](std::size_t i, const std::string& value) {
             return fmt::format("{}[{}][{}] = {};", y_, is_rate_ ? 1 : 0, i, value);
         });
         std::string arguments = fmt::format("{}, int {}", arguments_of(body, request), order_);
         if (!is_rate_) arguments += fmt::format(", const TaylorSeries<S, {}, most>& {}", lanes_, x_);
-        arguments += fmt::format(", TaylorSeries<S, {}, most>& {}", outputs_, y_);
+        arguments += fmt::format(", TaylorSeries<S, {}, most>& {}, [[maybe_unused]] S {} = S(1)", outputs_, y_, unit_);
         open_block(out_, fmt::format("[[nodiscard]] status_t<S> {}({}) const noexcept", kernel_.name, arguments));
         for (std::size_t i = 0; i < lanes_ && is_rate_; ++i) out_.line(fmt::format("{}[0][{}] = s[{}];", x_, i, i));
         const bool has_status = print_lines(out_, body, request);
+        if (is_rate_) out_.line(fmt::format("for (S& {0} : {1}[1]) {0} *= {2};", next_, y_, unit_));
         print_loop();
         out_.line(has_status ? "return status;" : "return StatusOf<S>::good();");
         close_block(out_);
@@ -176,7 +177,7 @@ class SeriesPrinter {
             if (!sums->pairs.empty()) out_.line(fmt::format("const auto {} = {}({});", sums->values, sums->object, k_));
         if (std::ranges::find(series_.are_means, true) != series_.are_means.end())
             out_.line(fmt::format("const OneOver<S> {}({});", share_, k_));
-        if (is_rate_) out_.line(fmt::format("const OneOver<S> {}({} + 1);", next_, k_));
+        if (is_rate_) out_.line(fmt::format("const OneOver<S> {}({} + 1, {});", next_, k_, unit_));
         std::vector<std::string> sides[2] = {std::vector<std::string>(count), std::vector<std::string>(count)};
         for (const Statement& statement : loop_) {
             if (statement.kind != Statement::Kind::store) {
@@ -221,7 +222,8 @@ class SeriesPrinter {
     std::size_t outputs_, lanes_;
     std::string x_, y_, order_, k_;
     Sums products_, squares_;
-    std::string share_, next_; ///< 1/k and 1/(k + 1)
+    std::string share_, next_; ///< 1/k, and unit/(k + 1)
+    std::string unit_;         ///< of time
     std::set<std::string> late_; ///< what stands in the loop alone
     std::size_t last_late_ = 0;  ///< outputs from here on are there to get a name
     BodyPart loop_;

@@ -28,6 +28,8 @@ constexpr std::array kernel_rows{
     KernelRow{"taylor", every, rate, "Taylor coefficients of the motion through s at t.", true},
     KernelRow{"event_series", every, column_of_values_checked, "Taylor coefficients of the events along the motion x.",
               true},
+    KernelRow{"domain_series", every, column_of_values_checked,
+              "Taylor coefficients of the conditions of the domain along the motion x.", true},
     KernelRow{"mass_matrix", Of::lagrange, dense_matrix, "W_ab = d2L/dy^a dy^b, shape ({0}, {1}), symmetric."},
     KernelRow{"momentum", Of::lagrange, column_of_values, "p_a = dL/dy^a, shape ({0})."},
     KernelRow{"velocity", Of::hamilton, column_of_values, "y^a = dH/dmu_a, shape ({0})."},

@@ -150,6 +150,20 @@ TEST_CASE("the kinematics of N bodies takes six sums a pair, and static factors 
     CHECK(taylor_recurrence(g, linear, coordinates, {}).sums.empty());
 }
 
+TEST_CASE("static factors of a rate are one factor, which all orders round alike", "[taylor]")
+{
+    Graph g;
+    const NodeId x = g.input("x"), y = g.input("y"), I = g.input("I"), J = g.input("J"), coordinates[] = {x, y};
+    const NodeId rate = g.divide(g.multiply(g.negate(g.multiply(g.subtract(J, I), x)), y), I);
+    const NodeId joined = with_joined_factors(g, std::vector{rate}, coordinates)[0];
+    const NodeId factor = g.divide(g.subtract(J, I), I);
+    CHECK(joined == g.negate(g.multiply(factor, g.multiply(x, y))));
+    const TaylorRecurrence series = taylor_recurrence(g, std::vector{joined}, coordinates, {});
+    REQUIRE(series.sums.size() == 1);
+    const NodeId ends = g.add(g.multiply(x, series.curve[1]), g.multiply(y, series.curve[0]));
+    CHECK(series.outputs[0] == g.negate(g.multiply(factor, g.add(ends, series.sums[0]))));
+}
+
 TEST_CASE("the components of a linear system satisfy it in every order", "[taylor]")
 {
     for (const MatrixStructure structure :

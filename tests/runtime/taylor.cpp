@@ -11,28 +11,30 @@ using namespace lagen;
 
 namespace {
 
-/// x' = x - x y, y' = x y - y: x y e^(-x - y) is constant.
+/// x' = c (x - x y), y' = c (x y - y): x y e^(-x - y) is constant.
 template <class S>
 struct Prey {
     using Scalar = S;
     using State = Eigen::Matrix<S, 2, 1>;
     static constexpr int dimension = 2;
+    S c = S(1);
 
     Status rhs(S, const State& s, State& ds) const noexcept
     {
-        ds = State(s[0] - s[0] * s[1], s[0] * s[1] - s[1]);
+        ds = State(c * (s[0] - s[0] * s[1]), c * (s[0] * s[1] - s[1]));
         return Status::ok;
     }
 
     template <int most>
-    Status taylor(S, const State& s, int order, TaylorSeries<S, 2, most>& x) const noexcept
+    Status taylor(S, const State& s, int order, TaylorSeries<S, 2, most>& x, S unit = S(1)) const noexcept
     {
         x[0] = {s[0], s[1]};
-        x[1] = {s[0] - s[0] * s[1], s[0] * s[1] - s[1]};
+        x[1] = {unit * (c * (s[0] - s[0] * s[1])), unit * (c * (s[0] * s[1] - s[1]))};
         LowerSums<S, 1, most> sums;
         for (int k = 1; k < order; ++k) {
-            const S product = x[k][0] * s[1] + x[k][1] * s[0] + sums(k)[0], next = S(1) / S(k + 1);
-            x[k + 1] = {next * (x[k][0] - product), next * (product - x[k][1])};
+            const S product = x[k][0] * s[1] + x[k][1] * s[0] + sums(k)[0];
+            const OneOver<S> next(k + 1, unit);
+            x[k + 1] = {next * (c * (x[k][0] - product)), next * (c * (product - x[k][1]))};
             sums.keep(k, {x[k][0]}, {x[k][1]});
         }
         return Status::ok;
@@ -71,6 +73,55 @@ struct Swing {
     }
 };
 
+/// Below its events' top and above -2.
+struct Capped : Swing {
+    Eigen::Vector2d domain(double, const State& s) const noexcept { return {top - s[0], 2 + s[0]}; }
+    template <int most>
+    Status domain_series(double, const State&, int order, const TaylorSeries<double, 2, most>& x,
+                         TaylorSeries<double, 2, most>& e) const noexcept
+    {
+        for (int k = 0; k <= order; ++k) e[k] = {-x[k][0], x[k][0]};
+        e[0][0] += top;
+        e[0][1] += 2;
+        return Status::ok;
+    }
+};
+
+/// w' = c (w2 w3, w3 w1, w1 w2), the free rigid body, c2 < 0: w1^2/c1 - w2^2/c2 is constant.
+struct Body {
+    using Scalar = double;
+    using State = Eigen::Vector3d;
+    static constexpr int dimension = 3;
+    static constexpr double c1 = 0.33715271893918405, c2 = -0.7149589658329821, c3 = 0.1061033600397708;
+
+    [[nodiscard]] static long double constant(const State& s)
+    {
+        const long double a = s[0], b = s[1];
+        return a * a / c1 - b * b / c2;
+    }
+    Status rhs(double, const State& s, State& ds) const noexcept
+    {
+        ds = State(c1 * (s[1] * s[2]), c2 * (s[2] * s[0]), c3 * (s[0] * s[1]));
+        return Status::ok;
+    }
+    template <int most>
+    Status taylor(double, const State& s, int order, TaylorSeries<double, 3, most>& x, double unit = 1) const noexcept
+    {
+        x[0] = {s[0], s[1], s[2]};
+        x[1] = {unit * (c1 * (s[1] * s[2])), unit * (c2 * (s[2] * s[0])), unit * (c3 * (s[0] * s[1]))};
+        LowerSums<double, 3, most> sums;
+        for (int k = 1; k < order; ++k) {
+            const auto lower = sums(k);
+            const OneOver<double> next(k + 1, unit);
+            x[k + 1] = {next * (c1 * (s[1] * x[k][2] + s[2] * x[k][1] + lower[0])),
+                        next * (c2 * (s[2] * x[k][0] + s[0] * x[k][2] + lower[1])),
+                        next * (c3 * (s[0] * x[k][1] + s[1] * x[k][0] + lower[2]))};
+            sums.keep(k, {x[k][1], x[k][2], x[k][0]}, {x[k][2], x[k][0], x[k][1]});
+        }
+        return Status::ok;
+    }
+};
+
 /// One lane: x' = 1 below 0, 1 + x above it (a kink), or x' = x^2 (a pole), or a matrix that is singular from x = 1 on.
 struct Line {
     using Scalar = double;
@@ -105,6 +156,8 @@ typename Prey<S>::State far(const Taylor& method, S end = S(5))
 }
 
 using EventOf = EventRequest<double, Swing::State>;
+
+constexpr std::size_t long_run = LAGEN_SANITIZED ? 10'000 : 1'000'000;
 
 } // namespace
 
@@ -201,6 +254,73 @@ TEST_CASE("compensated sums keep an invariant to round-off over a long run")
     CHECK(drift > 0);
 }
 
+TEST_CASE("a part of a number is rounded without a bias, in a unit that is a power of two")
+{
+    const auto check = []<class S>(S) {
+        std::mt19937 random(3);
+        std::uniform_real_distribution<S> number(1, 2);
+        for (int k = 1; k < 70; ++k) {
+            double bias = 0, largest = 0;
+            constexpr int count = 4000;
+            for (int n = 0; n < count; ++n) {
+                const S x = number(random), found = OneOver<S>(k) * x;
+                REQUIRE(OneOver<S>(k, S(0x1p-40)) * x == S(0x1p-40) * found);
+                const long double exact = static_cast<long double>(x) / k;
+                const double error = static_cast<double>((found - exact) / exact / std::numeric_limits<S>::epsilon());
+                bias += error / count;
+                largest = std::max(largest, std::abs(error));
+            }
+            INFO("1/" << k << " of " << sizeof(S) << " bytes");
+            CHECK(std::abs(bias) < 0.03);
+            CHECK(largest < 1);
+        }
+    };
+    check(1.0F);
+    check(1.0);
+}
+
+TEST_CASE("the constant of a rigid body walks at random for a million steps")
+{
+    const long double epsilon = std::numeric_limits<double>::epsilon();
+    for (const double part : {0.0, 0.3, 0.6}) {
+        const Body::State start(0.6 + part, 1.1, 0.5 - part / 2);
+        const long double begin = Body::constant(start);
+        Integrator integrator(Body{}, start, 0.0, Taylor{.tolerance = 1e-16});
+        for (std::size_t next = 1000; next <= long_run; next *= 10) {
+            while (integrator.steps() < next) REQUIRE(integrator.step() == Status::ok);
+            const long double error = std::abs(Body::constant(integrator.state()) / begin - 1);
+            INFO("after " << next << " steps " << static_cast<double>(error));
+            CHECK(error < 0.7L * epsilon * std::sqrt(static_cast<long double>(next)));
+        }
+    }
+}
+
+TEST_CASE("the last step goes from the exact time to the end")
+{
+    const Line clock;
+    Integrator integrator(clock, Line::State(-20.0), 1e6, Taylor{.tolerance = 1e-12, .max_step = 0.1});
+    REQUIRE(integrator.advance_to(1e6 + 10) == Status::ok);
+    CHECK(std::abs(integrator.state()[0] + 10) < 1e-14);
+    Integrator fixed(clock, Line::State(-20.0), 1e6, Rk4{.step = 0.1});
+    REQUIRE(fixed.advance_to(1e6 + 10.05) == Status::ok);
+    CHECK(std::abs(fixed.state()[0] - (1e6 + 10.05 - 1e6 - 20)) < 1e-13);
+}
+
+TEST_CASE("the unit of time does not matter, though coefficients in it overflow or vanish")
+{
+    const Eigen::Vector2d s(2, 0.5);
+    const Taylor method{.tolerance = 1e-14};
+    const auto plain = integrate(Prey<double>{}, s, {0.0, 5.0}, method);
+    REQUIRE(plain);
+    for (const double unit : {0x1p-60, 0x1p60, 1e-13, 1e13}) {
+        const auto run = integrate(Prey<double>{unit}, s, {0.0, 5 / unit}, method);
+        INFO("unit " << unit);
+        REQUIRE(run);
+        CHECK(run.steps == plain.steps);
+        CHECK((run.state - plain.state).norm() < 1e-13);
+    }
+}
+
 TEST_CASE("the polynomial is the dense output, and rows do not change the steps")
 {
     const Prey<double> model;
@@ -219,7 +339,7 @@ TEST_CASE("the polynomial is the dense output, and rows do not change the steps"
         CHECK((run.states[k] - exact).norm() < 1e-11);
         CHECK((run.solution(times[k]) - exact).norm() < 1e-11);
     }
-    CHECK(run.rhs_calls == run.steps + 1);
+    CHECK(run.rhs_calls == run.steps + 2);
 }
 
 TEST_CASE("two crossings of an event that are 3e-5 apart in a step of 2 are both found")
@@ -294,6 +414,25 @@ TEST_CASE("a run leaves its domain inside a step that ends within it")
     CHECK(run.status() == Status::left_domain);
     CHECK(run.t == Approx(std::asin(0.9)).margin(1e-3));
     CHECK(run.state[0] <= 0.9);
+}
+
+TEST_CASE("a run ends where a condition of its domain has a root, though the motion is back before the step ends")
+{
+    static_assert(HasDomainSeries<Capped>);
+    const double crossing = std::asin(1 - 1e-10);
+    const auto run = integrate(Capped{}, {0.0, 1.0}, {0.0, 30.0}, Taylor{.tolerance = 1e-12});
+    CHECK(run.status() == Status::left_domain);
+    CHECK(std::abs(run.t - crossing) < 1e-10);
+    CHECK(run.failed_at >= run.t);
+    CHECK(run.failed_at - run.t < 1e-14);
+    CHECK(run.rejected < 5);
+    // Nor does an end within a hundredth of a step behind the crossing make it try for ever.
+    for (const double rest : {1e-9, 1e-6, 1e-3, 0.01, 0.1}) {
+        const auto near = integrate(Capped{}, {0.0, 1.0}, {0.0, crossing + rest}, Taylor{.tolerance = 1e-12});
+        CHECK(near.status() == Status::left_domain);
+        CHECK(std::abs(near.t - crossing) < 1e-10);
+        CHECK(near.rejected < 20);
+    }
 }
 
 TEST_CASE("a state that is no number is no end of a step")

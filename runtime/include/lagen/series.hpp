@@ -51,37 +51,37 @@ inline constexpr auto split_reciprocals = [] {
 
 } // namespace detail
 
-/// `one_over * x` is x/k for a whole number k < 512, within 0.6 units of the last place and without a bias: a reciprocal
-/// that is rounded by itself shifts x by the same fraction in every step, and invariants drift in proportion to the
-/// time. Float, double and packs of them take two products, which a processor has sooner than a quotient.
+/// `one_over * x` is unit x / k for a whole number k < 512 and a power of two as the unit, within a unit of the last place
+/// and without a bias: a reciprocal that is rounded by itself shifts x by the same fraction in every step, and
+/// invariants drift in proportion to the time. Float, double and packs of them take two products, which a processor has
+/// sooner than a quotient.
 template <class S>
 class OneOver {
     using Real = real_t<S>;
     static constexpr bool is_split = std::is_same_v<Real, float> || std::is_same_v<Real, double>;
-    using Factor = std::conditional_t<is_split, detail::SplitReciprocal<Real>, S>;
 
   public:
-    explicit OneOver(int k) noexcept : factor_(factor(k)) {}
+    explicit OneOver(int k, const S& unit = S(1)) noexcept : first_(unit), second_(S(k))
+    {
+        if constexpr (is_split) {
+            const auto& known = detail::split_reciprocals<Real>;
+            const auto place = static_cast<std::size_t>(k);
+            const auto parts = place < known.size() ? known[place] : detail::SplitReciprocal<Real>(k);
+            first_ = unit * S(parts.high);
+            second_ = unit * S(parts.low);
+        }
+    }
 
     [[nodiscard]] [[gnu::always_inline]] friend S operator*(const OneOver& one_over, const S& x) noexcept
     {
         if constexpr (is_split)
-            return x * S(one_over.factor_.high) + x * S(one_over.factor_.low);
+            return x * one_over.first_ + x * one_over.second_;
         else
-            return x / one_over.factor_;
+            return one_over.first_ * x / one_over.second_;
     }
 
   private:
-    static Factor factor(int k) noexcept
-    {
-        constexpr auto& known = detail::split_reciprocals<std::conditional_t<is_split, Real, double>>;
-        if constexpr (is_split)
-            return static_cast<std::size_t>(k) < known.size() ? known[static_cast<std::size_t>(k)] : Factor(k);
-        else
-            return S(k);
-    }
-
-    Factor factor_;
+    S first_, second_; ///< summands of unit/k; else the unit and k
 };
 
 namespace detail {
