@@ -50,7 +50,8 @@ class SeriesPrinter {
         out_.line(fmt::format("static constexpr int {}_sums = {};", kernel_.name, series_.sums.size()));
         out_.blank();
         for (const std::string& line : kernel_.documentation) out_.comment(line);
-        out_.comment(fmt::format("{}[k][i], k <= order <= most: unit^k (d/dt)^k / k! of entry i; a power of two as the unit is exact.", y_));
+        out_.comment(fmt::format(
+            "{}[k][i], k <= order <= most: unit^k (d/dt)^k / k! of entry i; a power of two as the unit is exact.", y_));
         out_.line("template <int most>");
         const FunctionRequest request = request_for([this](std::size_t i, const std::string& value) {
             return fmt::format("{}[{}][{}] = {};", y_, is_rate_ ? 1 : 0, i, value);
@@ -222,8 +223,8 @@ class SeriesPrinter {
     std::size_t outputs_, lanes_;
     std::string x_, y_, order_, k_;
     Sums products_, squares_;
-    std::string share_, next_; ///< 1/k, and unit/(k + 1)
-    std::string unit_;         ///< of time
+    std::string share_, next_;   ///< 1/k, and unit/(k + 1)
+    std::string unit_;           ///< of time
     std::set<std::string> late_; ///< what stands in the loop alone
     std::size_t last_late_ = 0;  ///< outputs from here on are there to get a name
     BodyPart loop_;

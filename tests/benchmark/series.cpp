@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Taylor's method beside DOP853 at equal errors, on one generated model: the tolerance of each is the loosest, in steps
-/// of 10^(1/4), whose state at the end is within the target of a run in long double. Compiled by scripts/series-table
-/// with -D MODEL=heavy_top -D START=1,0,.. . Prints, a line a target, the errors, the microseconds (least of 15
-/// interleaved rounds) and their ratio.
+/// Taylor's method beside DOP853 at equal errors, on one generated model: the tolerance of each is the loosest, in
+/// steps of 10^(1/4), whose state at the end is within the target of a run in long double. Compiled by
+/// scripts/series-table with -D MODEL=heavy_top -D START=1,0,.. . Prints, a line a target, the errors, the microseconds
+/// (least of 15 interleaved rounds) and their ratio.
 #define TEXT_OF_(x) #x
 #define TEXT_OF(x) TEXT_OF_(x)
 // A space here would stand in the name of the file.

@@ -395,11 +395,14 @@ std::vector<NodeId> with_joined_factors(Graph& graph, std::span<const NodeId> fu
         const bool splits = moves[id] && (op == Op::negate || op == Op::multiply || op == Op::divide);
         if (!splits) {
             map.rebuild(id);
-            if (op != Op::factor && op != Op::solve) products[id] = moves[id] ? Product{one, map[id]} : Product{map[id], one};
+            if (op != Op::factor && op != Op::solve)
+                products[id] = moves[id] ? Product{one, map[id]} : Product{map[id], one};
             continue;
         }
         const Product a = products[graph.operands(id)[0]], b = products[graph.operands(id).back()];
-        const auto joined = [&](NodeId x, NodeId y) { return op == Op::multiply ? graph.multiply(x, y) : graph.divide(x, y); };
+        const auto joined = [&](NodeId x, NodeId y) {
+            return op == Op::multiply ? graph.multiply(x, y) : graph.divide(x, y);
+        };
         if (op == Op::negate)
             products[id] = {graph.negate(a.factor), a.core};
         else

@@ -33,10 +33,10 @@ struct TaylorRecurrence {
     std::vector<NodeId> outputs;              ///< the coefficients of order k >= 1 of the functions
 };
 
-/// The same functions, where the factors of a product or quotient that do not move are one factor in front. Coefficients
-/// of all orders then round the same constant: where they round it apart, the series is that of no equation, and what a
-/// step loses of an invariant has the same sign in all of them. Two factors such as 6/5 and 10/11, one after the other,
-/// have rounding errors that do not cancel either.
+/// The same functions, where the factors of a product or quotient that do not move are one factor in front.
+/// Coefficients of all orders then round the same constant: where they round it apart, the series is that of no
+/// equation, and what a step loses of an invariant has the same sign in all of them. Two factors such as 6/5 and 10/11,
+/// one after the other, have rounding errors that do not cancel either.
 [[nodiscard]] std::vector<NodeId> with_joined_factors(Graph& graph, std::span<const NodeId> functions,
                                                       std::span<const NodeId> moving);
 

@@ -51,8 +51,8 @@ inline constexpr auto split_reciprocals = [] {
 
 } // namespace detail
 
-/// `one_over * x` is unit x / k for a whole number k < 512 and a power of two as the unit, within a unit of the last place
-/// and without a bias: a reciprocal that is rounded by itself shifts x by the same fraction in every step, and
+/// `one_over * x` is unit x / k for a whole number k < 512 and a power of two as the unit, within a unit of the last
+/// place and without a bias: a reciprocal that is rounded by itself shifts x by the same fraction in every step, and
 /// invariants drift in proportion to the time. Float, double and packs of them take two products, which a processor has
 /// sooner than a quotient.
 template <class S>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// A model's Taylor coefficients at the beginning of a step: those of the motion, of the events and of the conditions of
-/// the domain along it, and how far they hold.
+/// A model's Taylor coefficients at the beginning of a step: those of the motion, of the events and of the conditions
+/// of the domain along it, and how far they hold.
 #pragma once
 
 #include "lagen/integrate/control.hpp"
@@ -58,20 +58,20 @@ using SeriesAlong = TaylorSeries<typename M::Scalar, (count > 0 ? count : 1), 8>
 
 /// And with those of its events along the motion: `--with taylor,event_series`.
 template <class M>
-concept HasEventSeries = HasTaylor<M> && detail::event_count<M>() > 0 &&
-    requires(const M& model, typename M::Scalar t, const typename M::State& s,
-             const TaylorSeries<typename M::Scalar, M::dimension, 8>& x,
-             detail::SeriesAlong<M, detail::event_count<M>()>& e)
+concept HasEventSeries = HasTaylor<M> && detail::event_count<M>()
+> 0 && requires(const M& model, typename M::Scalar t, const typename M::State& s,
+                const TaylorSeries<typename M::Scalar, M::dimension, 8>& x,
+                detail::SeriesAlong<M, detail::event_count<M>()>& e)
 {
     model.event_series(t, s, 8, x, e);
 };
 
 /// And with those of the conditions of its domain, which a header with `taylor` has where they have no kinks.
 template <class M>
-concept HasDomainSeries = HasTaylor<M> && detail::condition_count<M>() > 0 &&
-    requires(const M& model, typename M::Scalar t, const typename M::State& s,
-             const TaylorSeries<typename M::Scalar, M::dimension, 8>& x,
-             detail::SeriesAlong<M, detail::condition_count<M>()>& e)
+concept HasDomainSeries = HasTaylor<M> && detail::condition_count<M>()
+> 0 && requires(const M& model, typename M::Scalar t, const typename M::State& s,
+                const TaylorSeries<typename M::Scalar, M::dimension, 8>& x,
+                detail::SeriesAlong<M, detail::condition_count<M>()>& e)
 {
     model.domain_series(t, s, 8, x, e);
 };
@@ -219,11 +219,10 @@ class Expansion {
         if (functions.known) length = std::min<Real>(length, length_of_functions(functions.of, order, scale));
     }
 
-    /// The longest h for which the polynomials, which tell where signs change, hold too: |e_k| h^k within the tolerance,
-    /// relative to |e_0| + |e_1|, for the last two orders.
+    /// The longest h for which the polynomials, which tell where signs change, hold too: |e_k| h^k within the
+    /// tolerance, relative to |e_0| + |e_1|, for the last two orders.
     template <class Functions>
-    [[nodiscard]] static Real length_of_functions(const Functions& e, int order,
-                                                  const ErrorScale<Real>& scale) noexcept
+    [[nodiscard]] static Real length_of_functions(const Functions& e, int order, const ErrorScale<Real>& scale) noexcept
     {
         Real longest = unbounded();
         for (std::size_t r = 0; r < e[0].size(); ++r) {
