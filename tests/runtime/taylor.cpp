@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Taylor's method on recurrences written by hand: order, digits, dense output, events, kinks, failures.
-#include "lagen/lagen.hpp"
+#include "runtime/taylor_models.hpp"
 #include "support/tolerances.hpp"
 
 #include <catch2/catch.hpp>
@@ -8,143 +8,9 @@
 #include <random>
 
 using namespace lagen;
+using namespace lagen::testing;
 
 namespace {
-
-/// x' = c (x - x y), y' = c (x y - y): x y e^(-x - y) is constant.
-template <class S>
-struct Prey {
-    using Scalar = S;
-    using State = Eigen::Matrix<S, 2, 1>;
-    static constexpr int dimension = 2;
-    S c = S(1);
-
-    Status rhs(S, const State& s, State& ds) const noexcept
-    {
-        ds = State(c * (s[0] - s[0] * s[1]), c * (s[0] * s[1] - s[1]));
-        return Status::ok;
-    }
-
-    template <int most>
-    Status taylor(S, const State& s, int order, TaylorSeries<S, 2, most>& x, S unit = S(1)) const noexcept
-    {
-        x[0] = {s[0], s[1]};
-        x[1] = {unit * (c * (s[0] - s[0] * s[1])), unit * (c * (s[0] * s[1] - s[1]))};
-        LowerSums<S, 1, most> sums;
-        for (int k = 1; k < order; ++k) {
-            const S product = x[k][0] * s[1] + x[k][1] * s[0] + sums(k)[0];
-            const OneOver<S> next(k + 1, unit);
-            x[k + 1] = {next * (c * (x[k][0] - product)), next * (c * (product - x[k][1]))};
-            sums.keep(k, {x[k][0]}, {x[k][1]});
-        }
-        return Status::ok;
-    }
-};
-
-/// x'' = -x, with events: x above 1 - 1e-10, and v.
-struct Swing {
-    using Scalar = double;
-    using State = Eigen::Vector2d;
-    static constexpr int dimension = 2;
-    static constexpr std::array<const char*, 2> events_names{"top", "turn"};
-    static constexpr double top = 1 - 1e-10;
-
-    Status rhs(double, const State& s, State& ds) const noexcept
-    {
-        ds = State(s[1], -s[0]);
-        return Status::ok;
-    }
-    Eigen::Vector2d events(double, const State& s) const noexcept { return {s[0] - top, s[1]}; }
-
-    template <int most>
-    Status taylor(double, const State& s, int order, TaylorSeries<double, 2, most>& x) const noexcept
-    {
-        x[0] = {s[0], s[1]};
-        for (int k = 0; k < order; ++k) x[k + 1] = {x[k][1] / (k + 1), -x[k][0] / (k + 1)};
-        return Status::ok;
-    }
-    template <int most>
-    Status event_series(double, const State&, int order, const TaylorSeries<double, 2, most>& x,
-                        TaylorSeries<double, 2, most>& e) const noexcept
-    {
-        for (int k = 0; k <= order; ++k) e[k] = x[k];
-        e[0][0] -= top;
-        return Status::ok;
-    }
-};
-
-/// Below its events' top and above -2.
-struct Capped : Swing {
-    Eigen::Vector2d domain(double, const State& s) const noexcept { return {top - s[0], 2 + s[0]}; }
-    template <int most>
-    Status domain_series(double, const State&, int order, const TaylorSeries<double, 2, most>& x,
-                         TaylorSeries<double, 2, most>& e) const noexcept
-    {
-        for (int k = 0; k <= order; ++k) e[k] = {-x[k][0], x[k][0]};
-        e[0][0] += top;
-        e[0][1] += 2;
-        return Status::ok;
-    }
-};
-
-/// w' = c (w2 w3, w3 w1, w1 w2), the free rigid body, c2 < 0: w1^2/c1 - w2^2/c2 is constant.
-struct Body {
-    using Scalar = double;
-    using State = Eigen::Vector3d;
-    static constexpr int dimension = 3;
-    static constexpr double c1 = 0.33715271893918405, c2 = -0.7149589658329821, c3 = 0.1061033600397708;
-
-    [[nodiscard]] static long double constant(const State& s)
-    {
-        const long double a = s[0], b = s[1];
-        return a * a / c1 - b * b / c2;
-    }
-    Status rhs(double, const State& s, State& ds) const noexcept
-    {
-        ds = State(c1 * (s[1] * s[2]), c2 * (s[2] * s[0]), c3 * (s[0] * s[1]));
-        return Status::ok;
-    }
-    template <int most>
-    Status taylor(double, const State& s, int order, TaylorSeries<double, 3, most>& x, double unit = 1) const noexcept
-    {
-        x[0] = {s[0], s[1], s[2]};
-        x[1] = {unit * (c1 * (s[1] * s[2])), unit * (c2 * (s[2] * s[0])), unit * (c3 * (s[0] * s[1]))};
-        LowerSums<double, 3, most> sums;
-        for (int k = 1; k < order; ++k) {
-            const auto lower = sums(k);
-            const OneOver<double> next(k + 1, unit);
-            x[k + 1] = {next * (c1 * (s[1] * x[k][2] + s[2] * x[k][1] + lower[0])),
-                        next * (c2 * (s[2] * x[k][0] + s[0] * x[k][2] + lower[1])),
-                        next * (c3 * (s[0] * x[k][1] + s[1] * x[k][0] + lower[2]))};
-            sums.keep(k, {x[k][1], x[k][2], x[k][0]}, {x[k][2], x[k][0], x[k][1]});
-        }
-        return Status::ok;
-    }
-};
-
-/// One lane: x' = 1 below 0, 1 + x above it (a kink), or x' = x^2 (a pole), or a matrix that is singular from x = 1 on.
-struct Line {
-    using Scalar = double;
-    using State = Eigen::Matrix<double, 1, 1>;
-    static constexpr int dimension = 1;
-    enum class Kind { kink, pole, singular } kind = Kind::kink;
-
-    [[nodiscard]] double rate(double x) const { return kind == Kind::pole ? x * x : (x < 0 ? 1 : 1 + x); }
-    Status rhs(double, const State& s, State& ds) const noexcept
-    {
-        ds[0] = rate(s[0]);
-        return kind == Kind::singular && s[0] >= 1 ? Status::singular_mass_matrix : Status::ok;
-    }
-    template <int most>
-    Status taylor(double, const State& s, int order, TaylorSeries<double, 1, most>& x) const noexcept
-    {
-        x[0][0] = s[0];
-        x[1][0] = rate(s[0]);
-        for (int k = 1; k < order; ++k)
-            x[k + 1][0] = kind == Kind::pole ? x[k][0] * s[0] : (s[0] < 0 ? 0 : x[k][0] / (k + 1));
-        return kind == Kind::singular && s[0] >= 1 ? Status::singular_mass_matrix : Status::ok;
-    }
-};
 
 template <class S>
 typename Prey<S>::State far(const Taylor& method, S end = S(5))
@@ -155,9 +21,7 @@ typename Prey<S>::State far(const Taylor& method, S end = S(5))
     return run.state;
 }
 
-using EventOf = EventRequest<double, Swing::State>;
-
-constexpr std::size_t long_run = LAGEN_SANITIZED ? 10'000 : 1'000'000;
+using EventOf = EventRequest<double, Sway::State>;
 
 } // namespace
 
@@ -239,88 +103,6 @@ TEST_CASE("errors follow the tolerance down to the rounding of the scalar")
           1e-11);
 }
 
-TEST_CASE("compensated sums keep an invariant to round-off over a long run")
-{
-    const Prey<double> model;
-    const auto invariant = [](const Eigen::Vector2d& s) { return std::log(s[0] * s[1]) - s[0] - s[1]; };
-    const Eigen::Vector2d s(2, 0.5);
-    double drift = 0;
-    Integrator integrator(model, s, 0.0, Taylor{.tolerance = 1e-16});
-    while (integrator.t() < 3000) {
-        REQUIRE(integrator.step() == Status::ok);
-        drift = std::max(drift, std::abs(invariant(integrator.state()) - invariant(s)));
-    }
-    CHECK(drift < 1e-13);
-    CHECK(drift > 0);
-}
-
-TEST_CASE("a part of a number is rounded without a bias, in a unit that is a power of two")
-{
-    const auto check = []<class S>(S) {
-        std::mt19937 random(3);
-        std::uniform_real_distribution<S> number(1, 2);
-        for (int k = 1; k < 70; ++k) {
-            double bias = 0, largest = 0;
-            constexpr int count = 4000;
-            for (int n = 0; n < count; ++n) {
-                const S x = number(random), found = OneOver<S>(k) * x;
-                REQUIRE(OneOver<S>(k, S(0x1p-40)) * x == S(0x1p-40) * found);
-                const long double exact = static_cast<long double>(x) / k;
-                const double error = static_cast<double>((found - exact) / exact / std::numeric_limits<S>::epsilon());
-                bias += error / count;
-                largest = std::max(largest, std::abs(error));
-            }
-            INFO("1/" << k << " of " << sizeof(S) << " bytes");
-            CHECK(std::abs(bias) < 0.03);
-            CHECK(largest < 1);
-        }
-    };
-    check(1.0F);
-    check(1.0);
-}
-
-TEST_CASE("the constant of a rigid body walks at random for a million steps")
-{
-    const long double epsilon = std::numeric_limits<double>::epsilon();
-    for (const double part : {0.0, 0.3, 0.6}) {
-        const Body::State start(0.6 + part, 1.1, 0.5 - part / 2);
-        const long double begin = Body::constant(start);
-        Integrator integrator(Body{}, start, 0.0, Taylor{.tolerance = 1e-16});
-        for (std::size_t next = 1000; next <= long_run; next *= 10) {
-            while (integrator.steps() < next) REQUIRE(integrator.step() == Status::ok);
-            const long double error = std::abs(Body::constant(integrator.state()) / begin - 1);
-            INFO("after " << next << " steps " << static_cast<double>(error));
-            CHECK(error < 0.7L * epsilon * std::sqrt(static_cast<long double>(next)));
-        }
-    }
-}
-
-TEST_CASE("the last step goes from the exact time to the end")
-{
-    const Line clock;
-    Integrator integrator(clock, Line::State(-20.0), 1e6, Taylor{.tolerance = 1e-12, .max_step = 0.1});
-    REQUIRE(integrator.advance_to(1e6 + 10) == Status::ok);
-    CHECK(std::abs(integrator.state()[0] + 10) < 1e-14);
-    Integrator fixed(clock, Line::State(-20.0), 1e6, Rk4{.step = 0.1});
-    REQUIRE(fixed.advance_to(1e6 + 10.05) == Status::ok);
-    CHECK(std::abs(fixed.state()[0] - (1e6 + 10.05 - 1e6 - 20)) < 1e-13);
-}
-
-TEST_CASE("the unit of time does not matter, though coefficients in it overflow or vanish")
-{
-    const Eigen::Vector2d s(2, 0.5);
-    const Taylor method{.tolerance = 1e-14};
-    const auto plain = integrate(Prey<double>{}, s, {0.0, 5.0}, method);
-    REQUIRE(plain);
-    for (const double unit : {0x1p-60, 0x1p60, 1e-13, 1e13}) {
-        const auto run = integrate(Prey<double>{unit}, s, {0.0, 5 / unit}, method);
-        INFO("unit " << unit);
-        REQUIRE(run);
-        CHECK(run.steps == plain.steps);
-        CHECK((run.state - plain.state).norm() < 1e-13);
-    }
-}
-
 TEST_CASE("the polynomial is the dense output, and rows do not change the steps")
 {
     const Prey<double> model;
@@ -346,12 +128,12 @@ TEST_CASE("two crossings of an event that are 3e-5 apart in a step of 2 are both
 {
     const std::vector<EventOf> events{{.index = 0, .direction = Crossing::any, .stop = false},
                                       {.index = 1, .direction = Crossing::any, .stop = false}};
-    const auto run = integrate(Swing{}, {0.0, 1.0}, {0.0, 40.0}, Taylor{.tolerance = 1e-14}, {.events = events});
+    const auto run = integrate(Sway{}, {0.0, 1.0}, {0.0, 40.0}, Taylor{.tolerance = 1e-14}, {.events = events});
     REQUIRE(run);
     CHECK(run.steps < 30);
     std::vector<double> tops, turns;
     for (const auto& event : run.events) (event.request == 0 ? tops : turns).push_back(event.t);
-    const double pi = std::acos(-1.0), half = std::acos(Swing::top);
+    const double pi = std::acos(-1.0), half = std::acos(Sway::top);
     REQUIRE(turns.size() == 13);
     REQUIRE(tops.size() == 14);
     for (std::size_t k = 0; k < turns.size(); ++k)
@@ -404,7 +186,7 @@ TEST_CASE("multiple roots and what is all noise are isolated in few parts")
 
 TEST_CASE("a run leaves its domain inside a step that ends within it")
 {
-    struct Walled : Swing {
+    struct Walled : Sway {
         Eigen::Matrix<double, 1, 1> domain(double, const State& s) const noexcept
         {
             return Eigen::Matrix<double, 1, 1>(0.9 - s[0]);
@@ -437,14 +219,14 @@ TEST_CASE("a run ends where a condition of its domain has a root, though the mot
 
 TEST_CASE("a state that is no number is no end of a step")
 {
-    const auto run = integrate(Line{Line::Kind::kink}, Line::State(1e300), {0.0, 100.0}, Taylor{.tolerance = 1e-10});
+    const auto run = integrate(Ramp{Ramp::Kind::kink}, Ramp::State(1e300), {0.0, 100.0}, Taylor{.tolerance = 1e-10});
     CHECK_FALSE(run);
     CHECK(std::isfinite(run.state[0]));
 }
 
 TEST_CASE("a kink inside a step is noticed by the equation at its end")
 {
-    const auto run = integrate(Line{}, Line::State(-0.5), {0.0, 1.0}, Taylor{.tolerance = 1e-10});
+    const auto run = integrate(Ramp{}, Ramp::State(-0.5), {0.0, 1.0}, Taylor{.tolerance = 1e-10});
     REQUIRE(run);
     CHECK(run.rejected > 0);
     CHECK(std::abs(run.state[0] - std::expm1(0.5)) < 1e-8);
@@ -452,13 +234,13 @@ TEST_CASE("a kink inside a step is noticed by the equation at its end")
 
 TEST_CASE("a run into a pole or into a singular matrix ends there with a status")
 {
-    const auto pole = integrate(Line{Line::Kind::pole}, Line::State(1.0), {0.0, 2.0}, Taylor{});
+    const auto pole = integrate(Ramp{Ramp::Kind::pole}, Ramp::State(1.0), {0.0, 2.0}, Taylor{});
     CHECK_FALSE(pole);
     CHECK(pole.t == Approx(1.0).margin(1e-6));
     CHECK((pole.status() == Status::step_too_small || pole.status() == Status::non_finite));
-    const auto singular = integrate(Line{Line::Kind::singular}, Line::State(0.5), {0.0, 2.0}, Taylor{});
+    const auto singular = integrate(Ramp{Ramp::Kind::singular}, Ramp::State(0.5), {0.0, 2.0}, Taylor{});
     CHECK(singular.status() == Status::singular_mass_matrix);
     CHECK(singular.state[0] == Approx(1.0).margin(1e-9));
-    const auto refused = integrate(Line{}, Line::State(0.5), {0.0, 2.0}, Taylor{.tolerance = -1});
+    const auto refused = integrate(Ramp{}, Ramp::State(0.5), {0.0, 2.0}, Taylor{.tolerance = -1});
     CHECK(refused.status() == Status::invalid_input);
 }
