@@ -187,8 +187,8 @@ class Expansion {
         return rough_power<Real>(std::clamp(std::floor(rough_logarithm(size)), -most, most));
     }
 
-    /// found(end), ascending for every r = 0, 1, .., for the ends of parts of (0, last] in units of h in each of which
-    /// function r changes its sign once at most: found(r, end). False where a series is not known up to there.
+    /// found(end), for one function after another, for the ends, ascending, of parts of (0, last] in units of h in each
+    /// of which the function changes its sign once at most. False where a series is not known up to there.
     template <class Functions, class Found>
     [[nodiscard]] bool isolate(const Functions& functions, const Real& h, const Real& last, int order,
                                const Found& found) const
@@ -204,7 +204,7 @@ class Expansion {
             using Isolation = RootIsolation<Real, highest + 1>;
             Isolation::isolate(coefficients, static_cast<std::size_t>(order) + 1,
                                std::numeric_limits<Real>::epsilon() * Real(64),
-                               [&](const Real& end) { found(r, Real(end * last)); });
+                               [&](const Real& end) { found(Real(end * last)); });
         }
         return true;
     }

@@ -120,9 +120,7 @@ class TaylorStepper {
                 if (status != Status::ok) leaves_at_ = theta;
             };
             bool known = false;
-            if constexpr (HasDomainSeries<M>)
-                known = here().isolate(here().domain, t1 - t, Real(1), order_,
-                                       [&](std::size_t, const Real& theta) { look(theta); });
+            if constexpr (HasDomainSeries<M>) known = here().isolate(here().domain, t1 - t, Real(1), order_, look);
             constexpr int parts = 16;
             for (int k = 1; k < parts && !known; ++k) look(Real(k) / Real(parts));
             if (leaves_at_ > Real(0)) return status == Status::ok ? Status::left_domain : status;
@@ -181,9 +179,7 @@ class TaylorStepper {
     template <class Found>
     bool split(Real h, Real last, const Found& found) const
     {
-        if constexpr (HasEventSeries<M>)
-            return here().isolate(here().events, h, last, order_,
-                                  [&](std::size_t, const Real& theta) { found(theta); });
+        if constexpr (HasEventSeries<M>) return here().isolate(here().events, h, last, order_, found);
         return false;
     }
 
