@@ -81,6 +81,10 @@ const char* start_hint(const RunOutcome& outcome)
         return "hint: the search for the controls found no maximum of H at the start: `guess = { u = .. }` in "
                "[control] "
                "says where it begins\n";
+    if (status == "non_finite" && outcome.method == "taylor")
+        return "hint: the right-hand side or its Taylor series is no finite number at the start: the model is not "
+               "defined there, overflows, or raises 0 to a power whose exponent is a parameter; `--bind` makes it a "
+               "number, other methods such as dop853 take no series\n";
     if (status == "non_finite")
         return "hint: the right-hand side is no finite number at the start: the model is not defined there, or "
                "overflows\n";

@@ -32,16 +32,15 @@ class SeriesPrinter {
                                                                                               fresh("squares"),
                                                                                               fresh("lower_squares"),
                                                                                               {}},
-          reciprocal_(fresh("reciprocal")), next_(fresh("next"))
+          share_(fresh("share")), next_(fresh("next")), unit_(fresh("unit"))
     {
         name_late(series_.order, fmt::format("S({})", k_));
-        name_late(series_.reciprocal, reciprocal_);
         for (std::size_t i = 0; i < lanes_; ++i) name_late(series_.curve[i], fmt::format("{}[{}][{}]", x_, k_, i));
-        name_late(series_.curve[lanes_], fmt::format("S({} == 1 ? 1 : 0)", k_));
+        name_late(series_.curve[lanes_], fmt::format("({} == 1 ? {} : S(0))", k_, unit_));
         sort_pairs();
         for (const auto* group : {&products_, &squares_})
             for (std::size_t m = 0; m < group->pairs.size(); ++m)
-                name_late(series_.sums[group->pairs[m]], fmt::format("{}[{}]", group->values, m));
+                name_late(series_.sums[group->pairs[m]], sum_text(*group, m));
     }
 
     Includes print()
@@ -51,17 +50,19 @@ class SeriesPrinter {
         out_.line(fmt::format("static constexpr int {}_sums = {};", kernel_.name, series_.sums.size()));
         out_.blank();
         for (const std::string& line : kernel_.documentation) out_.comment(line);
-        out_.comment(fmt::format("{}[k][i], k <= order <= most: (d/dt)^k / k! of entry i.", y_));
+        out_.comment(fmt::format(
+            "{}[k][i], k <= order <= most: unit^k (d/dt)^k / k! of entry i; a power of two as the unit is exact.", y_));
         out_.line("template <int most>");
         const FunctionRequest request = request_for([this](std::size_t i, const std::string& value) {
             return fmt::format("{}[{}][{}] = {};", y_, is_rate_ ? 1 : 0, i, value);
         });
         std::string arguments = fmt::format("{}, int {}", arguments_of(body, request), order_);
         if (!is_rate_) arguments += fmt::format(", const TaylorSeries<S, {}, most>& {}", lanes_, x_);
-        arguments += fmt::format(", TaylorSeries<S, {}, most>& {}", outputs_, y_);
+        arguments += fmt::format(", TaylorSeries<S, {}, most>& {}, [[maybe_unused]] S {} = S(1)", outputs_, y_, unit_);
         open_block(out_, fmt::format("[[nodiscard]] status_t<S> {}({}) const noexcept", kernel_.name, arguments));
         for (std::size_t i = 0; i < lanes_ && is_rate_; ++i) out_.line(fmt::format("{}[0][{}] = s[{}];", x_, i, i));
         const bool has_status = print_lines(out_, body, request);
+        if (is_rate_) out_.line(fmt::format("for (S& {0} : {1}[1]) {0} *= {2};", next_, y_, unit_));
         print_loop();
         out_.line(has_status ? "return status;" : "return StatusOf<S>::good();");
         close_block(out_);
@@ -98,6 +99,12 @@ class SeriesPrinter {
         return name;
     }
 
+    [[nodiscard]] std::string sum_text(const Sums& group, std::size_t m) const
+    {
+        const std::string sum = fmt::format("{}[{}]", group.values, m);
+        return series_.are_means[group.pairs[m]] ? fmt::format("({} * {})", share_, sum) : sum;
+    }
+
     void name_late(NodeId input, std::string text)
     {
         late_.insert(text);
@@ -120,7 +127,7 @@ class SeriesPrinter {
         last_late_ = nodes.size();
         std::vector<NodeId> inputs = series_.curve;
         inputs.insert(inputs.end(), series_.sums.begin(), series_.sums.end());
-        inputs.insert(inputs.end(), {series_.order, series_.reciprocal});
+        inputs.push_back(series_.order);
         const std::vector<bool> moves = depends_on(*module_.graph, inputs);
         std::set<NodeId> read;
         for (const NodeId id : reachable(*module_.graph, late))
@@ -169,8 +176,9 @@ class SeriesPrinter {
         out_.indent(1);
         for (const Sums* sums : {&products_, &squares_})
             if (!sums->pairs.empty()) out_.line(fmt::format("const auto {} = {}({});", sums->values, sums->object, k_));
-        out_.line(fmt::format("[[maybe_unused]] const S {} = S(1) / S({}), {} = S(1) / S({} + 1);", reciprocal_, k_,
-                              next_, k_));
+        if (std::ranges::find(series_.are_means, true) != series_.are_means.end())
+            out_.line(fmt::format("const OneOver<S> {}({});", share_, k_));
+        if (is_rate_) out_.line(fmt::format("const OneOver<S> {}({} + 1, {});", next_, k_, unit_));
         std::vector<std::string> sides[2] = {std::vector<std::string>(count), std::vector<std::string>(count)};
         for (const Statement& statement : loop_) {
             if (statement.kind != Statement::Kind::store) {
@@ -215,7 +223,8 @@ class SeriesPrinter {
     std::size_t outputs_, lanes_;
     std::string x_, y_, order_, k_;
     Sums products_, squares_;
-    std::string reciprocal_, next_;
+    std::string share_, next_;   ///< 1/k, and unit/(k + 1)
+    std::string unit_;           ///< of time
     std::set<std::string> late_; ///< what stands in the loop alone
     std::size_t last_late_ = 0;  ///< outputs from here on are there to get a name
     BodyPart loop_;

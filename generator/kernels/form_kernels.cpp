@@ -67,10 +67,11 @@ class ModuleBuilder {
             if (wants(kernel.name)) add(std::move(kernel));
         add_trees("constraints", model_base_constraints());
         add_domain();
+        if (has_kernel(module_, "domain") && (wants("taylor") || wants("domain_series"))) add_domain_series();
         add_trees("observables", observables());
         add_trees("invariants", model_.invariants);
         if (wants("events")) add_trees("events", events());
-        if (wants("event_series") && has_kernel(module_, "events")) add_event_series(kernel_named(module_, "events"));
+        if (wants("event_series") && has_kernel(module_, "events")) add_series("event_series", "events");
         if (wants("jacobian")) add_jacobian();
         if (wants("variational")) add_variational();
         if (request_.time_scale != nullptr) add_time_scale();
@@ -159,18 +160,22 @@ class ModuleBuilder {
         module_.second_order = second_order_of(module_, nodes_of(right_hand_side()));
     }
 
+    [[nodiscard]] std::vector<NodeId> curve() const
+    {
+        std::vector<NodeId> coordinates = state_of(form_);
+        coordinates.push_back(form_.time);
+        return coordinates;
+    }
+
     [[nodiscard]] TaylorRecurrence recurrence_of(const std::vector<NodeId>& functions)
     {
-        std::vector<NodeId> curve = state_of(form_);
-        curve.push_back(form_.time);
-        require_analytic(*graph_, functions, curve, form_.implicit);
-        return taylor_recurrence(*graph_, functions, curve, form_.implicit);
+        require_analytic(*graph_, functions, curve(), form_.implicit);
+        return taylor_recurrence(*graph_, functions, curve(), form_.implicit);
     }
 
     /// The rates as they were written or as they were simplified, whichever takes fewer sums over lower orders.
     void add_taylor()
     {
-        TaylorRecurrence written = recurrence_of(form_.derivative);
         Kernel kernel = table_kernel(form_, "taylor", column("ds", form_.derivative));
         kernel.checks->pivots = form_.pivots;
         if (has_kernel(module_, "rhs")) { // the same rates, which are simplified already
@@ -183,21 +188,39 @@ class ModuleBuilder {
             add(std::move(kernel));
         }
         Kernel& added = module_.kernels.back();
-        added.recurrence = recurrence_of(nodes_of(added));
-        if (written.sums.size() >= added.recurrence->sums.size()) return;
-        for (std::size_t i = 0; i < form_.derivative.size(); ++i)
-            added.outputs[0].entries[i].node = form_.derivative[i];
-        added.checks->pivots = form_.pivots;
-        added.recurrence = std::move(written);
+        std::vector<NodeId> moving = curve();
+        for (const ImplicitBlock& block : form_.implicit)
+            moving.insert(moving.end(), block.unknowns.begin(), block.unknowns.end());
+        const std::vector<NodeId> written = with_joined_factors(*graph_, form_.derivative, moving);
+        std::vector<NodeId> rates = with_joined_factors(*graph_, nodes_of(added), moving);
+        TaylorRecurrence as_written = recurrence_of(written);
+        added.recurrence = recurrence_of(rates);
+        if (as_written.sums.size() < added.recurrence->sums.size()) {
+            added.checks->pivots = form_.pivots;
+            added.recurrence = std::move(as_written);
+            rates = written;
+        }
+        for (std::size_t i = 0; i < rates.size(); ++i) added.outputs[0].entries[i].node = rates[i];
     }
 
-    void add_event_series(const Kernel& events)
+    /// Of the functions of another kernel along the motion.
+    void add_series(const std::string& name, const std::string& of)
     {
-        const std::vector<NodeId> values = nodes_of(events);
-        Kernel kernel = table_kernel(form_, "event_series", column("e", values));
+        const std::vector<NodeId> values = nodes_of(kernel_named(module_, of));
+        Kernel kernel = table_kernel(form_, name, column("e", values));
         kernel.inputs = point_inputs(module_);
         kernel.recurrence = recurrence_of(values);
         module_.kernels.push_back(std::move(kernel));
+    }
+
+    /// Beside the series of the motion where there is one; conditions with kinks are looked at without it.
+    void add_domain_series()
+    {
+        try {
+            add_series("domain_series", "domain");
+        } catch (const MathematicsError&) {
+            if (wants("domain_series")) throw;
+        }
     }
 
     void add_trees(const std::string& name, const std::vector<NamedTree>& trees)

@@ -28,6 +28,8 @@ constexpr std::array kernel_rows{
     KernelRow{"taylor", every, rate, "Taylor coefficients of the motion through s at t.", true},
     KernelRow{"event_series", every, column_of_values_checked, "Taylor coefficients of the events along the motion x.",
               true},
+    KernelRow{"domain_series", every, column_of_values_checked,
+              "Taylor coefficients of the conditions of the domain along the motion x.", true},
     KernelRow{"flows", Of::hamilton, rate, "The flow of a part of H: s + ds is where it takes s in the time h.", true},
     KernelRow{"mass_matrix", Of::lagrange, dense_matrix, "W_ab = d2L/dy^a dy^b, shape ({0}, {1}), symmetric."},
     KernelRow{"momentum", Of::lagrange, column_of_values, "p_a = dL/dy^a, shape ({0})."},

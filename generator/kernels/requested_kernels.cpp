@@ -17,10 +17,11 @@ bool is_among(const std::vector<std::string>& names, const std::string& name)
     return std::ranges::find(names, name) != names.end();
 }
 
-/// The series of events needs events.
+/// Series of events and of a domain need those.
 bool has_what_it_needs(const KernelRow& row, const std::vector<std::string>& names)
 {
-    return row.name != std::string_view("event_series") || is_among(names, "events");
+    if (row.name == std::string_view("event_series")) return is_among(names, "events");
+    return row.name != std::string_view("domain_series") || is_among(names, "domain");
 }
 
 [[noreturn]] void refuse(const std::string& found, const std::string& name, const std::vector<std::string>& names)

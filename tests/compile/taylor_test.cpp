@@ -6,11 +6,11 @@ using namespace lagen::testing;
 
 TEST_CASE("Taylor's method meets the references to their last digit, in double in fewer steps than DOP853")
 {
-    const std::string output =
-        run_on_headers("taylor",
-                       {"models/double_pendulum.toml", "models/kepler.toml", "models/relativistic_oscillator.toml",
-                        "models/half_plane_control.toml", "models/heavy_top.toml", "models/chain.toml"},
-                       "--with taylor");
+    const std::string output = run_on_headers("taylor",
+                                              {"models/double_pendulum.toml", "models/kepler.toml",
+                                               "models/relativistic_oscillator.toml", "models/half_plane_control.toml",
+                                               "models/heavy_top.toml", "models/chain.toml", "models/rigid_body.toml"},
+                                              "--with taylor");
     INFO(output);
     const auto lines = lines_by_key(output);
     for (const char* name :
@@ -29,4 +29,8 @@ TEST_CASE("Taylor's method meets the references to their last digit, in double i
     CHECK(std::stod(slopes[0]) < 1e-12);
     CHECK(std::stod(slopes[1]) < 1e-6);
     CHECK(slopes[2] == "1");
+    for (const char* name : {"rigid_body walk", "circle walk", "ellipse walk"}) {
+        INFO(name);
+        CHECK(std::stod(lines.at(name)[0]) < 2);
+    }
 }

@@ -35,13 +35,12 @@ std::vector<std::vector<Real>> run_recurrence(Graph& graph, const std::vector<No
     std::vector<std::vector<Real>> known(sides.size(), {0});
     for (int k = 1; k <= orders; ++k) {
         values[graph.input_name(series.order)] = k;
-        values[graph.input_name(series.reciprocal)] = 1.0L / k;
         values[graph.input_name(series.curve[0])] = k == 1 ? 1 : 0;
         for (std::size_t m = 0; m < series.sums.size(); ++m) {
             Real sum = 0;
             for (std::size_t j = 1; j < static_cast<std::size_t>(k); ++j)
                 sum += known[2 * m][j] * known[2 * m + 1][static_cast<std::size_t>(k) - j];
-            values[graph.input_name(series.sums[m])] = sum;
+            values[graph.input_name(series.sums[m])] = series.are_means[m] ? sum / k : sum;
         }
         const std::vector<Real> next = evaluate<Real>(graph, series.outputs, values);
         for (std::size_t i = 0; i < next.size(); ++i) result[i].push_back(next[i]);
@@ -149,6 +148,20 @@ TEST_CASE("the kinematics of N bodies takes six sums a pair, and static factors 
     CHECK(taylor_recurrence(g, forces, coordinates, {}).sums.size() == 6);
     const NodeId linear[] = {g.multiply(m, g.add(x, g.divide(y, m)))};
     CHECK(taylor_recurrence(g, linear, coordinates, {}).sums.empty());
+}
+
+TEST_CASE("static factors of a rate are one factor, which all orders round alike", "[taylor]")
+{
+    Graph g;
+    const NodeId x = g.input("x"), y = g.input("y"), I = g.input("I"), J = g.input("J"), coordinates[] = {x, y};
+    const NodeId rate = g.divide(g.multiply(g.negate(g.multiply(g.subtract(J, I), x)), y), I);
+    const NodeId joined = with_joined_factors(g, std::vector{rate}, coordinates)[0];
+    const NodeId factor = g.divide(g.subtract(J, I), I);
+    CHECK(joined == g.negate(g.multiply(factor, g.multiply(x, y))));
+    const TaylorRecurrence series = taylor_recurrence(g, std::vector{joined}, coordinates, {});
+    REQUIRE(series.sums.size() == 1);
+    const NodeId ends = g.add(g.multiply(x, series.curve[1]), g.multiply(y, series.curve[0]));
+    CHECK(series.outputs[0] == g.negate(g.multiply(factor, g.add(ends, series.sums[0]))));
 }
 
 TEST_CASE("the components of a linear system satisfy it in every order", "[taylor]")

@@ -61,7 +61,8 @@ TEST_CASE("a kernel that does not exist is refused with the list of those that d
     request.only = {"enrgy"};
     CHECK(message_of(model, verify(model), request) ==
           "error: there is no kernel 'enrgy'; there are rhs, jacobian, variational, taylor, event_series, "
-          "mass_matrix, momentum, velocity, controls, energy, power, hamiltonian, lagrangian, cost, constraints, "
+          "domain_series, mass_matrix, momentum, velocity, controls, energy, power, hamiltonian, lagrangian, cost, "
+          "constraints, "
           "domain, observables, invariants, "
           "lagrangian_hessian, hamiltonian_hessian, events\nhint: did you mean 'energy'?");
 }
@@ -110,6 +111,28 @@ TEST_CASE("conditions on parameters alone are no part of the domain kernel", "[k
     CHECK(module.parameter_conditions[1].first == "a != 0");
     const std::map<std::string, double> point{{"a", -2}, {"b", 3}};
     CHECK(evaluate<double>(*module.graph, nodes, point) == std::vector<double>{5, 4});
+}
+
+TEST_CASE("conditions of the domain have series beside that of the motion, where they have no kinks", "[kernels]")
+{
+    const auto kernels = [](const std::string& condition, const std::vector<std::string>& with) {
+        KernelRequest request;
+        request.with = with;
+        const Model model = read_model_text(
+            "test.toml", "name = \"bounded\"\n[parameters]\nb = 3\n[base]\ncoordinates = [\"x\"]\ndomain = [\"" +
+                             condition + "\"]\n[algebroid]\nkind = \"tangent\"\n[lagrangian]\nL = \"v_x^2/2\"\n");
+        return kernels_of(model, request);
+    };
+    const KernelModule module = kernels("x^2 < b", {"taylor"});
+    REQUIRE(has_kernel(module, "domain_series"));
+    CHECK(find_kernel(module, "domain_series").recurrence->sums.size() == 1);
+    CHECK_FALSE(has_kernel(kernels("x^2 < b", {}), "domain_series"));
+    CHECK_FALSE(has_kernel(kernels("b > 0", {"taylor"}), "domain_series"));
+    CHECK_FALSE(has_kernel(kernels("abs(x) < b", {"taylor"}), "domain_series"));
+    CHECK_THROWS_WITH(
+        kernels("abs(x) < b", {"domain_series"}),
+        "a Taylor series does not see the kinks and jumps of abs() along the motion: take another method, such as "
+        "dop853");
 }
 
 TEST_CASE("events of all scenes are distinct, those of one scene bear their own names", "[kernels]")

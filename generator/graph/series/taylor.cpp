@@ -25,7 +25,6 @@ class RecurrenceBuilder {
         : graph_(graph), blocks_(blocks), zero_(graph.constant(0)), one_(graph.constant(1))
     {
         result_.order = graph.input("order of the series");
-        result_.reciprocal = graph.input("reciprocal of the order");
         for (const NodeId coordinate : coordinates) {
             result_.curve.push_back(graph.input("coefficient of " + graph.input_name(coordinate)));
             moving_inputs_.push_back(coordinate);
@@ -66,6 +65,7 @@ class RecurrenceBuilder {
     {
         NodeId factor = one_;
         for (;;) {
+            if (!moves(node)) return {graph_.multiply(factor, node), one_};
             const Op op = graph_.op(node);
             const auto operands = graph_.operands(node);
             if (op == Op::negate) {
@@ -158,7 +158,7 @@ class RecurrenceBuilder {
         return power;
     }
 
-    /// <a, b>_k, the series not drawn apart.
+    /// <a, b>_k, the series not drawn apart; <a*, b>_k / k of a series of h a'.
     NodeId plain_sum(Series a, Series b)
     {
         if (!moves(a.node) || !moves(b.node)) return zero_;
@@ -167,6 +167,7 @@ class RecurrenceBuilder {
         const auto [place, is_new] = place_of_.try_emplace(pair, pairs_.size());
         if (is_new) {
             pairs_.push_back(pair);
+            result_.are_means.push_back(a.derived || b.derived);
             result_.sums.push_back(graph_.input("sum " + std::to_string(place->second) + " over lower orders"));
         }
         return result_.sums[place->second];
@@ -182,12 +183,8 @@ class RecurrenceBuilder {
     }
 
     NodeId sum(NodeId a, NodeId b) { return sum(one_, {a, false}, {b, false}); }
-    /// factor <a*, b>_k / k.
-    NodeId mean(NodeId a, NodeId b, NodeId factor)
-    {
-        return sum(graph_.multiply(factor, result_.reciprocal), {a, true}, {b, false});
-    }
-    NodeId mean(NodeId a, NodeId b) { return mean(a, b, one_); }
+    /// <a*, b>_k / k.
+    NodeId mean(NodeId a, NodeId b) { return sum(one_, {a, true}, {b, false}); }
 
     // ---- rules ----
 
@@ -281,7 +278,8 @@ class RecurrenceBuilder {
     NodeId by_power(NodeId p, NodeId a, NodeId n)
     {
         const NodeId ends = graph_.multiply(graph_.multiply(n, p), coefficient(a));
-        const NodeId inner = graph_.subtract(mean(a, p, graph_.add(n, one_)), sum(a, p));
+        const NodeId raised = sum(graph_.add(n, one_), {a, true}, {p, false});
+        const NodeId inner = graph_.subtract(raised, sum(a, p));
         return graph_.multiply(graph_.add(ends, inner), inverse(a));
     }
 

@@ -26,12 +26,19 @@ namespace lagen {
 /// Everything is a node of one graph: values of order 0 are the nodes of the functions themselves.
 struct TaylorRecurrence {
     NodeId order = 0;                         ///< input: k
-    NodeId reciprocal = 0;                    ///< input: 1/k
     std::vector<NodeId> curve;                ///< inputs: the coefficients of order k of the coordinates of the curve
-    std::vector<NodeId> sums;                 ///< inputs: <a, b>_k, one a pair
+    std::vector<NodeId> sums;                 ///< inputs, one a pair: <a, b>_k, or <a, b>_k / k
+    std::vector<bool> are_means;              ///< which of them are divided by k: where a or b is the series of h a'
     std::vector<std::array<NodeId, 2>> pairs; ///< a_k and b_k
     std::vector<NodeId> outputs;              ///< the coefficients of order k >= 1 of the functions
 };
+
+/// The same functions, where the factors of a product or quotient that do not move are one factor in front.
+/// Coefficients of all orders then round the same constant: where they round it apart, the series is that of no
+/// equation, and what a step loses of an invariant has the same sign in all of them. Two factors such as 6/5 and 10/11,
+/// one after the other, have rounding errors that do not cancel either.
+[[nodiscard]] std::vector<NodeId> with_joined_factors(Graph& graph, std::span<const NodeId> functions,
+                                                      std::span<const NodeId> moving);
 
 /// Throws MathematicsError where a function has kinks or steps along the curve: a series is that of one branch, and a
 /// step of many periods may cross to another and back unseen.

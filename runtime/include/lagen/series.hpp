@@ -5,6 +5,8 @@
 /// lane, two accumulators by turns. Other scalars, packs among them, take them one by one in the same order.
 #pragma once
 
+#include "lagen/scalar.hpp"
+
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -21,6 +23,65 @@ struct TaylorSeries {
 
     [[nodiscard]] Row& operator[](int k) noexcept { return rows[static_cast<std::size_t>(k)]; }
     [[nodiscard]] const Row& operator[](int k) const noexcept { return rows[static_cast<std::size_t>(k)]; }
+};
+
+namespace detail {
+
+/// 1/k = high + low, high k exact.
+template <class Real>
+struct SplitReciprocal {
+    Real high = Real(0), low = Real(0);
+
+    constexpr SplitReciprocal() = default;
+    constexpr explicit SplitReciprocal(int k)
+    {
+        const Real number = static_cast<Real>(k), whole = Real(1) / number, wide = Real(513) * whole;
+        high = wide - (wide - whole); // without its last nine bits [Dekker 1971]
+        low = (Real(1) - high * number) / number;
+    }
+};
+
+/// Of k < 64, the orders in use.
+template <class Real>
+inline constexpr auto split_reciprocals = [] {
+    std::array<SplitReciprocal<Real>, 64> all;
+    for (int k = 1; k < 64; ++k) all[static_cast<std::size_t>(k)] = SplitReciprocal<Real>(k);
+    return all;
+}();
+
+} // namespace detail
+
+/// `one_over * x` is unit x / k for a whole number k < 512 and a power of two as the unit, within a unit of the last
+/// place and without a bias: a reciprocal that is rounded by itself shifts x by the same fraction in every step, and
+/// invariants drift in proportion to the time. Float, double and packs of them take two products, which a processor has
+/// sooner than a quotient.
+template <class S>
+class OneOver {
+    using Real = real_t<S>;
+    static constexpr bool is_split = std::is_same_v<Real, float> || std::is_same_v<Real, double>;
+
+  public:
+    explicit OneOver(int k, const S& unit = S(1)) noexcept : first_(unit), second_(S(k))
+    {
+        if constexpr (is_split) {
+            const auto& known = detail::split_reciprocals<Real>;
+            const auto place = static_cast<std::size_t>(k);
+            const auto parts = place < known.size() ? known[place] : detail::SplitReciprocal<Real>(k);
+            first_ = unit * S(parts.high);
+            second_ = unit * S(parts.low);
+        }
+    }
+
+    [[nodiscard]] [[gnu::always_inline]] friend S operator*(const OneOver& one_over, const S& x) noexcept
+    {
+        if constexpr (is_split)
+            return x * one_over.first_ + x * one_over.second_;
+        else
+            return one_over.first_ * x / one_over.second_;
+    }
+
+  private:
+    S first_, second_; ///< summands of unit/k; else the unit and k
 };
 
 namespace detail {

@@ -99,7 +99,11 @@ class LaneStepper : public ForeseesAs<typename Method::template Stepper<M>> {
     {
         return own_.after_rejected(h, error);
     }
-    [[nodiscard]] Real after_failure(Real h) noexcept requires chooses_lengths { return own_.after_failure(h); }
+    [[nodiscard]] Real after_failure(Real h) noexcept requires chooses_lengths
+    {
+        shared_.stepper.hand_over_length(lane_, own_);
+        return own_.after_failure(h);
+    }
     template <class Found>
     bool split(Real h, Real last, const Found& found) const requires chooses_lengths
     {

@@ -294,12 +294,17 @@ class Integrator {
         if constexpr (requires { stepper_.forget(); }) stepper_.forget();
     }
 
+    /// The last step goes from the time that is kept, rounding error and all.
     [[gnu::always_inline]] std::pair<Real, bool> next_length() const noexcept
     {
+        std::pair<Real, bool> next;
         if constexpr (adaptive)
-            return way_.next_of(h_, t_, static_cast<Real>(method_.control().max_step));
+            next = way_.next_of(h_, t_, static_cast<Real>(method_.control().max_step));
         else
-            return way_.next_of(h_, t_);
+            next = way_.next_of(h_, t_);
+        if (next.second) [[unlikely]]
+            next.first += lost_;
+        return next;
     }
 
     /// Accepts or rejects a step of an adaptive method and proposes the next length; not ok where there is none.

@@ -5,14 +5,13 @@
 #pragma once
 
 #include "lagen/integrate/control.hpp"
-#include "lagen/integrate/isolate_roots.hpp"
-#include "lagen/integrate/lanes.hpp"
+#include "lagen/integrate/expansion.hpp"
 #include "lagen/integrate/states.hpp"
-#include "lagen/integrate/taylor_order.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
@@ -46,10 +45,14 @@ class TaylorStepper {
     {
     }
 
-    status_t<Scalar> begin(const M& model, Real t, const State& s) noexcept
+    Status begin(const M& model, Real t, const State& s) noexcept
     {
         lost_.fill(Real(0));
         kept_ = lost_;
+        here().unit = first_unit(model, t, s);
+        const Status status = expand(model, t, s, here());
+        if (status == Status::ok || here().unit == Real(1)) return status;
+        here().unit = Real(1);
         return expand(model, t, s, here());
     }
 
@@ -68,33 +71,37 @@ class TaylorStepper {
     status_t<Scalar> attempt(const M& model, Real t, const State& s, Real h, State& s1) noexcept
     {
         const Series& x = here().motion;
+        const Real step = h / here().unit;
         if constexpr (HasDomain<M>) begins_ = {t, s};
+        leaves_at_ = Real(0);
         Row move = x[order_], slope;
         for (std::size_t i = 0; i < lanes; ++i) slope[i] = Real(order_) * x[order_][i];
         for (int k = order_ - 1; k > 0; --k)
             for (std::size_t i = 0; i < lanes; ++i) {
-                move[i] = x[k][i] + h * move[i];
-                slope[i] = Real(k) * x[k][i] + h * slope[i];
+                move[i] = x[k][i] + step * move[i];
+                slope[i] = Real(k) * x[k][i] + step * slope[i];
             }
         for (std::size_t i = 0; i < lanes; ++i) {
             const auto lane = static_cast<Eigen::Index>(i);
-            const Real change = h * move[i] + kept_[i];
+            const Real change = step * move[i] + kept_[i];
             const Real from = s[lane];
             s1[lane] = from + change;
-            lost_[i] = change - (s1[lane] - from);
+            const Real moved = s1[lane] - from; // exact whichever of the two is larger [Knuth 1997, 4.2.2]
+            lost_[i] = (from - (s1[lane] - moved)) + (change - moved);
         }
+        next().unit = here().next_unit();
         auto status = expand(model, t + h, s1, next());
-        if (fails(status)) return status;
+        if (Expansion::fails(status)) return status;
         status = Lanes::first(status, detail::check_finite(s1));
-        if (fails(status)) return status;
+        if (Expansion::fails(status)) return status;
         error_ = Real(0);
-        const Real epsilon = Real(std::numeric_limits<Number>::epsilon());
+        const Real epsilon = Real(std::numeric_limits<Number>::epsilon()), change_of_unit = h / next().unit;
         for (std::size_t i = 0; i < lanes; ++i) {
             const auto lane = static_cast<Eigen::Index>(i);
-            const Real rate = next().motion[1][i];
+            const Real rate = change_of_unit * next().motion[1][i];
             const Real bound = scale_.template of<1>(s, s1, lane) +
-                               Real(4) * epsilon * (detail::size_of(s1[lane]) + detail::size_of(h * rate));
-            const Real defect = detail::size_of(h * (slope[i] - rate)) / (Real(16) * Real(order_ + 1) * bound);
+                               Real(4) * epsilon * (detail::size_of(s1[lane]) + detail::size_of(rate));
+            const Real defect = detail::size_of(step * slope[i] - rate) / (Real(16) * Real(order_ + 1) * bound);
             error_ = select(error_ == error_ && !(defect <= error_), defect, error_);
         }
         return status;
@@ -102,21 +109,31 @@ class TaylorStepper {
 
     [[nodiscard]] Real error() const noexcept { return error_; }
 
-    /// A step is long: the domain is looked at inside it too, at equal parts.
+    /// A step is long: it is looked at where the conditions of the domain change their signs inside it, or, where their
+    /// series are not known, at equal parts.
     status_t<Scalar> finish([[maybe_unused]] const M& model, [[maybe_unused]] Real t1,
                             [[maybe_unused]] const State& s1) noexcept
     {
         auto status = Lanes::good();
         if constexpr (HasDomain<M>) {
             constexpr int parts = 16;
-            const auto& [t, s] = begins_;
-            State inside = s1;
-            for (int k = 1; k < parts; ++k) {
-                const Real theta = Real(k) / Real(parts);
-                status = Lanes::first(status, interpolate(model, t, s, t1 - t, s1, theta, inside));
-                if (fails(status)) return status;
-                status = Lanes::first(status, detail::domain_status(model, t + theta * (t1 - t), inside));
-                if (fails(status)) return status;
+            std::array<bool, trajectories> known{}, unknown{};
+            for (int lane = 0; lane < static_cast<int>(trajectories); ++lane) {
+                bool& here_known = known[static_cast<std::size_t>(lane)];
+                std::array<bool, trajectories> alone{};
+                alone[static_cast<std::size_t>(lane)] = true;
+                if constexpr (HasDomainSeries<M>)
+                    here_known = here().isolate(
+                        here().domain, Number(detail::lane_of(Real(t1 - begins_.first), lane)), Number(1), order_,
+                        [&](const Number& theta) { look(model, t1, s1, theta, alone, status); }, lane);
+                unknown[static_cast<std::size_t>(lane)] = !here_known;
+            }
+            if (std::ranges::find(unknown, true) != unknown.end())
+                for (int k = 1; k < parts; ++k) look(model, t1, s1, Number(k) / Number(parts), unknown, status);
+            for (int lane = 0; lane < static_cast<int>(trajectories); ++lane) {
+                const bool left = detail::lane_of(leaves_at_, lane) > Number(0);
+                const Status found = detail::lane_of(status, lane);
+                detail::set_lane_of(status, lane, !left ? Status::ok : (found == Status::ok ? Status::left_domain : found));
             }
         }
         return status;
@@ -138,12 +155,18 @@ class TaylorStepper {
         const Real factor = detail::rough_power<Real>(-detail::rough_logarithm(error) / order_) * Real(0.9);
         return h * std::clamp<Real>(factor, Real(0.1), Real(0.9));
     }
-    [[nodiscard]] Real after_failure(Real h) noexcept { return h / Real(2); }
+    /// Just beyond the boundary that a step crosses, where it is known: the march then finds the crossing, as that of a
+    /// step that ends outside.
+    [[nodiscard]] Real after_failure(Real h) noexcept
+    {
+        const bool known = leaves_at_ > Real(0) && leaves_at_ < Real(0.98);
+        return h * (known ? leaves_at_ : Real(0.5));
+    }
 
     [[nodiscard]] State derivative() const noexcept
     {
         State rate;
-        for (std::size_t i = 0; i < lanes; ++i) rate[static_cast<Eigen::Index>(i)] = here().motion[1][i];
+        for (std::size_t i = 0; i < lanes; ++i) rate[static_cast<Eigen::Index>(i)] = here().motion[1][i] / here().unit;
         return rate;
     }
 
@@ -151,7 +174,7 @@ class TaylorStepper {
     status_t<Scalar> interpolate(const M&, Real, const State& s, Real h, const State&, Real theta, State& out) noexcept
     {
         const Series& x = here().motion;
-        const Real step = theta * h;
+        const Real step = theta * h / here().unit;
         Row move = x[order_];
         for (int k = order_ - 1; k > 0; --k)
             for (std::size_t i = 0; i < lanes; ++i) move[i] = x[k][i] + step * move[i];
@@ -167,24 +190,7 @@ class TaylorStepper {
     template <class Found>
     bool split(Real h, Real last, const Found& found) const
     {
-        if constexpr (HasEventSeries<M>) {
-            if (!here().events.known) return false;
-            const auto& e = here().events.of;
-            constexpr auto events = M::events_names.size();
-            const Real length = last * h;
-            for (std::size_t r = 0; r < events; ++r) {
-                std::array<Real, highest_order + 1> coefficients;
-                Real power = Real(1), total = Real(0);
-                for (int k = 0; k <= order_; ++k, power *= length)
-                    total += coefficients[static_cast<std::size_t>(k)] = e[k][r] * power;
-                if (total - total != Real(0)) return false; // no series here
-                using Isolation = detail::RootIsolation<Real, highest_order + 1>;
-                Isolation::isolate(coefficients, static_cast<std::size_t>(order_) + 1,
-                                   std::numeric_limits<Real>::epsilon() * Real(64),
-                                   [&](const Real& end) { found(end * last); });
-            }
-            return true;
-        }
+        if constexpr (HasEventSeries<M>) return here().isolate(here().events, h, last, order_, found);
         return false;
     }
 
@@ -206,30 +212,23 @@ class TaylorStepper {
     void adopt(int lane, const TaylorStepper<One>& own) noexcept requires(is_pack<Scalar>)
     {
         scale_.set_lane(lane, own.scale_);
-        set_lane(here().motion, lane, own.here().motion);
-        here().length.set(lane, own.here().length);
-        if constexpr (HasEventSeries<M>) {
-            set_lane(here().events.of, lane, own.here().events.of);
-            here().events.known.lanes[lane] = own.here().events.known ? -1 : 0;
-        }
+        here().set_lane(lane, own.here(), order_);
         for (std::size_t i = 0; i < lanes; ++i) kept_[i].set(lane, own.kept_[i]);
+        phases_[static_cast<std::size_t>(lane)] = own.phases_[0];
     }
 
-    /// What values inside the last step of lane `lane` are made of, and how long the step behind it may be.
+    /// What values inside the last step of lane `lane` are made of, and what the length of the next one follows from.
     template <class One>
     void hand_over(int lane, TaylorStepper<One>& own) const noexcept requires(is_pack<Scalar>)
     {
-        get_lane(here().motion, lane, own.here().motion);
-        if constexpr (HasEventSeries<M>) {
-            get_lane(here().events.of, lane, own.here().events.of);
-            own.here().events.known = here().events.known[lane];
-        }
+        here().get_lane(lane, own.here(), order_);
         for (std::size_t i = 0; i < lanes; ++i) own.kept_[i] = kept_[i][lane];
     }
     template <class One>
     void hand_over_length(int lane, TaylorStepper<One>& own) const noexcept requires(is_pack<Scalar>)
     {
         own.next().length = expansions_[1 - now_].length[lane];
+        own.leaves_at_ = leaves_at_[lane];
     }
 
     /// The step counts in these lanes.
@@ -237,45 +236,19 @@ class TaylorStepper {
     {
         for (std::size_t i = 0; i < lanes; ++i) kept_[i] = select(where, lost_[i], kept_[i]);
         now_ = 1 - now_;
-        if (all(where)) return;
-        choose(where, here().motion, next().motion);
-        here().length = select(where, here().length, next().length);
-        if constexpr (HasEventSeries<M>) {
-            choose(where, here().events.of, next().events.of);
-            here().events.known = (where && here().events.known) || (!where && next().events.known);
-        }
+        if (!all(where)) here().choose(where, next(), order_);
     }
 
   private:
     template <class>
     friend class TaylorStepper;
     using Lanes = StatusOf<Scalar>;
-    static bool fails(const status_t<Scalar>& status) noexcept { return !is_pack<Scalar> && !Lanes::all_good(status); }
-
-    template <class Of, class One>
-    void set_lane(Of& series, int lane, const One& own) const noexcept
-    {
-        for (int k = 0; k <= order_; ++k)
-            for (std::size_t i = 0; i < own[k].size(); ++i) series[k][i].set(lane, own[k][i]);
-    }
-    template <class Of, class One>
-    void get_lane(const Of& series, int lane, One& own) const noexcept
-    {
-        for (int k = 0; k <= order_; ++k)
-            for (std::size_t i = 0; i < own[k].size(); ++i) own[k][i] = series[k][i][lane];
-    }
-    /// Lanes that are not `where` become those of `other`.
-    template <class Where, class Of>
-    void choose(const Where& where, Of& series, const Of& other) const noexcept
-    {
-        for (int k = 0; k <= order_; ++k)
-            for (std::size_t i = 0; i < series[k].size(); ++i) series[k][i] = select(where, series[k][i], other[k][i]);
-    }
-
     static constexpr auto lanes = static_cast<std::size_t>(M::dimension);
-    using Series = TaylorSeries<Real, M::dimension, highest_order>;
+    static constexpr auto trajectories = static_cast<std::size_t>(RealOf<Scalar>::lanes); ///< abreast
+    using Expansion = detail::Expansion<M, highest_order>;
+    using Series = typename Expansion::Series;
     using Row = typename Series::Row;
-    static Number unbounded() noexcept { return std::numeric_limits<Number>::max(); }
+    static Number unbounded() noexcept { return Expansion::unbounded(); }
 
     template <class Method>
     static int order_of(const Method& method) noexcept
@@ -290,34 +263,63 @@ class TaylorStepper {
         return std::clamp(detail::taylor_order<Number>(logarithm, sums), 3, highest_order);
     }
 
-    /// The motion's series and those of its events, and how far they hold.
-    struct Expansion {
-        Series motion;
-        [[no_unique_address]] detail::EventSeries<M, highest_order> events;
-        Real length = Real(0);
-    };
     [[nodiscard]] Expansion& here() noexcept { return expansions_[now_]; }
     [[nodiscard]] const Expansion& here() const noexcept { return expansions_[now_]; }
     [[nodiscard]] Expansion& next() noexcept { return expansions_[1 - now_]; }
 
-    status_t<Scalar> expand(const M& model, Real t, const State& s, Expansion& at) noexcept
+    /// The size of the state over that of its rate, for a first series.
+    [[nodiscard]] Real first_unit(const M& model, const Real& t, const State& s) noexcept
+    {
+        if constexpr (Expansion::has_unit) {
+            State rate = s;
+            ++calls_;
+            if (model.rhs(t, s, rate) != Status::ok) return Real(1);
+            Real size = Real(0), speed = Real(0);
+            for (Eigen::Index lane = 0; lane < s.size(); ++lane)
+                size += detail::size_of(s[lane]), speed += detail::size_of(rate[lane]);
+            return Expansion::unit_near(size / speed);
+        }
+        return Real(1);
+    }
+
+    /// Steps are as long as a series holds, less a fifth, with which the first term left out is a thousandth of the
+    /// tolerance: at 1e-16 a million of them add up to less than the rounding errors do. Less up to a 64th more, which
+    /// changes from series to series: steps that the state alone chooses lock to closed orbits, the same few states
+    /// come back, and their rounding errors do not cancel.
+    status_t<Scalar> expand(const M& model, const Real& t, const State& s, Expansion& at) noexcept
     {
         ++calls_;
-        auto status = model.taylor(t, s, order_, at.motion);
-        if (fails(status)) return status;
-        Real total = Real(0);
-        for (const Real& coefficient : at.motion[order_]) total += coefficient;
-        Lanes::fail(status, total - total != Real(0), Status::non_finite);
-        if (fails(status)) return status;
-        const detail::TaylorLength<Scalar> lengths{scale_, order_};
-        at.length = lengths.of_motion(s, at.motion);
-        if constexpr (HasEventSeries<M>) {
-            const auto known = model.event_series(t, s, order_, at.motion, at.events.of);
-            at.events.known = detail::is_good<Scalar>(known);
-            const Scalar with_events = lengths.of_events(at.length, at.events.of, M::events_names.size());
-            at.length = select(at.events.known, with_events, at.length);
+        Real share = Real(1);
+        for (std::size_t lane = 0; lane < trajectories; ++lane) {
+            phases_[lane] += 0x9E3779B9U; // 2^32 times the golden ratio: its multiples fill the circle evenly
+            const double part = 0.8 * (1 - 0x1p-38 * static_cast<double>(phases_[lane]));
+            detail::set_lane_of(share, static_cast<int>(lane), Number(part));
         }
+        const auto status = at.expand(model, t, s, order_, scale_);
+        if (!Expansion::fails(status)) at.length = select(at.length < Real(unbounded()), at.length * share, at.length);
         return status;
+    }
+
+    /// Where, of these lanes, the last step is outside the domain at theta, before any place that is known.
+    void look(const M& model, const Real& t1, const State& s1, const Number& theta,
+              std::array<bool, trajectories> which, status_t<Scalar>& status) noexcept requires HasDomain<M>
+    {
+        for (std::size_t lane = 0; lane < trajectories; ++lane) {
+            const Number leaves = detail::lane_of(leaves_at_, static_cast<int>(lane));
+            which[lane] = which[lane] && theta < Number(1) && !(leaves > Number(0) && !(theta < leaves));
+        }
+        if (std::ranges::find(which, true) == which.end()) return;
+        const auto& [t, s] = begins_;
+        State inside = s1;
+        auto there = interpolate(model, t, s, t1 - t, s1, Real(theta), inside);
+        if (!Expansion::fails(there))
+            there = Lanes::first(there, detail::domain_status(model, t + Real(theta) * (t1 - t), inside));
+        for (int lane = 0; lane < static_cast<int>(trajectories); ++lane) {
+            if (!which[static_cast<std::size_t>(lane)]) continue;
+            const Status found = detail::lane_of(there, lane);
+            detail::set_lane_of(status, lane, found);
+            if (found != Status::ok) detail::set_lane_of(leaves_at_, lane, theta);
+        }
     }
 
     std::array<Expansion, 2> expansions_; ///< at the beginning of the step, and at its end
@@ -326,7 +328,9 @@ class TaylorStepper {
     StepControl control_;
     detail::ErrorScale<Real> scale_;
     Real error_ = Real(0);
+    Real leaves_at_ = Real(0); ///< the part of the last step behind which it is outside the domain, if one was found
     int order_;
+    std::array<std::uint32_t, trajectories> phases_{}; ///< of each trajectory
     std::size_t now_ = 0;
     std::size_t calls_ = 0;
 };

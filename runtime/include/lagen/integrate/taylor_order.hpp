@@ -4,6 +4,7 @@
 #pragma once
 
 #include "lagen/integrate/control.hpp"
+#include "lagen/integrate/lanes.hpp"
 #include "lagen/series.hpp"
 
 #include <algorithm>
@@ -12,6 +13,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
+#include <utility>
 
 namespace lagen {
 
@@ -26,16 +29,50 @@ concept HasTaylor = requires(const M& model, typename M::Scalar t, const typenam
     noexcept->std::same_as<status_t<typename M::Scalar>>;
 };
 
+namespace detail {
+
+template <class M>
+constexpr int event_count() noexcept
+{
+    if constexpr (requires { M::events_names; }) return static_cast<int>(M::events_names.size());
+    return 0;
+}
+
+template <class M>
+constexpr int condition_count() noexcept
+{
+    if constexpr (HasDomain<M>) {
+        using Scalar = typename M::Scalar;
+        using State = typename M::State;
+        using Values = decltype(std::declval<const M&>().domain(std::declval<Scalar>(), std::declval<const State&>()));
+        return static_cast<int>(std::decay_t<Values>::SizeAtCompileTime);
+    }
+    return 0;
+}
+
+template <class M, int count>
+using SeriesAlong = TaylorSeries<typename M::Scalar, (count > 0 ? count : 1), 8>;
+
+} // namespace detail
+
 /// And with those of its events along the motion: `--with taylor,event_series`.
 template <class M>
-concept HasEventSeries = HasTaylor<M> && requires(const M& model, typename M::Scalar t, const typename M::State& s,
-                                                  const TaylorSeries<typename M::Scalar, M::dimension, 8>& x)
+concept HasEventSeries = HasTaylor<M> && detail::event_count<M>()
+> 0 && requires(const M& model, typename M::Scalar t, const typename M::State& s,
+                const TaylorSeries<typename M::Scalar, M::dimension, 8>& x,
+                detail::SeriesAlong<M, detail::event_count<M>()>& e)
 {
-    M::events_names;
-    requires requires(TaylorSeries<typename M::Scalar, static_cast<int>(M::events_names.size()), 8> & e)
-    {
-        model.event_series(t, s, 8, x, e);
-    };
+    model.event_series(t, s, 8, x, e);
+};
+
+/// And with those of the conditions of its domain, which a header with `taylor` has where they have no kinks.
+template <class M>
+concept HasDomainSeries = HasTaylor<M> && detail::condition_count<M>()
+> 0 && requires(const M& model, typename M::Scalar t, const typename M::State& s,
+                const TaylorSeries<typename M::Scalar, M::dimension, 8>& x,
+                detail::SeriesAlong<M, detail::condition_count<M>()>& e)
+{
+    model.domain_series(t, s, 8, x, e);
 };
 
 namespace detail {
@@ -76,21 +113,31 @@ template <class Real>
     return whole + (whole < wanted ? 1 : 0);
 }
 
-/// Of a model without events: nothing.
-template <class M, int order>
-struct EventSeries {
-};
-
-template <HasEventSeries M, int order>
-struct EventSeries<M, order> {
-    TaylorSeries<typename M::Scalar, static_cast<int>(M::events_names.size()), order> of{};
-    typename StatusOf<typename M::Scalar>::mask known{};
-};
-
 /// For a tolerance that is the scalar's epsilon.
 template <class Real>
 inline constexpr int highest_taylor_order = taylor_order<Real>(0.69314718055994531 * std::numeric_limits<Real>::digits,
                                                                0);
+
+/// The lane of a pack, of a mask or of their status; of a scalar, itself.
+template <class Lanes>
+[[nodiscard]] auto lane_of(const Lanes& x, [[maybe_unused]] int lane) noexcept
+{
+    if constexpr (requires { x[lane]; })
+        return x[lane];
+    else
+        return x;
+}
+
+template <class Lanes, class One>
+void set_lane_of(Lanes& x, [[maybe_unused]] int lane, const One& value) noexcept
+{
+    if constexpr (requires { x.set(lane, value); })
+        x.set(lane, value);
+    else if constexpr (requires { x.lanes[0] = value; })
+        x.lanes[static_cast<std::size_t>(lane)] = value;
+    else
+        x = value;
+}
 
 /// f(lane of a, ..), a lane; of a scalar, f(a, ..).
 template <class Scalar, class F, class... Given>
@@ -127,12 +174,12 @@ struct TaylorLength {
 
     static Number unbounded() noexcept { return std::numeric_limits<Number>::max(); }
 
-    /// The longest h with |e_k| h^k within the tolerance, relative to |e_0| + |e_1|, for the last two orders of `count`
-    /// events, and no longer than `length`.
-    template <class Events>
-    [[nodiscard]] Scalar of_events(Scalar length, const Events& e, std::size_t count) const noexcept
+    /// The longest h for which these functions' polynomials, which tell where signs change, hold too: |e_k| h^k within
+    /// the tolerance, relative to |e_0| + |e_1|, for the last two orders; no longer than `length`.
+    template <class Functions>
+    [[nodiscard]] Scalar of_functions(Scalar length, const Functions& e) const noexcept
     {
-        for (std::size_t r = 0; r < count; ++r) {
+        for (std::size_t r = 0; r < e[0].size(); ++r) {
             const Scalar size = scale.of_size(size_of(e[0][r]) + size_of(e[1][r]));
             for (int k = order - 1; k <= order; ++k)
                 length = by_lanes<Scalar>(
