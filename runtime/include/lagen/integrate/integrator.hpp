@@ -121,8 +121,6 @@ class Integrator {
     static Real epsilon() noexcept { return std::numeric_limits<Real>::epsilon(); }
     static Real size(const Real& x) noexcept { return detail::size_of(x); }
 
-    // ---- start ----
-
     Status begin()
     {
         if (t_ - t_ != Real(0) || !step_is_valid()) return Status::invalid_input;
@@ -172,8 +170,6 @@ class Integrator {
             if (!way_.bounded) way_.length = h_;
         }
     }
-
-    // ---- one step ----
 
     /// Or `most` of them.
     Status one_step(std::size_t most = 1)
@@ -362,8 +358,6 @@ class Integrator {
         // Shorter steps were finite and failed by their error: the tolerance cannot be met.
         return reason == Status::non_finite && imprecise_ ? Status::step_too_small : reason;
     }
-
-    // ---- states ----
 
     /// The state at t_from_ + theta h, 0 < theta < 1; where it cannot be computed, on the chord of the step.
     const State& inside(const Real& theta) noexcept
