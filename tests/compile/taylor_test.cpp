@@ -29,7 +29,7 @@ TEST_CASE("Taylor's method meets the references to their last digit, in double i
     CHECK(std::stod(slopes[0]) < 1e-12);
     CHECK(std::stod(slopes[1]) < 1e-6);
     CHECK(slopes[2] == "1");
-    for (const char* name : {"rigid_body walk", "circle walk", "ellipse walk"}) {
+    for (const char* name : {"rigid_body walk", "oval walk", "ellipse walk"}) {
         INFO(name);
         CHECK(std::stod(lines.at(name)[0]) < 2);
     }

@@ -133,7 +133,7 @@ int main()
     for (int k = 0; k < chain<double>::dimension; ++k) s[k] = std::sin(1.0 + 3 * k) / 2;
     check_slopes<chain<double>>("chain", s);
     walk<rigid_body>("rigid_body", {-1.5, 0.5, 0.35});
-    walk<kepler>("circle", {1, 0, 0, 1});
+    walk<kepler>("oval", {0.7, 0, 0, std::sqrt(1.5)});
     walk<kepler>("ellipse", {0.5, 0, 0, std::sqrt(3.0)});
     return 0;
 }

@@ -11,6 +11,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <concepts>
 #include <cstdint>
 #include <limits>
 #include <type_traits>
@@ -25,8 +26,7 @@ concept HasTaylor = requires(const M& model, typename M::Scalar t, const typenam
 {
     {
         model.taylor(t, s, 8, x)
-    }
-    noexcept->std::same_as<status_t<typename M::Scalar>>;
+        } -> std::same_as<status_t<typename M::Scalar>>;
 };
 
 namespace detail {
