@@ -145,8 +145,8 @@ struct KernelModule {
     /// Conditions on the parameters alone, as text, with a node each that is positive where it holds.
     std::vector<std::pair<std::string, NodeId>> parameter_conditions;
     ModuleKind kind = ModuleKind::vector_field;
-    std::vector<LaneGroup> groups;       ///< of the lanes of State, in their order
-    SecondOrder second_order;            ///< of the right-hand side
+    std::vector<LaneGroup> groups; ///< of the lanes of State, in their order
+    SecondOrder second_order;      ///< of the right-hand side
     Flows flows;
     std::vector<ImplicitBlock> implicit; ///< unknowns of the kernels at (t, s), in the order in which they are solved
     std::vector<Kernel> kernels;
