@@ -24,12 +24,12 @@ TEST_CASE("a Jacobian by columns agrees with 50 digits in every scalar to its pr
     auto results = lines_by_key("all " + output);
     const std::vector<std::string>& words = results["all chain_relative"];
     REQUIRE(words.size() == 6);
-    // A few hundred roundings of the scalar's epsilon, one a link and direction of the recursion.
-    CHECK(std::stod(words[0]) < 300 * 1.2e-7);
+    // Elimination along the links loses 590 roundings at this state; the entries written out one by one lose 2200.
+    CHECK(std::stod(words[0]) < 1000 * 1.2e-7);
     CHECK(std::stod(words[0]) > 0);
-    CHECK(std::stod(words[1]) < 300 * 2.3e-16);
+    CHECK(std::stod(words[1]) < 1000 * 2.3e-16);
     CHECK(std::stod(words[1]) > 0);
-    CHECK(std::stod(words[2]) < 300 * 1.1e-19);
+    CHECK(std::stod(words[2]) < 1000 * 1.1e-19);
     CHECK(std::stod(words[3]) < 1e-46);
     CHECK(words[4] == "0");
     CHECK(words[5] == "0");
