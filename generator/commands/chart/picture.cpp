@@ -34,17 +34,19 @@ struct Curve {
     bool leads = false;
 };
 
-/// Leading methods first.
+/// Leading methods in their order, then the others.
 std::vector<Curve> curves_of(const Chart& chart, const std::vector<std::string>& leading)
 {
+    std::vector<std::string> names = leading;
+    for (std::string& name : charted_methods(chart))
+        if (std::ranges::find(leading, name) == leading.end()) names.push_back(std::move(name));
     std::vector<Curve> curves;
-    for (const std::string& name : charted_methods(chart)) {
-        Curve curve{name, {}, {}, std::ranges::find(leading, name) != leading.end()};
+    for (const std::string& name : names) {
+        Curve curve{name, {}, {}, curves.size() < leading.size()};
         for (const ChartPoint& point : chart.points)
             if (name_of(point) == name) (point.error ? curve.points : curve.failures).push_back(&point);
         curves.push_back(std::move(curve));
     }
-    std::stable_partition(curves.begin(), curves.end(), [](const Curve& curve) { return curve.leads; });
     return curves;
 }
 
@@ -130,7 +132,8 @@ ChartPanel fitted(const Chart& chart, ChartPanel panel)
         top = std::max(top, panel.y(point));
     }
     panel.worst = std::log10((failed ? 7 * failures_at : 1) * panel.largest);
-    panel.least = std::floor(std::log10(least)) - 1.5; // room for names behind the last points
+    panel.least = std::floor(std::log10(least));
+    panel.least -= std::max(1.5, 0.15 * (panel.worst - panel.least)); // room for names behind the last points
     panel.bottom = std::log10(bottom) - 0.2;
     panel.top = std::log10(top) + 0.2;
     return panel;
@@ -156,12 +159,13 @@ std::string names_script(const std::vector<Curve>& curves, const ChartPanel& pan
     return text;
 }
 
-/// Every second decade that is shown, and the column of failures.
+/// Every second or fourth decade that is shown, and the column of failures.
 std::string tics_script(const ChartPanel& panel)
 {
     std::string text = fmt::format("set xtics ('failed' {:g}", failures_at * panel.largest);
-    const int first = static_cast<int>(std::floor(std::log10(panel.largest) / 2)) * 2;
-    for (int k = first; k > panel.least; k -= 2)
+    const int apart = panel.worst - panel.least > 20 ? 4 : 2;
+    const int first = static_cast<int>(std::floor(std::log10(panel.largest) / apart)) * apart;
+    for (int k = first; k > panel.least; k -= apart)
         text += k == 0 ? std::string(", '1' 1") : fmt::format(", '1e{0}' 1e{0}", k);
     return text + ")\n";
 }
@@ -239,16 +243,22 @@ std::string picture_script(const Chart& chart, const std::vector<std::string>& l
 /// Methods that are the cheapest for some x of `first` or less, or take at most so many times as long as that.
 std::vector<std::string> leading_in(const Chart& chart, const Measure& x, double first, double last, double times)
 {
-    std::vector<std::string> leading;
+    std::vector<std::pair<double, double>> allowed; // x and seconds
     for (double level = first; level > last; level *= 0.31622776601683794) {
         double best = HUGE_VAL;
         for (const ChartPoint& point : chart.points)
             if (point.error && x(point) <= level) best = std::min(best, point.seconds);
-        for (const ChartPoint& point : chart.points)
-            if (point.error && x(point) <= level && point.seconds <= times * best &&
-                std::ranges::find(leading, name_of(point)) == leading.end())
-                leading.push_back(name_of(point));
+        allowed.emplace_back(level, times * best);
     }
+    std::vector<std::string> leading;
+    for (const std::string& name : charted_methods(chart))
+        if (std::ranges::any_of(chart.points, [&](const ChartPoint& point) {
+                return name_of(point) == name && point.error &&
+                       std::ranges::any_of(allowed, [&](const std::pair<double, double>& most) {
+                           return x(point) <= most.first && point.seconds <= most.second;
+                       });
+            }))
+            leading.push_back(name);
     return leading;
 }
 
@@ -273,7 +283,7 @@ void draw_chart(const Chart& chart, const std::string& path)
 bool draw_drifts(const Chart& chart, const std::string& path)
 {
     std::vector<ChartPanel> panels;
-    std::vector<std::string> leading;
+    std::vector<std::string> leading = leading_methods(chart, near_the_best); // in the colours of the chart
     for (const std::string& name : charted_invariants(chart)) {
         if (panels.size() == most_invariants) break;
         const Measure drift = drift_shown(name);

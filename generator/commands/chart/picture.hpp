@@ -11,8 +11,8 @@ namespace lagen {
 /// their curves, the others thin; runs that failed are crosses in the column on the left.
 void draw_chart(const Chart& chart, const std::string& path);
 
-/// The same with the drift of what the equations conserve in the place of the error, four invariants at most; false
-/// where there is none.
+/// The same with the drift of what the equations conserve in the place of the error, four invariants at most; methods
+/// that lead in a drift alone are coloured too. False where nothing is conserved.
 bool draw_drifts(const Chart& chart, const std::string& path);
 
 /// Methods that are the cheapest for some error of 1e-2 or less, or take at most so many times as long as that.
