@@ -206,9 +206,8 @@ class SeriesPrinter {
     Body split_body()
     {
         const std::vector<NodeId> nodes = outputs();
-        Body body =
-            write_body({*module_.graph, locals_, nodes, kernel_.checks->pivots, names_.moving, Checking::state, {}, 0,
-                        terms_});
+        Body body = write_body(
+            {*module_.graph, locals_, nodes, kernel_.checks->pivots, names_.moving, Checking::state, {}, 0, terms_});
         names_of_groups_ = body.terms;
         BodyPart early;
         for (Statement& statement : body.parts.front()) {

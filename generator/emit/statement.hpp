@@ -60,8 +60,8 @@ using BodyPart = std::vector<Statement>;
 
 struct Body {
     std::vector<BodyPart> parts;
-    std::size_t workspace = 0;  ///< places
-    std::vector<NodeId> inputs; ///< that are read, ascending
+    std::size_t workspace = 0;           ///< places
+    std::vector<NodeId> inputs;          ///< that are read, ascending
     std::vector<std::string> terms = {}; ///< names of the groups of terms
 };
 

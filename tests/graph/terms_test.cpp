@@ -64,9 +64,9 @@ void check_groups(const Graph& graph, const AlikeGroups& found, const TermReques
             if (given) mine.assign(request.sums.at(lane).begin(), request.sums.at(lane).end());
             std::vector<NodeId> theirs;
             for (const TermOperand& operand : group.operands)
-                theirs.push_back(operand.group                 ? found.groups[*operand.group].lanes[l]
+                theirs.push_back(operand.group               ? found.groups[*operand.group].lanes[l]
                                  : operand.nodes.size() == 1 ? operand.nodes[0]
-                                                               : operand.nodes[l]);
+                                                             : operand.nodes[l]);
             if (mine != theirs) std::swap(theirs.front(), theirs.back());
             CHECK(mine == theirs);
             CHECK((mine == theirs || given || operator_of(graph.op(lane)).commutative));

@@ -71,8 +71,8 @@ class Grouping {
                 if (found == family.end()) operands.push_back(id); // alone
                 payload = found == family.end() ? 0 : found->second;
             }
-            shapes_[id] = known.try_emplace({op, payload, operands}, static_cast<std::uint32_t>(known.size() + 1))
-                              .first->second;
+            shapes_[id] =
+                known.try_emplace({op, payload, operands}, static_cast<std::uint32_t>(known.size() + 1)).first->second;
         }
     }
 
@@ -117,8 +117,8 @@ class Grouping {
     {
         const std::set<NodeId> distinct(lanes.begin(), lanes.end());
         return distinct.size() == lanes.size() && std::ranges::all_of(lanes, [&](NodeId id) {
-            return shapes_[id] == shapes_[lanes[0]] && !place_of_.contains(id);
-        });
+                   return shapes_[id] == shapes_[lanes[0]] && !place_of_.contains(id);
+               });
     }
 
     /// The group of these lanes in this order: one that is there, or a new one.
@@ -150,8 +150,10 @@ class Grouping {
             std::vector<NodeId> operands(graph_.operands(lanes[l]).begin(), graph_.operands(lanes[l]).end());
             if (is_sum(lanes[l])) operands.assign(request_.sums.at(lanes[l]).begin(), request_.sums.at(lanes[l]).end());
             if (sides.empty()) sides.resize(operands.size());
-            const bool commutes = operands.size() == 2 && (operator_of(graph_.op(lanes[l])).commutative || is_sum(lanes[l]));
-            if (l > 0 && commutes && fits(sides, operands[1], operands[0], l) > fits(sides, operands[0], operands[1], l))
+            const bool commutes =
+                operands.size() == 2 && (operator_of(graph_.op(lanes[l])).commutative || is_sum(lanes[l]));
+            if (l > 0 && commutes &&
+                fits(sides, operands[1], operands[0], l) > fits(sides, operands[0], operands[1], l))
                 std::swap(operands[0], operands[1]);
             for (std::size_t k = 0; k < operands.size(); ++k) sides[k].push_back(operands[k]);
         }

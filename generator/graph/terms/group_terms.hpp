@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Terms of one formula that are alike: the pairs of many bodies, the springs of a lattice. Nodes of the same operations
-/// over operands that are alike themselves become the lanes of one operation on vectors [Larsen-Amarasinghe 2000,
-/// superword level parallelism]. A group begins with slow operations (roots, quotients) that are alike, takes in what
-/// its lanes are made of as long as that is alike too, and then what is made of it, lane by lane.
+/// Terms of one formula that are alike: the pairs of many bodies, the springs of a lattice. Nodes of the same
+/// operations over operands that are alike themselves become the lanes of one operation on vectors [Larsen-Amarasinghe
+/// 2000, superword level parallelism]. A group begins with slow operations (roots, quotients) that are alike, takes in
+/// what its lanes are made of as long as that is alike too, and then what is made of it, lane by lane.
 ///
 /// Alike nodes stand equally high over the leaves, so that none of a group depends on another, and no circle of groups
 /// waits for itself.
@@ -34,7 +34,7 @@ struct AlikeTerms {
 };
 
 struct AlikeGroups {
-    std::vector<AlikeTerms> groups;                                  ///< by their first lanes
+    std::vector<AlikeTerms> groups;                                 ///< by their first lanes
     std::map<NodeId, std::pair<std::size_t, std::size_t>> place_of; ///< group and lane of a node
 
     [[nodiscard]] bool contains(NodeId id) const { return place_of.contains(id); }
@@ -42,7 +42,7 @@ struct AlikeGroups {
 
 /// What may stand in a group: an input only with others of its family.
 struct TermRequest {
-    std::span<const NodeId> outputs; ///< all that is read
+    std::span<const NodeId> outputs;           ///< all that is read
     std::vector<std::vector<NodeId>> families; ///< of inputs
     /// Inputs that are sums of products of two series, by whose latest terms a_k, b_k they are grouped.
     std::map<NodeId, std::array<NodeId, 2>> sums = {};

@@ -49,7 +49,8 @@ template <class S, class Register>
 [[nodiscard]] [[gnu::always_inline]] inline __m512d inverse_cubes_of_register(__m512d x) noexcept
 {
     const __m512i leading = _mm512_set1_epi64(-(std::int64_t(1) << 36));
-    const __m512d y = _mm512_castsi512_pd(_mm512_and_epi64(_mm512_castpd_si512(_mm512_rsqrt14_pd(x)), leading));
+    const __m512d y =
+        _mm512_castsi512_pd(_mm512_and_epi64(_mm512_castpd_si512(_mm512_maskz_rsqrt14_pd(0xff, x)), leading));
     const __m512d square = y * y, cube = square * y;
     const __m512d e = _mm512_fnmadd_pd(x, square, _mm512_set1_pd(1));
     __m512d sum = _mm512_fmadd_pd(e, _mm512_set1_pd(2.4609375), _mm512_set1_pd(2.1875));
@@ -90,13 +91,20 @@ class Terms {
     [[nodiscard]] [[gnu::always_inline]] std::array<S, n> lanes() const noexcept
     {
         std::array<S, n> numbers;
-        if constexpr (width == 1)
+        if constexpr (width == 1) {
             std::copy_n(registers_.begin(), n, numbers.begin());
-        else
+        } else {
             std::memcpy(&numbers, &registers_, sizeof numbers);
+#if defined(__GNUC__)
+            asm("" : "+m"(numbers)); // one store a register; compilers would draw out lane after lane instead
+#endif
+        }
         return numbers;
     }
-    [[nodiscard]] [[gnu::always_inline]] S operator[](std::size_t lane) const noexcept { return lanes()[lane]; }
+    [[nodiscard]] [[gnu::always_inline]] S operator[](std::size_t lane) const noexcept
+    {
+        return lanes()[lane];
+    }
 
     [[nodiscard]] [[gnu::always_inline]] static Register zeros() noexcept
     {
@@ -105,7 +113,14 @@ class Terms {
         else
             return Register{};
     }
-    [[nodiscard]] [[gnu::always_inline]] const Register& part(std::size_t k) const noexcept { return registers_[k]; }
+    [[nodiscard]] [[gnu::always_inline]] Register& part(std::size_t k) noexcept
+    {
+        return registers_[k];
+    }
+    [[nodiscard]] [[gnu::always_inline]] const Register& part(std::size_t k) const noexcept
+    {
+        return registers_[k];
+    }
 
     [[gnu::always_inline]] friend Terms operator+(const Terms& a, const Terms& b) noexcept
     {
@@ -127,14 +142,38 @@ class Terms {
     {
         return each([&](std::size_t k) __attribute__((always_inline)) { return -a.registers_[k]; });
     }
-    [[gnu::always_inline]] friend Terms operator+(const S& a, const Terms& b) noexcept { return all(a) + b; }
-    [[gnu::always_inline]] friend Terms operator-(const S& a, const Terms& b) noexcept { return all(a) - b; }
-    [[gnu::always_inline]] friend Terms operator*(const S& a, const Terms& b) noexcept { return all(a) * b; }
-    [[gnu::always_inline]] friend Terms operator/(const S& a, const Terms& b) noexcept { return all(a) / b; }
-    [[gnu::always_inline]] friend Terms operator+(const Terms& a, const S& b) noexcept { return a + all(b); }
-    [[gnu::always_inline]] friend Terms operator-(const Terms& a, const S& b) noexcept { return a - all(b); }
-    [[gnu::always_inline]] friend Terms operator*(const Terms& a, const S& b) noexcept { return a * all(b); }
-    [[gnu::always_inline]] friend Terms operator/(const Terms& a, const S& b) noexcept { return a / all(b); }
+    [[gnu::always_inline]] friend Terms operator+(const S& a, const Terms& b) noexcept
+    {
+        return all(a) + b;
+    }
+    [[gnu::always_inline]] friend Terms operator-(const S& a, const Terms& b) noexcept
+    {
+        return all(a) - b;
+    }
+    [[gnu::always_inline]] friend Terms operator*(const S& a, const Terms& b) noexcept
+    {
+        return all(a) * b;
+    }
+    [[gnu::always_inline]] friend Terms operator/(const S& a, const Terms& b) noexcept
+    {
+        return all(a) / b;
+    }
+    [[gnu::always_inline]] friend Terms operator+(const Terms& a, const S& b) noexcept
+    {
+        return a + all(b);
+    }
+    [[gnu::always_inline]] friend Terms operator-(const Terms& a, const S& b) noexcept
+    {
+        return a - all(b);
+    }
+    [[gnu::always_inline]] friend Terms operator*(const Terms& a, const S& b) noexcept
+    {
+        return a * all(b);
+    }
+    [[gnu::always_inline]] friend Terms operator/(const Terms& a, const S& b) noexcept
+    {
+        return a / all(b);
+    }
     /// 1/(x sqrt(x)).
     [[nodiscard]] [[gnu::always_inline]] friend Terms inverse_cubes_of_roots(const Terms& a) noexcept
     {
@@ -149,7 +188,7 @@ class Terms {
     [[gnu::always_inline]] friend Terms sqrt(const Terms& a) noexcept
     {
         return each([&](std::size_t k)
-                      __attribute__((always_inline)) { return detail::root_of_register<S>(a.registers_[k]); });
+                        __attribute__((always_inline)) { return detail::root_of_register<S>(a.registers_[k]); });
     }
 
   private:
@@ -209,22 +248,22 @@ class TermSeries {
     [[nodiscard]] [[gnu::always_inline]] std::array<Lanes, sizeof...(factors) / 2> sums(int k) const noexcept
     {
         constexpr std::array<std::size_t, sizeof...(factors)> of{factors...};
-        return [&]<std::size_t... i>(std::index_sequence<i...>) __attribute__((always_inline))
-        {
-            std::array<std::array<typename Lanes::Register, Lanes::count>, sizeof...(i)> sums;
-            for (std::size_t m = 0; m < Lanes::count; ++m) {
+        constexpr std::size_t pairs = sizeof...(factors) / 2;
+        std::array<Lanes, pairs> result;
+        const auto order = static_cast<std::size_t>(k);
+        for (std::size_t m = 0; m < Lanes::count; ++m)
+            [&]<std::size_t... i>(std::index_sequence<i...>) __attribute__((always_inline))
+            {
                 const auto& a = rows_[m];
-                ((sums[i][m] = Lanes::zeros()), ...);
-                const auto add = [&](std::size_t j, std::size_t l)
-                                     __attribute__((always_inline)) { ((sums[i][m] += a[j][of[2 * i]] * a[l][of[2 * i + 1]]), ...); };
-                const auto order = static_cast<std::size_t>(k);
-                for (std::size_t j = 2; j + 1 < order; ++j) add(j, order - j);
-                if (order > 2) add(1, order - 1);
-                if (order > 1) add(order - 1, 1);
+                std::array<typename Lanes::Register, pairs> sum{(static_cast<void>(i), Lanes::zeros())...};
+                for (std::size_t j = 2; j + 1 < order; ++j)
+                    ((sum[i] += a[j][of[2 * i]] * a[order - j][of[2 * i + 1]]), ...);
+                if (order > 2) ((sum[i] += a[1][of[2 * i]] * a[order - 1][of[2 * i + 1]]), ...);
+                if (order > 1) ((sum[i] += a[order - 1][of[2 * i]] * a[1][of[2 * i + 1]]), ...);
+                ((result[i].part(m) = sum[i]), ...);
             }
-            return std::array<Lanes, sizeof...(i)>{Lanes::each([&](std::size_t m) { return sums[i][m]; })...};
-        }
-        (std::make_index_sequence<sizeof...(factors) / 2>{});
+        (std::make_index_sequence<pairs>{});
+        return result;
     }
 
   private:

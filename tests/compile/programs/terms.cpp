@@ -118,13 +118,15 @@ int main()
     using namespace lagen::models;
     check<pleiades>("pleiades", []<class S>(const S* x, S* a) {
         const std::array<S, 7> masses{1, 2, 3, 4, 5, 6, 7};
-        attract<7, 2>(x, [](int i, int k) { return 7 * k + i; }, masses, a);
+        attract<7, 2>(
+            x, [](int i, int k) { return 7 * k + i; }, masses, a);
     });
     check<outer_solar_system>("outer_solar_system", []<class S>(const S* x, S* a) {
         const outer_solar_system<S> model;
         const auto& p = model.parameters;
         const std::array<S, 6> masses{p.G * p.m_1, p.G * p.m_2, p.G * p.m_3, p.G * p.m_4, p.G * p.m_5, p.G * p.m_6};
-        attract<6, 3>(x, [](int i, int k) { return 3 * i + k; }, masses, a);
+        attract<6, 3>(
+            x, [](int i, int k) { return 3 * i + k; }, masses, a);
     });
     return 0;
 }
