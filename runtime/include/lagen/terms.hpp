@@ -2,7 +2,7 @@
 /// Terms of one formula that are alike (the pairs of many bodies), a lane each, and their Taylor series:
 ///   const auto v0 = Terms<S, 3>::of(a, b, c) - Terms<S, 3>::of(b, c, a);
 ///   const auto v1 = inverse_cubes_of_roots(v0 * v0);
-///   const std::array<S, 3> lanes = v1.lanes();
+///   const auto v1_lanes = v1.lanes();                        // v1_lanes[2]
 /// float and double stand in vector registers; lanes beyond the last repeat it. Other scalars, packs among them, are
 /// taken one by one. Every lane gets what the same operations on scalars give, bit for bit but for
 /// inverse_cubes_of_roots with AVX-512, where it is nearer to the exact number.
@@ -88,23 +88,18 @@ class Terms {
         return result;
     }
 
-    [[nodiscard]] [[gnu::always_inline]] std::array<S, n> lanes() const noexcept
+    /// With those beyond the last, so that a register is stored whole.
+    [[nodiscard]] [[gnu::always_inline]] std::array<S, count * width> lanes() const noexcept
     {
-        std::array<S, n> numbers;
+        std::array<S, count * width> numbers;
         if constexpr (width == 1) {
             std::copy_n(registers_.begin(), n, numbers.begin());
         } else {
             std::memcpy(&numbers, &registers_, sizeof numbers);
-#if defined(__GNUC__)
-            asm("" : "+m"(numbers)); // one store a register; compilers would draw out lane after lane instead
-#endif
         }
         return numbers;
     }
-    [[nodiscard]] [[gnu::always_inline]] S operator[](std::size_t lane) const noexcept
-    {
-        return lanes()[lane];
-    }
+    [[nodiscard]] [[gnu::always_inline]] S operator[](std::size_t lane) const noexcept { return lanes()[lane]; }
 
     [[nodiscard]] [[gnu::always_inline]] static Register zeros() noexcept
     {
@@ -113,14 +108,8 @@ class Terms {
         else
             return Register{};
     }
-    [[nodiscard]] [[gnu::always_inline]] Register& part(std::size_t k) noexcept
-    {
-        return registers_[k];
-    }
-    [[nodiscard]] [[gnu::always_inline]] const Register& part(std::size_t k) const noexcept
-    {
-        return registers_[k];
-    }
+    [[nodiscard]] [[gnu::always_inline]] Register& part(std::size_t k) noexcept { return registers_[k]; }
+    [[nodiscard]] [[gnu::always_inline]] const Register& part(std::size_t k) const noexcept { return registers_[k]; }
 
     [[gnu::always_inline]] friend Terms operator+(const Terms& a, const Terms& b) noexcept
     {
@@ -142,38 +131,14 @@ class Terms {
     {
         return each([&](std::size_t k) __attribute__((always_inline)) { return -a.registers_[k]; });
     }
-    [[gnu::always_inline]] friend Terms operator+(const S& a, const Terms& b) noexcept
-    {
-        return all(a) + b;
-    }
-    [[gnu::always_inline]] friend Terms operator-(const S& a, const Terms& b) noexcept
-    {
-        return all(a) - b;
-    }
-    [[gnu::always_inline]] friend Terms operator*(const S& a, const Terms& b) noexcept
-    {
-        return all(a) * b;
-    }
-    [[gnu::always_inline]] friend Terms operator/(const S& a, const Terms& b) noexcept
-    {
-        return all(a) / b;
-    }
-    [[gnu::always_inline]] friend Terms operator+(const Terms& a, const S& b) noexcept
-    {
-        return a + all(b);
-    }
-    [[gnu::always_inline]] friend Terms operator-(const Terms& a, const S& b) noexcept
-    {
-        return a - all(b);
-    }
-    [[gnu::always_inline]] friend Terms operator*(const Terms& a, const S& b) noexcept
-    {
-        return a * all(b);
-    }
-    [[gnu::always_inline]] friend Terms operator/(const Terms& a, const S& b) noexcept
-    {
-        return a / all(b);
-    }
+    [[gnu::always_inline]] friend Terms operator+(const S& a, const Terms& b) noexcept { return all(a) + b; }
+    [[gnu::always_inline]] friend Terms operator-(const S& a, const Terms& b) noexcept { return all(a) - b; }
+    [[gnu::always_inline]] friend Terms operator*(const S& a, const Terms& b) noexcept { return all(a) * b; }
+    [[gnu::always_inline]] friend Terms operator/(const S& a, const Terms& b) noexcept { return all(a) / b; }
+    [[gnu::always_inline]] friend Terms operator+(const Terms& a, const S& b) noexcept { return a + all(b); }
+    [[gnu::always_inline]] friend Terms operator-(const Terms& a, const S& b) noexcept { return a - all(b); }
+    [[gnu::always_inline]] friend Terms operator*(const Terms& a, const S& b) noexcept { return a * all(b); }
+    [[gnu::always_inline]] friend Terms operator/(const Terms& a, const S& b) noexcept { return a / all(b); }
     /// 1/(x sqrt(x)).
     [[nodiscard]] [[gnu::always_inline]] friend Terms inverse_cubes_of_roots(const Terms& a) noexcept
     {
