@@ -152,6 +152,18 @@ ModuleNames name_module(const KernelModule& module)
     return names;
 }
 
+std::vector<std::vector<NodeId>> families_of(const KernelModule& module)
+{
+    std::vector<std::vector<NodeId>> families;
+    const auto add = [&](const std::vector<Quantity>& quantities) {
+        std::vector<NodeId>& family = families.emplace_back();
+        for (const Quantity& each : quantities) family.push_back(each.input);
+    };
+    add(module.parameters);
+    for (const LaneGroup& group : module.groups) add(group.lanes);
+    return families;
+}
+
 std::string copy_of(const KernelInput& input)
 {
     return input.name + "_before";

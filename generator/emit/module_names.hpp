@@ -18,6 +18,9 @@ struct ModuleNames {
 
 [[nodiscard]] ModuleNames name_module(const KernelModule& module);
 
+/// Inputs that stand in for one another in alike terms: parameters, and the lanes of State that stand together.
+[[nodiscard]] std::vector<std::vector<NodeId>> families_of(const KernelModule& module);
+
 /// The local copy of a state that an output may overwrite while it is read.
 [[nodiscard]] std::string copy_of(const KernelInput& input);
 

@@ -218,6 +218,7 @@ std::vector<BodyStep> order_body(const Graph& graph, const BodyPlan& plan, const
         Walk walk(graph, plan, roots, registers);
         for (const std::size_t k : order) walk.output(k, roots.outputs[k]);
         for (const NodeId id : roots.checked) walk.from(id);
+        for (const NodeId id : roots.kept) walk.from(id);
         return walk.steps();
     };
     std::vector<std::size_t> given(roots.outputs.size());

@@ -32,6 +32,7 @@ struct BodyRoots {
     std::span<const NodeId> checked;
     /// Other orders of the outputs that the function may follow (by columns for a matrix).
     std::vector<std::vector<std::size_t>> arrangements;
+    std::span<const NodeId> kept = {}; ///< computed, but stored nowhere
 };
 
 /// Steps of the kinds define, check and store.

@@ -80,7 +80,7 @@ class Clock {
             const Batch& batch = plan_.batches[found->second];
             for (const std::vector<NodeId>* side : {&batch.values, &batch.cosines})
                 for (const NodeId value : *side)
-                    if (value != no_node) timing.operations += width;
+                    if (value != no_node) timing.operations += batch.kind == Batch::Kind::terms ? width / 4 : width;
             timing.latency = latency_of(graph_, id);
         } else if (graph_.op(id) == Op::factor || graph_.op(id) == Op::solve || graph_.op(id) == Op::stumpff) {
             timing.operations = operation_weight(graph_, id);

@@ -79,14 +79,14 @@ void add_batch(Batch batch, BodyPlan& plan)
 }
 
 /// Of every kind a batch for all arguments that depend on no result of a batch, one for those that depend on these, ...
-void find_batches(const Graph& graph, const std::vector<NodeId>& nodes, BodyPlan& plan)
+void find_batches(const Graph& graph, const std::vector<NodeId>& nodes, const AlikeGroups& terms, BodyPlan& plan)
 {
     std::vector<std::size_t> level(graph.size(), 0);
     std::map<std::tuple<std::size_t, Batch::Kind, NodeId>, std::pair<NodeId, NodeId>> found; // by level, argument
     for (const NodeId id : nodes) {
         for (const NodeId operand : graph.operands(id)) level[id] = std::max(level[id], level[operand]);
         const auto operation = batched_operation(graph, id);
-        if (!operation) continue;
+        if (!operation || terms.contains(id)) continue;
         const auto [kind, argument] = *operation;
         const std::tuple key{level[argument], kind, argument};
         auto& [value, cosine] = found.try_emplace(key, no_node, no_node).first->second;
@@ -105,6 +105,39 @@ void find_batches(const Graph& graph, const std::vector<NodeId>& nodes, BodyPlan
         }
         add_batch(std::move(batch), plan);
     }
+}
+
+/// Groups of terms that are computed, not given.
+void add_terms(const Graph& graph, const AlikeGroups& terms, BodyPlan& plan)
+{
+    for (std::size_t k = 0; k < terms.groups.size(); ++k) {
+        const AlikeTerms& group = terms.groups[k];
+        if (graph.op(group.lanes[0]) == Op::input || group.is_included) continue;
+        Batch batch{Batch::Kind::terms, {}, group.lanes, {}, k};
+        for (const TermOperand& operand : group.operands) {
+            const std::vector<NodeId>& nodes = operand.group ? terms.groups[*operand.group].lanes : operand.nodes;
+            batch.arguments.insert(batch.arguments.end(), nodes.begin(), nodes.end());
+        }
+        for (const NodeId id : group.lanes) plan.batch_of[id] = plan.batches.size();
+        plan.batches.push_back(std::move(batch));
+    }
+}
+
+/// Marks the groups of which a single lane is read: by an output, by a node in no group, or by a group otherwise than
+/// lane by lane.
+void find_taken_apart(const Graph& graph, const std::vector<NodeId>& nodes, std::span<const NodeId> outputs,
+                      const AlikeGroups& terms, BodyPlan& plan)
+{
+    const auto read = [&](std::span<const NodeId> ids) {
+        for (const NodeId id : ids)
+            if (const auto found = plan.batch_of.find(id); found != plan.batch_of.end())
+                plan.batches[found->second].taken_apart = true;
+    };
+    read(outputs);
+    for (const NodeId id : nodes)
+        if (!terms.contains(id)) read(graph.operands(id));
+    for (const AlikeTerms& group : terms.groups)
+        for (const TermOperand& operand : group.operands) read(operand.nodes);
 }
 
 /// By node: a Stumpff function of which another order, of the same argument, is used too.
@@ -165,11 +198,16 @@ std::vector<NodeId> BodyPlan::family_of(const Graph& graph, NodeId id) const
     return family;
 }
 
-BodyPlan plan_body(const Graph& graph, std::span<const NodeId> outputs)
+BodyPlan plan_body(const Graph& graph, std::span<const NodeId> outputs, const AlikeGroups& terms,
+                   std::span<const NodeId> kept)
 {
-    const std::vector<NodeId> nodes = reachable(graph, outputs);
+    std::vector<NodeId> roots(outputs.begin(), outputs.end());
+    roots.insert(roots.end(), kept.begin(), kept.end());
+    const std::vector<NodeId> nodes = reachable(graph, roots);
     BodyPlan plan;
-    find_batches(graph, nodes, plan);
+    add_terms(graph, terms, plan);
+    find_taken_apart(graph, nodes, outputs, terms, plan);
+    find_batches(graph, nodes, terms, plan);
     plan.used.assign(graph.size(), false);
     for (const NodeId id : nodes) plan.used[id] = true;
     plan.named = choose_named(graph, nodes, outputs, plan);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Which nodes of a function body get a name. Operations that take long and that a processor does on several numbers at
 /// once stand together: the sines and cosines of all angles, square roots and reciprocals where there are several.
-/// Stumpff functions of one argument are all named: they come from one call.
+/// Stumpff functions of one argument are all named: they come from one call. Groups of alike terms are all named too:
+/// each is one operation on vectors.
 #pragma once
 
-#include "graph/core/graph.hpp"
+#include "graph/terms/group_terms.hpp"
 
 #include <limits>
 #include <map>
@@ -16,10 +17,12 @@ inline constexpr NodeId no_node = std::numeric_limits<NodeId>::max();
 
 /// Operations that one call computes; none of them depends on another's result.
 struct Batch {
-    enum class Kind { angles, roots, reciprocals } kind = Kind::angles;
-    std::vector<NodeId> arguments; ///< angles, radicands or divisors, ascending
+    enum class Kind { angles, roots, reciprocals, terms } kind = Kind::angles;
+    std::vector<NodeId> arguments; ///< angles, radicands or divisors, ascending; what the lanes of terms are made of
     std::vector<NodeId> values;    ///< the nodes, one an argument: sines, roots, quotients; no_node where not used
     std::vector<NodeId> cosines;   ///< the same for cosines; empty for other kinds
+    std::size_t group = 0;         ///< of terms: which
+    bool taken_apart = false;      ///< of terms: a lane is read by itself
 };
 
 struct BodyPlan {
@@ -34,7 +37,9 @@ struct BodyPlan {
     [[nodiscard]] std::vector<NodeId> family_of(const Graph& graph, NodeId id) const;
 };
 
-[[nodiscard]] BodyPlan plan_body(const Graph& graph, std::span<const NodeId> outputs);
+/// What `kept` are is computed too, though it is no output.
+[[nodiscard]] BodyPlan plan_body(const Graph& graph, std::span<const NodeId> outputs, const AlikeGroups& terms = {},
+                                 std::span<const NodeId> kept = {});
 
 /// True where a power is spelled out by a chain of squares, a statement each (|exponent| > 4).
 [[nodiscard]] bool needs_chain(const Graph& graph, NodeId id);

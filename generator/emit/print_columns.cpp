@@ -116,7 +116,7 @@ std::vector<std::string> print_columns(TextBlock& out, const KernelModule& modul
     ModuleNames inside = names;
     inside.locals.inputs = sweep.inputs;
     const Body body = write_body(
-        {sweep.graph, inside.locals, sweep.tangents, {}, {}, Checking::none, {}, longest_part, "columns_t<S>"});
+        {sweep.graph, inside.locals, sweep.tangents, {}, {}, Checking::none, {}, longest_part, {}, "columns_t<S>"});
     add(body);
     const std::vector<OutputArgument> arguments = {
         {"const " + known, "known", !sweep.known.empty()},

@@ -28,6 +28,9 @@ struct FunctionRequest {
     std::function<std::string(std::size_t, const std::string&)> store; ///< "ds[3] = w2 * w3;"
 };
 
+/// For the documentation of a function with groups of terms.
+inline constexpr const char* about_terms = "v0, v1, ..: terms that are alike, a lane each (lagen/terms.hpp).";
+
 [[nodiscard]] bool reads(const Body& body, NodeId id);
 [[nodiscard]] bool reads(const Body& body, const KernelInput& input);
 [[nodiscard]] std::string maybe_unused(bool used);

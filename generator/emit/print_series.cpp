@@ -15,7 +15,7 @@ namespace {
 /// Whether a variable of `names` stands in the expression.
 bool mentions(const Expression& expression, const std::set<std::string>& names)
 {
-    if (expression.is_variable()) return names.contains(expression.name);
+    if (expression.is_variable() && names.contains(expression.name)) return true;
     return std::ranges::any_of(expression.operands, [&](const Expression& each) { return mentions(each, names); });
 }
 
@@ -34,6 +34,7 @@ class SeriesPrinter {
                                                                                               {}},
           share_(fresh("share")), next_(fresh("next")), unit_(fresh("unit"))
     {
+        find_terms();
         name_late(series_.order, fmt::format("S({})", k_));
         for (std::size_t i = 0; i < lanes_; ++i) name_late(series_.curve[i], fmt::format("{}[{}][{}]", x_, k_, i));
         name_late(series_.curve[lanes_], fmt::format("({} == 1 ? {} : S(0))", k_, unit_));
@@ -41,6 +42,14 @@ class SeriesPrinter {
         for (const auto* group : {&products_, &squares_})
             for (std::size_t m = 0; m < group->pairs.size(); ++m)
                 name_late(series_.sums[group->pairs[m]], sum_text(*group, m));
+        for (const TermSums& sums : term_sums_)
+            for (std::size_t m = 0; m < sums.groups.size(); ++m) {
+                const std::string name = fmt::format("{}[{}]", sums.values, m);
+                late_.insert(name);
+                terms_.names[sums.groups[m]] = name;
+                const std::vector<NodeId>& lanes = group_of(sums.groups[m]).lanes;
+                for (std::size_t l = 0; l < lanes.size(); ++l) name_late(lanes[l], fmt::format("{}[{}]", name, l));
+            }
     }
 
     Includes print()
@@ -50,6 +59,7 @@ class SeriesPrinter {
         out_.line(fmt::format("static constexpr int {}_sums = {};", kernel_.name, series_.sums.size()));
         out_.blank();
         for (const std::string& line : kernel_.documentation) out_.comment(line);
+        if (!term_sums_.empty()) out_.comment(about_terms);
         out_.comment(fmt::format(
             "{}[k][i], k <= order <= most: unit^k (d/dt)^k / k! of entry i; a power of two as the unit is exact.", y_));
         out_.line("template <int most>");
@@ -68,6 +78,7 @@ class SeriesPrinter {
         close_block(out_);
         Includes includes = includes_of(body);
         includes.insert("lagen/series.hpp");
+        if (!term_sums_.empty()) includes.insert("lagen/terms.hpp");
         return includes;
     }
 
@@ -79,6 +90,56 @@ class SeriesPrinter {
         std::vector<std::size_t> pairs; ///< among those of the recurrence
     };
 
+    /// Sums of groups of so many terms, made at once from the series of other groups.
+    struct TermSums {
+        std::string object, values;
+        std::vector<std::size_t> groups; ///< the sums
+        std::vector<TermOperand> series; ///< the factors, each once
+    };
+
+    [[nodiscard]] const AlikeTerms& group_of(std::size_t k) const { return terms_.groups.groups[k]; }
+
+    /// Groups of alike terms among the first coefficients and all others, the sums in groups by their lanes.
+    void find_terms()
+    {
+        std::vector<NodeId> roots = nodes_of(kernel_);
+        roots.insert(roots.end(), series_.outputs.begin(), series_.outputs.end());
+        roots.insert(roots.end(), kernel_.checks->pivots.begin(), kernel_.checks->pivots.end());
+        TermRequest request{roots, families_of(module_), {}};
+        for (const std::vector<NodeId>& family : families_of(module_)) {
+            std::vector<NodeId>& coefficients = request.families.emplace_back();
+            const std::vector<Quantity> lanes = lanes_of(module_);
+            for (std::size_t i = 0; i < lanes.size(); ++i)
+                if (std::ranges::find(family, lanes[i].input) != family.end()) coefficients.push_back(series_.curve[i]);
+        }
+        std::vector<NodeId> kinds[2]; // sums, and means
+        for (std::size_t m = 0; m < series_.sums.size(); ++m) {
+            kinds[series_.are_means[m] ? 1 : 0].push_back(series_.sums[m]);
+            request.sums[series_.sums[m]] = series_.pairs[m];
+        }
+        request.families.insert(request.families.end(), std::begin(kinds), std::end(kinds));
+        terms_.groups = group_terms(*module_.graph, request);
+        std::map<std::size_t, TermSums> by_lanes;
+        for (std::size_t k = 0; k < terms_.groups.groups.size(); ++k) {
+            const AlikeTerms& group = group_of(k);
+            if (!request.sums.contains(group.lanes[0])) continue;
+            TermSums& sums = by_lanes[group.lanes.size()];
+            sums.groups.push_back(k);
+            for (const TermOperand& factor : group.operands) {
+                if (std::ranges::find(sums.series, factor) != sums.series.end()) continue;
+                sums.series.push_back(factor);
+                if (!factor.group) continue;
+                const std::vector<NodeId>& lanes = group_of(*factor.group).lanes;
+                terms_.kept.insert(terms_.kept.end(), lanes.begin(), lanes.end());
+            }
+        }
+        for (auto& [lanes, sums] : by_lanes) {
+            sums.object = fresh("series");
+            sums.values = fresh("lower_terms");
+            term_sums_.push_back(std::move(sums));
+        }
+    }
+
     /// Squares take half the terms, and half the room; but a few of them ride along where products leave lanes of a
     /// vector register idle.
     void sort_pairs()
@@ -86,7 +147,10 @@ class SeriesPrinter {
         constexpr std::size_t widest = 8;
         std::vector<std::size_t> squares;
         for (std::size_t m = 0; m < series_.pairs.size(); ++m)
-            (series_.pairs[m][0] == series_.pairs[m][1] ? squares : products_.pairs).push_back(m);
+            if (!terms_.groups.contains(series_.sums[m])) {
+                (series_.pairs[m][0] == series_.pairs[m][1] ? squares : products_.pairs).push_back(m);
+                single_.push_back(m);
+            }
         const std::size_t idle = (widest - products_.pairs.size() % widest) % widest;
         (squares.size() <= idle ? products_ : squares_)
             .pairs.insert((squares.size() <= idle ? products_ : squares_).pairs.end(), squares.begin(), squares.end());
@@ -122,7 +186,10 @@ class SeriesPrinter {
         std::vector<NodeId> nodes = nodes_of(kernel_);
         std::vector<NodeId> late = series_.outputs;
         for (const std::size_t side : {0U, 1U})
-            for (const auto& pair : series_.pairs) late.push_back(pair[side]);
+            for (const std::size_t m : single_) late.push_back(series_.pairs[m][side]);
+        for (const TermSums& sums : term_sums_)
+            for (const TermOperand& factor : sums.series)
+                late.insert(late.end(), factor.nodes.begin(), factor.nodes.end());
         nodes.insert(nodes.end(), late.begin(), late.end());
         last_late_ = nodes.size();
         std::vector<NodeId> inputs = series_.curve;
@@ -130,10 +197,13 @@ class SeriesPrinter {
         inputs.push_back(series_.order);
         const std::vector<bool> moves = depends_on(*module_.graph, inputs);
         std::set<NodeId> read;
-        for (const NodeId id : reachable(*module_.graph, late))
+        std::vector<NodeId> computed = late;
+        computed.insert(computed.end(), terms_.kept.begin(), terms_.kept.end());
+        for (const NodeId id : reachable(*module_.graph, computed))
             if (moves[id])
                 for (const NodeId operand : module_.graph->operands(id))
-                    if (!moves[operand] && kind_is_computed(operand)) read.insert(operand);
+                    if (!moves[operand] && kind_is_computed(operand) && !terms_.groups.contains(operand))
+                        read.insert(operand);
         nodes.insert(nodes.end(), read.begin(), read.end());
         return nodes;
     }
@@ -147,8 +217,9 @@ class SeriesPrinter {
     Body split_body()
     {
         const std::vector<NodeId> nodes = outputs();
-        Body body =
-            write_body({*module_.graph, locals_, nodes, kernel_.checks->pivots, names_.moving, Checking::state, {}, 0});
+        Body body = write_body(
+            {*module_.graph, locals_, nodes, kernel_.checks->pivots, names_.moving, Checking::state, {}, 0, terms_});
+        names_of_groups_ = body.terms;
         BodyPart early;
         for (Statement& statement : body.parts.front()) {
             using Kind = Statement::Kind;
@@ -168,7 +239,9 @@ class SeriesPrinter {
 
     void print_loop()
     {
-        const std::size_t count = series_.pairs.size();
+        for (const TermSums& sums : term_sums_)
+            out_.line(fmt::format("TermSeries<S, {}, {}, most> {};", group_of(sums.groups[0]).lanes.size(),
+                                  sums.series.size(), sums.object));
         for (const Sums* sums : {&products_, &squares_})
             if (!sums->pairs.empty())
                 out_.line(fmt::format("{}<S, {}, most> {};", sums->type, sums->pairs.size(), sums->object));
@@ -179,7 +252,8 @@ class SeriesPrinter {
         if (std::ranges::find(series_.are_means, true) != series_.are_means.end())
             out_.line(fmt::format("const OneOver<S> {}({});", share_, k_));
         if (is_rate_) out_.line(fmt::format("const OneOver<S> {}({} + 1, {});", next_, k_, unit_));
-        std::vector<std::string> sides[2] = {std::vector<std::string>(count), std::vector<std::string>(count)};
+        for (const TermSums& sums : term_sums_) print_term_sums(sums);
+        std::vector<std::string> factors(last_late_ - 2 * outputs_);
         for (const Statement& statement : loop_) {
             if (statement.kind != Statement::Kind::store) {
                 for (const std::string& line : spell(statement)) out_.line(line);
@@ -188,29 +262,70 @@ class SeriesPrinter {
             const std::size_t place = statement.index - outputs_;
             const Expression& value = statement.expressions[0];
             if (place >= outputs_)
-                sides[(place - outputs_) / count][(place - outputs_) % count] = spell(value).text;
+                factors[place - outputs_] = spell(value).text;
             else if (is_rate_)
                 out_.line(fmt::format("{}[{} + 1][{}] = {};", y_, k_, place,
                                       spell(operation(Op::multiply, variable(next_), value)).text));
             else
                 out_.line(fmt::format("{}[{}][{}] = {};", y_, k_, place, spell(value).text));
         }
-        keep(products_, {sides[0], sides[1]});
-        keep(squares_, {sides[0]});
+        keep(products_, 2, factors);
+        keep(squares_, 1, factors);
+        std::size_t used = 2 * single_.size();
+        for (const TermSums& sums : term_sums_) keep(sums, factors, used);
         close_block(out_);
     }
 
-    void keep(const Sums& sums, const std::vector<std::vector<std::string>>& sides)
+    void keep(const Sums& sums, std::size_t sides, const std::vector<std::string>& factors)
     {
         if (sums.pairs.empty()) return;
-        for (std::size_t k = 0; k < sides.size(); ++k) {
+        for (std::size_t k = 0; k < sides; ++k) {
             std::vector<std::string> entries;
-            for (const std::size_t m : sums.pairs) entries.push_back(sides[k][m]);
+            for (const std::size_t m : sums.pairs) {
+                const auto place = std::ranges::lower_bound(single_, m) - single_.begin();
+                entries.push_back(factors[k * single_.size() + static_cast<std::size_t>(place)]);
+            }
             if (k > 0) out_.indent(2);
             out_.list(k == 0 ? fmt::format("{}.keep({}, {{", sums.object, k_) : "{", entries,
-                      k + 1 == sides.size() ? "});" : "},");
+                      k + 1 == sides ? "});" : "},");
             if (k > 0) out_.indent(-2);
         }
+    }
+
+    void keep(const TermSums& sums, const std::vector<std::string>& factors, std::size_t& used)
+    {
+        const std::size_t lanes = group_of(sums.groups[0]).lanes.size();
+        std::vector<std::string> series;
+        for (const TermOperand& factor : sums.series) {
+            if (factor.group) {
+                series.push_back(names_of_groups_[*factor.group]);
+                continue;
+            }
+            std::vector<std::string> entries;
+            for (std::size_t l = 0; l < lanes; ++l)
+                entries.push_back(factors[used + (factor.nodes.size() == 1 ? 0 : l)]);
+            used += factor.nodes.size();
+            series.push_back(fmt::format("Terms<S, {}>::of({})", lanes, joined(entries)));
+        }
+        out_.list(fmt::format("{}.keep({}, {{", sums.object, k_), series, "});");
+    }
+
+    /// Which series are multiplied, pair by pair; then the means are divided by k.
+    void print_term_sums(const TermSums& sums)
+    {
+        std::vector<std::string> pairs;
+        for (const std::size_t k : sums.groups)
+            for (const TermOperand& factor : group_of(k).operands)
+                pairs.push_back(std::to_string(std::ranges::find(sums.series, factor) - sums.series.begin()));
+        const auto is_mean = [&](std::size_t k) {
+            const auto place = std::ranges::find(series_.sums, group_of(k).lanes[0]) - series_.sums.begin();
+            return bool(series_.are_means[static_cast<std::size_t>(place)]);
+        };
+        const bool has_means = std::ranges::any_of(sums.groups, is_mean);
+        out_.list(fmt::format("{} {} = {}.template sums<", has_means ? "auto" : "const auto", sums.values, sums.object),
+                  pairs, fmt::format(">({});", k_));
+        for (std::size_t m = 0; m < sums.groups.size(); ++m)
+            if (is_mean(sums.groups[m])) out_.line(fmt::format("{0}[{1}] = {2} * {0}[{1}];", sums.values, m, share_));
     }
 
     TextBlock& out_;
@@ -225,6 +340,10 @@ class SeriesPrinter {
     Sums products_, squares_;
     std::string share_, next_;   ///< 1/k, and unit/(k + 1)
     std::string unit_;           ///< of time
+    std::vector<std::size_t> single_; ///< pairs of sums that are in no group
+    std::vector<TermSums> term_sums_; ///< by the number of lanes
+    BodyTerms terms_;
+    std::vector<std::string> names_of_groups_;
     std::set<std::string> late_; ///< what stands in the loop alone
     std::size_t last_late_ = 0;  ///< outputs from here on are there to get a name
     BodyPart loop_;

@@ -11,6 +11,14 @@ namespace lagen {
 
 namespace {
 
+/// "a, b, c".
+std::string list_of(const std::vector<Expression>& expressions)
+{
+    std::string text;
+    for (const Expression& each : expressions) text += (text.empty() ? "" : ", ") + spell(each).text;
+    return text;
+}
+
 std::string enclose(const Spelling& spelling, int precedence)
 {
     return spelling.precedence >= precedence ? spelling.text : "(" + spelling.text + ")";
@@ -124,14 +132,6 @@ Spelling spell_function(const Expression& call)
     return {fmt::format("{}({})", operator_of(call.op).spelling, arguments), 5};
 }
 
-/// "a, b, c".
-std::string list_of(const std::vector<Expression>& expressions)
-{
-    std::string text;
-    for (const Expression& each : expressions) text += (text.empty() ? "" : ", ") + spell(each).text;
-    return text;
-}
-
 std::string spell_check(const Statement& check)
 {
     std::string failure = at_least(1, check.expressions[0]);
@@ -171,6 +171,8 @@ Spelling spell(const Expression& expression)
     case OpKind::leaf:
         if (expression.op == Op::constant) return print_literal(expression.value);
         if (expression.op == Op::pi) return print_pi();
+        if (!expression.operands.empty())
+            return {fmt::format("{}({})", expression.name, list_of(expression.operands)), 5};
         return {expression.entry ? fmt::format("{}[{}]", expression.name, *expression.entry) : expression.name, 5};
     case OpKind::sum: return spell_sum(expression);
     case OpKind::product: return {at_least(2, expression.operands[0]) + " * " + at_least(3, expression.operands[1]), 2};
@@ -200,6 +202,11 @@ std::vector<std::string> spell(const Statement& statement)
                             statement.expressions.size() > 1 ? call("sincos") : "sincos<S>(" + argument() + ")")};
     case Kind::roots: return {fmt::format("const auto {} = {};", names[0], call("square_roots"))};
     case Kind::reciprocals: return {fmt::format("const auto {} = {};", names[0], call("reciprocals"))};
+    case Kind::terms: {
+        std::vector<std::string> lines{fmt::format("const auto {} = {};", names[0], argument())};
+        if (names.size() > 1) lines.push_back(fmt::format("const auto {} = {}.lanes();", names[1], names[0]));
+        return lines;
+    }
     case Kind::stumpff:
         return {fmt::format("const auto {} = stumpff_orders<{}, {}, S>({});", names[0], statement.index, statement.last,
                             argument())};
@@ -239,6 +246,7 @@ std::set<std::string> includes_of(const Body& body)
     if (of_terms || contains(body, Kind::factor)) includes.insert("lagen/linear.hpp");
     if (operators.contains(Op::sqrt) || contains(body, Kind::roots) || contains(body, Kind::reciprocals))
         includes.insert("lagen/roots.hpp");
+    if (contains(body, Kind::terms)) includes.insert("lagen/terms.hpp");
     if (contains(body, Kind::angles)) includes.insert("lagen/sincos.hpp");
     if (operators.contains(Op::stumpff) || contains(body, Kind::stumpff)) includes.insert("lagen/stumpff.hpp");
     return includes;

@@ -12,7 +12,7 @@
 
 namespace lagen {
 
-/// An operator of the operator table on its operands.
+/// An operator of the operator table on its operands; a variable with operands is the call of a function.
 struct Expression {
     Op op = Op::input;         ///< constant: `value`; input: the variable `name`
     std::uint32_t payload = 0; ///< the exponent of a power, the order of a Stumpff function
@@ -37,6 +37,7 @@ struct Statement {
         angles,      ///< names[0], names[1]: sine and cosine of expressions[0]; arrays of n where there are several
         roots,       ///< array names[0] of n square roots
         reciprocals, ///< array names[0] of n reciprocals
+        terms,       ///< vector names[0] = expressions[0], lanes of alike terms; names[1], where it is, its lanes
         stumpff,     ///< array names[0] of c_k(expressions[0]), index <= k <= last
         factor,      ///< names[0] = the pivoted LU of a matrix of the order `index`, n entries by rows
         solve,       ///< array names[0]: the solution by the LU names[1] for n right-hand sides
@@ -60,9 +61,10 @@ using BodyPart = std::vector<Statement>;
 
 struct Body {
     std::vector<BodyPart> parts;
-    std::size_t workspace = 0;  ///< places
-    std::vector<NodeId> inputs; ///< that are read, ascending
-    std::string type = "S";     ///< of the places
+    std::size_t workspace = 0;           ///< places
+    std::vector<NodeId> inputs;          ///< that are read, ascending
+    std::string type = "S";              ///< of the places
+    std::vector<std::string> terms = {}; ///< names of the groups of terms
 };
 
 /// Whether a statement may fail.

@@ -45,12 +45,9 @@ class BodyWriter {
         std::vector<NodeId> roots(request_.outputs.begin(), request_.outputs.end());
         for (const NodeId pivot : request_.pivots)
             if (is_checked(pivot)) roots.push_back(pivot); // a factorisation is checked where it stands
-        plan_ = plan_body(graph_, roots);
+        CutBody cut = plan(roots, request_.terms);
+        if (cut.parts.size() > 1 && !request_.terms.groups.groups.empty()) cut = plan(roots, {});
         name_inputs();
-        const std::vector<BodyStep> steps =
-            order_body(graph_, plan_,
-                       {request_.outputs, std::span(roots).subspan(request_.outputs.size()), request_.arrangements});
-        const CutBody cut = cut_body(graph_, steps, request_.longest_part);
         body_.workspace = cut.workspace;
         body_.type = request_.type;
         for (const std::vector<BodyStep>& part : cut.parts) {
@@ -62,6 +59,15 @@ class BodyWriter {
 
   private:
     using Kind = Statement::Kind;
+
+    CutBody plan(const std::vector<NodeId>& roots, const BodyTerms& terms)
+    {
+        plan_ = plan_body(graph_, roots, terms.groups, terms.kept);
+        const auto checked = std::span(roots).subspan(request_.outputs.size());
+        return cut_body(graph_,
+                        order_body(graph_, plan_, {request_.outputs, checked, request_.arrangements, terms.kept}),
+                        request_.longest_part);
+    }
 
     [[nodiscard]] bool is_checked(NodeId id) const
     {
@@ -85,6 +91,8 @@ class BodyWriter {
             expressions_.name(id, variable(request_.names.inputs.at(id)));
             body_.inputs.push_back(id);
         }
+        body_.terms.resize(request_.terms.groups.groups.size());
+        for (const auto& [group, name] : request_.terms.names) body_.terms[group] = name;
     }
 
     void add(Statement statement, const std::string& type)
@@ -145,6 +153,7 @@ class BodyWriter {
 
     void define_batch(const Batch& batch)
     {
+        if (batch.kind == Batch::Kind::terms) return define_terms(batch);
         std::vector<Expression> arguments;
         for (const NodeId argument : batch.arguments) arguments.push_back(expressions_(argument));
         if (batch.kind == Batch::Kind::angles) return define_angles(batch, std::move(arguments));
@@ -152,6 +161,31 @@ class BodyWriter {
         const std::string name = fresh(roots ? "roots" : "inverses");
         add({.kind = roots ? Kind::roots : Kind::reciprocals, .names = {name}, .expressions = std::move(arguments)});
         name_entries(batch.values, name);
+    }
+
+    /// v3 = v1 * v2, and v3_lanes where a lane of it is read by itself.
+    void define_terms(const Batch& batch)
+    {
+        const AlikeTerms& group = request_.terms.groups.groups[batch.group];
+        const NodeId first = group.lanes[0];
+        Expression value{.op = graph_.op(first), .payload = graph_.payload(first)};
+        if (group.is_inverse_cube) value = variable("inverse_cubes_of_roots");
+        for (const TermOperand& operand : group.operands) value.operands.push_back(vector_of(operand, batch));
+        std::string& name = body_.terms[batch.group];
+        name = fresh(fmt::format("v{}", batch.group));
+        Statement statement{.kind = Kind::terms, .names = {name}, .expressions = {std::move(value)}};
+        if (batch.taken_apart) statement.names.push_back(fresh(name + "_lanes"));
+        name_entries(group.lanes, statement.names.back());
+        add(std::move(statement));
+    }
+
+    [[nodiscard]] Expression vector_of(const TermOperand& operand, const Batch& batch) const
+    {
+        if (operand.group) return variable(body_.terms[*operand.group]);
+        if (operand.nodes.size() == 1) return expressions_(operand.nodes[0]);
+        Expression gathered = variable(fmt::format("Terms<S, {}>::of", batch.values.size()));
+        for (const NodeId id : operand.nodes) gathered.operands.push_back(expressions_(id));
+        return gathered;
     }
 
     /// The sines and cosines of one batch: sin_x and cos_x of one angle x that is an input, two further terms of

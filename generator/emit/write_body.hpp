@@ -4,6 +4,7 @@
 #pragma once
 
 #include "emit/statement.hpp"
+#include "graph/terms/group_terms.hpp"
 
 #include <map>
 
@@ -22,6 +23,13 @@ enum class Checking {
     parameters, ///< those that depend on neither
 };
 
+/// Alike terms on vectors, as long as the body is not cut.
+struct BodyTerms {
+    AlikeGroups groups;
+    std::map<std::size_t, std::string> names = {}; ///< of the groups that are inputs
+    std::vector<NodeId> kept = {};                 ///< computed, but stored nowhere
+};
+
 /// `moving` are the inputs that change during a run (time and state): factorisations that depend on none of them
 /// are checked once, before it. `pivots` are further factorisations to check, and divisors whose vanishing is a
 /// singular matrix too.
@@ -35,6 +43,7 @@ struct BodyRequest {
     /// Other orders in which the outputs may be stored.
     std::vector<std::vector<std::size_t>> arrangements = {};
     std::size_t longest_part = 0; ///< steps; 0: the body stays whole
+    BodyTerms terms = {};
     std::string type = "S";       ///< of what is computed, but factorisations, which are always of S
 };
 

@@ -74,10 +74,17 @@ class OneOver {
 
     [[nodiscard]] [[gnu::always_inline]] friend S operator*(const OneOver& one_over, const S& x) noexcept
     {
+        return one_over.of(x);
+    }
+
+    /// The same of anything that is multiplied by S, lane by lane.
+    template <class Lanes>
+    [[nodiscard]] [[gnu::always_inline]] Lanes of(const Lanes& x) const noexcept
+    {
         if constexpr (is_split)
-            return x * one_over.first_ + x * one_over.second_;
+            return x * first_ + x * second_;
         else
-            return one_over.first_ * x / one_over.second_;
+            return first_ * x / second_;
     }
 
   private:
