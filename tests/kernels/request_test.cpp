@@ -129,10 +129,10 @@ TEST_CASE("conditions of the domain have series beside that of the motion, where
     CHECK_FALSE(has_kernel(kernels("x^2 < b", {}), "domain_series"));
     CHECK_FALSE(has_kernel(kernels("b > 0", {"taylor"}), "domain_series"));
     CHECK_FALSE(has_kernel(kernels("abs(x) < b", {"taylor"}), "domain_series"));
-    CHECK_THROWS_WITH(
-        kernels("abs(x) < b", {"domain_series"}),
-        "a Taylor series does not see the kinks and jumps of abs() along the motion: take another method, such as "
-        "dop853");
+    CHECK_THROWS_WITH(kernels("abs(x) < b", {"domain_series"}),
+                      "error: a Taylor series does not see the kinks and jumps of abs() along the motion: take another "
+                      "method, such as "
+                      "dop853");
 }
 
 TEST_CASE("events of all scenes are distinct, those of one scene bear their own names", "[kernels]")
