@@ -117,7 +117,6 @@
 
 #include "lagen/kernel.hpp"
 #include "lagen/roots.hpp"
-#include "lagen/terms.hpp"
 
 #include <Eigen/Core>
 
@@ -274,7 +273,6 @@ class outer_solar_system {
     /// The equations of motion, ds = (xdot, ydot): xdot^i = rho^i_a y^a and
     /// W_ab ydot^b = rho_a(L) - (d2L/dy^a dx^i) rho^i_b y^b - d2L/dy^a dt - p_c C^c_ab y^b.
     /// s and ds may be the same object.
-    /// v0, v1, ..: terms that are alike, a lane each (lagen/terms.hpp).
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
         const S Q_1_1 = s[0], Q_1_2 = s[1], Q_1_3 = s[2], Q_2_1 = s[3], Q_2_2 = s[4], Q_2_3 = s[5], Q_3_1 = s[6],
@@ -301,56 +299,120 @@ class outer_solar_system {
         ds[15] = V_6_1;
         ds[16] = V_6_2;
         ds[17] = V_6_3;
-        const auto v0 = Terms<S, 15>::of(Q_3_1, Q_1_1, Q_1_1, Q_1_1, Q_1_1, Q_2_1, Q_2_1, Q_2_1, Q_2_1, Q_3_1, Q_3_1,
-                Q_3_1, Q_4_1, Q_4_1, Q_5_1) - Terms<S, 15>::of(Q_1_1, Q_2_1, Q_4_1, Q_5_1, Q_6_1, Q_3_1, Q_4_1, Q_5_1,
-                Q_6_1, Q_4_1, Q_5_1, Q_6_1, Q_5_1, Q_6_1, Q_6_1);
-        const auto v1 = v0 * v0;
-        const auto v2 = Terms<S, 15>::of(Q_3_2, Q_1_2, Q_1_2, Q_1_2, Q_1_2, Q_2_2, Q_2_2, Q_2_2, Q_2_2, Q_3_2, Q_3_2,
-                Q_3_2, Q_4_2, Q_4_2, Q_5_2) - Terms<S, 15>::of(Q_1_2, Q_2_2, Q_4_2, Q_5_2, Q_6_2, Q_3_2, Q_4_2, Q_5_2,
-                Q_6_2, Q_4_2, Q_5_2, Q_6_2, Q_5_2, Q_6_2, Q_6_2);
-        const auto v3 = v2 * v2;
-        const auto v6 = v1 + v3;
-        const auto v4 = Terms<S, 15>::of(Q_3_3, Q_1_3, Q_1_3, Q_1_3, Q_1_3, Q_2_3, Q_2_3, Q_2_3, Q_2_3, Q_3_3, Q_3_3,
-                Q_3_3, Q_4_3, Q_4_3, Q_5_3) - Terms<S, 15>::of(Q_1_3, Q_2_3, Q_4_3, Q_5_3, Q_6_3, Q_3_3, Q_4_3, Q_5_3,
-                Q_6_3, Q_4_3, Q_5_3, Q_6_3, Q_5_3, Q_6_3, Q_6_3);
-        const auto v5 = v4 * v4;
-        const auto v7 = v6 + v5;
-        const auto v10 = inverse_cubes_of_roots(v7);
+        const S w0 = Q_3_1 - Q_1_1;
+        const S w1 = Q_3_2 - Q_1_2;
+        const S w2 = Q_3_3 - Q_1_3;
+        const S w3 = w0 * w0 + w1 * w1 + w2 * w2;
+        const S w4 = Q_1_1 - Q_2_1;
+        const S w5 = Q_1_2 - Q_2_2;
+        const S w6 = Q_1_3 - Q_2_3;
+        const S w7 = w4 * w4 + w5 * w5 + w6 * w6;
+        const S w8 = Q_1_1 - Q_4_1;
+        const S w9 = Q_1_2 - Q_4_2;
+        const S w10 = Q_1_3 - Q_4_3;
+        const S w11 = w8 * w8 + w9 * w9 + w10 * w10;
+        const S w12 = Q_1_1 - Q_5_1;
+        const S w13 = Q_1_2 - Q_5_2;
+        const S w14 = Q_1_3 - Q_5_3;
+        const S w15 = w12 * w12 + w13 * w13 + w14 * w14;
+        const S w16 = Q_1_1 - Q_6_1;
+        const S w17 = Q_1_2 - Q_6_2;
+        const S w18 = Q_1_3 - Q_6_3;
+        const S w19 = w16 * w16 + w17 * w17 + w18 * w18;
+        const S w20 = Q_2_1 - Q_3_1;
+        const S w21 = Q_2_2 - Q_3_2;
+        const S w22 = Q_2_3 - Q_3_3;
+        const S w23 = w20 * w20 + w21 * w21 + w22 * w22;
+        const S w24 = Q_2_1 - Q_4_1;
+        const S w25 = Q_2_2 - Q_4_2;
+        const S w26 = Q_2_3 - Q_4_3;
+        const S w27 = w24 * w24 + w25 * w25 + w26 * w26;
+        const S w28 = Q_2_1 - Q_5_1;
+        const S w29 = Q_2_2 - Q_5_2;
+        const S w30 = Q_2_3 - Q_5_3;
+        const S w31 = w28 * w28 + w29 * w29 + w30 * w30;
+        const S w32 = Q_2_1 - Q_6_1;
+        const S w33 = Q_2_2 - Q_6_2;
+        const S w34 = Q_2_3 - Q_6_3;
+        const S w35 = w32 * w32 + w33 * w33 + w34 * w34;
+        const S w36 = Q_3_1 - Q_4_1;
+        const S w37 = Q_3_2 - Q_4_2;
+        const S w38 = Q_3_3 - Q_4_3;
+        const S w39 = w36 * w36 + w37 * w37 + w38 * w38;
+        const S w40 = Q_3_1 - Q_5_1;
+        const S w41 = Q_3_2 - Q_5_2;
+        const S w42 = Q_3_3 - Q_5_3;
+        const S w43 = w40 * w40 + w41 * w41 + w42 * w42;
+        const S w44 = Q_3_1 - Q_6_1;
+        const S w45 = Q_3_2 - Q_6_2;
+        const S w46 = Q_3_3 - Q_6_3;
+        const S w47 = w44 * w44 + w45 * w45 + w46 * w46;
+        const S w48 = Q_4_1 - Q_5_1;
+        const S w49 = Q_4_2 - Q_5_2;
+        const S w50 = Q_4_3 - Q_5_3;
+        const S w51 = w48 * w48 + w49 * w49 + w50 * w50;
+        const S w52 = Q_4_1 - Q_6_1;
+        const S w53 = Q_4_2 - Q_6_2;
+        const S w54 = Q_4_3 - Q_6_3;
+        const S w55 = w52 * w52 + w53 * w53 + w54 * w54;
+        const S w56 = Q_5_1 - Q_6_1;
+        const S w57 = Q_5_2 - Q_6_2;
+        const S w58 = Q_5_3 - Q_6_3;
+        const S w59 = w56 * w56 + w57 * w57 + w58 * w58;
+        const auto roots = square_roots<S, 15>({w3, w7, w11, w15, w19, w23, w27, w31, w35, w39, w43, w47, w51, w55,
+                w59});
+        const auto inverses = reciprocals<S, 15>({roots[1] * w7, roots[0] * w3, roots[2] * w11, roots[3] * w15, roots[4]
+                * w19, roots[5] * w23, roots[6] * w27, roots[7] * w31, roots[8] * w35, roots[9] * w39, roots[10] * w43,
+                roots[11] * w47, roots[12] * w51, roots[13] * w55, roots[14] * w59});
         const auto [G, m_1, m_2, m_3, m_4, m_5, m_6] = parameters;
-        const auto v11 = Terms<S, 15>::of(m_3, m_2, m_4, m_5, m_6, m_3, m_4, m_5, m_6, m_4, m_5, m_6, m_5, m_6, m_6) *
-                v10;
-        const auto v12 = v0 * v11;
-        const auto v12_lanes = v12.lanes();
-        ds[18] = G * (v12_lanes[0] - v12_lanes[1] - v12_lanes[2] - v12_lanes[3] - v12_lanes[4]);
-        const auto v13 = v2 * v11;
-        const auto v13_lanes = v13.lanes();
-        ds[19] = G * (v13_lanes[0] - v13_lanes[1] - v13_lanes[2] - v13_lanes[3] - v13_lanes[4]);
-        const auto v14 = v4 * v11;
-        const auto v14_lanes = v14.lanes();
-        ds[20] = G * (v14_lanes[0] - v14_lanes[1] - v14_lanes[2] - v14_lanes[3] - v14_lanes[4]);
-        const auto v15 = Terms<S, 15>::of(m_1, m_1, m_1, m_1, m_1, m_2, m_2, m_2, m_2, m_3, m_3, m_3, m_4, m_4, m_5) *
-                v10;
-        const auto v16 = v0 * v15;
-        const auto v16_lanes = v16.lanes();
-        ds[21] = G * (v16_lanes[1] - v12_lanes[5] - v12_lanes[6] - v12_lanes[7] - v12_lanes[8]);
-        const auto v17 = v2 * v15;
-        const auto v17_lanes = v17.lanes();
-        ds[22] = G * (v17_lanes[1] - v13_lanes[5] - v13_lanes[6] - v13_lanes[7] - v13_lanes[8]);
-        const auto v18 = v4 * v15;
-        const auto v18_lanes = v18.lanes();
-        ds[23] = G * (v18_lanes[1] - v14_lanes[5] - v14_lanes[6] - v14_lanes[7] - v14_lanes[8]);
-        ds[24] = G * (v16_lanes[5] - v16_lanes[0] - v12_lanes[9] - v12_lanes[10] - v12_lanes[11]);
-        ds[25] = G * (v17_lanes[5] - v17_lanes[0] - v13_lanes[9] - v13_lanes[10] - v13_lanes[11]);
-        ds[26] = G * (v18_lanes[5] - v18_lanes[0] - v14_lanes[9] - v14_lanes[10] - v14_lanes[11]);
-        ds[27] = G * (v16_lanes[2] + v16_lanes[6] + v16_lanes[9] - v12_lanes[12] - v12_lanes[13]);
-        ds[28] = G * (v17_lanes[2] + v17_lanes[6] + v17_lanes[9] - v13_lanes[12] - v13_lanes[13]);
-        ds[29] = G * (v18_lanes[2] + v18_lanes[6] + v18_lanes[9] - v14_lanes[12] - v14_lanes[13]);
-        ds[30] = G * (v16_lanes[3] + v16_lanes[7] + v16_lanes[10] + v16_lanes[12] - v12_lanes[14]);
-        ds[31] = G * (v17_lanes[3] + v17_lanes[7] + v17_lanes[10] + v17_lanes[12] - v13_lanes[14]);
-        ds[32] = G * (v18_lanes[3] + v18_lanes[7] + v18_lanes[10] + v18_lanes[12] - v14_lanes[14]);
-        ds[33] = G * (v16_lanes[4] + v16_lanes[8] + v16_lanes[11] + v16_lanes[13] + v16_lanes[14]);
-        ds[34] = G * (v17_lanes[4] + v17_lanes[8] + v17_lanes[11] + v17_lanes[13] + v17_lanes[14]);
-        ds[35] = G * (v18_lanes[4] + v18_lanes[8] + v18_lanes[11] + v18_lanes[13] + v18_lanes[14]);
+        const S w60 = m_3 * inverses[1];
+        const S w61 = m_2 * inverses[0];
+        const S w62 = m_4 * inverses[2];
+        const S w63 = m_5 * inverses[3];
+        const S w64 = m_6 * inverses[4];
+        ds[18] = G * (w0 * w60 - w4 * w61 - w8 * w62 - w12 * w63 - w16 * w64);
+        ds[19] = G * (w1 * w60 - w5 * w61 - w9 * w62 - w13 * w63 - w17 * w64);
+        ds[20] = G * (w2 * w60 - w6 * w61 - w10 * w62 - w14 * w63 - w18 * w64);
+        const S w65 = m_1 * inverses[0];
+        const S w66 = m_3 * inverses[5];
+        const S w67 = m_4 * inverses[6];
+        const S w68 = m_5 * inverses[7];
+        const S w69 = m_6 * inverses[8];
+        ds[21] = G * (w4 * w65 - w20 * w66 - w24 * w67 - w28 * w68 - w32 * w69);
+        ds[22] = G * (w5 * w65 - w21 * w66 - w25 * w67 - w29 * w68 - w33 * w69);
+        ds[23] = G * (w6 * w65 - w22 * w66 - w26 * w67 - w30 * w68 - w34 * w69);
+        const S w70 = m_2 * inverses[5];
+        const S w71 = m_1 * inverses[1];
+        const S w72 = m_4 * inverses[9];
+        const S w73 = m_5 * inverses[10];
+        const S w74 = m_6 * inverses[11];
+        ds[24] = G * (w20 * w70 - w0 * w71 - w36 * w72 - w40 * w73 - w44 * w74);
+        ds[25] = G * (w21 * w70 - w1 * w71 - w37 * w72 - w41 * w73 - w45 * w74);
+        ds[26] = G * (w22 * w70 - w2 * w71 - w38 * w72 - w42 * w73 - w46 * w74);
+        const S w75 = m_1 * inverses[2];
+        const S w76 = m_2 * inverses[6];
+        const S w77 = m_3 * inverses[9];
+        const S w78 = m_5 * inverses[12];
+        const S w79 = m_6 * inverses[13];
+        ds[27] = G * (w8 * w75 + w24 * w76 + w36 * w77 - w48 * w78 - w52 * w79);
+        ds[28] = G * (w9 * w75 + w25 * w76 + w37 * w77 - w49 * w78 - w53 * w79);
+        ds[29] = G * (w10 * w75 + w26 * w76 + w38 * w77 - w50 * w78 - w54 * w79);
+        const S w80 = m_1 * inverses[3];
+        const S w81 = m_2 * inverses[7];
+        const S w82 = m_3 * inverses[10];
+        const S w83 = m_4 * inverses[12];
+        const S w84 = m_6 * inverses[14];
+        ds[30] = G * (w12 * w80 + w28 * w81 + w40 * w82 + w48 * w83 - w56 * w84);
+        ds[31] = G * (w13 * w80 + w29 * w81 + w41 * w82 + w49 * w83 - w57 * w84);
+        ds[32] = G * (w14 * w80 + w30 * w81 + w42 * w82 + w50 * w83 - w58 * w84);
+        const S w85 = m_1 * inverses[4];
+        const S w86 = m_2 * inverses[8];
+        const S w87 = m_3 * inverses[11];
+        const S w88 = m_4 * inverses[13];
+        const S w89 = m_5 * inverses[14];
+        ds[33] = G * (w16 * w85 + w32 * w86 + w44 * w87 + w52 * w88 + w56 * w89);
+        ds[34] = G * (w17 * w85 + w33 * w86 + w45 * w87 + w53 * w88 + w57 * w89);
+        ds[35] = G * (w18 * w85 + w34 * w86 + w46 * w87 + w54 * w88 + w58 * w89);
         return StatusOf<S>::good();
     }
 

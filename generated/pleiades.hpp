@@ -282,7 +282,6 @@
 
 #include "lagen/kernel.hpp"
 #include "lagen/roots.hpp"
-#include "lagen/terms.hpp"
 
 #include <Eigen/Core>
 
@@ -421,7 +420,6 @@ class pleiades {
     /// The equations of motion, ds = (xdot, ydot): xdot^i = rho^i_a y^a and
     /// W_ab ydot^b = rho_a(L) - (d2L/dy^a dx^i) rho^i_b y^b - d2L/dy^a dt - p_c C^c_ab y^b.
     /// s and ds may be the same object.
-    /// v0, v1, ..: terms that are alike, a lane each (lagen/terms.hpp).
     [[nodiscard]] status_t<S> rhs([[maybe_unused]] S t, const State& s, State& ds) const noexcept
     {
         const S x_1 = s[0], x_2 = s[1], x_3 = s[2], x_4 = s[3], x_5 = s[4], x_6 = s[5], x_7 = s[6], y_1 = s[7],
@@ -442,43 +440,132 @@ class pleiades {
         ds[11] = v_5;
         ds[12] = v_6;
         ds[13] = v_7;
-        const auto v0 = Terms<S, 21>::of(x_3, x_1, x_1, x_1, x_1, x_1, x_2, x_2, x_2, x_2, x_2, x_3, x_3, x_3, x_3, x_4,
-                x_4, x_4, x_5, x_5, x_6) - Terms<S, 21>::of(x_1, x_2, x_4, x_5, x_6, x_7, x_3, x_4, x_5, x_6, x_7, x_4,
-                x_5, x_6, x_7, x_5, x_6, x_7, x_6, x_7, x_7);
-        const auto v1 = v0 * v0;
-        const auto v2 = Terms<S, 21>::of(y_3, y_1, y_1, y_1, y_1, y_1, y_2, y_2, y_2, y_2, y_2, y_3, y_3, y_3, y_3, y_4,
-                y_4, y_4, y_5, y_5, y_6) - Terms<S, 21>::of(y_1, y_2, y_4, y_5, y_6, y_7, y_3, y_4, y_5, y_6, y_7, y_4,
-                y_5, y_6, y_7, y_5, y_6, y_7, y_6, y_7, y_7);
-        const auto v3 = v2 * v2;
-        const auto v4 = v1 + v3;
-        const auto v7 = inverse_cubes_of_roots(v4);
+        const S w0 = x_3 - x_1;
+        const S w1 = y_3 - y_1;
+        const S w2 = w0 * w0 + w1 * w1;
+        const S w3 = x_1 - x_2;
+        const S w4 = y_1 - y_2;
+        const S w5 = w3 * w3 + w4 * w4;
+        const S w6 = x_1 - x_4;
+        const S w7 = y_1 - y_4;
+        const S w8 = w6 * w6 + w7 * w7;
+        const S w9 = x_1 - x_5;
+        const S w10 = y_1 - y_5;
+        const S w11 = w9 * w9 + w10 * w10;
+        const S w12 = x_1 - x_6;
+        const S w13 = y_1 - y_6;
+        const S w14 = w12 * w12 + w13 * w13;
+        const S w15 = x_1 - x_7;
+        const S w16 = y_1 - y_7;
+        const S w17 = w15 * w15 + w16 * w16;
+        const S w18 = x_2 - x_3;
+        const S w19 = y_2 - y_3;
+        const S w20 = w18 * w18 + w19 * w19;
+        const S w21 = x_2 - x_4;
+        const S w22 = y_2 - y_4;
+        const S w23 = w21 * w21 + w22 * w22;
+        const S w24 = x_2 - x_5;
+        const S w25 = y_2 - y_5;
+        const S w26 = w24 * w24 + w25 * w25;
+        const S w27 = x_2 - x_6;
+        const S w28 = y_2 - y_6;
+        const S w29 = w27 * w27 + w28 * w28;
+        const S w30 = x_2 - x_7;
+        const S w31 = y_2 - y_7;
+        const S w32 = w30 * w30 + w31 * w31;
+        const S w33 = x_3 - x_4;
+        const S w34 = y_3 - y_4;
+        const S w35 = w33 * w33 + w34 * w34;
+        const S w36 = x_3 - x_5;
+        const S w37 = y_3 - y_5;
+        const S w38 = w36 * w36 + w37 * w37;
+        const S w39 = x_3 - x_6;
+        const S w40 = y_3 - y_6;
+        const S w41 = w39 * w39 + w40 * w40;
+        const S w42 = x_3 - x_7;
+        const S w43 = y_3 - y_7;
+        const S w44 = w42 * w42 + w43 * w43;
+        const S w45 = x_4 - x_5;
+        const S w46 = y_4 - y_5;
+        const S w47 = w45 * w45 + w46 * w46;
+        const S w48 = x_4 - x_6;
+        const S w49 = y_4 - y_6;
+        const S w50 = w48 * w48 + w49 * w49;
+        const S w51 = x_4 - x_7;
+        const S w52 = y_4 - y_7;
+        const S w53 = w51 * w51 + w52 * w52;
+        const S w54 = x_5 - x_6;
+        const S w55 = y_5 - y_6;
+        const S w56 = w54 * w54 + w55 * w55;
+        const S w57 = x_5 - x_7;
+        const S w58 = y_5 - y_7;
+        const S w59 = w57 * w57 + w58 * w58;
+        const S w60 = x_6 - x_7;
+        const S w61 = y_6 - y_7;
+        const S w62 = w60 * w60 + w61 * w61;
+        const auto roots = square_roots<S, 21>({w2, w5, w8, w11, w14, w17, w20, w23, w26, w29, w32, w35, w38, w41, w44,
+                w47, w50, w53, w56, w59, w62});
+        const auto inverses = reciprocals<S, 21>({roots[1] * w5, roots[0] * w2, roots[2] * w8, roots[3] * w11, roots[4]
+                * w14, roots[5] * w17, roots[6] * w20, roots[7] * w23, roots[8] * w26, roots[9] * w29, roots[10] * w32,
+                roots[11] * w35, roots[12] * w38, roots[13] * w41, roots[14] * w44, roots[15] * w47, roots[16] * w50,
+                roots[17] * w53, roots[18] * w56, roots[19] * w59, roots[20] * w62});
         const auto [m_1, m_2, m_3, m_4, m_5, m_6, m_7] = parameters;
-        const auto v8 = Terms<S, 21>::of(m_3, m_2, m_4, m_5, m_6, m_7, m_3, m_4, m_5, m_6, m_7, m_4, m_5, m_6, m_7, m_5,
-                m_6, m_7, m_6, m_7, m_7) * v7;
-        const auto v9 = v0 * v8;
-        const auto v9_lanes = v9.lanes();
-        ds[14] = v9_lanes[0] - v9_lanes[1] - v9_lanes[2] - v9_lanes[3] - v9_lanes[4] - v9_lanes[5];
-        const auto v10 = Terms<S, 21>::of(m_1, m_1, m_1, m_1, m_1, m_1, m_2, m_2, m_2, m_2, m_2, m_3, m_3, m_3, m_3,
-                m_4, m_4, m_4, m_5, m_5, m_6) * v7;
-        const auto v11 = v0 * v10;
-        const auto v11_lanes = v11.lanes();
-        ds[15] = v11_lanes[1] - v9_lanes[6] - v9_lanes[7] - v9_lanes[8] - v9_lanes[9] - v9_lanes[10];
-        ds[16] = v11_lanes[6] - v11_lanes[0] - v9_lanes[11] - v9_lanes[12] - v9_lanes[13] - v9_lanes[14];
-        ds[17] = v11_lanes[2] + v11_lanes[7] + v11_lanes[11] - v9_lanes[15] - v9_lanes[16] - v9_lanes[17];
-        ds[18] = v11_lanes[3] + v11_lanes[8] + v11_lanes[12] + v11_lanes[15] - v9_lanes[18] - v9_lanes[19];
-        ds[19] = v11_lanes[4] + v11_lanes[9] + v11_lanes[13] + v11_lanes[16] + v11_lanes[18] - v9_lanes[20];
-        ds[20] = v11_lanes[5] + v11_lanes[10] + v11_lanes[14] + v11_lanes[17] + v11_lanes[19] + v11_lanes[20];
-        const auto v12 = v2 * v8;
-        const auto v12_lanes = v12.lanes();
-        ds[21] = v12_lanes[0] - v12_lanes[1] - v12_lanes[2] - v12_lanes[3] - v12_lanes[4] - v12_lanes[5];
-        const auto v13 = v2 * v10;
-        const auto v13_lanes = v13.lanes();
-        ds[22] = v13_lanes[1] - v12_lanes[6] - v12_lanes[7] - v12_lanes[8] - v12_lanes[9] - v12_lanes[10];
-        ds[23] = v13_lanes[6] - v13_lanes[0] - v12_lanes[11] - v12_lanes[12] - v12_lanes[13] - v12_lanes[14];
-        ds[24] = v13_lanes[2] + v13_lanes[7] + v13_lanes[11] - v12_lanes[15] - v12_lanes[16] - v12_lanes[17];
-        ds[25] = v13_lanes[3] + v13_lanes[8] + v13_lanes[12] + v13_lanes[15] - v12_lanes[18] - v12_lanes[19];
-        ds[26] = v13_lanes[4] + v13_lanes[9] + v13_lanes[13] + v13_lanes[16] + v13_lanes[18] - v12_lanes[20];
-        ds[27] = v13_lanes[5] + v13_lanes[10] + v13_lanes[14] + v13_lanes[17] + v13_lanes[19] + v13_lanes[20];
+        const S w63 = m_3 * inverses[1];
+        const S w64 = m_2 * inverses[0];
+        const S w65 = m_4 * inverses[2];
+        const S w66 = m_5 * inverses[3];
+        const S w67 = m_6 * inverses[4];
+        const S w68 = m_7 * inverses[5];
+        ds[14] = w0 * w63 - w3 * w64 - w6 * w65 - w9 * w66 - w12 * w67 - w15 * w68;
+        const S w69 = m_1 * inverses[0];
+        const S w70 = m_3 * inverses[6];
+        const S w71 = m_4 * inverses[7];
+        const S w72 = m_5 * inverses[8];
+        const S w73 = m_6 * inverses[9];
+        const S w74 = m_7 * inverses[10];
+        ds[15] = w3 * w69 - w18 * w70 - w21 * w71 - w24 * w72 - w27 * w73 - w30 * w74;
+        const S w75 = m_2 * inverses[6];
+        const S w76 = m_1 * inverses[1];
+        const S w77 = m_4 * inverses[11];
+        const S w78 = m_5 * inverses[12];
+        const S w79 = m_6 * inverses[13];
+        const S w80 = m_7 * inverses[14];
+        ds[16] = w18 * w75 - w0 * w76 - w33 * w77 - w36 * w78 - w39 * w79 - w42 * w80;
+        const S w81 = m_1 * inverses[2];
+        const S w82 = m_2 * inverses[7];
+        const S w83 = m_3 * inverses[11];
+        const S w84 = m_5 * inverses[15];
+        const S w85 = m_6 * inverses[16];
+        const S w86 = m_7 * inverses[17];
+        ds[17] = w6 * w81 + w21 * w82 + w33 * w83 - w45 * w84 - w48 * w85 - w51 * w86;
+        const S w87 = m_1 * inverses[3];
+        const S w88 = m_2 * inverses[8];
+        const S w89 = m_3 * inverses[12];
+        const S w90 = m_4 * inverses[15];
+        const S w91 = m_6 * inverses[18];
+        const S w92 = m_7 * inverses[19];
+        ds[18] = w9 * w87 + w24 * w88 + w36 * w89 + w45 * w90 - w54 * w91 - w57 * w92;
+        const S w93 = m_1 * inverses[4];
+        const S w94 = m_2 * inverses[9];
+        const S w95 = m_3 * inverses[13];
+        const S w96 = m_4 * inverses[16];
+        const S w97 = m_5 * inverses[18];
+        const S w98 = m_7 * inverses[20];
+        ds[19] = w12 * w93 + w27 * w94 + w39 * w95 + w48 * w96 + w54 * w97 - w60 * w98;
+        const S w99 = m_1 * inverses[5];
+        const S w100 = m_2 * inverses[10];
+        const S w101 = m_3 * inverses[14];
+        const S w102 = m_4 * inverses[17];
+        const S w103 = m_5 * inverses[19];
+        const S w104 = m_6 * inverses[20];
+        ds[20] = w15 * w99 + w30 * w100 + w42 * w101 + w51 * w102 + w57 * w103 + w60 * w104;
+        ds[21] = w1 * w63 - w4 * w64 - w7 * w65 - w10 * w66 - w13 * w67 - w16 * w68;
+        ds[22] = w4 * w69 - w19 * w70 - w22 * w71 - w25 * w72 - w28 * w73 - w31 * w74;
+        ds[23] = w19 * w75 - w1 * w76 - w34 * w77 - w37 * w78 - w40 * w79 - w43 * w80;
+        ds[24] = w7 * w81 + w22 * w82 + w34 * w83 - w46 * w84 - w49 * w85 - w52 * w86;
+        ds[25] = w10 * w87 + w25 * w88 + w37 * w89 + w46 * w90 - w55 * w91 - w58 * w92;
+        ds[26] = w13 * w93 + w28 * w94 + w40 * w95 + w49 * w96 + w55 * w97 - w61 * w98;
+        ds[27] = w16 * w99 + w31 * w100 + w43 * w101 + w52 * w102 + w58 * w103 + w61 * w104;
         return StatusOf<S>::good();
     }
 

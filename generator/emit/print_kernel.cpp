@@ -87,7 +87,6 @@ class KernelPrinter {
         for (const KernelOutput& output : kernel_.outputs) print_constants(output);
         print_parts(out_, body_, request_);
         for (const std::string& line : kernel_.documentation) out_.comment(line);
-        if (contains(body_, Statement::Kind::terms)) out_.comment(about_terms);
         if (kernel_.checks && !kernel_.checks->failures.empty() && has_checks(body_))
             out_.comment(kernel_.checks->failures);
         open_block(out_, signature());
@@ -258,14 +257,9 @@ void print_kernel(TextBlock& out, const KernelModule& module, const ModuleNames&
     }
     const std::vector<NodeId> outputs = nodes_of(kernel);
     const std::vector<NodeId> pivots = kernel.checks ? kernel.checks->pivots : std::vector<NodeId>{};
-    std::vector<NodeId> roots = outputs;
-    roots.insert(roots.end(), pivots.begin(), pivots.end());
-    BodyTerms terms;
-    if (kernel.checks && kernel.outputs[0].role == ArrayRole::tangent)
-        terms.groups = group_terms(*module.graph, {roots, families_of(module)});
-    const Body body = write_body({*module.graph, names.locals, outputs, pivots, names.moving,
-                                  kernel.checks ? Checking::state : Checking::none, arrangements_of(kernel),
-                                  longest_part, std::move(terms)});
+    const Body body =
+        write_body({*module.graph, names.locals, outputs, pivots, names.moving,
+                    kernel.checks ? Checking::state : Checking::none, arrangements_of(kernel), longest_part});
     includes.merge(includes_of(body));
     out.blank();
     KernelPrinter(out, module, names, kernel, body).print();

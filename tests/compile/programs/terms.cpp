@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Kernels whose alike terms are lanes of vectors, at random states. Prints, a line a model, relative to the largest
-/// entry: the right-hand side in double and in float against Newton's law written out, coefficients of orders up to 20
-/// in double against long double, whose terms are taken one by one, and the defect of the long double's polynomial in
-/// that law; then whether packs get the bits of their lanes.
+/// Recurrences whose alike terms are lanes of vectors, at random states. Prints, a line a model, relative to the
+/// largest entry: the right-hand side in double and in float against Newton's law written out, coefficients of orders
+/// up to 20 in double against long double, whose terms are taken one by one, and the defect of the long double's
+/// polynomial in that law; then whether packs get the bits of their lanes.
 #include "outer_solar_system.hpp"
 #include "pleiades.hpp"
 
@@ -72,13 +72,13 @@ void check(const char* name, const Law& attraction)
         Long expected;
         law<Model, long double>(rounded<Long>(s), attraction, expected);
         good = good && Model<double>{}.rhs(0, s, ds) == lagen::Status::ok;
-        errors[0] = std::max(errors[0], distance(ds, expected));
+        errors[0] = std::max(errors[0], distance(ds.tail(n / 2), expected.tail(n / 2)));
 
         const Float few = rounded<Float>(s);
         Float rate;
         law<Model, long double>(rounded<Long>(few), attraction, expected);
         good = good && Model<float>{}.rhs(0, few, rate) == lagen::Status::ok;
-        errors[1] = std::max(errors[1], distance(rate, expected));
+        errors[1] = std::max(errors[1], distance(rate.tail(n / 2), expected.tail(n / 2)));
 
         lagen::TaylorSeries<double, n, order> x;
         lagen::TaylorSeries<long double, n, order> y;
