@@ -107,15 +107,23 @@ TEST_CASE("Steps of an Integrator, values inside them, turns and failures alloca
 TEST_CASE("Where there is no memory for another thread, those that are there do all the work")
 {
     int begun = 0, delivered = 0;
-    const auto begin = [&](int& piece) { return (piece = begun) < 100 && ++begun > 0; };
-    const auto work = [](int& piece) { piece *= 2; };
-    const auto deliver = [&](int& piece) {
-        if (piece == 2 * delivered) ++delivered;
+    struct Piece {
+        int number = 0;
+    };
+    const auto begin = [&](Piece& piece) { return (piece.number = begun) < 100 && ++begun > 0; };
+    const auto work = [](auto& source) {
+        while (Piece* piece = source.next(true)) {
+            piece->number *= 2;
+            source.done(*piece);
+        }
+    };
+    const auto deliver = [&](Piece& piece) {
+        if (piece.number == 2 * delivered) ++delivered;
     };
     // None for a thread; none for the second one, while the first one works.
     for (const long enough : {0, 1, 2, 3}) {
         begun = delivered = 0;
-        detail::InOrder<int, decltype(begin), decltype(work), decltype(deliver)> pieces(8, begin, work, deliver);
+        detail::InOrder<Piece, decltype(begin), decltype(work), decltype(deliver)> pieces(8, begin, work, deliver);
         allowed = enough;
         std::exception_ptr thrown;
         try {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Taylor's method over long times: rounding errors without a bias, exact times, any unit of time.
 #include "runtime/taylor_models.hpp"
+#include "support/sanitized.hpp"
 
 #include <catch2/catch.hpp>
 
