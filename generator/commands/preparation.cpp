@@ -82,9 +82,9 @@ SceneText scene_text(const CheckedModel& checked, const Scene& scene, const std:
 
 Preparation::Preparation(const Options& options, CheckedModel& checked, const Driver& driver, const std::string& method)
     : options_(options), checked_(checked), driver_(driver),
-      file_(record_file(checked.model, {driver.folder, options.get("scene"), options.get("form"), method,
-                                        options.get("time-scale"), options.has("unchecked") ? "unchecked" : "",
-                                        vectors_of(driver)})),
+      file_(record_file(checked.model,
+                        {driver.folder, options.get("scene"), options.get("form"), method, options.get("time-scale"),
+                         options.has("unchecked") ? "unchecked" : "", vectors_of(driver)})),
       record_(find_record(file_))
 {
     if (record_) {
@@ -102,8 +102,7 @@ void Preparation::finish(const Scene& scene, const std::string& form, const Meth
     if (record_) prove(checked_);
     elaborated_ = decided_ = true;
     set_parameters(checked_, parameters);
-    const SceneText made =
-        scene_text(checked_, scene, form, method, driver_, time_scale_of(options_, checked_.model));
+    const SceneText made = scene_text(checked_, scene, form, method, driver_, time_scale_of(options_, checked_.model));
     require_system(options_, scene, method, made.module);
     record_ = record_of(checked_, made.module, form, compile_programs({made.text})[0], parameters);
     keep_record(file_, *record_);

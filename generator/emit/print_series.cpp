@@ -338,8 +338,8 @@ class SeriesPrinter {
     std::size_t outputs_, lanes_;
     std::string x_, y_, order_, k_;
     Sums products_, squares_;
-    std::string share_, next_;   ///< 1/k, and unit/(k + 1)
-    std::string unit_;           ///< of time
+    std::string share_, next_;        ///< 1/k, and unit/(k + 1)
+    std::string unit_;                ///< of time
     std::vector<std::size_t> single_; ///< pairs of sums that are in no group
     std::vector<TermSums> term_sums_; ///< by the number of lanes
     BodyTerms terms_;

@@ -44,7 +44,7 @@ struct BodyRequest {
     std::vector<std::vector<std::size_t>> arrangements = {};
     std::size_t longest_part = 0; ///< steps; 0: the body stays whole
     BodyTerms terms = {};
-    std::string type = "S";       ///< of what is computed, but factorisations, which are always of S
+    std::string type = "S"; ///< of what is computed, but factorisations, which are always of S
 };
 
 [[nodiscard]] Body write_body(const BodyRequest& request);

@@ -2,11 +2,13 @@
 #include "kernels/form_kernels.hpp"
 
 #include "graph/calculus/differentiate.hpp"
-#include "kernels/exact_flows.hpp"
 #include "graph/unknowns/tangent_size.hpp"
+#include "kernels/exact_flows.hpp"
 #include "kernels/formulation.hpp"
 #include "kernels/kernel_table.hpp"
+#include "kernels/named_trees.hpp"
 #include "kernels/requested_kernels.hpp"
+#include "kernels/simplify_at.hpp"
 #include "model/scene_form.hpp"
 
 #include <fmt/format.h>
@@ -31,24 +33,6 @@ Formulation formulation(Graph& graph, const Model& model, const System& system, 
     throw InternalError("a form without kernels");
 }
 
-/// Simplifies the nodes at these places together, and answers their divisors.
-std::vector<NodeId> simplify_at(Graph& graph, const std::vector<NodeId*>& places, SimplifyReport* report = nullptr)
-{
-    std::vector<NodeId> nodes, divisors;
-    for (const NodeId* place : places) nodes.push_back(*place);
-    nodes = simplify(graph, nodes, divisors, report);
-    for (std::size_t k = 0; k < places.size(); ++k) *places[k] = nodes[k];
-    return divisors;
-}
-
-void simplify_at(Graph& graph, std::initializer_list<std::vector<NodeId>*> lists)
-{
-    std::vector<NodeId*> places;
-    for (std::vector<NodeId>* list : lists)
-        for (NodeId& node : *list) places.push_back(&node);
-    simplify_at(graph, places);
-}
-
 /// Kernels of one module, each simplified on its own and left out where nobody asked for it or it would be empty.
 class ModuleBuilder {
   public:
@@ -65,12 +49,12 @@ class ModuleBuilder {
         if (wants("taylor")) add_taylor();
         for (Kernel& kernel : form_.kernels)
             if (wants(kernel.name)) add(std::move(kernel));
-        add_trees("constraints", model_base_constraints());
+        add_trees("constraints", constraint_trees(model_));
         add_domain();
         if (has_kernel(module_, "domain") && (wants("taylor") || wants("domain_series"))) add_domain_series();
-        add_trees("observables", observables());
+        add_trees("observables", observable_trees(model_, request_.scene, form_.controls, lanes_of(module_)));
         add_trees("invariants", model_.invariants);
-        if (wants("events")) add_trees("events", events());
+        if (wants("events")) add_trees("events", event_trees(model_, request_.scene));
         if (wants("event_series") && has_kernel(module_, "events")) add_series("event_series", "events");
         if (wants("jacobian")) add_jacobian();
         if (wants("variational")) add_variational();
@@ -244,30 +228,6 @@ class ModuleBuilder {
         add(std::move(kernel));
     }
 
-    [[nodiscard]] std::vector<NamedTree> model_base_constraints() const
-    {
-        std::vector<NamedTree> trees;
-        for (const Tree& tree : model_.base.constraints) trees.push_back({to_text(tree), tree, {}});
-        return trees;
-    }
-
-    /// Of the model, then what the scene asks for that is neither a state lane nor one of them.
-    [[nodiscard]] std::vector<NamedTree> observables() const
-    {
-        std::vector<NamedTree> trees = model_.observables;
-        if (request_.scene == nullptr) return trees;
-        if (!request_.scene->observe) {
-            for (const std::string& control : form_.controls) trees.push_back({control, lagen::name(control), {}});
-            return trees;
-        }
-        for (const NamedTree& entry : *request_.scene->observe) {
-            const auto known = [&](const auto& other) { return other.name == entry.name; };
-            if (std::ranges::none_of(trees, known) && std::ranges::none_of(lanes_of(module_), known))
-                trees.push_back(entry);
-        }
-        return trees;
-    }
-
     [[nodiscard]] bool depends_on_parameters_alone(std::initializer_list<NodeId> nodes) const
     {
         std::vector<NodeId> moving = {module_.time};
@@ -299,23 +259,6 @@ class ModuleBuilder {
         }
         if (values.empty() || !wants("domain")) return;
         add_named("domain", values, std::move(names));
-    }
-
-    /// Of the one scene asked for, or of all; the same event of two scenes once, different ones of one name with the
-    /// scene's name in front.
-    [[nodiscard]] std::vector<NamedTree> events() const
-    {
-        std::vector<NamedTree> trees;
-        const bool one = request_.scene != nullptr;
-        for (const Scene& scene : one ? std::span(request_.scene, 1) : std::span<const Scene>(model_.scenes))
-            for (const Event& event : scene.events) {
-                const auto found = std::ranges::find(trees, event.name, &NamedTree::name);
-                if (found == trees.end())
-                    trees.push_back({event.name, event.when, {}});
-                else if (!same_tree(found->value, event.when))
-                    trees.push_back({scene.name + "." + event.name, event.when, {}});
-            }
-        return trees;
     }
 
     void add_jacobian()

@@ -70,6 +70,7 @@ std::string in_c(const Statement& statement, const Graph& graph)
     case Kind::store: return fmt::format("out[{}] = {};", statement.index, argument(0));
     case Kind::keep: return fmt::format("work[{}] = {};", statement.index, argument(0));
     case Kind::recall: return fmt::format("const double {} = work[{}];", name(0), statement.index);
+    case Kind::terms:
     case Kind::stumpff:
     case Kind::factor:
     case Kind::solve: break;

@@ -114,6 +114,7 @@ const Arrows& planned_folder_arrows()
         {"graph/elimination", {"graph/calculus"}},
         {"graph/simplify", {"graph/elimination"}},
         {"graph/series", {"graph/unknowns"}},
+        {"graph/terms", {"graph/core"}},
         {"graph/kernel", {"graph/simplify", "graph/series"}},
     };
     return arrows;

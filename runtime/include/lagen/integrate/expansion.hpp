@@ -80,8 +80,9 @@ class Expansion {
     /// That of the series behind this one.
     [[nodiscard]] Real next_unit() const noexcept
     {
-        return by_lanes<Real>([](const Number& size, const Number& now) { return size < unbounded() ? unit_near(size) : now; },
-                              length, unit);
+        return by_lanes<Real>(
+            [](const Number& size, const Number& now) { return size < unbounded() ? unit_near(size) : now; }, length,
+            unit);
     }
 
     /// found(end), for one function after another, for the ends, ascending, of parts of (0, last] in units of h in each

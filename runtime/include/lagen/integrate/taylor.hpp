@@ -133,7 +133,8 @@ class TaylorStepper {
             for (int lane = 0; lane < static_cast<int>(trajectories); ++lane) {
                 const bool left = detail::lane_of(leaves_at_, lane) > Number(0);
                 const Status found = detail::lane_of(status, lane);
-                detail::set_lane_of(status, lane, !left ? Status::ok : (found == Status::ok ? Status::left_domain : found));
+                detail::set_lane_of(status, lane,
+                                    !left ? Status::ok : (found == Status::ok ? Status::left_domain : found));
             }
         }
         return status;
