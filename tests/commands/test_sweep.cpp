@@ -126,6 +126,15 @@ TEST_CASE("each row has the bits of lagen run with the values that stand in it",
     {
         sweep({"double_pendulum.toml", "--method", "taylor"}, {"--initial", "a=0.2:2.2:21"}, 21);
     }
+    SECTION("alike terms of one trajectory are lanes too")
+    {
+        sweep({"outer_solar_system.toml", "--method", "taylor"}, {"--set", "G=2.9e-4:3e-4:5"}, 5);
+    }
+    SECTION("flows of the parts of H")
+    {
+        sweep({"heavy_top.toml", "--form", "hamilton", "--method", "kahanli8", "--step", "0.1"},
+              {"--set", "I1=1.1:1.3:5"}, 5);
+    }
 }
 
 TEST_CASE("threads and parts change nothing", "[sweep]")

@@ -5,7 +5,7 @@
 ///   const auto v1_lanes = v1.lanes();                        // v1_lanes[2]
 /// float and double stand in vector registers; lanes beyond the last repeat it. Other scalars, packs among them, are
 /// taken one by one. Every lane gets what the same operations on scalars give, bit for bit but for
-/// inverse_cubes_of_roots with AVX-512, where it is nearer to the exact number.
+/// inverse_cubes_of_roots with AVX-512, where it is nearer to the exact number (not with -DLAGEN_SAME_BITS).
 #pragma once
 
 #include "lagen/roots.hpp"
@@ -41,7 +41,7 @@ template <class S, class Register>
     }
 }
 
-#if defined(__AVX512F__)
+#if defined(__AVX512F__) && !defined(LAGEN_SAME_BITS)
 /// x^(-3/2) of eight doubles, within 0.51 units in the last place. y is 1/sqrt(x) to 13 bits or more, and of 17 bits,
 /// so that its square and its cube are exact; with e = 1 - x y^2, |e| < 2^-12,
 ///   x^(-3/2) = y^3 (1 - e)^(-3/2) = y^3 (1 + 3/2 e + 15/8 e^2 + 35/16 e^3 + 315/128 e^4 + ..).
@@ -143,7 +143,7 @@ class Terms {
     /// 1/(x sqrt(x)).
     [[nodiscard]] [[gnu::always_inline]] friend Terms inverse_cubes_of_roots(const Terms& a) noexcept
     {
-#if defined(__AVX512F__)
+#if defined(__AVX512F__) && !defined(LAGEN_SAME_BITS)
         if constexpr (std::is_same_v<S, double> && width == 8)
             return each([&](std::size_t k) __attribute__((always_inline)) {
                 return detail::inverse_cubes_of_register(a.registers_[k]);
