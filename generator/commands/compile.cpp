@@ -150,6 +150,11 @@ void add_compilation(ContentHash& hash)
     add_compiler(hash, compile_command());
 }
 
+std::vector<std::string> rounding_options()
+{
+    return {"-ffp-contract=off", "-DLAGEN_SAME_BITS"};
+}
+
 std::vector<std::string> vector_options()
 {
 #if defined(__x86_64__)
@@ -159,8 +164,7 @@ std::vector<std::string> vector_options()
     if (level != nullptr && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
         __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
         level = "-march=x86-64-v4";
-    if (level != nullptr && words(std::getenv("CXXFLAGS")).empty())
-        return {level, "-ffp-contract=off", "-DLAGEN_SAME_BITS", "-O3"};
+    if (level != nullptr && words(std::getenv("CXXFLAGS")).empty()) return {level, "-O3"};
 #endif
     return {};
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/preparation.hpp"
 
+#include "model/form.hpp"
+
 #include <fmt/core.h>
 
 #include <optional>
@@ -36,7 +38,7 @@ std::optional<Obstacle> obstacle_to_splitting(const MethodEntry& method, const K
         obstacle.hint = "blanesmoan6 and kahanli8 compose its exact flows";
     else if (!module.flows.obstacle.empty())
         obstacle.text += ", and " + module.flows.obstacle;
-    else if (module.form == "lagrange")
+    else if (form_named(module.form).kind == FormKind::lagrange)
         obstacle.hint += "; with --form hamilton it may be a sum of exact flows";
     return obstacle;
 }
@@ -76,7 +78,9 @@ SceneText scene_text(const CheckedModel& checked, const Scene& scene, const std:
     Generated generated = generate(checked, request);
     ProgramText text{std::move(generated.header),
                      program_text(driver, generated.module.name, method, time_scale != nullptr)};
-    if (driver.abreast && goes_abreast(method)) text.options = vector_options();
+    text.options = rounding_options(); // the same bits in a run and in the rows of a sweep
+    if (driver.abreast && goes_abreast(method))
+        for (std::string& option : vector_options()) text.options.push_back(std::move(option));
     return {std::move(generated.module), std::move(text)};
 }
 

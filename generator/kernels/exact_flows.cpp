@@ -61,7 +61,10 @@ class FlowBuilder {
         std::vector<Momenta> groups;
         if (!add_kick() || !group_momenta(groups)) return false;
         if (!std::ranges::all_of(groups, [this](const Momenta& group) { return add_group(group); })) return false;
-        return !flows_.parts.empty() || refuse("H is constant");
+        if (flows_.parts.empty()) return refuse("H is constant");
+        const bool moves_alone = flows_.parts.size() == 1;
+        return !moves_alone || !depends_on_any(graph_, flows_.parts[0].increments, std::array{system_.time}) ||
+               refuse("its only part depends on t");
     }
 
     [[nodiscard]] std::string velocity(std::size_t a) const { return graph_.input_name(system_.algebroid.y[a]); }

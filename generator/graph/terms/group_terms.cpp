@@ -4,6 +4,7 @@
 #include "graph/core/operators.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <set>
 #include <tuple>
@@ -19,6 +20,8 @@ constexpr std::size_t fewest_lanes = 6;
 constexpr std::size_t operations_for_a_gather = 2;
 
 constexpr int deepest = 100; ///< operations that are followed below a seed
+
+constexpr std::array vector_operations{Op::add, Op::subtract, Op::multiply, Op::divide, Op::negate, Op::sqrt};
 
 class Grouping {
   public:
@@ -80,16 +83,9 @@ class Grouping {
 
     [[nodiscard]] bool is_vector_operation(NodeId id) const
     {
-        switch (graph_.op(id)) {
-        case Op::add:
-        case Op::subtract:
-        case Op::multiply:
-        case Op::divide:
-        case Op::negate:
-        case Op::sqrt: return true;
-        case Op::power: return std::abs(static_cast<std::int32_t>(graph_.payload(id))) <= 4;
-        default: return is_sum(id);
-        }
+        const Op op = graph_.op(id);
+        if (op == Op::power) return std::abs(static_cast<std::int32_t>(graph_.payload(id))) <= 4;
+        return is_sum(id) || std::ranges::find(vector_operations, op) != vector_operations.end();
     }
 
     /// Roots and quotients that are alike, in order of their first nodes.

@@ -64,6 +64,7 @@ class ReversibleStepper {
 
     Status attempt(const M& model, Real t, const State& s, Real h, State& s1) noexcept
     {
+        if (!(density_ > Real(0))) return Status::step_too_small; // the time scale changes too much in the first step
         from_ = s;
         length_ = h;
         return base_.attempt(model, t, s, h, s1);

@@ -216,7 +216,8 @@ struct SplittingMethod {
     static constexpr bool is_symmetric = splitting::is_palindrome(Splitting::weights);
 
     template <class M>
-    using Stepper = std::conditional_t<HasFlows<M>, FlowStepper<Splitting, M>, SplittingStepper<Splitting, M>>;
+    using Stepper = std::conditional_t<HasFlows<M> && !Splitting::affine, FlowStepper<Splitting, M>,
+                                       SplittingStepper<Splitting, M>>;
 };
 
 using LeapfrogDkd = SplittingMethod<splitting::LeapfrogDkd>;
