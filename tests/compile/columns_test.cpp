@@ -40,7 +40,8 @@ TEST_CASE("a Jacobian by columns agrees with 50 digits in every scalar to its pr
 }
 
 TEST_CASE(
-    "the Jacobian of a chain of 32 links is as long as its right-hand side a few times, and serves implicit methods")
+    "the Jacobian of a chain of 32 links is as long as its right-hand side a few times, and serves implicit methods",
+    "[all]")
 {
     auto results = lines_by_key(
         run_on_headers("long_chain", {"tests/data/models/chain_relative.toml"}, "--set n=32 --only rhs,jacobian"));
