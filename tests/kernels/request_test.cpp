@@ -61,7 +61,8 @@ TEST_CASE("a kernel that does not exist is refused with the list of those that d
     request.only = {"enrgy"};
     CHECK(message_of(model, verify(model), request) ==
           "error: there is no kernel 'enrgy'; there are rhs, jacobian, variational, taylor, event_series, "
-          "domain_series, flows, mass_matrix, momentum, velocity, controls, energy, power, hamiltonian, lagrangian, cost, "
+          "domain_series, flows, mass_matrix, momentum, velocity, controls, energy, power, hamiltonian, lagrangian, "
+          "cost, "
           "constraints, "
           "domain, observables, invariants, "
           "lagrangian_hessian, hamiltonian_hessian, events\nhint: did you mean 'energy'?");
@@ -84,7 +85,8 @@ TEST_CASE("a kernel that a form of the model does not have is refused with the l
           "hamiltonian, lagrangian, observables, events, jacobian, variational, taylor, event_series, flows, "
           "hamiltonian_hessian");
     request.only = {"lagrangian_hessian"};
-    CHECK(message_of(model, verified, request).ends_with("variational, taylor, event_series, flows, hamiltonian_hessian"));
+    CHECK(message_of(model, verified, request)
+              .ends_with("variational, taylor, event_series, flows, hamiltonian_hessian"));
     request.only = {"velocity", "variational"};
     CHECK(message_of(model, verified, request) == "nothing thrown");
     request.only.clear();
