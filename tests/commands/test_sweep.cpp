@@ -55,6 +55,21 @@ void check_against_run(const CsvTable& sweep, std::size_t row, std::vector<std::
     }
 }
 
+/// Rows of many bodies, first and last, where runs and the sweep are compiled with these CXXFLAGS.
+void check_rows_compiled_with(const std::string& flags)
+{
+    const Surroundings around{.environment = {{"CXXFLAGS", flags}}};
+    const std::string file = fresh_folder() + "/a.csv";
+    const std::vector<std::string> model{"outer_solar_system.toml", "--method", "taylor"};
+    std::vector<std::string> arguments{"sweep"};
+    arguments.insert(arguments.end(), model.begin(), model.end());
+    arguments.insert(arguments.end(), {"--set", "G=2.9e-4:3e-4:9", "-o", file});
+    const Outcome outcome = call(arguments, around);
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    for (const std::size_t row : {0U, 8U}) check_against_run(read_csv(read_text(file)), row, model, around);
+}
+
 } // namespace
 
 TEST_CASE("a grid has the ends of its ranges and equal steps between them, the last range fastest", "[sweep]")
@@ -134,20 +149,14 @@ TEST_CASE("each row has the bits of lagen run with the values that stand in it",
     }
 }
 
-TEST_CASE("vectors of this machine change no bit of a row", "[sweep]")
+TEST_CASE("fused multiplication in the processor changes no bit of a row", "[sweep]")
 {
-    for (const char* flags : {"", "-O1 -march=native"}) {
-        const Surroundings around{.environment = {{"CXXFLAGS", flags}}};
-        const std::string file = fresh_folder() + "/a.csv";
-        const std::vector<std::string> model{"outer_solar_system.toml", "--method", "taylor"};
-        std::vector<std::string> arguments{"sweep"};
-        arguments.insert(arguments.end(), model.begin(), model.end());
-        arguments.insert(arguments.end(), {"--set", "G=2.9e-4:3e-4:9", "-o", file});
-        const Outcome outcome = call(arguments, around);
-        INFO(outcome.err);
-        REQUIRE(outcome.code == 0);
-        for (const std::size_t row : {0U, 8U}) check_against_run(read_csv(read_text(file)), row, model, around);
-    }
+    check_rows_compiled_with("-O1 -march=native");
+}
+
+TEST_CASE("vectors of this machine change no bit of a row", "[all]")
+{
+    check_rows_compiled_with("");
 }
 
 TEST_CASE("threads and parts change nothing", "[sweep]")
