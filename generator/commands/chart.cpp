@@ -28,8 +28,7 @@ const CommandSyntax chart_syntax{
     "MODEL",
     "Runs a scene by every method that applies, over tolerances and steps, and charts time and calls against the error "
     "of the state. Writes chart.svg, chart.png, chart.csv and chart.json, and drift.svg and drift.png where something "
-    "is "
-    "conserved.",
+    "is conserved.",
     {{"scene", "NAME", "the scene; without it `default`, else the first"},
      {"form", "FORM", chart_form_help.c_str()},
      {"methods", "A,B,..", "these alone, see `lagen methods`; without it all that apply"},

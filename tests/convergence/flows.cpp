@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Splittings of more than two parts with exact flows: the heavy top, a kick and three rotations.
+#include "convergence/order_of_ends.hpp"
 #include "lagen/integrate.hpp"
-#include "support/order.hpp"
 #include "support/tolerances.hpp"
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
@@ -89,17 +89,10 @@ double order_of(int coarsest, Quad clocked)
         REQUIRE(run.status() == lagen::Status::ok);
         return run.state;
     };
-    const auto exact = end(coarsest << 4);
-    std::vector<lagen::support::ErrorPoint> points;
-    for (int k = 0; k < 3; ++k)
-        points.push_back({4.0L / (coarsest << k), static_cast<long double>((end(coarsest << k) - exact).norm())});
-    return lagen::support::measured_order(points, 1e-30L);
+    return lagen::testing::order_of_ends(end, coarsest, 3);
 }
 
-auto near(double order)
-{
-    return Catch::WithinAbs(order, lagen::tolerance::order);
-}
+using lagen::testing::near;
 
 /// The step as exponentials of its parts, in their order: part and time.
 template <class Splitting>

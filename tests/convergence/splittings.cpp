@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Order conditions of the splittings in 50 digits: word by word of drifts and kicks, or tree by tree where x' is
 /// affine in y; and what each of them takes: kinetic energies that are not quadratic, rates that depend on time.
+#include "convergence/order_of_ends.hpp"
 #include "lagen/integrate.hpp"
 #include "support/nystrom_trees.hpp"
-#include "support/order.hpp"
 #include "support/tolerances.hpp"
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
@@ -142,17 +142,10 @@ double order_on(int coarsest)
         REQUIRE(run.status() == lagen::Status::ok);
         return run.state;
     };
-    const auto exact = end(coarsest << 5);
-    std::vector<lagen::support::ErrorPoint> points;
-    for (int k = 0; k < 4; ++k)
-        points.push_back({4.0L / (coarsest << k), static_cast<long double>((end(coarsest << k) - exact).norm())});
-    return lagen::support::measured_order(points, 1e-30L);
+    return lagen::testing::order_of_ends(end, coarsest, 4);
 }
 
-auto near(double order)
-{
-    return Catch::WithinAbs(order, lagen::tolerance::order);
-}
+using lagen::testing::near;
 
 template <class Model, class Method>
 lagen::Status status_on()

@@ -248,6 +248,16 @@ template <class Column>
     return sum;
 }
 
+/// lost = (s1 - s) - moved: what s1 = s + moved lost to rounding, of sums that are compensated.
+template <class State>
+[[gnu::always_inline]] inline void keep_lost(const State& s, const State& s1, const State& moved, State& lost) noexcept
+{
+    for_lanes(s, [&]<int width>(Width<width>, Eigen::Index lane) {
+        const Slice<State, width> gone = load<width>(s1, lane) - load<width>(s, lane);
+        store(lost, lane, gone - load<width>(moved, lane));
+    });
+}
+
 /// x - x is zero exactly where x is finite; a built-in type has a largest number.
 template <class Scalar>
 [[gnu::always_inline]] inline bool is_finite_number(const Scalar& x) noexcept

@@ -88,11 +88,7 @@ class SplittingStepper {
     status_t<Scalar> attempt(const M& model, Real t, const State& s, Real h, State& s1) noexcept
     {
         const auto status = move(model, t, s, h, s1, last_);
-        detail::for_lanes(s, [&]<int width>(detail::Width<width>, Eigen::Index lane) {
-            using detail::load;
-            const detail::Slice<State, width> gone = load<width>(s1, lane) - load<width>(s, lane);
-            detail::store(next_lost_, lane, gone - load<width>(moved_, lane));
-        });
+        detail::keep_lost(s, s1, moved_, next_lost_);
         return StatusOf<Scalar>::first(status, detail::check_finite(s1));
     }
 
