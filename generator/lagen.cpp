@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// main: options to a command, errors to standard error and an exit code. No mathematics.
-#include "commands/command.hpp"
-#include "commands/options.hpp"
-#include "commands/write_file.hpp"
+#include "commands/line/command.hpp"
+#include "commands/line/options.hpp"
+#include "commands/machine/write_file.hpp"
 
 #include <fmt/core.h>
 

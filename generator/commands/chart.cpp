@@ -5,12 +5,12 @@
 #include "commands/chart/kept_chart.hpp"
 #include "commands/chart/picture.hpp"
 #include "commands/chart/report.hpp"
-#include "commands/command.hpp"
-#include "commands/options.hpp"
-#include "commands/places.hpp"
-#include "commands/process.hpp"
-#include "commands/scene_options.hpp"
-#include "commands/write_file.hpp"
+#include "commands/line/command.hpp"
+#include "commands/line/options.hpp"
+#include "commands/machine/places.hpp"
+#include "commands/machine/process.hpp"
+#include "commands/machine/write_file.hpp"
+#include "commands/scene/scene_options.hpp"
 #include "model/scene_form.hpp"
 
 #include <fmt/core.h>

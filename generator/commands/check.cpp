@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// `lagen check`: decides every claim of the models named.
 #include "advice/advise.hpp"
-#include "commands/command.hpp"
-#include "commands/options.hpp"
-#include "commands/places.hpp"
+#include "commands/line/command.hpp"
+#include "commands/line/options.hpp"
+#include "commands/machine/places.hpp"
+#include "commands/machine/write_file.hpp"
 #include "commands/report_check.hpp"
-#include "commands/write_file.hpp"
 #include "elaborate/elaborate.hpp"
 #include "elaborate/require_values.hpp"
 #include "expression/parse.hpp"

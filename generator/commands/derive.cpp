@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// `lagen derive`: the equations, for a person.
 #include "equations/derive.hpp"
-#include "commands/command.hpp"
-#include "commands/options.hpp"
-#include "commands/places.hpp"
-#include "commands/write_file.hpp"
+#include "commands/line/command.hpp"
+#include "commands/line/options.hpp"
+#include "commands/machine/places.hpp"
+#include "commands/machine/write_file.hpp"
 #include "emit/json.hpp"
 #include "emit/print_equations.hpp"
 #include "model/scene_form.hpp"

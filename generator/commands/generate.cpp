@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// `lagen generate`: the C++ header of a model.
-#include "commands/command.hpp"
-#include "commands/options.hpp"
-#include "commands/places.hpp"
+#include "commands/line/command.hpp"
+#include "commands/line/options.hpp"
+#include "commands/machine/places.hpp"
+#include "commands/machine/write_file.hpp"
 #include "commands/report_operations.hpp"
-#include "commands/scene_options.hpp"
-#include "commands/write_file.hpp"
+#include "commands/scene/scene_options.hpp"
 #include "emit/json.hpp"
 #include "kernels/requested_kernels.hpp"
 #include "model/scene_form.hpp"

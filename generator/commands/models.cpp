@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// `lagen models`: the example models, with their scenes.
-#include "commands/command.hpp"
-#include "commands/options.hpp"
-#include "commands/places.hpp"
-#include "commands/write_file.hpp"
+#include "commands/line/command.hpp"
+#include "commands/line/options.hpp"
+#include "commands/machine/places.hpp"
+#include "commands/machine/write_file.hpp"
 #include "emit/json.hpp"
 
 #include <fmt/core.h>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// `lagen sweep`: one scene from many starts and with many parameters, a row for each.
-#include "commands/command.hpp"
-#include "commands/compile.hpp"
-#include "commands/places.hpp"
-#include "commands/preparation.hpp"
-#include "commands/scene_options.hpp"
-#include "commands/sweep_run.hpp"
-#include "commands/write_file.hpp"
+#include "commands/line/command.hpp"
+#include "commands/machine/compile.hpp"
+#include "commands/machine/places.hpp"
+#include "commands/machine/write_file.hpp"
+#include "commands/scene/preparation.hpp"
+#include "commands/scene/scene_options.hpp"
+#include "commands/sweep/sweep_run.hpp"
 #include "elaborate/bind_parameters.hpp"
 #include "model/scene_form.hpp"
 

@@ -7,7 +7,7 @@
 #include "support/json.hpp"
 #include "support/tolerances.hpp"
 
-#include "commands/accuracy.hpp"
+#include "commands/chart/accuracy.hpp"
 #include "commands/chart/measure.hpp"
 #include "commands/chart/picture.hpp"
 #include "commands/chart/report.hpp"

@@ -5,7 +5,7 @@
 #include "support/golden.hpp"
 #include "support/json.hpp"
 
-#include "commands/methods.hpp"
+#include "commands/scene/methods.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

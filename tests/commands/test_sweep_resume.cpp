@@ -3,7 +3,7 @@
 #include "program.hpp"
 #include "sweep_table.hpp"
 
-#include "commands/sweep_file.hpp"
+#include "commands/sweep/sweep_file.hpp"
 #include "support/golden.hpp"
 #include "support/sanitized.hpp"
 

@@ -4,8 +4,8 @@
 
 #include "support/golden.hpp"
 
-#include "commands/sweep_progress.hpp"
-#include "commands/table.hpp"
+#include "commands/scene/table.hpp"
+#include "commands/sweep/sweep_progress.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -115,18 +115,24 @@ const Arrows& planned_folder_arrows()
         {"graph/simplify", {"graph/elimination"}},
         {"graph/series", {"graph/unknowns"}},
         {"graph/terms", {"graph/core"}},
-        {"graph/kernel", {"graph/simplify", "graph/series"}},
+        {"graph", {"graph/simplify", "graph/series"}},
+        {"commands/line", {}},
+        {"commands/machine", {}},
+        {"commands/scene", {"commands/line", "commands/machine"}},
+        {"commands/chart", {"commands/scene"}},
+        {"commands/sweep", {"commands/scene"}},
+        {"commands", {"commands/chart", "commands/sweep"}},
     };
     return arrows;
 }
 
 std::string folder_of(const std::string& path)
 {
-    const std::string room = room_of(path) + "/";
-    const auto of_room = [&](const auto& arrow) { return arrow.first.starts_with(room); };
-    if (std::none_of(planned_folder_arrows().begin(), planned_folder_arrows().end(), of_room)) return "";
-    const std::string inside = path.substr(path.find(room) + room.size());
-    return room + inside.substr(0, inside.find_first_of("/."));
+    const std::string room = room_of(path);
+    if (!planned_folder_arrows().contains(room)) return "";
+    const std::size_t start = path.find(room + "/"); // lagen.cpp stands beside its room
+    const std::size_t end = start == std::string::npos ? start : path.find('/', start + room.size() + 1);
+    return end == std::string::npos ? room : path.substr(start, end - start);
 }
 
 std::set<std::string> reachable_rooms(const Arrows& arrows, const std::string& room)

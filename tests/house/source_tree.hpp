@@ -39,11 +39,11 @@ using Arrows = std::map<std::string, std::set<std::string>>;
 /// The arrows of the house (README, "The house").
 [[nodiscard]] const Arrows& planned_arrows();
 
-/// The arrows between the folders of a room that has some, and its files beside these: "graph/core", "graph/kernel".
+/// The arrows between the folders of a room that has some; the room's own name stands for the files beside these.
 [[nodiscard]] const Arrows& planned_folder_arrows();
 
-/// "generator/graph/core/graph.hpp" is in "graph/core", "generator/graph/kernel.hpp" in "graph/kernel"; empty for a
-/// file of a room without folders.
+/// "generator/graph/core/graph.hpp" is in "graph/core", "generator/graph/kernel.hpp" in "graph"; empty for a file of a
+/// room without folders.
 [[nodiscard]] std::string folder_of(const std::string& path);
 
 /// The rooms that `room` may include: itself and what its arrows reach.

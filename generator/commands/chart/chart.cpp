@@ -2,8 +2,8 @@
 #include "commands/chart/chart.hpp"
 
 #include "commands/chart/measure.hpp"
-#include "commands/options.hpp"
-#include "commands/write_file.hpp"
+#include "commands/line/options.hpp"
+#include "commands/machine/write_file.hpp"
 #include "elaborate/bind_parameters.hpp"
 
 #include <fmt/core.h>

@@ -2,8 +2,8 @@
 /// A work-precision chart: how far every applicable method is from a reference, and what that costs.
 #pragma once
 
-#include "commands/methods.hpp"
-#include "commands/options.hpp"
+#include "commands/line/options.hpp"
+#include "commands/scene/methods.hpp"
 #include "pipeline.hpp"
 
 #include <optional>

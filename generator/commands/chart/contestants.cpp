@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/chart/contestants.hpp"
 
-#include "commands/options.hpp"
-#include "commands/preparation.hpp"
+#include "commands/line/options.hpp"
+#include "commands/scene/preparation.hpp"
 #include "emit/print_header.hpp"
 
 #include <fmt/core.h>

@@ -4,7 +4,7 @@
 
 #include "commands/chart/chart.hpp"
 #include "commands/chart/problem.hpp"
-#include "commands/compile.hpp"
+#include "commands/machine/compile.hpp"
 
 namespace lagen {
 

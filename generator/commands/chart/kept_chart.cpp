@@ -2,9 +2,9 @@
 #include "commands/chart/kept_chart.hpp"
 
 #include "commands/chart/measure.hpp"
-#include "commands/compile_cache.hpp"
-#include "commands/run_record.hpp"
-#include "commands/write_file.hpp"
+#include "commands/machine/compile_cache.hpp"
+#include "commands/machine/write_file.hpp"
+#include "commands/scene/run_record.hpp"
 #include "diagnostic.hpp"
 
 #include <fmt/core.h>

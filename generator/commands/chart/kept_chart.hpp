@@ -3,7 +3,7 @@
 #pragma once
 
 #include "commands/chart/chart.hpp"
-#include "commands/options.hpp"
+#include "commands/line/options.hpp"
 
 namespace lagen {
 

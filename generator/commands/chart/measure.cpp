@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/chart/measure.hpp"
 
-#include "commands/run_report.hpp"
-#include "commands/scene_program.hpp"
-#include "commands/write_file.hpp"
+#include "commands/machine/write_file.hpp"
+#include "commands/scene/run_report.hpp"
+#include "commands/scene/scene_program.hpp"
 
 #include <fmt/core.h>
 

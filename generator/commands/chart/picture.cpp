@@ -2,7 +2,7 @@
 #include "commands/chart/picture.hpp"
 
 #include "commands/chart/report.hpp"
-#include "commands/gnuplot.hpp"
+#include "commands/machine/gnuplot.hpp"
 
 #include <fmt/core.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/chart/problem.hpp"
 
-#include "commands/process.hpp"
-#include "commands/start_state.hpp"
-#include "commands/temporary_folder.hpp"
-#include "commands/write_file.hpp"
+#include "commands/machine/process.hpp"
+#include "commands/machine/temporary_folder.hpp"
+#include "commands/machine/write_file.hpp"
+#include "commands/scene/start_state.hpp"
 #include "scene/sample_times.hpp"
 
 #include <fmt/core.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/chart/reference.hpp"
 
-#include "commands/methods.hpp"
+#include "commands/scene/methods.hpp"
 #include "diagnostic.hpp"
 #include "emit/print_header.hpp"
 

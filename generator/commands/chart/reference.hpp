@@ -3,7 +3,7 @@
 #pragma once
 
 #include "commands/chart/problem.hpp"
-#include "commands/compile.hpp"
+#include "commands/machine/compile.hpp"
 
 #include <array>
 

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/line/options.hpp"
+
+#include "model/families.hpp"
+
+#include <boost/program_options.hpp>
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace lagen {
+
+namespace {
+
+namespace po = boost::program_options;
+
+std::string long_name(const OptionEntry& entry)
+{
+    const std::string name = entry.name;
+    return name.substr(0, name.find(','));
+}
+
+po::options_description describe(const CommandSyntax& syntax)
+{
+    po::options_description description("options", 110);
+    for (const OptionEntry& entry : syntax.options) {
+        std::string help = entry.help;
+        if (entry.standard != nullptr) help += fmt::format(" [{}]", entry.standard);
+        if (entry.value == nullptr) {
+            description.add_options()(entry.name, help.c_str());
+        } else {
+            const std::string value = entry.bare != nullptr ? fmt::format("[={}]", entry.value) : entry.value;
+            description.add_options()(entry.name, po::value<std::vector<std::string>>()->value_name(value)->composing(),
+                                      help.c_str());
+        }
+    }
+    description.add_options()("help,h", "print this text");
+    return description;
+}
+
+/// "--name" of an option with a bare value as "--name=value": Boost's implicit values take the next word, which may be
+/// the model.
+std::vector<std::string> with_bare_values(const CommandSyntax& syntax, std::span<const std::string> arguments)
+{
+    std::vector<std::string> words(arguments.begin(), arguments.end());
+    const auto end = std::find(words.begin(), words.end(), "--");
+    for (const OptionEntry& entry : syntax.options)
+        if (entry.bare != nullptr)
+            std::replace(words.begin(), end, "--" + long_name(entry),
+                         fmt::format("--{}={}", long_name(entry), entry.bare));
+    return words;
+}
+
+void print_help(const CommandSyntax& syntax, const po::options_description& description)
+{
+    std::ostringstream text;
+    text << description;
+    const std::string arguments = *syntax.positional == '\0' ? "" : std::string(" ") + syntax.positional;
+    fmt::print("usage: lagen {}{} [options]\n\n{}\n\n{}", syntax.command, arguments, syntax.purpose, text.str());
+}
+
+void check_positional(const CommandSyntax& syntax, const std::vector<std::string>& positional)
+{
+    const std::string shape = syntax.positional;
+    const bool several = shape.ends_with("...");
+    const std::size_t least = shape.empty() ? 0 : 1;
+    if (positional.size() < least)
+        throw UsageError(
+            fmt::format("lagen {}: {} is missing (see lagen {} --help)", syntax.command, shape, syntax.command));
+    if (positional.size() > least && !several) {
+        throw UsageError(fmt::format("lagen {}: unexpected argument '{}' (see lagen {} --help)", syntax.command,
+                                     positional[least], syntax.command));
+    }
+}
+
+} // namespace
+
+Options::Options(const CommandSyntax& syntax, std::span<const std::string> arguments) : command_(syntax.command)
+{
+    const po::options_description description = describe(syntax);
+    po::options_description everything;
+    everything.add(description).add_options()("positional", po::value<std::vector<std::string>>()->composing());
+    po::positional_options_description order;
+    order.add("positional", -1);
+    po::variables_map map;
+    try {
+        const int style = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
+        const po::parsed_options parsed = po::command_line_parser(with_bare_values(syntax, arguments))
+                                              .options(everything)
+                                              .positional(order)
+                                              .style(style)
+                                              .run();
+        for (const po::option& option : parsed.options)
+            if (option.position_key < 0)
+                given_.emplace_back(option.string_key, option.value.empty() ? "" : option.value[0]);
+        po::store(parsed, map);
+    } catch (const po::unknown_option& error) {
+        std::vector<std::string> known;
+        for (const OptionEntry& entry : syntax.options) known.push_back("--" + long_name(entry));
+        const std::string nearest = nearest_name(error.get_option_name(), known);
+        throw UsageError(fmt::format("lagen {0}: unknown option '{1}'{2} (see lagen {0} --help)", command_,
+                                     error.get_option_name(),
+                                     nearest.empty() ? "" : fmt::format(", did you mean '{}'?", nearest)));
+    } catch (const po::error& error) {
+        throw UsageError(fmt::format("lagen {}: {} (see lagen {} --help)", command_, error.what(), command_));
+    }
+    if (map.count("help") > 0) {
+        print_help(syntax, description);
+        help_ = true;
+        return;
+    }
+    for (const OptionEntry& entry : syntax.options) {
+        const std::string name = long_name(entry);
+        if (entry.standard != nullptr) standards_[name] = entry.standard;
+        if (map.count(name) == 0) continue;
+        values_[name] = entry.value == nullptr ? std::vector<std::string>{} : map[name].as<std::vector<std::string>>();
+    }
+    if (map.count("positional") > 0) positional_ = map["positional"].as<std::vector<std::string>>();
+    check_positional(syntax, positional_);
+}
+
+std::string Options::get(const std::string& name) const
+{
+    const auto found = values_.find(name);
+    if (found != values_.end() && !found->second.empty()) return found->second.back();
+    const auto standard = standards_.find(name);
+    return standard == standards_.end() ? std::string() : standard->second;
+}
+
+std::vector<std::string> Options::all(const std::string& name) const
+{
+    const auto found = values_.find(name);
+    return found == values_.end() ? std::vector<std::string>{} : found->second;
+}
+
+std::string Options::choice(const std::string& name, const std::vector<std::string>& allowed) const
+{
+    const std::string value = get(name);
+    if (std::find(allowed.begin(), allowed.end(), value) != allowed.end()) return value;
+    std::string list;
+    for (const std::string& entry : allowed) list += (list.empty() ? "" : ", ") + entry;
+    const std::string nearest = nearest_name(value, allowed);
+    throw UsageError(fmt::format("lagen {}: --{} is '{}', it must be one of {}{}", command_, name, value, list,
+                                 nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest)));
+}
+
+/// "I1=2" or "m".
+Setting Options::binding_of(const std::string& entry) const
+{
+    const std::size_t equals = entry.find('=');
+    std::string name = entry.substr(0, equals);
+    name.erase(name.find_last_not_of(' ') + 1);
+    if (name.empty() || equals + 1 == entry.size())
+        throw UsageError(fmt::format("lagen {}: --bind needs names or name=value, found '{}'", command_, entry));
+    if (equals == std::string::npos) return {name, {}, true};
+    return {name, whole_text("<--bind " + name + ">", entry.substr(equals + 1)), true};
+}
+
+void Options::add_bindings(std::vector<Setting>& settings) const
+{
+    std::vector<Setting> bindings;
+    for (const std::string& text : all("bind"))
+        for (const std::string& entry : split_list(text)) bindings.push_back(binding_of(entry));
+    for (const Setting& set : settings)
+        for (const Setting& bound : bindings)
+            if (bound.gives_value() && (names_entry(bound.name, set.name) || names_entry(set.name, bound.name)))
+                throw UsageError(fmt::format("lagen {}: --set gives '{}' the value {} and --bind gives '{}' the value "
+                                             "{}\nhint: --bind {} takes the value of --set",
+                                             command_, set.name, set.value.text, bound.name, bound.value.text,
+                                             bound.name));
+    settings.insert(settings.end(), bindings.begin(), bindings.end());
+}
+
+std::vector<Setting> Options::settings() const
+{
+    std::vector<Setting> settings = named("set");
+    add_bindings(settings);
+    return settings;
+}
+
+std::vector<Setting> Options::named(const std::string& option) const
+{
+    std::vector<Setting> settings;
+    for (const std::string& text : all(option)) settings.push_back(read_setting(command_, option, text));
+    return settings;
+}
+
+Setting read_setting(const std::string& command, const std::string& option, const std::string& text)
+{
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0)
+        throw UsageError(fmt::format("lagen {}: --{} needs name=value, found '{}'", command, option, text));
+    const std::string name = text.substr(0, equals);
+    return {name, whole_text(fmt::format("<--{} {}>", option, name), text.substr(equals + 1))};
+}
+
+std::vector<std::string> split_list(const std::string& text)
+{
+    std::vector<std::string> entries(1);
+    int depth = 0;
+    for (const char c : text) {
+        depth += c == '(' || c == '[' ? 1 : c == ')' || c == ']' ? -1 : 0;
+        if (c == ',' && depth == 0) {
+            entries.emplace_back();
+        } else if (c != ' ' || !entries.back().empty()) {
+            entries.back() += c;
+        }
+    }
+    for (std::string& entry : entries) entry.erase(entry.find_last_not_of(' ') + 1);
+    if (entries.size() == 1 && entries[0].empty()) entries.clear();
+    return entries;
+}
+
+} // namespace lagen

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/machine/compile.hpp"
+
+#include "commands/machine/compile_cache.hpp"
+#include "commands/machine/places.hpp"
+#include "commands/machine/process.hpp"
+#include "commands/machine/temporary_folder.hpp"
+#include "commands/machine/write_file.hpp"
+#include "diagnostic.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+#include <thread>
+
+namespace lagen {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> words(const char* text)
+{
+    std::istringstream stream(text == nullptr ? "" : text);
+    std::vector<std::string> list;
+    for (std::string word; stream >> word;) list.push_back(word);
+    return list;
+}
+
+/// The compiler with its own arguments; the program is found in PATH.
+std::vector<std::string> find_compiler()
+{
+    std::vector<std::string> named = words(std::getenv("CXX"));
+    if (!named.empty()) {
+        if (!find_program(named[0]).empty()) return named;
+        throw MachineError(fmt::format(
+            "error: the C++ compiler '{}' (from CXX) was not found\nhint: `run` compiles the generated header; "
+            "unset CXX or name a C++20 compiler",
+            named[0]));
+    }
+    for (const char* candidate : {"c++", "g++", "clang++"})
+        if (!find_program(candidate).empty()) return {candidate};
+    throw MachineError("error: no C++ compiler was found (tried c++, g++, clang++)\nhint: `run` compiles the generated "
+                       "header; install g++ or set CXX");
+}
+
+/// The compiler with all that it is told besides its files.
+std::vector<std::string> compile_command(const std::vector<std::string>& options = {})
+{
+    std::vector<std::string> command = find_compiler();
+    command.insert(command.end(), {"-std=c++20", "-O2", "-pthread", "-I" + runtime_folder(), "-I" + program_folder(),
+                                   "-isystem", eigen_folder()});
+    command.insert(command.end(), options.begin(), options.end());
+    for (const std::string& flag : words(std::getenv("CXXFLAGS"))) command.push_back(flag);
+    return command;
+}
+
+/// Every header below folder/part, by path: a change to any of them is a new key.
+void add_headers(ContentHash& hash, const std::string& folder, const char* part)
+{
+    std::vector<fs::path> files;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(fs::path(folder) / part))
+        if (entry.is_regular_file() && entry.path().extension() == ".hpp") files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    for (const fs::path& file : files)
+        hash.add(file.lexically_relative(folder).string()).add(content_of_file(file.string()));
+}
+
+void add_compiler(ContentHash& hash, const std::vector<std::string>& command)
+{
+    std::error_code ignored;
+    const fs::path program = fs::canonical(find_program(command[0]), ignored);
+    hash.add(program.string()).add(std::to_string(fs::file_size(program, ignored)));
+    hash.add(std::to_string(fs::last_write_time(program, ignored).time_since_epoch().count()));
+    for (const std::string& word : command) hash.add(word);
+}
+
+std::string line_of(const std::vector<std::string>& command)
+{
+    std::string line;
+    for (const std::string& word : command) line += (line.empty() ? "" : " ") + word;
+    return line;
+}
+
+void require_success(const std::vector<std::string>& command, const ProcessResult& result)
+{
+    if (result.interrupted) throw Error(ExitCode::interrupted, "lagen: interrupted while compiling");
+    if (!result.started)
+        throw MachineError(
+            fmt::format("error: the C++ compiler '{}' could not be started: {}", command[0], result.error));
+    if (result.exit_code != 0)
+        throw MachineError(fmt::format("error: the C++ compiler failed with exit code {}\n{}\n{}{}", result.exit_code,
+                                       line_of(command), result.error, result.output));
+}
+
+/// Where a program is kept.
+std::string program_path(const std::string& cache, const ProgramText& text)
+{
+    ContentHash hash;
+    hash.add(lines_of_code(text.header, "//")).add(text.main); // a new scene or title is no new program
+    for (const std::string& library : text.libraries) hash.add(library);
+    for (const std::string& option : text.options) hash.add(option);
+    add_compilation(hash);
+    return fmt::format("{}/{}", cache, hash.hex32());
+}
+
+/// The compiler's command for a program whose files are written into `folder`, which is made.
+std::vector<std::string> command_in(const std::string& folder, const ProgramText& text)
+{
+    fs::create_directory(folder);
+    write_file(folder + "/model.hpp", text.header);
+    write_file(folder + "/main.cpp", text.main);
+    std::vector<std::string> command = compile_command(text.options);
+    command.insert(command.end(), {folder + "/main.cpp", "-o", folder + "/program"});
+    command.insert(command.end(), text.libraries.begin(), text.libraries.end());
+    return command;
+}
+
+/// Whether the compiler takes a text with these further arguments; what it makes is thrown away.
+bool takes(const std::string& text, const std::vector<std::string>& arguments)
+{
+    const TemporaryFolder scratch(shared_temporary_folder(), "lagen-look");
+    write_file(scratch.file("look.cpp"), text);
+    std::vector<std::string> command = compile_command();
+    command.insert(command.end(), {scratch.file("look.cpp"), "-o", scratch.file("look")});
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    return run_process(command).exit_code == 0;
+}
+
+} // namespace
+
+std::string lines_of_code(const std::string& text, std::string_view comment)
+{
+    std::istringstream stream(text);
+    std::string code;
+    for (std::string line; std::getline(stream, line);) {
+        const std::size_t first = line.find_first_not_of(" \t\r");
+        if (first != std::string::npos && line.compare(first, comment.size(), comment) != 0) code += line + '\n';
+    }
+    return code;
+}
+
+void add_compilation(ContentHash& hash)
+{
+    add_headers(hash, runtime_folder(), "lagen");
+    add_headers(hash, program_folder(), ".");
+    add_compiler(hash, compile_command());
+}
+
+std::vector<std::string> rounding_options()
+{
+    return {"-ffp-contract=off", "-DLAGEN_SAME_BITS"};
+}
+
+std::vector<std::string> vector_options()
+{
+#if defined(__x86_64__)
+    const char* level = nullptr;
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2"))
+        level = "-march=x86-64-v3";
+    if (level != nullptr && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+        __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
+        level = "-march=x86-64-v4";
+    if (level != nullptr && words(std::getenv("CXXFLAGS")).empty()) return {level, "-O3"};
+#endif
+    return {};
+}
+
+std::vector<std::string> compile_programs(const std::vector<ProgramText>& programs)
+{
+    const std::string cache = cache_folder();
+    std::vector<std::string> paths;
+    std::vector<std::size_t> missing;
+    for (const ProgramText& text : programs) {
+        paths.push_back(program_path(cache, text));
+        if (!use_cached(paths.back())) missing.push_back(paths.size() - 1);
+    }
+    if (missing.empty()) return paths;
+    if (missing.size() > 1) write_standard_error(fmt::format("compiling {} programs\n", missing.size()));
+    const TemporaryFolder scratch(cache, "build");
+    std::vector<std::vector<std::string>> commands;
+    for (const std::size_t k : missing) commands.push_back(command_in(scratch.file(std::to_string(k)), programs[k]));
+    const std::vector<ProcessResult> results = run_processes(commands, std::thread::hardware_concurrency());
+    for (std::size_t k = 0; k < missing.size(); ++k) {
+        require_success(commands[k], results[k]);
+        // Renamed into place whole: two runs at once may both compile, neither sees half a program.
+        const std::string& program = paths[missing[k]];
+        std::error_code error;
+        fs::rename(scratch.file(std::to_string(missing[k])) + "/program", program, error);
+        if (error) throw MachineError(fmt::format("error: cannot write '{}': {}", program, error.message()));
+    }
+    trim_cache(cache);
+    return paths;
+}
+
+bool finds_header(const std::string& header)
+{
+    return takes(fmt::format("#if !__has_include(<{}>)\n#error\n#endif\n", header), {"-fsyntax-only"});
+}
+
+void require_quad()
+{
+    const char* text =
+        "extern \"C\" __float128 sqrtq(__float128);\nint main(int count, char**)\n{\n    return sqrtq(count) "
+        "> 2;\n}\n";
+    if (takes(text, {"-lquadmath"})) return;
+    throw MachineError(fmt::format("error: the reference of a chart has 113 bits, and the C++ compiler '{}' makes no "
+                                   "program with __float128 and libquadmath\nhint: g++ on x86 does; CXX names the "
+                                   "compiler",
+                                   find_compiler()[0]));
+}
+
+std::string build_text()
+{
+    ContentHash hash;
+    hash.add(content_of_file("/proc/self/exe"));
+    add_headers(hash, runtime_folder(), "lagen");
+    add_headers(hash, program_folder(), ".");
+    std::vector<std::string> question = find_compiler();
+    question.emplace_back("--version");
+    const std::string answer = run_process(question).output;
+    return fmt::format("lagen {} ({}), {}: {}", LAGEN_VERSION, hash.hex16(), compiler_text(),
+                       answer.substr(0, answer.find('\n')));
+}
+
+std::string compiler_text()
+{
+    std::vector<std::string> command = find_compiler();
+    command.insert(command.end(), {"-std=c++20", "-O2"});
+    for (const std::string& flag : words(std::getenv("CXXFLAGS"))) command.push_back(flag);
+    return line_of(command);
+}
+
+} // namespace lagen

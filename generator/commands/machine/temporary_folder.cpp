@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Making and removing a temporary folder with interrupts held back.
+#include "commands/machine/temporary_folder.hpp"
+
+#include "diagnostic.hpp"
+
+#include <fmt/core.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+namespace lagen {
+
+sigset_t interrupt_signals()
+{
+    sigset_t signals;
+    sigemptyset(&signals);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, signal);
+    return signals;
+}
+
+InterruptsHeld::InterruptsHeld()
+{
+    const sigset_t signals = interrupt_signals();
+    sigprocmask(SIG_BLOCK, &signals, &before_);
+}
+
+InterruptsHeld::~InterruptsHeld()
+{
+    sigprocmask(SIG_SETMASK, &before_, nullptr);
+}
+
+TemporaryFolder::TemporaryFolder(const std::string& parent, const std::string& stem)
+    : path_(parent + "/" + stem + "-XXXXXX")
+{
+    if (::mkdtemp(path_.data()) == nullptr)
+        throw MachineError(fmt::format("error: cannot make a folder in '{}': {}", parent, std::strerror(errno)));
+}
+
+TemporaryFolder::~TemporaryFolder()
+{
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+}
+
+std::string shared_temporary_folder()
+{
+    std::error_code error;
+    const std::filesystem::path folder = std::filesystem::temp_directory_path(error);
+    if (error) {
+        throw MachineError(fmt::format("error: there is no folder for temporary files: {}\nhint: set TMPDIR to a "
+                                       "folder that can be written",
+                                       error.message()));
+    }
+    return folder.string();
+}
+
+} // namespace lagen

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/machine/write_file.hpp"
+
+#include "diagnostic.hpp"
+
+#include <fmt/core.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fcntl.h>
+#include <filesystem>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace lagen {
+
+namespace {
+
+/// Signals wait while a temporary exists.
+class SignalsHeld {
+  public:
+    SignalsHeld()
+    {
+        sigset_t all;
+        sigfillset(&all);
+        sigprocmask(SIG_BLOCK, &all, &before_);
+    }
+    ~SignalsHeld() { sigprocmask(SIG_SETMASK, &before_, nullptr); }
+    SignalsHeld(const SignalsHeld&) = delete;
+    SignalsHeld& operator=(const SignalsHeld&) = delete;
+
+  private:
+    sigset_t before_{};
+};
+
+[[noreturn]] void fail(const std::string& path, int error)
+{
+    throw MachineError(fmt::format("error: cannot write '{}': {}", path, std::strerror(error)));
+}
+
+/// Everything or an errno.
+int write_all(int file, std::string_view content)
+{
+    while (!content.empty()) {
+        const ssize_t written = ::write(file, content.data(), content.size());
+        if (written < 0) {
+            if (errno == EINTR) continue;
+            return errno;
+        }
+        content.remove_prefix(static_cast<std::size_t>(written));
+    }
+    return 0;
+}
+
+void write_directly(const std::string& path, std::string_view content)
+{
+    const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (file < 0) fail(path, errno);
+    int error = write_all(file, content);
+    if (::close(file) != 0 && error == 0) error = errno;
+    if (error != 0) fail(path, error);
+}
+
+} // namespace
+
+void write_file(const std::string& path, std::string_view content)
+{
+    if (path == "-") return write_standard_output(content);
+    struct stat status {};
+    const bool exists = ::stat(path.c_str(), &status) == 0;
+    if (exists && S_ISDIR(status.st_mode)) fail(path, EISDIR);
+    if (exists && !S_ISREG(status.st_mode)) return write_directly(path, content);
+
+    // A link keeps being a link: the file behind it is what gets replaced.
+    std::error_code ignored;
+    const std::filesystem::path resolved = std::filesystem::weakly_canonical(path, ignored);
+    const std::string target = ignored ? path : resolved.string();
+    const SignalsHeld held;
+    std::string temporary = target + ".XXXXXX";
+    const int file = ::mkstemp(temporary.data());
+    if (file < 0) fail(path, errno);
+    const mode_t mask = ::umask(0);
+    ::umask(mask);
+    int error = ::fchmod(file, exists ? (status.st_mode & 07777U) : (0666U & ~mask)) == 0 ? 0 : errno;
+    if (error == 0) error = write_all(file, content);
+    if (error == 0 && ::fsync(file) != 0 && errno != EINVAL) error = errno;
+    if (::close(file) != 0 && error == 0) error = errno;
+    if (error == 0 && ::rename(temporary.c_str(), target.c_str()) != 0) error = errno;
+    if (error != 0) {
+        ::unlink(temporary.c_str());
+        fail(path, error);
+    }
+}
+
+void write_standard_output(std::string_view content)
+{
+    std::fflush(stdout);
+    const int error = write_all(STDOUT_FILENO, content);
+    if (error != 0) throw MachineError(fmt::format("error: cannot write to standard output: {}", std::strerror(error)));
+}
+
+void write_standard_error(std::string_view text)
+{
+    (void)write_all(STDERR_FILENO, text);
+}
+
+std::string content_of_file(const std::string& path)
+{
+    std::FILE* file = std::fopen(path.c_str(), "rb");
+    if (file == nullptr) throw MachineError(fmt::format("error: cannot read '{}': {}", path, std::strerror(errno)));
+    std::string content;
+    char buffer[65536];
+    for (std::size_t count = 0; (count = std::fread(buffer, 1, sizeof buffer, file)) > 0;)
+        content.append(buffer, count);
+    const bool failed = std::ferror(file) != 0;
+    const int error = errno;
+    std::fclose(file);
+    if (failed) throw MachineError(fmt::format("error: cannot read '{}': {}", path, std::strerror(error)));
+    return content;
+}
+
+} // namespace lagen

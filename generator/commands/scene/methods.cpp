@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/scene/methods.hpp"
+
+#include "commands/line/command.hpp"
+#include "commands/line/options.hpp"
+#include "commands/machine/write_file.hpp"
+#include "emit/json.hpp"
+
+#include <fmt/core.h>
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+namespace lagen {
+
+namespace {
+
+constexpr std::array entries{
+    MethodEntry{"euler", "Euler", "1", false, false, "explicit Euler"},
+    MethodEntry{"midpoint", "Midpoint", "2", false, false, "explicit midpoint (Runge 1895)"},
+    MethodEntry{"heun", "Heun", "2", false, false, "explicit trapezoidal rule (Heun 1900)"},
+    MethodEntry{"ralston", "Ralston", "2", false, false, "two stages with least truncation error (Ralston 1962)"},
+    MethodEntry{"kutta3", "Kutta3", "3", false, false, "Kutta's third-order method (1901)"},
+    MethodEntry{"rk4", "Rk4", "4", false, false, "the classical Runge-Kutta method (Kutta 1901)"},
+    MethodEntry{"rk38", "Rk38", "4", false, false, "the 3/8 rule (Kutta 1901)"},
+    MethodEntry{"dopri5", "Dopri5", "5(4)", true, false, "Dormand and Prince 1980, dense output of order 4"},
+    MethodEntry{"tsit5", "Tsit5", "5(4)", true, false, "Tsitouras 2011, dense output of order 4"},
+    MethodEntry{"dop853", "Dop853", "8(5,3)", true, false, "Hairer, Norsett and Wanner 1993, dense output of order 7"},
+    MethodEntry{"verner65", "Verner65", "6(5)", true, false, "Verner 2010, dense output of order 5"},
+    MethodEntry{"verner76", "Verner76", "7(6)", true, false, "Verner 2010, dense output of order 6"},
+    MethodEntry{"verner87", "Verner87", "8(7)", true, false, "Verner 2010, dense output of order 7"},
+    MethodEntry{"verner98", "Verner98", "9(8)", true, false, "Verner 2010, dense output of order 8"},
+    MethodEntry{"rkn64", "Rkn64", "6(4)", true, false, "Nystrom (Dormand and Prince 1987), dense output of order 5", "",
+                SecondOrder::Kind::velocity_free},
+    MethodEntry{"rkn86", "Rkn86", "8(6)", true, false,
+                "Nystrom (Dormand, El-Mikkawy and Prince 1987), dense output of order 7", "",
+                SecondOrder::Kind::velocity_free},
+    MethodEntry{"rkn1210", "Rkn1210", "12(10)", true, false,
+                "Nystrom (Dormand, El-Mikkawy and Prince 1987), dense output of order 10", "",
+                SecondOrder::Kind::velocity_free},
+    MethodEntry{"rkng54", "Rkng54", "5(4)", true, false, "Nystrom (Fine 1987), dense output of order 4", "",
+                SecondOrder::Kind::general},
+    MethodEntry{"taylor", "Taylor", "3-30", true, false,
+                "Taylor series, order by the tolerance (Jorba and Zou 2005), dense output of that order", "",
+                SecondOrder::Kind::no, true},
+    MethodEntry{"gauss2", "Gauss2", "2", false, false, "Gauss, one stage: the implicit midpoint rule", "symplectic"},
+    MethodEntry{"gauss4", "Gauss4", "4", false, false, "Gauss, two stages (Kuntzmann, Butcher 1964)", "symplectic"},
+    MethodEntry{"gauss6", "Gauss6", "6", false, false, "Gauss, three stages (Kuntzmann, Butcher 1964)", "symplectic"},
+    MethodEntry{"gauss8", "Gauss8", "8", false, false, "Gauss, four stages (Kuntzmann, Butcher 1964)", "symplectic"},
+    MethodEntry{"gauss12", "Gauss12", "12", false, false, "Gauss, six stages (Kuntzmann, Butcher 1964)", "symplectic"},
+    MethodEntry{"gauss16", "Gauss16", "16", false, false, "Gauss, eight stages (Kuntzmann, Butcher 1964)",
+                "symplectic"},
+    MethodEntry{"radau5", "Radau5", "5(3)", true, false,
+                "Radau IIA (Hairer and Wanner 1991), stiff, dense output of order 3"},
+    MethodEntry{"radau3_fixed", "Radau3Fixed", "3", false, false, "Radau IIA, two stages, fixed step, stiff"},
+    MethodEntry{"radau5_fixed", "Radau5Fixed", "5", false, false, "Radau IIA, three stages, fixed step, stiff"},
+    MethodEntry{"leapfrog_dkd", "LeapfrogDkd", "2", false, true, "Stoermer-Verlet, drift-kick-drift", "symplectic"},
+    MethodEntry{"leapfrog_kdk", "LeapfrogKdk", "2", false, true, "Stoermer-Verlet, kick-drift-kick", "symplectic"},
+    MethodEntry{"mclachlan4", "McLachlan4", "4", false, true, "McLachlan and Atela 1992, four stages", "symplectic",
+                SecondOrder::Kind::no, false, true, false},
+    MethodEntry{"blanesmoan4", "BlanesMoan4", "4", false, true, "Blanes and Moan 2002, six stages", "symplectic"},
+    MethodEntry{"srkn4", "Srkn4", "4", false, true, "Blanes and Moan 2002, six stages, best where x' is affine in y",
+                "symplectic"},
+    MethodEntry{"yoshida6", "Yoshida6", "6", false, true, "Yoshida 1990, solution A, seven leapfrogs", "symplectic"},
+    MethodEntry{"blanesmoan6", "BlanesMoan6", "6", false, true, "Blanes and Moan 2002, ten stages", "symplectic"},
+    MethodEntry{"srkn6", "Srkn6", "6", false, true, "Blanes and Moan 2002, fourteen stages", "symplectic",
+                SecondOrder::Kind::no, false, true},
+    MethodEntry{"kahanli8", "KahanLi8", "8", false, true, "Kahan and Li 1997, 17 leapfrogs", "symplectic"},
+    MethodEntry{"sofroniou10", "Sofroniou10", "10", false, true, "Sofroniou and Spaletta 2005, 35 leapfrogs",
+                "symplectic"},
+};
+
+/// What other programs and books call a method, in small letters.
+constexpr std::array<std::pair<const char*, const char*>, 18> names_elsewhere{{{"rk45", "dopri5"},
+                                                                               {"ode45", "dopri5"},
+                                                                               {"runge_kutta", "rk4"},
+                                                                               {"radau", "radau5"},
+                                                                               {"ode15s", "radau5"},
+                                                                               {"bdf", "radau5"},
+                                                                               {"implicit_midpoint", "gauss2"},
+                                                                               {"leapfrog", "leapfrog_kdk"},
+                                                                               {"verlet", "leapfrog_kdk"},
+                                                                               {"velocity_verlet", "leapfrog_kdk"},
+                                                                               {"vern6", "verner65"},
+                                                                               {"vern7", "verner76"},
+                                                                               {"vern8", "verner87"},
+                                                                               {"vern9", "verner98"},
+                                                                               {"dprkn6", "rkn64"},
+                                                                               {"dprkn8", "rkn86"},
+                                                                               {"dprkn12", "rkn1210"},
+                                                                               {"finerkn5", "rkng54"}}};
+
+const CommandSyntax methods_syntax{
+    "methods", "", "Lists the integrators.", {{"format,f", "FORMAT", "text or json", "text"}}};
+
+void method_json(JsonWriter& json, const MethodEntry& entry)
+{
+    json.begin_object()
+        .key("name")
+        .value(entry.name)
+        .key("order")
+        .value(entry.order)
+        .key("adaptive")
+        .value(entry.adaptive);
+    json.key("separable_only").value(entry.separable_only).key("text").value(entry.text);
+    json.key("keeps").value(entry.keeps).key("system").value(system_of(entry)).end_object();
+}
+
+} // namespace
+
+std::span<const MethodEntry> method_table()
+{
+    return entries;
+}
+
+const MethodEntry* find_method(const std::string& name)
+{
+    for (const MethodEntry& entry : entries)
+        if (name == entry.name) return &entry;
+    return nullptr;
+}
+
+std::string nearest_method(const std::string& name)
+{
+    std::string small = name;
+    for (char& letter : small) {
+        if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+        if (letter == '-') letter = '_';
+    }
+    for (const auto& [other, ours] : names_elsewhere)
+        if (small == other) return ours;
+    return nearest_name(small, method_names());
+}
+
+std::string hint_for_method(const std::string& name)
+{
+    const std::string nearest = nearest_method(name);
+    return nearest.empty() ? "`lagen methods` lists them" : fmt::format("did you mean '{}'?", nearest);
+}
+
+bool is_symmetric_splitting(const MethodEntry& method)
+{
+    return method.separable_only && method.symmetric;
+}
+
+bool goes_abreast(const MethodEntry& method)
+{
+    const std::string_view type = method.type;
+    return !method.separable_only && !type.starts_with("Gauss") && !type.starts_with("Radau");
+}
+
+std::string system_of(const MethodEntry& method)
+{
+    if (method.separable_only)
+        return method.affine ? "x' = M y + c, y' = g(x)" : "x' = f(y), y' = g(x) or a sum of exact flows";
+    switch (method.system) {
+    case SecondOrder::Kind::no: return "";
+    case SecondOrder::Kind::general: return "x'' = f(t, x, x')";
+    case SecondOrder::Kind::velocity_free: return "x'' = f(t, x)";
+    }
+    return "";
+}
+
+std::span<const std::string> method_names()
+{
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> list;
+        for (const MethodEntry& entry : entries) list.emplace_back(entry.name);
+        return list;
+    }();
+    return names;
+}
+
+ExitCode run_methods(Arguments arguments)
+{
+    const Options options(methods_syntax, arguments);
+    if (options.help()) return ExitCode::done;
+    if (options.choice("format", {"text", "json"}) == "json") {
+        JsonWriter json;
+        json.begin_array();
+        for (const MethodEntry& entry : entries) method_json(json, entry);
+        json.end_array();
+        write_standard_output(json.text() + "\n");
+        return ExitCode::done;
+    }
+    std::string text;
+    for (const MethodEntry& entry : entries) {
+        const std::string keeps = entry.keeps, system = system_of(entry);
+        text += fmt::format("{:<14}order {:<8}{:<10}{}{}{}\n", entry.name, entry.order,
+                            entry.adaptive ? "tolerance" : "step", entry.text, keeps.empty() ? "" : ", " + keeps,
+                            system.empty() ? "" : fmt::format(" (for {} only)", system));
+    }
+    write_standard_output(text);
+    return ExitCode::done;
+}
+
+} // namespace lagen

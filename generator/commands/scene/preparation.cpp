@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/scene/preparation.hpp"
+
+#include "model/form.hpp"
+
+#include <fmt/core.h>
+
+#include <optional>
+#include <utility>
+
+namespace lagen {
+
+namespace {
+
+/// Throws where the equations are not what the method asks for.
+void require_system(const Options& options, const Scene& scene, const MethodEntry& method, const KernelModule& module)
+{
+    const std::optional<Obstacle> obstacle = obstacle_of(method, module);
+    if (!obstacle) return;
+    if (options.has("method"))
+        throw UsageError(fmt::format("lagen {}: {}\nhint: {}", options.command(), obstacle->text, obstacle->hint));
+    throw ModelError(obstacle->text, scene.method_where, obstacle->hint);
+}
+
+/// What neither separates nor is a sum of exact flows.
+std::optional<Obstacle> obstacle_to_splitting(const MethodEntry& method, const KernelModule& module)
+{
+    using Kind = Separation::Kind;
+    const Separation found = separation_of(module);
+    if (found.kind >= (method.affine ? Kind::affine : Kind::separable)) return std::nullopt;
+    if (!method.affine && module.flows.count > 0) return std::nullopt;
+    Obstacle obstacle{
+        fmt::format("{} splits {}, and in model '{}' {}", method.name, system_of(method), module.model, found.obstacle),
+        "gauss4 to gauss16 are symplectic and split nothing"};
+    if (found.kind != Kind::no)
+        obstacle.hint = "blanesmoan6 and kahanli8 take every x' = f(y)";
+    else if (module.flows.count > 0)
+        obstacle.hint = "blanesmoan6 and kahanli8 compose its exact flows";
+    else if (!module.flows.obstacle.empty())
+        obstacle.text += ", and " + module.flows.obstacle;
+    else if (form_named(module.form).kind == FormKind::lagrange)
+        obstacle.hint += "; with --form hamilton it may be a sum of exact flows";
+    return obstacle;
+}
+
+/// What of this machine the program depends on: another machine may see the same cache.
+std::string vectors_of(const Driver& driver)
+{
+    const std::vector<std::string> options = driver.abreast ? vector_options() : std::vector<std::string>();
+    return options.empty() ? "" : options.front();
+}
+
+} // namespace
+
+std::optional<Obstacle> obstacle_of(const MethodEntry& method, const KernelModule& module)
+{
+    if (method.separable_only) return obstacle_to_splitting(method, module);
+    using Kind = SecondOrder::Kind;
+    const SecondOrder& found = module.second_order;
+    if (method.system == Kind::no || found.kind == method.system || found.kind == Kind::velocity_free)
+        return std::nullopt;
+    return Obstacle{fmt::format("{} integrates {}, and in model '{}' {}", method.name, system_of(method), module.model,
+                                found.obstacle),
+                    found.kind == Kind::general ? "rkng54 integrates x'' = f(t, x, x')"
+                                                : "dop853 and verner87 integrate every system"};
+}
+
+SceneText scene_text(const CheckedModel& checked, const Scene& scene, const std::string& form,
+                     const MethodEntry& method, const Driver& driver, const Tree& time_scale)
+{
+    GenerateRequest request;
+    request.form = form;
+    request.scene = &scene;
+    request.flows = method.separable_only;
+    request.time_scale = time_scale;
+    if (method.series) request.with = {"taylor"};
+    if (method.series && !scene.events.empty()) request.with.emplace_back("event_series");
+    Generated generated = generate(checked, request);
+    ProgramText text{std::move(generated.header),
+                     program_text(driver, generated.module.name, method, time_scale != nullptr)};
+    text.options = rounding_options(); // the same bits in a run and in the rows of a sweep
+    if (driver.abreast && goes_abreast(method))
+        for (std::string& option : vector_options()) text.options.push_back(std::move(option));
+    return {std::move(generated.module), std::move(text)};
+}
+
+Preparation::Preparation(const Options& options, CheckedModel& checked, const Driver& driver, const std::string& method)
+    : options_(options), checked_(checked), driver_(driver),
+      file_(record_file(checked.model,
+                        {driver.folder, options.get("scene"), options.get("form"), method, options.get("time-scale"),
+                         options.has("unchecked") ? "unchecked" : "", vectors_of(driver)})),
+      record_(find_record(file_))
+{
+    if (record_) {
+        checked.warnings = record_->warnings;
+        return;
+    }
+    prove(checked);
+    elaborated_ = decided_ = true;
+}
+
+void Preparation::finish(const Scene& scene, const std::string& form, const MethodEntry& method,
+                         const std::vector<long double>& parameters)
+{
+    if (record_ && (is_decided_for(*record_, parameters) || says_the_same(*record_, checked(parameters, true)))) return;
+    if (record_) prove(checked_);
+    elaborated_ = decided_ = true;
+    set_parameters(checked_, parameters);
+    const SceneText made = scene_text(checked_, scene, form, method, driver_, time_scale_of(options_, checked_.model));
+    require_system(options_, scene, method, made.module);
+    record_ = record_of(checked_, made.module, form, compile_programs({made.text})[0], parameters);
+    keep_record(file_, *record_);
+}
+
+const CheckedModel& Preparation::checked(const std::vector<long double>& parameters, bool decided)
+{
+    if (!elaborated_) {
+        checked_.system = elaborate(checked_.model);
+        (void)set_parameters(checked_.system, parameters);
+    }
+    elaborated_ = true;
+    if (decided && !decided_) checked_.report.mechanics.regularity = verify_regularity(checked_.system);
+    decided_ = decided_ || decided;
+    return checked_;
+}
+
+} // namespace lagen

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// From a model that was read to the program of a scene: by the record of an earlier run where there is one, else by
+/// proofs, kernels and the compiler.
+#pragma once
+
+#include "commands/line/options.hpp"
+#include "commands/machine/compile.hpp"
+#include "commands/scene/run_record.hpp"
+
+#include <optional>
+#include <string>
+
+namespace lagen {
+
+/// What the equations have that a method does not take, as a sentence, and what takes it.
+struct Obstacle {
+    std::string text, hint;
+};
+/// Nothing where all is well.
+[[nodiscard]] std::optional<Obstacle> obstacle_of(const MethodEntry& method, const KernelModule& module);
+
+/// The program of a scene by one method, not yet compiled.
+struct SceneText {
+    KernelModule module;
+    ProgramText text;
+};
+/// `checked` is proved and decided for the scene's parameters. `time_scale` is that of the steps, or null.
+[[nodiscard]] SceneText scene_text(const CheckedModel& checked, const Scene& scene, const std::string& form,
+                                   const MethodEntry& method, const Driver& driver, const Tree& time_scale = nullptr);
+
+class Preparation {
+  public:
+    /// `checked` was read; it is proved, or has the warnings of the record. Throws where it is refuted. `method` is the
+    /// name that was asked for, or empty.
+    Preparation(const Options& options, CheckedModel& checked, const Driver& driver, const std::string& method);
+
+    /// Throws where the method asks for other equations.
+    void finish(const Scene& scene, const std::string& form, const MethodEntry& method,
+                const std::vector<long double>& parameters);
+
+    /// After `finish`.
+    [[nodiscard]] const RunRecord& record() const { return *record_; }
+
+    /// With its system and, if that is wanted, with what is decided for `parameters`.
+    const CheckedModel& checked(const std::vector<long double>& parameters, bool decided);
+
+  private:
+    const Options& options_;
+    CheckedModel& checked_;
+    Driver driver_;
+    std::string file_;
+    std::optional<RunRecord> record_;
+    bool elaborated_ = false, decided_ = false; ///< `checked_` has its system, and what is decided of it
+};
+
+} // namespace lagen

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/scene/run_record.hpp"
+
+#include "commands/machine/compile.hpp"
+#include "commands/machine/compile_cache.hpp"
+#include "commands/machine/places.hpp"
+#include "commands/machine/write_file.hpp"
+#include "graph/core/graph.hpp"
+#include "model/families.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+
+namespace lagen {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Everything of a regularity that kernels, starts and warnings read, in a line.
+std::string line_of(const System& system, const Regularity& known)
+{
+    std::string line =
+        fmt::format("{} {} {} {} {} {}", static_cast<int>(known.kind), known.rank, known.positive_definite,
+                    known.for_given_parameters, known.singular_everywhere, known.legendre_obstacle);
+    for (const Rational& start : known.newton_start) line += " from " + start.get_str();
+    for (const auto& [parameter, value] : known.legendre_values)
+        line += fmt::format(" {} = {}", system.graph.input_name(parameter), to_text(system.graph, value));
+    return line;
+}
+
+/// The lists of a record, by the key of their lines.
+template <typename Record, typename Visit>
+void visit_lists(Record& record, Visit visit)
+{
+    visit("warning", record.warnings);
+    visit("lane", record.names.lanes);
+    visit("control", record.names.controls);
+    visit("observable", record.names.observables);
+    visit("proved_for", record.proved_for);
+}
+
+constexpr const char* first_line = "what `lagen run` proved and compiled\n";
+
+/// A line KEY=VALUE for each part.
+std::string text_of(const RunRecord& record)
+{
+    std::string text = first_line;
+    const auto put = [&](const char* key, const std::string& value) { text += fmt::format("{}={}\n", key, value); };
+    put("program", record.program);
+    visit_lists(record, [&](const char* key, const std::vector<std::string>& list) {
+        for (const std::string& entry : list) put(key, entry);
+    });
+    if (record.energy_changes) put("energy_changes", "");
+    if (record.searches) put("searches", "");
+    put("regularity", record.regularity);
+    for (const long double value : record.decided_for) put("decided_for", fmt::format("{:.21g}", value));
+    return text;
+}
+
+RunRecord read_record(const std::string& text)
+{
+    RunRecord record;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        const std::size_t equals = line.find('=');
+        if (equals == std::string::npos) continue;
+        const std::string key = line.substr(0, equals), value = line.substr(equals + 1);
+        if (key == "program") record.program = value;
+        if (key == "energy_changes") record.energy_changes = true;
+        if (key == "searches") record.searches = true;
+        if (key == "regularity") record.regularity = value;
+        if (key == "decided_for") record.decided_for.push_back(std::strtold(value.c_str(), nullptr));
+        visit_lists(record, [&](const char* name, std::vector<std::string>& list) {
+            if (key == name) list.push_back(value);
+        });
+    }
+    return record;
+}
+
+/// The program that runs: its place, size and time.
+void add_lagen(ContentHash& hash)
+{
+    std::error_code ignored;
+    const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
+    hash.add(program.string()).add(std::to_string(fs::file_size(program, ignored)));
+    hash.add(std::to_string(fs::last_write_time(program, ignored).time_since_epoch().count()));
+}
+
+} // namespace
+
+RunRecord record_of(const CheckedModel& checked, const KernelModule& module, const std::string& form,
+                    std::string program, const std::vector<long double>& parameters)
+{
+    RunRecord record;
+    record.program = std::move(program);
+    record.warnings = checked.warnings;
+    record.names = names_of(module);
+    record.energy_changes = has_kernel(module, "power");
+    record.searches =
+        std::ranges::any_of(module.implicit, [](const ImplicitBlock& block) { return block.follows && !block.angles; });
+    if (!rests_on_values(checked.report.mechanics.regularity)) return record;
+    record.regularity = line_of(checked.system, checked.report.mechanics.regularity);
+    record.decided_for = parameters;
+    record.proved_for = proved_values(checked, form);
+    return record;
+}
+
+void add_model(ContentHash& hash, const Model& model)
+{
+    hash.add(lines_of_code(model.file->text, "#"));
+    for (const auto& file : model.included) hash.add(lines_of_code(file->text, "#"));
+    for (const Size& size : model.sizes) hash.add(size.name).add(std::to_string(size.value));
+}
+
+std::string record_file(const Model& model, const std::vector<std::string>& options)
+try {
+    ContentHash hash;
+    hash.add(first_line);
+    add_model(hash, model);
+    for (const std::string& option : options) hash.add(option);
+    if (std::ranges::any_of(model.parameters, &Parameter::bound))
+        for (const Parameter& parameter : model.parameters)
+            hash.add(parameter.bound ? "constant" : "").add(to_text(parameter.value));
+    add_lagen(hash);
+    add_compilation(hash);
+    return fmt::format("{}/{}.run", cache_folder(), hash.hex32());
+} catch (const MachineError&) {
+    return "";
+}
+
+std::optional<RunRecord> find_record(const std::string& file)
+{
+    std::error_code ignored;
+    if (file.empty() || !fs::is_regular_file(file, ignored)) return std::nullopt;
+    const std::string text = content_of_file(file);
+    if (!text.starts_with(first_line)) return std::nullopt;
+    RunRecord record = read_record(text);
+    // Compiled code is only ever run from the folder of the record.
+    if (fs::path(record.program).parent_path() != fs::path(file).parent_path()) return std::nullopt;
+    if (!use_cached(record.program)) return std::nullopt;
+    fs::last_write_time(file, fs::file_time_type::clock::now(), ignored);
+    return record;
+}
+
+void keep_record(const std::string& file, const RunRecord& record)
+try {
+    if (file.empty()) return;
+    const std::string text = text_of(record);
+    if (text_of(read_record(text)) != text) return;
+    write_file(file, text);
+    trim_cache(fs::path(file).parent_path().string());
+} catch (const MachineError&) {
+    // The next run proves again.
+}
+
+bool is_decided_for(const RunRecord& record, const std::vector<long double>& parameters)
+{
+    return record.regularity.empty() || record.decided_for == parameters;
+}
+
+bool is_proved_for(const RunRecord& record, const Model& model, const std::vector<long double>& parameters)
+{
+    constexpr long double nearly = 1e-12L; // of the kernel: require_proved_values
+    const std::vector<Symbol> symbols = free_parameters(model);
+    for (const std::string& each : record.proved_for) {
+        const auto symbol = std::ranges::find(symbols, each.substr(0, each.find(" = ")), &Symbol::name);
+        const auto k = static_cast<std::size_t>(symbol - symbols.begin());
+        const long double value = record.decided_for.at(k);
+        if (!(std::fabs(parameters.at(k) - value) < nearly * (value == 0 ? 1 : std::fabs(value)))) return false;
+    }
+    return true;
+}
+
+bool says_the_same(const RunRecord& record, const CheckedModel& checked)
+{
+    return line_of(checked.system, checked.report.mechanics.regularity) == record.regularity;
+}
+
+} // namespace lagen

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// What a run proved and compiled, kept in the cache beside the program: the next run of the same text, form and method
+/// reads it, and goes from the values of its scene straight to the program.
+#pragma once
+
+#include "commands/scene/scene_program.hpp"
+#include "content_hash.hpp"
+#include "pipeline.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lagen {
+
+struct RunRecord {
+    std::string program;               ///< path of the executable
+    std::vector<std::string> warnings; ///< of the model
+    TableNames names;
+    bool energy_changes = false; ///< forces or explicit time
+    bool searches = false;       ///< controls are searched for, and followed
+    /// What was decided of d2L/dy2 for `decided_for`, in a line; empty where it was decided for all values.
+    std::string regularity;
+    std::vector<long double> decided_for; ///< the values of the parameters; empty with `regularity`
+    /// Parameters with the values for which alone the equations are proved, "c = 3/5"; the program takes no others.
+    std::vector<std::string> proved_for;
+};
+
+/// The record of a model, generated and compiled.
+[[nodiscard]] RunRecord record_of(const CheckedModel& checked, const KernelModule& module, const std::string& form,
+                                  std::string program, const std::vector<long double>& parameters);
+
+/// The text of the model and of the files that it includes, without lines of comments, and its sizes.
+void add_model(ContentHash& hash, const Model& model);
+
+/// The file of the record of `model`, under a name made from what a run rests on besides the values of parameters and
+/// scenes: the text of the model and of the files that it includes, its sizes, `options` as they were given, lagen
+/// itself, the runtime and the compiler. Empty where there is no compiler, or no place for a cache.
+[[nodiscard]] std::string record_file(const Model& model, const std::vector<std::string>& options);
+
+/// Nothing where there is no record, or its program is gone.
+[[nodiscard]] std::optional<RunRecord> find_record(const std::string& file);
+
+/// A failure to write is no failure of the run.
+void keep_record(const std::string& file, const RunRecord& record);
+
+/// Whether what `record` says was decided for these values of the parameters, or for all.
+[[nodiscard]] bool is_decided_for(const RunRecord& record, const std::vector<long double>& parameters);
+
+/// Whether these parameters have the values of `proved_for`, as nearly as the program asks.
+[[nodiscard]] bool is_proved_for(const RunRecord& record, const Model& model,
+                                 const std::vector<long double>& parameters);
+
+/// Whether the same is decided of `checked`.
+[[nodiscard]] bool says_the_same(const RunRecord& record, const CheckedModel& checked);
+
+} // namespace lagen

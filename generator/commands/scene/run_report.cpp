@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/scene/run_report.hpp"
+
+#include "emit/json.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace lagen {
+
+namespace {
+
+/// A JSON number with the digits as they are; JSON has neither nan nor inf.
+std::string number_text(std::string_view text)
+{
+    const bool finite = !text.empty() && text.find_first_of("nN") == std::string_view::npos;
+    return finite ? std::string(text) : "null";
+}
+
+std::string string_text(std::string_view text)
+{
+    return JsonWriter().value(text).text();
+}
+
+template <class Items, class Print>
+std::string list_text(const Items& items, Print print)
+{
+    std::string text = "[";
+    for (const auto& item : items) text += (text.size() == 1 ? "" : ", ") + print(item);
+    return text + "]";
+}
+
+/// What ended a run whose controls could not be followed.
+std::string control_text(const std::string& status)
+{
+    if (status == "not_a_maximum")
+        return "no maximum of H is found from the controls before, or from the guess: d2H/du2 is not negative definite";
+    if (status == "singular_control") return "H does not depend on a control: b = c = 0 in a + b cos u + c sin u";
+    return {};
+}
+
+/// What is to be known of a drift: that it is none of the method's, or that an adaptive method should have kept two
+/// digits and more of what the equations conserve, and did not.
+const char* drift_remark(const RunOutcome& outcome, const Drift& drift)
+{
+    if (outcome.energy_changes && (drift.name == "energy" || drift.name == "hamiltonian"))
+        return " (not conserved: forces or explicit time)";
+    if (!outcome.tolerance) return "";
+    constexpr double digits = 0.01, allowance = 1e4;
+    const double initial = std::fabs(std::strtod(drift.initial.c_str(), nullptr));
+    const double most = std::strtod(drift.max_drift.c_str(), nullptr);
+    const double allowed =
+        std::max(digits * initial, allowance * static_cast<double>(*outcome.tolerance) * (1 + initial));
+    return most > allowed ? " (lost by this run: the equations conserve it)" : "";
+}
+
+std::string row_text(std::string_view line)
+{
+    return list_text(fields(line), [](std::string_view field) { return number_text(field); });
+}
+
+/// The last good state of a run that failed, where it has few lanes.
+std::string last_state(const RunOutcome& outcome)
+{
+    constexpr std::size_t most_lanes = 12;
+    std::string lanes;
+    for (const auto& [name, value] : outcome.state)
+        lanes += fmt::format("{}{} = {:.9g}", lanes.empty() ? ": " : ", ", name, std::strtod(value.c_str(), nullptr));
+    return fmt::format("  the last good state is at t = {:.15g}{}\n", std::strtod(outcome.time.c_str(), nullptr),
+                       outcome.state.size() <= most_lanes ? lanes : "");
+}
+
+/// Of a run that did not leave its start.
+const char* start_hint(const RunOutcome& outcome)
+{
+    const std::string& status = outcome.status;
+    if (outcome.searches && (status == "newton_diverged" || status == "not_a_maximum"))
+        return "hint: the search for the controls found no maximum of H at the start: `guess = { u = .. }` in "
+               "[control] "
+               "says where it begins\n";
+    if (status == "non_finite" && outcome.method == "taylor")
+        return "hint: the right-hand side or its Taylor series is no finite number at the start: the model is not "
+               "defined there, overflows, or raises 0 to a power whose exponent is a parameter; `--bind` makes it a "
+               "number, other methods such as dop853 take no series\n";
+    if (status == "non_finite")
+        return "hint: the right-hand side is no finite number at the start: the model is not defined there, or "
+               "overflows\n";
+    if (status == "singular_mass_matrix")
+        return "hint: the mass matrix has no inverse at the start: `lagen check` says where it has none\n";
+    return "";
+}
+
+} // namespace
+
+bool succeeded(const std::string& status)
+{
+    return status == "ok" || status == "stopped_by_event";
+}
+
+std::string report_json(const RunOutcome& outcome)
+{
+    std::string invariants = "{";
+    for (const Drift& drift : outcome.invariants) {
+        invariants += fmt::format("{}{}: {{\"initial\": {}, \"max_drift\": {}}}", invariants.size() == 1 ? "" : ", ",
+                                  string_text(drift.name), number_text(drift.initial), number_text(drift.max_drift));
+    }
+    invariants += "}";
+    const std::string events = list_text(outcome.events, [](const EventReport& event) {
+        return fmt::format("{{\"name\": {}, \"t\": {}}}", string_text(event.name), number_text(event.time));
+    });
+    const std::string implicit = outcome.newton.empty()
+                                     ? ""
+                                     : fmt::format(" \"newton_iterations\": {}, \"decompositions\": {},",
+                                                   number_text(outcome.newton), number_text(outcome.decompositions));
+    std::string state;
+    for (const auto& [name, value] : outcome.state)
+        state += fmt::format("{}{}: {}", state.empty() ? "" : ", ", string_text(name), number_text(value));
+    return fmt::format(
+        "{{\"model\": {}, \"scene\": {}, \"form\": {}, \"method\": {}, \"status\": {}, \"t\": {}, "
+        "\"state\": {{{}}},{}\n \"steps\": {}, "
+        "\"rejected\": {}, \"rhs_calls\": {},{} \"seconds\": {},\n \"columns\": {},\n \"rows\": {},\n \"events\": "
+        "{},\n "
+        "\"invariants\": {}}}\n",
+        string_text(outcome.model), string_text(outcome.scene), string_text(outcome.form), string_text(outcome.method),
+        string_text(outcome.status), number_text(outcome.time), state,
+        succeeded(outcome.status) ? "" : fmt::format(" \"failed_at\": {},", number_text(outcome.failed_at)),
+        number_text(outcome.steps), number_text(outcome.rejected), number_text(outcome.rhs_calls), implicit,
+        number_text(outcome.seconds),
+        list_text(outcome.table.columns, [](const std::string& column) { return string_text(column); }),
+        list_text(outcome.table.lines(), row_text), events, invariants);
+}
+
+std::string report_text(const RunOutcome& outcome)
+{
+    const auto brief = [](const std::string& number, int digits) {
+        return number.empty() ? number : fmt::format("{:.{}g}", std::strtod(number.c_str(), nullptr), digits);
+    };
+    const auto counted = [](const std::string& number, const char* noun) {
+        return fmt::format("{} {}{}", number, noun, number == "1" ? "" : "s");
+    };
+    std::string text = fmt::format(
+        "{}, scene {}: {} at t = {}; {}, {} ({} rejected), {}, {}\n", outcome.model, outcome.scene, outcome.status,
+        brief(outcome.failed_at, 9), outcome.method, counted(outcome.steps, "step"), outcome.rejected,
+        counted(outcome.rhs_calls, "right-hand side"), counted(std::to_string(outcome.table.count), "row"));
+    if (!outcome.newton.empty())
+        text += fmt::format("  {}, {}\n", counted(outcome.newton, "Newton iteration"),
+                            counted(outcome.decompositions, "factorisation"));
+    for (const EventReport& event : outcome.events)
+        text += fmt::format("  event {} at t = {}\n", event.name, brief(event.time, 15));
+    const bool failed = !succeeded(outcome.status);
+    if (const std::string reason = control_text(outcome.status); !reason.empty())
+        text += fmt::format("  {}\n{}", reason, last_state(outcome));
+    else if (failed && outcome.steps != "0")
+        text += last_state(outcome);
+    if (failed && outcome.steps == "0") return text + start_hint(outcome);
+    for (const Drift& drift : outcome.invariants) {
+        if (!std::isfinite(std::strtod(drift.initial.c_str(), nullptr))) {
+            text += fmt::format("  {}: no finite number at the start\n", drift.name);
+            continue;
+        }
+        text += fmt::format("  {}: {} at the start, largest drift {}{}\n", drift.name, brief(drift.initial, 9),
+                            brief(drift.max_drift, 3), drift_remark(outcome, drift));
+    }
+    return text;
+}
+
+} // namespace lagen

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// The command line wins over the scene.
+#include "commands/scene/scene_options.hpp"
+
+#include "commands/machine/write_file.hpp"
+#include "expression/parse.hpp"
+#include "model/families.hpp"
+#include "model/scene_form.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace lagen {
+
+namespace {
+
+Tree tree_of(const Options& options, const Model& model, const std::string& name)
+{
+    return option_tree(model, name, whole_text("<--" + name + ">", options.get(name)));
+}
+
+void replace_times(const Options& options, const Model& model, Scene& scene)
+{
+    if (options.has("t-end")) {
+        const Tree end = tree_of(options, model, "t-end");
+        scene.duration = scene.start ? add({end, negate(scene.start)}) : end;
+    }
+    if (!options.has("at")) return;
+    scene.sampling = {Sampling::Kind::at, nullptr, 0, {}};
+    for (const std::string& time : split_list(options.get("at")))
+        scene.sampling.at.push_back(option_tree(model, "at", whole_text("<--at>", time)));
+    if (scene.sampling.at.empty()) throw UsageError("lagen run: --at needs at least one time, e.g. --at 0,1/2,1");
+}
+
+/// A step where the step is chosen, or a tolerance where it is fixed.
+void warn_of_unused(const Options& options, const MethodEntry& method)
+{
+    if (method.adaptive && options.has("step"))
+        write_standard_error(fmt::format("warning: --step is not used: {} chooses its steps itself\n", method.name));
+    if (!method.adaptive && options.has("tolerance"))
+        write_standard_error(fmt::format("warning: --tolerance is not used: the steps of {} are fixed\n", method.name));
+}
+
+} // namespace
+
+Tree option_tree(const Model& model, const std::string& name, const Excerpt& text)
+{
+    const Tree tree = model.scope.close(parse_expression(text));
+    for (const std::string& used : names_in(tree))
+        if (std::ranges::none_of(model.parameters, [&](const Parameter& each) { return each.symbol.name == used; }))
+            throw ModelError(fmt::format("--{} depends on '{}', which is no parameter", name, used),
+                             text.range(0, text.text.size()), "give numbers, or expressions of parameters");
+    return tree;
+}
+
+Tree time_scale_of(const Options& options, const Model& model)
+{
+    if (!options.has("time-scale")) return nullptr;
+    return model.observer.close(parse_expression(whole_text("<--time-scale>", options.get("time-scale"))));
+}
+
+bool starts_from_momenta(const Model& model, const Scene& scene)
+{
+    const std::vector<Symbol>& momenta = model.fibre.momenta;
+    return std::ranges::any_of(scene.initial, [&](const NamedTree& each) {
+        return std::ranges::find(momenta, each.name, &Symbol::name) != momenta.end();
+    });
+}
+
+std::vector<Symbol> initial_symbols(const Model& model, const Scene& scene)
+{
+    std::vector<Symbol> symbols = model.base.coordinates;
+    const std::vector<Symbol>& rest = starts_from_momenta(model, scene) ? model.fibre.momenta : model.fibre.coordinates;
+    symbols.insert(symbols.end(), rest.begin(), rest.end());
+    return symbols;
+}
+
+void set_initial(const Model& model, Scene& scene, const Setting& setting)
+{
+    const std::vector<Symbol> symbols = initial_symbols(model, scene);
+    const std::optional<ResolvedKey> key = resolve_key(symbols, setting.name);
+    if (!key || key->shape.rank != Rank::scalar)
+        throw ModelError(
+            fmt::format("scene '{}' has no initial value '{}' to change", scene.name, setting.name),
+            whole_text("<--initial>", setting.name + "=" + setting.value.text).range(0, setting.name.size()),
+            hint_for_key(symbols, setting.name, "initial values"));
+    const NamedTree given{key->name, option_tree(model, "initial", setting.value), setting.value.range(0, 0)};
+    const auto place = std::ranges::find(scene.initial, key->name, &NamedTree::name);
+    if (place == scene.initial.end())
+        scene.initial.push_back(given);
+    else
+        *place = given;
+}
+
+Scene scene_of(const Options& options, const Model& model, const std::vector<Setting>& initial)
+{
+    Scene scene = find_scene(model, options.get("scene"));
+    if (options.has("method")) scene.method = options.get("method");
+    if (options.has("step")) scene.step = tree_of(options, model, "step");
+    if (options.has("tolerance")) {
+        scene.relative = scene.absolute = nullptr;
+        scene.tolerance = tree_of(options, model, "tolerance");
+    }
+    replace_times(options, model, scene);
+    for (const Setting& setting : initial) set_initial(model, scene, setting);
+    return in_form(model, scene, options.has("form") ? options.get("form") : form_of(model, scene));
+}
+
+const MethodEntry& method_of(const Options& options, const Scene& scene)
+{
+    const std::string name = scene.method.empty() ? standard_method : scene.method;
+    const std::string lagen = "lagen " + options.command() + ": ";
+    const MethodEntry* method = find_method(name);
+    if (method == nullptr) {
+        const std::string hint = hint_for_method(name);
+        if (options.has("method")) throw UsageError(fmt::format("{}unknown method '{}'\nhint: {}", lagen, name, hint));
+        throw ModelError(fmt::format("unknown method '{}'", name), scene.method_where, hint);
+    }
+    if (!method->adaptive && !scene.step) {
+        const std::string text =
+            fmt::format("method '{}' needs a step: give --step, or `step` in scene '{}'", name, scene.name);
+        if (options.has("method")) throw UsageError(lagen + text);
+        throw ModelError(text, scene.where);
+    }
+    if (options.has("time-scale") && !is_symmetric_splitting(*method))
+        throw UsageError(fmt::format("{}--time-scale makes the steps of a symmetric splitting, and {} is none\nhint: "
+                                     "leapfrog_kdk and kahanli8 are",
+                                     lagen, method->name));
+    warn_of_unused(options, *method);
+    return *method;
+}
+
+} // namespace lagen

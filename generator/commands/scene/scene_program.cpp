@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/scene/scene_program.hpp"
+
+#include "commands/scene/scene_options.hpp"
+#include "diagnostic.hpp"
+#include "emit/print_header.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lagen {
+
+namespace {
+
+/// What the program reads as the double nearest to the number.
+std::string text_of(long double value)
+{
+    return fmt::format("{}", static_cast<double>(value));
+}
+
+std::string list_of(const std::vector<long double>& values)
+{
+    std::string text;
+    for (const long double value : values) text += (text.empty() ? "" : ",") + text_of(value);
+    return text;
+}
+
+const char* direction_text(Direction direction)
+{
+    switch (direction) {
+    case Direction::rising: return "rising";
+    case Direction::falling: return "falling";
+    case Direction::any: return "any";
+    }
+    return "any";
+}
+
+std::string events_of(const std::vector<Event>& events)
+{
+    std::string text;
+    for (const Event& event : events)
+        text += fmt::format("{}{}:{}:{}:{}", text.empty() ? "" : ",", event.name, direction_text(event.direction),
+                            event.stop ? 1 : 0, event.count);
+    return text;
+}
+
+std::string columns_text(const std::vector<TableColumn>& columns)
+{
+    std::string text;
+    for (const TableColumn& column : columns)
+        text += fmt::format("{}{}{}", text.empty() ? "" : ",", column.state ? 's' : 'o', column.index);
+    return text.empty() ? "-" : text;
+}
+
+/// "INITIAL,MAX_DRIFT" of the invariant `name`.
+Drift drift_of(std::string name, const std::string& value)
+{
+    const std::size_t comma = value.find(',');
+    return {std::move(name), value.substr(0, comma), comma == std::string::npos ? "" : value.substr(comma + 1)};
+}
+
+void read_line(const std::string& key, const std::string& value, RunOutcome& outcome)
+{
+    constexpr std::string_view invariant = "invariant:";
+    if (key == "status") outcome.status = value;
+    if (key == "t") outcome.time = value;
+    if (key == "state") {
+        const std::vector<std::string_view> lanes = fields(value);
+        if (lanes.size() != outcome.state.size()) throw InternalError("the program of a scene gave another state");
+        for (std::size_t k = 0; k < lanes.size(); ++k) outcome.state[k].second = lanes[k];
+    }
+    if (key == "failed_at") outcome.failed_at = value;
+    if (key == "steps") outcome.steps = value;
+    if (key == "rejected") outcome.rejected = value;
+    if (key == "rhs_calls") outcome.rhs_calls = value;
+    if (key == "newton") outcome.newton = value;
+    if (key == "decompositions") outcome.decompositions = value;
+    if (key == "seconds") outcome.seconds = value;
+    if (key == "event") {
+        const std::size_t at = value.rfind('@');
+        outcome.events.push_back({value.substr(0, at), at == std::string::npos ? "" : value.substr(at + 1)});
+    }
+    if (key == "energy" || key == "hamiltonian") outcome.invariants.push_back(drift_of(key, value));
+    if (key.starts_with(invariant)) outcome.invariants.push_back(drift_of(key.substr(invariant.size()), value));
+}
+
+/// The place of `name` among `names`, or their number.
+std::size_t place_of(const std::vector<std::string>& names, const std::string& name)
+{
+    return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+}
+
+/// The column of an entry of the observables.
+TableColumn observable(const TableNames& names, const std::string& name)
+{
+    const std::size_t entry = place_of(names.observables, name);
+    if (entry == names.observables.size())
+        throw InternalError(fmt::format("'{}' is missing among the observables", name));
+    return {name, false, entry};
+}
+
+std::vector<std::string> entries_of(const KernelModule& module, const char* kernel)
+{
+    if (!has_kernel(module, kernel)) return {};
+    return kernel_named(module, kernel).outputs[0].entry_names;
+}
+
+} // namespace
+
+std::string program_text(const Driver& driver, const std::string& name, const MethodEntry& method, bool reversible)
+{
+    const std::string type = reversible ? fmt::format("Reversible<lagen::{}>", method.type) : method.type;
+    return fmt::format(
+        "#include \"model.hpp\"\n#include \"{}/driver.hpp\"\nint main(int argc, char** argv)\n{{\n    return "
+        "lagen::{}<lagen::models::{}<double>, lagen::{}>(argc, argv);\n}}\n",
+        driver.folder, driver.function, cpp_names({name})[0], type);
+}
+
+TableNames names_of(const KernelModule& module)
+{
+    TableNames names{{}, entries_of(module, "controls"), entries_of(module, "observables")};
+    for (const Quantity& lane : lanes_of(module)) names.lanes.push_back(lane.name);
+    return names;
+}
+
+std::vector<TableColumn> columns_of(const TableNames& names, const Scene& scene)
+{
+    std::vector<TableColumn> columns;
+    if (!scene.observe) {
+        for (std::size_t k = 0; k < names.lanes.size(); ++k) columns.push_back({names.lanes[k], true, k});
+        for (const std::string& name : names.controls) columns.push_back(observable(names, name));
+        return columns;
+    }
+    for (const NamedTree& wanted : *scene.observe) {
+        const std::size_t lane = place_of(names.lanes, wanted.name);
+        columns.push_back(lane == names.lanes.size() ? observable(names, wanted.name)
+                                                     : TableColumn{wanted.name, true, lane});
+    }
+    return columns;
+}
+
+void use_values(ProgramInput& input, const Scene& scene, const SceneValues& values, StartState& start, bool stretch)
+{
+    input.parameters = finite_numbers(values.parameters, scene);
+    for (const std::vector<NamedNumber>* group : {&values.base, &values.fibre, &values.momenta})
+        (void)finite_numbers(*group, scene);
+    input.initial = start(values);
+    input.step = values.step;
+    input.relative = values.relative.value_or(standard_tolerance);
+    input.absolute = values.absolute.value_or(standard_tolerance);
+    input.times = sample_times(scene, values, input.columns.size() + 1, stretch);
+}
+
+std::vector<std::string> watch_arguments(const ProgramInput& input)
+{
+    std::vector<std::string> arguments;
+    if (input.events != nullptr && !input.events->empty()) arguments = {"--events", events_of(*input.events)};
+    arguments.insert(arguments.end(), {"--columns", columns_text(input.columns)});
+    return arguments;
+}
+
+std::vector<std::string> program_arguments(const std::string& program, const ProgramInput& input)
+{
+    std::vector<std::string> arguments{program,
+                                       "--initial",
+                                       list_of(input.initial),
+                                       "--start",
+                                       text_of(input.times.start),
+                                       "--end",
+                                       text_of(input.times.end)};
+    const auto give = [&](const char* name, std::string value) {
+        arguments.insert(arguments.end(), {name, std::move(value)});
+    };
+    if (!input.parameters.empty()) give("--parameters", list_of(input.parameters));
+    if (input.step) give("--step", text_of(*input.step));
+    if (input.relative) give("--relative", text_of(*input.relative));
+    if (input.absolute) give("--absolute", text_of(*input.absolute));
+    switch (input.times.kind) {
+    case Sampling::Kind::standard:
+    case Sampling::Kind::count: give("--samples", std::to_string(input.times.count)); break;
+    case Sampling::Kind::interval: give("--interval", text_of(*input.times.interval)); break;
+    case Sampling::Kind::at: give("--at-file", input.at_file); break;
+    }
+    const std::vector<std::string> watched = watch_arguments(input);
+    arguments.insert(arguments.end(), watched.begin(), watched.end());
+    give("--report", input.report_file);
+    return arguments;
+}
+
+void require_started(const ProcessResult& result, const std::string& program)
+{
+    if (result.started) return;
+    throw MachineError(
+        fmt::format("error: the compiled scene could not be started: {}\nhint: remove '{}' to have it compiled again",
+                    result.error, program));
+}
+
+void refuse_end(const ProcessResult& result, const std::string& rest)
+{
+    throw MachineError(
+        fmt::format("error: the compiled scene ended with exit code {}\n{}", result.exit_code, result.error + rest));
+}
+
+void read_report(const std::string& text, RunOutcome& outcome)
+{
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = std::min(text.find('\n', begin), text.size());
+        const std::string line = text.substr(begin, end - begin);
+        const std::size_t equals = line.find('=');
+        if (equals != std::string::npos) read_line(line.substr(0, equals), line.substr(equals + 1), outcome);
+        begin = end + 1;
+    }
+    if (outcome.status.empty()) throw InternalError("the program of a scene gave no report");
+    // A run that was refused at its start has measured nothing.
+    const bool refused = outcome.status == "not_separable" || outcome.status == "invalid_input" ||
+                         outcome.status == "singular_mass_matrix";
+    if (refused && outcome.steps == "0") outcome.invariants.clear();
+}
+
+} // namespace lagen

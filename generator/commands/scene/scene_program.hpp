@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// The program of a scene: its text, its arguments and its report, as runtime/program/lagen_run/driver.hpp defines
+/// them. That of a sweep takes the same ones.
+#pragma once
+
+#include "commands/machine/process.hpp"
+#include "commands/scene/methods.hpp"
+#include "commands/scene/run_report.hpp"
+#include "commands/scene/start_state.hpp"
+#include "graph/kernel.hpp"
+#include "scene/sample_times.hpp"
+
+namespace lagen {
+
+/// A program around a header: its folder in runtime/program, which has a driver.hpp, and the function in there.
+struct Driver {
+    const char* folder;
+    const char* function;
+    bool abreast = false; ///< several trajectories at a time, where the method allows it
+};
+inline constexpr Driver run_driver{"lagen_run", "drive"};
+inline constexpr Driver sweep_driver{"lagen_sweep", "sweep", true};
+
+/// The whole main of the program that integrates class `name` (of header "model.hpp") with `method`.
+[[nodiscard]] std::string program_text(const Driver& driver, const std::string& name, const MethodEntry& method,
+                                       bool reversible = false);
+
+/// A column of the table: a state lane or an entry of the observables.
+struct TableColumn {
+    std::string name;
+    bool state = true;
+    std::size_t index = 0;
+};
+
+/// What a program's table can hold, in the program's order.
+struct TableNames {
+    std::vector<std::string> lanes, controls, observables;
+};
+[[nodiscard]] TableNames names_of(const KernelModule& module);
+
+/// `t` apart, what the scene observes: all states and controls, or exactly its `observe` list.
+[[nodiscard]] std::vector<TableColumn> columns_of(const TableNames& names, const Scene& scene);
+
+/// Everything that the program is told.
+struct ProgramInput {
+    std::vector<long double> parameters;
+    std::vector<long double> initial; ///< state lanes, base first
+    SampleTimes times;
+    std::optional<long double> step, relative, absolute;
+    std::string at_file; ///< path of the file with the times
+    const std::vector<Event>* events = nullptr;
+    std::vector<TableColumn> columns;
+    std::string report_file;
+};
+
+/// Gives `input`, whose columns are known, what the values of the scene say. Throws as `finite_numbers`, `start` and
+/// sample_times (`stretch`) do.
+void use_values(ProgramInput& input, const Scene& scene, const SceneValues& values, StartState& start, bool stretch);
+
+/// Events and columns, as the program takes them.
+[[nodiscard]] std::vector<std::string> watch_arguments(const ProgramInput& input);
+
+[[nodiscard]] std::vector<std::string> program_arguments(const std::string& program, const ProgramInput& input);
+
+/// Throws MachineError where the program was not started.
+void require_started(const ProcessResult& result, const std::string& program);
+/// MachineError of a program that ended as none may; `rest` stands behind what it said.
+[[noreturn]] void refuse_end(const ProcessResult& result, const std::string& rest = {});
+
+/// Reads the report's KEY=VALUE lines into `outcome`, whose state has its names.
+void read_report(const std::string& text, RunOutcome& outcome);
+
+} // namespace lagen

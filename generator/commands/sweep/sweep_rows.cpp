@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Grids are exact: point k of n between a and b is the double nearest to a + (b - a) k/(n - 1).
+#include "commands/sweep/sweep_rows.hpp"
+
+#include "commands/scene/scene_options.hpp"
+#include "commands/sweep/philox.hpp"
+#include "emit/print_literal.hpp"
+#include "graph/core/evaluate.hpp"
+#include "graph/core/lower.hpp"
+#include "model/families.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace lagen {
+
+namespace {
+
+constexpr std::uint64_t most_sweep_rows = 1'000'000'000'000'000;
+
+struct Axis {
+    Rational first, last;
+    std::uint64_t count = 0; ///< 0: a continuum
+};
+
+/// An end of a range: exactly where its expression is rational, else the nearest double.
+Rational end_of_range(const Model& model, const std::string& option, const Excerpt& text)
+{
+    const Tree tree = option_tree(model, option, text);
+    const SourceRange where = text.range(0, text.text.size());
+    if (!names_in(tree).empty())
+        throw ModelError(fmt::format("a range of --{} ends at an expression of '{}', where a number is required",
+                                     option, names_in(tree).front()),
+                         where);
+    Graph graph;
+    const NodeId root = Lowering(graph)(tree);
+    const std::vector<Rational> exact = evaluate_exactly(graph, {&root, 1}, {});
+    const auto value =
+        exact.empty() ? static_cast<double>(evaluate<long double>(graph, {&root, 1}, {})[0]) : nearest_double(exact[0]);
+    if (!std::isfinite(value))
+        throw ModelError(fmt::format("a range of --{} ends at {}, where a finite number is required", option, value),
+                         where);
+    return exact.empty() ? Rational(value) : exact[0];
+}
+
+[[noreturn]] void refuse_range(const SweepRequest::Range& range, const std::string& what)
+{
+    throw UsageError(fmt::format("lagen sweep: --{} {}: {}", range.name.option, range.text, what));
+}
+
+/// Whether the value of a parameter follows from that of another one.
+bool follows_from(const Model& model, const Parameter& parameter, const std::string& name)
+{
+    const std::vector<std::string> uses = names_in(parameter.value);
+    return std::ranges::any_of(model.parameters, [&](const Parameter& each) {
+        const bool used = std::ranges::find(uses, each.symbol.name) != uses.end();
+        return used && (each.symbol.name == name || follows_from(model, each, name));
+    });
+}
+
+/// The name as the model has it.
+SweptName resolved(const SweepRequest::Range& range, const Model& model, const Scene& scene)
+{
+    const auto& [option, name] = range.name;
+    for (const Size& size : model.sizes)
+        if (option == "set" && size.name == name)
+            refuse_range(range, fmt::format("'{}' is a size, and each of its values makes another model", name));
+    for (const Parameter& parameter : model.parameters)
+        if (option == "set" && parameter.bound && names_entry(name, parameter.symbol.name))
+            refuse_range(range, fmt::format("'{}' is bound", parameter.symbol.name));
+    const std::vector<Symbol> symbols = swept_symbols(option, model, scene);
+    const std::optional<ResolvedKey> key = resolve_key(symbols, name);
+    if (key && key->shape.rank == Rank::scalar) return {option, key->name};
+    const bool set = option == "set";
+    throw ModelError(set ? fmt::format("the model has no single parameter '{}' to sweep", name)
+                         : fmt::format("scene '{}' has no single initial value '{}' to sweep", scene.name, name),
+                     whole_text(fmt::format("<--{}>", option), range.text).range(0, name.size()),
+                     hint_for_key(symbols, name, set ? "parameters" : "initial values"));
+}
+
+Axis axis_of(const SweepRequest::Range& range, const Model& model)
+{
+    Axis axis{end_of_range(model, range.name.option, range.parts[0]),
+              end_of_range(model, range.name.option, range.parts[1]), 0};
+    if (range.parts.size() < 3) return axis;
+    const std::optional<std::uint64_t> count = read_whole(range.parts[2].text);
+    if (!count || *count == 0)
+        refuse_range(range, fmt::format("the number of points is '{}', where a whole number from 1 on is required",
+                                        range.parts[2].text));
+    axis.count = *count;
+    return axis;
+}
+
+/// Points of a grid, the last axis fastest; the value of an axis is computed where it changes.
+SweepRows grid_rows(std::vector<SweptName> names, std::vector<Axis> axes)
+{
+    SweepRows rows{std::move(names), 1, "grid", {}};
+    for (const Axis& axis : axes) {
+        if (axis.count > most_sweep_rows / rows.count)
+            throw UsageError("lagen sweep: the grid has more than 1e15 points");
+        rows.count *= axis.count;
+    }
+    std::vector<std::uint64_t> at(axes.size(), most_sweep_rows);
+    std::vector<double> values(axes.size());
+    rows.values = [axes = std::move(axes), at, values](std::uint64_t index) mutable {
+        for (std::size_t k = axes.size(); k-- > 0; index /= axes[k].count) {
+            const std::uint64_t place = index % axes[k].count;
+            if (at[k] == place) continue;
+            at[k] = place;
+            Rational part(place, std::max<std::uint64_t>(axes[k].count - 1, 1));
+            part.canonicalize();
+            values[k] = nearest_double(axes[k].first + (axes[k].last - axes[k].first) * part);
+        }
+        return values;
+    };
+    return rows;
+}
+
+/// Draws that are uniform in each range, first end included.
+SweepRows random_rows(std::vector<SweptName> names, const std::vector<Axis>& axes, std::uint64_t count,
+                      std::uint64_t seed)
+{
+    SweepRows rows{std::move(names), count, fmt::format("random {}", seed), {}};
+    std::vector<std::pair<double, double>> ends;
+    for (const Axis& axis : axes) ends.emplace_back(nearest_double(axis.first), nearest_double(axis.last));
+    rows.values = [ends = std::move(ends), seed](std::uint64_t index) {
+        std::vector<double> values;
+        for (std::uint32_t k = 0; k < ends.size(); ++k) {
+            const double part = uniform_number(seed, index, k);
+            values.push_back(std::fma(part, ends[k].second, std::fma(-part, ends[k].first, ends[k].first)));
+        }
+        return values;
+    };
+    return rows;
+}
+
+std::uint64_t whole_option(const Options& options, const std::string& name, std::uint64_t least)
+{
+    const std::optional<std::uint64_t> value = read_whole(options.get(name));
+    if (value && *value >= least) return *value;
+    throw UsageError(fmt::format("lagen sweep: --{} is '{}', where a whole number from {} on is required", name,
+                                 options.get(name), least));
+}
+
+} // namespace
+
+std::optional<std::uint64_t> read_whole(const std::string& text)
+{
+    constexpr std::size_t most_digits = 18;
+    std::uint64_t value = 0;
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc() || stop != end || text.size() > most_digits) return std::nullopt;
+    return value;
+}
+
+std::vector<Symbol> swept_symbols(const std::string& option, const Model& model, const Scene& scene)
+{
+    return option == "set" ? free_parameters(model) : initial_symbols(model, scene);
+}
+
+void require_constants(const Model& model, const SweepRows& rows)
+{
+    for (const Parameter& parameter : model.parameters)
+        for (const SweptName& name : rows.names)
+            if (parameter.bound && name.option == "set" && follows_from(model, parameter, name.name))
+                throw UsageError(
+                    fmt::format("lagen sweep: '{}' is bound, and its value follows from '{}', which is swept",
+                                parameter.symbol.name, name.name));
+}
+
+SweepRequest::SweepRequest(const Options& options)
+{
+    const bool random = options.has("random"), ensemble = options.has("ensemble");
+    if (random && ensemble) throw UsageError("lagen sweep: --random and --ensemble exclude each other");
+    if (options.has("seed") && !random) throw UsageError("lagen sweep: --seed needs --random");
+    for (const auto& [option, text] : options.given()) {
+        if (option != "set" && option != "initial") continue;
+        Setting setting = read_setting("sweep", option, text);
+        Range range{{option, setting.name}, {}, text};
+        const std::string& value = setting.value.text;
+        for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {
+            end = value.find(':', begin);
+            range.parts.push_back(trimmed(setting.value, begin, std::min(end, value.size())));
+        }
+        if (range.parts.size() == 1) {
+            (option == "set" ? settings : initial).push_back(std::move(setting));
+            continue;
+        }
+        if (ensemble) refuse_range(range, "the values of an ensemble stand in its file");
+        if (range.parts.size() != (random ? 2U : 3U))
+            refuse_range(range, random ? "with --random a range is FIRST:LAST" : "a range is FIRST:LAST:COUNT");
+        ranges.push_back(std::move(range));
+    }
+    options.add_bindings(settings);
+    if (ranges.empty() && !ensemble)
+        throw UsageError("lagen sweep: nothing is swept: give ranges (--set a=0:2:101, --initial x=-1:1:21), with "
+                         "--random N or without, or --ensemble FILE.csv");
+}
+
+SweepRows sweep_rows(const Options& options, const SweepRequest& request, const Model& model, const Scene& scene)
+{
+    if (options.has("ensemble")) return ensemble_rows(options.get("ensemble"), model, scene);
+    std::vector<SweptName> names;
+    std::vector<Axis> axes;
+    for (const SweepRequest::Range& range : request.ranges) {
+        const SweptName name = resolved(range, model, scene);
+        for (const SweptName& before : names)
+            if (before.option == name.option && before.name == name.name) refuse_range(range, "it is swept twice");
+        names.push_back(name);
+        axes.push_back(axis_of(range, model));
+    }
+    SweepRows rows = options.has("random") ? random_rows(std::move(names), axes, whole_option(options, "random", 1),
+                                                         options.has("seed") ? whole_option(options, "seed", 0) : 0)
+                                           : grid_rows(std::move(names), std::move(axes));
+    for (const SweepRequest::Range& range : request.ranges)
+        rows.text += fmt::format("\n{} {}", range.name.option, range.text);
+    rows.text += fmt::format("\n{} rows", rows.count);
+    return rows;
+}
+
+} // namespace lagen
