@@ -16,7 +16,7 @@ namespace {
 
 // Pixels, and what they are fractions of; a row of panels is as high as a picture of one row.
 constexpr int chart_width = 1240, row_height = 600;
-constexpr double chart_left = 0.068, chart_right = 0.865, chart_middle = 0.095, row_top = 0.1, row_bottom = 0.1;
+constexpr double chart_left = 0.068, chart_right = 0.845, chart_middle = 0.095, row_top = 0.1, row_bottom = 0.1;
 constexpr double label_width = 78, label_height = 11;
 
 constexpr double largest_error = 10;       ///< of the picture
@@ -31,7 +31,7 @@ struct Curve {
     std::string name;
     std::vector<const ChartPoint*> points; ///< with errors, the largest first
     std::vector<const ChartPoint*> failures;
-    bool leads = false;
+    bool leads = false, peer = false;
 };
 
 /// Leading methods in their order, then the others.
@@ -43,27 +43,38 @@ std::vector<Curve> curves_of(const Chart& chart, const std::vector<std::string>&
     std::vector<Curve> curves;
     for (const std::string& name : names) {
         Curve curve{name, {}, {}, curves.size() < leading.size()};
-        for (const ChartPoint& point : chart.points)
-            if (name_of(point) == name) (point.error ? curve.points : curve.failures).push_back(&point);
+        for (const ChartPoint& point : chart.points) {
+            if (name_of(point) != name) continue;
+            (point.error ? curve.points : curve.failures).push_back(&point);
+            curve.peer = !point.peer.empty();
+        }
         curves.push_back(std::move(curve));
     }
     return curves;
 }
 
-/// Colours of curves that do not lead.
+/// Colours of lagen's curves that do not lead, and of peers.
 constexpr const char* quiet_colours[] = {"#9a9a9a", "#b3a17c", "#8fa3bf"};
+constexpr const char* peer_colours[] = {"#5a5a5a", "#7d5a2b", "#3d5a80"};
 
 const char* colour_of(const Curve& curve, std::size_t k)
 {
-    return curve.leads ? picture_colours[k % picture_colours.size()] : quiet_colours[k % std::size(quiet_colours)];
+    if (curve.leads) return picture_colours[k % picture_colours.size()];
+    return curve.peer ? peer_colours[k % std::size(peer_colours)] : quiet_colours[k % std::size(quiet_colours)];
 }
 
+/// Thick with points where it leads, dashed with points for a peer, else a thin line.
 std::string style_of(const Curve& curve, std::size_t k)
 {
+    const std::string line =
+        fmt::format("linecolor rgb '{}' linewidth {} dashtype {}", colour_of(curve, k), curve.leads ? 2.4 : 1,
+                    curve.peer    ? 2
+                    : curve.leads ? k / picture_colours.size() + 1
+                                  : 1);
+    if (!curve.leads && !curve.peer && curve.points.size() > 1) return "with lines " + line;
     constexpr std::size_t shapes[] = {7, 5, 9, 11, 13, 4, 6, 8, 10, 12};
-    return fmt::format("linecolor rgb '{}' linewidth {} pointtype {} pointsize {} dashtype {}", colour_of(curve, k),
-                       curve.leads ? 2.4 : 1, shapes[k % std::size(shapes)], curve.leads ? 0.55 : 0.45,
-                       curve.leads ? k / picture_colours.size() + 1 : 1);
+    return fmt::format("with linespoints {} pointtype {} pointsize {}", line, shapes[k % std::size(shapes)],
+                       curve.leads ? 0.55 : 0.45);
 }
 
 /// What is charted over what, and the decades of both axes.
@@ -184,7 +195,7 @@ std::string panel_script(const std::vector<Curve>& curves, const ChartPanel& pan
     for (std::size_t k = curves.size(); k-- > 0;) { // leading ones on top of the others
         if (!curves[k].points.empty()) {
             text += points_block(fmt::format("curve{}", k), curves[k].points, panel);
-            plots += fmt::format("$curve{} with linespoints {} notitle, \\\n     ", k, style_of(curves[k], k));
+            plots += fmt::format("$curve{} {} notitle, \\\n     ", k, style_of(curves[k], k));
         }
         if (!curves[k].failures.empty()) {
             text += points_block(fmt::format("failed{}", k), curves[k].failures, panel);
@@ -199,7 +210,7 @@ std::string panel_script(const std::vector<Curve>& curves, const ChartPanel& pan
                         gnuplot_text(panel.y_label), legend ? "set key" : "unset key", std::pow(10, panel.worst),
                         std::pow(10, panel.least), std::pow(10, panel.bottom), std::pow(10, panel.top), plots);
     for (std::size_t k = 0; k < curves.size(); ++k)
-        text += fmt::format("{}NaN with linespoints {} title {}", k == 0 ? "" : ", \\\n     ", style_of(curves[k], k),
+        text += fmt::format("{}NaN {} title {}", k == 0 ? "" : ", \\\n     ", style_of(curves[k], k),
                             gnuplot_text(curves[k].name));
     return text + "\n";
 }
