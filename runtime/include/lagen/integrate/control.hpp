@@ -109,7 +109,7 @@ typename State::Scalar squared_error(const ErrorScale<typename State::Scalar>& s
     Real sum = Real(0);
     for_lanes(s, [&]<int width>(Width<width>, Eigen::Index lane) {
         const Slice<State, width> ratio = load<width>(e, lane) / scale.template of<width>(s, s1, lane);
-        sum += total(Slice<State, width>(ratio * ratio));
+        sum = sum_with(sum, Slice<State, width>(ratio * ratio));
     });
     return sum;
 }

@@ -81,8 +81,8 @@ class Dop853Stepper : public PairSteps<M, 8, tableau::Dop853::stages, 12> {
             const Slice scale = scale_.template of<width>(s, s1, lane);
             const Slice e5 = detail::weighted_lanes<Tableau::error5, 0, width>(h, k_, lane, all) / scale;
             const Slice e3 = detail::weighted_lanes<Tableau::error3, 0, width>(h, k_, lane, all) / scale;
-            five += detail::total(Slice(e5 * e5));
-            three += detail::total(Slice(e3 * e3));
+            five = detail::sum_with(five, Slice(e5 * e5));
+            three = detail::sum_with(three, Slice(e3 * e3));
         });
         const Real sum = five + Real(0.01) * three;
         const Real size = sqrt(sum * Real(static_cast<real_t<Real>>(s.size())));

@@ -85,7 +85,7 @@ class EmbeddedStepper : public PairSteps<M, Tableau::order, Tableau::dense_stage
             const auto stages = std::make_index_sequence<Tableau::stages>{};
             const Slice e = detail::weighted_lanes<Tableau::error, 0, width>(h, k_, lane, stages);
             const Slice ratio = e / scale_.template of<width>(s, s1, lane);
-            sum += detail::total(Slice(ratio * ratio));
+            sum = detail::sum_with(sum, Slice(ratio * ratio));
         });
         error_ = sqrt(sum / Real(static_cast<real_t<Real>>(s.size())));
     }

@@ -311,7 +311,7 @@ class CollocationStepper {
                 all += increment;
             });
             const Slice relative = convergence_.template note<width>(lane, step, reach);
-            sum += detail::total(all);
+            sum = detail::sum_with(sum, all);
             largest = std::max<Real>(largest, detail::largest(relative));
         });
         return largest + (sum - sum);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// The lanes of a column, one after another or, of doubles, two at once: a lane gets the same bits either way.
+/// The lanes of a column, one after another or, of doubles, two, four or eight at once: a lane gets the same bits in
+/// every way, and so does a sum over lanes, which goes pair by pair.
 #pragma once
 
 #include "lagen/kernel.hpp"
@@ -25,10 +26,49 @@ inline constexpr bool is_short =
     Column::SizeAtCompileTime <= 64;
 
 // A member typedef is what both compilers take as a vector type.
-struct Pair {
+template <int width>
+struct Doubles;
+template <>
+struct Doubles<2> {
     typedef double type __attribute__((vector_size(16)));
     typedef long long bits __attribute__((vector_size(16)));
 };
+template <>
+struct Doubles<4> {
+    typedef double type __attribute__((vector_size(32)));
+    typedef long long bits __attribute__((vector_size(32)));
+};
+template <>
+struct Doubles<8> {
+    typedef double type __attribute__((vector_size(64)));
+    typedef long long bits __attribute__((vector_size(64)));
+};
+
+/// The number of lanes of Doubles<width>::type; 0 of anything else.
+template <class T>
+inline constexpr int doubles_in = 0;
+template <>
+inline constexpr int doubles_in<Doubles<2>::type> = 2;
+template <>
+inline constexpr int doubles_in<Doubles<4>::type> = 4;
+template <>
+inline constexpr int doubles_in<Doubles<8>::type> = 8;
+
+/// Lanes of a column that are taken at once: those of the widest register that the compiler may use, two of a column
+/// that is so short that the next reader would wait for what was written a lane at a time.
+template <class Column, Eigen::Index size>
+constexpr int widest_slice() noexcept
+{
+    if (!has_pairs<Column>) return 1;
+    if (is_pack<typename Column::Scalar> || size < 12) return 2;
+#if defined(__AVX512F__)
+    return 8;
+#elif defined(__AVX__)
+    return 4;
+#else
+    return 2;
+#endif
+}
 
 /// Two scalars that are no vector: packs.
 template <class S>
@@ -47,53 +87,61 @@ struct Twin {
     friend Twin operator/(const Twin& a, const Twin& b) noexcept { return {a.first / b.first, a.second / b.second}; }
 };
 
-template <class S>
-struct PairOf {
+template <class S, int width>
+struct SliceOf {
     using type = Twin<S>;
 };
-template <>
-struct PairOf<double> {
-    using type = Pair::type;
+template <class S>
+struct SliceOf<S, 1> {
+    using type = S;
+};
+template <int width>
+requires(width > 1) struct SliceOf<double, width> {
+    using type = typename Doubles<width>::type;
 };
 
-/// One lane of a column, or two.
+/// One lane of a column, or several.
 template <class Column, int width>
-using Slice = std::conditional_t<width == 2, typename PairOf<typename Column::Scalar>::type, typename Column::Scalar>;
+using Slice = typename SliceOf<typename Column::Scalar, width>::type;
+
+/// The slice f(0), f(1), .. of a column, f of a lane of it.
+template <class Column, int width, class Function>
+[[gnu::always_inline]] inline Slice<Column, width> slice_of(const Function& f) noexcept
+{
+    return [&]<int... k>(std::integer_sequence<int, k...>)
+    {
+        return Slice<Column, width>{f(k)...};
+    }
+    (std::make_integer_sequence<int, width>{});
+}
 
 /// The same number in every lane; a scalar's default constructor need not make a number.
 template <class Column, int width>
 [[gnu::always_inline]] inline Slice<Column, width> uniform(const typename Column::Scalar& x) noexcept
 {
-    if constexpr (width == 2)
-        return Slice<Column, width>{x, x};
-    else
-        return x;
+    return slice_of<Column, width>([&](int) { return x; });
 }
 
-/// Lane `lane` of a column, or that lane and the next one.
-template <int width, class Column>
-[[gnu::always_inline]] inline Slice<Column, width> load(const Column& column, Eigen::Index lane) noexcept
-{
-    if constexpr (width == 2 && is_pack<typename Column::Scalar>) {
-        return {column[lane], column[lane + 1]};
-    } else if constexpr (width == 2) {
-        Pair::type pair;
-        std::memcpy(&pair, column.data() + lane, sizeof pair);
-        return pair;
-    } else {
-        return column[lane];
-    }
-}
-
-/// The same of a column that was written a moment ago, a lane at a time: a processor waits until such lanes are in its
-/// cache where it has to read two of them at once. (Without it RK4 of a heavy top takes half as long again.)
+/// Lane `lane` of a column written a moment ago, a lane at a time, and the next ones: a processor waits until such
+/// lanes are in its cache where it has to read several of them at once. (Without it RK4 of a heavy top takes half as
+/// long again.)
 template <int width, class Column>
 [[gnu::always_inline]] inline Slice<Column, width> load_fresh(const Column& column, Eigen::Index lane) noexcept
 {
-    if constexpr (width == 2)
-        return Slice<Column, width>{column[lane], column[lane + 1]};
-    else
-        return column[lane];
+    return slice_of<Column, width>([&](int k) { return column[lane + k]; });
+}
+
+/// Lane `lane` of a column and the next ones.
+template <int width, class Column>
+[[gnu::always_inline]] inline Slice<Column, width> load(const Column& column, Eigen::Index lane) noexcept
+{
+    if constexpr (doubles_in < Slice < Column, width >>> 0) {
+        Slice<Column, width> slice;
+        std::memcpy(&slice, column.data() + lane, sizeof slice);
+        return slice;
+    } else {
+        return load_fresh<width>(column, lane);
+    }
 }
 
 template <class Column>
@@ -102,9 +150,9 @@ template <class Column>
 {
     column[lane] = value;
 }
-template <class Column>
-requires has_pairs<Column>
-[[gnu::always_inline]] inline void store(Column& column, Eigen::Index lane, Pair::type value) noexcept
+template <class Column, class Vector>
+requires(doubles_in<Vector> > 0)
+    [[gnu::always_inline]] inline void store(Column& column, Eigen::Index lane, const Vector& value) noexcept
 {
     std::memcpy(column.data() + lane, &value, sizeof value);
 }
@@ -126,10 +174,11 @@ template <class Scalar>
     using std::abs;
     return abs(x);
 }
-[[gnu::always_inline]] inline Pair::type size_of(Pair::type x) noexcept
+template <class Vector>
+requires(doubles_in<Vector> > 0) [[gnu::always_inline]] inline Vector size_of(const Vector& x) noexcept
 {
-    using Bits = Pair::bits;
-    return (Pair::type)((Bits)x & ~(Bits)Pair::type{-0.0, -0.0});
+    using Bits = typename Doubles<doubles_in<Vector>>::bits;
+    return (Vector)((Bits)x & ~(Bits)-Vector{});
 }
 
 template <class S>
@@ -153,54 +202,77 @@ template <class S>
     return {larger_of(a.first, b.first), larger_of(a.second, b.second)};
 }
 
-/// The sum of the lanes, in their order.
+/// sum + the sum of the lanes, a pair at a time.
 template <class Scalar>
-[[gnu::always_inline]] inline const Scalar& total(const Scalar& x) noexcept
+[[gnu::always_inline]] inline Scalar sum_with(const Scalar& sum, const Scalar& x) noexcept
 {
-    return x;
+    return sum + x;
 }
-[[gnu::always_inline]] inline double total(Pair::type x) noexcept
+template <class Vector>
+requires(doubles_in<Vector> > 0) [[gnu::always_inline]] inline double sum_with(double sum, const Vector& x) noexcept
 {
-    return x[0] + x[1];
+    for (int k = 0; k < doubles_in<Vector>; k += 2) sum += x[k] + x[k + 1];
+    return sum;
 }
 template <class S>
-[[gnu::always_inline]] inline S total(const Twin<S>& x) noexcept
+[[gnu::always_inline]] inline S sum_with(const S& sum, const Twin<S>& x) noexcept
 {
-    return x.first + x.second;
+    return sum + (x.first + x.second);
 }
 
 /// The largest of the lanes; of one that is no number, that or another.
 template <class Scalar>
-[[gnu::always_inline]] inline const Scalar& largest(const Scalar& x) noexcept
+[[gnu::always_inline]] inline Scalar largest(const Scalar& x) noexcept
 {
     return x;
 }
-[[gnu::always_inline]] inline double largest(Pair::type x) noexcept
+template <class Vector>
+requires(doubles_in<Vector> > 0) [[gnu::always_inline]] inline double largest(const Vector& x) noexcept
 {
-    return x[0] > x[1] ? x[0] : x[1];
+    double most = x[0];
+    for (int k = 1; k < doubles_in<Vector>; ++k) most = most > x[k] ? most : x[k];
+    return most;
 }
 
-/// f(Width<w>, lane) for the first lanes of a column, in groups of w = 2 lanes where there are pairs, and of 1 lane:
-/// `size` of them, which is below 1 where it is not known, and is `count` then. Few are written out: at -O2 g++ 12 does
-/// not unroll the loop (heavy top, RK4: a quarter of a step's instructions).
-template <class Column, Eigen::Index size, class Function>
-[[gnu::always_inline]] inline void for_first_lanes([[maybe_unused]] Eigen::Index count, const Function& f) noexcept
+/// f(Width<w>, lane) for the lanes first..size-1, in groups of w = `width` lanes, then of half as many, .., of 1.
+template <int width, Eigen::Index first, Eigen::Index size, class Function>
+[[gnu::always_inline]] inline void write_out_slices(const Function& f) noexcept
 {
-    constexpr int width = has_pairs<Column> ? 2 : 1;
-    constexpr Eigen::Index longest = 8 * width;
-    if constexpr (size > 0 && size <= longest) {
+    if constexpr (first < size) {
         [&]<Eigen::Index... group>(std::integer_sequence<Eigen::Index, group...>)
         {
-            (f(Width<width>(), width * group), ...);
+            (f(Width<width>(), first + width * group), ...);
         }
-        (std::make_integer_sequence<Eigen::Index, size / width>{});
-        if constexpr (size % width != 0) f(Width<1>(), size - 1);
+        (std::make_integer_sequence<Eigen::Index, (size - first) / width>{});
+        write_out_slices<width / 2, first + (size - first) / width * width, size>(f);
+    }
+}
+
+/// The same for lanes 0, 1, ..: `size` of them, which is below 1 where it is not known, and is `count` then. Few are
+/// written out: at -O2 g++ 12 does not unroll the loop (heavy top, RK4: a quarter of a step's instructions).
+template <int width, Eigen::Index size, class Function>
+[[gnu::always_inline]] inline void for_slices([[maybe_unused]] Eigen::Index count, const Function& f) noexcept
+{
+    if constexpr (size > 0 && size <= 8 * width) {
+        write_out_slices<width, 0, size>(f);
     } else {
         Eigen::Index lane = 0;
-        for (; lane + width <= count; lane += width) f(Width<width>(), lane);
-        if constexpr (width > 1)
-            if (lane < count) f(Width<1>(), lane);
+        const auto go_on = [&]<int narrower>(Width<narrower>) {
+            if constexpr (narrower <= width)
+                for (; lane + narrower <= count; lane += narrower) f(Width<narrower>(), lane);
+        };
+        go_on(Width<8>());
+        go_on(Width<4>());
+        go_on(Width<2>());
+        go_on(Width<1>());
     }
+}
+
+/// f(Width<w>, lane) for the first lanes of a column, in slices.
+template <class Column, Eigen::Index size, class Function>
+[[gnu::always_inline]] inline void for_first_lanes(Eigen::Index count, const Function& f) noexcept
+{
+    for_slices<widest_slice<Column, size>(), size>(count, f);
 }
 
 /// The same of all lanes.
@@ -233,12 +305,12 @@ template <class Column>
     constexpr Eigen::Index size = Column::SizeAtCompileTime;
     typename Column::Scalar sum = s[0];
     if constexpr (has_pairs<Column> && !is_pack<typename Column::Scalar> && size >= 2) {
-        Pair::type pairs = load_fresh<2>(s, 0);
-        for_lanes(s, [&]<int width>(Width<width>, Eigen::Index lane) {
+        Slice<Column, 2> pairs = load_fresh<2>(s, 0);
+        for_slices<2, size>(size, [&]<int width>(Width<width>, Eigen::Index lane) {
             if constexpr (width == 2)
                 if (lane > 0) pairs += load_fresh<2>(s, lane);
         });
-        sum = total(pairs);
+        sum = pairs[0] + pairs[1];
         if constexpr (size % 2 != 0) sum += s[size - 1];
     } else {
         for_each_lane(s, [&](Eigen::Index lane) {

@@ -178,7 +178,7 @@ class NystromStepper : public PairSteps<M, Tableau::order, Tableau::dense_stages
                              scale_.template of<width>(s, s1, lane);
             const Slice ev = detail::weighted_lanes<Tableau::error, 0, width>(h, k_, rate, stages) /
                              scale_.template of<width>(s, s1, rate);
-            sum += detail::total(Slice(ex * ex + ev * ev));
+            sum = detail::sum_with(sum, Slice(ex * ex + ev * ev));
         });
         error_ = sqrt(sum / Real(static_cast<real_t<Real>>(s.size())));
     }
