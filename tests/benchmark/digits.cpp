@@ -71,9 +71,10 @@ void measure(const char* label, const Case& given, double tolerance)
 {
     using Model = lagen::models::MODEL<S>;
     Model model;
-    for (std::size_t k = 0; k < Model::parameter_names.size(); ++k)
-        if (const auto found = given.parameters.find(Model::parameter_names[k]); found != given.parameters.end())
-            model.parameter(k) = number_of<S>(found->second);
+    if constexpr (!Model::parameter_names.empty())
+        for (std::size_t k = 0; k < Model::parameter_names.size(); ++k)
+            if (const auto found = given.parameters.find(Model::parameter_names[k]); found != given.parameters.end())
+                model.parameter(k) = number_of<S>(found->second);
     const auto state_of = [&](const std::vector<std::string>& row) {
         typename Model::State s;
         for (std::size_t i = 0; i < Model::state_names.size(); ++i) {
