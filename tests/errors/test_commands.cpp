@@ -22,7 +22,7 @@ std::string transcript(const std::string& command)
     const std::string cache = std::string(LAGEN_BINARY_DIR) + "/examples_cache";
     const lagen::testing::Shell shell =
         lagen::testing::run_shell("cd '" + examples_folder() + "/commands' && export LAGEN_CACHE='" + cache +
-                                  "' PATH='" + folder + "':\"$PATH\" && unset CXX CXXFLAGS && { " + command + "; }");
+                                  "' PATH='" + folder + "':\"$PATH\" CXXFLAGS=-O1 && unset CXX && { " + command + "; }");
     REQUIRE(WIFEXITED(shell.status));
     return "$ " + command + "\n" + shell.output + "exit code " + std::to_string(WEXITSTATUS(shell.status)) + "\n";
 }
