@@ -18,10 +18,10 @@ enum class MethodKind {
 };
 
 struct MethodEntry {
-    const char* name;                                 ///< as in scenes and --method
-    const char* type;                                 ///< the runtime's type
-    const char* order;                                ///< "5(4)"
-    bool adaptive;                                    ///< takes a tolerance; else a step
+    const char* name;  ///< as in scenes and --method
+    const char* type;  ///< the runtime's type
+    const char* order; ///< "5(4)"
+    bool adaptive;     ///< takes a tolerance; else a step
     MethodKind kind;
     const char* text;                                 ///< one line, with the source
     const char* keeps = "";                           ///< what long runs keep

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Programs that lagen compiles while it is tested: nothing of them is timed, and what they include is read once for all.
+/// Programs that lagen compiles while it is tested: nothing of them is timed, and what they include is read once for
+/// all.
 #pragma once
 
 #include "support/golden.hpp"

@@ -96,8 +96,8 @@ void check_slopes(const char* name, const typename Model::State& s)
     std::printf("%s slopes %.3g %.3g %d\n", name, first, second, good ? 1 : 0);
 }
 
-/// The largest error of the energy after 10^3, 10^4 and 10^5 units of time, relative to it, in epsilons times the square
-/// root of the number of steps: a random walk has a bound, a bias has none.
+/// The largest error of the energy after 10^3, 10^4 and 10^5 units of time, relative to it, in epsilons times the
+/// square root of the number of steps: a random walk has a bound, a bias has none.
 template <template <class> class Model>
 void walk(const char* name, const typename Model<double>::State& s)
 {
