@@ -73,9 +73,9 @@ SceneText scene_text(const CheckedModel& checked, const Scene& scene, const std:
     request.scene = &scene;
     request.flows = method.kind == MethodKind::splitting;
     request.time_scale = time_scale;
-    const bool series = method.kind == MethodKind::series;
-    if (series) request.with = {"taylor"};
-    if (series && !scene.events.empty()) request.with.emplace_back("event_series");
+    const bool takes_series = method.kind == MethodKind::series;
+    if (takes_series) request.with = {"taylor"};
+    if (takes_series && !scene.events.empty()) request.with.emplace_back("event_series");
     Generated generated = generate(checked, request);
     ProgramText text{std::move(generated.header),
                      program_text(driver, generated.module.name, method, time_scale != nullptr)};
