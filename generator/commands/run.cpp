@@ -101,6 +101,8 @@ ExitCode run_run(Arguments arguments)
     if (options.has("form")) (void)options.choice("form", form_names());
     if (options.has("plot")) require_plot_format(options.get("plot"));
     if (options.has("output")) require_no_picture(options.get("output"));
+    for (const char* file : {"output", "plot"})
+        if (options.has(file)) require_writable(options.get(file));
 
     const std::string path = model_path(options.positional()[0]);
     CheckedModel checked = read(path, options.settings(), options.has("unchecked"));
@@ -118,14 +120,15 @@ ExitCode run_run(Arguments arguments)
     const MethodEntry& method = accurate ? *accurate->method : method_of(options, scene);
     const SceneValues values = evaluate_scene(model, scene);
     const std::vector<long double> parameters = finite_numbers(values.parameters, scene);
-    preparation.finish(scene, form, method, parameters);
-    const RunRecord& record = preparation.record();
     ProgramInput input;
     input.events = &scene.events;
-    input.columns = columns_of(record.names, scene);
     StartState start([&](bool decided) -> const CheckedModel& { return preparation.checked(parameters, decided); },
                      form);
-    use_values(input, scene, values, start, options.has("at") && !options.has("t-end"));
+    preparation.finish(scene, form, method, parameters, [&](const RunRecord& found) {
+        input.columns = columns_of(found.names, scene);
+        use_values(input, scene, values, start, options.has("at") && !options.has("t-end"));
+    });
+    const RunRecord& record = preparation.record();
 
     const bool confirmed = !accurate || confirm_accuracy(*accurate, record, input);
 

@@ -158,6 +158,7 @@ ExitCode run_sweep(Arguments arguments)
     const std::size_t threads = threads_of(options);
     std::string path = output;
     const Shard shard = shard_of(options, path);
+    require_writable(path);
 
     CheckedModel checked = read(model_path(options.positional()[0]), request.settings, options.has("unchecked"));
     const Model& model = checked.model;
@@ -170,11 +171,11 @@ ExitCode run_sweep(Arguments arguments)
     for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
     const std::string form = form_of(model, scene);
     const std::vector<long double> parameters = finite_numbers(SceneEvaluator(model, scene).parameters({}), scene);
-    preparation.finish(scene, form, method_of(options, scene), parameters);
-    const RunRecord& record = preparation.record();
     StartState start([&](bool decided) -> const CheckedModel& { return preparation.checked(parameters, decided); },
                      form);
-    prepare_start(start, model, scene, record, rows);
+    preparation.finish(scene, form, method_of(options, scene), parameters,
+                       [&](const RunRecord& found) { prepare_start(start, model, scene, found, rows); });
+    const RunRecord& record = preparation.record();
 
     const SweepSetting setting{model, scene, record, threads};
     const std::string heading = sweep_heading(setting, rows);

@@ -4,14 +4,9 @@
 /// -D MODEL=heavy_top; the header has the kernel `taylor`. Prints a line a method and scalar: thousands of trajectories
 /// a second at 1, 4 and 8 lanes, the least time of interleaved rounds, the ratios, and how many lanes' runs differ in a
 /// bit from those of `integrate`. An argument "double taylor" measures this alone.
-#define TEXT_OF_(x) #x
-#define TEXT_OF(x) TEXT_OF_(x)
-// A space here would stand in the name of the file.
-// clang-format off
-#define HEADER_(model) TEXT_OF(model.hpp)
-// clang-format on
+#include "model_header.hpp"
 
-#include HEADER_(MODEL)
+#include MODEL_HEADER(MODEL)
 
 #include "lagen/integrate.hpp"
 #include "lagen/integrate/abreast.hpp"

@@ -6,19 +6,14 @@
 ///   of
 ///                  the right-hand side, Newton iterations and the end
 ///   march N rhs    N right-hand sides inside a function `marched_calls`
-#define TEXT_OF_(x) #x
-#define TEXT_OF(x) TEXT_OF_(x)
-// A space here would stand in the name of the file.
-// clang-format off
-#define HEADER_(model) TEXT_OF(model.hpp)
-// clang-format on
+#include "model_header.hpp"
 
 #include "plain/dop853.hpp"
 #include "plain/gauss4.hpp"
 #include "plain/rk4.hpp"
 #include "plain/rkn86.hpp"
 
-#include HEADER_(MODEL)
+#include MODEL_HEADER(MODEL)
 
 #include "lagen/integrate.hpp"
 

@@ -5,15 +5,10 @@
 ///   pair count KIND N     N right-hand sides of one KIND (called_generated, called_handwritten, rk4_generated,
 ///                         rk4_handwritten) inside a function of that name, for callgrind
 ///   pair time             ns a right-hand side of each kind: least of interleaved rounds
-#define TEXT_OF_(x) #x
-#define TEXT_OF(x) TEXT_OF_(x)
-// A space here would stand in the name of the file.
-// clang-format off
-#define HEADER_(folder, model) TEXT_OF(folder/model.hpp)
-// clang-format on
+#include "model_header.hpp"
 
-#include HEADER_(generated, MODEL)
-#include HEADER_(handwritten, MODEL)
+#include MODEL_HEADER_IN(generated, MODEL)
+#include MODEL_HEADER_IN(handwritten, MODEL)
 
 #include <algorithm>
 #include <array>

@@ -3,14 +3,9 @@
 /// steps of 10^(1/4), whose state at the end is within the target of a run in long double. Compiled by
 /// scripts/series-table with -D MODEL=heavy_top -D START=1,0,.. . Prints, a line a target, the errors, the microseconds
 /// (least of 15 interleaved rounds) and their ratio.
-#define TEXT_OF_(x) #x
-#define TEXT_OF(x) TEXT_OF_(x)
-// A space here would stand in the name of the file.
-// clang-format off
-#define HEADER_(model) TEXT_OF(model.hpp)
-// clang-format on
+#include "model_header.hpp"
 
-#include HEADER_(MODEL)
+#include MODEL_HEADER(MODEL)
 
 #include "lagen/integrate.hpp"
 

@@ -4,6 +4,7 @@
 
 #include "support/golden.hpp"
 #include "support/json.hpp"
+#include "support/precompiled.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -27,7 +28,7 @@ class Root {
     Root() : path_((fs::temp_directory_path() / "lagen-commands-XXXXXX").string())
     {
         if (::mkdtemp(path_.data()) == nullptr) std::abort();
-        for (const char* name : {"cache", "tmp", "models", "home"}) fs::create_directory(path_ + "/" + name);
+        for (const char* name : {"cache", "tmp", "models", "home", "headers"}) fs::create_directory(path_ + "/" + name);
     }
     ~Root()
     {
@@ -51,6 +52,21 @@ Root& root()
     return one;
 }
 
+const PrecompiledHeaders& headers()
+{
+    static const PrecompiledHeaders read(root().file("headers"));
+    return read;
+}
+
+/// What a call will compile, if it compiles.
+void precompile_for(const std::vector<std::string>& arguments)
+{
+    const std::string command = arguments.empty() ? "" : arguments[0];
+    const bool accurate = std::find(arguments.begin(), arguments.end(), "--accuracy") != arguments.end();
+    if (command == "run" || command == "sweep") headers().read_for_runs();
+    if (command == "chart" || accurate) headers().read_for_charts();
+}
+
 void redirect(int stream, const std::string& path)
 {
     const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
@@ -63,7 +79,7 @@ void set_environment(const Surroundings& around)
     ::setenv("LAGEN_CACHE", root().file("cache").c_str(), 1);
     ::setenv("TMPDIR", root().file("tmp").c_str(), 1);
     ::setenv("HOME", root().file("home").c_str(), 1);
-    ::setenv("CXXFLAGS", "-O1", 1); // compiles faster, and nothing here is timed
+    ::setenv("CXXFLAGS", headers().flags().c_str(), 1);
     for (const char* name : {"CXX", "XDG_CACHE_HOME", "LAGEN_INCLUDE", "LAGEN_MODELS", "LAGEN_EIGEN_INCLUDE"})
         ::unsetenv(name);
     for (const auto& [name, value] : around.environment)
@@ -95,6 +111,7 @@ void set_environment(const Surroundings& around)
 Started start_call(const std::vector<std::string>& arguments, const Surroundings& around)
 {
     (void)models_folder();
+    precompile_for(arguments);
     Started started{0, root().next("out"), root().next("err")};
     started.process = ::fork();
     if (started.process == 0) become_lagen(arguments, around, started);

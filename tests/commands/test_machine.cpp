@@ -183,6 +183,34 @@ TEST_CASE("an output folder that is missing or not a folder is reported")
     CHECK_THAT(kernel.err, Catch::StartsWith("error: cannot write '/proc/k.hpp': "));
 }
 
+TEST_CASE("where rows and pictures cannot go is said before anything is compiled")
+{
+    const std::string folder = fresh_folder();
+    write_text(folder + "/file", "");
+    const std::string model = models_folder() + "/oscillator.toml";
+    const auto answer = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin() + 1, model);
+        const Outcome outcome = call(arguments, {.environment = {{"CXX", "/nonexistent"}}, .folder = folder});
+        CHECK(outcome.code == 5);
+        return outcome.err;
+    };
+    CHECK(answer({"run", "-o", "."}) == "error: cannot write '.': Is a directory\n");
+    CHECK(answer({"run", "-o", "file/a.csv"}) == "error: cannot write 'file/a.csv': Not a directory\n");
+    CHECK(answer({"run", "--plot", "no/a.svg"}) == "error: cannot write 'no/a.svg': No such file or directory\n");
+    CHECK(answer({"sweep", "--initial", "x=1:2:2", "-o", "no/a.csv"}) ==
+          "error: cannot write 'no/a.csv': No such file or directory\n");
+    CHECK(answer({"sweep", "--initial", "x=1:2:2", "-o", "."}) == "error: cannot write '.': Is a directory\n");
+    CHECK(names_in(folder) == std::vector<std::string>{"file"});
+}
+
+TEST_CASE("values that make no sense are told of before anything is compiled")
+{
+    const Outcome outcome = call({"run", "oscillator.toml", "--at", "1,1.5", "--t-end", "1.25"},
+                                 {.environment = {{"CXX", "true"}, {"LAGEN_CACHE", fresh_folder()}}});
+    CHECK(outcome.code == 3);
+    CHECK_THAT(outcome.err, Catch::StartsWith("<--at>:1:1: error: a row is wanted at t = 1.5, outside of the run"));
+}
+
 TEST_CASE("closed standard streams are noticed and no file takes their place")
 {
     const Outcome closed = call(short_run, {.output_closed = true});

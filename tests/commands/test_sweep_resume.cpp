@@ -347,7 +347,7 @@ TEST_CASE("mpirun with four ranks gives the bytes of one process", "[sweep]")
     if (run_shell("command -v mpirun").status != 0) return; // nothing starts ranks here
     const std::string folder = fresh_folder();
     const std::string command = "sweep '" + models_folder() + "/pendulum.toml' --random 101 --initial w=-9:9 -o ";
-    const std::string lagen = "cd '" + folder + "' && LAGEN_CACHE='" + folder + "/cache' ";
+    const std::string lagen = "cd '" + folder + "' && CXXFLAGS=-O1 LAGEN_CACHE='" + folder + "/cache' ";
     REQUIRE(run_shell(lagen + LAGEN_PROGRAM " " + command + "one.csv").status == 0);
     const Shell shell =
         run_shell(lagen + "mpirun --allow-run-as-root --oversubscribe -n 4 " LAGEN_PROGRAM " " + command + "four.csv");

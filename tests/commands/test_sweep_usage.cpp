@@ -62,7 +62,7 @@ TEST_CASE("options of a sweep that exclude each other or are no numbers are refu
     CHECK(nowhere.code == 4);
     CHECK(nowhere.err == "lagen sweep: --output FILE is missing\n");
     CHECK(call({"sweep", "pendulum.toml", "--set", "g=1:2:3", "-o", "nowhere/a.csv"}).err ==
-          "error: cannot write 'nowhere/a.csv.partial': No such file or directory\n");
+          "error: cannot write 'nowhere/a.csv': No such file or directory\n");
     CHECK(call({"sweep", "pendulum.toml", "--set", "g=1:2:3", "-o", "."}).err ==
           "error: cannot write '.': Is a directory\n");
 }

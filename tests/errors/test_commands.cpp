@@ -20,9 +20,9 @@ std::string transcript(const std::string& command)
 {
     const std::string folder = fs::path(LAGEN_PROGRAM).parent_path().string();
     const std::string cache = std::string(LAGEN_BINARY_DIR) + "/examples_cache";
-    const lagen::testing::Shell shell =
-        lagen::testing::run_shell("cd '" + examples_folder() + "/commands' && export LAGEN_CACHE='" + cache +
-                                  "' PATH='" + folder + "':\"$PATH\" && unset CXX CXXFLAGS && { " + command + "; }");
+    const lagen::testing::Shell shell = lagen::testing::run_shell(
+        "cd '" + examples_folder() + "/commands' && export LAGEN_CACHE='" + cache + "' PATH='" + folder +
+        "':\"$PATH\" CXXFLAGS=-O1 && unset CXX && { " + command + "; }");
     REQUIRE(WIFEXITED(shell.status));
     return "$ " + command + "\n" + shell.output + "exit code " + std::to_string(WEXITSTATUS(shell.status)) + "\n";
 }

@@ -191,6 +191,18 @@ std::vector<Task<Orbit<double>>> orbits()
     return tasks;
 }
 
+/// Every fourth ends at 1, the others at `end`.
+std::vector<Task<Swing<double>>> swings(int count, double end)
+{
+    std::vector<Task<Swing<double>>> tasks;
+    for (int k = 0; k < count; ++k) {
+        Swing<double> model;
+        model.parameters.w = 0.2 * k;
+        tasks.push_back({model, {1 + 0.1 * k, 0.3}, k % 4 == 0 ? 1.0 : end});
+    }
+    return tasks;
+}
+
 using Top = models::heavy_top<double>;
 
 std::vector<Task<Top>> tops()
@@ -232,12 +244,7 @@ TEMPLATE_TEST_CASE("A trajectory on a lane has the bits of one alone, by methods
 
 TEST_CASE("Nystrom methods go on lanes")
 {
-    std::vector<Task<Swing<double>>> tasks;
-    for (int k = 0; k < 11; ++k) {
-        Swing<double> model;
-        model.parameters.w = 0.2 * k;
-        tasks.push_back({model, {1 + 0.1 * k, 0.3}, k % 4 == 0 ? 1.0 : 7.0});
-    }
+    const std::vector<Task<Swing<double>>> tasks = swings(11, 7);
     const std::vector<double> at{0.5, 1, 6.25};
     check_abreast<4>(tasks, std::vector<Rkn64>{{.tolerance = 1e-7}}, {.at = at});
     check_abreast<4>(tasks, std::vector<Rkn86>{{.tolerance = 1e-9}}, {.at = at});
@@ -278,12 +285,7 @@ TEST_CASE("Rows, events and solutions of lanes are those of trajectories alone")
 
 TEST_CASE("Taylor's method goes on lanes, its events too")
 {
-    std::vector<Task<Swing<double>>> tasks;
-    for (int k = 0; k < 19; ++k) {
-        Swing<double> model;
-        model.parameters.w = 0.2 * k;
-        tasks.push_back({model, {1 + 0.1 * k, 0.3}, k % 4 == 0 ? 1.0 : 20.0});
-    }
+    std::vector<Task<Swing<double>>> tasks = swings(19, 20);
     const std::vector<double> at{0.5, 1, 7.25};
     const std::vector<EventRequest<double, Swing<double>::State>> events{{.index = 0}};
     const std::vector<Taylor> one{{.tolerance = 1e-12}};

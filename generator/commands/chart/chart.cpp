@@ -24,35 +24,6 @@ std::string machine_name()
     return "an unnamed processor";
 }
 
-/// Keeps the methods that are wanted. Throws where one of them does not apply.
-void choose_methods(std::vector<MethodFamily>& families, std::vector<LeftOutMethod>& left_out,
-                    const std::vector<const MethodEntry*>& wanted)
-{
-    if (wanted.empty()) return;
-    for (const MethodEntry* method : wanted)
-        for (const LeftOutMethod& other : left_out)
-            if (other.method == method->name) throw UsageError("lagen chart: " + other.reason);
-    left_out.clear();
-    for (MethodFamily& family : families)
-        std::erase_if(family.methods, [&](const Contestant& method) {
-            return std::ranges::find(wanted, find_method(method.name)) == wanted.end();
-        });
-}
-
-/// What a probe of the right-hand side refused applies no more than what was left out before.
-void leave_out_refused(Chart& chart, bool wanted)
-{
-    std::erase_if(chart.points, [&](const ChartPoint& point) {
-        if (point.status != "not_separable") return false;
-        const std::string reason =
-            fmt::format("{} splits a system x' = f(y), y' = g(x), and in model '{}' x' depends on x, or y' on y",
-                        point.method, chart.model);
-        if (wanted) throw UsageError("lagen chart: " + reason);
-        chart.left_out.push_back({point.method, reason});
-        return true;
-    });
-}
-
 } // namespace
 
 CheckedModel charted_model(const Options& options, const std::string& path)
@@ -72,9 +43,7 @@ Chart make_chart(CheckedModel& checked, const ChartRequest& request)
     chart.scene = request.scene.name;
     chart.form = request.form;
     chart.energy_changes = has_kernel(problem.module, "power");
-    std::vector<MethodFamily> families = method_families(problem, chart.left_out);
-    choose_methods(families, chart.left_out, request.methods);
-    std::erase_if(families, [](const MethodFamily& family) { return family.methods.empty(); });
+    std::vector<MethodFamily> families = method_families(problem, request.methods, chart.left_out);
     if (request.peers)
         for (MethodFamily& peer : peer_families(problem, chart.left_out)) families.push_back(std::move(peer));
     require_quad();
@@ -95,7 +64,6 @@ Chart make_chart(CheckedModel& checked, const ChartRequest& request)
     chart.machine = machine_name();
     chart.compiler = compiler_text();
     chart.points = measure_points(problem, reference, families, chart.repeats);
-    leave_out_refused(chart, !request.methods.empty());
     return chart;
 }
 

@@ -7,9 +7,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <map>
-#include <string_view>
 
 namespace lagen {
 
@@ -19,11 +19,13 @@ enum class Kinship { explicit_steps, pair, nystrom, series, implicit, splitting 
 
 Kinship kinship_of(const MethodEntry& method)
 {
-    const std::string_view name = method.name;
-    if (method.separable_only) return Kinship::splitting;
-    if (method.series) return Kinship::series;
+    switch (method.kind) {
+    case MethodKind::splitting: return Kinship::splitting;
+    case MethodKind::series: return Kinship::series;
+    case MethodKind::implicit_stages: return Kinship::implicit;
+    case MethodKind::explicit_stages: break;
+    }
     if (method.system != SecondOrder::Kind::no) return Kinship::nystrom;
-    if (name.starts_with("gauss") || name.starts_with("radau")) return Kinship::implicit;
     return method.adaptive ? Kinship::pair : Kinship::explicit_steps;
 }
 
@@ -57,16 +59,19 @@ std::string main_with(const std::string& header, const std::string& call)
 
 std::string obstacle_to(const MethodEntry& method, const ChartProblem& problem)
 {
-    if (method.series) return problem.no_series;
+    if (method.kind == MethodKind::series) return problem.no_series;
     const std::optional<Obstacle> obstacle = obstacle_of(method, problem.module);
     return obstacle ? obstacle->text : "";
 }
 
-std::vector<MethodFamily> method_families(const ChartProblem& problem, std::vector<LeftOutMethod>& left_out)
+std::vector<MethodFamily> method_families(const ChartProblem& problem, const std::vector<const MethodEntry*>& wanted,
+                                          std::vector<LeftOutMethod>& left_out)
 {
     std::map<Kinship, std::vector<const MethodEntry*>> families;
     for (const MethodEntry& method : method_table()) {
+        if (!wanted.empty() && std::ranges::find(wanted, &method) == wanted.end()) continue;
         const std::string obstacle = obstacle_to(method, problem);
+        if (!obstacle.empty() && !wanted.empty()) throw UsageError("lagen chart: " + obstacle);
         if (obstacle.empty())
             families[kinship_of(method)].push_back(&method);
         else

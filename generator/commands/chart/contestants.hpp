@@ -23,8 +23,10 @@ struct MethodFamily {
 /// Why the method does not apply, in terms of the model; empty where it does.
 [[nodiscard]] std::string obstacle_to(const MethodEntry& method, const ChartProblem& problem);
 
-/// All methods that apply, by families; those that do not are told with the reason.
+/// The methods that are wanted, by families; where none is named all that apply, and those that do not are told with
+/// the reason. Throws where one that is wanted does not apply.
 [[nodiscard]] std::vector<MethodFamily> method_families(const ChartProblem& problem,
+                                                        const std::vector<const MethodEntry*>& wanted,
                                                         std::vector<LeftOutMethod>& left_out);
 
 /// The libraries that are installed; those that are not are told with their packages.

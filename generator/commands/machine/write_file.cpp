@@ -55,6 +55,14 @@ int write_all(int file, std::string_view content)
     return 0;
 }
 
+/// A link keeps being a link: the file behind it is what gets replaced.
+std::filesystem::path target_of(const std::string& path)
+{
+    std::error_code error;
+    std::filesystem::path resolved = std::filesystem::weakly_canonical(path, error);
+    return error ? std::filesystem::path(path) : resolved;
+}
+
 void write_directly(const std::string& path, std::string_view content)
 {
     const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
@@ -74,10 +82,7 @@ void write_file(const std::string& path, std::string_view content)
     if (exists && S_ISDIR(status.st_mode)) fail(path, EISDIR);
     if (exists && !S_ISREG(status.st_mode)) return write_directly(path, content);
 
-    // A link keeps being a link: the file behind it is what gets replaced.
-    std::error_code ignored;
-    const std::filesystem::path resolved = std::filesystem::weakly_canonical(path, ignored);
-    const std::string target = ignored ? path : resolved.string();
+    const std::string target = target_of(path).string();
     const SignalsHeld held;
     std::string temporary = target + ".XXXXXX";
     const int file = ::mkstemp(temporary.data());
@@ -93,6 +98,18 @@ void write_file(const std::string& path, std::string_view content)
         ::unlink(temporary.c_str());
         fail(path, error);
     }
+}
+
+void require_writable(const std::string& path)
+{
+    if (path == "-") return;
+    struct stat status {};
+    const bool exists = ::stat(path.c_str(), &status) == 0;
+    if (exists && S_ISDIR(status.st_mode)) fail(path, EISDIR);
+    if (exists && !S_ISREG(status.st_mode)) return;
+    const std::filesystem::path folder = target_of(path).parent_path();
+    // The dot tells a file in the place of the folder from one without permission.
+    if (::access((folder / ".").c_str(), W_OK | X_OK) != 0) fail(path, errno);
 }
 
 void write_standard_output(std::string_view content)

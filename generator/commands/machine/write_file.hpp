@@ -12,6 +12,10 @@ namespace lagen {
 /// with the reason (disk full, no such folder, ...); no temporary is left behind, on a signal neither.
 void write_file(const std::string& path, std::string_view content);
 
+/// Throws as `write_file` will where `path` is a folder or stands in none that files can be made in: before a long
+/// computation whose result goes there.
+void require_writable(const std::string& path);
+
 /// Writes to standard output and reports failure (a closed pipe, a full disk) as MachineError.
 void write_standard_output(std::string_view content);
 

@@ -9,67 +9,83 @@
 #include <fmt/core.h>
 
 #include <array>
-#include <string_view>
 #include <utility>
 
 namespace lagen {
 
 namespace {
 
-constexpr std::array entries{
-    MethodEntry{"euler", "Euler", "1", false, false, "explicit Euler"},
-    MethodEntry{"midpoint", "Midpoint", "2", false, false, "explicit midpoint (Runge 1895)"},
-    MethodEntry{"heun", "Heun", "2", false, false, "explicit trapezoidal rule (Heun 1900)"},
-    MethodEntry{"ralston", "Ralston", "2", false, false, "two stages with least truncation error (Ralston 1962)"},
-    MethodEntry{"kutta3", "Kutta3", "3", false, false, "Kutta's third-order method (1901)"},
-    MethodEntry{"rk4", "Rk4", "4", false, false, "the classical Runge-Kutta method (Kutta 1901)"},
-    MethodEntry{"rk38", "Rk38", "4", false, false, "the 3/8 rule (Kutta 1901)"},
-    MethodEntry{"dopri5", "Dopri5", "5(4)", true, false, "Dormand and Prince 1980, dense output of order 4"},
-    MethodEntry{"tsit5", "Tsit5", "5(4)", true, false, "Tsitouras 2011, dense output of order 4"},
-    MethodEntry{"dop853", "Dop853", "8(5,3)", true, false, "Hairer, Norsett and Wanner 1993, dense output of order 7"},
-    MethodEntry{"verner65", "Verner65", "6(5)", true, false, "Verner 2010, dense output of order 5"},
-    MethodEntry{"verner76", "Verner76", "7(6)", true, false, "Verner 2010, dense output of order 6"},
-    MethodEntry{"verner87", "Verner87", "8(7)", true, false, "Verner 2010, dense output of order 7"},
-    MethodEntry{"verner98", "Verner98", "9(8)", true, false, "Verner 2010, dense output of order 8"},
-    MethodEntry{"rkn64", "Rkn64", "6(4)", true, false, "Nystrom (Dormand and Prince 1987), dense output of order 5", "",
-                SecondOrder::Kind::velocity_free},
-    MethodEntry{"rkn86", "Rkn86", "8(6)", true, false,
-                "Nystrom (Dormand, El-Mikkawy and Prince 1987), dense output of order 7", "",
-                SecondOrder::Kind::velocity_free},
-    MethodEntry{"rkn1210", "Rkn1210", "12(10)", true, false,
-                "Nystrom (Dormand, El-Mikkawy and Prince 1987), dense output of order 10", "",
-                SecondOrder::Kind::velocity_free},
-    MethodEntry{"rkng54", "Rkng54", "5(4)", true, false, "Nystrom (Fine 1987), dense output of order 4", "",
-                SecondOrder::Kind::general},
-    MethodEntry{"taylor", "Taylor", "3-30", true, false,
-                "Taylor series, order by the tolerance (Jorba and Zou 2005), dense output of that order", "",
-                SecondOrder::Kind::no, true},
-    MethodEntry{"gauss2", "Gauss2", "2", false, false, "Gauss, one stage: the implicit midpoint rule", "symplectic"},
-    MethodEntry{"gauss4", "Gauss4", "4", false, false, "Gauss, two stages (Kuntzmann, Butcher 1964)", "symplectic"},
-    MethodEntry{"gauss6", "Gauss6", "6", false, false, "Gauss, three stages (Kuntzmann, Butcher 1964)", "symplectic"},
-    MethodEntry{"gauss8", "Gauss8", "8", false, false, "Gauss, four stages (Kuntzmann, Butcher 1964)", "symplectic"},
-    MethodEntry{"gauss12", "Gauss12", "12", false, false, "Gauss, six stages (Kuntzmann, Butcher 1964)", "symplectic"},
-    MethodEntry{"gauss16", "Gauss16", "16", false, false, "Gauss, eight stages (Kuntzmann, Butcher 1964)",
-                "symplectic"},
-    MethodEntry{"radau5", "Radau5", "5(3)", true, false,
-                "Radau IIA (Hairer and Wanner 1991), stiff, dense output of order 3"},
-    MethodEntry{"radau3_fixed", "Radau3Fixed", "3", false, false, "Radau IIA, two stages, fixed step, stiff"},
-    MethodEntry{"radau5_fixed", "Radau5Fixed", "5", false, false, "Radau IIA, three stages, fixed step, stiff"},
-    MethodEntry{"leapfrog_dkd", "LeapfrogDkd", "2", false, true, "Stoermer-Verlet, drift-kick-drift", "symplectic"},
-    MethodEntry{"leapfrog_kdk", "LeapfrogKdk", "2", false, true, "Stoermer-Verlet, kick-drift-kick", "symplectic"},
-    MethodEntry{"mclachlan4", "McLachlan4", "4", false, true, "McLachlan and Atela 1992, four stages", "symplectic",
-                SecondOrder::Kind::no, false, true, false},
-    MethodEntry{"blanesmoan4", "BlanesMoan4", "4", false, true, "Blanes and Moan 2002, six stages", "symplectic"},
-    MethodEntry{"srkn4", "Srkn4", "4", false, true, "Blanes and Moan 2002, six stages, best where x' is affine in y",
-                "symplectic"},
-    MethodEntry{"yoshida6", "Yoshida6", "6", false, true, "Yoshida 1990, solution A, seven leapfrogs", "symplectic"},
-    MethodEntry{"blanesmoan6", "BlanesMoan6", "6", false, true, "Blanes and Moan 2002, ten stages", "symplectic"},
-    MethodEntry{"srkn6", "Srkn6", "6", false, true, "Blanes and Moan 2002, fourteen stages", "symplectic",
-                SecondOrder::Kind::no, false, true},
-    MethodEntry{"kahanli8", "KahanLi8", "8", false, true, "Kahan and Li 1997, 17 leapfrogs", "symplectic"},
-    MethodEntry{"sofroniou10", "Sofroniou10", "10", false, true, "Sofroniou and Spaletta 2005, 35 leapfrogs",
-                "symplectic"},
-};
+constexpr std::array entries = [] {
+    using enum MethodKind;
+    return std::array{
+        MethodEntry{"euler", "Euler", "1", false, explicit_stages, "explicit Euler"},
+        MethodEntry{"midpoint", "Midpoint", "2", false, explicit_stages, "explicit midpoint (Runge 1895)"},
+        MethodEntry{"heun", "Heun", "2", false, explicit_stages, "explicit trapezoidal rule (Heun 1900)"},
+        MethodEntry{"ralston", "Ralston", "2", false, explicit_stages,
+                    "two stages with least truncation error (Ralston 1962)"},
+        MethodEntry{"kutta3", "Kutta3", "3", false, explicit_stages, "Kutta's third-order method (1901)"},
+        MethodEntry{"rk4", "Rk4", "4", false, explicit_stages, "the classical Runge-Kutta method (Kutta 1901)"},
+        MethodEntry{"rk38", "Rk38", "4", false, explicit_stages, "the 3/8 rule (Kutta 1901)"},
+        MethodEntry{"dopri5", "Dopri5", "5(4)", true, explicit_stages,
+                    "Dormand and Prince 1980, dense output of order 4"},
+        MethodEntry{"tsit5", "Tsit5", "5(4)", true, explicit_stages, "Tsitouras 2011, dense output of order 4"},
+        MethodEntry{"dop853", "Dop853", "8(5,3)", true, explicit_stages,
+                    "Hairer, Norsett and Wanner 1993, dense output of order 7"},
+        MethodEntry{"verner65", "Verner65", "6(5)", true, explicit_stages, "Verner 2010, dense output of order 5"},
+        MethodEntry{"verner76", "Verner76", "7(6)", true, explicit_stages, "Verner 2010, dense output of order 6"},
+        MethodEntry{"verner87", "Verner87", "8(7)", true, explicit_stages, "Verner 2010, dense output of order 7"},
+        MethodEntry{"verner98", "Verner98", "9(8)", true, explicit_stages, "Verner 2010, dense output of order 8"},
+        MethodEntry{"rkn64", "Rkn64", "6(4)", true, explicit_stages,
+                    "Nystrom (Dormand and Prince 1987), dense output of order 5", "", SecondOrder::Kind::velocity_free},
+        MethodEntry{"rkn86", "Rkn86", "8(6)", true, explicit_stages,
+                    "Nystrom (Dormand, El-Mikkawy and Prince 1987), dense output of order 7", "",
+                    SecondOrder::Kind::velocity_free},
+        MethodEntry{"rkn1210", "Rkn1210", "12(10)", true, explicit_stages,
+                    "Nystrom (Dormand, El-Mikkawy and Prince 1987), dense output of order 10", "",
+                    SecondOrder::Kind::velocity_free},
+        MethodEntry{"rkng54", "Rkng54", "5(4)", true, explicit_stages, "Nystrom (Fine 1987), dense output of order 4",
+                    "", SecondOrder::Kind::general},
+        MethodEntry{"taylor", "Taylor", "3-30", true, series,
+                    "Taylor series, order by the tolerance (Jorba and Zou 2005), dense output of that order"},
+        MethodEntry{"gauss2", "Gauss2", "2", false, implicit_stages, "Gauss, one stage: the implicit midpoint rule",
+                    "symplectic"},
+        MethodEntry{"gauss4", "Gauss4", "4", false, implicit_stages, "Gauss, two stages (Kuntzmann, Butcher 1964)",
+                    "symplectic"},
+        MethodEntry{"gauss6", "Gauss6", "6", false, implicit_stages, "Gauss, three stages (Kuntzmann, Butcher 1964)",
+                    "symplectic"},
+        MethodEntry{"gauss8", "Gauss8", "8", false, implicit_stages, "Gauss, four stages (Kuntzmann, Butcher 1964)",
+                    "symplectic"},
+        MethodEntry{"gauss12", "Gauss12", "12", false, implicit_stages, "Gauss, six stages (Kuntzmann, Butcher 1964)",
+                    "symplectic"},
+        MethodEntry{"gauss16", "Gauss16", "16", false, implicit_stages, "Gauss, eight stages (Kuntzmann, Butcher 1964)",
+                    "symplectic"},
+        MethodEntry{"radau5", "Radau5", "5(3)", true, implicit_stages,
+                    "Radau IIA (Hairer and Wanner 1991), stiff, dense output of order 3"},
+        MethodEntry{"radau3_fixed", "Radau3Fixed", "3", false, implicit_stages,
+                    "Radau IIA, two stages, fixed step, stiff"},
+        MethodEntry{"radau5_fixed", "Radau5Fixed", "5", false, implicit_stages,
+                    "Radau IIA, three stages, fixed step, stiff"},
+        MethodEntry{"leapfrog_dkd", "LeapfrogDkd", "2", false, splitting, "Stoermer-Verlet, drift-kick-drift",
+                    "symplectic"},
+        MethodEntry{"leapfrog_kdk", "LeapfrogKdk", "2", false, splitting, "Stoermer-Verlet, kick-drift-kick",
+                    "symplectic"},
+        MethodEntry{"mclachlan4", "McLachlan4", "4", false, splitting, "McLachlan and Atela 1992, four stages",
+                    "symplectic", SecondOrder::Kind::no, true, false},
+        MethodEntry{"blanesmoan4", "BlanesMoan4", "4", false, splitting, "Blanes and Moan 2002, six stages",
+                    "symplectic"},
+        MethodEntry{"srkn4", "Srkn4", "4", false, splitting,
+                    "Blanes and Moan 2002, six stages, best where x' is affine in y", "symplectic"},
+        MethodEntry{"yoshida6", "Yoshida6", "6", false, splitting, "Yoshida 1990, solution A, seven leapfrogs",
+                    "symplectic"},
+        MethodEntry{"blanesmoan6", "BlanesMoan6", "6", false, splitting, "Blanes and Moan 2002, ten stages",
+                    "symplectic"},
+        MethodEntry{"srkn6", "Srkn6", "6", false, splitting, "Blanes and Moan 2002, fourteen stages", "symplectic",
+                    SecondOrder::Kind::no, true},
+        MethodEntry{"kahanli8", "KahanLi8", "8", false, splitting, "Kahan and Li 1997, 17 leapfrogs", "symplectic"},
+        MethodEntry{"sofroniou10", "Sofroniou10", "10", false, splitting, "Sofroniou and Spaletta 2005, 35 leapfrogs",
+                    "symplectic"},
+    };
+}();
 
 /// What other programs and books call a method, in small letters.
 constexpr std::array<std::pair<const char*, const char*>, 18> names_elsewhere{{{"rk45", "dopri5"},
@@ -103,7 +119,7 @@ void method_json(JsonWriter& json, const MethodEntry& entry)
         .value(entry.order)
         .key("adaptive")
         .value(entry.adaptive);
-    json.key("separable_only").value(entry.separable_only).key("text").value(entry.text);
+    json.key("separable_only").value(entry.kind == MethodKind::splitting).key("text").value(entry.text);
     json.key("keeps").value(entry.keeps).key("system").value(system_of(entry)).end_object();
 }
 
@@ -141,18 +157,17 @@ std::string hint_for_method(const std::string& name)
 
 bool is_symmetric_splitting(const MethodEntry& method)
 {
-    return method.separable_only && method.symmetric;
+    return method.kind == MethodKind::splitting && method.symmetric;
 }
 
 bool goes_abreast(const MethodEntry& method)
 {
-    const std::string_view type = method.type;
-    return !method.separable_only && !type.starts_with("Gauss") && !type.starts_with("Radau");
+    return method.kind == MethodKind::explicit_stages || method.kind == MethodKind::series;
 }
 
 std::string system_of(const MethodEntry& method)
 {
-    if (method.separable_only)
+    if (method.kind == MethodKind::splitting)
         return method.affine ? "x' = M y + c, y' = g(x)" : "x' = f(y), y' = g(x) or a sum of exact flows";
     switch (method.system) {
     case SecondOrder::Kind::no: return "";

@@ -9,18 +9,25 @@
 
 namespace lagen {
 
+/// How a method steps.
+enum class MethodKind {
+    explicit_stages,
+    implicit_stages,
+    series,    ///< needs the kernels of Taylor coefficients
+    splitting, ///< partitioned methods for xdot = f(y), ydot = g(x)
+};
+
 struct MethodEntry {
-    const char* name;                                 ///< as in scenes and --method
-    const char* type;                                 ///< the runtime's type
-    const char* order;                                ///< "5(4)"
-    bool adaptive;                                    ///< takes a tolerance; else a step
-    bool separable_only;                              ///< partitioned methods for xdot = f(y), ydot = g(x)
+    const char* name;  ///< as in scenes and --method
+    const char* type;  ///< the runtime's type
+    const char* order; ///< "5(4)"
+    bool adaptive;     ///< takes a tolerance; else a step
+    MethodKind kind;
     const char* text;                                 ///< one line, with the source
     const char* keeps = "";                           ///< what long runs keep
     SecondOrder::Kind system = SecondOrder::Kind::no; ///< for x'' = f(t, x, x') or f(t, x) only
-    bool series = false;                              ///< needs the kernels of Taylor coefficients
-    bool affine = false;                              ///< of separable_only: xdot has to be affine in y
-    bool symmetric = true;                            ///< of separable_only: a step back undoes one
+    bool affine = false;                              ///< of splittings: xdot has to be affine in y
+    bool symmetric = true;                            ///< of splittings: a step back undoes one
 };
 
 [[nodiscard]] std::span<const MethodEntry> method_table();

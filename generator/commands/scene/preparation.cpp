@@ -54,7 +54,7 @@ std::string vectors_of(const Driver& driver)
 
 std::optional<Obstacle> obstacle_of(const MethodEntry& method, const KernelModule& module)
 {
-    if (method.separable_only) return obstacle_to_splitting(method, module);
+    if (method.kind == MethodKind::splitting) return obstacle_to_splitting(method, module);
     using Kind = SecondOrder::Kind;
     const SecondOrder& found = module.second_order;
     if (method.system == Kind::no || found.kind == method.system || found.kind == Kind::velocity_free)
@@ -71,10 +71,11 @@ SceneText scene_text(const CheckedModel& checked, const Scene& scene, const std:
     GenerateRequest request;
     request.form = form;
     request.scene = &scene;
-    request.flows = method.separable_only;
+    request.flows = method.kind == MethodKind::splitting;
     request.time_scale = time_scale;
-    if (method.series) request.with = {"taylor"};
-    if (method.series && !scene.events.empty()) request.with.emplace_back("event_series");
+    const bool takes_series = method.kind == MethodKind::series;
+    if (takes_series) request.with = {"taylor"};
+    if (takes_series && !scene.events.empty()) request.with.emplace_back("event_series");
     Generated generated = generate(checked, request);
     ProgramText text{std::move(generated.header),
                      program_text(driver, generated.module.name, method, time_scale != nullptr)};
@@ -100,15 +101,18 @@ Preparation::Preparation(const Options& options, CheckedModel& checked, const Dr
 }
 
 void Preparation::finish(const Scene& scene, const std::string& form, const MethodEntry& method,
-                         const std::vector<long double>& parameters)
+                         const std::vector<long double>& parameters, const std::function<void(const RunRecord&)>& look)
 {
-    if (record_ && (is_decided_for(*record_, parameters) || says_the_same(*record_, checked(parameters, true)))) return;
+    if (record_ && (is_decided_for(*record_, parameters) || says_the_same(*record_, checked(parameters, true))))
+        return look(*record_);
     if (record_) prove(checked_);
     elaborated_ = decided_ = true;
     set_parameters(checked_, parameters);
     const SceneText made = scene_text(checked_, scene, form, method, driver_, time_scale_of(options_, checked_.model));
     require_system(options_, scene, method, made.module);
-    record_ = record_of(checked_, made.module, form, compile_programs({made.text})[0], parameters);
+    record_ = record_of(checked_, made.module, form, parameters);
+    look(*record_);
+    record_->program = compile_programs({made.text})[0];
     keep_record(file_, *record_);
 }
 

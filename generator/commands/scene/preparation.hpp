@@ -7,6 +7,7 @@
 #include "commands/machine/compile.hpp"
 #include "commands/scene/run_record.hpp"
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -34,9 +35,10 @@ class Preparation {
     /// name that was asked for, or empty.
     Preparation(const Options& options, CheckedModel& checked, const Driver& driver, const std::string& method);
 
-    /// Throws where the method asks for other equations.
+    /// Throws where the method asks for other equations. `look` sees the record, its program apart, before anything is
+    /// compiled: what it throws costs nobody the compiler's seconds.
     void finish(const Scene& scene, const std::string& form, const MethodEntry& method,
-                const std::vector<long double>& parameters);
+                const std::vector<long double>& parameters, const std::function<void(const RunRecord&)>& look);
 
     /// After `finish`.
     [[nodiscard]] const RunRecord& record() const { return *record_; }

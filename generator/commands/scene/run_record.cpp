@@ -95,10 +95,9 @@ void add_lagen(ContentHash& hash)
 } // namespace
 
 RunRecord record_of(const CheckedModel& checked, const KernelModule& module, const std::string& form,
-                    std::string program, const std::vector<long double>& parameters)
+                    const std::vector<long double>& parameters)
 {
     RunRecord record;
-    record.program = std::move(program);
     record.warnings = checked.warnings;
     record.names = names_of(module);
     record.energy_changes = has_kernel(module, "power");

@@ -26,9 +26,9 @@ struct RunRecord {
     std::vector<std::string> proved_for;
 };
 
-/// The record of a model, generated and compiled.
+/// The record of a model that is generated, without its program.
 [[nodiscard]] RunRecord record_of(const CheckedModel& checked, const KernelModule& module, const std::string& form,
-                                  std::string program, const std::vector<long double>& parameters);
+                                  const std::vector<long double>& parameters);
 
 /// The text of the model and of the files that it includes, without lines of comments, and its sizes.
 void add_model(ContentHash& hash, const Model& model);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// A chain whose Jacobian is computed by columns, in every kind of scalar (scalars.hpp prints a line), and with
+/// A chain whose Jacobian is computed by columns, in built-in scalars and packs (scalars.hpp prints a line), and with
 /// derivatives carried along: of the right-hand side, which are the Jacobian times them; of the Jacobian's product with
 /// a vector u in the direction v, which is that for v in the direction u; and the kernel `variational`.
 #include "scalars.hpp"
@@ -44,7 +44,7 @@ double relative(const State& a, const State& b)
 
 int main()
 {
-    compare<lagen::models::chain_relative>("chain_relative");
+    compare_built_in<lagen::models::chain_relative>("chain_relative");
     State s, u, v;
     for (Eigen::Index k = 0; k < s.size(); ++k) {
         s[k] = start(k, 0);

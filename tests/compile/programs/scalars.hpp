@@ -98,4 +98,15 @@ void compare(const char* name)
                 difference<Model, Lazy50>(exact), wrong_lanes<Model, float, 8>(), wrong_lanes<Model, double, 8>());
 }
 
+/// float and double against long double, packs against their lanes: without numbers of 50 digits, which take the
+/// compiler longest.
+template <template <class> class Model>
+void compare_built_in(const char* name)
+{
+    const std::vector<long double> wide = scalar_values<Model, long double>();
+    const std::vector<Plain50> exact(wide.begin(), wide.end());
+    std::printf("%s %.2g %.2g %d %d\n", name, difference<Model, float>(exact), difference<Model, double>(exact),
+                wrong_lanes<Model, float, 8>(), wrong_lanes<Model, double, 8>());
+}
+
 } // namespace

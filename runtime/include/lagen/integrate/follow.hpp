@@ -2,7 +2,7 @@
 /// Why a step failed whose model follows something: because the step was too long, or because what it follows ends.
 #pragma once
 
-#include "lagen/kernel.hpp"
+#include "lagen/integrate/retract.hpp"
 
 #include <cmath>
 #include <limits>
