@@ -58,11 +58,15 @@ class LaneStepper : public ForeseesAs<typename Method::template Stepper<M>> {
     template <class OnLane>
     explicit LaneStepper(const OnLane& method) noexcept : own_(method), shared_(*method.shared), lane_(method.lane)
     {
+        if constexpr (adaptive) controller_ = Controller<Real>(method.control(), error_order, Real(beta_share));
     }
 
     Status begin(const M& model, Real t, const State& s) noexcept { return own_.begin(model, t, s); }
     /// The trajectory takes its lane.
-    void enter(const M& model, const State& s) noexcept { shared_.adopt(lane_, model, s, own_); }
+    void enter(const M& model, const State& s) noexcept
+    {
+        shared_.adopt(lane_, model, s, own_, controller_.exponents());
+    }
     [[nodiscard]] bool suits() const noexcept { return shared_.stepper.suits(own_); }
 
     [[nodiscard]] Real first_step(const M& model, Real t, Real length, const State& s) noexcept
@@ -89,20 +93,31 @@ class LaneStepper : public ForeseesAs<typename Method::template Stepper<M>> {
         calls_ += shared_.calls_at_end;
         return shared_.finished[lane_];
     }
-    // Of methods that choose their lengths themselves:
-    [[nodiscard]] Real after_accepted(Real h, Real error) noexcept requires chooses_lengths
+    // The lengths are those that the method chooses itself, or its controller, from powers that all lanes share.
+    [[nodiscard]] Real after_accepted(Real h, Real error) noexcept
     {
-        shared_.stepper.hand_over_length(lane_, own_);
-        return own_.after_accepted(h, error);
+        if constexpr (chooses_lengths) {
+            shared_.stepper.hand_over_length(lane_, own_);
+            return own_.after_accepted(h, error);
+        } else {
+            return controller_.after_accepted(h, powers());
+        }
     }
-    [[nodiscard]] Real after_rejected(Real h, Real error) noexcept requires chooses_lengths
+    [[nodiscard]] Real after_rejected(Real h, Real error) noexcept
     {
-        return own_.after_rejected(h, error);
+        if constexpr (chooses_lengths)
+            return own_.after_rejected(h, error);
+        else
+            return controller_.after_rejected(h, powers());
     }
-    [[nodiscard]] Real after_failure(Real h) noexcept requires chooses_lengths
+    [[nodiscard]] Real after_failure(Real h) noexcept requires adaptive
     {
-        shared_.stepper.hand_over_length(lane_, own_);
-        return own_.after_failure(h);
+        if constexpr (chooses_lengths) {
+            shared_.stepper.hand_over_length(lane_, own_);
+            return own_.after_failure(h);
+        } else {
+            return controller_.after_failure(h);
+        }
     }
     template <class Found>
     bool split(Real h, Real last, const Found& found) const requires chooses_lengths
@@ -125,6 +140,11 @@ class LaneStepper : public ForeseesAs<typename Method::template Stepper<M>> {
     [[nodiscard]] std::size_t calls() const noexcept { return own_.calls() + calls_; }
 
   private:
+    [[nodiscard]] ErrorPowers<Real> powers() const noexcept
+    {
+        return {shared_.powers.proportional[lane_], shared_.powers.integral[lane_]};
+    }
+
     void fetch() const noexcept
     {
         if (!has_slopes_) shared_.stepper.hand_over(lane_, own_);
@@ -133,6 +153,7 @@ class LaneStepper : public ForeseesAs<typename Method::template Stepper<M>> {
 
     mutable Own own_; ///< begins the trajectory, and computes values inside its steps
     mutable bool has_slopes_ = true;
+    Controller<Real> controller_{StepControl{}, 5, Real(0)};
     Shared& shared_;
     int lane_;
     std::size_t calls_ = 0;

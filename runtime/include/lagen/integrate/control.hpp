@@ -4,6 +4,7 @@
 #pragma once
 
 #include "lagen/integrate/lanes.hpp"
+#include "lagen/integrate/step_power.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -137,9 +138,27 @@ template <class Real>
 template <class Real>
 [[nodiscard]] Real power_of_number(const Real& x, const Real& exponent) noexcept
 {
-    using std::pow;
-    return Real(pow(plain_number(x), plain_number(exponent)));
+    return Real(step_power(plain_number(x), plain_number(exponent)));
 }
+
+/// Of an error: error^(1/q - share beta), and max(error, 1e-4)^beta, which the step behind the next one asks for.
+template <class Real>
+struct ErrorPowers {
+    Real proportional, integral;
+};
+
+/// The exponents.
+template <class Real>
+struct ErrorExponents {
+    Real proportional, integral;
+
+    [[nodiscard]] ErrorPowers<Real> operator()(const Real& error) const noexcept
+    {
+        const Real least = Real(1e-4);
+        return {power_of_number(error, proportional),
+                power_of_number(Real(select(error < least, least, error)), integral)};
+    }
+};
 
 /// Proportional-integral control of the step [Hairer, Norsett, Wanner II.4; Hairer, Wanner IV.2].
 template <class Real>
@@ -147,28 +166,33 @@ class Controller {
   public:
     /// `share` of beta is taken from the integral exponent: 0.75 in dopri5.f, 0.2 in dop853.f.
     Controller(const StepControl& control, int error_order, Real share) noexcept
-        : beta_(static_cast<Real>(control.beta)), safety_(static_cast<Real>(control.safety)),
-          most_(Real(1) / static_cast<Real>(control.shrink)), least_(Real(1) / static_cast<Real>(control.grow)),
-          exponent_(Real(1) / Real(error_order) - beta_ * share)
+        : exponents_{Real(1) / Real(error_order) - static_cast<Real>(control.beta) * share,
+                     static_cast<Real>(control.beta)},
+          safety_(static_cast<Real>(control.safety)), most_(Real(1) / static_cast<Real>(control.shrink)),
+          least_(Real(1) / static_cast<Real>(control.grow)), last_(exponents_(Real(0)).integral)
     {
     }
 
+    [[nodiscard]] const ErrorExponents<Real>& exponents() const noexcept { return exponents_; }
+
     /// The step after an accepted one with scaled error `error` <= 1.
-    [[nodiscard]] Real after_accepted(Real h, Real error) noexcept
+    [[nodiscard]] Real after_accepted(Real h, Real error) noexcept { return after_accepted(h, exponents_(error)); }
+    [[nodiscard]] Real after_accepted(Real h, const ErrorPowers<Real>& error) noexcept
     {
-        Real factor = power_of_number(error, exponent_);
-        if (beta_ != Real(0)) factor /= power_of_number(last_, beta_);
+        Real factor = error.proportional;
+        if (exponents_.integral != Real(0)) factor /= last_;
         factor /= safety_;
         factor = factor < least_ ? least_ : (factor > most_ ? most_ : factor);
         if (rejected_ && factor < Real(1)) factor = Real(1);
-        last_ = error < Real(1e-4) ? Real(1e-4) : error;
+        last_ = error.integral;
         rejected_ = false;
         return h / factor;
     }
 
-    [[nodiscard]] Real after_rejected(Real h, Real error) noexcept
+    [[nodiscard]] Real after_rejected(Real h, Real error) noexcept { return after_rejected(h, exponents_(error)); }
+    [[nodiscard]] Real after_rejected(Real h, const ErrorPowers<Real>& error) noexcept
     {
-        const Real factor = power_of_number(error, exponent_) / safety_;
+        const Real factor = error.proportional / safety_;
         rejected_ = true;
         return h / (factor > most_ ? most_ : factor);
     }
@@ -181,8 +205,9 @@ class Controller {
     }
 
   private:
-    Real beta_, safety_, most_, least_, exponent_;
-    Real last_ = Real(1e-4);
+    ErrorExponents<Real> exponents_;
+    Real safety_, most_, least_;
+    Real last_; ///< power of the error of the last accepted step
     bool rejected_ = false;
 };
 

@@ -34,7 +34,8 @@ struct SharedSteps {
     /// A trajectory of `own`, the stepper of it alone, begins on a lane; the first one on all, so that none computes
     /// with nothing.
     template <class Own>
-    void adopt(int lane, const M& own_model, const typename M::State& s, const Own& own) noexcept
+    void adopt(int lane, const M& own_model, const typename M::State& s, const Own& own,
+               const ErrorExponents<Real>& own_exponents) noexcept
     {
         if constexpr (!std::is_empty_v<M>) {
             M copy = own_model;
@@ -45,6 +46,8 @@ struct SharedSteps {
         if (empty) to = from = State::Zero(s.size());
         for (int i = empty ? 0 : lane; i <= (empty ? N - 1 : lane); ++i) {
             stepper.adopt(i, own);
+            exponents.proportional.set(i, own_exponents.proportional);
+            exponents.integral.set(i, own_exponents.integral);
             for (Eigen::Index k = 0; k < s.size(); ++k) from[k].set(i, s[k]);
         }
         counts[static_cast<std::size_t>(lane)] = 0;
@@ -71,6 +74,7 @@ struct SharedSteps {
         calls = stepper.calls() - before;
         if constexpr (Stepper::adaptive) {
             error = stepper.error();
+            if constexpr (!requires { Stepper::foresees; }) powers = exponents(error);
             finished = stepper.finish(model, P(ends), to);
         }
         calls_at_end = stepper.calls() - before - calls;
@@ -108,6 +112,8 @@ struct SharedSteps {
     std::array<typename IntegerOf<sizeof(Real)>::type, lanes> counts{}; ///< -1: the lane's last step was accepted
     PackStatus<N> status, finished;
     P error;
+    ErrorExponents<P> exponents{}; ///< of the lanes' controllers
+    ErrorPowers<P> powers{};
     std::size_t calls = 0, calls_at_end = 0; ///< of one attempt, and of finish
     bool empty = true;
 };
