@@ -74,16 +74,16 @@ template <class Real>
 struct StepPowerOf {
     static constexpr bool is_own = std::is_same_v<Real, double> || std::is_same_v<Real, float>;
     using Power = StepPower<OneNumber>;
-    [[nodiscard]] static double widened(const Real& x) noexcept { return static_cast<double>(x); }
-    [[nodiscard]] static Real narrowed(double x) noexcept { return static_cast<Real>(x); }
+    [[nodiscard]] [[gnu::always_inline]] static inline double widened(const Real& x) noexcept { return static_cast<double>(x); }
+    [[nodiscard]] [[gnu::always_inline]] static inline Real narrowed(double x) noexcept { return static_cast<Real>(x); }
 };
 template <class T, int N>
 struct StepPowerOf<Pack<T, N>> {
     static constexpr bool is_own = true;
     using Power = StepPower<NumbersInLanes<N>>;
     using Reals = typename Power::Real;
-    [[nodiscard]] static Reals widened(const Pack<T, N>& x) noexcept { return __builtin_convertvector(x.lanes, Reals); }
-    [[nodiscard]] static Pack<T, N> narrowed(const Reals& x) noexcept
+    [[nodiscard]] [[gnu::always_inline]] static inline Reals widened(const Pack<T, N>& x) noexcept { return __builtin_convertvector(x.lanes, Reals); }
+    [[nodiscard]] [[gnu::always_inline]] static inline Pack<T, N> narrowed(const Reals& x) noexcept
     {
         return Pack<T, N>::of(__builtin_convertvector(x, typename Pack<T, N>::Vector));
     }
