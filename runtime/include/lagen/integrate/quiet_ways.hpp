@@ -43,8 +43,7 @@ struct QuietWays {
         const P t(times), h(lengths), t1(ends);
         const P epsilon(std::numeric_limits<Real>::epsilon());
         const P reaches = min(P(Real(1.01)) * next, most);
-        counts = counts && reaches < abs(end - t1) &&
-                 P(Real(0.1)) * next > epsilon * max(abs(t1), epsilon * length);
+        counts = counts && reaches < abs(end - t1) && P(Real(0.1)) * next > epsilon * max(abs(t1), epsilon * length);
         const P rounding = (t1 - t) - (h - lost), step = direction * min(next, most);
         asked = select(counts, next, asked);
         lost = select(counts, rounding, lost);

@@ -67,8 +67,17 @@ struct SharedSteps {
         counts.fill(0);
     }
 
-    /// The next step of all of them.
+    /// The next step of all of them. Of small models with everything in one function, so that what the stages have in
+    /// common, as the reciprocals of parameters, is computed once.
     void attempt() noexcept
+    {
+        if constexpr (M::dimension > 0 && M::dimension <= 8)
+            attempt_in_one();
+        else
+            attempt_by_calls();
+    }
+    [[gnu::flatten]] void attempt_in_one() noexcept { attempt_by_calls(); }
+    void attempt_by_calls() noexcept
     {
         const P begin(times), length(lengths);
         const std::size_t before = stepper.calls();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// Powers of positive numbers, of which lengths of steps are made: within (2e-7 + 3e-8 |y|) x^y, so long as that is a
-/// normal number, and growing with x. Of float and double, the bits do not depend on the library, nor on whether a number is alone or a
-/// lane of a pack; other scalars call their own pow.
+/// normal number, and growing with x. Of float and double, the bits do not depend on the library, nor on whether a
+/// number is alone or a lane of a pack; other scalars call their own pow.
 #pragma once
 
 #include "lagen/ensemble/pack.hpp"
@@ -14,36 +14,37 @@
 
 namespace lagen::detail {
 
-/// Doubles, and whole numbers of their size.
-struct OneNumber {
-    using Real = double;
-    using Integer = std::int64_t;
+/// Whole numbers of the size of doubles, a lane.
+template <class Real>
+struct IntegersOf {
+    using type = std::int64_t;
 };
 template <int N>
-struct NumbersInLanes {
-    using Real = typename VectorOf<double, N>::type;
-    using Integer = typename VectorOf<std::int64_t, N>::type;
+struct IntegersOf<Pack<double, N>> {
+    using type = typename Mask<double, N>::Vector;
 };
 
-/// No sum has two products, so that a compiler that contracts has one way to do it.
-template <class Numbers>
+/// Of double and packs of it. No sum has two products, so that a compiler that contracts has one way to do it.
+template <class Real>
 struct StepPower {
-    using Real = typename Numbers::Real;
-    using Integer = typename Numbers::Integer;
+    using Integer = typename IntegersOf<Real>::type;
     static constexpr double to_integer = 0x1.8p52; ///< its lowest bits are those of a whole number that is added
 
     /// x = 2^e m with m within sqrt(1/2) .. sqrt(2); log2 x = e + 2/ln 2 artanh((m - 1)/(m + 1)), whose series ends
     /// with an error of 5e-8. Of 0: -1023.
     [[nodiscard]] [[gnu::always_inline]] static inline Real logarithm(const Real& x) noexcept
     {
-        constexpr std::int64_t whole = std::bit_cast<std::int64_t>(to_integer);
-        const Integer bits = cast<Integer>(x), exponent = (bits - 0x3fe6a09e667f3bcd) >> 52;
-        const Real m = cast<Real>(Integer(bits - (exponent << 52)));
-        const Real e = cast<Real>(Integer(exponent + whole)) - to_integer;
+        Integer bits;
+        std::memcpy(&bits, &x, sizeof bits);
+        const Integer exponent = (bits - 0x3fe6a09e667f3bcd) >> 52;
+        const Integer whole = exponent + std::bit_cast<std::int64_t>(to_integer), part = bits - (exponent << 52);
+        Real e, m;
+        std::memcpy(&e, &whole, sizeof e);
+        std::memcpy(&m, &part, sizeof m);
         const Real s = (m - 1.0) / (m + 1.0), z = s * s;
         const Real low = z * 0.96179669392597560 + 2.8853900817779268;
         const Real high = z * 0.41219858311113240 + 0.57707801635558535;
-        return s * ((z * z) * high + low) + e;
+        return s * ((z * z) * high + low) + (e - to_integer);
     }
 
     /// 2^z = 2^n 2^f, |f| <= 1/2, whose series ends with a relative error of 2e-7.
@@ -55,17 +56,13 @@ struct StepPower {
         const Real middle = f * 0.055504108664821580 + 0.24022650695910071;
         const Real high = f * 0.0013333558146428443 + 0.0096181291076284772;
         const Real top = square * 0.00015403530393381610 + high;
-        const Real value = square * (square * top + middle) + low;
-        return cast<Real>(Integer(cast<Integer>(value) + (cast<Integer>(shifted) << 52)));
-    }
-
-  private:
-    template <class To, class From>
-    [[gnu::always_inline]] static inline To cast(const From& from) noexcept
-    {
-        To to;
-        std::memcpy(&to, &from, sizeof to);
-        return to;
+        Real value = square * (square * top + middle) + low;
+        Integer bits, whole;
+        std::memcpy(&bits, &value, sizeof bits);
+        std::memcpy(&whole, &shifted, sizeof whole);
+        bits += whole << 52;
+        std::memcpy(&value, &bits, sizeof value);
+        return value;
     }
 };
 
@@ -73,19 +70,22 @@ struct StepPower {
 template <class Real>
 struct StepPowerOf {
     static constexpr bool is_own = std::is_same_v<Real, double> || std::is_same_v<Real, float>;
-    using Power = StepPower<OneNumber>;
-    [[nodiscard]] [[gnu::always_inline]] static inline double widened(const Real& x) noexcept { return static_cast<double>(x); }
-    [[nodiscard]] [[gnu::always_inline]] static inline Real narrowed(double x) noexcept { return static_cast<Real>(x); }
+    using Power = StepPower<double>;
+    [[nodiscard]] static double widened(const Real& x) noexcept { return static_cast<double>(x); }
+    [[nodiscard]] static Real narrowed(double x) noexcept { return static_cast<Real>(x); }
 };
 template <class T, int N>
 struct StepPowerOf<Pack<T, N>> {
     static constexpr bool is_own = true;
-    using Power = StepPower<NumbersInLanes<N>>;
-    using Reals = typename Power::Real;
-    [[nodiscard]] [[gnu::always_inline]] static inline Reals widened(const Pack<T, N>& x) noexcept { return __builtin_convertvector(x.lanes, Reals); }
-    [[nodiscard]] [[gnu::always_inline]] static inline Pack<T, N> narrowed(const Reals& x) noexcept
+    using Wide = Pack<double, N>;
+    using Power = StepPower<Wide>;
+    [[nodiscard]] static Wide widened(const Pack<T, N>& x) noexcept
     {
-        return Pack<T, N>::of(__builtin_convertvector(x, typename Pack<T, N>::Vector));
+        return Wide::of(__builtin_convertvector(x.lanes, typename Wide::Vector));
+    }
+    [[nodiscard]] static Pack<T, N> narrowed(const Wide& x) noexcept
+    {
+        return Pack<T, N>::of(__builtin_convertvector(x.lanes, typename Pack<T, N>::Vector));
     }
 };
 
@@ -112,9 +112,10 @@ struct TwoPowers {
         if constexpr (StepPowerOf<Real>::is_own) {
             using Of = StepPowerOf<Real>;
             const auto logarithm = Of::Power::logarithm(Of::widened(x));
-            const auto least = decltype(logarithm){} - 13.287712379549449;
+            const std::decay_t<decltype(logarithm)> least(-13.287712379549449);
             of_all = Of::narrowed(Of::Power::exponential(Of::widened(y) * logarithm));
-            of_large = Of::narrowed(Of::Power::exponential(Of::widened(z) * (logarithm < least ? least : logarithm)));
+            of_large =
+                Of::narrowed(Of::Power::exponential(Of::widened(z) * select(logarithm < least, least, logarithm)));
         } else {
             const Real least = Real(1e-4);
             of_all = step_power(x, y);
