@@ -127,11 +127,12 @@ void measure(const char* scalar, const char* name, const Method& method)
         }
     }
     for (const auto& run : alone) steps += run.steps + run.rejected;
-    const auto rate = [](double seconds) { return double(count) / seconds / 1e3; };
-    std::printf("%-16s %-7s %-9s %8.2f %8.2f %8.2f %8.2f  %5.2f %5.2f %5.2f  %9.2f %8.1f %9zu\n", TEXT_OF(MODEL),
-                scalar, name, rate(least[0]), rate(least[1]), rate(least[2]), rate(least[3]), least[0] / least[1],
-                least[0] / least[2], least[0] / least[3], 1e6 * least[2] / double(count), double(steps) / double(count),
-                different);
+    std::printf("%-16s %-7s %-9s", TEXT_OF(MODEL), scalar, name);
+    for (const double seconds : least)
+        seconds < 1e30 ? std::printf(" %8.2f", double(count) / seconds / 1e3) : std::printf("%9s", "-");
+    for (const double seconds : {least[1], least[2], least[3]})
+        seconds < 1e30 ? std::printf(" %5.2f", least[0] / seconds) : std::printf("%6s", "-");
+    std::printf(" %9.2f %8.1f %9zu\n", 1e6 * least[2] / double(count), double(steps) / double(count), different);
     std::fflush(stdout);
 }
 

@@ -160,7 +160,7 @@ class Controller {
           proportional_(Real(1) / Real(error_order) - integral_ * share),
           safety_(static_cast<real_t<Real>>(control.safety)),
           most_(Real(1) / static_cast<real_t<Real>>(control.shrink)),
-          least_(Real(1) / static_cast<real_t<Real>>(control.grow)), last_(powers(Real(0)).integral)
+          least_(Real(1) / static_cast<real_t<Real>>(control.grow)), last_(powers(Real(0)).integral * safety_)
     {
     }
 
@@ -180,16 +180,14 @@ class Controller {
     [[nodiscard]] Real after_accepted(const Real& h, const ErrorPowers<Real>& error) noexcept
     {
         const Real next = length_after(h, error);
-        last_ = error.integral;
+        last_ = error.integral * safety_;
         rejected_ = Where{};
         return next;
     }
     /// The same before it counts.
     [[nodiscard]] Real length_after(const Real& h, const ErrorPowers<Real>& error) const noexcept
     {
-        Real factor = error.proportional;
-        factor /= last_;
-        factor /= safety_;
+        Real factor = error.proportional / last_;
         factor = select(factor < least_, least_, Real(select(factor > most_, most_, factor)));
         factor = select(rejected_ && factor < Real(1), Real(1), factor);
         return h / factor;
@@ -218,7 +216,7 @@ class Controller {
     /// The step counts in these lanes.
     void accept(const Where& where, const ErrorPowers<Real>& error) noexcept requires(is_pack<Real>)
     {
-        last_ = select(where, error.integral, last_);
+        last_ = select(where, Real(error.integral * safety_), last_);
         rejected_ = rejected_ && !where;
     }
     void set_lane(int lane, const Controller<real_t<Real>>& own) noexcept requires(is_pack<Real>)
@@ -253,7 +251,7 @@ class Controller {
 
     Real integral_, proportional_; ///< exponents
     Real safety_, most_, least_;
-    Real last_; ///< power of the error of the last accepted step
+    Real last_; ///< power of the error of the last accepted step, times `safety_`
     Where rejected_{};
 };
 
