@@ -4,14 +4,9 @@
 /// the number of parameters, a name and a value each; the names of the state in the order of the columns; the number of
 /// rows; a time and the state each, the first row being the start. Prints, for both scalars, the largest error over the
 /// rows (max norm of the difference over max norm of the state) and the steps.
-#define TEXT_OF_(x) #x
-#define TEXT_OF(x) TEXT_OF_(x)
-// A space here would stand in the name of the file.
-// clang-format off
-#define HEADER_(model) TEXT_OF(model.hpp)
-// clang-format on
+#include "model_header.hpp"
 
-#include HEADER_(MODEL)
+#include MODEL_HEADER(MODEL)
 
 #include "lagen/integrate.hpp"
 #include "lagen_chart/quad.hpp"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Trajectories a second on one core: `integrate`, and 4 and 8 of them on the lanes of packs (lagen/integrate/
-/// abreast.hpp), in float and double, by adaptive methods and with a fixed step. Compiled by scripts/lanes-table with
-/// -D MODEL=heavy_top; the header has the kernel `taylor`. Prints a line a method and scalar: thousands of trajectories
-/// a second at 1, 4 and 8 lanes, the least time of interleaved rounds, the ratios, and how many lanes' runs differ in a
-/// bit from those of `integrate`. An argument "double taylor" measures this alone.
+/// Trajectories a second on one core: `integrate`, and 4, 8 and, of float, 16 of them on the lanes of packs
+/// (lagen/integrate/abreast.hpp), in float and double, by adaptive methods and with a fixed step. Compiled by
+/// scripts/lanes-table with -D MODEL=heavy_top; the header has the kernel `taylor`. Prints a line a method and scalar:
+/// thousands of trajectories a second at 1, 4, 8 and 16 lanes, the least time of interleaved rounds, the ratios, and
+/// how many lanes' runs differ in a bit from those of `integrate`. An argument "double taylor" measures this alone.
 #include "model_header.hpp"
 
 #include MODEL_HEADER(MODEL)
@@ -98,7 +98,7 @@ void measure(const char* scalar, const char* name, const Method& method)
     std::vector<typename M::State> starts;
     const double end = make_starts<S>(starts);
     std::vector<lagen::Run<M>> alone(count), together(count);
-    std::array<double, 3> least{1e30, 1e30, 1e30};
+    std::array<double, 4> least{1e30, 1e30, 1e30, 1e30};
     std::size_t different = 0, steps = 0;
     const auto compare = [&] {
         for (std::size_t k = 0; k < count; ++k)
@@ -116,12 +116,18 @@ void measure(const char* scalar, const char* name, const Method& method)
         compare();
         least[2] = std::min(least[2], seconds_of([&] { abreast<8>(starts, end, method, together); }));
         compare();
+        if constexpr (std::is_same_v<S, float>) {
+            least[3] = std::min(least[3], seconds_of([&] { abreast<16>(starts, end, method, together); }));
+            compare();
+        }
     }
     for (const auto& run : alone) steps += run.steps + run.rejected;
-    const auto rate = [](double seconds) { return double(count) / seconds / 1e3; };
-    std::printf("%-16s %-7s %-9s %9.2f %9.2f %9.2f  %5.2f %5.2f  %9.2f %8.1f %9zu\n", TEXT_OF(MODEL), scalar, name,
-                rate(least[0]), rate(least[1]), rate(least[2]), least[0] / least[1], least[0] / least[2],
-                1e6 * least[2] / double(count), double(steps) / double(count), different);
+    std::printf("%-16s %-7s %-9s", TEXT_OF(MODEL), scalar, name);
+    for (const double seconds : least)
+        seconds < 1e30 ? std::printf(" %8.2f", double(count) / seconds / 1e3) : std::printf("%9s", "-");
+    for (const double seconds : {least[1], least[2], least[3]})
+        seconds < 1e30 ? std::printf(" %5.2f", least[0] / seconds) : std::printf("%6s", "-");
+    std::printf(" %9.2f %8.1f %9zu\n", 1e6 * least[2] / double(count), double(steps) / double(count), different);
     std::fflush(stdout);
 }
 

@@ -148,11 +148,15 @@ void check_same(const Run<M>& one, const Run<M>& other)
     }
 }
 
-/// Every task by N lanes and alone: the same in every bit, and the same observed.
-template <int N, class M, class Method>
-void check_abreast(const std::vector<Task<M>>& tasks, const std::vector<Method>& methods, const Options<M>& options)
+/// An observer that asks for nothing between rows: lanes are quiet without it.
+struct Nobody {
+    double sum = 0;
+    std::size_t calls = 0;
+};
+
+template <int N, class Observer, class M, class Method>
+void check_observed(const std::vector<Task<M>>& tasks, const std::vector<Method>& methods, const Options<M>& options)
 {
-    using Observer = Witness<typename M::State>;
     using Given = detail::Trajectory<M, Method, Observer>;
     std::vector<Observer> observers(tasks.size());
     std::vector<Run<M>> runs(tasks.size());
@@ -178,6 +182,14 @@ void check_abreast(const std::vector<Task<M>>& tasks, const std::vector<Method>&
         CHECK(is_same(observers[k].sum, alone.sum));
         CHECK(observers[k].calls == alone.calls);
     }
+}
+
+/// Every task by N lanes and alone: the same in every bit, and the same observed.
+template <int N, class M, class Method>
+void check_abreast(const std::vector<Task<M>>& tasks, const std::vector<Method>& methods, const Options<M>& options)
+{
+    check_observed<N, Witness<typename M::State>>(tasks, methods, options);
+    check_observed<N, Nobody>(tasks, methods, options);
 }
 
 std::vector<Task<Orbit<double>>> orbits()

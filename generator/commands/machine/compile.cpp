@@ -164,7 +164,7 @@ std::vector<std::string> vector_options()
     if (level != nullptr && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
         __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
         level = "-march=x86-64-v4";
-    if (level != nullptr && words(std::getenv("CXXFLAGS")).empty()) return {level, "-O3"};
+    if (level != nullptr && words(std::getenv("CXXFLAGS")).empty()) return {level, "-O3", "-fno-tree-slp-vectorize"};
 #endif
     return {};
 }

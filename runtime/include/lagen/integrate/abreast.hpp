@@ -7,8 +7,8 @@
 /// has ended takes the next one.
 #pragma once
 
+#include "lagen/integrate/lane_stepper.hpp"
 #include "lagen/integrate/march.hpp"
-#include "lagen/integrate/shared_steps.hpp"
 #include "lagen/series.hpp"
 
 #include <algorithm>
@@ -19,124 +19,6 @@
 #include <utility>
 
 namespace lagen::detail {
-
-/// A stepper whose lengths come from the state alone says so; that of a lane says the same.
-template <class Own>
-struct ForeseesAs {
-};
-template <class Own>
-requires requires
-{
-    Own::foresees;
-}
-struct ForeseesAs<Own> {
-    static constexpr bool foresees = true;
-};
-
-/// The stepper of one trajectory on a lane: see integrate/stepper.hpp for what is asked of a stepper.
-template <class M, class Method, int N>
-class LaneStepper : public ForeseesAs<typename Method::template Stepper<M>> {
-    using Own = typename Method::template Stepper<M>;
-    using Shared = SharedSteps<M, Method, N>;
-
-  public:
-    using Scalar = typename M::Scalar;
-    using Real = Scalar;
-    using State = typename M::State;
-    static constexpr bool adaptive = Own::adaptive;
-    static constexpr bool chooses_lengths = requires(Own own, Real h) { own.after_failure(h); };
-    static constexpr int dense_order = Own::dense_order;
-    static constexpr int error_order = [] {
-        if constexpr (adaptive) return Own::error_order;
-        return 0;
-    }();
-    static constexpr double beta_share = [] {
-        if constexpr (adaptive) return Own::beta_share;
-        return 0.0;
-    }();
-
-    template <class OnLane>
-    explicit LaneStepper(const OnLane& method) noexcept : own_(method), shared_(*method.shared), lane_(method.lane)
-    {
-    }
-
-    Status begin(const M& model, Real t, const State& s) noexcept { return own_.begin(model, t, s); }
-    /// The trajectory takes its lane.
-    void enter(const M& model, const State& s) noexcept { shared_.adopt(lane_, model, s, own_); }
-    [[nodiscard]] bool suits() const noexcept { return shared_.stepper.suits(own_); }
-
-    [[nodiscard]] Real first_step(const M& model, Real t, Real length, const State& s) noexcept
-    {
-        return own_.first_step(model, t, length, s);
-    }
-    /// An attempt was made; s1 is where it leads.
-    Status attempted(State& s1) noexcept
-    {
-        calls_ += shared_.calls;
-        has_slopes_ = false;
-        for (Eigen::Index i = 0; i < s1.size(); ++i) s1[i] = shared_.to[i][lane_];
-        return shared_.status[lane_];
-    }
-    /// So many steps were made, and count.
-    void made(std::size_t steps, State& s) noexcept
-    {
-        calls_ += steps * shared_.calls;
-        for (Eigen::Index i = 0; i < s.size(); ++i) s[i] = shared_.from[i][lane_];
-    }
-    [[nodiscard]] Real error() const noexcept { return shared_.error[lane_]; }
-    Status finish(const M&, Real, const State&) noexcept
-    {
-        calls_ += shared_.calls_at_end;
-        return shared_.finished[lane_];
-    }
-    // Of methods that choose their lengths themselves:
-    [[nodiscard]] Real after_accepted(Real h, Real error) noexcept requires chooses_lengths
-    {
-        shared_.stepper.hand_over_length(lane_, own_);
-        return own_.after_accepted(h, error);
-    }
-    [[nodiscard]] Real after_rejected(Real h, Real error) noexcept requires chooses_lengths
-    {
-        return own_.after_rejected(h, error);
-    }
-    [[nodiscard]] Real after_failure(Real h) noexcept requires chooses_lengths
-    {
-        shared_.stepper.hand_over_length(lane_, own_);
-        return own_.after_failure(h);
-    }
-    template <class Found>
-    bool split(Real h, Real last, const Found& found) const requires chooses_lengths
-    {
-        fetch();
-        return own_.split(h, last, found);
-    }
-
-    void accept() noexcept { shared_.counts[static_cast<std::size_t>(lane_)] = -1; }
-    [[nodiscard]] State derivative() const noexcept
-    {
-        fetch();
-        return own_.derivative();
-    }
-    auto interpolate(const M& model, Real t, const State& s, Real h, const State& s1, Real theta, State& out) noexcept
-    {
-        fetch();
-        return own_.interpolate(model, t, s, h, s1, theta, out);
-    }
-    [[nodiscard]] std::size_t calls() const noexcept { return own_.calls() + calls_; }
-
-  private:
-    void fetch() const noexcept
-    {
-        if (!has_slopes_) shared_.stepper.hand_over(lane_, own_);
-        has_slopes_ = true;
-    }
-
-    mutable Own own_; ///< begins the trajectory, and computes values inside its steps
-    mutable bool has_slopes_ = true;
-    Shared& shared_;
-    int lane_;
-    std::size_t calls_ = 0;
-};
 
 /// `Method` on a lane.
 template <class Method, class Shared, int N>
@@ -190,19 +72,26 @@ class Abreast {
     {
         for (;;) {
             bool busy = false;
-            for (int lane = 0; lane < N; ++lane) busy = keep_busy(lane, next, done) || busy;
-            if (!busy) return;
+            if (!all(quiet_)) {
+                for (int lane = 0; lane < N; ++lane) busy = quiet_[lane] || keep_busy(lane, next, done) || busy;
+                if (!busy) return;
+            }
             shared_->accept();
             if (hurries()) continue;
             shared_->attempt();
-            for (int lane = 0; lane < N; ++lane)
-                if (marches_[at(lane)]) conclude(lane);
+            conclude();
         }
     }
 
   private:
     using Shared = SharedSteps<M, Method, N>;
     using March = detail::March<M, OnLane<Method, Shared, N>, Observer>;
+    using Where = Mask<typename M::Scalar, N>;
+    static constexpr bool adaptive = Shared::Stepper::adaptive;
+    static constexpr bool shows = requires(Observer observer, typename M::Scalar t, const typename M::State& s)
+    {
+        observer(t, s);
+    };
     static constexpr std::size_t at(int lane) noexcept { return static_cast<std::size_t>(lane); }
 
     /// Ends what is over and begins what is next, until there is a step to attempt; false where there is none.
@@ -255,17 +144,92 @@ class Abreast {
         shared_->times[at(lane)] = march.steps_.t_from_;
         shared_->lengths[at(lane)] = attempts_[at(lane)].h;
         shared_->ends[at(lane)] = march.steps_.end_of(attempts_[at(lane)]);
-        return status == Status::ok;
+        if (status != Status::ok) return false;
+        if constexpr (adaptive)
+            if (!attempts_[at(lane)].last && march.unseen_steps() > 1) lull(lane, march);
+        return true;
+    }
+
+    // ---- quiet lanes: nothing has to be looked at, and Shared goes on with them ----
+
+    /// The lane becomes quiet, its integrator having proposed a step that is not the last one.
+    void lull(int lane, March& march) noexcept
+    {
+        auto& steps = march.steps_;
+        shared_->quiet.set_lane(lane, steps.way_, steps.h_, steps.lost_,
+                                static_cast<typename M::Scalar>(steps.method_.control().max_step));
+        steps.stepper_.lend();
+        quiet_.lanes[lane] = -1;
+        since_[at(lane)] = attempts_made_;
+        due_[at(lane)] = attempts_made_ + march.unseen_steps() - 1;
+        first_due_ = std::min(first_due_, due_[at(lane)]);
+    }
+
+    /// Its integrator stands where the lane has come to, before the attempt that was just made.
+    void wake(int lane) noexcept
+    {
+        quiet_.lanes[lane] = 0;
+        auto& steps = marches_[at(lane)]->steps_;
+        const std::size_t made = attempts_made_ - since_[at(lane)];
+        if (made == 0) return;
+        steps.stepper_.made(made, steps.from_);
+        steps.stepper_.take_back();
+        steps.t_ = steps.t_from_ = shared_->times[at(lane)];
+        steps.h_ = shared_->quiet.asked[lane];
+        steps.lost_ = shared_->quiet.lost[lane];
+        steps.steps_ += made;
+        steps.failed_length_ = 0;
+        steps.imprecise_ = steps.retry_ = false;
+        attempts_[at(lane)] = {shared_->lengths[at(lane)], false};
+    }
+
+    /// Lanes whose steps run out are not quiet.
+    void stir() noexcept
+    {
+        first_due_ = std::numeric_limits<std::size_t>::max();
+        for (int lane = 0; lane < N; ++lane) {
+            if (!quiet_[lane]) continue;
+            if (due_[at(lane)] <= attempts_made_)
+                wake(lane);
+            else
+                first_due_ = std::min(first_due_, due_[at(lane)]);
+        }
+    }
+
+    void conclude()
+    {
+        Where stays{};
+        if constexpr (adaptive) {
+            if (first_due_ <= attempts_made_) stir();
+            if (any(quiet_)) stays = shared_->go_on(quiet_);
+        }
+        if (shows || !all(stays))
+            for (int lane = 0; lane < N; ++lane) {
+                if (!marches_[at(lane)]) continue;
+                if (stays[lane]) {
+                    show(lane);
+                    continue;
+                }
+                if (quiet_[lane]) wake(lane);
+                conclude(lane);
+            }
+        ++attempts_made_;
+    }
+
+    /// To the observer of a quiet lane.
+    void show([[maybe_unused]] int lane)
+    {
+        if constexpr (shows) {
+            auto& steps = marches_[at(lane)]->steps_;
+            for (Eigen::Index i = 0; i < steps.s_.size(); ++i) steps.s_[i] = shared_->to[i][lane];
+            marches_[at(lane)]->observer_(shared_->times[at(lane)], steps.s_);
+        }
     }
 
     /// Steps of fixed length at which nothing has to be looked at, in all lanes; false where there are none.
     bool hurries()
     {
-        constexpr bool shows = requires(Observer observer, typename M::Scalar t, const typename M::State& s)
-        {
-            observer(t, s);
-        };
-        if constexpr (!Shared::Stepper::adaptive && !shows) {
+        if constexpr (!adaptive && !shows) {
             std::size_t most = std::numeric_limits<std::size_t>::max();
             std::array<typename M::Scalar, static_cast<std::size_t>(N)> lost{};
             for (int lane = 0; lane < N; ++lane) {
@@ -299,6 +263,9 @@ class Abreast {
     std::array<std::optional<March>, static_cast<std::size_t>(N)> marches_;
     std::array<typename March::Steps::Attempt, static_cast<std::size_t>(N)> attempts_{};
     std::array<Status, static_cast<std::size_t>(N)> statuses_{};
+    Where quiet_{};
+    std::array<std::size_t, static_cast<std::size_t>(N)> since_{}, due_{}; ///< by attempts_made_
+    std::size_t attempts_made_ = 0, first_due_ = std::numeric_limits<std::size_t>::max();
 };
 
 } // namespace lagen::detail

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "lagen/integrate/lanes.hpp"
+#include "lagen/integrate/step_power.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -137,53 +138,121 @@ template <class Real>
 template <class Real>
 [[nodiscard]] Real power_of_number(const Real& x, const Real& exponent) noexcept
 {
-    using std::pow;
-    return Real(pow(plain_number(x), plain_number(exponent)));
+    return Real(step_power(plain_number(x), plain_number(exponent)));
 }
 
-/// Proportional-integral control of the step [Hairer, Norsett, Wanner II.4; Hairer, Wanner IV.2].
+/// Of an error: error^(1/q - share beta), and max(error, 1e-4)^beta, which the step behind the next one asks for.
+template <class Real>
+struct ErrorPowers {
+    Real proportional, integral;
+};
+
+/// Proportional-integral control of the step [Hairer, Norsett, Wanner II.4; Hairer, Wanner IV.2]. Of a pack, that of
+/// the trajectories on its lanes.
 template <class Real>
 class Controller {
+    using Where = typename StatusOf<Real>::mask;
+
   public:
     /// `share` of beta is taken from the integral exponent: 0.75 in dopri5.f, 0.2 in dop853.f.
     Controller(const StepControl& control, int error_order, Real share) noexcept
-        : beta_(static_cast<Real>(control.beta)), safety_(static_cast<Real>(control.safety)),
-          most_(Real(1) / static_cast<Real>(control.shrink)), least_(Real(1) / static_cast<Real>(control.grow)),
-          exponent_(Real(1) / Real(error_order) - beta_ * share)
+        : integral_(static_cast<real_t<Real>>(control.beta)),
+          proportional_(Real(1) / Real(error_order) - integral_ * share),
+          safety_(static_cast<real_t<Real>>(control.safety)),
+          most_(Real(1) / static_cast<real_t<Real>>(control.shrink)),
+          least_(Real(1) / static_cast<real_t<Real>>(control.grow)), last_(powers(Real(0)).integral * safety_)
     {
+    }
+
+    [[nodiscard]] ErrorPowers<Real> powers(const Real& error) const noexcept
+    {
+        if (!remembers()) return {power_of_number(error, proportional_), Real(1)};
+        const TwoPowers<decltype(plain_number(error))> both(plain_number(error), plain_number(proportional_),
+                                                            plain_number(integral_));
+        return {Real(both.of_all), Real(both.of_large)};
     }
 
     /// The step after an accepted one with scaled error `error` <= 1.
-    [[nodiscard]] Real after_accepted(Real h, Real error) noexcept
+    [[nodiscard]] Real after_accepted(const Real& h, const Real& error) noexcept
     {
-        Real factor = power_of_number(error, exponent_);
-        if (beta_ != Real(0)) factor /= power_of_number(last_, beta_);
-        factor /= safety_;
-        factor = factor < least_ ? least_ : (factor > most_ ? most_ : factor);
-        if (rejected_ && factor < Real(1)) factor = Real(1);
-        last_ = error < Real(1e-4) ? Real(1e-4) : error;
-        rejected_ = false;
+        return after_accepted(h, powers(error));
+    }
+    [[nodiscard]] Real after_accepted(const Real& h, const ErrorPowers<Real>& error) noexcept
+    {
+        const Real next = length_after(h, error);
+        last_ = error.integral * safety_;
+        rejected_ = Where{};
+        return next;
+    }
+    /// The same before it counts.
+    [[nodiscard]] Real length_after(const Real& h, const ErrorPowers<Real>& error) const noexcept
+    {
+        Real factor = error.proportional / last_;
+        factor = select(factor < least_, least_, Real(select(factor > most_, most_, factor)));
+        factor = select(rejected_ && factor < Real(1), Real(1), factor);
         return h / factor;
     }
 
-    [[nodiscard]] Real after_rejected(Real h, Real error) noexcept
+    [[nodiscard]] Real after_rejected(const Real& h, const Real& error) noexcept
     {
-        const Real factor = power_of_number(error, exponent_) / safety_;
-        rejected_ = true;
-        return h / (factor > most_ ? most_ : factor);
+        return after_rejected(h, powers(error));
+    }
+    [[nodiscard]] Real after_rejected(const Real& h, const ErrorPowers<Real>& error) noexcept
+    {
+        const Real factor = error.proportional / safety_;
+        rejected_ = Real(0) <= Real(0);
+        return h / Real(select(factor > most_, most_, factor));
     }
 
     /// A step that could not be evaluated is halved.
-    [[nodiscard]] Real after_failure(Real h) noexcept
+    [[nodiscard]] Real after_failure(const Real& h) noexcept
     {
-        rejected_ = true;
+        rejected_ = Real(0) <= Real(0);
         return h / Real(2);
     }
 
+    // ---- of packs whose lanes are trajectories: integrate/abreast.hpp ----
+
+    /// The step counts in these lanes.
+    void accept(const Where& where, const ErrorPowers<Real>& error) noexcept requires(is_pack<Real>)
+    {
+        last_ = select(where, Real(error.integral * safety_), last_);
+        rejected_ = rejected_ && !where;
+    }
+    void set_lane(int lane, const Controller<real_t<Real>>& own) noexcept requires(is_pack<Real>)
+    {
+        integral_.set(lane, own.integral_);
+        proportional_.set(lane, own.proportional_);
+        safety_.set(lane, own.safety_);
+        most_.set(lane, own.most_);
+        least_.set(lane, own.least_);
+        last_.set(lane, own.last_);
+        rejected_.lanes[lane] = own.rejected_ ? -1 : 0;
+    }
+    /// What changes from step to step.
+    void get_lane(int lane, Controller<real_t<Real>>& own) const noexcept requires(is_pack<Real>)
+    {
+        own.last_ = last_[lane];
+        own.rejected_ = rejected_[lane];
+    }
+
   private:
-    Real beta_, safety_, most_, least_, exponent_;
-    Real last_ = Real(1e-4);
-    bool rejected_ = false;
+    template <class>
+    friend class Controller;
+
+    /// Is there an integral part? Without it the powers of last errors are 1.
+    [[nodiscard]] bool remembers() const noexcept
+    {
+        if constexpr (is_pack<Real>)
+            return any(integral_ != Real(0));
+        else
+            return integral_ != Real(0);
+    }
+
+    Real integral_, proportional_; ///< exponents
+    Real safety_, most_, least_;
+    Real last_; ///< power of the error of the last accepted step, times `safety_`
+    Where rejected_{};
 };
 
 /// A first step from the sizes of s, f and a difference of f [Hairer, Norsett, Wanner II.4, algorithm of hinit], signed

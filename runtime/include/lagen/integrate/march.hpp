@@ -110,12 +110,12 @@ class March {
         return Status::ok;
     }
 
-    /// How many steps may be made before something has to be looked at; of adaptive ones, and near the end, one.
+    /// How many steps may be made before something has to be looked at; of fixed length near the end, one.
     [[nodiscard]] std::size_t unseen_steps() const noexcept
     {
         const std::size_t tried = steps_.steps_ + steps_.rejected_;
         const std::size_t most = looks_ || tried >= limit_ ? 1 : limit_ - tried;
-        return Stepper::adaptive ? 1 : steps_.way_.steps_inside(steps_.h_, steps_.t_, most);
+        return Stepper::adaptive ? most : steps_.way_.steps_inside(steps_.h_, steps_.t_, most);
     }
 
     /// Steps until something has to be looked at. The loop has no other way on than accepted steps, so that a compiler

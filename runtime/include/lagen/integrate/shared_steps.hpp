@@ -3,7 +3,9 @@
 #pragma once
 
 #include "lagen/ensemble/pack.hpp"
+#include "lagen/integrate/control.hpp"
 #include "lagen/integrate/packed_stages.hpp"
+#include "lagen/integrate/quiet_ways.hpp"
 #include "lagen/integrate/states.hpp"
 
 #include <array>
@@ -28,13 +30,15 @@ struct SharedSteps {
     using Stepper = typename Method::template Stepper<Model>;
     using State = typename Model::State;
     static constexpr auto lanes = static_cast<std::size_t>(N);
+    static constexpr bool foresees = requires { Stepper::foresees; };
 
     explicit SharedSteps(const Method& method) noexcept : stepper(method) {}
 
     /// A trajectory of `own`, the stepper of it alone, begins on a lane; the first one on all, so that none computes
     /// with nothing.
     template <class Own>
-    void adopt(int lane, const M& own_model, const typename M::State& s, const Own& own) noexcept
+    void adopt(int lane, const M& own_model, const typename M::State& s, const Own& own,
+               const Controller<Real>& own_controller) noexcept
     {
         if constexpr (!std::is_empty_v<M>) {
             M copy = own_model;
@@ -45,6 +49,7 @@ struct SharedSteps {
         if (empty) to = from = State::Zero(s.size());
         for (int i = empty ? 0 : lane; i <= (empty ? N - 1 : lane); ++i) {
             stepper.adopt(i, own);
+            controller.set_lane(i, own_controller);
             for (Eigen::Index k = 0; k < s.size(); ++k) from[k].set(i, s[k]);
         }
         counts[static_cast<std::size_t>(lane)] = 0;
@@ -62,8 +67,17 @@ struct SharedSteps {
         counts.fill(0);
     }
 
-    /// The next step of all of them.
+    /// The next step of all of them. Of small models with everything in one function, so that what the stages have in
+    /// common, as the reciprocals of parameters, is computed once.
     void attempt() noexcept
+    {
+        if constexpr (M::dimension > 0 && M::dimension <= 8)
+            attempt_in_one();
+        else
+            attempt_by_calls();
+    }
+    [[gnu::flatten]] void attempt_in_one() noexcept { attempt_by_calls(); }
+    void attempt_by_calls() noexcept
     {
         const P begin(times), length(lengths);
         const std::size_t before = stepper.calls();
@@ -71,9 +85,28 @@ struct SharedSteps {
         calls = stepper.calls() - before;
         if constexpr (Stepper::adaptive) {
             error = stepper.error();
+            if constexpr (!foresees) powers = controller.powers(error);
             finished = stepper.finish(model, P(ends), to);
         }
         calls_at_end = stepper.calls() - before - calls;
+    }
+
+    /// Takes the attempt in the lanes that are quiet, where it counts and is followed by another one at which nothing
+    /// has to be looked at. Answers where that is so.
+    Mask<Real, N> go_on(const Mask<Real, N>& quiet_lanes) noexcept
+    {
+        const P h(lengths), t1(ends);
+        const auto good = StatusOf<P>::first(StatusOf<P>::first(status, finished), domain_status(model, t1, to));
+        P next;
+        if constexpr (foresees)
+            next = stepper.after_accepted(abs(h), error);
+        else
+            next = quiet.uncut(abs(h), controller.length_after(abs(h), powers));
+        const Mask<Real, N> stays =
+            quiet.go_on(quiet_lanes && is_good<P>(good) && error <= P(1), next, times, lengths, ends);
+        if constexpr (!foresees) controller.accept(stays, powers);
+        std::memcpy(counts.data(), &stays, sizeof stays);
+        return stays;
     }
 
     /// Up to `most` steps of fixed length in all lanes, as long as none fails; `lost` are the rounding errors of their
@@ -108,6 +141,9 @@ struct SharedSteps {
     std::array<typename IntegerOf<sizeof(Real)>::type, lanes> counts{}; ///< -1: the lane's last step was accepted
     PackStatus<N> status, finished;
     P error;
+    Controller<P> controller{StepControl{}, 5, P(0)};
+    ErrorPowers<P> powers{};
+    QuietWays<Real, N> quiet;
     std::size_t calls = 0, calls_at_end = 0; ///< of one attempt, and of finish
     bool empty = true;
 };

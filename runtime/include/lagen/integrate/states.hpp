@@ -25,6 +25,21 @@ domain_status([[maybe_unused]] const M& model, [[maybe_unused]] const step_time_
     return status;
 }
 
+/// Where a status is good, a lane.
+template <class Scalar>
+[[nodiscard]] typename StatusOf<Scalar>::mask is_good(const status_t<Scalar>& status) noexcept
+{
+    if constexpr (is_pack<Scalar>) {
+        typename StatusOf<Scalar>::mask good = Scalar(0) <= Scalar(0);
+        if (StatusOf<Scalar>::all_good(status)) [[likely]]
+            return good;
+        for (int lane = 0; lane < RealOf<Scalar>::lanes; ++lane) good.lanes[lane] = status[lane] == Status::ok ? -1 : 0;
+        return good;
+    } else {
+        return status == Status::ok;
+    }
+}
+
 /// Failures of lanes are kept in `lanes`; a failure of every lane is one of the step.
 template <class Scalar>
 Status settle(status_t<Scalar>& lanes, const status_t<Scalar>& status) noexcept

@@ -149,7 +149,7 @@ class TaylorStepper {
     /// As long as the series at its beginning allows; without a bound, ten times as long as the last one.
     [[nodiscard]] Real after_accepted(Real h, Real) noexcept
     {
-        return next().length < unbounded() ? next().length : Real(10) * h;
+        return select(next().length < Real(unbounded()), next().length, Real(Real(10) * h));
     }
     [[nodiscard]] Real after_rejected(Real h, Real error) noexcept
     {

@@ -5,6 +5,7 @@
 
 #include "lagen/integrate/control.hpp"
 #include "lagen/integrate/lanes.hpp"
+#include "lagen/integrate/states.hpp"
 #include "lagen/series.hpp"
 
 #include <algorithm>
@@ -149,19 +150,6 @@ template <class Scalar, class F, class... Given>
         return result;
     } else {
         return f(given...);
-    }
-}
-
-/// Where a status is good, a lane.
-template <class Scalar>
-[[nodiscard]] typename StatusOf<Scalar>::mask is_good(const status_t<Scalar>& status) noexcept
-{
-    if constexpr (is_pack<Scalar>) {
-        typename StatusOf<Scalar>::mask good{};
-        for (int lane = 0; lane < RealOf<Scalar>::lanes; ++lane) good.lanes[lane] = status[lane] == Status::ok ? -1 : 0;
-        return good;
-    } else {
-        return status == Status::ok;
     }
 }
 
