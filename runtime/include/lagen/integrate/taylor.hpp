@@ -78,9 +78,10 @@ class TaylorStepper {
         Row slope;
         detail::PolynomialSums<Real, lanes, true>(x, order_, step)
             .each([&]<class Part>(Part, const auto& move, const auto& sloping) __attribute__((always_inline)) {
-                const auto change = step * move + Part::load(kept_);
-                const auto from = Part::load(s), end = from + change;
-                const auto moved = end - from; // exact whichever of the two is larger [Knuth 1997, 4.2.2]
+                using Register = typename Part::Register;
+                const Register change = step * move + Part::load(kept_);
+                const Register from = Part::load(s), end = from + change;
+                const Register moved = end - from; // exact whichever of the two is larger [Knuth 1997, 4.2.2]
                 Part::store(s1, end);
                 Part::store(lost_, (from - (end - moved)) + (change - moved));
                 Part::store(slope, sloping);

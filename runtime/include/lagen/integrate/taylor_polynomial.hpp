@@ -87,7 +87,7 @@ class PolynomialSums {
     {
         if constexpr (with_slope) {
             high_slope_ = S(order) * high_;
-            low_slope_ = is_even ? S(order - 1) * low_ : high_slope_;
+            low_slope_ = is_even ? Register(S(order - 1) * low_) : high_slope_;
         }
         if (!is_even) high_ = high_slope_ = Register{};
     }
