@@ -32,11 +32,14 @@ class SeriesPrinter {
                                                                                               fresh("squares"),
                                                                                               fresh("lower_squares"),
                                                                                               {}},
-          share_(fresh("share")), next_(fresh("next")), unit_(fresh("unit"))
+          share_(fresh("share")), next_(fresh("next")), unit_(fresh("unit")),
+          carries_(is_rate_ && lanes_ <= most_carried)
     {
         find_terms();
         name_late(series_.order, fmt::format("S({})", k_));
-        for (std::size_t i = 0; i < lanes_; ++i) name_late(series_.curve[i], fmt::format("{}[{}][{}]", x_, k_, i));
+        if (carries_) now_ = fresh("now"), after_ = fresh("after");
+        const std::string row = carries_ ? now_ : fmt::format("{}[{}]", x_, k_);
+        for (std::size_t i = 0; i < lanes_; ++i) name_late(series_.curve[i], fmt::format("{}[{}]", row, i));
         name_late(series_.curve[lanes_], fmt::format("({} == 1 ? {} : S(0))", k_, unit_));
         sort_pairs();
         for (const auto* group : {&products_, &squares_})
@@ -96,6 +99,10 @@ class SeriesPrinter {
         std::vector<std::size_t> groups; ///< the sums
         std::vector<TermOperand> series; ///< the factors, each once
     };
+
+    /// A row of so many coefficients stays in registers from one order to the next: read back from memory, each of them
+    /// waits for its store.
+    static constexpr std::size_t most_carried = 8;
 
     [[nodiscard]] const AlikeTerms& group_of(std::size_t k) const { return terms_.groups.groups[k]; }
 
@@ -245,6 +252,7 @@ class SeriesPrinter {
         for (const Sums* sums : {&products_, &squares_})
             if (!sums->pairs.empty())
                 out_.line(fmt::format("{}<S, {}, most> {};", sums->type, sums->pairs.size(), sums->object));
+        if (carries_) out_.line(fmt::format("auto {0} = {1}[1], {2} = {0};", now_, x_, after_));
         out_.line(fmt::format("for (int {0} = 1; {0} {2} {1}; ++{0}) {{", k_, order_, is_rate_ ? "<" : "<="));
         out_.indent(1);
         for (const Sums* sums : {&products_, &squares_})
@@ -264,7 +272,7 @@ class SeriesPrinter {
             if (place >= outputs_)
                 factors[place - outputs_] = spell(value).text;
             else if (is_rate_)
-                out_.line(fmt::format("{}[{} + 1][{}] = {};", y_, k_, place,
+                out_.line(fmt::format("{}[{}] = {};", carries_ ? after_ : fmt::format("{}[{} + 1]", y_, k_), place,
                                       spell(operation(Op::multiply, variable(next_), value)).text));
             else
                 out_.line(fmt::format("{}[{}][{}] = {};", y_, k_, place, spell(value).text));
@@ -273,6 +281,7 @@ class SeriesPrinter {
         keep(squares_, 1, factors);
         std::size_t used = 2 * single_.size();
         for (const TermSums& sums : term_sums_) keep(sums, factors, used);
+        if (carries_) out_.line(fmt::format("{}[{} + 1] = {} = {};", x_, k_, now_, after_));
         close_block(out_);
     }
 
@@ -338,8 +347,10 @@ class SeriesPrinter {
     std::size_t outputs_, lanes_;
     std::string x_, y_, order_, k_;
     Sums products_, squares_;
-    std::string share_, next_;        ///< 1/k, and unit/(k + 1)
-    std::string unit_;                ///< of time
+    std::string share_, next_; ///< 1/k, and unit/(k + 1)
+    std::string unit_;         ///< of time
+    bool carries_;             ///< the row of order k, and that of order k + 1
+    std::string now_, after_;
     std::vector<std::size_t> single_; ///< pairs of sums that are in no group
     std::vector<TermSums> term_sums_; ///< by the number of lanes
     BodyTerms terms_;

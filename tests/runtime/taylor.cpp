@@ -60,6 +60,39 @@ TEST_CASE("sums over lower orders are the products of series, in any number, in 
     check_all(1.0L, std::make_integer_sequence<int, 3>{});
 }
 
+TEST_CASE("Taylor polynomials and their slopes, of any number of functions and any order, in every scalar")
+{
+    const auto check = []<class S, int count>(S, std::integral_constant<int, count>) {
+        TaylorSeries<S, count, 9> x;
+        for (int k = 0; k <= 9; ++k)
+            for (int i = 0; i < count; ++i) x[k][static_cast<std::size_t>(i)] = S((5 * k + 3 * i) % 11 - 5);
+        for (int order = 2; order <= 9; ++order) {
+            std::array<S, count> sums{}, slopes{};
+            detail::PolynomialSums<S, count, true>(x, order, S(3))
+                .each([&]<class Part>(Part, const auto& sum, const auto& slope) {
+                    Part::store(sums, sum);
+                    Part::store(slopes, slope);
+                });
+            for (std::size_t i = 0; i < count; ++i) {
+                S sum = S(0), slope = S(0), power = S(1); // of whole numbers: exact
+                for (int k = 1; k <= order; ++k, power *= S(3)) {
+                    sum += x[k][i] * power;
+                    slope += S(k) * x[k][i] * power;
+                }
+                REQUIRE(sums[i] == sum);
+                REQUIRE(slopes[i] == slope);
+            }
+        }
+    };
+    const auto check_all = [&]<int... count>(auto scalar, std::integer_sequence<int, count...>)
+    {
+        (check(scalar, std::integral_constant<int, count + 1>{}), ...);
+    };
+    check_all(1.0F, std::make_integer_sequence<int, 20>{});
+    check_all(1.0, std::make_integer_sequence<int, 20>{});
+    check_all(1.0L, std::make_integer_sequence<int, 3>{});
+}
+
 TEST_CASE("Taylor's method of order p has order p")
 {
     using Real = long double;

@@ -7,6 +7,7 @@
 #include "lagen/integrate/control.hpp"
 #include "lagen/integrate/expansion.hpp"
 #include "lagen/integrate/states.hpp"
+#include "lagen/integrate/taylor_polynomial.hpp"
 
 #include <algorithm>
 #include <array>
@@ -74,21 +75,17 @@ class TaylorStepper {
         const Real step = h / here().unit;
         if constexpr (HasDomain<M>) begins_ = {t, s};
         leaves_at_ = Real(0);
-        Row move = x[order_], slope;
-        for (std::size_t i = 0; i < lanes; ++i) slope[i] = Real(order_) * x[order_][i];
-        for (int k = order_ - 1; k > 0; --k)
-            for (std::size_t i = 0; i < lanes; ++i) {
-                move[i] = x[k][i] + step * move[i];
-                slope[i] = Real(k) * x[k][i] + step * slope[i];
-            }
-        for (std::size_t i = 0; i < lanes; ++i) {
-            const auto lane = static_cast<Eigen::Index>(i);
-            const Real change = step * move[i] + kept_[i];
-            const Real from = s[lane];
-            s1[lane] = from + change;
-            const Real moved = s1[lane] - from; // exact whichever of the two is larger [Knuth 1997, 4.2.2]
-            lost_[i] = (from - (s1[lane] - moved)) + (change - moved);
-        }
+        Row slope;
+        detail::PolynomialSums<Real, lanes, true>(x, order_, step)
+            .each([&]<class Part>(Part, const auto& move, const auto& sloping) __attribute__((always_inline)) {
+                using Register = typename Part::Register;
+                const Register change = step * move + Part::load(kept_);
+                const Register from = Part::load(s), end = from + change;
+                const Register moved = end - from; // exact whichever of the two is larger [Knuth 1997, 4.2.2]
+                Part::store(s1, end);
+                Part::store(lost_, (from - (end - moved)) + (change - moved));
+                Part::store(slope, sloping);
+            });
         next().unit = here().next_unit();
         auto status = expand(model, t + h, s1, next());
         if (Expansion::fails(status)) return status;
@@ -176,13 +173,10 @@ class TaylorStepper {
     {
         const Series& x = here().motion;
         const Real step = theta * h / here().unit;
-        Row move = x[order_];
-        for (int k = order_ - 1; k > 0; --k)
-            for (std::size_t i = 0; i < lanes; ++i) move[i] = x[k][i] + step * move[i];
-        for (std::size_t i = 0; i < lanes; ++i) {
-            const auto lane = static_cast<Eigen::Index>(i);
-            out[lane] = s[lane] + (step * move[i] + kept_[i]);
-        }
+        detail::PolynomialSums<Real, lanes, false>(x, order_, step)
+            .each([&]<class Part>(Part, const auto& move, const auto&) __attribute__((always_inline)) {
+                Part::store(out, Part::load(s) + (step * move + Part::load(kept_)));
+            });
         return detail::check_finite(out);
     }
 

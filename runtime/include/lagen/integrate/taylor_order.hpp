@@ -209,7 +209,7 @@ struct TaylorLength {
         int found = 0;
         const auto look = [&](const Number& size) {
             if (size > Number(0) && found < 2) {
-                steepest = std::max(steepest, rough_logarithm(size) / k);
+                steepest = std::max(steepest, rough_logarithm(size) * (1.0 / k));
                 ++found;
             }
             --k;
