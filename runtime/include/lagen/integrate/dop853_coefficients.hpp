@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-/// DOP853, the 8(5,3) pair with dense output of order 7 of Dormand and Prince as Hairer, Norsett and Wanner published it
-/// [Solving Ordinary Differential Equations I, II.10; code dop853.f], to the digits that the order conditions give: the
-/// published ones, of which 26 to 30 are right, moved as little as those conditions ask for.
+/// DOP853, the 8(5,3) pair with dense output of order 7 of Dormand and Prince as Hairer, Norsett and Wanner published
+/// it [Solving Ordinary Differential Equations I, II.10; code dop853.f], to the digits that the order conditions give:
+/// the published ones, of which 26 to 30 are right, moved as little as those conditions ask for.
 /// Written by scripts/tableaus from scripts/coefficients/dop853.txt; what each array is: tableau.hpp.
 #pragma once
 
