@@ -41,6 +41,7 @@ const CommandSyntax sweep_syntax{
      {"form", "FORM", sweep_form_help.c_str()},
      {"method", "METHOD", "see `lagen methods`; without it the scene's, else dop853"},
      {"step", "H", "step of a fixed-step method"},
+     {"time-scale", "EXPR", "of a splitting: steps of H times this function of the state, as in `lagen run`"},
      {"tolerance", "TOL", "relative and absolute tolerance of an adaptive method; without it the scene's, else 1e-10"},
      {"t-end", "T", "end of each run; without it the scene's duration"},
      {"unchecked", nullptr, "go on although the model is refuted"}}};
@@ -64,7 +65,7 @@ SweepIdentity identity_of(const Options& options, const Model& model, const Swee
     ContentHash hash;
     add_model(hash, model);
     hash.add(LAGEN_VERSION).add(rows.text).add(heading);
-    for (const char* name : {"scene", "form", "method", "step", "tolerance", "t-end", "unchecked"})
+    for (const char* name : {"scene", "form", "method", "step", "time-scale", "tolerance", "t-end", "unchecked"})
         hash.add(options.has(name) ? name : "").add(options.get(name));
     for (const auto& [name, value] : options.given())
         if (name == "set" || name == "initial" || name == "bind") hash.add(name).add(value);

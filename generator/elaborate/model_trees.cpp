@@ -81,8 +81,10 @@ std::vector<Tree> all_trees(const Model& model, const WrittenAlgebroid& algebroi
     append_built(trees, model, algebroid);
     for (const std::vector<NamedTree>* list : {&model.invariants, &model.observables})
         for (const NamedTree& entry : *list) trees.push_back(entry.value);
-    for (const Scene& scene : model.scenes)
+    for (const Scene& scene : model.scenes) {
         for (const Event& event : scene.events) trees.push_back(event.when);
+        if (scene.time_scale != nullptr) trees.push_back(scene.time_scale);
+    }
     return trees;
 }
 

@@ -54,7 +54,7 @@ class ModelValues {
         add(scene.parameters);
         add(scene.initial);
         add(std::vector{scene.start, scene.duration, scene.step, scene.tolerance, scene.relative, scene.absolute,
-                        scene.sampling.interval});
+                        scene.time_scale, scene.sampling.interval});
         add(scene.sampling.at);
         if (scene.observe) add(*scene.observe);
         for (const Event& event : scene.events) add(event.when);

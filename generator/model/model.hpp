@@ -146,6 +146,8 @@ struct Scene {
     std::string method; ///< empty: the default for the form
     SourceRange method_where;
     Tree step, tolerance, relative, absolute; ///< null where absent
+    Tree time_scale; ///< of the steps of a splitting, over everything observable; null where absent
+    SourceRange time_scale_where;
     Sampling sampling;
     std::optional<std::vector<NamedTree>> observe; ///< absent: all states
     std::optional<StateColumns> states;            ///< where "state" stands in `observe`

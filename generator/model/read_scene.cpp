@@ -100,6 +100,11 @@ void read_numbers(const ModelReader& reader, Scene& scene, TableReader& table)
     take("start", scene.start);
     take("duration", scene.duration);
     take("step", scene.step);
+    if (const TomlEntry* entry = table.take("time_scale")) {
+        const std::string what = fmt::format("'time_scale' of scene '{}'", scene.name);
+        scene.time_scale = reader.observer.close(read_expression(entry->value, what));
+        scene.time_scale_where = entry->value.where;
+    }
     Tree tolerance, relative, absolute;
     const bool one = take("tolerance", tolerance);
     const bool has_relative = take("relative", relative);

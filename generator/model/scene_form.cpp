@@ -83,6 +83,8 @@ void require_no_controls(const Model& model, const Scene& scene, const std::stri
     for (const Event& event : scene.events)
         if (const std::string control = control_in(event.when); !control.empty())
             refuse_control(fmt::format("event '{}' of scene '{}'", event.name, scene.name), control, form, event.where);
+    if (const std::string control = control_in(scene.time_scale); !control.empty())
+        refuse_control(fmt::format("the time scale of scene '{}'", scene.name), control, form, scene.time_scale_where);
 }
 
 /// A costate follows from no velocity: sigma gives y for each (x, u), and u is what is sought.

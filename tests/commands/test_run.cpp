@@ -11,6 +11,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 
 using namespace lagen::testing;
 namespace json = lagen::json;
@@ -264,4 +265,36 @@ TEST_CASE("--time-scale makes reversible steps, with the published error of an e
                                    "r^(3/2)", "--t-end", "200*pi", "--at", "0,200*pi"});
     CHECK(number(value["invariants"]["energy"]["max_drift"]) == Approx(8.921e-4).epsilon(1e-4));
     CHECK(number(value["steps"]) / 100 == Approx(136).epsilon(4e-3));
+}
+
+TEST_CASE("a scene's time_scale is that of --time-scale, in runs and in sweeps", "[run]")
+{
+    const std::string folder = fresh_folder();
+    write_text(folder + "/kepler.toml",
+               read_text(models_folder() + "/kepler.toml") +
+                   "\n[scene.steady]\nlike = 'default'\nmethod = 'leapfrog_kdk'\nstep = 0.05\nduration = 9\n"
+                   "time_scale = 'r^(3/2)'\n\n[scene.even]\nlike = 'steady'\ntime_scale = 1\n");
+    const auto rows = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {"run", "kepler.toml", "--at", "9", "--t-end", "9"});
+        const Outcome outcome = call(more, {.folder = folder});
+        INFO(outcome.err);
+        CHECK(outcome.code == 0);
+        return outcome.out;
+    };
+    const std::string steady = rows({"--scene", "steady"});
+    CHECK(steady == rows({"--method", "leapfrog_kdk", "--step", "0.05", "--time-scale", "r^(3/2)"}));
+    CHECK(steady == rows({"--scene", "even", "--time-scale", "r^(3/2)"}));
+    for (const std::vector<std::string>& swept :
+         {std::vector<std::string>{"--scene", "steady"}, {"--scene", "even", "--time-scale", "r^(3/2)"}}) {
+        std::vector<std::string> arguments{"sweep", "kepler.toml", "--set", "eccentricity=0.6:0.7:2", "-o", "s.csv"};
+        arguments.insert(arguments.end(), swept.begin(), swept.end());
+        CHECK(call(arguments, {.folder = folder}).code == 0);
+        const std::string state = steady.substr(steady.find("\r\n9,") + 2); // "9,x,y,u,v\r\n"
+        CHECK_THAT(read_text(folder + "/s.csv"), Catch::Contains("0,0.6," + state.substr(0, state.size() - 2) + ","));
+        std::filesystem::remove(folder + "/s.csv");
+    }
+    const Outcome pair = call({"run", "kepler.toml", "--scene", "steady", "--method", "dop853"}, {.folder = folder});
+    CHECK(pair.code == 0);
+    CHECK_THAT(pair.err, Catch::StartsWith("warning: time_scale of scene 'steady' is not used: dop853 is no symmetric "
+                                           "splitting\n"));
 }

@@ -97,25 +97,53 @@ Wide worst_slope()
     return worst;
 }
 
+/// The weights have this order, and miss a condition of the next one by more than `least`.
+template <class Tableau>
+void check_order(const Weights& weights, std::size_t order, double least)
+{
+    const Weights a = numbers(Tableau::a);
+    CHECK(worst_residual(a, weights, 1, order) < exact_to);
+    CHECK(worst_residual(a, weights, order + 1, order + 1) > least);
+}
+
+/// Both formulas, the nodes, and the weights inside the step, that of theta being `inside(theta)`.
+template <class Tableau, class Error, class Inside>
+void check_orders(const Error& error, const Inside& inside)
+{
+    const Weights b = row_of(Tableau::a, Tableau::end);
+    constexpr std::size_t d = Tableau::dense_order;
+    check_order<Tableau>(b, Tableau::order, 1e-8);
+    check_order<Tableau>(minus(b, numbers(error)), Tableau::embedded_order, 1e-7);
+    for (std::size_t i = 0; i < Tableau::dense_stages; ++i)
+        CHECK(abs(sum(row_of(Tableau::a, i)) - Tableau::c[i].template as<Wide>()) < exact_to);
+    const Weights a = numbers(Tableau::a);
+    for (int k = 1; k < 8; ++k) CHECK(worst_residual(a, inside(Wide(k) / 8), 1, d, Wide(k) / 8) < exact_to);
+    CHECK(worst_residual(a, inside(Wide(0.5)), d + 1, d + 1, Wide(0.5)) > 1e-9);
+    CHECK(largest(minus(inside(Wide(1)), b)) < exact_to);
+}
+
 template <class Tableau>
 void check_pair()
 {
-    const Weights a = numbers(Tableau::a), b = row_of(Tableau::a, Tableau::end);
-    constexpr std::size_t p = Tableau::order, q = Tableau::embedded_order, d = Tableau::dense_order;
-    CHECK(worst_residual(a, b, 1, p) < exact_to);
-    CHECK(worst_residual(a, b, p + 1, p + 1) > 1e-8);
-    const Weights embedded = minus(b, numbers(Tableau::error));
-    CHECK(worst_residual(a, embedded, 1, q) < exact_to);
-    CHECK(worst_residual(a, embedded, q + 1, q + 1) > 1e-7);
-    for (std::size_t i = 0; i < Tableau::dense_stages; ++i)
-        CHECK(abs(sum(row_of(Tableau::a, i)) - Tableau::c[i].template as<Wide>()) < exact_to);
-    for (int k = 1; k < 8; ++k) {
-        const Wide theta = Wide(k) / 8;
-        CHECK(worst_residual(a, weights_at<Tableau>(theta), 1, d, theta) < exact_to);
-    }
-    CHECK(worst_residual(a, weights_at<Tableau>(Wide(0.5)), d + 1, d + 1, Wide(0.5)) > 1e-9);
-    CHECK(largest(minus(weights_at<Tableau>(1), b)) < exact_to);
+    check_orders<Tableau>(Tableau::error, weights_at<Tableau>);
     CHECK(worst_slope<Tableau>() < exact_to * 1000);
+}
+
+/// The weights of the 16 stages in Hairer's nested form, as in dop853.hpp.
+Weights nested_weights(const Wide& theta)
+{
+    using Table = tableau::Dop853;
+    Weights b = row_of(Table::a, Table::end), weights(Table::dense_stages);
+    b.resize(Table::dense_stages);
+    const Wide rest = 1 - theta;
+    for (std::size_t i = 0; i < Table::dense_stages; ++i) {
+        const Wide first = i == 0 ? 1 : 0, last = i == Table::end ? 1 : 0;
+        const auto of = [i](const auto& row) { return row[i].template as<Wide>(); };
+        Wide sum = rest * (of(Table::dense6) + theta * of(Table::dense7));
+        sum = rest * (of(Table::dense4) + theta * (of(Table::dense5) + sum));
+        weights[i] = theta * (b[i] + rest * (first - b[i] + theta * (2 * b[i] - first - last + sum)));
+    }
+    return weights;
 }
 
 template <class Tableau>
@@ -178,6 +206,32 @@ TEST_CASE("Verner's pairs have their orders, their embedded formulas and their i
     check_pair<tableau::Verner76>();
     check_pair<tableau::Verner87>();
     check_pair<tableau::Verner98>();
+}
+
+TEST_CASE("DOP853 has order 8, its embedded formulas order 5 and 3, its dense output order 7")
+{
+    using Table = tableau::Dop853;
+    check_orders<Table>(Table::error5, nested_weights);
+    check_order<Table>(minus(row_of(Table::a, Table::end), numbers(Table::error3)), 3, 1e-4);
+    const Wide root = sqrt(Wide(6));
+    CHECK(abs(Table::c[1].as<Wide>() - (12 - 2 * root) / 135) < exact_to);
+    CHECK(abs(Table::c[4].as<Wide>() - (6 + root) / 30) < exact_to);
+}
+
+TEST_CASE("The digits of DOP853 are the published ones")
+{
+    using Table = tableau::Dop853;
+    const auto agrees = [](const lagen::Coefficient& made, const char* published) {
+        return abs(made.as<Wide>() - Wide(published)) < abs(Wide(published)) * Wide("1e-25");
+    };
+    CHECK(agrees(Table::a[66], "5.42937341165687622380535766363e-2"));
+    CHECK(agrees(Table::a[9 * 8 / 2], "0.477662536438264365890433908527"));
+    CHECK(agrees(Table::a[13 * 12 / 2 + 12], "-0.008298"));
+    CHECK(agrees(Table::a[15 * 14 / 2 + 14], "-9.15095847217987001081870187138"));
+    CHECK(agrees(Table::error5[0], "0.1312004499419488073250102996e-1"));
+    CHECK(agrees(Table::error3[11], "0.0226517921983608258118062039631"));
+    CHECK(agrees(Table::dense5[7], "-0.37454675472269020279518312152e+3"));
+    CHECK(agrees(Table::dense7[15], "-0.14972683625798562581422125276e+3"));
 }
 
 TEST_CASE("There are 1, 1, 2, 3, 6, 10, 20, 36, 72, 137 trees of x'' = f(t, x), 1, 2, 6, 18, 60 with f(t, x, x')")

@@ -61,42 +61,10 @@ long double worst_row_sum()
     return worst;
 }
 
-std::vector<long double> weights_853()
-{
-    const auto a = numbers(tableau::Dop853::a);
-    return {a.begin() + 66, a.begin() + 78};
-}
-
-/// b minus an error row.
-template <class Row>
-std::vector<long double> embedded_853(const Row& error)
-{
-    auto weights = weights_853();
-    for (std::size_t i = 0; i < error.size(); ++i) weights[i] -= number(error[i]);
-    return weights;
-}
-
 template <std::size_t... i>
 std::vector<long double> interpolated_tsit5(long double theta, std::index_sequence<i...>)
 {
     return {lagen::detail::interpolant_weight<tableau::Tsit5, i>(theta)...};
-}
-
-/// The weights of Hairer's nested form (dop853.hpp), of the 16 stages.
-std::vector<long double> interpolated_853(long double theta)
-{
-    auto b = weights_853();
-    b.resize(16);
-    std::vector<long double> weights(16);
-    const long double rest = 1 - theta;
-    for (std::size_t i = 0; i < 16; ++i) {
-        const long double first = i == 0 ? 1 : 0, last = i == 12 ? 1 : 0, bend = first - b[i];
-        const auto of = [&](const auto& row) { return i < row.size() ? number(row[i]) : 0; };
-        long double sum = rest * (of(tableau::Dop853::dense6) + theta * of(tableau::Dop853::dense7));
-        sum = rest * (of(tableau::Dop853::dense4) + theta * (of(tableau::Dop853::dense5) + sum));
-        weights[i] = theta * (b[i] + rest * (bend + theta * (b[i] - last - bend + sum)));
-    }
-    return weights;
 }
 
 } // namespace
@@ -154,26 +122,4 @@ TEST_CASE("Tsitouras 5(4) has order 5, its embedded formula and its free interpo
         const long double theta = static_cast<long double>(k) / 8;
         CHECK(worst_residual(a, interpolated_tsit5(theta, std::make_index_sequence<7>{}), 1, 4, theta) < 3e-16L);
     }
-}
-
-TEST_CASE(
-    "DOP853 satisfies all 200 order conditions up to order 8, its embedded formulas those of order 5 and 3, its dense "
-    "output those of order 7")
-{
-    const auto a = numbers(tableau::Dop853::a);
-    CHECK(worst_residual(a, weights_853(), 1, 8) < 1e-16L);
-    CHECK(worst_residual(a, weights_853(), 9, 9) > 1e-7L);
-    CHECK(worst_row_sum<tableau::Dop853>() < 1e-17L);
-    CHECK(worst_residual(a, embedded_853(tableau::Dop853::error5), 1, 5) < 1e-16L);
-    CHECK(worst_residual(a, embedded_853(tableau::Dop853::error5), 6, 6) > 1e-6L);
-    CHECK(worst_residual(a, embedded_853(tableau::Dop853::error3), 1, 3) < 1e-16L);
-    CHECK(worst_residual(a, embedded_853(tableau::Dop853::error3), 4, 4) > 1e-4L);
-    for (int k = 1; k <= 8; ++k) {
-        const long double theta = static_cast<long double>(k) / 8;
-        CHECK(worst_residual(a, interpolated_853(theta), 1, 7, theta) < 1e-16L);
-    }
-    CHECK(worst_residual(a, interpolated_853(0.5L), 8, 8, 0.5L) > 1e-7L);
-    const long double root = std::sqrt(6.0L);
-    CHECK(std::abs(number(tableau::Dop853::c[1]) - (12 - 2 * root) / 135) < 1e-19L);
-    CHECK(std::abs(number(tableau::Dop853::c[4]) - (6 + root) / 30) < 1e-19L);
 }

@@ -56,7 +56,7 @@ TEST_CASE("functions of 113 bits are those of a scalar")
     CHECK(Quad(1) + epsilon / 2 == Quad(1));
 }
 
-TEST_CASE("pairs in 113 bits follow a rigid body to the 19 digits that their tolerance asks for")
+TEST_CASE("pairs in 113 bits follow a rigid body to the digits that their tolerance asks for")
 {
     const lagen::json::Value exact =
         lagen::json::read_file(LAGEN_SOURCE_DIR "/tests/data/continuous/rigid_body_near_axis1.json");
@@ -67,17 +67,18 @@ TEST_CASE("pairs in 113 bits follow a rigid body to the 19 digits that their tol
     body.parameters.I3 = decimal("3.4");
     Body::State start;
     for (int i = 0; i < 3; ++i) start[i] = decimal(exact["initial_state"][static_cast<std::size_t>(i)].text);
-    const auto ends_there = [&](const auto& method) {
+    const auto ends_there = [&](const auto& method, double error) {
         const auto run = lagen::integrate(body, start, {Quad(0), Quad(20)}, method);
         REQUIRE(run);
         for (int i = 0; i < 3; ++i) {
             const Quad wanted = decimal(exact["final_state"][static_cast<std::size_t>(i)].text);
-            CHECK(distance(run.state[i], wanted) < 1e-19);
+            CHECK(distance(run.state[i], wanted) < error);
             CHECK(distance(run.state[i], wanted) > 0);
         }
     };
-    ends_there(lagen::Verner98{.tolerance = 1e-21});
-    ends_there(lagen::Verner87{.tolerance = 1e-21});
+    ends_there(lagen::Verner98{.tolerance = 1e-21}, 1e-19);
+    ends_there(lagen::Verner87{.tolerance = 1e-21}, 1e-19);
+    ends_there(lagen::Dop853{.tolerance = 1e-23}, 1e-21); // 20 digits of a coefficient lead to 1e-19
 }
 
 TEST_CASE("the error of rows is the largest distance relative to the whole state")

@@ -30,7 +30,7 @@ double tightened(const MethodEntry& method, double parameter)
 
 double accuracy_option(const Options& options)
 {
-    for (const char* other : {"method", "step", "tolerance"})
+    for (const char* other : {"method", "step", "time-scale", "tolerance"})
         if (options.has(other))
             throw UsageError(
                 fmt::format("lagen run: --accuracy chooses method, tolerance and step: leave out --{}", other));

@@ -20,7 +20,7 @@ Scene bare_scene(const Scene& scene)
 {
     Scene bare = scene;
     bare.method.clear();
-    bare.step = bare.tolerance = bare.relative = bare.absolute = nullptr;
+    bare.step = bare.time_scale = bare.tolerance = bare.relative = bare.absolute = nullptr;
     bare.observe.reset();
     bare.states.reset();
     std::erase_if(bare.events, [](const Event& event) { return !event.stop; });

@@ -66,19 +66,19 @@ std::optional<Obstacle> obstacle_of(const MethodEntry& method, const KernelModul
 }
 
 SceneText scene_text(const CheckedModel& checked, const Scene& scene, const std::string& form,
-                     const MethodEntry& method, const Driver& driver, const Tree& time_scale)
+                     const MethodEntry& method, const Driver& driver)
 {
     GenerateRequest request;
     request.form = form;
     request.scene = &scene;
     request.flows = method.kind == MethodKind::splitting;
-    request.time_scale = time_scale;
+    if (is_symmetric_splitting(method)) request.time_scale = scene.time_scale;
     const bool takes_series = method.kind == MethodKind::series;
     if (takes_series) request.with = {"taylor"};
     if (takes_series && !scene.events.empty()) request.with.emplace_back("event_series");
     Generated generated = generate(checked, request);
     ProgramText text{std::move(generated.header),
-                     program_text(driver, generated.module.name, method, time_scale != nullptr)};
+                     program_text(driver, generated.module.name, method, request.time_scale != nullptr)};
     text.options = rounding_options(); // the same bits in a run and in the rows of a sweep
     if (driver.abreast && goes_abreast(method))
         for (std::string& option : vector_options()) text.options.push_back(std::move(option));
@@ -108,7 +108,7 @@ void Preparation::finish(const Scene& scene, const std::string& form, const Meth
     if (record_) prove(checked_);
     elaborated_ = decided_ = true;
     set_parameters(checked_, parameters);
-    const SceneText made = scene_text(checked_, scene, form, method, driver_, time_scale_of(options_, checked_.model));
+    const SceneText made = scene_text(checked_, scene, form, method, driver_);
     require_system(options_, scene, method, made.module);
     record_ = record_of(checked_, made.module, form, parameters);
     look(*record_);

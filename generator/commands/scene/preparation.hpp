@@ -25,9 +25,9 @@ struct SceneText {
     KernelModule module;
     ProgramText text;
 };
-/// `checked` is proved and decided for the scene's parameters. `time_scale` is that of the steps, or null.
+/// `checked` is proved and decided for the scene's parameters. Splittings take the time scale of the scene.
 [[nodiscard]] SceneText scene_text(const CheckedModel& checked, const Scene& scene, const std::string& form,
-                                   const MethodEntry& method, const Driver& driver, const Tree& time_scale = nullptr);
+                                   const MethodEntry& method, const Driver& driver);
 
 class Preparation {
   public:

@@ -42,6 +42,24 @@ void warn_of_unused(const Options& options, const MethodEntry& method)
         write_standard_error(fmt::format("warning: --tolerance is not used: the steps of {} are fixed\n", method.name));
 }
 
+/// A time scale is for splittings. Where --method takes another one, that of the scene is left out.
+void require_splitting(const Options& options, const Scene& scene, const MethodEntry& method)
+{
+    if (scene.time_scale == nullptr || is_symmetric_splitting(method)) return;
+    const bool given = options.has("time-scale");
+    if (!given && options.has("method")) {
+        write_standard_error(fmt::format(
+            "warning: time_scale of scene '{}' is not used: {} is no symmetric splitting\n", scene.name, method.name));
+        return;
+    }
+    const std::string what = given ? "--time-scale" : fmt::format("'time_scale' of scene '{}'", scene.name);
+    const std::string text =
+        fmt::format("{} makes the steps of a symmetric splitting, and {} is none", what, method.name);
+    const char* hint = "leapfrog_kdk and kahanli8 are";
+    if (given) throw UsageError(fmt::format("lagen {}: {}\nhint: {}", options.command(), text, hint));
+    throw ModelError(text, scene.time_scale_where, hint);
+}
+
 } // namespace
 
 Tree option_tree(const Model& model, const std::string& name, const Excerpt& text)
@@ -98,6 +116,8 @@ Scene scene_of(const Options& options, const Model& model, const std::vector<Set
     Scene scene = find_scene(model, options.get("scene"));
     if (options.has("method")) scene.method = options.get("method");
     if (options.has("step")) scene.step = tree_of(options, model, "step");
+    if (const Tree scale = time_scale_of(options, model); scale != nullptr || options.has("accuracy"))
+        scene.time_scale = scale;
     if (options.has("tolerance")) {
         scene.relative = scene.absolute = nullptr;
         scene.tolerance = tree_of(options, model, "tolerance");
@@ -123,10 +143,7 @@ const MethodEntry& method_of(const Options& options, const Scene& scene)
         if (options.has("method")) throw UsageError(lagen + text);
         throw ModelError(text, scene.where);
     }
-    if (options.has("time-scale") && !is_symmetric_splitting(*method))
-        throw UsageError(fmt::format("{}--time-scale makes the steps of a symmetric splitting, and {} is none\nhint: "
-                                     "leapfrog_kdk and kahanli8 are",
-                                     lagen, method->name));
+    require_splitting(options, scene, *method);
     warn_of_unused(options, *method);
     return *method;
 }

@@ -11,8 +11,9 @@ namespace lagen {
 inline constexpr long double standard_tolerance = 1e-10L;
 inline constexpr const char* standard_method = "dop853";
 
-/// The scene as --scene, --method, --step, --tolerance, --t-end, --at and --set change it, and with `initial` values
-/// of the command line. With --at and without --t-end the run is as long as its rows ask for.
+/// The scene as --scene, --method, --step, --time-scale, --tolerance, --t-end, --at and --set change it, and with
+/// `initial` values of the command line. With --at and without --t-end the run is as long as its rows ask for; with
+/// --accuracy it has no time scale.
 [[nodiscard]] Scene scene_of(const Options& options, const Model& model, const std::vector<Setting>& initial);
 
 /// Whether `initial` of the scene has momenta; else it has fibre coordinates, if any.
@@ -31,7 +32,7 @@ void set_initial(const Model& model, Scene& scene, const Setting& setting);
 [[nodiscard]] Tree time_scale_of(const Options& options, const Model& model);
 
 /// The scene's method; UsageError or ModelError (by where the name stands) where it is unknown, lacks a step, or
-/// takes no --time-scale. Warns on standard error of options that it does not use.
+/// takes no time scale. Warns on standard error of what it does not use.
 [[nodiscard]] const MethodEntry& method_of(const Options& options, const Scene& scene);
 
 } // namespace lagen

@@ -12,13 +12,13 @@ namespace plain {
 
 /// Weight of K_j in stage i; row 12 is b.
 template <std::size_t i, std::size_t j>
-inline constexpr double a = static_cast<double>(lagen::tableau::Dop853::a[i * (i - 1) / 2 + j].value);
+inline constexpr double a = lagen::tableau::Dop853::a[i * (i - 1) / 2 + j].head;
 template <std::size_t i>
-inline constexpr double c = static_cast<double>(lagen::tableau::Dop853::c[i].value);
+inline constexpr double c = lagen::tableau::Dop853::c[i].head;
 template <std::size_t j>
-inline constexpr double e3 = static_cast<double>(lagen::tableau::Dop853::error3[j].value);
+inline constexpr double e3 = lagen::tableau::Dop853::error3[j].head;
 template <std::size_t j>
-inline constexpr double e5 = static_cast<double>(lagen::tableau::Dop853::error5[j].value);
+inline constexpr double e5 = lagen::tableau::Dop853::error5[j].head;
 
 /// What a run took.
 struct Steps {

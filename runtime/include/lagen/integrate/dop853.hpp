@@ -2,8 +2,7 @@
 /// `lagen::Dop853{.tolerance = 1e-10}`: order 8 with error estimates of order 5 and 3 and dense output of order 7
 /// [Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, II.5 and II.10; code dop853.f].
 /// Twelve calls a step; three more in a step where a value inside it is asked for.
-/// The coefficients are long doubles. Wider scalars are accepted, but the error stops where the order conditions do:
-/// with 50 digits on Kepler's problem at 3e-20, whatever the tolerance.
+/// The coefficients have 40 digits: `__float128` and wider scalars get the accuracy that they ask for.
 #pragma once
 
 #include "lagen/integrate/dop853_coefficients.hpp"
@@ -14,8 +13,8 @@ namespace lagen {
 
 /// See integrate/stepper.hpp for what is asked of a stepper.
 template <class M>
-class Dop853Stepper : public PairSteps<M, 8, tableau::Dop853::stages, 12> {
-    using Base = PairSteps<M, 8, tableau::Dop853::stages, 12>;
+class Dop853Stepper : public PairSteps<M, 8, tableau::Dop853::dense_stages, tableau::Dop853::end> {
+    using Base = PairSteps<M, 8, tableau::Dop853::dense_stages, tableau::Dop853::end>;
     using Base::calls_, Base::dense_ready_, Base::error_, Base::fails, Base::k_, Base::scale_, Base::x_;
     static_assert(moves_by_sums<M>,
                   "the dense output of this method is made of sums: use Dopri5, or a fixed-step method");
@@ -26,7 +25,7 @@ class Dop853Stepper : public PairSteps<M, 8, tableau::Dop853::stages, 12> {
     using State = typename Base::State;
     static constexpr bool abreast = true;
     using Tableau = tableau::Dop853;
-    static constexpr int dense_order = 7;
+    static constexpr int dense_order = Tableau::dense_order;
     static constexpr int error_order = 8; ///< err5^2 / err3 is of this order in h
     static constexpr double beta_share = 0.2;
 

@@ -54,8 +54,8 @@ struct Fraction {
 };
 
 /// A coefficient that is published as a decimal fraction only; exact to the digits of a long double (19 on x86), also
-/// where the scalar has more: methods made of Decimals (Tsit5, Dop853) satisfy their order conditions to about 1e-18 in
-/// any wider scalar, those made of Fractions to all its digits.
+/// where the scalar has more: a method made of Decimals (Tsit5) satisfies its order conditions to about 1e-18 in any
+/// wider scalar, those made of Fractions to all its digits.
 struct Decimal {
     long double value = 0.0L;
 
