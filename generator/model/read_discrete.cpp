@@ -22,6 +22,11 @@ constexpr SchemeRow scheme_rows[] = {
     {"midpoint", 0, 0}, {"trapezoidal", 0, 0}, {"left", 0, 0}, {"gauss", 1, 4}, {"lobatto", 2, 5},
 };
 
+std::string text_of(const TomlEntry& entry)
+{
+    return read_text(entry.value, fmt::format("'{}' of [discrete]", entry.name()));
+}
+
 void require_scheme(const std::string& text, const SourceRange& where)
 {
     const std::size_t colon = std::min(text.find(':'), text.size());
@@ -44,14 +49,14 @@ void require_scheme(const std::string& text, const SourceRange& where)
 
 void read_scheme(DiscreteBlock& block, const TomlEntry& entry)
 {
-    block.scheme = read_text(entry.value, "'scheme' of [discrete]");
+    block.scheme = text_of(entry);
     block.scheme_where = entry.value.where;
     require_scheme(block.scheme, block.scheme_where);
 }
 
 void read_retraction(const Model& model, DiscreteBlock& block, const TomlEntry& entry)
 {
-    block.retraction = read_text(entry.value, "'retraction' of [discrete]");
+    block.retraction = text_of(entry);
     block.retraction_where = entry.value.where;
     if (block.retraction != "cayley" && block.retraction != "exp")
         throw ModelError(fmt::format("unknown retraction '{}'", block.retraction), entry.value.where,
@@ -66,7 +71,7 @@ void declare_step(ModelReader& reader, DiscreteBlock& block, const TomlEntry& di
 {
     if (entry == nullptr)
         throw ModelError("[discrete] has no key 'step'", discrete.where(), "step = \"h\" names the step");
-    const std::string name = read_text(entry->value, "'step' of [discrete]");
+    const std::string name = text_of(*entry);
     block.step = Symbol{name, entry->value.where, {}, {}, {}};
     const Names::Entry* known = reader.names.find(name);
     if (known == nullptr || known->role != Role::parameter) reader.names.declare(name, Role::step, block.step.where);

@@ -28,13 +28,19 @@ constexpr GroupoidRow groupoid_rows[] = {
     {"atiyah", GroupoidKind::atiyah, {"group", "generators", "element"}},
 };
 
+/// How messages call an entry of the block.
+std::string title_of(const TomlEntry& entry)
+{
+    return fmt::format("'{}' of [groupoid]", entry.name());
+}
+
 const GroupoidRow& read_groupoid_kind(const TomlEntry& block, const TomlEntry* entry)
 {
     std::vector<std::string> known;
     for (const GroupoidRow& row : groupoid_rows) known.emplace_back(row.name);
     if (entry == nullptr)
         throw ModelError("[groupoid] has no key 'kind'", block.where(), fmt::format("kinds: {}", comma_list(known)));
-    const std::string text = read_text(entry->value, "'kind' of [groupoid]");
+    const std::string text = read_text(entry->value, title_of(*entry));
     for (const GroupoidRow& row : groupoid_rows)
         if (text == row.name) return row;
     throw ModelError(fmt::format("unknown groupoid kind '{}'", text), entry->value.where,
@@ -80,7 +86,7 @@ ArrayValue basis_matrix(const SparseMatrix& matrix, std::size_t size, const Sour
 
 void read_named_group(const ModelReader& reader, GroupoidBlock& block, const TomlEntry& entry)
 {
-    block.group = with_sizes(read_text(entry.value, "'group' of [groupoid]"), reader.model.sizes);
+    block.group = with_sizes(read_text(entry.value, title_of(entry)), reader.model.sizes);
     block.group_where = entry.value.where;
     const std::optional<NamedAlgebra> algebra = algebra_of_group(block.group);
     if (!algebra) {
@@ -143,7 +149,7 @@ void close_generators(ModelReader& reader, GroupoidBlock& block, const TomlEntry
 void declare_element(ModelReader& reader, const TomlEntry* entry)
 {
     const Shape shape = reader.model.groupoid->generators[0].shape;
-    const std::string name = entry != nullptr ? read_text(entry->value, "'element' of [groupoid]") : "W";
+    const std::string name = entry != nullptr ? read_text(entry->value, title_of(*entry)) : "W";
     const SourceRange where = entry != nullptr ? entry->value.where : reader.model.groupoid->where;
     require_identifier(name, where, "the name of the group element");
     std::vector<Symbol> symbols;
@@ -217,11 +223,10 @@ void read_action(ModelReader& reader)
     if (action == nullptr)
         throw ModelError("a groupoid of kind 'action' needs 'action'", block.where,
                          "action = { x = \"..\" }, the right action x.W, a line a base coordinate");
-    const TableReader table(action->value, "'action' of [groupoid]");
+    const TableReader table(action->value, title_of(*action));
     block.action.resize(base.size());
     for (const TomlEntry& entry : action->value.entries) {
-        const ResolvedKey key =
-            require_key(base, entry.key, "'action' of [groupoid]", "base coordinate", &reader.model.scope);
+        const ResolvedKey key = require_key(base, entry.key, table.title(), "base coordinate", &reader.model.scope);
         const std::string what = fmt::format("the action on '{}'", key.name);
         const ArrayValue closed = reader.close_arrow(read_array_expression(entry.value, what),
                                                      {Role::parameter, Role::base, Role::element}, what);
