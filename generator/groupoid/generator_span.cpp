@@ -42,9 +42,12 @@ GeneratorSpan::GeneratorSpan(Graph& graph, const GroupoidParts& parts)
 std::vector<NodeId> GeneratorSpan::components(const std::vector<NodeId>& Z)
 {
     std::vector<NodeId> f(m_, graph_.constant(0));
-    for (std::size_t c = 0; c < m_; ++c)
-        for (std::size_t k = 0; k < m_; ++k)
-            f[c] = graph_.add(f[c], graph_.multiply(inverse_[c * m_ + k], Z[parts_.rows[k]]));
+    for (std::size_t k = 0; k < m_; ++k) {
+        const NodeId entry = Z[parts_.rows[k]];
+        for (std::size_t c = 0; c < m_ && !graph_.is_zero(entry); ++c)
+            if (const NodeId factor = inverse_[c * m_ + k]; !graph_.is_zero(factor))
+                f[c] = graph_.add(f[c], graph_.multiply(factor, entry));
+    }
     return f;
 }
 
@@ -52,7 +55,8 @@ std::vector<NodeId> GeneratorSpan::outside(std::vector<NodeId> Z, const std::vec
 {
     for (std::size_t c = 0; c < m_; ++c)
         for (std::size_t k = 0; k < Z.size() && !graph_.is_zero(f[c]); ++k)
-            Z[k] = graph_.subtract(Z[k], graph_.multiply(f[c], parts_.generators[c][k]));
+            if (const NodeId entry = parts_.generators[c][k]; !graph_.is_zero(entry))
+                Z[k] = graph_.subtract(Z[k], graph_.multiply(f[c], entry));
     return Z;
 }
 

@@ -154,13 +154,12 @@ std::vector<NodeId> at(Graph& graph, const Groupoid& groupoid, std::span<const N
 std::vector<NodeId> matrix_product(Graph& graph, const std::vector<NodeId>& a, const std::vector<NodeId>& b,
                                    std::size_t n)
 {
-    std::vector<NodeId> out;
+    std::vector<NodeId> out(n * n, graph.constant(0));
     for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t j = 0; j < n; ++j) {
-            NodeId sum = graph.constant(0);
-            for (std::size_t k = 0; k < n; ++k) sum = graph.add(sum, graph.multiply(a[i * n + k], b[k * n + j]));
-            out.push_back(sum);
-        }
+        for (std::size_t k = 0; k < n; ++k)
+            for (std::size_t j = 0; j < n && !graph.is_zero(a[i * n + k]); ++j)
+                if (!graph.is_zero(b[k * n + j]))
+                    out[i * n + j] = graph.add(out[i * n + j], graph.multiply(a[i * n + k], b[k * n + j]));
     return out;
 }
 
