@@ -9,8 +9,8 @@ namespace lagen {
 
 namespace {
 
-constexpr long double negligible = 1e-12L; ///< of numbers that are 0 but for rounding, relative to the others
-constexpr std::size_t largest_with_forms = 12;
+constexpr long double negligible = 1e-12L;   ///< of numbers that are 0 but for rounding, relative to the others
+constexpr std::size_t largest_with_all = 12; ///< n of matrices whose forms and envelope are looked for
 
 RealMatrix times(const RealMatrix& a, const RealMatrix& b, std::size_t n)
 {
@@ -113,9 +113,24 @@ std::vector<std::vector<long double>> kernel(std::vector<long double> M, std::si
     return vectors;
 }
 
-/// All J with E_a^T J + J E_a = 0, by the sum over a of L^T L, where L(J) is the left side.
+/// 1, where all generators are skew.
+std::vector<RealMatrix> euclidean_form(const std::vector<RealMatrix>& generators, std::size_t n)
+{
+    const auto is_skew = [n](const RealMatrix& E) {
+        RealMatrix sum = transposed(E, n);
+        for (std::size_t k = 0; k < n * n; ++k) sum[k] += E[k];
+        return largest(sum) <= negligible * largest(E);
+    };
+    if (!std::ranges::all_of(generators, is_skew)) return {};
+    RealMatrix one(n * n, 0);
+    for (std::size_t k = 0; k < n; ++k) one[k * (n + 1)] = 1;
+    return {one};
+}
+
+/// All J with E_a^T J + J E_a = 0, by the sum over a of L^T L, where L(J) is the left side; of large matrices 1 alone.
 std::vector<RealMatrix> invariant_forms(const std::vector<RealMatrix>& generators, std::size_t n)
 {
+    if (n > largest_with_all) return euclidean_form(generators, n);
     const std::size_t m = n * n;
     std::vector<long double> normal(m * m, 0);
     for (const RealMatrix& E : generators)
@@ -183,16 +198,15 @@ long double determinant_of(const RealMatrix& W, std::size_t n)
 GroupDefect group_defect(const std::vector<RealMatrix>& generators, const RealMatrix& W, std::size_t n)
 {
     GroupDefect worst;
-    if (n <= largest_with_forms) {
-        std::vector<RealMatrix> turned;
-        for (const RealMatrix& E : generators) turned.push_back(transposed(E, n));
-        note_forms(worst, generators, W, n, true);
-        note_forms(worst, turned, transposed(W, n), n, false);
-    }
+    std::vector<RealMatrix> turned;
+    for (const RealMatrix& E : generators) turned.push_back(transposed(E, n));
+    note_forms(worst, generators, W, n, true);
+    note_forms(worst, turned, transposed(W, n), n, false);
     RealMatrix difference = W;
     for (std::size_t k = 0; k < n; ++k) difference[k * n + k] -= 1;
-    note(worst, largest(envelope(generators, n).outside(difference)) / std::max(1.0L, largest(W)),
-         "W - 1 is a sum of products of the generators");
+    if (n <= largest_with_all)
+        note(worst, largest(envelope(generators, n).outside(difference)) / std::max(1.0L, largest(W)),
+             "W - 1 is a sum of products of the generators");
     const auto has_no_trace = [n](const RealMatrix& E) {
         long double trace = 0;
         for (std::size_t k = 0; k < n; ++k) trace += E[k * (n + 1)];

@@ -21,7 +21,7 @@ struct GroupDefect {
     long double size = 0;
 };
 
-/// Of W and generators of n x n numbers. Forms J and K are looked for up to n = 12.
+/// Of W and generators of n x n numbers. For n > 12 it is J = K = 1 and the determinant alone.
 [[nodiscard]] GroupDefect group_defect(const std::vector<RealMatrix>& generators, const RealMatrix& W, std::size_t n);
 
 } // namespace lagen

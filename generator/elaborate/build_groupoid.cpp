@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace lagen {
 namespace {
@@ -37,11 +38,34 @@ std::vector<std::vector<long double>> generator_numbers(const Model& model)
     return out;
 }
 
+/// The fields W E_c have n entries a nonzero column of E_c, and n terms a nonzero entry: each entry is differentiated.
+void require_bounded_fields(const Model& model, const std::vector<std::vector<long double>>& matrices)
+{
+    constexpr std::size_t most_products = 300'000'000;
+    const std::size_t n = model.groupoid->generators.empty() ? 0 : model.groupoid->generators[0].shape.rows;
+    std::size_t entries = 0, columns = 0;
+    for (const std::vector<long double>& E : matrices) {
+        std::set<std::size_t> of_matrix;
+        for (std::size_t k = 0; k < E.size(); ++k)
+            if (E[k] != 0) {
+                ++entries;
+                of_matrix.insert(k % n);
+            }
+        columns += of_matrix.size();
+    }
+    if (entries == 0 || n * n * columns <= most_products / entries) return;
+    throw ModelError(fmt::format("the generators are {0} x {0} matrices with {1} entries that are not zero in {2} "
+                                 "columns: {0}^2*{1}*{2} is more than {3}",
+                                 n, entries, columns, most_products),
+                     model.groupoid->group_where, "generators of a smaller group, or sparser ones, are computed with");
+}
+
 /// One entry a generator, found by elimination with the largest pivots: on these entries they are independent.
 std::vector<std::size_t> independent_rows(const Model& model)
 {
     constexpr long double negligible = 1e-12L;
     std::vector<std::vector<long double>> matrices = generator_numbers(model);
+    require_bounded_fields(model, matrices);
     std::vector<std::size_t> rows;
     for (std::size_t c = 0; c < matrices.size(); ++c) {
         std::size_t row = 0;
@@ -94,8 +118,10 @@ Groupoid lower_groupoid(Graph& graph, Lowering& lower, const Model& model)
 
 bool has_cayley_map(const Model& model)
 {
-    if (!model.groupoid->group.empty()) return true; // each of the groups with a name
-    if (model.groupoid->generators.empty()) return false;
+    if (!model.groupoid->group.empty()) return true;  // each of the groups with a name
+    constexpr std::size_t most_entries = 100'000'000; // of the products E_a E_b E_c
+    const std::size_t m = model.groupoid->generators.size();
+    if (m == 0 || m * m * m * model.groupoid->generators[0].shape.size() > most_entries) return false;
     BuildWorkspace work(model);
     Lowering lower(work.graph());
     const Groupoid groupoid = lower_groupoid(work.graph(), lower, model);

@@ -36,7 +36,8 @@ class ActionClaims {
     {
         Decision free = on_matrices(residual);
         if (free.status == ProofStatus::proved) return free;
-        if (groupoid_.has_cayley_map && groupoid_.size <= largest_chart) return on_group(residual);
+        if (groupoid_.has_cayley_map && groupoid_.size <= largest_chart)
+            if (Decision charted = on_group(residual); charted.status != ProofStatus::undecided) return charted;
         Decision open;
         open.residual = free.residual;
         open.evidence =

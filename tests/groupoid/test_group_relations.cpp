@@ -94,6 +94,19 @@ TEST_CASE("a matrix outside a group is told by the relation that it misses")
           "");
 }
 
+TEST_CASE("of large matrices orthogonality and the determinant are asked")
+{
+    const NamedAlgebra algebra = algebra_of_group("SO(14)").value();
+    const std::vector<RealMatrix> generators = generators_of(algebra);
+    RealMatrix W(14 * 14, 0);
+    for (std::size_t k = 0; k < 14; ++k) W[k * 15] = k == 3 ? 2 : k == 4 ? 0.5L : 1;
+    CHECK(group_defect(generators, W, 14).relation == "transpose(W)*W = 1");
+    W[3 * 15] = W[4 * 15] = -1;
+    CHECK(group_defect(generators, W, 14).size == 0);
+    W[3 * 15] = 1;
+    CHECK(group_defect(generators, W, 14).relation == "det(W) = 1");
+}
+
 TEST_CASE("groups bear the names of their algebras in capitals")
 {
     CHECK(algebra_of_group("SO(3) + R^2").value().name == "so(3) + R^2");
