@@ -2,8 +2,8 @@
 /// Algebroids that are known by a few words, on a graph that gains their coordinates as inputs.
 #pragma once
 
+#include "algebra/named_algebra.hpp"
 #include "algebroid/algebroid.hpp"
-#include "algebroid/named_algebra.hpp"
 
 namespace lagen {
 

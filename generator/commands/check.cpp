@@ -9,6 +9,7 @@
 #include "elaborate/elaborate.hpp"
 #include "elaborate/require_values.hpp"
 #include "expression/parse.hpp"
+#include "scene/evaluate_scene.hpp"
 
 #include <fmt/core.h>
 
@@ -41,6 +42,13 @@ std::vector<NamedTree> extra_invariants(const Options& options, const Model& mod
     return invariants;
 }
 
+/// First arrows are claims too: that they lie in the groupoid.
+void require_arrows(const Model& model)
+{
+    for (const Scene& scene : model.scenes)
+        if (!scene.element.empty()) (void)evaluate_scene(model, scene);
+}
+
 ExitCode code_of(Verdict verdict)
 {
     switch (verdict) {
@@ -56,6 +64,7 @@ ExitCode check_one(const std::string& path, const Options& options, std::string&
 {
     try {
         const Model model = read_model(model_path(path), options.settings());
+        require_arrows(model);
         const std::size_t points = options.has("verify") ? reevaluation_points : 0;
         const std::vector<NamedTree> claims = extra_invariants(options, model);
         require_values(claims);

@@ -108,6 +108,12 @@ std::string equation_text(const Check& check)
     if (check.name == "tangency" && k.size() == 2)
         return fmt::format("rho({}) of the constraint {}, on the constraints", k[0], k[1]);
     if (check.name == "casimir" && k.size() == 2) return fmt::format("rho({}) of {}", k[0], k[1]);
+    if (check.name == "unit" && k.size() == 1) return fmt::format("coordinate {0} of x.1 less {0}", k[0]);
+    if (check.name == "action" && k.size() == 1) return fmt::format("coordinate {} of x.(W W') less (x.W).W'", k[0]);
+    if (check.name == "algebroid_of_groupoid" && k.size() == 2)
+        return fmt::format("coordinate {1} of rho({0}) as it is given less that of the groupoid", k[0], k[1]);
+    if (check.name == "algebroid_of_groupoid" && k.size() == 3)
+        return fmt::format("component {2} of [{0}, {1}] as it is given less that of the groupoid", k[0], k[1], k[2]);
     if (check.name == "closed" && !k.empty()) return fmt::format("component {} of d({})", component_of(check), k[0]);
     if (check.name == "equals" && !k.empty())
         return fmt::format("component {} of {} less what it is said to equal", component_of(check), k[0]);
@@ -262,7 +268,7 @@ std::string report_text(const std::string& model, const Report& verified)
     const StructureReport& structure = verified.structure;
     std::string text = fmt::format("{}: {}\n{}", model, to_text(structure.verdict), summary_text(structure));
     for (const std::string& kind : kinds_of(structure)) {
-        text += fmt::format("  {:<16}{}\n", kind, counts_text(counts_of(structure, kind)));
+        text += fmt::format("  {:<15} {}\n", kind, counts_text(counts_of(structure, kind)));
         text += where_text(structure, kind);
         if (kind == "maximum") text += maximum_text(structure);
     }

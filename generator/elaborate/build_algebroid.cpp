@@ -2,7 +2,7 @@
 /// The algebroid block of a model as sparse anchor and structure functions.
 #include "elaborate/build_algebroid.hpp"
 
-#include "algebroid/named_algebra.hpp"
+#include "algebra/named_algebra.hpp"
 #include "elaborate/build_workspace.hpp"
 #include "model/table_reader.hpp"
 
@@ -116,6 +116,7 @@ BlockParts build_leaf(BuildWorkspace& work, const AlgebroidBlock& block)
     case AlgebroidKind::action: return build_action(work, block);
     case AlgebroidKind::subbundle: return build_subbundle(work, block);
     case AlgebroidKind::atiyah: return build_atiyah(work, block);
+    case AlgebroidKind::groupoid: return build_of_groupoid(work, block);
     default: return build_given(block);
     }
 }

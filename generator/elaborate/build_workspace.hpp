@@ -85,6 +85,7 @@ class BuildWorkspace {
 [[nodiscard]] BlockParts build_given(const AlgebroidBlock& block);
 [[nodiscard]] BlockParts build_action(BuildWorkspace& work, const AlgebroidBlock& block);
 [[nodiscard]] BlockParts build_subbundle(BuildWorkspace& work, const AlgebroidBlock& block);
+[[nodiscard]] BlockParts build_of_groupoid(BuildWorkspace& work, const AlgebroidBlock& block);
 [[nodiscard]] BlockParts build_atiyah(BuildWorkspace& work, const AlgebroidBlock& block);
 [[nodiscard]] BlockParts build_frame(BuildWorkspace& work, const AlgebroidBlock& block, const BlockParts& inner);
 [[nodiscard]] BlockParts build_prolongation(const AlgebroidBlock& block, const BlockParts& inner);

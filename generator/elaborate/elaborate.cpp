@@ -3,6 +3,7 @@
 
 #include "elaborate/bind_parameters.hpp"
 #include "elaborate/build_algebroid.hpp"
+#include "elaborate/build_groupoid.hpp"
 #include "elaborate/lower_forms.hpp"
 #include "elaborate/model_trees.hpp"
 #include "elaborate/require_values.hpp"
@@ -32,6 +33,7 @@ class Elaboration {
         lower_structure();
         lower_mechanics();
         if (model_.control) lower_control();
+        if (model_.groupoid) lower_arrows();
         lower_base();
         describe_algebroid();
         find_partial_parts();
@@ -82,6 +84,23 @@ class Elaboration {
         system_.force_parts.push_back(lower_(model_.dissipation));
         const std::vector<NodeId> dR_dy = gradient(graph_, system_.force_parts.back(), system_.algebroid.y);
         for (std::size_t a = 0; a < system_.r(); ++a) system_.forces[a] = graph_.subtract(system_.forces[a], dR_dy[a]);
+    }
+
+    void lower_arrows()
+    {
+        require_groupoid(model_);
+        system_.groupoid = lower_groupoid(graph_, lower_, model_);
+        system_.groupoid->has_cayley_map = has_cayley_map(model_);
+        system_.groupoid_is_claim = model_.algebroid.kind != AlgebroidKind::groupoid;
+        if (!model_.discrete) return;
+        if (model_.discrete->retraction == "cayley" && !system_.groupoid->has_cayley_map)
+            throw ModelError(
+                "the retraction is 'cayley', which does not lead from the algebra of these generators into "
+                "their group, or is not shown to",
+                model_.discrete->retraction_where, "retraction = \"exp\" leads into every matrix group");
+        DiscreteSystem& discrete = system_.discrete.emplace();
+        discrete.step = graph_.input(model_.discrete->step.name);
+        if (model_.discrete->lagrangian) discrete.lagrangian = lower_(model_.discrete->lagrangian);
     }
 
     void lower_control()

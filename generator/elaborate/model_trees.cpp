@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "elaborate/model_trees.hpp"
 
+#include "model/scene_form.hpp"
+
 #include <algorithm>
 
 namespace lagen {
@@ -80,7 +82,8 @@ std::vector<Tree> all_trees(const Model& model, const WrittenAlgebroid& algebroi
     for (const Definition& definition : model.definitions) append_definition(trees, model.observer, definition);
     append_built(trees, model, algebroid);
     for (const std::vector<NamedTree>* list : {&model.invariants, &model.observables})
-        for (const NamedTree& entry : *list) trees.push_back(entry.value);
+        for (const NamedTree& entry : *list)
+            if (has_value(model, entry.value, entry_of(FormKind::pontryagin).name)) trees.push_back(entry.value);
     for (const Scene& scene : model.scenes) {
         for (const Event& event : scene.events) trees.push_back(event.when);
         if (scene.time_scale != nullptr) trees.push_back(scene.time_scale);

@@ -32,6 +32,11 @@ class ModelValues {
         for (const ArrayValue& matrix : block.representation) add(matrix.entries);
         for (const AlgebroidBlock& inner : block.of) add(inner);
     }
+    void add(const GroupoidBlock& block)
+    {
+        for (const ArrayValue& matrix : block.generators) add(matrix.entries);
+        add(block.action);
+    }
     void add(const FormExpression& expression)
     {
         add(expression.function);
@@ -53,6 +58,8 @@ class ModelValues {
     {
         add(scene.parameters);
         add(scene.initial);
+        add(scene.element);
+        add(scene.next);
         add(std::vector{scene.start, scene.duration, scene.step, scene.tolerance, scene.relative, scene.absolute,
                         scene.time_scale, scene.sampling.interval});
         add(scene.sampling.at);
@@ -83,6 +90,8 @@ void require_values(const Model& model)
     values.add(std::vector{model.lagrangian, model.hamiltonian, model.dissipation});
     values.add(model.forces);
     if (model.control) values.add(*model.control);
+    if (model.groupoid) values.add(*model.groupoid);
+    if (model.discrete) values.add(model.discrete->lagrangian);
     values.add(model.observables);
     values.add(model.invariants);
     for (const NamedForm& form : model.forms) {

@@ -48,6 +48,8 @@ class SymbolicModel {
     }
     [[nodiscard]] const std::string& momentum_name(std::size_t a) const { return model_.fibre.momenta[a].name; }
 
+    /// A name that stands behind those of the model in the order of terms.
+    void add_variable(const std::string& name) { (void)variable(name); }
     /// The first of `names` that the model does not declare, else the last.
     [[nodiscard]] std::string free_name(const std::vector<std::string>& names) const;
 

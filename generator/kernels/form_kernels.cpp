@@ -213,7 +213,7 @@ class ModuleBuilder {
         std::vector<NodeId> values;
         std::vector<std::string> names;
         for (const NamedTree& tree : trees) {
-            if (form_.controls.empty() && uses_controls(model_, tree.value)) continue; // no value in this form
+            if (!has_value(model_, tree.value, form_.form->name)) continue;
             values.push_back(lower_(tree.value));
             names.push_back(tree.name);
         }

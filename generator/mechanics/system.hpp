@@ -12,6 +12,7 @@
 #include "algebroid/form.hpp"
 #include "algebroid/structure_equations.hpp"
 #include "graph/core/lower.hpp"
+#include "groupoid/groupoid.hpp"
 #include "mechanics/written_algebroid.hpp"
 
 #include <optional>
@@ -27,6 +28,13 @@ struct ControlProblem {
     std::vector<NodeId> parts;                       ///< partial operations of sigma and cost as they are written
 
     [[nodiscard]] bool bounded() const;
+};
+
+/// A discrete Lagrangian on the system's groupoid.
+struct DiscreteSystem {
+    NodeId step = 0;                  ///< h: an input, or the value of a bound parameter
+    std::optional<NodeId> lagrangian; ///< L over t, h, the arrow's coordinates and parameters; absent where a scheme
+                                      ///< makes it
 };
 
 /// What of the algebroid stands in the model file as it is here, so that a hint can ask to change it.
@@ -76,6 +84,9 @@ struct System {
     std::vector<NodeId> forces;                          ///< Q_a(t, x, y) = [forces] - dR/dy^a, shape (r); empty: none
     std::vector<NodeId> force_parts;                     ///< the given forces and R, each as it is written
     std::optional<ControlProblem> control;
+    std::optional<Groupoid> groupoid;
+    bool groupoid_is_claim = false; ///< the algebroid is given beside the groupoid, and claimed to be that of it
+    std::optional<DiscreteSystem> discrete;
     std::vector<FormClaim> forms;
     std::vector<NodeId> partial_parts; ///< must be defined, though folded away: log(-1 - x^2) of 0*log(-1 - x^2)
     bool is_distribution = false;      ///< a subbundle of TM: the anchor equations say that it is involutive

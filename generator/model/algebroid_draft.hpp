@@ -43,6 +43,12 @@ struct DraftSpace {
 
 /// Reads kinds and files of a table and of the tables and files inside it. Throws ModelError.
 [[nodiscard]] AlgebroidDraft draft_algebroid(ModelReader& reader, const TomlEntry& block);
+/// That of a groupoid, where the model has no [algebroid]; `kind` is the groupoid's.
+[[nodiscard]] AlgebroidDraft draft_of_groupoid(const TomlEntry& block, GroupoidKind kind);
+/// The number of sections of its algebroid, over `n` base coordinates.
+[[nodiscard]] std::size_t rank_of(const GroupoidBlock& block, std::size_t n);
+/// "so(n)" and "R^n" with the sizes of the model put in.
+[[nodiscard]] std::string with_sizes(const std::string& algebra, const std::vector<Size>& sizes);
 /// Reads the model that `of` names. Throws ModelError: no such file, a cycle, too many files.
 [[nodiscard]] std::size_t include_model(ModelReader& reader, const TomlValue& of);
 

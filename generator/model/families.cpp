@@ -132,6 +132,12 @@ std::string family_name(const std::string& name)
     return entry ? entry->family : name;
 }
 
+std::string next_name(const std::string& name)
+{
+    const std::size_t open = name.find('[');
+    return name.substr(0, open) + "_next" + (open == std::string::npos ? "" : name.substr(open));
+}
+
 bool names_entry(const std::string& key, const std::string& name)
 {
     const std::optional<EntryName> entry = split_entry(key);

@@ -33,6 +33,9 @@ struct ResolvedKey {
 /// The family of an entry: "x" of "x[3]", "W" of "W[1,2]"; any other name itself.
 [[nodiscard]] std::string family_name(const std::string& name);
 
+/// The coordinate of the target: "x_next" for "x", "x_next[1]" for "x[1]".
+[[nodiscard]] std::string next_name(const std::string& name);
+
 /// True where `key` is `name` itself, or the family that `name` is an entry of.
 [[nodiscard]] bool names_entry(const std::string& key, const std::string& name);
 

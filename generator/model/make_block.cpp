@@ -67,7 +67,8 @@ Places first_places(std::size_t count)
     return out;
 }
 
-/// "so(n)" and "R^n" with the sizes of the model put in.
+} // namespace
+
 std::string with_sizes(const std::string& algebra, const std::vector<Size>& sizes)
 {
     const auto in_name = [&](std::size_t k) {
@@ -86,8 +87,6 @@ std::string with_sizes(const std::string& algebra, const std::vector<Size>& size
     return out;
 }
 
-} // namespace
-
 AlgebroidBlock make_block(const ModelReader& reader, const AlgebroidDraft& draft, std::size_t leaf_size)
 {
     if (draft.kind == nullptr) return block_of_file(reader, draft);
@@ -102,6 +101,7 @@ AlgebroidBlock make_block(const ModelReader& reader, const AlgebroidDraft& draft
     block.where = draft.where;
     for (const AlgebroidDraft& inner : draft.of) block.of.push_back(make_block(reader, inner, leaf_size));
     if (block.kind == AlgebroidKind::tangent) block.over = read_over(*draft.table, draft.title, space.base);
+    if (block.kind == AlgebroidKind::groupoid) block.rank = rank_of(*reader.model.groupoid, space.base.size());
     if (const TomlEntry* algebra = find_entry(*draft.table, "algebra")) {
         block.algebra =
             with_sizes(read_text(algebra->value, fmt::format("'algebra' of {}", draft.title)), reader.model.sizes);
@@ -129,6 +129,7 @@ std::optional<RequiredRank> required_rank(const AlgebroidBlock& block)
     case AlgebroidKind::atiyah: return RequiredRank{block.base.size(), true, "an Atiyah algebroid"};
     case AlgebroidKind::frame: return RequiredRank{inner_rank(0), false, "a frame of the inner algebroid"};
     case AlgebroidKind::prolongation: return RequiredRank{2 * inner_rank(0), false, "the prolongation"};
+    case AlgebroidKind::groupoid: return RequiredRank{block.rank, false, "the groupoid"};
     case AlgebroidKind::product: {
         std::size_t rank = 0;
         for (const AlgebroidBlock& factor : block.of) rank += factor.fibre.size();

@@ -2,7 +2,7 @@
 /// The record of a model file: names in the order of the file, exact numbers, closed trees, positions.
 /// It knows no geometry: the bracket of a `tangent` algebroid is simply absent here.
 /// Families are flattened: the entries x[1], x[2], .. of a family are symbols of the lists below, in order; `families`
-/// remembers which belong together. Groupoids join this record with the features that use them.
+/// remembers which belong together.
 #pragma once
 
 #include "expression/scope.hpp"
@@ -23,7 +23,7 @@ struct Size {
     SourceRange where;
 };
 
-enum class FamilyRole { parameter, base, fibre, momentum, control };
+enum class FamilyRole { parameter, base, fibre, momentum, control, element, next };
 
 /// A vector or matrix of declared symbols: entries first, first + 1, .. (by rows) of the list of its role.
 struct Family {
@@ -83,7 +83,18 @@ struct ConnectionEntry {
     SourceRange where;
 };
 
-enum class AlgebroidKind { general, tangent, lie_algebra, action, subbundle, atiyah, frame, product, prolongation };
+enum class AlgebroidKind {
+    general,
+    tangent,
+    lie_algebra,
+    action,
+    subbundle,
+    atiyah,
+    frame,
+    product,
+    prolongation,
+    groupoid ///< no [algebroid]: that of the model's groupoid
+};
 
 /// One [algebroid] or [algebroid.of] table. The outermost block's fibre is the model's; inner blocks have their own.
 /// Sections are numbers of this block's `fibre`; base coordinates are numbers of Model::base.coordinates.
@@ -100,9 +111,37 @@ struct AlgebroidBlock {
     SourceRange representation_where;
     std::vector<ConnectionEntry> connection; ///< atiyah
     std::vector<SectionEntry> sections;      ///< frame
+    std::size_t rank = 0;                    ///< groupoid: the number of its sections
     bool dual = false;                       ///< prolongation: bundle = "E*"
     std::vector<AlgebroidBlock> of;          ///< frame, prolongation: one; product: its factors
     SourceRange where;
+};
+
+enum class GroupoidKind { pair, group, action, atiyah };
+
+/// [groupoid]: a Lie groupoid over M, whose arrows have the coordinates x (of the source), x_next (of the target; pair
+/// and Atiyah groupoids) and W (a matrix of the group; all kinds but pair).
+struct GroupoidBlock {
+    GroupoidKind kind = GroupoidKind::pair;
+    std::string group;                  ///< "SO(3)"; empty where generators are given
+    std::vector<ArrayValue> generators; ///< E_c over parameters, all of one size; of a named group its basis
+    std::vector<Symbol> next;           ///< x_next, one a base coordinate
+    std::vector<Symbol> element;        ///< W[1,1], W[1,2], .. by rows
+    std::vector<Tree> action;           ///< (x.W)^i over x, W and parameters, one a base coordinate
+    SourceRange where;
+    SourceRange group_where; ///< of the name, or of the generators
+
+    [[nodiscard]] bool has_targets() const { return kind == GroupoidKind::pair || kind == GroupoidKind::atiyah; }
+    [[nodiscard]] bool has_group() const { return kind != GroupoidKind::pair; }
+};
+
+/// [discrete]: a discrete Lagrangian on the groupoid, written out or made from [lagrangian] by a scheme.
+struct DiscreteBlock {
+    Symbol step;            ///< h: a parameter, or a symbol of its own
+    Tree lagrangian;        ///< over t, x, x_next, W, h and parameters; null where a scheme makes it
+    std::string scheme;     ///< "midpoint", "gauss:2", ..; empty where L is written out
+    std::string retraction; ///< "cayley" or "exp"; empty where the file leaves the choice open
+    SourceRange where, scheme_where, retraction_where;
 };
 
 enum class Direction { rising, falling, any };
@@ -148,6 +187,10 @@ struct Scene {
     Tree step, tolerance, relative, absolute; ///< null where absent
     Tree time_scale; ///< of the steps of a splitting, over everything observable; null where absent
     SourceRange time_scale_where;
+    std::vector<Tree> element; ///< W of the first arrow of a discrete scene, by rows; or empty
+    SourceRange element_where;
+    std::vector<NamedTree> next; ///< the target of the first arrow, by base coordinates
+    std::optional<long> steps;   ///< of a discrete scene
     Sampling sampling;
     std::optional<std::vector<NamedTree>> observe; ///< absent: all states
     std::optional<StateColumns> states;            ///< where "state" stands in `observe`
@@ -235,6 +278,8 @@ struct Model {
     Base base;
     Fibre fibre;
     AlgebroidBlock algebroid;
+    std::optional<GroupoidBlock> groupoid;
+    std::optional<DiscreteBlock> discrete;
     std::vector<Definition> definitions; ///< as written, for documentation
     Tree lagrangian;                     ///< closed over t, x, y, parameters; null where absent
     SourceRange lagrangian_where;

@@ -47,6 +47,8 @@ struct ModelReader {
     const std::vector<Setting>* settings = nullptr;
     IncludeTrail* trail = nullptr;
     const TomlEntry* algebroid = nullptr; ///< the [algebroid] block
+    const TomlEntry* groupoid = nullptr;  ///< the [groupoid] block
+    const TomlEntry* discrete = nullptr;  ///< the [discrete] block
     std::shared_ptr<const AlgebroidDraft> draft;
     std::vector<IncludedModel> included;               ///< in the order of the file; the same file may stand here twice
     std::vector<std::string> parameter_names;          ///< what each entry of [parameters] declares: "m" for "m[1..7]"
@@ -55,10 +57,12 @@ struct ModelReader {
     std::vector<std::pair<Excerpt, Tree>> invariants;  ///< as parsed
     MechanicsBlocks mechanics;
     Tree lagrangian, hamiltonian, dissipation;    ///< as parsed; null where absent
+    Tree discrete_lagrangian;                     ///< likewise
     std::vector<ComponentEntry> inherited_forces; ///< of included files, over the model's names
     std::vector<CoordinateRate> rates;            ///< once the entries of the algebroid are read
     Scope mechanical;                             ///< the model's scope with momenta and controls
     Scope observer; ///< the model's scope with momenta, observables, invariants and built-in quantities
+    Scope arrows;   ///< the observer's with the coordinates of an arrow of the groupoid and the step
 
     /// The closed form of `tree`, in which only names of the given roles may occur (others: ModelError). `what` is the
     /// subject of the message: "the value of parameter 'm'".
@@ -83,9 +87,16 @@ struct ModelReader {
     {
         return close_array_in(mechanical, tree, roles, what, nonsmooth);
     }
-    /// The same in the observer's scope, where min max sign if are legal and every role is.
+    /// The same for what may use the coordinates of an arrow.
+    [[nodiscard]] ArrayValue close_arrow(const Tree& tree, std::initializer_list<Role> roles,
+                                         const std::string& what) const
+    {
+        return close_array_in(arrows, tree, roles, what, false);
+    }
+    /// The same in the observer's scope, where min max sign if are legal and every role is; of an array the
+    /// coordinates of an arrow are too.
     [[nodiscard]] Tree close_observed(const Tree& tree) const { return observer.close(tree, true); }
-    [[nodiscard]] ArrayValue close_observed_array(const Tree& tree) const { return observer.close_array(tree, true); }
+    [[nodiscard]] ArrayValue close_observed_array(const Tree& tree) const { return arrows.close_array(tree, true); }
 
   private:
     [[nodiscard]] Tree close_in(const Scope& scope, const Tree& tree, std::initializer_list<Role> roles,
@@ -103,7 +114,10 @@ void read_header(ModelReader& reader, const TomlEntry* name, const TomlEntry* ti
 void read_sizes(ModelReader& reader, const TomlEntry* block, const std::vector<Setting>& settings);
 void declare_parameters(ModelReader& reader, const TomlEntry* block);
 void declare_base(ModelReader& reader, const TomlEntry* block);
+/// The kind and the group of [groupoid].
+void declare_groupoid(ModelReader& reader);
 /// The kinds of [algebroid] and its inner tables, their fibres and bases; what included files declare joins the model.
+/// Where `block` is null the algebroid is that of the groupoid.
 void read_algebroid_kind(ModelReader& reader, const TomlEntry* block);
 /// Names of the fibre coordinates where [fibre] leaves them out; nothing where the kind has no default.
 [[nodiscard]] std::optional<std::vector<Symbol>> default_fibre(const ModelReader& reader);
@@ -117,7 +131,12 @@ void declare_quantities(ModelReader& reader, const TomlEntry* observables, const
 void declare_forms(ModelReader& reader, const TomlEntry* block);
 /// L, H and R, parsed.
 void declare_mechanics(ModelReader& reader);
+/// The step of [discrete], its scheme and its L, parsed; once mechanics is declared.
+void declare_discrete(ModelReader& reader);
 void build_scopes(ModelReader& reader);
+/// The generators of the groupoid's group, and the coordinates of its arrows; called by build_scopes once parameters
+/// and definitions can be closed.
+void declare_arrows(ModelReader& reader);
 /// The entries of [algebroid]; called by build_scopes once the model's scope has symbols and definitions. The inner
 /// fibre coordinates of frames and the ambient velocities of subbundles join the scope as definitions.
 void read_algebroid(ModelReader& reader);
@@ -127,6 +146,8 @@ void read_parameters(ModelReader& reader, const TomlEntry* block, const std::vec
 void read_base(ModelReader& reader, const TomlEntry* block);
 void read_mechanics(ModelReader& reader);
 void read_control(ModelReader& reader);
+void read_action(ModelReader& reader);
+void read_discrete(ModelReader& reader);
 [[nodiscard]] ControlBoundary read_boundary(const ModelReader& reader, const TomlEntry& block);
 void read_quantities(ModelReader& reader);
 void read_forms(ModelReader& reader, const TomlEntry* block);

@@ -24,6 +24,9 @@ const char* role_text(Role role)
     case Role::casimir: return "a Casimir";
     case Role::observable: return "an observable";
     case Role::form: return "an E-form";
+    case Role::element: return "an entry of the group element";
+    case Role::next: return "a coordinate of the target";
+    case Role::step: return "the step";
     case Role::velocity: return "an inner velocity";
     case Role::built_in: return "a built-in quantity";
     }
@@ -34,6 +37,9 @@ std::string role_plural(Role role)
 {
     if (role == Role::time) return "time";
     if (role == Role::momentum) return "momenta";
+    if (role == Role::element) return "entries of the group element";
+    if (role == Role::next) return "coordinates of the target";
+    if (role == Role::step) return "the step";
     const std::string_view text = role_text(role);
     return std::string(text.substr(text.find(' ') + 1)) + "s";
 }

@@ -24,6 +24,9 @@ enum class Role {
     casimir,
     observable,
     form,
+    element,
+    next,
+    step,
     built_in
 };
 

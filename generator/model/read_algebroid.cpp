@@ -43,11 +43,13 @@ void require_tables(const AlgebroidDraft& draft)
 
 void read_algebroid_kind(ModelReader& reader, const TomlEntry* block)
 {
-    if (block == nullptr) {
+    if (block == nullptr && !reader.model.groupoid) {
         throw ModelError("the model has no [algebroid] block", SourceRange{reader.model.file, 0, 0},
                          "for an ordinary mechanical system: [algebroid] kind = \"tangent\"");
     }
-    auto draft = std::make_shared<const AlgebroidDraft>(draft_algebroid(reader, *block));
+    auto draft = std::make_shared<const AlgebroidDraft>(
+        block != nullptr ? draft_algebroid(reader, *block)
+                         : draft_of_groupoid(*reader.groupoid, reader.model.groupoid->kind));
     require_tables(*draft);
     const std::size_t leaf_size = declare_inner_base(reader, *draft);
     merge_included(reader);

@@ -178,6 +178,19 @@ bool KindEntry::takes(std::string_view key) const
     return std::ranges::any_of(keys, [&](const char* each) { return each != nullptr && key == each; });
 }
 
+AlgebroidDraft draft_of_groupoid(const TomlEntry& block, GroupoidKind kind)
+{
+    static constexpr KindEntry computed{"groupoid", AlgebroidKind::groupoid, {}};
+    AlgebroidDraft draft;
+    draft.table = &block.value;
+    draft.title = "[groupoid]";
+    draft.where = block.where();
+    draft.kind =
+        kind == GroupoidKind::pair ? &*std::ranges::find(kinds, AlgebroidKind::tangent, &KindEntry::kind) : &computed;
+    draft.outermost = true;
+    return draft;
+}
+
 AlgebroidDraft draft_algebroid(ModelReader& reader, const TomlEntry& block)
 {
     return draft_table(reader, block, "[algebroid]", 0);

@@ -13,7 +13,9 @@ namespace lagen {
 namespace {
 
 constexpr std::initializer_list<const char*> later_blocks = {
-    "groupoid", "discrete", "hamilton_jacobi", "morphism", "compose",
+    "hamilton_jacobi",
+    "morphism",
+    "compose",
 };
 
 } // namespace
@@ -46,6 +48,8 @@ Model read_model_text(const std::string& name, std::string text, const std::vect
     const TomlEntry* base = top.take("base");
     const TomlEntry* fibre = top.take("fibre");
     reader.algebroid = top.take("algebroid");
+    reader.groupoid = top.take("groupoid");
+    reader.discrete = top.take("discrete");
     const TomlEntry* definitions = top.take("definitions");
     reader.mechanics.lagrangian = top.take("lagrangian");
     reader.mechanics.hamiltonian = top.take("hamiltonian");
@@ -63,18 +67,22 @@ Model read_model_text(const std::string& name, std::string text, const std::vect
     read_sizes(reader, sizes, settings);
     declare_parameters(reader, parameters);
     declare_base(reader, base);
+    declare_groupoid(reader);
     read_algebroid_kind(reader, reader.algebroid);
     declare_fibre(reader, fibre);
     declare_control(reader);
     declare_definitions(reader, definitions);
     declare_quantities(reader, observables, invariants);
     declare_mechanics(reader);
+    declare_discrete(reader);
     declare_forms(reader, forms);
     build_scopes(reader);
 
     read_parameters(reader, parameters, settings);
     read_base(reader, base);
     read_mechanics(reader);
+    read_action(reader);
+    read_discrete(reader);
     read_control(reader);
     read_quantities(reader);
     read_forms(reader, forms);

@@ -113,6 +113,31 @@ void list_parameters_last(Scope& scope, const Model& model)
     for (const Size& size : model.sizes) scope.list_last(size.name);
 }
 
+/// The coordinates of an arrow stand where no motion in continuous time is asked for.
+void explain_arrows(Scope& scope, const Model& model)
+{
+    if (!model.groupoid) return;
+    for (const auto* symbols : {&model.groupoid->element, &model.groupoid->next})
+        for (const std::string& symbol : declared_names(*symbols))
+            scope.explain(symbol, "coordinates of an arrow stand in the discrete Lagrangian, the action (the element "
+                                  "alone), observables and columns of discrete scenes only");
+    if (!model.groupoid->has_targets())
+        for (const std::string& each : declared_names(model.base.coordinates))
+            scope.explain(each + "_next", "of a groupoid of kind \"action\" the target is computed by the action");
+}
+
+/// The observer's scope with what [discrete] L may use besides.
+void build_arrows(ModelReader& reader)
+{
+    const Model& model = reader.model;
+    reader.arrows = reader.observer;
+    if (!model.groupoid) return;
+    add_to_scope(reader.arrows, model, model.groupoid->element, FamilyRole::element);
+    add_to_scope(reader.arrows, model, model.groupoid->next, FamilyRole::next);
+    if (model.discrete && reader.names.find(model.discrete->step.name)->role == Role::step)
+        reader.arrows.declare(model.discrete->step.name, model.discrete->step.where);
+}
+
 /// The fibre of a prolongation is X_a and V_a, or X_a and P_a: the other letter is a slip.
 void explain_prolongation(Scope& scope, const AlgebroidBlock& block)
 {
@@ -146,6 +171,8 @@ void build_scopes(ModelReader& reader)
     add_to_scope(scope, model, model.fibre.coordinates, FamilyRole::fibre);
     for (const Definition& definition : model.definitions) scope.define(definition);
     for (const auto& [key, value] : reader.casimirs) scope.define(Definition{key.text, {}, value, place_of(key)});
+    declare_arrows(reader);
+    explain_arrows(scope, model);
     explain_observed(scope, model);
     read_algebroid(reader);
     explain_prolongation(scope, model.algebroid);
@@ -173,6 +200,7 @@ void build_scopes(ModelReader& reader)
     for (const auto& [key, value] : reader.invariants) {
         if (fresh(key.text)) reader.observer.define(Definition{key.text, {}, value, place_of(key)});
     }
+    build_arrows(reader);
     require_sound_definitions(reader);
 }
 

@@ -151,11 +151,11 @@ Scene read_scene(const ModelReader& reader, Scene scene, const TomlEntry& block,
     scene.name = block.name();
     scene.where = block.where();
     TableReader table(block.value, fmt::format("[scene.{}]", scene.name));
-    table.refuse_later({"element", "next", "steps"});
     (void)table.take("like");
     read_options(reader.model, scene, table);
     read_numbers(reader, scene, table);
     if (const TomlEntry* entry = table.take("initial")) read_initial(reader, scene, *entry);
+    read_first_arrow(reader, scene, table);
     if (const TomlEntry* entry = table.take("parameters")) read_scene_parameters(reader, scene, *entry);
     if (const TomlEntry* entry = table.take("observe")) read_observe(reader, scene, *entry);
     read_sampling(reader, scene, table);
@@ -167,9 +167,13 @@ Scene read_scene(const ModelReader& reader, Scene scene, const TomlEntry& block,
         std::erase_if(scene.parameters, [&](const NamedTree& each) { return names_entry(key, each.name); });
     }
     require_acyclic_scene(reader, scene);
+    const std::string form_of_scene = form_of(reader.model, scene);
+    if (form_of_scene == discrete_form) {
+        require_first_arrow(reader, scene);
+        return scene;
+    }
     if (!forms_of(reader.model).empty()) {
         std::string form = scene.form;
-        const std::string form_of_scene = form_of(reader.model, scene); // before the move
         scene = in_form(reader.model, std::move(scene), form_of_scene);
         scene.form = std::move(form);
     }

@@ -4,107 +4,22 @@
 
 #include "expression/parse_family.hpp"
 #include "model/dependency_order.hpp"
-#include "model/families.hpp"
-#include "model/read_values.hpp"
 #include "model/scene_form.hpp"
+#include "model/scene_values.hpp"
 #include "model/table_reader.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <set>
-#include <unordered_map>
 
 namespace lagen {
 
 namespace {
 
-/// Replaces the entries of the same names, appends the others.
-void put_all(std::vector<NamedTree>& list, std::vector<NamedTree> entries)
-{
-    std::unordered_map<std::string, std::size_t> index; // looked up, never iterated
-    for (std::size_t k = 0; k < list.size(); ++k) index.emplace(list[k].name, k);
-    for (NamedTree& entry : entries) {
-        const auto [place, fresh] = index.try_emplace(entry.name, list.size());
-        if (fresh) {
-            list.push_back(std::move(entry));
-        } else {
-            list[place->second] = std::move(entry);
-        }
-    }
-}
-
-/// Values that a table of a scene gives; a family's name gives all its entries.
-class GivenValues {
-  public:
-    explicit GivenValues(std::string what) : what_(std::move(what)) {}
-
-    /// `key` names entries of `symbols`.
-    void add(const ModelReader& reader, const TomlEntry& entry, const ResolvedKey& key,
-             const std::vector<Symbol>& symbols)
-    {
-        const std::string what = fmt::format("{} '{}'", what_, key.name);
-        const Tree parsed = read_array_expression(entry.value, what);
-        const ArrayValue closed = reader.close_array(parsed, {Role::parameter}, what);
-        const std::vector<Tree> values = fit_values(closed, key.shape, what, entry.value.where);
-        for (std::size_t k = 0; k < values.size(); ++k) {
-            const std::string& name = symbols[key.indices[k]].name;
-            const auto [given, fresh] = keys_.try_emplace(name, entry.name());
-            if (!fresh) {
-                throw ModelError(fmt::format("{} '{}' is given twice: by '{}' and by '{}'", what_, name, given->second,
-                                             entry.name()),
-                                 entry.where(), "keep one of them");
-            }
-            list.push_back(NamedTree{name, values[k], entry.where()});
-        }
-    }
-
-    std::vector<NamedTree> list;
-
-  private:
-    std::string what_;
-    std::unordered_map<std::string, std::string> keys_; ///< by which key each name is given; looked up, never iterated
-};
-
 bool has_role(const ModelReader& reader, const std::string& name, Role role)
 {
     const Names::Entry* entry = reader.names.find(name);
     return entry != nullptr && entry->role == role;
-}
-
-/// Symbols without a value; a family that has none at all by its name.
-struct Missing {
-    std::size_t count = 0; ///< of symbols
-    std::vector<std::string> names;
-
-    void add(const Missing& more)
-    {
-        count += more.count;
-        names.insert(names.end(), more.names.begin(), more.names.end());
-    }
-
-    [[nodiscard]] std::string text() const
-    {
-        constexpr std::size_t most = 20;
-        if (names.size() <= most) return comma_list(names);
-        const std::vector<std::string> first(names.begin(), names.begin() + most);
-        return fmt::format("{} and {} more", comma_list(first), names.size() - most);
-    }
-};
-
-Missing missing_of(const std::vector<Symbol>& symbols, const std::set<std::string>& given)
-{
-    Missing out;
-    for (const SymbolGroup& group : group_symbols(symbols)) {
-        Missing of_group;
-        for (std::size_t k = 0; k < group.shape.size(); ++k) {
-            const std::string& name = symbols[group.first + k].name;
-            if (!given.contains(name)) of_group.names.push_back(name);
-        }
-        of_group.count = of_group.names.size();
-        if (of_group.count == group.shape.size()) of_group.names = {group.name};
-        out.add(of_group);
-    }
-    return out;
 }
 
 [[noreturn]] void refuse_initial(const ModelReader& reader, const Scene& scene, const TomlEntry& entry)
@@ -172,8 +87,7 @@ void read_scene_parameters(const ModelReader& reader, Scene& scene, const TomlEn
 
 void require_complete(const ModelReader& reader, const Scene& scene)
 {
-    std::set<std::string> given;
-    for (const NamedTree& each : scene.initial) given.insert(each.name);
+    const std::set<std::string> given = given_names(scene.initial);
     const Fibre& fibre = reader.model.fibre;
     const Missing no_fibre = missing_of(fibre.coordinates, given);
     const Missing no_momentum = missing_of(fibre.momenta, given);

@@ -13,13 +13,10 @@ namespace lagen {
 
 namespace {
 
-/// Of models on groupoids; known by name alone.
-constexpr const char* discrete = "discrete";
-
 /// What a model lacks that has not this form.
 const char* missing_block(const std::string& form)
 {
-    return form == discrete ? "no [discrete]" : form_named(form).needs;
+    return form == discrete_form ? "no [discrete]" : form_named(form).needs;
 }
 
 std::vector<EquationForm> by_rank()
@@ -35,56 +32,92 @@ std::string form_hint(const std::vector<std::string>& forms)
                          : fmt::format("forms of this model: {}", comma_list(forms));
 }
 
-/// Looks for controls in trees that may share their parts; a part is looked through once.
-class ControlSearch {
-  public:
-    explicit ControlSearch(const Model& model)
-    {
-        if (!model.control) return;
-        for (const Symbol& control : model.control->controls) controls_.insert(control.name);
-    }
+/// Names that have no value in a form, and why.
+struct ForeignNames {
+    const char* what; ///< "the control"
+    std::set<std::string> names;
+    std::string hint;
+};
 
-    /// A control in `root`; empty where there is none, or none in parts that were not looked through before.
-    std::string operator()(const Tree& root)
+std::vector<ForeignNames> foreign_names(const Model& model, const std::string& form)
+{
+    std::vector<ForeignNames> out;
+    const auto names = [](const std::vector<Symbol>& symbols) {
+        const std::vector<std::string> all = names_of(symbols);
+        return std::set<std::string>(all.begin(), all.end());
+    };
+    if (model.control && !is_form(form, FormKind::pontryagin))
+        out.push_back({"the control", names(model.control->controls),
+                       fmt::format("controls are there in Pontryagin's form: form = \"{}\"",
+                                   entry_of(FormKind::pontryagin).name)});
+    if (model.groupoid && form != discrete_form) {
+        const std::string hint = "arrows of the groupoid are there in discrete scenes";
+        out.push_back({"the entry of the group element", names(model.groupoid->element), hint});
+        out.push_back({"the coordinate of the target", names(model.groupoid->next), hint});
+    }
+    return out;
+}
+
+/// Looks for foreign names in trees that may share their parts; a part is looked through once.
+class ForeignSearch {
+  public:
+    ForeignSearch(const Model& model, const std::string& form) : foreign_(foreign_names(model, form)) {}
+
+    /// A foreign name in `root` and what it is one of; null where there is none, or none in parts that were not looked
+    /// through before.
+    std::pair<const ForeignNames*, std::string> operator()(const Tree& root)
     {
         std::vector<const TreeNode*> stack{root.get()};
-        while (!stack.empty() && !controls_.empty()) {
+        while (!stack.empty() && !foreign_.empty()) {
             const TreeNode* node = stack.back();
             stack.pop_back();
             if (node == nullptr || !seen_.insert(node).second) continue;
-            if (node->kind == TreeKind::name && controls_.contains(node->name)) return node->name;
+            for (const ForeignNames& each : foreign_)
+                if (node->kind == TreeKind::name && each.names.contains(node->name)) return {&each, node->name};
             for (auto argument = node->arguments.rbegin(); argument != node->arguments.rend(); ++argument)
                 stack.push_back(argument->get());
         }
         return {};
     }
 
+    /// Throws ModelError where there is one; `what` depends on it.
+    void refuse_in(const Tree& tree, const std::string& what, const std::string& form, const SourceRange& where)
+    {
+        const auto [foreign, name] = (*this)(tree);
+        if (foreign == nullptr) return;
+        throw ModelError(
+            fmt::format("{} depends on {} '{}', which the form '{}' does not have", what, foreign->what, name, form),
+            where, foreign->hint);
+    }
+
   private:
-    std::set<std::string> controls_;
+    std::vector<ForeignNames> foreign_;
     std::unordered_set<const TreeNode*> seen_; // looked up, never iterated
 };
 
-[[noreturn]] void refuse_control(const std::string& what, const std::string& control, const std::string& form,
-                                 const SourceRange& where)
+/// No form has everything to observe that another has.
+void require_values_in(const Model& model, const Scene& scene, const std::string& form)
 {
-    throw ModelError(
-        fmt::format("{} depends on the control '{}', which the form '{}' does not have", what, control, form), where,
-        fmt::format("controls are there in Pontryagin's form: form = \"{}\"", entry_of(FormKind::pontryagin).name));
+    ForeignSearch foreign_in(model, form);
+    for (const NamedTree& column : scene.observe.value_or(std::vector<NamedTree>{}))
+        foreign_in.refuse_in(column.value, fmt::format("the column '{}' of scene '{}'", column.name, scene.name), form,
+                             column.where);
+    for (const Event& event : scene.events)
+        foreign_in.refuse_in(event.when, fmt::format("event '{}' of scene '{}'", event.name, scene.name), form,
+                             event.where);
+    if (scene.time_scale != nullptr)
+        foreign_in.refuse_in(scene.time_scale, fmt::format("the time scale of scene '{}'", scene.name), form,
+                             scene.time_scale_where);
 }
 
-/// No form but Pontryagin's has controls to observe.
-void require_no_controls(const Model& model, const Scene& scene, const std::string& form)
+/// Neither velocities nor momenta follow from an arrow without the discrete Lagrangian.
+void require_start_of_motion(const Scene& scene, const std::string& form)
 {
-    ControlSearch control_in(model);
-    for (const NamedTree& column : scene.observe.value_or(std::vector<NamedTree>{}))
-        if (const std::string control = control_in(column.value); !control.empty())
-            refuse_control(fmt::format("the column '{}' of scene '{}'", column.name, scene.name), control, form,
-                           column.where);
-    for (const Event& event : scene.events)
-        if (const std::string control = control_in(event.when); !control.empty())
-            refuse_control(fmt::format("event '{}' of scene '{}'", event.name, scene.name), control, form, event.where);
-    if (const std::string control = control_in(scene.time_scale); !control.empty())
-        refuse_control(fmt::format("the time scale of scene '{}'", scene.name), control, form, scene.time_scale_where);
+    if (scene.element.empty() && scene.next.empty()) return;
+    throw ModelError(fmt::format("scene '{}' starts from an arrow of the groupoid, where the form '{}' starts from "
+                                 "fibre coordinates or momenta",
+                                 scene.name, form),
+                     scene.where, "give another scene 'initial' values of them");
 }
 
 /// A costate follows from no velocity: sigma gives y for each (x, u), and u is what is sought.
@@ -163,10 +196,11 @@ std::vector<std::string> forms_of(const Model& model)
 void require_form(const Model& model, const std::string& form, const std::string& what, const SourceRange& where)
 {
     std::vector<std::string> known = form_names();
-    known.emplace_back(discrete);
+    known.emplace_back(discrete_form);
     if (std::ranges::find(known, form) == known.end())
         throw ModelError(fmt::format("{} is '{}', which is no form", what, form), where,
                          hint_for(form, known, "forms"));
+    if (form == discrete_form && model.discrete) return;
     const std::vector<std::string> forms = forms_of(model);
     if (std::ranges::find(forms, form) == forms.end())
         throw ModelError(fmt::format("{} is '{}', but the model has {}", what, form, missing_block(form)), where,
@@ -175,7 +209,8 @@ void require_form(const Model& model, const std::string& form, const std::string
 
 std::string form_of(const Model& model, const Scene& scene)
 {
-    return scene.form.empty() ? default_form(model) : scene.form;
+    if (!scene.form.empty()) return scene.form;
+    return model.discrete ? discrete_form : default_form(model);
 }
 
 std::vector<std::string> state_names(const Model& model, const std::string& form)
@@ -184,20 +219,28 @@ std::vector<std::string> state_names(const Model& model, const std::string& form
     const auto append = [&](const std::vector<Symbol>& symbols) {
         for (const Symbol& symbol : symbols) names.push_back(symbol.name);
     };
-    append(form_named(form).momenta ? model.fibre.momenta : model.fibre.coordinates);
+    const bool discrete = form == discrete_form;
+    if (discrete && model.groupoid) append(model.groupoid->element);
+    append(discrete || form_named(form).momenta ? model.fibre.momenta : model.fibre.coordinates);
     if (is_form(form, FormKind::pontryagin) && model.control) append(model.control->controls);
     return names;
 }
 
-bool uses_controls(const Model& model, const Tree& tree)
+bool has_value(const Model& model, const Tree& tree, const std::string& form)
 {
-    return !ControlSearch(model)(tree).empty();
+    return ForeignSearch(model, form)(tree).first == nullptr;
 }
 
 Scene in_form(const Model& model, Scene scene, const std::string& form)
 {
     if (form == scene.form)
         require_form(model, form, fmt::format("'form' of scene '{}'", scene.name), scene.form_where);
+    if (form == discrete_form && model.discrete)
+        throw MathematicsError(
+            fmt::format("scene '{}' is discrete: this version of lagen reads and checks it, and makes "
+                        "no step of it",
+                        scene.name),
+            form_hint(forms_of(model)));
     const std::vector<std::string> forms = forms_of(model);
     if (form != form_of(model, scene) && std::ranges::find(forms, form) == forms.end())
         throw MathematicsError(
@@ -205,10 +248,9 @@ Scene in_form(const Model& model, Scene scene, const std::string& form)
             form_hint(forms));
     scene.form = form;
     replace_states(model, scene, form);
-    if (is_form(form, FormKind::pontryagin))
-        require_momenta(model, scene);
-    else
-        require_no_controls(model, scene, form);
+    require_start_of_motion(scene, form);
+    if (is_form(form, FormKind::pontryagin)) require_momenta(model, scene);
+    require_values_in(model, scene, form);
     return scene;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "model/model_reader.hpp"
+#include "model/table_reader.hpp"
 
 namespace lagen {
 
@@ -12,10 +13,16 @@ namespace lagen {
                                const std::vector<Setting>& settings);
 
 void read_initial(const ModelReader& reader, Scene& scene, const TomlEntry& block);
+/// `element`, `next` and `steps`.
+void read_first_arrow(const ModelReader& reader, Scene& scene, TableReader& table);
 void read_scene_parameters(const ModelReader& reader, Scene& scene, const TomlEntry& block);
 
 /// Throws ModelError unless `initial` has every base coordinate, and every fibre coordinate or every momentum.
 void require_complete(const ModelReader& reader, const Scene& scene);
+
+/// Of a discrete scene: throws ModelError unless `initial` has every base coordinate, and the first arrow is given, or
+/// every momentum, or (where there is a Lagrangian) every fibre coordinate.
+void require_first_arrow(const ModelReader& reader, const Scene& scene);
 
 /// Throws ModelError where the scene's parameter values close a cycle.
 void require_acyclic_scene(const ModelReader& reader, const Scene& scene);

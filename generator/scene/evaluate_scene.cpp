@@ -2,6 +2,7 @@
 /// Trees of a scene to numbers, and the conditions on a start.
 #include "scene/evaluate_scene.hpp"
 
+#include "algebra/group_relations.hpp"
 #include "model/dependency_order.hpp"
 #include "model/families.hpp"
 
@@ -170,6 +171,45 @@ void SceneEvaluator::require_bounds(const Values& parameters)
     }
 }
 
+/// The generators are not looked at where there is no element.
+void SceneEvaluator::require_in_group(const Values& parameters, const std::vector<NamedNumber>& element)
+{
+    constexpr long double group_tolerance = 1e-10L;
+    const GroupoidBlock& groupoid = *model_.groupoid;
+    std::vector<RealMatrix> generators;
+    for (const ArrayValue& matrix : groupoid.generators) {
+        RealMatrix& numbers = generators.emplace_back();
+        for (const Tree& entry : matrix.entries)
+            numbers.push_back(finite(entry, parameters, "an entry of the generators{}", "", groupoid.group_where));
+    }
+    RealMatrix W;
+    for (const NamedNumber& entry : element) W.push_back(entry.second);
+    const GroupDefect defect = group_defect(generators, W, groupoid.generators[0].shape.rows);
+    if (defect.size <= group_tolerance) return;
+    throw StartError(
+        "off_constraint",
+        fmt::format("the element of scene '{}' is not in the group{}: it misses {} by {:.3g}, where at most "
+                    "{:.3g} is allowed",
+                    scene_.name, groupoid.group.empty() ? "" : " " + groupoid.group, defect.relation,
+                    static_cast<double>(defect.size), static_cast<double>(group_tolerance)),
+        scene_.element_where, "for example element = \"exp(hat([..]))\" or \"cay(hat([..]))\"");
+}
+
+void SceneEvaluator::read_arrow(const Values& parameters, SceneValues& out)
+{
+    for (std::size_t k = 0; k < scene_.element.size(); ++k)
+        out.element.emplace_back(
+            model_.groupoid->element[k].name,
+            finite(scene_.element[k], parameters, "an entry of the element of scene '{}'", scene_.name, scene_.where));
+    if (!out.element.empty()) require_in_group(parameters, out.element);
+    Values target = parameters;
+    for (const NamedTree& entry : scene_.next)
+        target[entry.name] = finite(entry.value, parameters, "the next value of '{}'", entry.name, entry.where);
+    if (scene_.next.empty()) return;
+    require_domain(target);
+    out.next = pick(model_.base.coordinates, target);
+}
+
 std::vector<NamedNumber> SceneEvaluator::parameters(const Values& given)
 {
     return pick(free_parameters(model_), parameter_values(given));
@@ -194,10 +234,11 @@ SceneValues SceneEvaluator::operator()(const Values& given, const Values& initia
     require_constraints(values);
     require_domain(values);
     require_bounds(parameters);
+    read_arrow(parameters, out);
     out.base = pick(model_.base.coordinates, values);
     if (has_momenta)
         out.momenta = pick(model_.fibre.momenta, values);
-    else
+    else if (out.element.empty() && out.next.empty())
         out.fibre = pick(model_.fibre.coordinates, values);
     for (const NamedTree& casimir : model_.base.casimirs)
         out.casimirs.emplace_back(casimir.name, value_of_(casimir.value, values));

@@ -23,6 +23,8 @@ struct SceneValues {
     std::vector<NamedNumber> fibre;    ///< every fibre coordinate, in order; empty where the scene gives momenta
     std::vector<NamedNumber> momenta;  ///< every momentum, in order; empty where the scene gives fibre coordinates
     std::vector<NamedNumber> casimirs; ///< the declared Casimirs at the start
+    std::vector<NamedNumber> element;  ///< of a discrete scene the group part of the first arrow, by rows; or empty
+    std::vector<NamedNumber> next;     ///< and its target, by base coordinates; or empty
     long double start = 0;
     std::optional<long double> duration, step;
     std::optional<long double> relative, absolute; ///< `tolerance` fills both
@@ -46,8 +48,9 @@ class StartError : public ModelError {
 
 /// Evaluates every tree of the scene in long double. Throws StartError: a value that is not finite, a step, tolerance
 /// or sampling interval that is not positive, a start outside the domain, and a start off a constraint h by more than
-/// 1e-10 relative to its terms, |h| > 1e-10 max(sum |terms of h|, sum_i |x^i dh/dx^i|). With `project` the start is
-/// first moved by Newton steps of least length, dx = -J^T (J J^T)^-1 h, in the base coordinates.
+/// 1e-10 relative to its terms, |h| > 1e-10 max(sum |terms of h|, sum_i |x^i dh/dx^i|), a first arrow whose element is
+/// not in the group to 1e-10, and one whose target is outside. With `project` the start is first moved by Newton steps
+/// of least length, dx = -J^T (J J^T)^-1 h, in the base coordinates.
 [[nodiscard]] SceneValues evaluate_scene(const Model& model, const Scene& scene);
 
 /// The same again and again, with other numbers for some parameters and initial values. `model` outlives it.
@@ -68,6 +71,8 @@ class SceneEvaluator {
     void read_times(const Values& values, SceneValues& out);
     void require_constraints(Values& values);
     void require_domain(const Values& values);
+    void read_arrow(const Values& parameters, SceneValues& out);
+    void require_in_group(const Values& parameters, const std::vector<NamedNumber>& element);
     void require_bounds(const Values& parameters);
 
     const Model& model_;

@@ -20,6 +20,8 @@ class Claims {
 
     /// antisymmetry, anchor, jacobi, tangency of the constraints, Casimirs
     void decide_structure(StructureReport& structure);
+    /// action and unit of a groupoid, and whether the algebroid given beside it is its own
+    void decide_groupoid(StructureReport& structure);
     /// closed and equals of [forms], and whether each form is closed.
     void decide_forms(StructureReport& structure);
     [[nodiscard]] Regularity decide_regularity();
@@ -44,6 +46,9 @@ class Claims {
         std::size_t trivial = 0; ///< components that have no terms
     };
     [[nodiscard]] Vanishing vanishing(const std::string& name, const FormClaim& claim, const ExteriorForm& residual);
+    void decide_action(StructureReport& structure);
+    void append_equality(StructureReport& structure, const char* name, std::vector<std::string> indices, NodeId value,
+                         NodeId wanted);
     [[nodiscard]] Check check_of(const Residual& residual);
     [[nodiscard]] ProofStatus closedness(const FormClaim& claim);
 

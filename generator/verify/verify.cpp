@@ -63,6 +63,7 @@ Report verify(const System& system, const std::vector<NamedTree>& extra_invarian
     Claims claims(system, points, budget);
     claims.decide_structure(report.structure);
     append_involutive(report.structure, system);
+    claims.decide_groupoid(report.structure);
     claims.decide_forms(report.structure);
     report.mechanics.regularity = claims.decide_regularity();
     claims.decide_legendre(report.structure);

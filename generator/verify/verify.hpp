@@ -5,6 +5,9 @@
 ///   jacobi        sum_cyc(a,b,c) [ rho_a(C^v_bc) + C^m_bc C^v_am ] = 0       a < b < c, all v
 ///   tangency      rho_a(h) = 0 on M for each base constraint h
 ///   casimir       rho_a(f) = 0
+///   unit          x.1 = x                                                     of an action groupoid
+///   action        x.(W W') = (x.W).W'                                         likewise
+///   algebroid_of_groupoid   rho and C are those of the groupoid               (where both are given)
 ///   closed        d A = 0, by components (A, a, b, ..)                        of E-forms that claim it
 ///   equals        A - B = 0, by components (A, a, ..)
 ///   legendre      H(t, x, dL/dy) = y^a dL/dy^a - L                            (where both are given)

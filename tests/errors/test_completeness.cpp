@@ -73,6 +73,7 @@ constexpr std::array guards{
 /// Messages for which no model is known.
 constexpr std::array without_model{
     "it could not be shown that the sections of the subbundle are linearly independent somewhere",
+    "not shown to be a combination of the generators",
 };
 
 /// Messages of a machine in trouble, or with paths of the machine in them.

@@ -185,8 +185,8 @@ TEST_CASE("a scene that another form cannot do is refused when it is put into it
     CHECK(error_of([&] { (void)lagen::in_form(other, other.scenes[0], "discrete"); }) ==
           "error: the form asked for is 'discrete', but the model has no [discrete]\nhint: forms of this model: "
           "pontryagin, lagrange, hamilton");
-    CHECK(lagen::uses_controls(model, (*model.scenes[0].observe)[1].value));
-    CHECK_FALSE(lagen::uses_controls(model, (*model.scenes[0].observe)[0].value));
+    CHECK_FALSE(lagen::has_value(model, (*model.scenes[0].observe)[1].value, "lagrange"));
+    CHECK(lagen::has_value(model, (*model.scenes[0].observe)[0].value, "lagrange"));
 }
 
 TEST_CASE("a scene of Pontryagin's form asks for the momenta that it leaves out")

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Named Lie algebras by their matrices: so(n), su(2), se(2), se(3), so(2,1), sl(2), heis(3), aff(1), gl(n), R^n and
-/// direct sums "A + B". Structure constants are not typed in: they are read off the commutators of the basis matrices.
+/// direct sums "A + B"; and the groups that they generate. Structure constants are not typed in: they are read off the
+/// commutators of the basis matrices.
 #pragma once
 
 #include "expression/tree.hpp"
@@ -39,5 +40,15 @@ inline constexpr std::size_t named_algebra_rank_limit = 128;
 
 /// The names that `named_algebra` knows, for messages.
 [[nodiscard]] const std::vector<std::string>& named_algebra_names();
+
+/// The algebra of the matrix group called `name`: the same names in capitals, "SO(3) + R^2". Nothing where the name is
+/// unknown, or the rank above the limit.
+[[nodiscard]] std::optional<NamedAlgebra> algebra_of_group(std::string_view name);
+
+/// The names that `algebra_of_group` knows, for messages.
+[[nodiscard]] const std::vector<std::string>& named_group_names();
+
+/// The entries of a matrix of this size, by rows.
+[[nodiscard]] std::vector<Rational> dense(const SparseMatrix& matrix, std::size_t size);
 
 } // namespace lagen

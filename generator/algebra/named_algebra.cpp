@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Bases of the named Lie algebras, in the order of docs/algebroids.md, and their commutators.
-#include "algebroid/named_algebra.hpp"
+#include "algebra/named_algebra.hpp"
 
 #include <algorithm>
 #include <map>
@@ -207,6 +207,35 @@ const std::vector<std::string>& named_algebra_names()
     static const std::vector<std::string> names = {"so(3)",   "su(2)",  "se(2)", "se(3)", "so(2,1)", "sl(2)",
                                                    "heis(3)", "aff(1)", "so(4)", "gl(2)", "R^2"};
     return names;
+}
+
+std::optional<NamedAlgebra> algebra_of_group(std::string_view name)
+{
+    std::string spelled;
+    for (const char c : name) {
+        if (c >= 'a' && c <= 'z') return {}; // that is the name of an algebra
+        spelled += c >= 'A' && c <= 'Z' && c != 'R' ? static_cast<char>(c - 'A' + 'a') : c;
+    }
+    return named_algebra(spelled);
+}
+
+const std::vector<std::string>& named_group_names()
+{
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> capitals = named_algebra_names();
+        for (std::string& name : capitals)
+            for (char& c : name)
+                if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+        return capitals;
+    }();
+    return names;
+}
+
+std::vector<Rational> dense(const SparseMatrix& matrix, std::size_t size)
+{
+    std::vector<Rational> entries(size * size);
+    for (const MatrixEntry& entry : matrix) entries[entry.row * size + entry.column] = entry.value;
+    return entries;
 }
 
 } // namespace lagen

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "equations/discrete.hpp"
+
+#include "equations/symbolic_model.hpp"
+#include "graph/core/lower.hpp"
+#include "mechanics/discrete.hpp"
+#include "model/families.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace lagen {
+namespace {
+
+/// The discrete Euler-Lagrange equations as they are known for each kind.
+struct KindFormula {
+    GroupoidKind kind;
+    const char* text;
+    const char* latex;
+};
+
+constexpr KindFormula kind_formulas[] = {
+    {GroupoidKind::pair, "D₂L(x, y) + D₁L(y, z) = 0", R"(D_2 L(x, y) + D_1 L(y, z) = 0)"},
+    {GroupoidKind::group, "μ_{k+1} = Ad*_{g_k} μ_k,  μ_k = F⁻L(g_k)",
+     R"(\mu_{k+1} = \mathrm{Ad}^*_{g_k} \mu_k,\quad \mu_k = F^-L(g_k))"},
+    {GroupoidKind::action, "μ_{k+1} = Ad*_{h_k} μ_k + d(L_{h_{k+1}} ∘ x_{k+1}·)(e),  μ_k = d(L_{x_k} ∘ r_{h_k})(e)",
+     R"(\mu_{k+1} = \mathrm{Ad}^*_{h_k} \mu_k + d(L_{h_{k+1}} \circ x_{k+1}\cdot)(e),\quad \mu_k = d(L_{x_k} \circ r_{h_k})(e))"},
+    {GroupoidKind::atiyah, "D₂L(x, y, h_k) + D₁L(y, z, h_{k+1}) = 0,  μ_{k+1} = Ad*_{h_k} μ_k",
+     R"(D_2 L(x, y, h_k) + D_1 L(y, z, h_{k+1}) = 0,\quad \mu_{k+1} = \mathrm{Ad}^*_{h_k} \mu_k)"},
+};
+
+class DiscreteDerivation {
+  public:
+    DiscreteDerivation(const Model& model, const System& system)
+        : model_(model), graph_(system.graph), groupoid_(*system.groupoid),
+          symbolic_(model, system.written.algebroid, {model.discrete->lagrangian}),
+          legendre_(discrete_legendre(graph_, groupoid_, *system.discrete->lagrangian))
+    {
+        for (const Arrow& arrow : {groupoid_.arrow, second_arrow()})
+            for (const auto* nodes : {&arrow.next, &arrow.W})
+                for (const NodeId node : *nodes)
+                    if (graph_.op(node) == Op::input) symbolic_.add_variable(graph_.input_name(node));
+        if (const std::vector<std::string> names = symbol_names(model); // a parameter, or a symbol of its own
+            std::ranges::find(names, model.discrete->step.name) == names.end())
+            symbolic_.add_variable(model.discrete->step.name);
+    }
+
+    EquationSet run()
+    {
+        EquationSet set = symbolic_.empty_set("discrete");
+        if (!groupoid_.action.empty()) set.blocks.push_back(targets());
+        set.blocks.push_back(momenta("momenta at the source", "F⁻L_a = →e_a(L)", R"(F^-L_a = \overrightarrow{e_a}(L))",
+                                     legendre_.minus, false));
+        set.blocks.push_back(momenta("momenta at the target", "F⁺L_a = ←e_a(L)", R"(F^+L_a = \overleftarrow{e_a}(L))",
+                                     legendre_.plus, true));
+        set.blocks.push_back(equations());
+        return set;
+    }
+
+  private:
+    [[nodiscard]] GiNaC::ex value(NodeId node) { return symbolic_.lower(to_tree(graph_, node)); }
+
+    /// x_next = x.W
+    [[nodiscard]] EquationBlock targets()
+    {
+        EquationBlock block{"target", "t(g) = x.W", R"(t(g) = x \cdot W)", {}};
+        for (std::size_t i = 0; i < groupoid_.n(); ++i)
+            block.equations.push_back(symbolic_.equation(LeftSide::symbol, next_name(model_.base.coordinates[i].name),
+                                                         {value(groupoid_.action[i])}));
+        return block;
+    }
+
+    [[nodiscard]] EquationBlock momenta(const char* title, const char* formula, const char* latex,
+                                        const std::vector<NodeId>& values, bool behind)
+    {
+        EquationBlock block{title, formula, latex, {}};
+        for (std::size_t a = 0; a < values.size(); ++a)
+            block.equations.push_back(symbolic_.equation(
+                LeftSide::symbol, behind ? next_name(symbolic_.momentum_name(a)) : symbolic_.momentum_name(a),
+                {value(values[a])}));
+        return block;
+    }
+
+    /// h with s(h) = t(g): its own coordinates are new ones.
+    [[nodiscard]] Arrow second_arrow()
+    {
+        const auto behind = [&](const std::vector<NodeId>& inputs) {
+            std::vector<NodeId> out;
+            for (const NodeId input : inputs) out.push_back(graph_.input(next_name(graph_.input_name(input))));
+            return out;
+        };
+        return {target(graph_, groupoid_, groupoid_.arrow), behind(groupoid_.arrow.next), behind(groupoid_.arrow.W)};
+    }
+
+    [[nodiscard]] EquationBlock equations()
+    {
+        const Arrow h = second_arrow();
+        const std::vector<NodeId> behind = at(graph_, groupoid_, legendre_.minus, h);
+        const auto* row =
+            std::ranges::find(kind_formulas, model_.groupoid->kind, [](const KindFormula& each) { return each.kind; });
+        EquationBlock block{"discrete Euler-Lagrange equations",
+                            fmt::format("F⁺L(g) - F⁻L(h) = 0,  t(g) = s(h);  {}", row->text),
+                            fmt::format(R"(F^+L(g) - F^-L(h) = 0,\quad t(g) = s(h);\quad {})", row->latex),
+                            {}};
+        for (std::size_t a = 0; a < behind.size(); ++a)
+            block.equations.push_back(
+                {LeftSide::zero,
+                 symbolic_.momentum_name(a),
+                 {},
+                 symbolic_.simplified({{"F⁺L(g)", value(legendre_.plus[a])}, {"-F⁻L(h)", -value(behind[a])}})});
+        return block;
+    }
+
+    const Model& model_;
+    Graph graph_;
+    const Groupoid& groupoid_;
+    SymbolicModel symbolic_;
+    DiscreteLegendre legendre_;
+};
+
+} // namespace
+
+EquationSet derive_discrete(const Model& model, const System& system)
+{
+    if (!system.discrete || !system.discrete->lagrangian)
+        throw MathematicsError(system.discrete ? "the discrete Lagrangian of the model is made by a scheme: there is "
+                                                 "none that is written out"
+                                               : "the model has no [discrete]",
+                               "[discrete] L = \"..\" over x, x_next and the element");
+    return derived(model, "the discrete equations", [&] { return DiscreteDerivation(model, system).run(); });
+}
+
+} // namespace lagen

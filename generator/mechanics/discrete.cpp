@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "mechanics/discrete.hpp"
+
+#include "graph/calculus/differentiate.hpp"
+
+namespace lagen {
+
+namespace {
+
+/// X^k df/dz^k of the field X, by the slopes df/dz.
+NodeId along_field(Graph& graph, const VectorField& field, const std::vector<NodeId>& slopes)
+{
+    std::vector<NodeId> terms;
+    for (const ColumnEntry& entry : field)
+        if (!graph.is_zero(slopes[entry.index])) terms.push_back(graph.multiply(entry.value, slopes[entry.index]));
+    return graph.sum(terms);
+}
+
+} // namespace
+
+DiscreteLegendre discrete_legendre(Graph& graph, const Groupoid& groupoid, NodeId L)
+{
+    const std::vector<NodeId> slopes = gradient(graph, L, groupoid.coordinates());
+    DiscreteLegendre legendre;
+    for (const VectorField& field : groupoid.left) legendre.plus.push_back(along_field(graph, field, slopes));
+    for (const VectorField& field : groupoid.right) legendre.minus.push_back(along_field(graph, field, slopes));
+    return legendre;
+}
+
+std::vector<NodeId> discrete_euler_lagrange(Graph& graph, const Groupoid& groupoid, const DiscreteLegendre& legendre,
+                                            const Arrow& g, const Arrow& h)
+{
+    const std::vector<NodeId> before = at(graph, groupoid, legendre.plus, g);
+    const std::vector<NodeId> behind = at(graph, groupoid, legendre.minus, h);
+    std::vector<NodeId> residual;
+    for (std::size_t a = 0; a < before.size(); ++a) residual.push_back(graph.subtract(before[a], behind[a]));
+    return residual;
+}
+
+std::vector<NodeId> newton_matrix(Graph& graph, const Groupoid& groupoid, const DiscreteLegendre& legendre)
+{
+    const std::vector<NodeId> coordinates = groupoid.coordinates();
+    const std::size_t r = groupoid.r();
+    std::vector<NodeId> N(r * r);
+    for (std::size_t b = 0; b < r; ++b) {
+        std::vector<std::pair<NodeId, NodeId>> seeds;
+        for (const ColumnEntry& entry : groupoid.left[b]) seeds.emplace_back(coordinates[entry.index], entry.value);
+        const std::vector<NodeId> column = directional(graph, legendre.minus, seeds);
+        for (std::size_t a = 0; a < r; ++a) N[a * r + b] = column[a];
+    }
+    return N;
+}
+
+} // namespace lagen

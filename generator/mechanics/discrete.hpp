@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Discrete mechanics on a Lie groupoid with the discrete Lagrangian L(g), by its invariant fields:
+///   F^+L(g)_a = (<-e_a L)(g),      F^-L(h)_a = (->e_a L)(h)                        discrete Legendre transforms
+///   DEL(g, h)_a = F^+L(g)_a - F^-L(h)_a = 0,      t(g) = s(h)                      discrete Euler-Lagrange equations
+///   N_ab = <-e_b (F^-L_a)                                                          Newton's matrix of a step
+/// A step takes (x, mu) to the arrow h with s(h) = x and F^-L(h) = mu, and then to (t(h), F^+L(h)). Newton's method for
+/// it moves h along its source fibre, h <- h eta(d) with N d = mu - F^-L(h); L is regular where det N != 0, since
+/// N_ab E-^a ^ E+^b is its Cartan 2-section Omega_L.                                             [Martinez 2001]
+#pragma once
+
+#include "groupoid/groupoid.hpp"
+
+namespace lagen {
+
+/// Over the coordinates of an arrow, shapes (r).
+struct DiscreteLegendre {
+    std::vector<NodeId> plus;  ///< F^+L(g)_a
+    std::vector<NodeId> minus; ///< F^-L(g)_a
+};
+[[nodiscard]] DiscreteLegendre discrete_legendre(Graph& graph, const Groupoid& groupoid, NodeId L);
+
+/// DEL(g, h)_a, shape (r).
+[[nodiscard]] std::vector<NodeId> discrete_euler_lagrange(Graph& graph, const Groupoid& groupoid,
+                                                          const DiscreteLegendre& legendre, const Arrow& g,
+                                                          const Arrow& h);
+
+/// N_ab by rows, shape (r, r).
+[[nodiscard]] std::vector<NodeId> newton_matrix(Graph& graph, const Groupoid& groupoid,
+                                                const DiscreteLegendre& legendre);
+
+} // namespace lagen

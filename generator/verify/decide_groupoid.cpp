@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// What a groupoid claims: that its action is a right action of the group, and that the algebroid given beside it is
+/// its own.
+///   unit       x.1 = x
+///   action     x.(W W') = (x.W).W'
+/// The latter for all matrices W and W' or, where that fails, for those of the group near 1: cay(A) = (1 - A/2)^-1
+/// (1 + A/2), A = s^c E_c. What is analytic holds on the connected group then.
+#include "graph/calculus/differentiate.hpp"
+#include "groupoid/algebroid_of.hpp"
+#include "verify/claims.hpp"
+
+#include <algorithm>
+
+namespace lagen {
+namespace {
+
+constexpr std::size_t largest_chart = 6; ///< rows of a matrix whose inverse is written out in a proof
+constexpr const char* chart_text = "W = cay(s(c) E_c), W' = cay(s'(c) E_c) with the generators E_c of the group";
+
+/// The action property with two matrices of inputs, and the same in charts of the group.
+class ActionClaims {
+  public:
+    ActionClaims(Graph& graph, const System& system, const ProofBudget& budget)
+        : graph_(graph), system_(system), groupoid_(*system.groupoid), budget_(budget), W_(groupoid_.arrow.W),
+          second_(primed(W_))
+    {
+        const Arrow g{groupoid_.arrow.x, {}, W_}, h{target(graph, groupoid_, g), {}, second_};
+        const std::vector<NodeId> both = target(graph, groupoid_, h);
+        const Arrow first{groupoid_.arrow.x, {}, second_};
+        const Arrow other{target(graph, groupoid_, first), {}, W_};
+        right_ = differences(target(graph, groupoid_, product(graph, groupoid_, g, h)), both);
+        left_ = differences(target(graph, groupoid_, product(graph, groupoid_, g, h)), target(graph, groupoid_, other));
+    }
+
+    [[nodiscard]] Decision decide(NodeId residual)
+    {
+        Decision free = on_matrices(residual);
+        if (free.status == ProofStatus::proved) return free;
+        if (groupoid_.has_cayley_map && groupoid_.size <= largest_chart)
+            if (Decision charted = on_group(residual); charted.status != ProofStatus::undecided) return charted;
+        Decision open;
+        open.residual = free.residual;
+        open.evidence =
+            "it does not hold, or is not shown, for all matrices; of those of the group alone it is not decided";
+        return open;
+    }
+
+    /// Whether x.(W W') = (x.W').W, by a proof.
+    [[nodiscard]] bool is_left_action()
+    {
+        return std::ranges::all_of(left_, [&](NodeId residual) {
+            return graph_.is_zero(residual) || decide(residual).status == ProofStatus::proved;
+        });
+    }
+
+    /// x.(W W') - (x.W).W', shape (n)
+    [[nodiscard]] const std::vector<NodeId>& residuals() const { return right_; }
+
+  private:
+    /// Inputs that no model can name.
+    [[nodiscard]] std::vector<NodeId> primed(const std::vector<NodeId>& inputs)
+    {
+        std::vector<NodeId> out;
+        for (const NodeId input : inputs) out.push_back(graph_.input(graph_.input_name(input) + "'"));
+        return out;
+    }
+
+    [[nodiscard]] std::vector<NodeId> differences(const std::vector<NodeId>& a, const std::vector<NodeId>& b)
+    {
+        std::vector<NodeId> out;
+        for (std::size_t i = 0; i < a.size(); ++i) out.push_back(graph_.subtract(a[i], b[i]));
+        return out;
+    }
+
+    [[nodiscard]] ProofSetting setting_over(const std::vector<NodeId>& more) const
+    {
+        ProofSetting setting;
+        setting.variables = groupoid_.arrow.x;
+        setting.variables.insert(setting.variables.end(), more.begin(), more.end());
+        setting.parameters = system_.parameters;
+        setting.constraints = system_.functions.constraints;
+        setting.domain = system_.domain;
+        return setting;
+    }
+
+    [[nodiscard]] Decision on_matrices(NodeId residual)
+    {
+        std::vector<NodeId> variables = W_;
+        variables.insert(variables.end(), second_.begin(), second_.end());
+        return ZeroDecider(graph_, setting_over(variables), budget_).decide(residual);
+    }
+
+    /// cay(A), A = s^c E_c
+    [[nodiscard]] std::vector<NodeId> chart(const std::vector<NodeId>& s)
+    {
+        std::vector<NodeId> plus = matrix_one(graph_, groupoid_.size), minus = plus;
+        for (std::size_t c = 0; c < s.size(); ++c)
+            for (std::size_t k = 0; k < plus.size(); ++k) {
+                const NodeId half = graph_.multiply(graph_.constant(Rational(1, 2)), groupoid_.generators[c][k]);
+                plus[k] = graph_.add(plus[k], graph_.multiply(s[c], half));
+                minus[k] = graph_.subtract(minus[k], graph_.multiply(s[c], half));
+            }
+        return matrix_quotient(graph_, minus, plus, groupoid_.size);
+    }
+
+    [[nodiscard]] Decision on_group(NodeId residual)
+    {
+        if (charted_.empty()) {
+            std::vector<NodeId> s, t;
+            for (std::size_t c = 0; c < groupoid_.generators.size(); ++c) {
+                s.push_back(graph_.input("s(" + std::to_string(c + 1) + ")"));
+                t.push_back(graph_.input("s'(" + std::to_string(c + 1) + ")"));
+            }
+            charted_ = replacements(W_, chart(s));
+            for (const auto& pair : replacements(second_, chart(t))) charted_.push_back(pair);
+            chart_variables_ = s;
+            chart_variables_.insert(chart_variables_.end(), t.begin(), t.end());
+        }
+        const NodeId charted = substitute(graph_, {&residual, 1}, charted_)[0];
+        Decision decision = ZeroDecider(graph_, setting_over(chart_variables_), budget_).decide(charted);
+        decision.evidence += decision.evidence.empty() ? chart_text : std::string("; ") + chart_text;
+        return decision;
+    }
+
+    Graph& graph_;
+    const System& system_;
+    const Groupoid& groupoid_;
+    ProofBudget budget_;
+    std::vector<NodeId> W_, second_;
+    std::vector<NodeId> right_, left_; ///< x.(W W') - (x.W).W', x.(W W') - (x.W').W
+    Replacements charted_;
+    std::vector<NodeId> chart_variables_;
+};
+
+/// Every entry of two columns, those that neither has left out.
+std::set<std::size_t> indices_of(const Column& a, const Column& b)
+{
+    std::set<std::size_t> indices;
+    for (const Column* column : {&a, &b})
+        for (const ColumnEntry& entry : *column) indices.insert(entry.index);
+    return indices;
+}
+
+} // namespace
+
+void Claims::decide_action(StructureReport& structure)
+{
+    const Groupoid& groupoid = *system_.groupoid;
+    if (groupoid.action.empty()) return;
+    const std::vector<NodeId>& x = system_.algebroid.x;
+    const std::vector<NodeId> moved = target(graph_, groupoid, identity(graph_, groupoid, x));
+    for (std::size_t i = 0; i < x.size(); ++i)
+        append_equality(structure, "unit", {graph_.input_name(x[i])}, moved[i], x[i]);
+    ActionClaims claims(graph_, system_, judge_->decider().budget());
+    bool hinted = false;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        if (graph_.is_zero(claims.residuals()[i])) {
+            ++structure.trivial;
+            continue;
+        }
+        Check check{"action", {graph_.input_name(x[i])}, claims.decide(claims.residuals()[i]), {}, {}};
+        if (check.decision.status != ProofStatus::proved && !hinted) {
+            hinted = true;
+            if (claims.is_left_action())
+                check.hint = "this is a left action; the right one has the inverse of the element: transpose(W) of a "
+                             "rotation, inverse(W)";
+        }
+        structure.checks.push_back(std::move(check));
+    }
+}
+
+/// A check that `value` is `wanted`; trivial where they are one node.
+void Claims::append_equality(StructureReport& structure, const char* name, std::vector<std::string> indices,
+                             NodeId value, NodeId wanted)
+{
+    const NodeId residual = graph_.subtract(value, wanted);
+    if (graph_.is_zero(residual)) {
+        ++structure.trivial;
+        return;
+    }
+    structure.checks.push_back({name, std::move(indices), judge_->decide(residual), {}, judge_->reevaluate(residual)});
+}
+
+void Claims::decide_groupoid(StructureReport& structure)
+{
+    if (!system_.groupoid) return;
+    decide_action(structure);
+    if (!system_.groupoid_is_claim) return;
+    const Algebroid& given = system_.algebroid;
+    const Algebroid computed = algebroid_of(graph_, *system_.groupoid, given.y).algebroid;
+    const auto section = [&](std::size_t a) { return graph_.input_name(given.y[a]); };
+    const char* name = "algebroid_of_groupoid";
+    for (std::size_t a = 0; a < given.r(); ++a)
+        for (const std::size_t i : indices_of(given.anchor[a], computed.anchor[a]))
+            append_equality(structure, name, {section(a), graph_.input_name(given.x[i])},
+                            Algebroid::entry(graph_, given.anchor[a], i),
+                            Algebroid::entry(graph_, computed.anchor[a], i));
+    for (std::size_t a = 0; a < given.r(); ++a)
+        for (std::size_t b = a + 1; b < given.r(); ++b)
+            for (const std::size_t c : indices_of(given.C(a, b), computed.C(a, b)))
+                append_equality(structure, name, {section(a), section(b), section(c)},
+                                Algebroid::entry(graph_, given.C(a, b), c),
+                                Algebroid::entry(graph_, computed.C(a, b), c));
+}
+
+} // namespace lagen
