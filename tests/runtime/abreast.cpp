@@ -317,7 +317,7 @@ TEST_CASE("A lane whose trajectory has ended takes the next one: none waits for 
     for (int k = 0; k < 7 * 63; ++k) tasks.push_back({{}, Counted<double>::State(k), 1});
     std::size_t& calls = Counted<Pack<double, 8>>::calls;
     calls = 0;
-    check_abreast<8>(tasks, std::vector<Rk4>{{.step = 0.125}}, {});
+    check_observed<8, Nobody, Counted<double>, Rk4>(tasks, {{.step = 0.125}}, {});
     CHECK(calls == 4 * 504);
 }
 

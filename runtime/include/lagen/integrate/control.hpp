@@ -278,8 +278,10 @@ typename M::Scalar first_step(const M& model, const StepControl& control, int or
     for (Eigen::Index lane = 0; lane < s.size(); ++lane) x[lane] = f1[lane] - f[lane];
     const Real bend = good ? sqrt(squared_error(scale, s, s, x) / n) / h : Real(0);
     Real steepest = bend < slope ? slope : bend;
+    const Real ratio = Real(0.01) / steepest; // 0 or no number where errors are measured in the smallest number
     Real h1 = steepest <= Real(1e-15) ? (Real(1e-6) < h * Real(1e-3) ? h * Real(1e-3) : Real(1e-6))
-                                      : power_of_number<Real>(Real(0.01) / steepest, Real(1) / Real(order));
+              : ratio > Real(0)       ? power_of_number<Real>(ratio, Real(1) / Real(order))
+                                      : ratio;
     Real chosen = Real(100) * h < h1 ? Real(100) * h : h1;
     if (!(chosen < cap)) chosen = cap;
     return sign * (chosen > Real(0) ? chosen : h);
