@@ -93,7 +93,7 @@ class OneOver {
 
 namespace detail {
 
-/// Squares of series, one a lane of the type Lanes: twice the half of the terms, from the middle outwards.
+/// Squares of series, one a lane of the type Lanes: twice the half of the terms.
 template <class Lanes, std::size_t length>
 struct SquaredSeries {
     std::array<Lanes, length> a;
@@ -101,15 +101,17 @@ struct SquaredSeries {
     [[nodiscard]] [[gnu::always_inline]] Lanes sum(std::size_t k) const noexcept
     {
         if (k < 2) return Lanes();
-        Lanes even = Lanes(), odd = Lanes();
-        std::size_t j = (k - 1) / 2;
-        for (; j > 1; j -= 2) {
-            even += a[j] * a[k - j];
-            odd += a[j - 1] * a[k - j + 1];
+        if (k == 2) return a[1] * a[1];
+        const std::size_t half = k / 2;
+        Lanes even = k % 2 == 0 ? Lanes(a[half] * a[half]) : Lanes(), odd = Lanes();
+        std::size_t j = 2;
+        for (; 2 * j + 2 < k; j += 2) {
+            odd += a[j] * a[k - j];
+            even += (a[j + 1] + a[j + 1]) * a[k - j - 1];
         }
-        if (j == 1) even += a[1] * a[k - 1];
-        const Lanes half = even + odd;
-        return k % 2 == 0 ? Lanes(a[k / 2] * a[k / 2] + (half + half)) : Lanes(half + half);
+        if (2 * j < k) odd += a[j] * a[k - j];
+        odd += a[1] * a[k - 1];
+        return even + (odd + odd);
     }
 };
 
