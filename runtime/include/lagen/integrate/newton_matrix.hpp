@@ -74,26 +74,29 @@ Entry zero() noexcept
         return Entry{};
 }
 
-/// n x n entries by rows: in place up to a size that a stack holds easily, else on the heap (once, at construction).
-template <class Entry, std::size_t n>
-class Square {
+/// Entries by rows: in place up to a size that a stack holds easily, else on the heap (once, at construction).
+template <class Entry, std::size_t rows, std::size_t columns>
+class Grid {
   public:
-    static constexpr bool in_place = n <= 48;
+    static constexpr bool in_place = rows * columns <= 48 * 48;
 
-    Square() { clear(); }
-    [[nodiscard]] Entry& operator()(std::size_t i, std::size_t j) noexcept { return entries_[i * n + j]; }
-    [[nodiscard]] const Entry& operator()(std::size_t i, std::size_t j) const noexcept { return entries_[i * n + j]; }
+    Grid() { clear(); }
+    [[nodiscard]] Entry& operator()(std::size_t i, std::size_t j) noexcept { return entries_[i * columns + j]; }
+    [[nodiscard]] const Entry& operator()(std::size_t i, std::size_t j) const noexcept
+    {
+        return entries_[i * columns + j];
+    }
 
     void clear()
     {
         if constexpr (in_place)
             entries_.fill(zero<Entry>());
         else
-            entries_.assign(n * n, zero<Entry>()); // allocates the first time alone
+            entries_.assign(rows * columns, zero<Entry>()); // allocates the first time alone
     }
 
   private:
-    std::conditional_t<in_place, std::array<Entry, n * n>, std::vector<Entry>> entries_;
+    std::conditional_t<in_place, std::array<Entry, rows * columns>, std::vector<Entry>> entries_;
 };
 
 /// f(0), .., f(count - 1), the numbers as constants: written out, which g++ 12 does not do at -O2 by itself.
@@ -176,7 +179,7 @@ class MatrixLu {
         return largest > Real(0) && largest - largest == Real(0);
     }
 
-    Square<Entry, n> lu_;
+    Grid<Entry, n, n> lu_;
     std::array<Entry, n> inverses_{};
     std::array<std::size_t, n> swaps_{};
 };

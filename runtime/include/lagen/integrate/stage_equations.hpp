@@ -4,6 +4,7 @@
 /// method's matrix, residuals and increments. When to stop is the steppers' business.
 #pragma once
 
+#include "lagen/integrate/band_matrix.hpp"
 #include "lagen/integrate/collocation.hpp"
 #include "lagen/integrate/lanes.hpp"
 #include "lagen/integrate/retract.hpp"
@@ -171,8 +172,13 @@ class StageEquations {
     std::size_t calls = 0, iterations = 0, decompositions = 0;
 
   private:
+    /// A matrix whose band is narrow is decomposed inside it.
+    static constexpr BandOrder<n> band = band_order<n>(M::jacobian_rows, M::jacobian_columns);
     template <class Entry>
-    bool factor(MatrixLu<Entry, n>& lu, const Entry& scale) noexcept
+    using Lu = std::conditional_t<is_narrow(band), BandLu<Entry, n, band>, MatrixLu<Entry, n>>;
+
+    template <class Entry>
+    bool factor(Lu<Entry>& lu, const Entry& scale) noexcept
     {
         const Entry one = unit(scale);
         lu.clear();
@@ -240,8 +246,8 @@ class StageEquations {
     Collocation<Real, stages> method_;
     Modes<Scheme, Real> modes_;
     std::array<Real, M::jacobian_rows.size()> values_{};
-    std::array<MatrixLu<Real, n>, Modes<Scheme, Real>::reals> real_;
-    std::array<MatrixLu<Complex<Real>, n>, Modes<Scheme, Real>::pairs> complex_;
+    std::array<Lu<Real>, Modes<Scheme, Real>::reals> real_;
+    std::array<Lu<Complex<Real>>, Modes<Scheme, Real>::pairs> complex_;
     std::array<std::array<Real, n>, Modes<Scheme, Real>::reals> w_real_;
     std::array<std::array<Complex<Real>, n>, Modes<Scheme, Real>::pairs> w_complex_;
     State x_;
