@@ -62,7 +62,7 @@ TEST_CASE("the second run reads a record, whatever the values; a lost program or
     CHECK(second.out == first.out);
     CHECK_THAT(second.err, Catch::StartsWith("warning: this was read\n"));
     for (const std::vector<std::string>& options :
-         {std::vector<std::string>{"--set", "I=1.75"}, {"--tolerance", "1e-6"}, {"--t-end", "3"}}) {
+         {std::vector<std::string>{"--set", "I=1.75"}, {"--tolerance", "1e-6"}, {"--initial", "w1=1.25"}}) {
         const Outcome other = cache.run(options);
         CHECK(other.code == 0);
         CHECK_THAT(other.err, Catch::StartsWith("warning: this was read\n"));

@@ -135,8 +135,17 @@ template <class Real>
         return x;
 }
 
+/// x^exponent to the scalar's last digit.
 template <class Real>
 [[nodiscard]] Real power_of_number(const Real& x, const Real& exponent) noexcept
+{
+    using std::pow;
+    return Real(pow(plain_number(x), plain_number(exponent)));
+}
+
+/// x^exponent to the few digits that the length of a step needs.
+template <class Real>
+[[nodiscard]] Real rough_power(const Real& x, const Real& exponent) noexcept
 {
     return Real(step_power(plain_number(x), plain_number(exponent)));
 }
@@ -166,7 +175,7 @@ class Controller {
 
     [[nodiscard]] ErrorPowers<Real> powers(const Real& error) const noexcept
     {
-        if (!remembers()) return {power_of_number(error, proportional_), Real(1)};
+        if (!remembers()) return {rough_power(error, proportional_), Real(1)};
         const TwoPowers<decltype(plain_number(error))> both(plain_number(error), plain_number(proportional_),
                                                             plain_number(integral_));
         return {Real(both.of_all), Real(both.of_large)};
@@ -280,7 +289,7 @@ typename M::Scalar first_step(const M& model, const StepControl& control, int or
     Real steepest = bend < slope ? slope : bend;
     const Real ratio = Real(0.01) / steepest; // 0 or no number where errors are measured in the smallest number
     Real h1 = steepest <= Real(1e-15) ? (Real(1e-6) < h * Real(1e-3) ? h * Real(1e-3) : Real(1e-6))
-              : ratio > Real(0)       ? power_of_number<Real>(ratio, Real(1) / Real(order))
+              : ratio > Real(0)       ? rough_power<Real>(ratio, Real(1) / Real(order))
                                       : ratio;
     Real chosen = Real(100) * h < h1 ? Real(100) * h : h1;
     if (!(chosen < cap)) chosen = cap;
