@@ -84,7 +84,7 @@ class Sweep {
     int run()
     {
         const auto begin = [this](SweepBlock& block) { return read(block); };
-        const auto work = [this](auto& source) { integrate_all(source); };
+        const auto work = [this](auto& source) { this->integrate_all(source); };
         const auto deliver = [this](SweepBlock& block) {
             std::string text;
             for (const std::string& line : block.lines) text += line;

@@ -104,22 +104,25 @@ requires(width > 1) struct SliceOf<double, width> {
 template <class Column, int width>
 using Slice = typename SliceOf<typename Column::Scalar, width>::type;
 
-/// The slice f(0), f(1), .. of a column, f of a lane of it.
-template <class Column, int width, class Function>
-[[gnu::always_inline]] inline Slice<Column, width> slice_of(const Function& f) noexcept
+template <class Column, int... k>
+[[gnu::always_inline]] inline Slice<Column, sizeof...(k)> uniform(const typename Column::Scalar& x,
+                                                                  std::integer_sequence<int, k...>) noexcept
 {
-    return [&]<int... k>(std::integer_sequence<int, k...>)
-    {
-        return Slice<Column, width>{f(k)...};
-    }
-    (std::make_integer_sequence<int, width>{});
+    return Slice<Column, sizeof...(k)>{(static_cast<void>(k), x)...};
 }
 
 /// The same number in every lane; a scalar's default constructor need not make a number.
 template <class Column, int width>
 [[gnu::always_inline]] inline Slice<Column, width> uniform(const typename Column::Scalar& x) noexcept
 {
-    return slice_of<Column, width>([&](int) { return x; });
+    return uniform<Column>(x, std::make_integer_sequence<int, width>{});
+}
+
+template <class Column, int... k>
+[[gnu::always_inline]] inline Slice<Column, sizeof...(k)> lanes_from(const Column& column, Eigen::Index lane,
+                                                                     std::integer_sequence<int, k...>) noexcept
+{
+    return Slice<Column, sizeof...(k)>{column[lane + k]...};
 }
 
 /// Lane `lane` of a column written a moment ago, a lane at a time, and the next ones: a processor waits until such
@@ -128,7 +131,7 @@ template <class Column, int width>
 template <int width, class Column>
 [[gnu::always_inline]] inline Slice<Column, width> load_fresh(const Column& column, Eigen::Index lane) noexcept
 {
-    return slice_of<Column, width>([&](int k) { return column[lane + k]; });
+    return lanes_from(column, lane, std::make_integer_sequence<int, width>{});
 }
 
 /// Lane `lane` of a column and the next ones.
