@@ -4,6 +4,18 @@
 
 using namespace lagen::testing;
 
+namespace {
+
+void check_walks(const std::map<std::string, std::vector<std::string>>& lines)
+{
+    for (const char* name : {"rigid_body walk", "oval walk", "ellipse walk"}) {
+        INFO(name);
+        CHECK(std::stod(lines.at(name)[0]) < 2);
+    }
+}
+
+} // namespace
+
 TEST_CASE("Taylor's method meets the references to their last digit, in double in fewer steps than DOP853")
 {
     const std::string output = run_on_headers("taylor",
@@ -29,8 +41,13 @@ TEST_CASE("Taylor's method meets the references to their last digit, in double i
     CHECK(std::stod(slopes[0]) < 1e-12);
     CHECK(std::stod(slopes[1]) < 1e-6);
     CHECK(slopes[2] == "1");
-    for (const char* name : {"rigid_body walk", "oval walk", "ellipse walk"}) {
-        INFO(name);
-        CHECK(std::stod(lines.at(name)[0]) < 2);
-    }
+    check_walks(lines);
+}
+
+TEST_CASE("the energy walks at random for a million units of time", "[all]")
+{
+    const std::string output =
+        run_on_headers("long_walk", {"models/kepler.toml", "models/rigid_body.toml"}, "--with taylor");
+    INFO(output);
+    check_walks(lines_by_key(output));
 }

@@ -9,6 +9,7 @@
 #include "kepler.hpp"
 #include "relativistic_oscillator.hpp"
 #include "rigid_body.hpp"
+#include "walk.hpp"
 
 #include "lagen/integrate.hpp"
 
@@ -96,27 +97,6 @@ void check_slopes(const char* name, const typename Model::State& s)
     std::printf("%s slopes %.3g %.3g %d\n", name, first, second, good ? 1 : 0);
 }
 
-/// The largest error of the energy after 10^3, 10^4 and 10^5 units of time, relative to it, in epsilons times the
-/// square root of the number of steps: a random walk has a bound, a bias has none.
-template <template <class> class Model>
-void walk(const char* name, const typename Model<double>::State& s)
-{
-    const Model<double> model;
-    Model<long double> wide;
-    for (std::size_t k = 0; k < wide.parameter_names.size(); ++k) wide.parameter(k) = Model<double>(model).parameter(k);
-    const auto energy = [&](const auto& at) {
-        return wide.energy(0, typename Model<long double>::State(at.template cast<long double>()));
-    };
-    lagen::Integrator integrator(model, s, 0.0, lagen::Taylor{.tolerance = 1e-16});
-    long double largest = 0;
-    for (double end = 1e3; end < 2e5; end *= 10) {
-        if (integrator.advance_to(end) != lagen::Status::ok) return;
-        const long double error = std::abs(energy(integrator.state()) / energy(s) - 1);
-        largest = std::max(largest, error / std::sqrt(static_cast<long double>(integrator.steps())));
-    }
-    std::printf("%s walk %.3g\n", name, static_cast<double>(largest / std::numeric_limits<double>::epsilon()));
-}
-
 } // namespace
 
 int main()
@@ -132,8 +112,6 @@ int main()
     chain<double>::State s;
     for (int k = 0; k < chain<double>::dimension; ++k) s[k] = std::sin(1.0 + 3 * k) / 2;
     check_slopes<chain<double>>("chain", s);
-    walk<rigid_body>("rigid_body", {-1.5, 0.5, 0.35});
-    walk<kepler>("oval", {0.7, 0, 0, std::sqrt(1.5)});
-    walk<kepler>("ellipse", {0.5, 0, 0, std::sqrt(3.0)});
+    walks(1e5);
     return 0;
 }
