@@ -5,13 +5,14 @@
 ///   march N        about N steps inside a function `marched`, for callgrind; prints accepted and rejected steps, calls
 ///   of
 ///                  the right-hand side, Newton iterations and the end
-///   march N rhs    N right-hand sides inside a function `marched_calls`
+///   march N rhs    N right-hand sides, of Taylor's method N series, inside a function `marched_calls`
 #include "model_header.hpp"
 
 #include "plain/dop853.hpp"
 #include "plain/gauss4.hpp"
 #include "plain/rk4.hpp"
 #include "plain/rkn86.hpp"
+#include "plain/taylor.hpp"
 
 #include MODEL_HEADER(MODEL)
 
@@ -126,6 +127,34 @@ struct Gauss4 {
     }
 };
 
+/// Of headers with the kernel `taylor`. A call is a series.
+struct Taylor {
+    [[maybe_unused]] static constexpr double length = 0.5; // about
+    static constexpr int order = 20;
+    template <class M>
+    static Cost by_lagen(const M& model, State& s, double end)
+    {
+        const auto run = lagen::integrate(model, s, {0.0, end},
+                                          lagen::Taylor{.tolerance = 1e-12, .first_step = 0.1, .order = order});
+        s = run.state;
+        return cost_of(run);
+    }
+    template <class M>
+    static Cost by_loop(const M& model, State& s, double end)
+    {
+        plain::Taylor<M, order> method;
+        const auto steps = static_cast<std::size_t>(method.run(model, s, end, 1e-12));
+        return {steps, 0, steps, 0};
+    }
+    template <class M>
+    static void call(const M& model, const State& s)
+    {
+        lagen::TaylorSeries<double, M::dimension, order> x;
+        (void)model.taylor(0, s, order, x);
+        asm volatile("" : : "g"(&s), "g"(&x) : "memory");
+    }
+};
+
 // Names that callgrind finds.
 [[gnu::noinline]] Cost marched(const Model& model, State& s, double end)
 {
@@ -140,8 +169,12 @@ struct Gauss4 {
 {
     State ds;
     for (long k = 0; k < n; ++k) {
-        (void)model.rhs(0, s, ds);
-        asm volatile("" : : "g"(&s), "g"(&ds) : "memory");
+        if constexpr (requires { METHOD::call(model, s); }) {
+            METHOD::call(model, s);
+        } else {
+            (void)model.rhs(0, s, ds);
+            asm volatile("" : : "g"(&s), "g"(&ds) : "memory");
+        }
     }
 }
 
