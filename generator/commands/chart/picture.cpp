@@ -209,9 +209,11 @@ std::string panel_script(const std::vector<Curve>& curves, const ChartPanel& pan
                         names_script(curves, panel), tics_script(panel), gnuplot_text(panel.x_label),
                         gnuplot_text(panel.y_label), legend ? "set key" : "unset key", std::pow(10, panel.worst),
                         std::pow(10, panel.least), std::pow(10, panel.bottom), std::pow(10, panel.top), plots);
+    // The key tells leading methods and peers; others bear their names at their ends, where there is room.
     for (std::size_t k = 0; k < curves.size(); ++k)
-        text += fmt::format("{}NaN {} title {}", k == 0 ? "" : ", \\\n     ", style_of(curves[k], k),
-                            gnuplot_text(curves[k].name));
+        if (curves[k].leads || curves[k].peer)
+            text += fmt::format("NaN {} title {}, \\\n     ", style_of(curves[k], k), gnuplot_text(curves[k].name));
+    text += fmt::format("NaN with lines linecolor rgb '{}' linewidth 1 title 'other methods'", quiet_colours[0]);
     return text + "\n";
 }
 
