@@ -54,6 +54,7 @@ ExitCode run_derive(Arguments arguments)
     if (options.has("form")) (void)options.choice("form", derivation_names());
     // A refuted model has equations too, and reading them may show why; they come with the warning.
     const CheckedModel checked = load(model_path(options.positional()[0]), options.settings(), true);
+    require_apart(options, checked.model);
     const std::string form = options.has("form") ? options.get("form") : default_form(checked.model);
     const std::vector<std::string> warnings = warnings_of(checked, form);
     for (const std::string& warning : warnings) write_standard_error(fmt::format("warning: {}\n", warning));

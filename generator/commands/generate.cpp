@@ -97,6 +97,7 @@ ExitCode run_generate(Arguments arguments)
     if (options.has("depfile") && !options.has("output")) throw UsageError("lagen generate: --depfile needs --output");
     const std::string model = model_path(options.positional()[0]);
     const CheckedModel checked = load(model, options.settings(), options.has("unchecked"));
+    require_apart(options, checked.model);
     const std::string made = options.has("form") ? options.get("form") : default_form(checked.model);
     for (const std::string& warning : warnings_of(checked, made))
         write_standard_error(fmt::format("warning: {}\n", warning));

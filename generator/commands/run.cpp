@@ -107,6 +107,7 @@ ExitCode run_run(Arguments arguments)
     const std::string path = model_path(options.positional()[0]);
     CheckedModel checked = read(path, options.settings(), options.has("unchecked"));
     const Model& model = checked.model;
+    require_apart(options, model);
     // What a chart chooses is chosen for the equations that it ran: those of the values.
     if (options.has("accuracy"))
         bind_all_in_scene(checked.model, find_scene(model, options.get("scene")));

@@ -163,6 +163,7 @@ ExitCode run_sweep(Arguments arguments)
 
     CheckedModel checked = read(model_path(options.positional()[0]), request.settings, options.has("unchecked"));
     const Model& model = checked.model;
+    require_apart(options, model, {"ensemble"});
     if (options.has("bind")) bind_in_scene(checked.model, find_scene(model, options.get("scene")));
     Scene scene = scene_of(options, model, request.initial);
     const SweepRows rows = sweep_rows(options, request, model, scene);

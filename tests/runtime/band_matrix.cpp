@@ -148,6 +148,21 @@ TEST_CASE("The order of a lattice sets positions beside velocities, and that of 
     CHECK(apart.width == 2);
 }
 
+TEST_CASE("An unknown with many neighbours has no band, and does not tire the compiler")
+{
+    // The first unknown is joined to 750 others, of which 250 have an entry on the diagonal.
+    constexpr std::size_t n = 751, entries = 1000;
+    constexpr auto ends = [] {
+        std::array<std::array<int, entries>, 2> result{};
+        for (std::size_t k = 0; k < n - 1; ++k) result[1][k] = static_cast<int>(k + 1);
+        for (std::size_t k = n - 1; k < entries; ++k) result[0][k] = result[1][k] = static_cast<int>(k - n + 2);
+        return result;
+    }();
+    constexpr auto band = lagen::detail::band_order<n>(ends[0], ends[1]);
+    CHECK(band.width == n);
+    CHECK_FALSE(lagen::detail::is_narrow(band));
+}
+
 TEST_CASE("Systems with a band are solved to rounding with exchanges of rows, on the stack and on the heap")
 {
     std::mt19937 dice(7);

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 using namespace lagen;
 
@@ -54,6 +55,21 @@ TEMPLATE_TEST_CASE("A lane of a pack gets the power of its scalar", "", float, d
             REQUIRE(both.of_all[lane] == powers[lane]);
             REQUIRE(both.of_large[lane] == alone.of_large);
         }
+    }
+}
+
+TEST_CASE("A power of a neighbour is no smaller but for its last two bits, and within 1.2e-4")
+{
+    for (const double y : {1.0, 0.5, 0.2, 0.125, 0.04}) {
+        double x = 1e-6, least = 0, farthest = 0;
+        for (int k = 0; k < 20000; ++k, x *= 1.00071) {
+            const double here = detail::step_power(x, y), next = detail::step_power(std::nextafter(x, 1e9), y);
+            least = std::fmin(least, next / here - 1);
+            farthest = std::fmax(farthest, std::abs(here / std::pow(x, y) - 1));
+        }
+        INFO("y " << y);
+        CHECK(least >= -4 * std::numeric_limits<double>::epsilon());
+        CHECK(farthest < 1.2e-4);
     }
 }
 

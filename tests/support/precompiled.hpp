@@ -22,7 +22,7 @@ class PrecompiledHeaders {
     /// For CXXFLAGS, the same whatever was read yet.
     [[nodiscard]] std::string flags() const { return optimisation + " -include " + header_; }
 
-    void read_for_runs() const { read("runs", "-ffp-contract=off -DLAGEN_SAME_BITS"); }
+    void read_for_runs() const { read("runs", "-ffp-contract=off -fno-tree-slp-vectorize -DLAGEN_SAME_BITS"); }
     void read_for_charts() const { read("charts", ""); }
 
   private:

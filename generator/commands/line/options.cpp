@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <filesystem>
 
 namespace lagen {
 
@@ -209,6 +210,20 @@ std::vector<std::string> split_list(const std::string& text)
     for (std::string& entry : entries) entry.erase(entry.find_last_not_of(' ') + 1);
     if (entries.size() == 1 && entries[0].empty()) entries.clear();
     return entries;
+}
+
+void require_apart(const Options& options, const Model& model, std::initializer_list<const char*> also)
+{
+    std::vector<std::string> read{model.file->name};
+    for (const auto& file : model.included) read.push_back(file->name);
+    for (const char* name : also)
+        if (options.has(name)) read.push_back(options.get(name));
+    std::error_code ignored; // a file that is not there is no other one
+    for (const char* written : {"output", "plot", "depfile"})
+        for (const std::string& file : read)
+            if (options.has(written) && std::filesystem::equivalent(options.get(written), file, ignored))
+                throw UsageError(fmt::format("lagen {}: '{}' is read, and cannot be --{} as well", options.command(),
+                                             options.get(written), written));
 }
 
 } // namespace lagen

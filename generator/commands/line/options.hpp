@@ -5,6 +5,7 @@
 #include "diagnostic.hpp"
 #include "model/read_model.hpp"
 
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <span>
@@ -69,6 +70,10 @@ class Options {
     std::vector<std::string> positional_;
     std::vector<std::pair<std::string, std::string>> given_;
 };
+
+/// UsageError where a file that is written (--output, --plot, --depfile) is the model, one that it includes, or one of
+/// the options `also`.
+void require_apart(const Options& options, const Model& model, std::initializer_list<const char*> also = {});
 
 /// What `--bind` is, for the help of a command that has it.
 inline constexpr const char* bind_help =

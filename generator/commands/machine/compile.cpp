@@ -152,7 +152,7 @@ void add_compilation(ContentHash& hash)
 
 std::vector<std::string> rounding_options()
 {
-    return {"-ffp-contract=off", "-DLAGEN_SAME_BITS"};
+    return {"-ffp-contract=off", "-fno-tree-slp-vectorize", "-DLAGEN_SAME_BITS"};
 }
 
 std::vector<std::string> vector_options()
@@ -164,7 +164,7 @@ std::vector<std::string> vector_options()
     if (level != nullptr && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
         __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
         level = "-march=x86-64-v4";
-    if (level != nullptr && words(std::getenv("CXXFLAGS")).empty()) return {level, "-O3", "-fno-tree-slp-vectorize"};
+    if (level != nullptr && words(std::getenv("CXXFLAGS")).empty()) return {level, "-O3"};
 #endif
     return {};
 }

@@ -17,11 +17,11 @@ struct ProgramText {
     std::vector<std::string> options = {}; ///< of the compiler, before CXXFLAGS
 };
 
-/// The options with which every sum and product is rounded by itself, whatever vectors a program is compiled for.
+/// The options with which every sum and product is rounded by itself, whatever vectors a program is compiled for. Where
+/// sums and differences alternate g++ 12 fuses the vectors that it makes itself, whatever -ffp-contract says.
 [[nodiscard]] std::vector<std::string> rounding_options();
 
-/// The options with which a compiler uses the vectors of this machine, but makes none itself where sums and differences
-/// alternate: g++ 12 fuses those with products, whatever -ffp-contract says. None where CXXFLAGS say how to compile.
+/// The options with which a compiler uses the vectors of this machine. None where CXXFLAGS say how to compile.
 [[nodiscard]] std::vector<std::string> vector_options();
 
 /// Compiles programs of two files, as many at a time as there are cores, and returns their paths: `header` (included as

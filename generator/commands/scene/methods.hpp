@@ -14,7 +14,7 @@ enum class MethodKind {
     explicit_stages,
     implicit_stages,
     series,    ///< needs the kernels of Taylor coefficients
-    splitting, ///< partitioned methods for xdot = f(y), ydot = g(x)
+    splitting, ///< for xdot = f(y), ydot = g(x), or a sum of exact flows
 };
 
 struct MethodEntry {

@@ -107,13 +107,14 @@ inline double short_number(double x)
 }
 
 /// The points of one ladder, told one by one. It ends with its last rung, where more calls are expected than are
-/// allowed, where three rungs of small errors brought none that is smaller by three tenths (rounding), and where rungs
-/// fail: the second one behind a good one, or the eighth.
+/// allowed, where three rungs of small errors brought none that is smaller by three tenths (rounding; rungs that make
+/// the same run again do not count), and where rungs fail: the second one behind a good one, or the eighth.
 template <class M, class Entrant>
 void climb(const Entrant& entrant, const M& model, const Request& request, const Ladder& ladder)
 {
     const auto most = static_cast<double>(ladder.calls);
     double best = std::numeric_limits<double>::infinity(), expected = 0;
+    std::size_t last_calls = 0;
     int idle = 0, failures = 0, good = 0;
     for (double rung = ladder.first; rung >= ladder.last * (1 - 1e-9); rung *= ladder.ratio) {
         const double parameter = entrant.steps_of(1) > 0 ? rung : short_number(rung);
@@ -122,7 +123,11 @@ void climb(const Entrant& entrant, const M& model, const Request& request, const
         if (outcome.good) {
             ++good;
             expected = 2 * static_cast<double>(outcome.calls);
-            idle = error < 0.7 * best ? 0 : idle + 1;
+            if (error < 0.7 * best)
+                idle = 0;
+            else if (outcome.calls != last_calls)
+                ++idle;
+            last_calls = outcome.calls;
             best = std::min(best, error);
         } else {
             ++failures;

@@ -3,7 +3,8 @@
 /// the sums of a step are computed for all lanes at once. Everything else (whether the step counts, the next length,
 /// rows, events, the boundary of the domain, statuses) is the march of `integrate`, one a lane, so that a trajectory
 /// has the bits that `integrate` gives it, whatever goes on in the other lanes: on processors with fused
-/// multiplication where the compiler does not contract (-ffp-contract=off), elsewhere always. A lane whose trajectory
+/// multiplication where the compiler does not contract (-ffp-contract=off, of g++ 12 -fno-tree-slp-vectorize as well)
+/// and terms are summed in one order on all processors (-DLAGEN_SAME_BITS), elsewhere always. A lane whose trajectory
 /// has ended takes the next one.
 #pragma once
 

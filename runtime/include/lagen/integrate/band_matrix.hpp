@@ -42,14 +42,17 @@ struct Neighbours {
 
 /// Each unknown before its neighbours, those of few neighbours first [E. Cuthill, J. McKee, Reducing the bandwidth of
 /// sparse symmetric matrices, Proc. 24th ACM National Conference (1969) 157], from an end of the graph:
-/// what comes last in the order from what comes last in an order. A pattern with more than eight entries a row, or more
-/// than a compiler goes through with its usual limits, keeps its order and has no band.
+/// what comes last in the order from what comes last in an order. A pattern with more than eight entries a row, more
+/// than a compiler goes through with its usual limits, or an unknown with more than 32 neighbours, of which no order
+/// makes a narrow band, keeps its order and has no band.
 template <std::size_t n, class Index, std::size_t entries>
 constexpr BandOrder<n> band_order(const std::array<Index, entries>& rows, const std::array<Index, entries>& columns)
 {
     BandOrder<n> band{{}, n};
     if (entries > std::min<std::size_t>(8 * n, 2048)) return band;
     const Neighbours<n, entries> near(rows, columns);
+    for (std::size_t i = 0; i < n; ++i)
+        if (near.degree(i) > 2 * 32) return band; // an entry above the diagonal and one below it
     std::array<std::size_t, n> order{};
     std::array<std::size_t, n> seen{}; // the number of the search that met it last
     std::size_t count = 0, search = 0;

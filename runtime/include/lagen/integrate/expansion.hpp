@@ -75,7 +75,7 @@ class Expansion {
     {
         if (!has_unit || !(size > Number(0)) || !(size < unbounded())) return Number(1);
         constexpr double most = std::min(1000, static_cast<int>(std::numeric_limits<Number>::max_exponent) - 8);
-        return rough_power<Number>(std::clamp(std::floor(rough_logarithm(size)), -most, most));
+        return rough_power_of_two<Number>(std::clamp(std::floor(rough_logarithm(size)), -most, most));
     }
     /// That of the series behind this one.
     [[nodiscard]] Real next_unit() const noexcept

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-/// Powers of positive numbers, of which lengths of steps are made: within 5e-6 x^y of x^y, |y| <= 1, so long as that is
-/// a normal number, and growing with x. Of float and double, the bits do not depend on the library, nor on whether a
-/// number is alone or a lane of a pack; other scalars call their own pow.
+/// Powers of numbers x >= +0, of which lengths of steps are made: within 1.2e-4 x^y of x^y, |y| <= 1, so long as that
+/// is a normal number, and growing with x but for its last two bits. Of float and double, the bits do not depend on the
+/// library, nor on whether a number is alone or a lane of a pack, nor, without fused multiplication, on the machine;
+/// other scalars call their own pow.
 #pragma once
 
 #include "lagen/ensemble/pack.hpp"
@@ -45,8 +46,8 @@ struct StepPower {
         return s * (z * 0.96179669392597560 + 2.8853900817779268) + (e - to_integer);
     }
 
-    /// 2^z = 2^n 2^f, |f| <= 1/2, whose series ends with a relative error of 6e-5. What is
-    /// left out of both series is larger at their upper ends than at their lower ones, so that they grow everywhere.
+    /// 2^z = 2^n 2^f, |f| <= 1/2, whose series ends with a relative error of 6e-5. What is left out of both series is
+    /// larger at their upper ends than at their lower ones, so that they grow from piece to piece.
     [[nodiscard]] [[gnu::always_inline]] static inline Real exponential(const Real& z) noexcept
     {
         const Real shifted = z + to_integer;

@@ -150,7 +150,7 @@ class TaylorStepper {
     }
     [[nodiscard]] Real after_rejected(Real h, Real error) noexcept
     {
-        const Real factor = detail::rough_power<Real>(-detail::rough_logarithm(error) / order_) * Real(0.9);
+        const Real factor = detail::rough_power_of_two<Real>(-detail::rough_logarithm(error) / order_) * Real(0.9);
         return h * std::clamp<Real>(factor, Real(0.1), Real(0.9));
     }
     /// Just beyond the boundary that a step crosses, where it is known: the march then finds the crossing, as that of a

@@ -93,7 +93,7 @@ template <class Real>
 
 /// 2^x, within 6 %, as the inverse of rough_logarithm.
 template <class Real>
-[[nodiscard]] Real rough_power(double x) noexcept
+[[nodiscard]] Real rough_power_of_two(double x) noexcept
 {
     if (x < -1000) return Real(0);
     if (x > 1000) x = 1000;
@@ -173,7 +173,7 @@ struct TaylorLength {
                 length = by_lanes<Scalar>(
                     [k](const Number& so_far, const Number& relative) {
                         if (!(relative > Number(0)) || relative - relative != Number(0)) return so_far;
-                        return std::min<Number>(so_far, rough_power<Number>(-rough_logarithm(relative) / k));
+                        return std::min<Number>(so_far, rough_power_of_two<Number>(-rough_logarithm(relative) / k));
                     },
                     length, Scalar(size_of(e[k][r]) / size));
         }
@@ -215,7 +215,7 @@ struct TaylorLength {
             --k;
         };
         (look(sizes), ...);
-        return found == 0 ? unbounded() : rough_power<Number>(-steepest);
+        return found == 0 ? unbounded() : rough_power_of_two<Number>(-steepest);
     }
 };
 
