@@ -5,6 +5,7 @@
 /// lane, two accumulators by turns. Other scalars, packs among them, take them one by one in the same order.
 #pragma once
 
+#include "lagen/registers.hpp"
 #include "lagen/scalar.hpp"
 
 #include <array>
@@ -132,42 +133,6 @@ struct PairedSeries {
         return even + odd;
     }
 };
-
-#if defined(__GNUC__)
-#if defined(__AVX512F__)
-inline constexpr std::size_t widest_register = 64;
-#elif defined(__AVX__)
-inline constexpr std::size_t widest_register = 32;
-#else
-inline constexpr std::size_t widest_register = 16;
-#endif
-
-template <class S>
-inline constexpr std::size_t register_lanes = std::is_floating_point_v<S> && sizeof(S) <= 8
-                                                  ? widest_register / sizeof(S)
-                                                  : 1;
-
-template <class S, std::size_t width>
-struct RegisterOf {
-    typedef S type __attribute__((vector_size(width * sizeof(S))));
-};
-template <class S>
-struct RegisterOf<S, 1> {
-    using type = S;
-};
-#else
-template <class S>
-inline constexpr std::size_t register_lanes = 1;
-
-template <class S, std::size_t width>
-struct RegisterOf {
-    using type = S;
-};
-#endif
-
-} // namespace detail
-
-namespace detail {
 
 /// Sums of `count` pairs or squares of series, in registers of several lanes.
 template <class S, int count, int most, template <class, std::size_t> class SeriesOf>

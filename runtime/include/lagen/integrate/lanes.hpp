@@ -4,6 +4,7 @@
 #pragma once
 
 #include "lagen/kernel.hpp"
+#include "lagen/registers.hpp"
 
 #include <cmath>
 #include <cstddef>
@@ -25,34 +26,15 @@ inline constexpr bool is_short =
     std::is_trivially_copyable_v<typename Column::Scalar>&& Column::SizeAtCompileTime > 0 &&
     Column::SizeAtCompileTime <= 64;
 
-// A member typedef is what both compilers take as a vector type.
-template <int width>
-struct Doubles;
-template <>
-struct Doubles<2> {
-    typedef double type __attribute__((vector_size(16)));
-    typedef long long bits __attribute__((vector_size(16)));
-};
-template <>
-struct Doubles<4> {
-    typedef double type __attribute__((vector_size(32)));
-    typedef long long bits __attribute__((vector_size(32)));
-};
-template <>
-struct Doubles<8> {
-    typedef double type __attribute__((vector_size(64)));
-    typedef long long bits __attribute__((vector_size(64)));
-};
-
-/// The number of lanes of Doubles<width>::type; 0 of anything else.
+/// The number of lanes of a register of several doubles; 0 of anything else.
 template <class T>
 inline constexpr int doubles_in = 0;
 template <>
-inline constexpr int doubles_in<Doubles<2>::type> = 2;
+inline constexpr int doubles_in<RegisterOf<double, 2>::type> = 2;
 template <>
-inline constexpr int doubles_in<Doubles<4>::type> = 4;
+inline constexpr int doubles_in<RegisterOf<double, 4>::type> = 4;
 template <>
-inline constexpr int doubles_in<Doubles<8>::type> = 8;
+inline constexpr int doubles_in<RegisterOf<double, 8>::type> = 8;
 
 /// Lanes of a column that are taken at once: those of the widest register that the compiler may use, two of a column
 /// that is so short that the next reader would wait for what was written a lane at a time.
@@ -61,13 +43,7 @@ constexpr int widest_slice() noexcept
 {
     if (!has_pairs<Column>) return 1;
     if (is_pack<typename Column::Scalar> || size < 12) return 2;
-#if defined(__AVX512F__)
-    return 8;
-#elif defined(__AVX__)
-    return 4;
-#else
-    return 2;
-#endif
+    return static_cast<int>(register_lanes<double>);
 }
 
 /// Two scalars that are no vector: packs.
@@ -97,7 +73,7 @@ struct SliceOf<S, 1> {
 };
 template <int width>
 requires(width > 1) struct SliceOf<double, width> {
-    using type = typename Doubles<width>::type;
+    using type = typename RegisterOf<double, width>::type;
 };
 
 /// One lane of a column, or several.
@@ -138,7 +114,7 @@ template <int width, class Column>
 template <int width, class Column>
 [[gnu::always_inline]] inline Slice<Column, width> load(const Column& column, Eigen::Index lane) noexcept
 {
-    if constexpr (doubles_in < Slice < Column, width >>> 0) {
+    if constexpr (doubles_in<Slice<Column, width>> != 0) {
         Slice<Column, width> slice;
         std::memcpy(&slice, column.data() + lane, sizeof slice);
         return slice;
@@ -180,7 +156,7 @@ template <class Scalar>
 template <class Vector>
 requires(doubles_in<Vector> > 0) [[gnu::always_inline]] inline Vector size_of(const Vector& x) noexcept
 {
-    using Bits = typename Doubles<doubles_in<Vector>>::bits;
+    using Bits = typename RegisterOf<long long, doubles_in<Vector>>::type;
     return (Vector)((Bits)x & ~(Bits)-Vector{});
 }
 
