@@ -47,6 +47,34 @@ TEST_CASE("lagen methods names every integrator of the interface")
     CHECK(kept["rkn64"].empty());
 }
 
+TEST_CASE("lagen methods --stability tells how long the steps of every method may be")
+{
+    const json::Value list = json::parse(call({"methods", "--stability", "--format", "json"}).out);
+    std::map<std::string, const json::Value*> by_name;
+    for (const json::Value& entry : list.entries) {
+        CHECK(entry.keys ==
+              std::vector<std::string>{"name", "order", "calls", "imaginary", "real", "a_stable", "l_stable"});
+        by_name[entry["name"].text] = &entry;
+    }
+    CHECK(by_name.size() == 38); // those on groups have the limits of the methods that they are made of
+    const auto number = [&](const char* method, const char* key) {
+        return std::strtod((*by_name.at(method))[key].text.c_str(), nullptr);
+    };
+    CHECK(number("rk4", "imaginary") == Approx(2.8284271247461903).epsilon(1e-15));
+    CHECK(number("rk4", "real") == Approx(2.785293563405282).epsilon(1e-13));
+    CHECK(number("leapfrog_kdk", "imaginary") == Approx(2).epsilon(1e-15));
+    CHECK((*by_name.at("gauss4"))["imaginary"].text == "unbounded");
+    CHECK((*by_name.at("kahanli8"))["real"].kind == json::Kind::null);
+    CHECK((*by_name.at("radau5"))["calls"].kind == json::Kind::null);
+    const std::string text = call({"methods", "--stability"}).out;
+    for (const char* line : {"\nrk4           4            4    2.828427    0.707    2.785294\n",
+                             "\ndopri5        5(4)         6    0.997189    0.166    3.306568\n",
+                             "\nkahanli8      8           17    3.096439    0.182           -\n",
+                             "\ngauss6        6            -   unbounded        -   unbounded  A-stable\n",
+                             "\nradau5        5(3)         -   unbounded        -   unbounded  A-stable, L-stable\n"})
+        CHECK(text.find(line) != std::string::npos);
+}
+
 TEST_CASE("every method's type integrates the generated oscillator to its accuracy", "[run]")
 {
     const std::string folder = fresh_folder();

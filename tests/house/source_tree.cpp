@@ -100,7 +100,8 @@ const Arrows& planned_arrows()
         {"kernels", {"model", "mechanics", "verify"}},
         {"scene", {"model", "graph"}},
         {"pipeline", {"elaborate", "equations", "kernels", "advice", "scene", "emit"}},
-        {"commands", {"pipeline"}},
+        {"stability", {"diagnostic", "runtime"}},
+        {"commands", {"pipeline", "stability"}},
         {"runtime", {}},
         {"program", {"runtime"}},
     };

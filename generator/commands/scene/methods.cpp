@@ -4,6 +4,7 @@
 #include "commands/line/command.hpp"
 #include "commands/line/options.hpp"
 #include "commands/machine/write_file.hpp"
+#include "commands/scene/stability_table.hpp"
 #include "emit/json.hpp"
 
 #include <fmt/core.h>
@@ -108,7 +109,12 @@ constexpr std::array<std::pair<const char*, const char*>, 18> names_elsewhere{{{
                                                                                {"finerkn5", "rkng54"}}};
 
 const CommandSyntax methods_syntax{
-    "methods", "", "Lists the integrators.", {{"format,f", "FORMAT", "text or json", "text"}}};
+    "methods",
+    "",
+    "Lists the integrators.",
+    {{"stability", nullptr,
+      "how long their steps may be on linear equations: intervals of the imaginary and real axes"},
+     {"format,f", "FORMAT", "text or json", "text"}}};
 
 void method_json(JsonWriter& json, const MethodEntry& entry)
 {
@@ -191,7 +197,12 @@ ExitCode run_methods(Arguments arguments)
 {
     const Options options(methods_syntax, arguments);
     if (options.help()) return ExitCode::done;
-    if (options.choice("format", {"text", "json"}) == "json") {
+    const bool as_json = options.choice("format", {"text", "json"}) == "json";
+    if (options.has("stability")) {
+        write_standard_output(as_json ? stability_table_json() : stability_table_text());
+        return ExitCode::done;
+    }
+    if (as_json) {
         JsonWriter json;
         json.begin_array();
         for (const MethodEntry& entry : entries) method_json(json, entry);

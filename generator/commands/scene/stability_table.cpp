@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/scene/stability_table.hpp"
+
+#include "commands/scene/methods.hpp"
+#include "emit/json.hpp"
+#include "stability/linear_limits.hpp"
+
+#include <fmt/core.h>
+
+#include <vector>
+
+namespace lagen {
+
+namespace {
+
+struct StabilityRow {
+    std::string name, order;
+    LinearLimits limits;
+};
+
+std::vector<StabilityRow> stability_rows()
+{
+    std::vector<StabilityRow> rows;
+    for (const MethodEntry& method : method_table())
+        if (method.kind == MethodKind::series)
+            for (const std::size_t order : {4, 10, 20, 30})
+                rows.push_back({method.name, std::to_string(order), taylor_limits(order)});
+        else if (const std::optional<LinearLimits> limits = linear_limits(method.type))
+            rows.push_back({method.name, method.order, *limits});
+    return rows;
+}
+
+std::string limit_text(const std::optional<double>& limit)
+{
+    if (!limit) return "-";
+    return *limit == no_limit ? "unbounded" : fmt::format("{:.6f}", *limit);
+}
+
+void limit_json(JsonWriter& json, const char* key, const std::optional<double>& limit)
+{
+    json.key(key);
+    if (!limit)
+        json.null();
+    else if (*limit == no_limit)
+        json.value("unbounded");
+    else
+        json.value(*limit);
+}
+
+} // namespace
+
+std::string stability_table_text()
+{
+    std::string text =
+        "Steps h for which nothing grows: h omega from 0 to `imaginary` on x'' = -omega^2 x, h |lambda| from 0 to\n"
+        "`real` on x' = lambda x, lambda < 0. Calls of the right-hand side a step, and the first figure over "
+        "them.\n\n" +
+        fmt::format("{:<14}{:<9}{:>5}{:>12}{:>9}{:>12}\n", "", "order", "calls", "imaginary", "a call", "real");
+    for (const auto& [name, order, limits] : stability_rows()) {
+        const bool ends = limits.imaginary != no_limit && limits.calls > 0;
+        const char* note = limits.l_stable ? "  A-stable, L-stable" : limits.a_stable ? "  A-stable" : "";
+        text += fmt::format("{:<14}{:<9}{:>5}{:>12}{:>9}{:>12}{}\n", name, order,
+                            limits.calls > 0 ? std::to_string(limits.calls) : "-", limit_text(limits.imaginary),
+                            ends ? fmt::format("{:.3f}", limits.imaginary / static_cast<double>(limits.calls)) : "-",
+                            limit_text(limits.real), note);
+    }
+    return text;
+}
+
+std::string stability_table_json()
+{
+    JsonWriter json;
+    json.begin_array();
+    for (const auto& [name, order, limits] : stability_rows()) {
+        json.begin_object().key("name").value(name).key("order").value(order).key("calls");
+        if (limits.calls > 0)
+            json.value(limits.calls);
+        else
+            json.null();
+        limit_json(json, "imaginary", limits.imaginary);
+        limit_json(json, "real", limits.real);
+        json.key("a_stable").value(limits.a_stable).key("l_stable").value(limits.l_stable).end_object();
+    }
+    json.end_array();
+    return json.text() + "\n";
+}
+
+} // namespace lagen
