@@ -63,6 +63,8 @@ std::string unit_of(const Model& model, const std::string& name)
     for (const auto* symbols : {&model.base.coordinates, &model.fibre.coordinates, &model.fibre.momenta, &model.notes})
         for (const Symbol& symbol : *symbols)
             if (symbol.name == name) return symbol.unit;
+    for (const FirstOrderState& state : model.states)
+        if (state.symbol.name == name) return state.symbol.unit;
     if (const Symbol* control = control_called(model, name)) return control->unit;
     return "";
 }
@@ -70,10 +72,14 @@ std::string unit_of(const Model& model, const std::string& name)
 std::vector<Panel> panels_of(const std::vector<TableColumn>& columns, const Model& model, const char* lanes)
 {
     const std::size_t base_lanes = model.base.coordinates.size();
-    std::vector<Panel> panels{{"base coordinates", {}}, {lanes, {}}, {"controls", {}}, {"observables", {}}};
+    const std::size_t motion_lanes = base_lanes + model.fibre.coordinates.size();
+    std::vector<Panel> panels{
+        {"base coordinates", {}}, {lanes, {}}, {"states", {}}, {"controls", {}}, {"observables", {}}};
     for (std::size_t k = 0; k < columns.size(); ++k) {
         const bool control = control_called(model, columns[k].name) != nullptr;
-        Panel& panel = panels[columns[k].state ? (columns[k].index < base_lanes ? 0 : 1) : control ? 2 : 3];
+        const std::size_t index = columns[k].index;
+        const std::size_t of_state = index < base_lanes ? 0 : index < motion_lanes ? 1 : 2;
+        Panel& panel = panels[columns[k].state ? of_state : control ? 3 : 4];
         panel.columns.push_back(k + 1);
         panel.units.push_back(unit_of(model, columns[k].name));
     }

@@ -48,6 +48,8 @@ class Elaboration {
         Written result;
         result.algebroid = build_algebroid(model);
         result.invariants = model.invariants;
+        for (const FirstOrderState& state : model.states)
+            result.states.push_back({state.symbol.name, state.rate, state.symbol.where});
         result.phase = phase_trees(model);
         result.all = all_trees(model, result.algebroid);
         return result;
@@ -71,6 +73,7 @@ class Elaboration {
 
     void lower_mechanics()
     {
+        for (const FirstOrderState& state : model_.states) system_.states.push_back(graph_.input(state.symbol.name));
         if (model_.lagrangian) system_.lagrangian = lower_(model_.lagrangian);
         if (model_.hamiltonian) system_.hamiltonian = lower_(model_.hamiltonian);
         if (model_.forces.empty() && !model_.dissipation) return;

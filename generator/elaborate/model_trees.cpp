@@ -81,6 +81,7 @@ std::vector<Tree> all_trees(const Model& model, const WrittenAlgebroid& algebroi
     std::vector<Tree> trees;
     for (const Definition& definition : model.definitions) append_definition(trees, model.observer, definition);
     append_built(trees, model, algebroid);
+    for (const FirstOrderState& state : model.states) trees.push_back(state.rate);
     for (const std::vector<NamedTree>* list : {&model.invariants, &model.observables})
         for (const NamedTree& entry : *list)
             if (has_value(model, entry.value, entry_of(FormKind::pontryagin).name)) trees.push_back(entry.value);

@@ -60,6 +60,8 @@ class HamiltonDerivation {
         set.blocks.push_back(motion());
         if (EquationBlock balance = energy_balance(); !balance.equations[0].groups.empty())
             set.blocks.push_back(std::move(balance));
+        if (EquationBlock states = symbolic_.states(y_); !states.equations.empty())
+            set.blocks.push_back(std::move(states));
         set.blocks.push_back(poisson_brackets(symbolic_));
         return set;
     }

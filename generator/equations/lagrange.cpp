@@ -29,6 +29,8 @@ class LagrangeDerivation {
             set.blocks.push_back(std::move(block));
         if (EquationBlock balance = energy_balance(); !balance.equations[0].groups.empty())
             set.blocks.push_back(std::move(balance));
+        if (EquationBlock states = symbolic_.states(symbolic_.y()); !states.equations.empty())
+            set.blocks.push_back(std::move(states));
         append_kernel(set, regularity);
         return set;
     }

@@ -45,6 +45,8 @@ class PontryaginDerivation {
         if (!balance.groups.empty())
             set.blocks.push_back(
                 {"energy balance", "Ḣ = ∂H/∂t", R"(\dot H = \frac{\partial H}{\partial t})", {std::move(balance)}});
+        if (EquationBlock states = symbolic_.states(sigma_); !states.equations.empty())
+            set.blocks.push_back(std::move(states));
         return set;
     }
 

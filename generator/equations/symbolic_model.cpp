@@ -47,6 +47,7 @@ SymbolicModel::SymbolicModel(const Model& model, const WrittenAlgebroid& algebro
     for (const Symbol& symbol : model.fibre.momenta) mu_.push_back(variable(symbol.name));
     if (model.control)
         for (const Symbol& symbol : model.control->controls) controls_.push_back(variable(symbol.name));
+    for (const FirstOrderState& state : model.states) add_variable(state.symbol.name);
     lower_structure();
     take_labels(functions);
 }
@@ -164,24 +165,41 @@ Sum SymbolicModel::bracket_terms(std::size_t a, const Sum& p, const Sum& y) cons
     return terms;
 }
 
+/// Those that are not the symbols y themselves, by the names of these.
+std::map<std::string, Tree> SymbolicModel::velocities(const Sum& y) const
+{
+    std::map<std::string, Tree> inserted;
+    for (std::size_t a = 0; a < r(); ++a)
+        if (!y[a].is_equal(y_[a])) inserted.emplace(algebroid_.fibre[a].name, shortest(y[a]));
+    return inserted;
+}
+
+GiNaC::ex SymbolicModel::lower_at(const Tree& tree, const std::map<std::string, Tree>& velocities)
+{
+    return lower_rough(rewrite_tree(tree, [&](const Tree& node) {
+        const auto known = node->kind == TreeKind::name ? velocities.find(node->name) : velocities.end();
+        return known != velocities.end() ? known->second : Tree{};
+    }));
+}
+
+EquationBlock SymbolicModel::states(const Sum& y)
+{
+    EquationBlock block{"first-order states", "ż = f(t, x, y, z)", R"(\dot z = f(t, x, y, z))", {}};
+    const std::map<std::string, Tree> inserted = velocities(y);
+    for (const FirstOrderState& state : model_.states)
+        block.equations.push_back(
+            equation(LeftSide::time_derivative, state.symbol.name, {lower_at(state.rate, inserted)}));
+    return block;
+}
+
 Sum SymbolicModel::forces(const Sum& y)
 {
     Sum forces(r(), 0);
-    std::map<std::string, Tree> inserted;
-    GiNaC::exmap substituted;
-    for (std::size_t a = 0; a < r(); ++a) {
-        if (y[a].is_equal(y_[a])) continue;
-        inserted.emplace(algebroid_.fibre[a].name, shortest(y[a]));
-        substituted[y_[a]] = y[a];
-    }
-    for (const ComponentEntry& entry : model_.forces) {
-        const Tree tree = rewrite_tree(entry.value, [&](const Tree& node) {
-            const auto known = node->kind == TreeKind::name ? inserted.find(node->name) : inserted.end();
-            return known != inserted.end() ? known->second : Tree{};
-        });
-        forces[entry.section] += lower_rough(tree);
-    }
+    const std::map<std::string, Tree> inserted = velocities(y);
+    for (const ComponentEntry& entry : model_.forces) forces[entry.section] += lower_at(entry.value, inserted);
     if (model_.dissipation == nullptr) return forces;
+    GiNaC::exmap substituted;
+    for (std::size_t a = 0; a < r(); ++a) substituted[y_[a]] = y[a];
     const GiNaC::ex R = lower(model_.dissipation);
     for (std::size_t a = 0; a < r(); ++a)
         forces[a] -= derivative(R, y_[a]).subs(substituted, GiNaC::subs_options::no_pattern);
@@ -248,6 +266,7 @@ EquationSet SymbolicModel::empty_set(const std::string& form) const
     }
     if (model_.control)
         for (const Symbol& symbol : model_.control->controls) set.symbols.push_back({symbol.name, symbol.latex});
+    for (const FirstOrderState& state : model_.states) set.symbols.push_back({state.symbol.name, state.symbol.latex});
     return set;
 }
 

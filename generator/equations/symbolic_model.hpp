@@ -67,6 +67,8 @@ class SymbolicModel {
     [[nodiscard]] Sum bracket_terms(std::size_t a, const Sum& p, const Sum& y) const;
     /// Q_a = F_a - dR/dy^a at the velocities y(..), shape (r); all zero where the model has neither.
     [[nodiscard]] Sum forces(const Sum& y);
+    /// zdot of the first-order states at the velocities y(..); no equations where there are none.
+    [[nodiscard]] EquationBlock states(const Sum& y);
     [[nodiscard]] bool has_forces() const { return !model_.forces.empty() || model_.dissipation != nullptr; }
 
     /// The groups each for itself; two that hold like terms become one, or terms that cancel would be shown.
@@ -87,6 +89,8 @@ class SymbolicModel {
     void lower_structure();
     void take_labels(const std::vector<Tree>& functions);
     [[nodiscard]] GiNaC::ex lower_rough(const Tree& tree);
+    [[nodiscard]] std::map<std::string, Tree> velocities(const Sum& y) const;
+    [[nodiscard]] GiNaC::ex lower_at(const Tree& tree, const std::map<std::string, Tree>& velocities);
 
     const Model& model_;
     const WrittenAlgebroid& algebroid_;

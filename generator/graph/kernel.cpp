@@ -33,10 +33,25 @@ std::vector<KernelInput> point_inputs(const KernelModule& module)
             {"s", ArrayRole::state, {1, lanes.size(), 1}, lanes}};
 }
 
+namespace {
+
+/// Lanes that are neither coordinates nor velocities or momenta.
+std::optional<std::string> further_lanes(const KernelModule& module)
+{
+    for (std::size_t k = 2; k < module.groups.size(); ++k)
+        if (!module.groups[k].lanes.empty())
+            return fmt::format("{} is neither a coordinate nor a velocity or momentum",
+                               module.groups[k].lanes.front().name);
+    return std::nullopt;
+}
+
+} // namespace
+
 SecondOrder second_order_of(const KernelModule& module, const std::vector<NodeId>& rates)
 {
     using Kind = SecondOrder::Kind;
     const std::vector<Quantity>&x = module.groups.at(0).lanes, &v = module.groups.at(1).lanes;
+    if (const auto obstacle = further_lanes(module)) return {Kind::no, *obstacle};
     if (x.size() != v.size() || x.empty())
         return {Kind::no,
                 fmt::format("the numbers of base coordinates and of other lanes are {} and {}", x.size(), v.size())};
@@ -60,11 +75,11 @@ Separation separation_of(const KernelModule& module)
 {
     using Kind = Separation::Kind;
     const std::vector<Quantity>&x = module.groups.at(0).lanes, &y = module.groups.at(1).lanes;
+    if (const auto obstacle = further_lanes(module)) return {Kind::no, *obstacle};
     if (x.empty()) return {Kind::no, "there are no base coordinates x"};
     const auto depends = [&](NodeId node, NodeId input) {
         return depends_on_any(*module.graph, std::array{node}, std::array{input});
     };
-    if (x.empty()) return {Kind::no, "there are no base coordinates x"};
     std::vector<NodeId> velocities, rates, inputs{module.time};
     for (const KernelEntry& entry : kernel_named(module, "rhs").outputs.at(0).entries) {
         const bool base = entry.row < x.size();

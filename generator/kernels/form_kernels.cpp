@@ -9,6 +9,7 @@
 #include "kernels/named_trees.hpp"
 #include "kernels/requested_kernels.hpp"
 #include "kernels/simplify_at.hpp"
+#include "model/carried_states.hpp"
 #include "model/scene_form.hpp"
 
 #include <fmt/format.h>
@@ -20,25 +21,22 @@ namespace lagen {
 
 namespace {
 
-Formulation formulation(Graph& graph, const Model& model, const System& system, const Report& report,
-                        const KernelRequest& request)
+FormulationRequest formulation_request(const KernelRequest& request, std::vector<std::size_t> states)
 {
-    const bool hessians = std::ranges::any_of(std::array{"lagrangian_hessian", "hamiltonian_hessian"},
-                                              [&](const char* name) { return is_requested(request, name); });
-    switch (form_named(request.form.empty() ? default_form(model) : request.form).kind) {
-    case FormKind::lagrange: return lagrange_form(graph, system, report, hessians);
-    case FormKind::hamilton: return hamilton_form(graph, system, report, hessians);
-    case FormKind::pontryagin: return pontryagin_form(graph, model, system, report);
-    }
-    throw InternalError("a form without kernels");
+    return {is_requested(request, "lagrangian_hessian") || is_requested(request, "hamiltonian_hessian"),
+            std::move(states)};
 }
 
 /// Kernels of one module, each simplified on its own and left out where nobody asked for it or it would be empty.
 class ModuleBuilder {
   public:
     ModuleBuilder(const Model& model, const System& system, const Report& report, const KernelRequest& request)
-        : model_(model), system_(system), request_(request), graph_(std::make_shared<Graph>(system.graph)),
-          form_(formulation(*graph_, model, system, report, request)), lower_(*graph_, form_.binding)
+        : model_(model), system_(system), request_(request), states_(carried_states(model, request.scene)),
+          graph_(std::make_shared<Graph>(system.graph)),
+          form_(formulation(*graph_, model, system, report,
+                            form_named(request.form.empty() ? default_form(model) : request.form).kind,
+                            formulation_request(request, states_))),
+          lower_(*graph_, form_.binding)
     {
     }
 
@@ -59,7 +57,7 @@ class ModuleBuilder {
         if (wants("jacobian")) add_jacobian();
         if (wants("variational")) add_variational();
         if (request_.time_scale != nullptr) add_time_scale();
-        if (form_.hamiltonian && wants_flows()) add_flows(exact_flows(*graph_, system_, *form_.hamiltonian));
+        if (form_.hamiltonian && wants_flows()) add_flows(flows_of(*form_.hamiltonian));
         simplify_implicit();
         return std::move(module_);
     }
@@ -96,6 +94,10 @@ class ModuleBuilder {
         for (std::size_t a = 0; a < form_.lanes.size(); ++a)
             fibre.lanes.push_back(quantity(lane_symbol(a), form_.lanes[a]));
         module_.groups = {std::move(base), std::move(fibre)};
+        if (!states_.empty())
+            module_.groups.push_back({"States", "states", "First-order states, the last lanes of State.", {}});
+        for (const std::size_t k : states_)
+            module_.groups.back().lanes.push_back(quantity(model_.states[k].symbol, system_.states[k]));
         module_.implicit = form_.implicit;
         module_.parameter_conditions = form_.parameter_conditions;
         for (const auto& [parameter, value] : system_.parameter_values) module_.parameter_defaults.push_back(value);
@@ -213,7 +215,8 @@ class ModuleBuilder {
         std::vector<NodeId> values;
         std::vector<std::string> names;
         for (const NamedTree& tree : trees) {
-            if (!has_value(model_, tree.value, form_.form->name)) continue;
+            if (!has_value(model_, tree.value, form_.form->name) || uses_other_states(model_, tree.value, states_))
+                continue;
             values.push_back(lower_(tree.value));
             names.push_back(tree.name);
         }
@@ -332,6 +335,12 @@ class ModuleBuilder {
         return request_.flows && has_kernel(module_, "rhs") && separation_of(module_).kind == Separation::Kind::no;
     }
 
+    [[nodiscard]] ExactFlows flows_of(const HamiltonianNodes& hamiltonian)
+    {
+        if (states_.empty()) return exact_flows(*graph_, system_, hamiltonian);
+        return {0, {}, "it carries the first-order state " + model_.states[states_.front()].symbol.name};
+    }
+
     void add_flows(ExactFlows flows)
     {
         module_.flows = {flows.parts.size(), std::move(flows.obstacle)};
@@ -367,6 +376,7 @@ class ModuleBuilder {
     const Model& model_;
     const System& system_;
     const KernelRequest& request_;
+    std::vector<std::size_t> states_; ///< numbers of the first-order states that are lanes
     std::shared_ptr<Graph> graph_;
     Formulation form_;
     Lowering lower_;

@@ -11,7 +11,19 @@
 
 namespace lagen {
 
-Formulation empty_form(const System& system, FormKind form, std::vector<NodeId> lanes)
+Formulation formulation(Graph& graph, const Model& model, const System& system, const Report& report, FormKind kind,
+                        const FormulationRequest& request)
+{
+    switch (kind) {
+    case FormKind::lagrange: return lagrange_form(graph, system, report, request);
+    case FormKind::hamilton: return hamilton_form(graph, system, report, request);
+    case FormKind::pontryagin: return pontryagin_form(graph, model, system, report, request);
+    }
+    throw InternalError("a form without kernels");
+}
+
+Formulation empty_form(const System& system, FormKind form, std::vector<NodeId> lanes,
+                       const FormulationRequest& request)
 {
     Formulation result;
     result.form = &entry_of(form);
@@ -19,21 +31,32 @@ Formulation empty_form(const System& system, FormKind form, std::vector<NodeId> 
     result.parameters = system.parameters;
     result.x = system.algebroid.x;
     result.lanes = std::move(lanes);
+    for (const std::size_t k : request.states) result.states.push_back(system.states[k]);
     return result;
 }
 
-void set_motion(const System& system, const PhaseSystem& phase, Formulation& form)
+void set_motion(Graph& graph, const System& system, const PhaseSystem& phase, Formulation& form)
 {
     form.derivative = phase.xdot;
     form.derivative.insert(form.derivative.end(), phase.mudot.begin(), phase.mudot.end());
     form.binding = phase_names(system, phase, phase.hamiltonian);
     bind_system(system, form);
+    append_state_rates(graph, system, form);
+}
+
+void append_state_rates(Graph& graph, const System& system, Formulation& form)
+{
+    Lowering lower(graph, form.binding);
+    for (const NodeId state : form.states) {
+        const auto place = std::ranges::find(system.states, state) - system.states.begin();
+        form.derivative.push_back(lower(system.written.states[static_cast<std::size_t>(place)].value));
+    }
 }
 
 void bind_system(const System& system, Formulation& form)
 {
     form.binding["t"] = system.time;
-    for (const std::vector<NodeId>* inputs : {&system.parameters, &system.algebroid.x})
+    for (const std::vector<NodeId>* inputs : {&system.parameters, &system.algebroid.x, &system.states})
         for (const NodeId input : *inputs) form.binding[system.graph.input_name(input)] = input;
 }
 
@@ -106,6 +129,7 @@ std::vector<NodeId> state_of(const Formulation& form)
 {
     std::vector<NodeId> lanes = form.x;
     lanes.insert(lanes.end(), form.lanes.begin(), form.lanes.end());
+    lanes.insert(lanes.end(), form.states.begin(), form.states.end());
     return lanes;
 }
 

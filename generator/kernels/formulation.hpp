@@ -20,7 +20,8 @@ struct Formulation {
     std::vector<NodeId> parameters;
     std::vector<NodeId> x;                  ///< x^i, shape (n)
     std::vector<NodeId> lanes;              ///< the other lanes of the state, shape (r)
-    std::vector<NodeId> derivative;         ///< of x, then of the lanes
+    std::vector<NodeId> states;             ///< first-order states, the last lanes
+    std::vector<NodeId> derivative;         ///< of x, then of the lanes, then of the states
     std::vector<NodeId> pivots;             ///< 1 x 1 blocks of what is solved for the derivative
     std::vector<std::string> documentation; ///< of the right-hand side
     std::string failures;                   ///< of the right-hand side, as in KernelChecks
@@ -33,17 +34,32 @@ struct Formulation {
     Binding binding;
 };
 
+/// What a form is made with.
+struct FormulationRequest {
+    bool hessians = false;           ///< kernels of the second derivatives of L and H
+    std::vector<std::size_t> states; ///< numbers of the first-order states that it carries
+};
+
 /// Throw MathematicsError where the system has no such form: no L, no H, no control problem; a degenerate L; a
-/// Hamiltonian that the controls do not maximise in a way that can be solved for. `graph`: a copy of the system's;
-/// `hessians`: with kernels of the second derivatives of L and H.
-[[nodiscard]] Formulation lagrange_form(Graph& graph, const System& system, const Report& report, bool hessians);
-[[nodiscard]] Formulation hamilton_form(Graph& graph, const System& system, const Report& report, bool hessians);
-[[nodiscard]] Formulation pontryagin_form(Graph& graph, const Model& model, const System& system, const Report& report);
+/// Hamiltonian that the controls do not maximise in a way that can be solved for. `graph`: a copy of the system's.
+[[nodiscard]] Formulation lagrange_form(Graph& graph, const System& system, const Report& report,
+                                        const FormulationRequest& request);
+[[nodiscard]] Formulation hamilton_form(Graph& graph, const System& system, const Report& report,
+                                        const FormulationRequest& request);
+[[nodiscard]] Formulation pontryagin_form(Graph& graph, const Model& model, const System& system, const Report& report,
+                                          const FormulationRequest& request);
+
+/// That of the form `kind`.
+[[nodiscard]] Formulation formulation(Graph& graph, const Model& model, const System& system, const Report& report,
+                                      FormKind kind, const FormulationRequest& request);
 
 /// A form without motion, names and kernels: what all of them share. `lanes`: y, mu, ..
-[[nodiscard]] Formulation empty_form(const System& system, FormKind form, std::vector<NodeId> lanes);
+[[nodiscard]] Formulation empty_form(const System& system, FormKind form, std::vector<NodeId> lanes,
+                                     const FormulationRequest& request);
 /// Takes the rates and the names of a system on E*, and of the system itself.
-void set_motion(const System& system, const PhaseSystem& phase, Formulation& form);
+void set_motion(Graph& graph, const System& system, const PhaseSystem& phase, Formulation& form);
+/// Appends the rates of the states that the form carries, once its names are bound.
+void append_state_rates(Graph& graph, const System& system, Formulation& form);
 /// Binds t, parameters and base coordinates, which win over what is bound already.
 void bind_system(const System& system, Formulation& form);
 

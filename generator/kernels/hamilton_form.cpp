@@ -32,6 +32,7 @@ void add_kernels(Graph& graph, const System& system, const HamiltonianNodes& ham
     if (!hessians) return;
     std::vector<NodeId> first = hamiltonian.dH_dx;
     first.insert(first.end(), hamiltonian.y.begin(), hamiltonian.y.end());
+    first.resize(state_of(form).size(), graph.constant(0)); // H does not depend on first-order states
     form.kernels.push_back(hessian_kernel(graph, form, "hamiltonian_hessian", first));
 }
 
@@ -49,14 +50,14 @@ void require_proved_values(Graph& graph, const Regularity& regularity, Formulati
 
 } // namespace
 
-Formulation hamilton_form(Graph& graph, const System& system, const Report& report, bool hessians)
+Formulation hamilton_form(Graph& graph, const System& system, const Report& report, const FormulationRequest& request)
 {
     const HamiltonianNodes hamiltonian = hamiltonian_nodes(graph, system, report.mechanics.regularity);
     const PhaseSystem phase = hamilton_system(graph, system, hamiltonian);
-    Formulation form = empty_form(system, FormKind::hamilton, system.mu);
+    Formulation form = empty_form(system, FormKind::hamilton, system.mu, request);
     form.implicit = hamiltonian.implicit;
     if (!system.hamiltonian) require_proved_values(graph, report.mechanics.regularity, form);
-    set_motion(system, phase, form);
+    set_motion(graph, system, phase, form);
     if (!hamiltonian.matrix.empty()) form.pivots = single_blocks(graph, hamiltonian.matrix, system.r());
     form.documentation = {"Hamilton's equations, ds = (xdot, mudot): xdot^i = rho^i_a dH/dmu_a and",
                           system.forces.empty() ? "mudot_a = -(rho_a(H) + mu_c C^c_ab dH/dmu_b)."
@@ -64,7 +65,7 @@ Formulation hamilton_form(Graph& graph, const System& system, const Report& repo
                           system.hamiltonian ? "H is given."
                                              : "H is the Legendre transform of L: y = dH/dmu solves mu_a = dL/dy^a.",
                           "s and ds may be the same object."};
-    add_kernels(graph, system, hamiltonian, phase.energy_rate, hessians, form);
+    add_kernels(graph, system, hamiltonian, phase.energy_rate, request.hessians, form);
     form.hamiltonian = hamiltonian;
     return form;
 }

@@ -38,14 +38,14 @@ void add_kernels(Graph& graph, const System& system, const LagrangianNodes& lagr
 
 } // namespace
 
-Formulation lagrange_form(Graph& graph, const System& system, const Report& report, bool hessians)
+Formulation lagrange_form(Graph& graph, const System& system, const Report& report, const FormulationRequest& request)
 {
     require_regular_lagrangian(system, report.mechanics.regularity, "Lagrangian");
     const LagrangianNodes lagrangian = lagrangian_nodes(graph, system);
     const std::vector<NodeId>& W = lagrangian.fibre.hessian;
     graph.remember_hessian(W, system.algebroid.y, *system.lagrangian);
     const MomentumBalance balance = lagrange_balance(graph, system, lagrangian);
-    Formulation form = empty_form(system, FormKind::lagrange, system.algebroid.y);
+    Formulation form = empty_form(system, FormKind::lagrange, system.algebroid.y, request);
     form.derivative = base_velocity(graph, system.algebroid, system.algebroid.y);
     const std::vector<NodeId> right =
         acceleration_forces(graph, system, lagrangian, momentum_rates(graph, system.algebroid, balance));
@@ -60,7 +60,8 @@ Formulation lagrange_form(Graph& graph, const System& system, const Report& repo
         "s and ds may be the same object."};
     form.failures = "Answers singular_mass_matrix where W has no inverse at this state.";
     bind_names(system, lagrangian, form);
-    add_kernels(graph, system, lagrangian, energy_rate(graph, system.algebroid, balance), hessians, form);
+    append_state_rates(graph, system, form);
+    add_kernels(graph, system, lagrangian, energy_rate(graph, system.algebroid, balance), request.hessians, form);
     return form;
 }
 

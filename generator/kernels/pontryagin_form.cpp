@@ -177,7 +177,8 @@ void add_kernels(Graph& graph, const PhaseSystem& phase, bool proved, Formulatio
 
 } // namespace
 
-Formulation pontryagin_form(Graph& graph, const Model& model, const System& system, const Report& report)
+Formulation pontryagin_form(Graph& graph, const Model& model, const System& system, const Report& report,
+                            const FormulationRequest& request)
 {
     if (!model.control)
         throw MathematicsError(fmt::format("model '{}' is no control problem; the Pontryagin form needs "
@@ -185,7 +186,7 @@ Formulation pontryagin_form(Graph& graph, const Model& model, const System& syst
                                            model.name));
     require_maximum(system.name, report.control.maximum);
     const bool proved = report.control.maximum.kind == ControlMaximum::Kind::maximal;
-    Formulation form = empty_form(system, FormKind::pontryagin, system.mu);
+    Formulation form = empty_form(system, FormKind::pontryagin, system.mu, request);
     SolvedControls controls(graph, system, *model.control, report.control.maximum);
     controls.solve(form);
     require_intervals(graph, *system.control, *model.control, form);
@@ -196,7 +197,7 @@ Formulation pontryagin_form(Graph& graph, const Model& model, const System& syst
                               std::string(system.control->bounded() ? ", or are at the bound next to that." : ".")};
     if (!proved) form.documentation.push_back(stationary_controls);
     form.documentation.push_back("s and ds may be the same object.");
-    set_motion(system, phase, form);
+    set_motion(graph, system, phase, form);
     add_kernels(graph, phase, proved, form);
     return form;
 }

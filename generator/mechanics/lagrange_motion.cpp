@@ -89,6 +89,9 @@ Rate LagrangeMotion::rate(NodeId f)
     for (std::size_t i = 0; i < xdot_.size(); ++i) seeds.emplace_back(system_.algebroid.x[i], xdot_[i]);
     seeds.emplace_back(system_.time, graph_.constant(1));
     for (std::size_t a = 0; a < momentum_names_.size(); ++a) seeds.emplace_back(momentum_names_[a], pdot_[a]);
+    Lowering lower(graph_, names());
+    for (std::size_t k = 0; k < system_.states.size(); ++k)
+        seeds.emplace_back(system_.states[k], lower(system_.written.states[k].value));
     if (lagrangian_ != nullptr) seeds.emplace_back(energy_name_, energy_rate_);
     const NodeId outputs[] = {f};
     const NodeId known = directional(graph_, outputs, seeds)[0];

@@ -57,6 +57,9 @@ Rate PhaseMotion::rate(NodeId f)
     Replacements seeds = {{energy_name_, phase_.energy_rate}};
     for (std::size_t i = 0; i < phase_.xdot.size(); ++i) seeds.emplace_back(system_.algebroid.x[i], phase_.xdot[i]);
     for (std::size_t a = 0; a < phase_.mu.size(); ++a) seeds.emplace_back(phase_.mu[a], phase_.mudot[a]);
+    Lowering lower(graph_, names());
+    for (std::size_t k = 0; k < system_.states.size(); ++k)
+        seeds.emplace_back(system_.states[k], lower(system_.written.states[k].value));
     seeds.emplace_back(system_.time, graph_.constant(1));
     const NodeId outputs[] = {f};
     const NodeId value = in_states(directional(graph_, outputs, seeds)[0]);

@@ -58,8 +58,9 @@ struct FormClaim {
 struct Written {
     WrittenAlgebroid algebroid;
     std::vector<NamedTree> invariants;
-    std::vector<Tree> phase; ///< on E* and the controls: H, sigma, cost, bounds
-    std::vector<Tree> all;   ///< definitions, domain, constraints, Casimirs, rho, C, L, forces, observables, events
+    std::vector<Tree> phase;       ///< on E* and the controls: H, sigma, cost, bounds
+    std::vector<NamedTree> states; ///< first-order states z with z', over what observables may use
+    std::vector<Tree> all; ///< definitions, domain, constraints, Casimirs, rho, C, L, forces, observables, events
 };
 
 /// A constraint or a Casimir in words.
@@ -81,8 +82,9 @@ struct System {
     std::vector<NodeId> mu;                              ///< inputs mu_a on E*, shape (r)
     std::optional<NodeId> lagrangian;                    ///< L(t, x, y)
     std::optional<NodeId> hamiltonian;                   ///< H(t, x, mu)
-    std::vector<NodeId> forces;                          ///< Q_a(t, x, y) = [forces] - dR/dy^a, shape (r); empty: none
-    std::vector<NodeId> force_parts;                     ///< the given forces and R, each as it is written
+    std::vector<NodeId> states;                          ///< inputs z of [states]
+    std::vector<NodeId> forces;      ///< Q_a(t, x, y, z) = [forces] - dR/dy^a, shape (r); empty: none
+    std::vector<NodeId> force_parts; ///< the given forces and R, each as it is written
     std::optional<ControlProblem> control;
     std::optional<Groupoid> groupoid;
     bool groupoid_is_claim = false; ///< the algebroid is given beside the groupoid, and claimed to be that of it
@@ -97,7 +99,7 @@ struct System {
     [[nodiscard]] std::size_t r() const { return algebroid.r(); }
     /// Q_a, zeros where there are none.
     [[nodiscard]] std::vector<NodeId> forces_or_zero(Graph& graph) const;
-    /// Whether a parameter, a coordinate of E or a control bears this name.
+    /// Whether a parameter, a coordinate of E, a first-order state or a control bears this name.
     [[nodiscard]] bool declares(const std::string& name) const;
 };
 

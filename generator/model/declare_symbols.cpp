@@ -19,6 +19,7 @@ FamilyRole family_role(Role role)
     case Role::fibre: return FamilyRole::fibre;
     case Role::momentum: return FamilyRole::momentum;
     case Role::control: return FamilyRole::control;
+    case Role::state: return FamilyRole::state;
     case Role::element: return FamilyRole::element;
     case Role::next: return FamilyRole::next;
     default: throw InternalError("a family of a role that has none");
@@ -33,6 +34,7 @@ std::size_t count_of(const Model& model, Role role)
     case Role::base: return model.base.coordinates.size();
     case Role::fibre: return model.fibre.coordinates.size();
     case Role::control: return model.control ? model.control->controls.size() : 0;
+    case Role::state: return model.states.size();
     case Role::element: return model.groupoid->element.size();
     case Role::next: return model.groupoid->next.size();
     default: return model.fibre.momenta.size();
@@ -46,6 +48,7 @@ void append_symbol(Model& model, const Symbol& symbol, Role role)
     case Role::base: model.base.coordinates.push_back(symbol); break;
     case Role::fibre: model.fibre.coordinates.push_back(symbol); break;
     case Role::control: model.control->controls.push_back(symbol); break;
+    case Role::state: model.states.push_back(FirstOrderState{symbol, nullptr}); break;
     case Role::element: model.groupoid->element.push_back(symbol); break;
     case Role::next: model.groupoid->next.push_back(symbol); break;
     default: model.fibre.momenta.push_back(symbol); break;
@@ -79,6 +82,13 @@ std::vector<Symbol> parameter_symbols(const Model& model)
 {
     std::vector<Symbol> out;
     for (const Parameter& parameter : model.parameters) out.push_back(parameter.symbol);
+    return out;
+}
+
+std::vector<Symbol> state_symbols(const Model& model)
+{
+    std::vector<Symbol> out;
+    for (const FirstOrderState& state : model.states) out.push_back(state.symbol);
     return out;
 }
 

@@ -74,6 +74,8 @@ struct SymbolGroup {
 void declare_symbols(ModelReader& reader, const std::vector<Symbol>& symbols, Role role);
 
 [[nodiscard]] std::vector<Symbol> parameter_symbols(const Model& model);
+/// Of [states].
+[[nodiscard]] std::vector<Symbol> state_symbols(const Model& model);
 /// Those that are not bound.
 [[nodiscard]] std::vector<Symbol> free_parameters(const Model& model);
 

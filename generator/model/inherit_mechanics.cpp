@@ -4,8 +4,10 @@
 /// L and R' = R at y^b = A_a^b y'^a, Q'_a = A_a^b Q_b. Hamiltonians and control problems of files are left where they
 /// are: their momenta and their sigma would need the inverse of A.
 #include "model/algebroid_draft.hpp"
+#include "model/families.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace lagen {
 
@@ -58,6 +60,19 @@ std::vector<Tree> forces_of(const ModelReader& reader, const AlgebroidDraft& dra
     return forces;
 }
 
+/// Forces do not come without what they follow from.
+void refuse_lost_states(const IncludedModel& file)
+{
+    const std::vector<std::string> states = names_of(state_symbols(file.model));
+    for (const ComponentEntry& force : file.model.forces)
+        for (const std::string& name : names_in(force.value))
+            if (std::ranges::find(states, name) != states.end())
+                throw ModelError(fmt::format("the forces of '{}' depend on its first-order state '{}', and [states] "
+                                             "do not come with the forces of a file",
+                                             file.model.file->name, name),
+                                 file.of->where, "give this model [states] and [forces] of its own");
+}
+
 } // namespace
 
 void inherit_mechanics(ModelReader& reader)
@@ -79,6 +94,7 @@ void inherit_mechanics(ModelReader& reader)
     reader.model.lagrangian_where = where;
     if (own.dissipation == nullptr) reader.dissipation = sum_or_nothing(dissipations);
     if (own.forces != nullptr) return;
+    for (const IncludedModel* file : files) refuse_lost_states(*file);
     const std::vector<Tree> forces = forces_of(reader, *reader.draft, reader.model.algebroid);
     for (std::size_t a = 0; a < forces.size(); ++a)
         if (forces[a]) reader.inherited_forces.push_back({a, forces[a], where});

@@ -23,7 +23,7 @@ struct Size {
     SourceRange where;
 };
 
-enum class FamilyRole { parameter, base, fibre, momentum, control, element, next };
+enum class FamilyRole { parameter, base, fibre, momentum, control, state, element, next };
 
 /// A vector or matrix of declared symbols: entries first, first + 1, .. (by rows) of the list of its role.
 struct Family {
@@ -231,6 +231,12 @@ struct Control {
     SourceRange where;
 };
 
+/// z of [states] with z' = rate: it stands beside the algebroid, whose coordinates are none of it.
+struct FirstOrderState {
+    Symbol symbol;
+    Tree rate; ///< closed over t, x, y, momenta, parameters and other first-order states
+};
+
 /// A component of an E-form, value e^{indices[0]} ^ e^{indices[1]} ^ ..; of a form of degree 0 the function itself.
 struct FormComponent {
     std::vector<std::size_t> indices; ///< of fibre coordinates, all different
@@ -285,9 +291,10 @@ struct Model {
     SourceRange lagrangian_where;
     Tree hamiltonian; ///< closed over t, x, momenta, parameters; null where absent
     SourceRange hamiltonian_where;
-    std::vector<ComponentEntry> forces; ///< Q_a(t, x, y): on the right of Lagrange's and of Hamilton's equations
+    std::vector<ComponentEntry> forces; ///< Q_a(t, x, y, z): on the right of Lagrange's and of Hamilton's equations
     Tree dissipation;                   ///< Rayleigh's R(t, x, y): Q_a gains -dR/dy^a; null where absent
     std::optional<Control> control;
+    std::vector<FirstOrderState> states; ///< in the order of the file
     std::vector<NamedTree> observables;
     std::vector<NamedTree> invariants;
     std::vector<NamedForm> forms;
@@ -295,8 +302,8 @@ struct Model {
     std::vector<Scene> scenes; ///< in the order of the file
 
     Scope scope;    ///< symbols and definitions: what L may use
-    Scope observer; ///< with momenta, controls, energy, hamiltonian, lagrangian, observables and invariants: what
-                    ///< expressions from the command line may use
+    Scope observer; ///< with momenta, controls, first-order states, energy, hamiltonian, lagrangian, observables and
+                    ///< invariants: what expressions from the command line may use
 };
 
 /// The scene called `name`; with an empty name `default`, else the first. Throws ModelError where there is none.

@@ -49,6 +49,7 @@ struct ModelReader {
     const TomlEntry* algebroid = nullptr; ///< the [algebroid] block
     const TomlEntry* groupoid = nullptr;  ///< the [groupoid] block
     const TomlEntry* discrete = nullptr;  ///< the [discrete] block
+    const TomlEntry* states = nullptr;    ///< the [states] block
     std::shared_ptr<const AlgebroidDraft> draft;
     std::vector<IncludedModel> included;               ///< in the order of the file; the same file may stand here twice
     std::vector<std::string> parameter_names;          ///< what each entry of [parameters] declares: "m" for "m[1..7]"
@@ -60,7 +61,7 @@ struct ModelReader {
     Tree discrete_lagrangian;                     ///< likewise
     std::vector<ComponentEntry> inherited_forces; ///< of included files, over the model's names
     std::vector<CoordinateRate> rates;            ///< once the entries of the algebroid are read
-    Scope mechanical;                             ///< the model's scope with momenta and controls
+    Scope mechanical;                             ///< the model's scope with momenta, controls and first-order states
     Scope observer; ///< the model's scope with momenta, observables, invariants and built-in quantities
     Scope arrows;   ///< the observer's with the coordinates of an arrow of the groupoid and the step
 
@@ -126,6 +127,8 @@ void require_rank(const ModelReader& reader, const SourceRange& where);
 void declare_fibre(ModelReader& reader, const TomlEntry* block);
 void declare_definitions(ModelReader& reader, const TomlEntry* block);
 void declare_control(ModelReader& reader);
+/// The names of [states].
+void declare_states(ModelReader& reader);
 void declare_quantities(ModelReader& reader, const TomlEntry* observables, const TomlEntry* invariants);
 /// The names of [forms].
 void declare_forms(ModelReader& reader, const TomlEntry* block);
@@ -146,6 +149,7 @@ void read_parameters(ModelReader& reader, const TomlEntry* block, const std::vec
 void read_base(ModelReader& reader, const TomlEntry* block);
 void read_mechanics(ModelReader& reader);
 void read_control(ModelReader& reader);
+void read_states(ModelReader& reader);
 void read_action(ModelReader& reader);
 void read_discrete(ModelReader& reader);
 [[nodiscard]] ControlBoundary read_boundary(const ModelReader& reader, const TomlEntry& block);

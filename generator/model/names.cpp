@@ -20,6 +20,7 @@ const char* role_text(Role role)
     case Role::fibre: return "a fibre coordinate";
     case Role::momentum: return "a momentum";
     case Role::control: return "a control";
+    case Role::state: return "a first-order state";
     case Role::definition: return "a definition";
     case Role::casimir: return "a Casimir";
     case Role::observable: return "an observable";

@@ -19,6 +19,7 @@ enum class Role {
     fibre,
     momentum,
     control,
+    state,
     definition,
     velocity,
     casimir,

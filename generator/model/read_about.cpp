@@ -72,6 +72,7 @@ void describe(Model& model, const Symbol& about)
     for (auto* list : {&model.base.coordinates, &model.fibre.coordinates, &model.fibre.momenta})
         std::for_each(list->begin(), list->end(), apply);
     if (model.control) std::for_each(model.control->controls.begin(), model.control->controls.end(), apply);
+    for (FirstOrderState& state : model.states) apply(state.symbol);
     if (!found) note(model, about);
 }
 
@@ -83,6 +84,7 @@ bool is_entry(const Model& model, const std::string& name)
     bool found = std::any_of(model.parameters.begin(), model.parameters.end(), is_parameter);
     for (const auto* list : {&model.base.coordinates, &model.fibre.coordinates, &model.fibre.momenta})
         found = found || std::any_of(list->begin(), list->end(), is_named);
+    found = found || std::ranges::any_of(model.states, [&](const auto& each) { return is_named(each.symbol); });
     if (model.control) found = found || std::ranges::any_of(model.control->controls, is_named);
     for (const auto* list : {&model.observables, &model.invariants, &model.base.casimirs})
         found = found || std::any_of(list->begin(), list->end(), is_named);

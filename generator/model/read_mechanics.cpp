@@ -68,13 +68,14 @@ void read_mechanics(ModelReader& reader)
 {
     Model& model = reader.model;
     const auto velocity = {Role::time, Role::parameter, Role::base, Role::fibre};
+    const auto pushing = {Role::time, Role::parameter, Role::base, Role::fibre, Role::state};
     const auto phase = {Role::time, Role::parameter, Role::base, Role::momentum};
     if (reader.lagrangian) model.lagrangian = reader.close(reader.lagrangian, velocity, "the Lagrangian");
     if (reader.hamiltonian) model.hamiltonian = reader.close_mechanical(reader.hamiltonian, phase, "the Hamiltonian");
     if (reader.dissipation)
         model.dissipation = reader.close_mechanical(reader.dissipation, velocity, "the Rayleigh function");
     if (reader.mechanics.forces != nullptr)
-        model.forces = read_components(reader, *reader.mechanics.forces, {"[forces]", "the force on", velocity, true});
+        model.forces = read_components(reader, *reader.mechanics.forces, {"[forces]", "the force on", pushing, true});
     for (const ComponentEntry& force : reader.inherited_forces)
         model.forces.push_back({force.section, reader.mechanical.close(force.value, true), force.where});
 }

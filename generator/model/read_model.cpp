@@ -56,6 +56,7 @@ Model read_model_text(const std::string& name, std::string text, const std::vect
     reader.mechanics.forces = top.take("forces");
     reader.mechanics.dissipation = top.take("dissipation");
     reader.mechanics.control = top.take("control");
+    reader.states = top.take("states");
     const TomlEntry* observables = top.take("observables");
     const TomlEntry* invariants = top.take("invariants");
     const TomlEntry* forms = top.take("forms");
@@ -71,6 +72,7 @@ Model read_model_text(const std::string& name, std::string text, const std::vect
     read_algebroid_kind(reader, reader.algebroid);
     declare_fibre(reader, fibre);
     declare_control(reader);
+    declare_states(reader);
     declare_definitions(reader, definitions);
     declare_quantities(reader, observables, invariants);
     declare_mechanics(reader);
@@ -81,6 +83,7 @@ Model read_model_text(const std::string& name, std::string text, const std::vect
     read_parameters(reader, parameters, settings);
     read_base(reader, base);
     read_mechanics(reader);
+    read_states(reader);
     read_action(reader);
     read_discrete(reader);
     read_control(reader);
@@ -116,6 +119,7 @@ std::vector<std::string> symbol_names(const Model& model)
     for (const Symbol& symbol : model.fibre.coordinates) out.push_back(symbol.name);
     if (model.control)
         for (const Symbol& symbol : model.control->controls) out.push_back(symbol.name);
+    for (const FirstOrderState& state : model.states) out.push_back(state.symbol.name);
     return out;
 }
 

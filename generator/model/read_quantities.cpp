@@ -101,6 +101,8 @@ void explain_observed(Scope& scope, const Model& model)
     if (model.control)
         for (const std::string& control : declared_names(model.control->controls))
             scope.explain(control, "controls stand in sigma, cost, observables, invariants and events only");
+    for (const std::string& state : declared_names(state_symbols(model)))
+        scope.explain(state, "first-order states stand in forces, [states], observables, invariants and events only");
     scope.explain("energy", "the energy stands in observables, invariants and events only");
     scope.explain("hamiltonian", "the Hamiltonian stands in observables, invariants and events only");
 }
@@ -188,6 +190,7 @@ void build_scopes(ModelReader& reader)
     reader.mechanical = scope;
     add_to_scope(reader.mechanical, model, model.fibre.momenta, FamilyRole::momentum);
     if (model.control) add_to_scope(reader.mechanical, model, model.control->controls, FamilyRole::control);
+    add_to_scope(reader.mechanical, model, state_symbols(model), FamilyRole::state);
     reader.observer = reader.mechanical.with(extra);
     explain_rates(reader.observer, reader.rates);
     if (lagrangian && reader.lagrangian) {

@@ -170,6 +170,7 @@ Scene read_scene(const ModelReader& reader, Scene scene, const TomlEntry& block,
     const std::string form_of_scene = form_of(reader.model, scene);
     if (form_of_scene == discrete_form) {
         require_first_arrow(reader, scene);
+        require_values_in(reader.model, scene, form_of_scene);
         return scene;
     }
     if (!forms_of(reader.model).empty()) {

@@ -25,7 +25,7 @@ bool has_role(const ModelReader& reader, const std::string& name, Role role)
 [[noreturn]] void refuse_initial(const ModelReader& reader, const Scene& scene, const TomlEntry& entry)
 {
     std::vector<std::string> known = reader.names.of(Role::base);
-    for (const Role role : {Role::fibre, Role::momentum}) {
+    for (const Role role : {Role::fibre, Role::momentum, Role::state}) {
         const std::vector<std::string> more = reader.names.of(role);
         known.insert(known.end(), more.begin(), more.end());
     }
@@ -44,9 +44,10 @@ void read_initial(const ModelReader& reader, Scene& scene, const TomlEntry& bloc
     const TableReader table(block.value, fmt::format("'initial' of scene '{}'", scene.name));
     const Model& model = reader.model;
     GivenValues given("the initial value of");
+    const std::vector<Symbol> states = state_symbols(model);
     for (const TomlEntry& entry : block.value.entries) {
         bool found = false;
-        for (const auto* symbols : {&model.base.coordinates, &model.fibre.coordinates, &model.fibre.momenta}) {
+        for (const auto* symbols : {&model.base.coordinates, &model.fibre.coordinates, &model.fibre.momenta, &states}) {
             const std::optional<ResolvedKey> key = resolve_key(*symbols, entry_key(entry.key, model.scope));
             if (!key) continue;
             given.add(reader, entry, *key, *symbols);

@@ -55,6 +55,9 @@ std::vector<ForeignNames> foreign_names(const Model& model, const std::string& f
         out.push_back({"the entry of the group element", names(model.groupoid->element), hint});
         out.push_back({"the coordinate of the target", names(model.groupoid->next), hint});
     }
+    if (form == discrete_form && !model.states.empty())
+        out.push_back({"the first-order state", names(state_symbols(model)),
+                       "first-order states move in continuous time: give the scene another form"});
     return out;
 }
 
@@ -94,21 +97,6 @@ class ForeignSearch {
     std::vector<ForeignNames> foreign_;
     std::unordered_set<const TreeNode*> seen_; // looked up, never iterated
 };
-
-/// No form has everything to observe that another has.
-void require_values_in(const Model& model, const Scene& scene, const std::string& form)
-{
-    ForeignSearch foreign_in(model, form);
-    for (const NamedTree& column : scene.observe.value_or(std::vector<NamedTree>{}))
-        foreign_in.refuse_in(column.value, fmt::format("the column '{}' of scene '{}'", column.name, scene.name), form,
-                             column.where);
-    for (const Event& event : scene.events)
-        foreign_in.refuse_in(event.when, fmt::format("event '{}' of scene '{}'", event.name, scene.name), form,
-                             event.where);
-    if (scene.time_scale != nullptr)
-        foreign_in.refuse_in(scene.time_scale, fmt::format("the time scale of scene '{}'", scene.name), form,
-                             scene.time_scale_where);
-}
 
 /// Neither velocities nor momenta follow from an arrow without the discrete Lagrangian.
 void require_start_of_motion(const Scene& scene, const std::string& form)
@@ -222,8 +210,23 @@ std::vector<std::string> state_names(const Model& model, const std::string& form
     const bool discrete = form == discrete_form;
     if (discrete && model.groupoid) append(model.groupoid->element);
     append(discrete || form_named(form).momenta ? model.fibre.momenta : model.fibre.coordinates);
+    if (!discrete) append(state_symbols(model));
     if (is_form(form, FormKind::pontryagin) && model.control) append(model.control->controls);
     return names;
+}
+
+void require_values_in(const Model& model, const Scene& scene, const std::string& form)
+{
+    ForeignSearch foreign_in(model, form);
+    for (const NamedTree& column : scene.observe.value_or(std::vector<NamedTree>{}))
+        foreign_in.refuse_in(column.value, fmt::format("the column '{}' of scene '{}'", column.name, scene.name), form,
+                             column.where);
+    for (const Event& event : scene.events)
+        foreign_in.refuse_in(event.when, fmt::format("event '{}' of scene '{}'", event.name, scene.name), form,
+                             event.where);
+    if (scene.time_scale != nullptr)
+        foreign_in.refuse_in(scene.time_scale, fmt::format("the time scale of scene '{}'", scene.name), form,
+                             scene.time_scale_where);
 }
 
 bool has_value(const Model& model, const Tree& tree, const std::string& form)

@@ -35,6 +35,10 @@ inline constexpr const char* discrete_form = "discrete";
 /// controls (pontryagin), or entries of the group element and momenta (discrete).
 [[nodiscard]] std::vector<std::string> state_names(const Model& model, const std::string& form);
 
+/// Throws ModelError where a column, an event or the time scale of the scene has no value in this form: none has
+/// everything to observe that another has.
+void require_values_in(const Model& model, const Scene& scene, const std::string& form);
+
 /// Whether `tree` has a value in this form: controls have one in Pontryagin's alone, coordinates of an arrow in the
 /// discrete one.
 [[nodiscard]] bool has_value(const Model& model, const Tree& tree, const std::string& form);

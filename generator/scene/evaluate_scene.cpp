@@ -3,6 +3,7 @@
 #include "scene/evaluate_scene.hpp"
 
 #include "algebra/group_relations.hpp"
+#include "model/carried_states.hpp"
 #include "model/dependency_order.hpp"
 #include "model/families.hpp"
 
@@ -44,7 +45,8 @@ std::vector<NamedNumber> pick(const std::vector<Symbol>& symbols, const Values& 
 
 } // namespace
 
-SceneEvaluator::SceneEvaluator(const Model& model, const Scene& scene) : model_(model), scene_(scene)
+SceneEvaluator::SceneEvaluator(const Model& model, const Scene& scene)
+    : model_(model), scene_(scene), carried_(carried_states(model, &scene))
 {
     std::map<std::string, const NamedTree*> own;
     for (const NamedTree& entry : scene_.parameters) own.emplace(entry.name, &entry);
@@ -240,6 +242,7 @@ SceneValues SceneEvaluator::operator()(const Values& given, const Values& initia
         out.momenta = pick(model_.fibre.momenta, values);
     else if (out.element.empty() && out.next.empty())
         out.fibre = pick(model_.fibre.coordinates, values);
+    for (const std::size_t k : carried_) out.states.push_back(pick({model_.states[k].symbol}, values).front());
     for (const NamedTree& casimir : model_.base.casimirs)
         out.casimirs.emplace_back(casimir.name, value_of_(casimir.value, values));
     return out;

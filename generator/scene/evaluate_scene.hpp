@@ -22,6 +22,7 @@ struct SceneValues {
     std::vector<NamedNumber> base;     ///< every base coordinate, in order; on the constraints
     std::vector<NamedNumber> fibre;    ///< every fibre coordinate, in order; empty where the scene gives momenta
     std::vector<NamedNumber> momenta;  ///< every momentum, in order; empty where the scene gives fibre coordinates
+    std::vector<NamedNumber> states;   ///< the first-order states that the scene carries; 0 where it does not say
     std::vector<NamedNumber> casimirs; ///< the declared Casimirs at the start
     std::vector<NamedNumber> element;  ///< of a discrete scene the group part of the first arrow, by rows; or empty
     std::vector<NamedNumber> next;     ///< and its target, by base coordinates; or empty
@@ -77,6 +78,7 @@ class SceneEvaluator {
 
     const Model& model_;
     Scene scene_;
+    std::vector<std::size_t> carried_; ///< numbers of the first-order states that the scene carries
     TreeValues value_of_;
     std::optional<ConstraintFunctions> constraints_;
     std::vector<NamedTree> parameters_; ///< in the order in which they can be computed

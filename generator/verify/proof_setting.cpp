@@ -39,6 +39,7 @@ ProofSetting proof_setting(const System& system)
     append(setting.variables, system.algebroid.y);
     if (system.hamiltonian || system.control) append(setting.variables, system.mu);
     if (system.control) append(setting.variables, system.control->u);
+    append(setting.variables, system.states);
     setting.variables.push_back(system.time);
     setting.parameters = system.parameters;
     setting.constraints = system.functions.constraints;
@@ -52,6 +53,7 @@ std::set<std::string> accessory_inputs(const System& system)
     std::vector<NodeId> inputs = system.algebroid.y;
     append(inputs, system.mu);
     if (system.control) append(inputs, system.control->u);
+    append(inputs, system.states);
     inputs.push_back(system.time);
     std::set<std::string> names;
     for (const NodeId input : inputs) names.insert(system.graph.input_name(input));

@@ -154,3 +154,12 @@ TEST_CASE("a momentum that is written out is decided as the momentum, which need
     CHECK(statuses(plane("exp(y)*(u*(1 + y^2) + v)^2/2"),
                    {"exp(y)*(1 + y^2)*(u + u*y^2 + v)", "exp(y)*(1 + y^2)*(u - u*y^2 + v)"}) == "proved, undecided");
 }
+
+TEST_CASE("work balances energy, and claims with first-order states are decided along all rates")
+{
+    const std::string driven = plane("(u^2 + v^2)/2", "") +
+                               "[forces]\nu = \"z - u\"\n"
+                               "[states]\nz = \"k*(v - z)\"\nwork = \"(z - p_u)*u\"\nturn = \"x*v - y*u\"\n";
+    CHECK(statuses(driven, {"energy - work", "energy", "x + u - work", "k*y - turn", "v"}) ==
+          "proved, refuted, refuted, refuted, proved");
+}

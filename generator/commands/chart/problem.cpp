@@ -40,7 +40,7 @@ ChartProblem chart_problem(CheckedModel& checked, const Scene& whole, const std:
     const Scene scene = bare_scene(whole);
     const SceneValues values = evaluate_scene(checked.model, scene);
     const std::vector<long double> parameters = finite_numbers(values.parameters, scene);
-    for (const std::vector<NamedNumber>* group : {&values.base, &values.fibre, &values.momenta})
+    for (const std::vector<NamedNumber>* group : {&values.base, &values.fibre, &values.momenta, &values.states})
         (void)finite_numbers(*group, scene);
     set_parameters(checked, parameters);
     ChartProblem problem;

@@ -38,7 +38,7 @@ std::optional<Obstacle> obstacle_to_splitting(const MethodEntry& method, const K
         obstacle.hint = "blanesmoan6 and kahanli8 compose its exact flows";
     else if (!module.flows.obstacle.empty())
         obstacle.text += ", and " + module.flows.obstacle;
-    else if (form_named(module.form).kind == FormKind::lagrange)
+    else if (form_named(module.form).kind == FormKind::lagrange && module.groups.size() == 2)
         obstacle.hint += "; with --form hamilton it may be a sum of exact flows";
     return obstacle;
 }

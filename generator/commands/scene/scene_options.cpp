@@ -91,6 +91,8 @@ std::vector<Symbol> initial_symbols(const Model& model, const Scene& scene)
     std::vector<Symbol> symbols = model.base.coordinates;
     const std::vector<Symbol>& rest = starts_from_momenta(model, scene) ? model.fibre.momenta : model.fibre.coordinates;
     symbols.insert(symbols.end(), rest.begin(), rest.end());
+    const std::vector<Symbol> states = state_symbols(model);
+    symbols.insert(symbols.end(), states.begin(), states.end());
     return symbols;
 }
 

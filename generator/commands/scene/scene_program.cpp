@@ -144,7 +144,7 @@ std::vector<TableColumn> columns_of(const TableNames& names, const Scene& scene)
 void use_values(ProgramInput& input, const Scene& scene, const SceneValues& values, StartState& start, bool stretch)
 {
     input.parameters = finite_numbers(values.parameters, scene);
-    for (const std::vector<NamedNumber>* group : {&values.base, &values.fibre, &values.momenta})
+    for (const std::vector<NamedNumber>* group : {&values.base, &values.fibre, &values.momenta, &values.states})
         (void)finite_numbers(*group, scene);
     input.initial = start(values);
     input.step = values.step;

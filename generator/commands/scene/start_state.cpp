@@ -98,6 +98,14 @@ bool StartState::prepare(bool has_momenta, bool any)
 
 std::vector<long double> StartState::operator()(const SceneValues& values)
 {
+    std::vector<long double> state = of_motion(values);
+    for (const auto& [name, value] : values.states) state.push_back(value);
+    return state;
+}
+
+/// Base lanes and those of the form.
+std::vector<long double> StartState::of_motion(const SceneValues& values)
+{
     std::vector<long double> state;
     const auto append = [&](const std::vector<NamedNumber>& lanes) {
         for (const auto& [name, value] : lanes) state.push_back(value);

@@ -11,10 +11,11 @@
 
 namespace lagen {
 
-/// Base lanes, then the other lanes of `form`. Lagrange's form with momenta given: y solves p_a(x, y) =
-/// mu_a. Hamilton's with fibre coordinates given: mu = dL/dy, or mu solves dH/dmu_a = y^a. By Newton's method from 0,
-/// in long double; throws MathematicsError where it does not converge. `checked` is called where the values given are
-/// not the lanes themselves, once; with `true` where it is needed what is decided of the regularity.
+/// Base lanes, the other lanes of `form`, the first-order states that the scene carries. Lagrange's form with momenta
+/// given: y solves p_a(x, y) = mu_a. Hamilton's with fibre coordinates given: mu = dL/dy, or mu solves dH/dmu_a = y^a.
+/// By Newton's method from 0, in long double; throws MathematicsError where it does not converge. `checked` is called
+/// where the values given are not the lanes themselves, once; with `true` where it is needed what is decided of the
+/// regularity.
 class StartState {
   public:
     using Checked = std::function<const CheckedModel&(bool decided)>;
@@ -43,6 +44,7 @@ class StartState {
     [[nodiscard]] static Conversion inversion(Graph graph, const Regularity& regularity, std::vector<NodeId> unknowns,
                                               const std::vector<NodeId>& values, NodeId function, const char* given,
                                               const char* wanted);
+    [[nodiscard]] std::vector<long double> of_motion(const SceneValues& values);
     [[nodiscard]] std::vector<long double> converted(const std::vector<NamedNumber>& given, Values inputs) const;
 
     Checked checked_;
