@@ -5,6 +5,7 @@
 #include "commands/chart/kept_chart.hpp"
 #include "commands/chart/picture.hpp"
 #include "commands/chart/report.hpp"
+#include "commands/chart/stability_chart.hpp"
 #include "commands/line/command.hpp"
 #include "commands/line/options.hpp"
 #include "commands/machine/places.hpp"
@@ -32,6 +33,8 @@ const CommandSyntax chart_syntax{
     {{"scene", "NAME", "the scene; without it `default`, else the first"},
      {"form", "FORM", chart_form_help.c_str()},
      {"methods", "A,B,..", "these alone, see `lagen methods`; without it all that apply"},
+     {"stability", nullptr, "chart instead what becomes of the scene with each step: stability.svg, .png, .csv, .json"},
+     {"over", "RANGES", "of --stability: step=FIRST:LAST:COUNT[,NAME=FIRST:LAST:COUNT], NAME a parameter or initial.x"},
      {"peers", nullptr, "odeint, GSL and SUNDIALS too, where they are installed, with the same right-hand side"},
      {"t-end", "T", "end of the runs, backwards where it lies before the start; without it the scene's duration"},
      {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
@@ -52,11 +55,44 @@ std::vector<const MethodEntry*> wanted_methods(const Options& options)
     return wanted;
 }
 
+void require_together(const Options& options)
+{
+    if (options.has("over") && !options.has("stability")) throw UsageError("lagen chart: --over needs --stability");
+    if (options.has("peers") && options.has("stability"))
+        throw UsageError("lagen chart: --peers and --stability exclude each other");
+}
+
 void make_folder(const std::string& folder)
 {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error) throw MachineError(fmt::format("error: cannot make the folder '{}': {}", folder, error.message()));
+}
+
+/// Warns of what the model's proofs leave open.
+void show_warnings(const CheckedModel& checked)
+{
+    for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
+}
+
+/// `chart --stability`.
+ExitCode chart_stability(const Options& options, ChartRequest request, bool as_json)
+{
+    CheckedModel checked = read(model_path(options.positional()[0]), options.settings(), options.has("unchecked"));
+    request.scene = scene_of(options, checked.model, options.named("initial"));
+    request.form = form_of(checked.model, request.scene);
+    std::vector<StabilityAxis> axes = stability_axes(options.get("over"), checked.model, request.scene);
+    prove(checked);
+    show_warnings(checked);
+    const std::string folder = options.get("output");
+    make_folder(folder);
+    const StabilityChart chart = make_stability_chart(checked, request, std::move(axes));
+    write_file(folder + "/stability.json", stability_json(chart));
+    write_file(folder + "/stability.csv", stability_csv(chart));
+    if (!find_program("gnuplot").empty())
+        for (const char* extension : {".svg", ".png"}) draw_stability(chart, folder + "/stability" + extension);
+    write_standard_output(as_json ? stability_json(chart) : stability_text(chart));
+    return ExitCode::done;
 }
 
 } // namespace
@@ -70,12 +106,15 @@ ExitCode run_chart(Arguments arguments)
     ChartRequest request;
     request.methods = wanted_methods(options);
     request.peers = options.has("peers");
-    const std::string folder = options.get("output");
+    require_together(options);
     const bool draws = !find_program("gnuplot").empty();
-    if (!draws) write_standard_error("warning: gnuplot was not found: chart.svg and chart.png are not drawn\n");
-
+    if (!draws)
+        write_standard_error(fmt::format("warning: gnuplot was not found: {0}.svg and {0}.png are not drawn\n",
+                                         options.has("stability") ? "stability" : "chart"));
+    if (options.has("stability")) return chart_stability(options, std::move(request), as_json);
+    const std::string folder = options.get("output");
     CheckedModel checked = charted_model(options, model_path(options.positional()[0]));
-    for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
+    show_warnings(checked);
     request.scene = scene_of(options, checked.model, options.named("initial"));
     request.form = form_of(checked.model, request.scene);
     make_folder(folder);

@@ -54,7 +54,7 @@ LinearLimits explicit_limits()
 
 /// The moduli of both eigenvalues are 1 at most where the determinant D and the trace T have D <= 1, |T| <= 1 + D;
 /// D = 1 up to u^(order/2), and T = 2 at u = 0.
-double oscillation_limit(const StepMatrix& m, int order)
+double limit_of_matrix(const StepMatrix& m, int order)
 {
     const Polynomial one{1}, trace = m.trace(), determinant = m.determinant();
     return limit_of({first_negative(in_squares(one - determinant), powers_up_to(order)),
@@ -67,7 +67,7 @@ LinearLimits nystrom_limits()
 {
     LinearLimits limits;
     if constexpr (requires { Tableau::a; }) limits = explicit_limits<Tableau>(); // x' = v, v' = lambda v
-    limits.imaginary = oscillation_limit(nystrom_matrix<Tableau>(), Tableau::order);
+    limits.imaginary = limit_of_matrix(nystrom_matrix<Tableau>(), Tableau::order);
     limits.calls = Tableau::end;
     return limits;
 }
@@ -155,6 +155,12 @@ std::optional<LinearLimits> linear_limits(const std::string& type)
     const auto found = std::ranges::find(known_methods, std::string_view(type), &KnownMethod::type);
     if (found == known_methods.end()) return std::nullopt;
     return found->limits();
+}
+
+double oscillation_limit(const std::string& type)
+{
+    const std::optional<LinearLimits> limits = linear_limits(type);
+    return limits.has_value() ? limits->imaginary : no_limit;
 }
 
 LinearLimits taylor_limits(std::size_t order)

@@ -23,6 +23,9 @@ struct LinearLimits {
 /// Of the method with the runtime's type `type`, "Rk4"; nothing where it has no limits of its own.
 [[nodiscard]] std::optional<LinearLimits> linear_limits(const std::string& type);
 
+/// The `imaginary` of a method; no_limit also where it is not known.
+[[nodiscard]] double oscillation_limit(const std::string& type);
+
 /// Of Taylor's method with a fixed order.
 [[nodiscard]] LinearLimits taylor_limits(std::size_t order);
 

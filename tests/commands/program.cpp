@@ -63,8 +63,9 @@ void precompile_for(const std::vector<std::string>& arguments)
 {
     const std::string command = arguments.empty() ? "" : arguments[0];
     const bool accurate = std::find(arguments.begin(), arguments.end(), "--accuracy") != arguments.end();
-    if (command == "run" || command == "sweep") headers().read_for_runs();
-    if (command == "chart" || accurate) headers().read_for_charts();
+    const bool stability = std::find(arguments.begin(), arguments.end(), "--stability") != arguments.end();
+    if (command == "run" || command == "sweep" || (command == "chart" && stability)) headers().read_for_runs();
+    if ((command == "chart" && !stability) || accurate) headers().read_for_charts();
 }
 
 void redirect(int stream, const std::string& path)

@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Grids are exact: point k of n between a and b is the double nearest to a + (b - a) k/(n - 1).
 #include "commands/sweep/sweep_rows.hpp"
 
 #include "commands/scene/scene_options.hpp"
 #include "commands/sweep/philox.hpp"
 #include "emit/print_literal.hpp"
-#include "graph/core/evaluate.hpp"
-#include "graph/core/lower.hpp"
 #include "model/families.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 namespace lagen {
@@ -20,31 +16,6 @@ namespace lagen {
 namespace {
 
 constexpr std::uint64_t most_sweep_rows = 1'000'000'000'000'000;
-
-struct Axis {
-    Rational first, last;
-    std::uint64_t count = 0; ///< 0: a continuum
-};
-
-/// An end of a range: exactly where its expression is rational, else the nearest double.
-Rational end_of_range(const Model& model, const std::string& option, const Excerpt& text)
-{
-    const Tree tree = option_tree(model, option, text);
-    const SourceRange where = text.range(0, text.text.size());
-    if (!names_in(tree).empty())
-        throw ModelError(fmt::format("a range of --{} ends at an expression of '{}', where a number is required",
-                                     option, names_in(tree).front()),
-                         where);
-    Graph graph;
-    const NodeId root = Lowering(graph)(tree);
-    const std::vector<Rational> exact = evaluate_exactly(graph, {&root, 1}, {});
-    const auto value =
-        exact.empty() ? static_cast<double>(evaluate<long double>(graph, {&root, 1}, {})[0]) : nearest_double(exact[0]);
-    if (!std::isfinite(value))
-        throw ModelError(fmt::format("a range of --{} ends at {}, where a finite number is required", option, value),
-                         where);
-    return exact.empty() ? Rational(value) : exact[0];
-}
 
 [[noreturn]] void refuse_range(const SweepRequest::Range& range, const std::string& what)
 {
@@ -81,10 +52,10 @@ SweptName resolved(const SweepRequest::Range& range, const Model& model, const S
                      hint_for_key(symbols, name, set ? "parameters" : "initial values"));
 }
 
-Axis axis_of(const SweepRequest::Range& range, const Model& model)
+GridAxis axis_of(const SweepRequest::Range& range, const Model& model)
 {
-    Axis axis{end_of_range(model, range.name.option, range.parts[0]),
-              end_of_range(model, range.name.option, range.parts[1]), 0};
+    GridAxis axis{end_of_range(model, range.name.option, range.parts[0]),
+                  end_of_range(model, range.name.option, range.parts[1]), 0};
     if (range.parts.size() < 3) return axis;
     const std::optional<std::uint64_t> count = read_whole(range.parts[2].text);
     if (!count || *count == 0)
@@ -95,10 +66,10 @@ Axis axis_of(const SweepRequest::Range& range, const Model& model)
 }
 
 /// Points of a grid, the last axis fastest; the value of an axis is computed where it changes.
-SweepRows grid_rows(std::vector<SweptName> names, std::vector<Axis> axes)
+SweepRows grid_rows(std::vector<SweptName> names, std::vector<GridAxis> axes)
 {
     SweepRows rows{std::move(names), 1, "grid", {}};
-    for (const Axis& axis : axes) {
+    for (const GridAxis& axis : axes) {
         if (axis.count > most_sweep_rows / rows.count)
             throw UsageError("lagen sweep: the grid has more than 1e15 points");
         rows.count *= axis.count;
@@ -110,9 +81,7 @@ SweepRows grid_rows(std::vector<SweptName> names, std::vector<Axis> axes)
             const std::uint64_t place = index % axes[k].count;
             if (at[k] == place) continue;
             at[k] = place;
-            Rational part(place, std::max<std::uint64_t>(axes[k].count - 1, 1));
-            part.canonicalize();
-            values[k] = nearest_double(axes[k].first + (axes[k].last - axes[k].first) * part);
+            values[k] = axes[k].at(place);
         }
         return values;
     };
@@ -120,12 +89,12 @@ SweepRows grid_rows(std::vector<SweptName> names, std::vector<Axis> axes)
 }
 
 /// Draws that are uniform in each range, first end included.
-SweepRows random_rows(std::vector<SweptName> names, const std::vector<Axis>& axes, std::uint64_t count,
+SweepRows random_rows(std::vector<SweptName> names, const std::vector<GridAxis>& axes, std::uint64_t count,
                       std::uint64_t seed)
 {
     SweepRows rows{std::move(names), count, fmt::format("random {}", seed), {}};
     std::vector<std::pair<double, double>> ends;
-    for (const Axis& axis : axes) ends.emplace_back(nearest_double(axis.first), nearest_double(axis.last));
+    for (const GridAxis& axis : axes) ends.emplace_back(nearest_double(axis.first), nearest_double(axis.last));
     rows.values = [ends = std::move(ends), seed](std::uint64_t index) {
         std::vector<double> values;
         for (std::uint32_t k = 0; k < ends.size(); ++k) {
@@ -146,16 +115,6 @@ std::uint64_t whole_option(const Options& options, const std::string& name, std:
 }
 
 } // namespace
-
-std::optional<std::uint64_t> read_whole(const std::string& text)
-{
-    constexpr std::size_t most_digits = 18;
-    std::uint64_t value = 0;
-    const char* end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, value);
-    if (error != std::errc() || stop != end || text.size() > most_digits) return std::nullopt;
-    return value;
-}
 
 std::vector<Symbol> swept_symbols(const std::string& option, const Model& model, const Scene& scene)
 {
@@ -180,12 +139,7 @@ SweepRequest::SweepRequest(const Options& options)
     for (const auto& [option, text] : options.given()) {
         if (option != "set" && option != "initial") continue;
         Setting setting = read_setting("sweep", option, text);
-        Range range{{option, setting.name}, {}, text};
-        const std::string& value = setting.value.text;
-        for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {
-            end = value.find(':', begin);
-            range.parts.push_back(trimmed(setting.value, begin, std::min(end, value.size())));
-        }
+        Range range{{option, setting.name}, parts_of_range(setting.value), text};
         if (range.parts.size() == 1) {
             (option == "set" ? settings : initial).push_back(std::move(setting));
             continue;
@@ -205,7 +159,7 @@ SweepRows sweep_rows(const Options& options, const SweepRequest& request, const 
 {
     if (options.has("ensemble")) return ensemble_rows(options.get("ensemble"), model, scene);
     std::vector<SweptName> names;
-    std::vector<Axis> axes;
+    std::vector<GridAxis> axes;
     for (const SweepRequest::Range& range : request.ranges) {
         const SweptName name = resolved(range, model, scene);
         for (const SweptName& before : names)

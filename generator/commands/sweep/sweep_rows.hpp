@@ -3,6 +3,7 @@
 #pragma once
 
 #include "commands/line/options.hpp"
+#include "commands/scene/range.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -52,8 +53,5 @@ void require_constants(const Model& model, const SweepRows& rows);
 
 /// The symbols that `option` names: parameters, or what the scene starts from.
 [[nodiscard]] std::vector<Symbol> swept_symbols(const std::string& option, const Model& model, const Scene& scene);
-
-/// A whole number without a sign, at most 1e18; nothing where the text is none.
-[[nodiscard]] std::optional<std::uint64_t> read_whole(const std::string& text);
 
 } // namespace lagen

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// `--over step=a:b:n[,p=a:b:n]`: what a stability chart is drawn over.
+#pragma once
+
+#include "model/model.hpp"
+
+#include <string>
+#include <vector>
+
+namespace lagen {
+
+struct StabilityAxis {
+    std::string name; ///< "step", a parameter, or "initial.x"
+    std::vector<double> values;
+};
+
+/// One axis or two, the first of steps. Throws UsageError where it is not such a list, ModelError where an end is no
+/// number, or the scene has no parameter and no initial value of that name.
+[[nodiscard]] std::vector<StabilityAxis> stability_axes(const std::string& over, const Model& model,
+                                                        const Scene& scene);
+
+} // namespace lagen

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// A stability chart: what becomes of a scene with each step of each method, over a parameter or an initial value too.
+/// What the words mean, and how it is found, stands in runtime/program/lagen_chart/stability.hpp.
+#pragma once
+
+#include "commands/chart/chart.hpp"
+#include "commands/chart/stability_axes.hpp"
+
+namespace lagen {
+
+struct StabilityCell {
+    std::string outcome; ///< bounded, drifting, newton_diverged, blown_up or left_domain
+    double t = 0;        ///< where it ended
+    double error = 0, drift = 0;
+};
+
+struct ChartedMethod {
+    std::string name;
+    std::vector<StabilityCell> cells; ///< those of the first column first
+    /// The step at which h omega is the end of the method's interval, a column each; nothing where it has none.
+    std::vector<std::optional<double>> limits;
+};
+
+/// Along the motion of a column, as far as the scene goes.
+struct ColumnFigures {
+    double omega = 0, scale = 0, reached = 0;
+};
+
+struct StabilityChart {
+    std::string model, title, scene, form;
+    double start = 0, end = 0;
+    std::string followed; ///< "energy", "hamiltonian", "invariant NAME"; empty where nothing is conserved
+    std::vector<StabilityAxis> axes;
+    std::vector<ColumnFigures> columns; ///< a value of the second axis each; one where there is none
+    std::vector<ChartedMethod> methods;
+    std::vector<LeftOutMethod> left_out;
+
+    /// Of step i and column j.
+    [[nodiscard]] const StabilityCell& cell(const ChartedMethod& method, std::size_t i, std::size_t j) const
+    {
+        return method.cells[j * axes[0].values.size() + i];
+    }
+};
+
+/// The outcomes, the best first, and when each is given.
+struct OutcomeEntry {
+    const char* name;
+    const char* colour;
+    const char* criterion;
+};
+inline constexpr std::array<OutcomeEntry, 5> outcome_table{{
+    {"bounded", "#56b4e9", "none of the others: what is followed may swing, but stays where it swings"},
+    {"drifting", "#e69f00",
+     "from each third of the time to the next the least or the largest value goes on in one direction, in all by more "
+     "than 1e-3 of the scale and half of the width of its swing; or the last third is as far from the first value; or "
+     "the value is away from it by more than 10 times the scale"},
+    {"newton_diverged", "#009e73", "Newton's method finds no solution of a step"},
+    {"blown_up", "#d55e00", "a number is not finite, or what is followed moves by more than 100 times the scale"},
+    {"left_domain", "#999999",
+     "a step ends where the model's equations do: outside the domain, or where they are singular"},
+}};
+
+/// Generates, compiles and runs the grid, one program for each kind of method. Methods that take a tolerance are left
+/// out. Throws UsageError where one of the request takes no step or does not apply.
+[[nodiscard]] StabilityChart make_stability_chart(CheckedModel& checked, const ChartRequest& request,
+                                                  std::vector<StabilityAxis> axes);
+
+/// The object of stability.json.
+[[nodiscard]] std::string stability_json(const StabilityChart& chart);
+/// RFC 4180: a line a method, step and column.
+[[nodiscard]] std::string stability_csv(const StabilityChart& chart);
+/// For standard output: how many points of each outcome every method has, and the longest step up to which all are
+/// bounded.
+[[nodiscard]] std::string stability_text(const StabilityChart& chart);
+
+/// A panel a method, or a row of one panel where there is one axis.
+void draw_stability(const StabilityChart& chart, const std::string& path);
+
+} // namespace lagen

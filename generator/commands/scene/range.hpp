@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Ranges FIRST:LAST:COUNT of the command line. Grids are exact: point k of n between a and b is the double nearest to
+/// a + (b - a) k/(n - 1).
+#pragma once
+
+#include "model/model.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lagen {
+
+struct GridAxis {
+    Rational first, last;
+    std::uint64_t count = 0; ///< 0: a continuum
+
+    [[nodiscard]] double at(std::uint64_t place) const;
+};
+
+/// An end of a range of --OPTION: exactly where its expression is rational, else the nearest double. Throws ModelError
+/// where it is no finite number.
+[[nodiscard]] Rational end_of_range(const Model& model, const std::string& option, const Excerpt& text);
+
+/// The parts between colons, blanks trimmed.
+[[nodiscard]] std::vector<Excerpt> parts_of_range(const Excerpt& text);
+
+/// A whole number without a sign, at most 1e18; nothing where the text is none.
+[[nodiscard]] std::optional<std::uint64_t> read_whole(const std::string& text);
+
+} // namespace lagen
