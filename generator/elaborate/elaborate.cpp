@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "elaborate/elaborate.hpp"
 
+#include "algebra/named_algebra.hpp"
 #include "elaborate/bind_parameters.hpp"
 #include "elaborate/build_algebroid.hpp"
 #include "elaborate/build_groupoid.hpp"
@@ -14,6 +15,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <set>
 
 namespace lagen {
@@ -31,6 +34,7 @@ class Elaboration {
         bind_parameters(graph_, model_);
         declare_inputs();
         lower_structure();
+        for (const Reconstruction& g : model_.reconstructions) require_group(g);
         lower_mechanics();
         if (model_.control) lower_control();
         if (model_.groupoid) lower_arrows();
@@ -87,6 +91,31 @@ class Elaboration {
         system_.force_parts.push_back(lower_(model_.dissipation));
         const std::vector<NodeId> dR_dy = gradient(graph_, system_.force_parts.back(), system_.algebroid.y);
         for (std::size_t a = 0; a < system_.r(); ++a) system_.forces[a] = graph_.subtract(system_.forces[a], dR_dy[a]);
+    }
+
+    /// The sections that xi lies in have the brackets of the generators: else g' = g xi is no motion of the group.
+    void require_group(const Reconstruction& g)
+    {
+        const NamedAlgebra algebra = *algebra_of_group(g.group);
+        const std::size_t m = algebra.basis.size();
+        std::map<std::array<std::size_t, 3>, NodeId> wanted;
+        for (const StructureConstant& C : algebra.constants) wanted[{C.a, C.b, C.c}] = graph_.constant(C.value);
+        const auto section = [&](std::size_t a) { return model_.fibre.coordinates[g.first_section + a].name; };
+        for (std::size_t a = 0; a < m; ++a)
+            for (std::size_t b = a + 1; b < m; ++b)
+                for (std::size_t c = 0; c < m; ++c) {
+                    NodeId found = graph_.constant(0);
+                    for (const ColumnEntry& entry : system_.algebroid.C(g.first_section + a, g.first_section + b))
+                        if (entry.index == g.first_section + c) found = entry.value;
+                    const auto place = wanted.find({a, b, c});
+                    const NodeId value = place == wanted.end() ? graph_.constant(0) : place->second;
+                    if (found == value) continue;
+                    throw ModelError(fmt::format("the bracket [{}, {}] of the algebroid has the component {} on {}, "
+                                                 "where that of the generators of {} has {}",
+                                                 section(a), section(b), to_text(graph_, found), section(c), g.group,
+                                                 to_text(graph_, value)),
+                                     g.where, "g' = g xi needs the brackets of the group, in the order of its basis");
+                }
     }
 
     void lower_arrows()

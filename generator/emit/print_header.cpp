@@ -150,6 +150,33 @@ void print_flows(TextBlock& out, const KernelModule& module)
     close_block(out);
 }
 
+/// What keeps matrices on their groups from step to step.
+void print_matrices(TextBlock& out, const KernelModule& module, Includes& includes)
+{
+    if (module.matrices.empty()) return;
+    includes.insert("lagen/group/stay_on_group.hpp");
+    std::vector<std::string> calls;
+    for (std::size_t k = 0; k < module.matrices.size(); ++k) {
+        const GroupLanes& matrix = module.matrices[k];
+        std::vector<std::string> entries;
+        for (const GroupLanes::Entry& each : matrix.generators)
+            entries.push_back(
+                fmt::format("{{{}, {}, {}, {}}}", each.generator, each.row, each.column, each.value.get_d()));
+        out.blank();
+        out.comment(fmt::format("Entries of the generators of {}, the group of {}: number, row, column, value.",
+                                comment_text(matrix.group), comment_text(matrix.name)));
+        out.line(fmt::format("static constexpr std::array<GroupEntry, {}> group_generators_{} = {{{{{}}}}};",
+                             entries.size(), k, joined(entries)));
+        calls.push_back(
+            fmt::format("stay_on_group<{}>(group_generators_{}, s0, s1, {});", matrix.size, k, matrix.first));
+    }
+    out.blank();
+    out.comment("Moves the matrices of s1, which a step or its interpolation reached from s0, onto their groups.");
+    open_block(out, "static void stay_on_groups(const State& s0, State& s1) noexcept");
+    for (const std::string& call : calls) out.line(call);
+    close_block(out);
+}
+
 /// Parameters by number, for programs that know them by parameter_names only.
 void print_parameter_access(TextBlock& out, const ModuleNames& names)
 {
@@ -187,6 +214,7 @@ std::string print_header(const KernelModule& module)
     print_follow(kernels, module, names);
     for (const Kernel& kernel : module.kernels) print_kernel(kernels, module, names, kernel, includes);
     print_flows(kernels, module);
+    print_matrices(kernels, module, includes);
 
     TextBlock out;
     print_banner(out, module);

@@ -126,6 +126,18 @@ struct Flows {
     std::string obstacle = {}; ///< where they were looked for and there are none, in names of the model
 };
 
+/// Lanes that are the entries, by rows, of a matrix of a group.
+struct GroupLanes {
+    struct Entry {
+        std::size_t generator, row, column;
+        Rational value;
+    };
+    std::string name;  ///< of the matrix
+    std::string group; ///< "SO(3)"
+    std::size_t first = 0, size = 0;
+    std::vector<Entry> generators; ///< of all of them, but zeros
+};
+
 /// Everything that one generated class holds.
 struct KernelModule {
     std::string name;  ///< class name: model name, with _FORM for forms other than lagrange
@@ -146,7 +158,8 @@ struct KernelModule {
     std::vector<std::pair<std::string, NodeId>> parameter_conditions;
     ModuleKind kind = ModuleKind::vector_field;
     std::vector<LaneGroup> groups; ///< of the lanes of State, in their order
-    SecondOrder second_order;      ///< of the right-hand side
+    std::vector<GroupLanes> matrices;
+    SecondOrder second_order; ///< of the right-hand side
     Flows flows;
     std::vector<ImplicitBlock> implicit; ///< unknowns of the kernels at (t, s), in the order in which they are solved
     std::vector<Kernel> kernels;

@@ -5,6 +5,7 @@
 #include "graph/unknowns/tangent_size.hpp"
 #include "kernels/exact_flows.hpp"
 #include "kernels/formulation.hpp"
+#include "kernels/group_lanes.hpp"
 #include "kernels/kernel_table.hpp"
 #include "kernels/named_trees.hpp"
 #include "kernels/requested_kernels.hpp"
@@ -98,6 +99,7 @@ class ModuleBuilder {
             module_.groups.push_back({"States", "states", "First-order states, the last lanes of State.", {}});
         for (const std::size_t k : states_)
             module_.groups.back().lanes.push_back(quantity(model_.states[k].symbol, system_.states[k]));
+        module_.matrices = group_lanes(model_, states_, form_.x.size() + form_.lanes.size());
         module_.implicit = form_.implicit;
         module_.parameter_conditions = form_.parameter_conditions;
         for (const auto& [parameter, value] : system_.parameter_values) module_.parameter_defaults.push_back(value);

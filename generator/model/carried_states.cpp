@@ -22,6 +22,18 @@ std::vector<Tree> evaluated_trees(const Model& model, const Scene& scene)
     return trees;
 }
 
+/// A state alone, or all entries of a matrix: it stays on its group as a whole.
+std::vector<std::size_t> together(const Model& model, std::size_t state)
+{
+    for (const Reconstruction& g : model.reconstructions) {
+        if (!g.holds(state)) continue;
+        std::vector<std::size_t> entries(g.size * g.size);
+        std::iota(entries.begin(), entries.end(), g.first);
+        return entries;
+    }
+    return {state};
+}
+
 } // namespace
 
 std::vector<std::size_t> carried_states(const Model& model, const Scene* scene)
@@ -39,10 +51,12 @@ std::vector<std::size_t> carried_states(const Model& model, const Scene* scene)
         const Tree tree = std::move(open.back());
         open.pop_back();
         for (const std::string& name : names_in(tree)) {
-            const std::size_t k = index_of(symbols, name);
-            if (k == symbols.size() || std::ranges::find(carried, k) != carried.end()) continue;
-            carried.push_back(k);
-            open.push_back(model.states[k].rate);
+            const std::size_t used = index_of(symbols, name);
+            if (used == symbols.size() || std::ranges::find(carried, used) != carried.end()) continue;
+            for (const std::size_t k : together(model, used)) {
+                carried.push_back(k);
+                open.push_back(model.states[k].rate);
+            }
         }
     }
     std::ranges::sort(carried);

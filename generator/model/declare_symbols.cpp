@@ -48,7 +48,7 @@ void append_symbol(Model& model, const Symbol& symbol, Role role)
     case Role::base: model.base.coordinates.push_back(symbol); break;
     case Role::fibre: model.fibre.coordinates.push_back(symbol); break;
     case Role::control: model.control->controls.push_back(symbol); break;
-    case Role::state: model.states.push_back(FirstOrderState{symbol, nullptr}); break;
+    case Role::state: model.states.push_back(FirstOrderState{symbol, nullptr, 0}); break;
     case Role::element: model.groupoid->element.push_back(symbol); break;
     case Role::next: model.groupoid->next.push_back(symbol); break;
     default: model.fibre.momenta.push_back(symbol); break;

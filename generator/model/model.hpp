@@ -234,7 +234,21 @@ struct Control {
 /// z of [states] with z' = rate: it stands beside the algebroid, whose coordinates are none of it.
 struct FirstOrderState {
     Symbol symbol;
-    Tree rate; ///< closed over t, x, y, momenta, parameters and other first-order states
+    Tree rate;     ///< closed over t, x, y, momenta, parameters and other first-order states
+    int start = 0; ///< where a scene does not say
+};
+
+/// An entry of [reconstruct]: a matrix g of a named group with g' = g xi, entry by entry among the first-order states.
+struct Reconstruction {
+    std::string group;                  ///< "SO(3)"
+    std::vector<ArrayValue> generators; ///< E_c, numbers; xi = xi^c E_c
+    std::size_t first_section;          ///< the section of the fibre that xi^0 is the component on
+    std::size_t size;                   ///< g is size x size
+    std::size_t first;                  ///< of its entries among the states, by rows
+    std::string name;
+    SourceRange where; ///< of the group
+
+    [[nodiscard]] bool holds(std::size_t state) const { return state >= first && state < first + size * size; }
 };
 
 /// A component of an E-form, value e^{indices[0]} ^ e^{indices[1]} ^ ..; of a form of degree 0 the function itself.
@@ -294,7 +308,8 @@ struct Model {
     std::vector<ComponentEntry> forces; ///< Q_a(t, x, y, z): on the right of Lagrange's and of Hamilton's equations
     Tree dissipation;                   ///< Rayleigh's R(t, x, y): Q_a gains -dR/dy^a; null where absent
     std::optional<Control> control;
-    std::vector<FirstOrderState> states; ///< in the order of the file
+    std::vector<FirstOrderState> states; ///< of [states], then the entries of [reconstruct]
+    std::vector<Reconstruction> reconstructions;
     std::vector<NamedTree> observables;
     std::vector<NamedTree> invariants;
     std::vector<NamedForm> forms;

@@ -46,10 +46,11 @@ struct ModelReader {
     Names names;
     const std::vector<Setting>* settings = nullptr;
     IncludeTrail* trail = nullptr;
-    const TomlEntry* algebroid = nullptr; ///< the [algebroid] block
-    const TomlEntry* groupoid = nullptr;  ///< the [groupoid] block
-    const TomlEntry* discrete = nullptr;  ///< the [discrete] block
-    const TomlEntry* states = nullptr;    ///< the [states] block
+    const TomlEntry* algebroid = nullptr;   ///< the [algebroid] block
+    const TomlEntry* groupoid = nullptr;    ///< the [groupoid] block
+    const TomlEntry* discrete = nullptr;    ///< the [discrete] block
+    const TomlEntry* states = nullptr;      ///< the [states] block
+    const TomlEntry* reconstruct = nullptr; ///< the [reconstruct] block
     std::shared_ptr<const AlgebroidDraft> draft;
     std::vector<IncludedModel> included;               ///< in the order of the file; the same file may stand here twice
     std::vector<std::string> parameter_names;          ///< what each entry of [parameters] declares: "m" for "m[1..7]"
@@ -127,8 +128,11 @@ void require_rank(const ModelReader& reader, const SourceRange& where);
 void declare_fibre(ModelReader& reader, const TomlEntry* block);
 void declare_definitions(ModelReader& reader, const TomlEntry* block);
 void declare_control(ModelReader& reader);
-/// The names of [states].
+/// The group of `entry`, a name, and its generators; `what` calls the entry in messages.
+void read_named_group(const ModelReader& reader, GroupoidBlock& block, const TomlEntry& entry, const std::string& what);
+/// The names of [states] and of [reconstruct].
 void declare_states(ModelReader& reader);
+void declare_reconstructions(ModelReader& reader);
 void declare_quantities(ModelReader& reader, const TomlEntry* observables, const TomlEntry* invariants);
 /// The names of [forms].
 void declare_forms(ModelReader& reader, const TomlEntry* block);
@@ -150,6 +154,8 @@ void read_base(ModelReader& reader, const TomlEntry* block);
 void read_mechanics(ModelReader& reader);
 void read_control(ModelReader& reader);
 void read_states(ModelReader& reader);
+/// The rates of the entries, once the connection is read.
+void read_reconstructions(ModelReader& reader);
 void read_action(ModelReader& reader);
 void read_discrete(ModelReader& reader);
 [[nodiscard]] ControlBoundary read_boundary(const ModelReader& reader, const TomlEntry& block);

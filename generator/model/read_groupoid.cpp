@@ -84,9 +84,11 @@ ArrayValue basis_matrix(const SparseMatrix& matrix, std::size_t size, const Sour
     return out;
 }
 
-void read_named_group(const ModelReader& reader, GroupoidBlock& block, const TomlEntry& entry)
+} // namespace
+
+void read_named_group(const ModelReader& reader, GroupoidBlock& block, const TomlEntry& entry, const std::string& what)
 {
-    block.group = with_sizes(read_text(entry.value, title_of(entry)), reader.model.sizes);
+    block.group = with_sizes(read_text(entry.value, what), reader.model.sizes);
     block.group_where = entry.value.where;
     const std::optional<NamedAlgebra> algebra = algebra_of_group(block.group);
     if (!algebra) {
@@ -101,6 +103,8 @@ void read_named_group(const ModelReader& reader, GroupoidBlock& block, const Tom
     for (const SparseMatrix& matrix : algebra->basis)
         block.generators.push_back(basis_matrix(matrix, algebra->size, block.group_where));
 }
+
+namespace {
 
 /// Their number now, for the rank of the algebroid; their entries when expressions can be closed.
 void count_generators(GroupoidBlock& block, const TomlEntry& entry)
@@ -127,7 +131,7 @@ void read_group(const ModelReader& reader, GroupoidBlock& block, const TomlEntry
     if (group == nullptr && generators == nullptr)
         throw ModelError("[groupoid] needs 'group' or 'generators'", table.where(),
                          "group = \"SO(3)\", or generators = [E_1, ..], one matrix a section");
-    if (group != nullptr) return read_named_group(reader, block, *group);
+    if (group != nullptr) return read_named_group(reader, block, *group, title_of(*group));
     count_generators(block, *generators);
 }
 

@@ -57,6 +57,7 @@ Model read_model_text(const std::string& name, std::string text, const std::vect
     reader.mechanics.dissipation = top.take("dissipation");
     reader.mechanics.control = top.take("control");
     reader.states = top.take("states");
+    reader.reconstruct = top.take("reconstruct");
     const TomlEntry* observables = top.take("observables");
     const TomlEntry* invariants = top.take("invariants");
     const TomlEntry* forms = top.take("forms");
@@ -73,6 +74,7 @@ Model read_model_text(const std::string& name, std::string text, const std::vect
     declare_fibre(reader, fibre);
     declare_control(reader);
     declare_states(reader);
+    declare_reconstructions(reader);
     declare_definitions(reader, definitions);
     declare_quantities(reader, observables, invariants);
     declare_mechanics(reader);
@@ -84,6 +86,7 @@ Model read_model_text(const std::string& name, std::string text, const std::vect
     read_base(reader, base);
     read_mechanics(reader);
     read_states(reader);
+    read_reconstructions(reader);
     read_action(reader);
     read_discrete(reader);
     read_control(reader);

@@ -17,6 +17,7 @@ namespace lagen {
 namespace {
 
 constexpr long double constraint_tolerance = 1e-10L;
+constexpr long double group_tolerance = 1e-10L;
 
 /// The whole text of a comparison or constraint as the user wrote it, or printed where its place is unknown.
 std::string written(const Tree& tree)
@@ -176,7 +177,6 @@ void SceneEvaluator::require_bounds(const Values& parameters)
 /// The generators are not looked at where there is no element.
 void SceneEvaluator::require_in_group(const Values& parameters, const std::vector<NamedNumber>& element)
 {
-    constexpr long double group_tolerance = 1e-10L;
     const GroupoidBlock& groupoid = *model_.groupoid;
     std::vector<RealMatrix> generators;
     for (const ArrayValue& matrix : groupoid.generators) {
@@ -195,6 +195,33 @@ void SceneEvaluator::require_in_group(const Values& parameters, const std::vecto
                     scene_.name, groupoid.group.empty() ? "" : " " + groupoid.group, defect.relation,
                     static_cast<double>(defect.size), static_cast<double>(group_tolerance)),
         scene_.element_where, "for example element = \"exp(hat([..]))\" or \"cay(hat([..]))\"");
+}
+
+/// Those that the scene carries, and matrices that start in their groups.
+void SceneEvaluator::read_states(Values& values, SceneValues& out)
+{
+    for (const FirstOrderState& state : model_.states)
+        values.try_emplace(state.symbol.name, static_cast<long double>(state.start));
+    for (const std::size_t k : carried_)
+        out.states.emplace_back(model_.states[k].symbol.name, values.at(model_.states[k].symbol.name));
+    for (const Reconstruction& g : model_.reconstructions) {
+        std::vector<RealMatrix> generators;
+        for (const ArrayValue& matrix : g.generators) {
+            RealMatrix& numbers = generators.emplace_back();
+            for (const Tree& entry : matrix.entries) numbers.push_back(value_of_(entry, {}));
+        }
+        RealMatrix start;
+        for (std::size_t k = 0; k < g.size * g.size; ++k)
+            start.push_back(values.at(model_.states[g.first + k].symbol.name));
+        const GroupDefect defect = group_defect(generators, start, g.size);
+        if (defect.size <= group_tolerance) continue;
+        throw StartError("off_constraint",
+                         fmt::format("the start of '{}' in scene '{}' is not in the group {}: it misses {} by {:.3g}, "
+                                     "where at most {:.3g} is allowed",
+                                     g.name, scene_.name, g.group, defect.relation, static_cast<double>(defect.size),
+                                     static_cast<double>(group_tolerance)),
+                         scene_.where, "for example initial = { .., " + g.name + " = \"exp(hat([..]))\" }");
+    }
 }
 
 void SceneEvaluator::read_arrow(const Values& parameters, SceneValues& out)
@@ -242,7 +269,7 @@ SceneValues SceneEvaluator::operator()(const Values& given, const Values& initia
         out.momenta = pick(model_.fibre.momenta, values);
     else if (out.element.empty() && out.next.empty())
         out.fibre = pick(model_.fibre.coordinates, values);
-    for (const std::size_t k : carried_) out.states.push_back(pick({model_.states[k].symbol}, values).front());
+    read_states(values, out);
     for (const NamedTree& casimir : model_.base.casimirs)
         out.casimirs.emplace_back(casimir.name, value_of_(casimir.value, values));
     return out;

@@ -74,6 +74,7 @@ class SceneEvaluator {
     void require_domain(const Values& values);
     void read_arrow(const Values& parameters, SceneValues& out);
     void require_in_group(const Values& parameters, const std::vector<NamedNumber>& element);
+    void read_states(Values& values, SceneValues& out);
     void require_bounds(const Values& parameters);
 
     const Model& model_;

@@ -33,7 +33,7 @@ struct OnLane : Method {
 
 /// Models and methods that go abreast.
 template <class M, class Method>
-concept GoesAbreast = TakesPacks<M> && Method::template Stepper<M>::abreast;
+concept GoesAbreast = TakesPacks<M> && Method::template Stepper<M>::abreast && !StaysOnGroups<M>;
 
 /// How many: what a vector register of the target holds.
 template <class Real>

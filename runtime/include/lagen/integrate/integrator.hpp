@@ -236,6 +236,7 @@ class Integrator {
                 return fail(detail::loss_of_maximum(verdict, model_, t_from_, from_, made.h), t1);
         }
         t_ = t1;
+        if constexpr (StaysOnGroups<M>) model_.stay_on_groups(from_, s_);
         const auto ending = accepted();
         if constexpr (is_pack<Scalar>) {
             const Status verdict = detail::settle<Scalar>(lanes_, follow(StatusOf<Scalar>::first(status, ending), t1));
@@ -369,6 +370,7 @@ class Integrator {
             else
                 inner_ = theta < Real(0.5) ? from_ : s_;
         }
+        if constexpr (StaysOnGroups<M>) model_.stay_on_groups(from_, inner_);
         detail::freeze<Scalar>(lanes_, from_, inner_);
         return inner_;
     }

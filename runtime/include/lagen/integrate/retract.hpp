@@ -30,6 +30,14 @@ concept StateRetracts = requires(const typename M::State& s, const tangent_t<M>&
 
 } // namespace detail
 
+/// A model some of whose lanes are matrices of groups: `stay_on_groups(s0, s1)` puts those of s1, which a step or its
+/// interpolation reached from s0, onto their groups.
+template <class M>
+concept StaysOnGroups = requires(const M& model, const typename M::State& s0, typename M::State& s1)
+{
+    model.stay_on_groups(s0, s1);
+};
+
 /// True of a model whose states are vectors: they move by sums.
 template <class M>
 inline constexpr bool moves_by_sums = !detail::RetractsItself<M> && !detail::StateRetracts<M>;
