@@ -43,10 +43,14 @@ struct Turning {
             for (int j = 0; j < 3; ++j) R(i, j) = s[1 + 3 * i + j];
         return R;
     }
-    status_t<double> rhs(double t, const State& s, State& ds) const noexcept
+    static std::array<double, 3> velocity(double t)
     {
         const double b = std::sin(t), turn = 1 + t / 2;
-        const std::array<double, 3> w = {std::cos(t), turn * std::sin(b), turn * std::cos(b)};
+        return {std::cos(t), turn * std::sin(b), turn * std::cos(b)};
+    }
+    status_t<double> rhs(double t, const State& s, State& ds) const noexcept
+    {
+        const std::array<double, 3> w = velocity(t);
         State rates;
         rates[0] = w[2];
         for (int i = 0; i < 3; ++i) {
@@ -57,6 +61,14 @@ struct Turning {
         }
         ds = rates;
         return Status::ok;
+    }
+    static constexpr std::array<int, 18> jacobian_rows = {1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7, 7, 8, 8, 9, 9};
+    static constexpr std::array<int, 18> jacobian_columns = {2, 3, 3, 1, 1, 2, 5, 6, 6, 4, 4, 5, 8, 9, 9, 7, 7, 8};
+    void jacobian_values(double t, const State&, std::array<double, 18>& values) const noexcept
+    {
+        const std::array<double, 3> w = velocity(t);
+        const std::array<double, 6> row = {w[2], -w[1], w[0], -w[2], w[1], -w[0]};
+        for (std::size_t k = 0; k < values.size(); ++k) values[k] = row[k % 6];
     }
     static void stay_on_groups(const State& s0, State& s1) noexcept requires stays
     {
@@ -89,7 +101,7 @@ double order_of(Method method, double first)
 TEST_CASE("a matrix that is put back onto its group keeps the order of the method", "[group]")
 {
     CHECK(order_of<Body>(Euler{}, 0.02) == Approx(1).margin(0.1));
-    CHECK(order_of<Body>(Kutta3{}, 0.1) == Approx(3).margin(0.15));
+    CHECK(order_of<Body>(Heun{}, 0.05) == Approx(2).margin(0.1));
     CHECK(order_of<Body>(Rk4{}, 0.1) == Approx(4).margin(0.15));
     CHECK(order_of<Body>(Gauss4{}, 0.1) == Approx(4).margin(0.15));
     CHECK(order_of<Body>(Gauss6{}, 0.2) == Approx(6).margin(0.25));
