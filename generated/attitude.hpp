@@ -44,6 +44,7 @@
 ///   controls            0      0      3          0       0            3
 ///   hamiltonian         2      4      3          0       0            9
 ///   cost                2      4      3          0       0            9
+///   casimirs            3      4      0          0       0            7
 ///   observables         0      1      0          1       0            2
 ///   invariants          2      3      0          0       0            5
 ///   jacobian           12     24      3          0       0          108
@@ -200,6 +201,16 @@ class attitude_pontryagin {
         const S mu1 = s[4], mu2 = s[5], mu3 = s[6];
         const auto [I1, I2, I3] = parameters;
         return S(0.5) * (mu1 * mu1 / I1 + mu2 * mu2 / I2 + mu3 * mu3 / I3);
+    }
+
+    static constexpr std::array<const char*, 1> casimirs_names = {"norm_squared"};
+    /// Functions on M that are constant along every motion: rho(f) = 0.
+    [[nodiscard]] Eigen::Matrix<S, 1, 1> casimirs([[maybe_unused]] S t, const State& s) const noexcept
+    {
+        Eigen::Matrix<S, 1, 1> result;
+        const S q0 = s[0], q1 = s[1], q2 = s[2], q3 = s[3];
+        result[0] = q0 * q0 + q1 * q1 + q2 * q2 + q3 * q3;
+        return result;
     }
 
     static constexpr std::array<const char*, 1> observables_names = {"angle"};

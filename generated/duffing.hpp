@@ -31,6 +31,7 @@
 ///   momentum            0      1      0          0       0            1
 ///   energy              2      8      0          0       0           11
 ///   lagrangian          2      8      0          0       0           11
+///   casimirs            0      0      0          0       0            0
 ///   observables         2      3      0          0       0            5
 ///   events              0      0      0          0       0            0
 ///   jacobian            4      6      1          0       0           15
@@ -171,6 +172,17 @@ class duffing {
         const S w0 = q * q;
         const S m = parameters.m;
         return S(0.5) * m * (v * v) - S(0.25) * w0 * (w0 * c + S(2) * k);
+    }
+
+    static constexpr std::array<const char*, 2> casimirs_names = {"linear_stiffness", "cubic_stiffness"};
+    /// Functions on M that are constant along every motion: rho(f) = 0.
+    [[nodiscard]] Eigen::Matrix<S, 2, 1> casimirs([[maybe_unused]] S t, const State& s) const noexcept
+    {
+        Eigen::Matrix<S, 2, 1> result;
+        const S k = s[1], c = s[2];
+        result[0] = k;
+        result[1] = c;
+        return result;
     }
 
     static constexpr std::array<const char*, 1> observables_names = {"force"};

@@ -38,6 +38,7 @@
 ///   energy              5     11      0          0       0           16
 ///   lagrangian          5     11      0          0       0           16
 ///   constraints         3      3      0          0       0            6
+///   casimirs            2      3      0          0       0            5
 ///   observables         2      3      0          0       0            5
 ///   invariants          2      6      0          0       0            8
 ///   events              5      9      0          0       0           14
@@ -215,6 +216,16 @@ class heavy_top {
         Eigen::Matrix<S, 1, 1> result;
         const S g1 = s[0], g2 = s[1], g3 = s[2];
         result[0] = g1 * g1 + g2 * g2 + g3 * g3 - S(1);
+        return result;
+    }
+
+    static constexpr std::array<const char*, 1> casimirs_names = {"norm_squared"};
+    /// Functions on M that are constant along every motion: rho(f) = 0.
+    [[nodiscard]] Eigen::Matrix<S, 1, 1> casimirs([[maybe_unused]] S t, const State& s) const noexcept
+    {
+        Eigen::Matrix<S, 1, 1> result;
+        const S g1 = s[0], g2 = s[1], g3 = s[2];
+        result[0] = g1 * g1 + g2 * g2 + g3 * g3;
         return result;
     }
 

@@ -50,6 +50,7 @@
 ///   energy              8     11      0          0       0           19
 ///   lagrangian          8     11      0          0       0           19
 ///   constraints         3      3      0          0       0            6
+///   casimirs            2      3      0          0       0            5
 ///   jacobian            9      3      0          0       0           15
 ///
 /// Parameters:
@@ -251,6 +252,16 @@ class heavy_top_prolongation {
         Eigen::Matrix<S, 1, 1> result;
         const S g1 = s[0], g2 = s[1], g3 = s[2];
         result[0] = g1 * g1 + g2 * g2 + g3 * g3 - S(1);
+        return result;
+    }
+
+    static constexpr std::array<const char*, 1> casimirs_names = {"norm_squared"};
+    /// Functions on M that are constant along every motion: rho(f) = 0.
+    [[nodiscard]] Eigen::Matrix<S, 1, 1> casimirs([[maybe_unused]] S t, const State& s) const noexcept
+    {
+        Eigen::Matrix<S, 1, 1> result;
+        const S g1 = s[0], g2 = s[1], g3 = s[2];
+        result[0] = g1 * g1 + g2 * g2 + g3 * g3;
         return result;
     }
 

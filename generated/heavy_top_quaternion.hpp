@@ -38,6 +38,7 @@
 ///   momentum            0      3      0          0       0            3
 ///   energy             10     20      0          0       0           30
 ///   lagrangian         10     20      0          0       0           30
+///   casimirs            3      4      0          0       0            7
 ///   invariants          7     15      0          0       0           22
 ///   jacobian           26     46      3          0       0          149
 ///
@@ -216,6 +217,16 @@ class heavy_top_quaternion {
         const S u0 = e3 * (q1 * q1 + q2 * q2 - q0 * q0 - q3 * q3) + S(2) * (e1 * (q0 * q2 - q1 * q3) - e2 * (q2 * q3 +
                 q0 * q1));
         return mgl * u0 + S(0.5) * (I1 * (w1 * w1) + I2 * (w2 * w2) + I3 * (w3 * w3));
+    }
+
+    static constexpr std::array<const char*, 1> casimirs_names = {"norm_squared"};
+    /// Functions on M that are constant along every motion: rho(f) = 0.
+    [[nodiscard]] Eigen::Matrix<S, 1, 1> casimirs([[maybe_unused]] S t, const State& s) const noexcept
+    {
+        Eigen::Matrix<S, 1, 1> result;
+        const S q0 = s[0], q1 = s[1], q2 = s[2], q3 = s[3];
+        result[0] = q0 * q0 + q1 * q1 + q2 * q2 + q3 * q3;
+        return result;
     }
 
     static constexpr std::array<const char*, 1> invariants_names = {"area"};

@@ -37,6 +37,7 @@
 ///   momentum            2      8      0          0       0           16
 ///   energy             10     17      0          0       0           35
 ///   lagrangian          8     17      0          0       0           26
+///   casimirs            2      3      0          0       0            5
 ///   domain              1      2      0          0       0            3
 ///   observables         2      3      0          0       0            5
 ///   jacobian           36     69     12          0       0          633
@@ -208,6 +209,16 @@ class hyperboloids {
         const S w4 = S(1) - z;
         const auto [m, k, c] = parameters;
         return S(0.5) * (m * (w0 * w0 * (b * b) + w2 * w2 + w3 * w3) - k * (w4 * w4)) - c * x;
+    }
+
+    static constexpr std::array<const char*, 1> casimirs_names = {"alpha"};
+    /// Functions on M that are constant along every motion: rho(f) = 0.
+    [[nodiscard]] Eigen::Matrix<S, 1, 1> casimirs([[maybe_unused]] S t, const State& s) const noexcept
+    {
+        Eigen::Matrix<S, 1, 1> result;
+        const S x = s[0], y = s[1], z = s[2];
+        result[0] = x * x + y * y - z * z;
+        return result;
     }
 
     static constexpr std::array<const char*, 1> domain_names = {"x^2 + y^2 > 0"};

@@ -34,6 +34,7 @@
 ///   momentum            2      8      0          0       0           16
 ///   energy              7     14      0          0       0           27
 ///   lagrangian          7     14      0          0       0           27
+///   casimirs            2      3      0          0       0            5
 ///   domain              1      2      0          0       0            3
 ///   invariants          1      4      0          0       0            5
 ///   jacobian           29     51     12          0       0          524
@@ -198,6 +199,16 @@ class spherical_pendulum_meridian {
         const auto [m, g] = parameters;
         const S w3 = (w0 + w1) * (a * a) + (w0 * (w0 + S(2) * w1 + w2) + w1 * (w1 + w2)) * (b * b) - S(2) * g * z;
         return S(0.5) * m * w3;
+    }
+
+    static constexpr std::array<const char*, 1> casimirs_names = {"radius_squared"};
+    /// Functions on M that are constant along every motion: rho(f) = 0.
+    [[nodiscard]] Eigen::Matrix<S, 1, 1> casimirs([[maybe_unused]] S t, const State& s) const noexcept
+    {
+        Eigen::Matrix<S, 1, 1> result;
+        const S x = s[0], y = s[1], z = s[2];
+        result[0] = x * x + y * y + z * z;
+        return result;
     }
 
     static constexpr std::array<const char*, 1> domain_names = {"x^2 + y^2 > 0"};

@@ -34,6 +34,7 @@
 ///   momentum            3      9      0          0       0           16
 ///   energy              5     12      0          0       0           19
 ///   lagrangian          4     10      0          0       0           14
+///   casimirs            2      3      0          0       0            5
 ///   domain              1      0      0          0       0            1
 ///   invariants          1      4      0          0       0            5
 ///   jacobian           22     34      0          0       6          626
@@ -209,6 +210,16 @@ class spherical_pendulum_tilted {
         const S w0 = x * a + y * b;
         const auto [m, g] = parameters;
         return S(0.5) * m * (z * (z * (a * a + b * b) - S(2) * g) + w0 * w0);
+    }
+
+    static constexpr std::array<const char*, 1> casimirs_names = {"radius_squared"};
+    /// Functions on M that are constant along every motion: rho(f) = 0.
+    [[nodiscard]] Eigen::Matrix<S, 1, 1> casimirs([[maybe_unused]] S t, const State& s) const noexcept
+    {
+        Eigen::Matrix<S, 1, 1> result;
+        const S x = s[0], y = s[1], z = s[2];
+        result[0] = x * x + y * y + z * z;
+        return result;
     }
 
     static constexpr std::array<const char*, 1> domain_names = {"z < 0"};

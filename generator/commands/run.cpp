@@ -95,6 +95,7 @@ void tell(const Options& options, const RunOutcome& outcome, bool as_json)
         if (!options.has("output")) write_standard_output(to_csv(outcome.table));
         write_standard_error(report_text(outcome));
     }
+    write_standard_error(drift_warnings(outcome));
 }
 
 } // namespace
@@ -144,7 +145,6 @@ ExitCode run_run(Arguments arguments)
     outcome.scene = scene.name;
     outcome.form = form;
     outcome.method = method.name;
-    if (method.adaptive) outcome.tolerance = input.relative;
     outcome.energy_changes = record.energy_changes;
     outcome.searches = record.searches;
     outcome.table.columns = {"t"};

@@ -49,6 +49,7 @@ class ModuleBuilder {
         for (Kernel& kernel : form_.kernels)
             if (wants(kernel.name)) add(std::move(kernel));
         add_trees("constraints", constraint_trees(model_));
+        add_trees("casimirs", model_.base.casimirs);
         add_domain();
         if (has_kernel(module_, "domain") && (wants("taylor") || wants("domain_series"))) add_domain_series();
         add_trees("observables", observable_trees(model_, request_.scene, form_.controls, lanes_of(module_)));

@@ -46,6 +46,7 @@ constexpr std::array kernel_rows{
     KernelRow{"lagrangian", Of::hamilton, number, "L at y = dH/dmu."},
     KernelRow{"cost", Of::pontryagin, number, "The running cost."},
     KernelRow{"constraints", every, column_of_values, "Base constraints: each is 0 on M."},
+    KernelRow{"casimirs", every, column_of_values, "Functions on M that are constant along every motion: rho(f) = 0."},
     KernelRow{"domain", every, column_of_values, "Positive inside the domain of the model."},
     KernelRow{"observables", every, column_of_values, "Observables of the model."},
     KernelRow{"invariants", every, column_of_values, "Functions that are constant along solutions."},

@@ -18,7 +18,7 @@ namespace {
 struct Full : problems::Pendulum<double> {
     static constexpr std::array<const char*, 1> parameter_names{"k"};
     static constexpr std::array<const char*, 2> observables_names{"double", "k"};
-    static constexpr std::array<const char*, 1> invariants_names{"zero"};
+    static constexpr std::array<const char*, 1> invariants_names{"zero"}, constraints_names{"x"};
     double k = 1;
     double& parameter(std::size_t) noexcept { return k; }
     Eigen::Vector2d observables(double, const State& s) const noexcept { return {2 * s[0], k}; }
@@ -152,7 +152,7 @@ TEST_CASE("The driver reports events, energy, invariants and constraints, and pi
     CHECK(run.report.find("\nevent=turn@3.19") != std::string::npos);
     CHECK(run.report.find("\nenergy=-0.877582561890372") != std::string::npos);
     CHECK(run.report.find("\ninvariant:zero=0,3.19") != std::string::npos);
-    CHECK(run.report.find("\nconstraints=0.5") != std::string::npos);
+    CHECK(run.report.find("\nconstraint:x=0.5,0.5") != std::string::npos);
 }
 
 TEST_CASE("Binary rows are native doubles")

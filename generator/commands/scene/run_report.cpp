@@ -42,19 +42,89 @@ std::string control_text(const std::string& status)
     return {};
 }
 
-/// What is to be known of a drift: that it is none of the method's, or that an adaptive method should have kept two
-/// digits and more of what the equations conserve, and did not.
-const char* drift_remark(const RunOutcome& outcome, const Drift& drift)
+bool is_number(const std::string& text)
 {
-    if (outcome.energy_changes && (drift.name == "energy" || drift.name == "hamiltonian"))
-        return " (not conserved: forces or explicit time)";
-    if (!outcome.tolerance) return "";
-    constexpr double digits = 0.01, allowance = 1e4;
-    const double initial = std::fabs(std::strtod(drift.initial.c_str(), nullptr));
-    const double most = std::strtod(drift.max_drift.c_str(), nullptr);
-    const double allowed =
-        std::max(digits * initial, allowance * static_cast<double>(*outcome.tolerance) * (1 + initial));
-    return most > allowed ? " (lost by this run: the equations conserve it)" : "";
+    return !text.empty() && std::isfinite(std::strtod(text.c_str(), nullptr));
+}
+
+std::string brief(const std::string& number, int digits)
+{
+    return number.empty() ? number : fmt::format("{:.{}g}", std::strtod(number.c_str(), nullptr), digits);
+}
+
+bool changes_by_itself(const RunOutcome& outcome, const Drift& drift)
+{
+    return outcome.energy_changes && (drift.name == "energy" || drift.name == "hamiltonian");
+}
+
+std::string slope_json(const Drift& drift)
+{
+    if (!is_number(drift.slope)) return "";
+    return fmt::format(", \"slope\": {}, \"slope_error\": {}", drift.slope, number_text(drift.error));
+}
+
+std::string moved_json(const RunOutcome& outcome, const Drift& drift)
+{
+    if (!is_number(drift.moved_at) || changes_by_itself(outcome, drift)) return "";
+    return fmt::format(", \"size\": {}, \"moved_at\": {}", number_text(drift.size), drift.moved_at);
+}
+
+/// An object with a member a function; `first` prints its first members.
+template <class First>
+std::string drifts_json(const RunOutcome& outcome, const std::vector<Drift>& drifts, First first)
+{
+    std::string text = "{";
+    for (const Drift& drift : drifts)
+        text += fmt::format("{}{}: {{{}, \"t\": {}{}{}}}", text.size() == 1 ? "" : ", ", string_text(drift.name),
+                            first(drift), number_text(drift.time), slope_json(drift), moved_json(outcome, drift));
+    return text + "}";
+}
+
+/// The members of JSON for what is followed.
+std::string figures_json(const RunOutcome& outcome)
+{
+    const auto from_start = [](const Drift& drift) {
+        return fmt::format("\"initial\": {}, \"max_drift\": {}", number_text(drift.initial),
+                           number_text(drift.max_drift));
+    };
+    const auto from_zero = [](const Drift& drift) { return fmt::format("\"max\": {}", number_text(drift.max_drift)); };
+    std::string text = fmt::format(" \"invariants\": {},\n \"casimirs\": {},\n \"constraints\": {}",
+                                   drifts_json(outcome, outcome.invariants, from_start),
+                                   drifts_json(outcome, outcome.casimirs, from_start),
+                                   drifts_json(outcome, outcome.constraints, from_zero));
+    if (!outcome.manifold.empty())
+        text += fmt::format(",\n \"manifold_distance\": {{\"max\": {}, \"t\": {}}}", number_text(outcome.manifold),
+                            number_text(outcome.manifold_time));
+    return text;
+}
+
+std::string slope_text(const Drift& drift)
+{
+    if (!is_number(drift.slope)) return "";
+    return fmt::format(", slope {} +- {}", brief(drift.slope, 3), brief(drift.error, 2));
+}
+
+/// A line a function, for people.
+std::string figures_text(const RunOutcome& outcome)
+{
+    std::string text;
+    for (const auto* drifts : {&outcome.invariants, &outcome.casimirs})
+        for (const Drift& drift : *drifts) {
+            if (!is_number(drift.initial))
+                text += fmt::format("  {}: no finite number at the start\n", drift.name);
+            else
+                text += fmt::format(
+                    "  {}: {} at the start, largest drift {} at t = {}{}{}\n", drift.name, brief(drift.initial, 9),
+                    brief(drift.max_drift, 3), brief(drift.time, 6), slope_text(drift),
+                    changes_by_itself(outcome, drift) ? " (not conserved: forces or explicit time)" : "");
+        }
+    for (const Drift& drift : outcome.constraints)
+        text += fmt::format("  {} = 0: at most {} off at t = {}{}\n", drift.name, brief(drift.max_drift, 3),
+                            brief(drift.time, 6), slope_text(drift));
+    if (!outcome.manifold.empty())
+        text += fmt::format("  distance from the manifold: at most {} at t = {}\n", brief(outcome.manifold, 3),
+                            brief(outcome.manifold_time, 6));
+    return text;
 }
 
 std::string row_text(std::string_view line)
@@ -102,12 +172,6 @@ bool succeeded(const std::string& status)
 
 std::string report_json(const RunOutcome& outcome)
 {
-    std::string invariants = "{";
-    for (const Drift& drift : outcome.invariants) {
-        invariants += fmt::format("{}{}: {{\"initial\": {}, \"max_drift\": {}}}", invariants.size() == 1 ? "" : ", ",
-                                  string_text(drift.name), number_text(drift.initial), number_text(drift.max_drift));
-    }
-    invariants += "}";
     const std::string events = list_text(outcome.events, [](const EventReport& event) {
         return fmt::format("{{\"name\": {}, \"t\": {}}}", string_text(event.name), number_text(event.time));
     });
@@ -122,22 +186,18 @@ std::string report_json(const RunOutcome& outcome)
         "{{\"model\": {}, \"scene\": {}, \"form\": {}, \"method\": {}, \"status\": {}, \"t\": {}, "
         "\"state\": {{{}}},{}\n \"steps\": {}, "
         "\"rejected\": {}, \"rhs_calls\": {},{} \"seconds\": {},\n \"columns\": {},\n \"rows\": {},\n \"events\": "
-        "{},\n "
-        "\"invariants\": {}}}\n",
+        "{},\n{}}}\n",
         string_text(outcome.model), string_text(outcome.scene), string_text(outcome.form), string_text(outcome.method),
         string_text(outcome.status), number_text(outcome.time), state,
         succeeded(outcome.status) ? "" : fmt::format(" \"failed_at\": {},", number_text(outcome.failed_at)),
         number_text(outcome.steps), number_text(outcome.rejected), number_text(outcome.rhs_calls), implicit,
         number_text(outcome.seconds),
         list_text(outcome.table.columns, [](const std::string& column) { return string_text(column); }),
-        list_text(outcome.table.lines(), row_text), events, invariants);
+        list_text(outcome.table.lines(), row_text), events, figures_json(outcome));
 }
 
 std::string report_text(const RunOutcome& outcome)
 {
-    const auto brief = [](const std::string& number, int digits) {
-        return number.empty() ? number : fmt::format("{:.{}g}", std::strtod(number.c_str(), nullptr), digits);
-    };
     const auto counted = [](const std::string& number, const char* noun) {
         return fmt::format("{} {}{}", number, noun, number == "1" ? "" : "s");
     };
@@ -156,14 +216,19 @@ std::string report_text(const RunOutcome& outcome)
     else if (failed && outcome.steps != "0")
         text += last_state(outcome);
     if (failed && outcome.steps == "0") return text + start_hint(outcome);
-    for (const Drift& drift : outcome.invariants) {
-        if (!std::isfinite(std::strtod(drift.initial.c_str(), nullptr))) {
-            text += fmt::format("  {}: no finite number at the start\n", drift.name);
-            continue;
-        }
-        text += fmt::format("  {}: {} at the start, largest drift {}{}\n", drift.name, brief(drift.initial, 9),
-                            brief(drift.max_drift, 3), drift_remark(outcome, drift));
-    }
+    return text + figures_text(outcome);
+}
+
+std::string drift_warnings(const RunOutcome& outcome)
+{
+    std::string text;
+    for (const auto* drifts : {&outcome.invariants, &outcome.casimirs, &outcome.constraints})
+        for (const Drift& drift : *drifts)
+            if (is_number(drift.moved_at) && !changes_by_itself(outcome, drift))
+                text +=
+                    fmt::format("warning: {} should be constant and moved by {}: by more than 1e-3 of its size {} "
+                                "from t = {} on; a smaller step or tolerance keeps it better\n",
+                                drift.name, brief(drift.max_drift, 3), brief(drift.size, 3), brief(drift.moved_at, 9));
     return text;
 }
 

@@ -4,7 +4,6 @@
 
 #include "commands/scene/table.hpp"
 
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,11 +16,15 @@ struct EventReport {
     std::string time;
 };
 
-/// Largest |f(t) - f(t_0)| over the steps.
+/// How a function moved over the steps that should be constant, or 0 where it is a constraint. Numbers as printed;
+/// "nan", or nothing, where there is none.
 struct Drift {
     std::string name;
     std::string initial;
-    std::string max_drift;
+    std::string max_drift;          ///< largest |f(t) - f(t_0)|, or |f(t)| of a constraint
+    std::string time{};             ///< of the largest
+    std::string slope{}, error{};   ///< of a line through f - f(t_0), and the bound of its error
+    std::string size{}, moved_at{}; ///< of f, and when it first moved by more than 1e-3 of that
 };
 
 struct RunOutcome {
@@ -34,9 +37,9 @@ struct RunOutcome {
     std::string newton, decompositions; ///< Newton iterations and factorisations of implicit methods; else empty
     bool searches = false;              ///< controls are searched for, and followed
     std::vector<EventReport> events;
-    std::vector<Drift> invariants;
-    std::optional<long double> tolerance; ///< relative, of an adaptive method
-    bool energy_changes = false;          ///< forces or explicit time: the energy is not conserved
+    std::vector<Drift> invariants, casimirs, constraints; ///< the first of the invariants is the energy
+    std::string manifold, manifold_time;                  ///< largest distance from it, where there are constraints
+    bool energy_changes = false;                          ///< forces or explicit time: the energy is not conserved
     Table table;
 };
 
@@ -46,7 +49,10 @@ struct RunOutcome {
 /// The object of `run --format json`; numbers keep their digits, what is not finite is null.
 [[nodiscard]] std::string report_json(const RunOutcome& outcome);
 
-/// A few lines for standard error: status, steps, events, drift of the invariants.
+/// A few lines for standard error: status, steps, events, drift of what should be constant.
 [[nodiscard]] std::string report_text(const RunOutcome& outcome);
+
+/// What the equations conserve and this run did not, a line "warning: ..." each.
+[[nodiscard]] std::string drift_warnings(const RunOutcome& outcome);
 
 } // namespace lagen

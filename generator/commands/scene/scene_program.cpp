@@ -54,16 +54,19 @@ std::string columns_text(const std::vector<TableColumn>& columns)
     return text.empty() ? "-" : text;
 }
 
-/// "INITIAL,MAX_DRIFT" of the invariant `name`.
+/// The line of a function that is followed, as driver.hpp describes it.
 Drift drift_of(std::string name, const std::string& value)
 {
-    const std::size_t comma = value.find(',');
-    return {std::move(name), value.substr(0, comma), comma == std::string::npos ? "" : value.substr(comma + 1)};
+    const std::vector<std::string_view> parts = fields(value);
+    if (parts.size() != 7) throw InternalError("the program of a scene gave another figure");
+    const auto part = [&](std::size_t k) { return std::string(parts[k]); };
+    return {std::move(name), part(0), part(1), part(2), part(3), part(4), part(5), part(6)};
 }
 
 void read_line(const std::string& key, const std::string& value, RunOutcome& outcome)
 {
-    constexpr std::string_view invariant = "invariant:";
+    const std::pair<std::string_view, std::vector<Drift>*> followed[] = {
+        {"invariant:", &outcome.invariants}, {"casimir:", &outcome.casimirs}, {"constraint:", &outcome.constraints}};
     if (key == "status") outcome.status = value;
     if (key == "t") outcome.time = value;
     if (key == "state") {
@@ -83,7 +86,13 @@ void read_line(const std::string& key, const std::string& value, RunOutcome& out
         outcome.events.push_back({value.substr(0, at), at == std::string::npos ? "" : value.substr(at + 1)});
     }
     if (key == "energy" || key == "hamiltonian") outcome.invariants.push_back(drift_of(key, value));
-    if (key.starts_with(invariant)) outcome.invariants.push_back(drift_of(key.substr(invariant.size()), value));
+    for (const auto& [prefix, drifts] : followed)
+        if (key.starts_with(prefix)) drifts->push_back(drift_of(key.substr(prefix.size()), value));
+    if (key == "manifold") {
+        const std::size_t comma = value.find(',');
+        outcome.manifold = value.substr(0, comma);
+        outcome.manifold_time = value.substr(comma + 1);
+    }
 }
 
 /// The place of `name` among `names`, or their number.
@@ -216,7 +225,9 @@ void read_report(const std::string& text, RunOutcome& outcome)
     // A run that was refused at its start has measured nothing.
     const bool refused = outcome.status == "not_separable" || outcome.status == "invalid_input" ||
                          outcome.status == "singular_mass_matrix";
-    if (refused && outcome.steps == "0") outcome.invariants.clear();
+    if (!refused || outcome.steps != "0") return;
+    for (auto* drifts : {&outcome.invariants, &outcome.casimirs, &outcome.constraints}) drifts->clear();
+    outcome.manifold.clear();
 }
 
 } // namespace lagen

@@ -173,7 +173,15 @@ concept HasParameterStatus = requires(const M& model)
 template <class M>
 concept HasConstraints = requires(const M& model, typename M::Scalar t, const typename M::State& s)
 {
+    M::constraints_names;
     model.constraints(t, s);
+};
+
+template <class M>
+concept HasCasimirs = requires(const M& model, typename M::Scalar t, const typename M::State& s)
+{
+    M::casimirs_names;
+    model.casimirs(t, s);
 };
 
 /// Strict inequalities of the domain as values that must be positive (a != b: its square).

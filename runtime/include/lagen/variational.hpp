@@ -27,6 +27,22 @@ struct EventNames<M> {
 };
 
 template <class M>
+struct ConstraintNames {
+};
+template <HasConstraints M>
+struct ConstraintNames<M> {
+    static constexpr auto constraints_names = M::constraints_names;
+};
+
+template <class M>
+struct CasimirNames {
+};
+template <HasCasimirs M>
+struct CasimirNames<M> {
+    static constexpr auto casimirs_names = M::casimirs_names;
+};
+
+template <class M>
 struct InvariantNames {
 };
 template <HasInvariants M>
@@ -58,6 +74,8 @@ struct ParameterNames<M> {
 /// methods with it.
 template <class M, int K>
 struct WithTangents : detail::EventNames<M>,
+                      detail::ConstraintNames<M>,
+                      detail::CasimirNames<M>,
                       detail::InvariantNames<M>,
                       detail::ObservableNames<M>,
                       detail::ParameterNames<M> {
@@ -134,6 +152,10 @@ struct WithTangents : detail::EventNames<M>,
     [[nodiscard]] auto constraints(Scalar t, const State& all) const noexcept requires HasConstraints<M>
     {
         return model.constraints(t, point(all));
+    }
+    [[nodiscard]] auto casimirs(Scalar t, const State& all) const noexcept requires HasCasimirs<M>
+    {
+        return model.casimirs(t, point(all));
     }
     [[nodiscard]] auto invariants(Scalar t, const State& all) const noexcept requires HasInvariants<M>
     {

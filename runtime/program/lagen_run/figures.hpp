@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT
+/// What is followed along a run because the equations keep it, or because it tells of the motion. At every accepted
+/// step: how far energy (or Pontryagin's Hamiltonian), invariants and base constraints (whose values should be 0)
+/// moved. At the steps that slope.hpp takes, which are so few of a long run that they cost nothing: Casimirs, slopes,
+/// and the distance from where the constraints hold.
+///
+/// The size of a function f is sum_i |s_i df/ds_i| at the start, or |f| where that is larger; where both are 0, it is
+/// |s| |df/ds|. It is computed only where f moved by more than 1e-3 of |f|.
+#pragma once
+
+#include "lagen/kernel.hpp"
+#include "lagen_run/slope.hpp"
+#include "lagen_run/text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+namespace lagen::detail {
+
+template <class M>
+class Figures {
+  public:
+    using State = typename M::State;
+
+    void see(const M& model, double t, const State& s)
+    {
+        if (!begun_) [[unlikely]]
+            begin(model, t, s);
+        std::size_t next = 0;
+        visit_watched(model, t, s, [&](double value) { watch(model, next++, t, value); });
+        if (means_.wants()) look(model, t, s);
+    }
+
+    /// The lines of the report that driver.hpp describes.
+    [[nodiscard]] std::string report(const M& model) const
+    {
+        std::string text;
+        std::size_t k = 0;
+        const auto put = [&](const std::string& key) {
+            const Slope slope = means_.slope(k);
+            text += key + '=';
+            for (const double value : {initial_[k], most_[k], most_t_[k], slope.value, slope.error, size_[k]})
+                text += number_text(value) + ',';
+            text += number_text(moved_at_[k++]) + '\n';
+        };
+        if constexpr (HasEnergy<M>)
+            put("energy");
+        else if constexpr (HasHamiltonian<M>)
+            put("hamiltonian");
+        if constexpr (HasInvariants<M>)
+            for (const char* name : M::invariants_names) put(std::string("invariant:") + name);
+        if constexpr (HasConstraints<M>)
+            for (const char* name : M::constraints_names) put(std::string("constraint:") + name);
+        if constexpr (HasCasimirs<M>)
+            for (const char* name : M::casimirs_names) put(std::string("casimir:") + name);
+        if constexpr (constraints > 0)
+            text += "manifold=" + number_text(distance_from_manifold(model)) + ',' + number_text(off_t_) + '\n';
+        return text;
+    }
+
+  private:
+    static constexpr double infinity = std::numeric_limits<double>::infinity();
+    static constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+    static constexpr double part = 1e-3; ///< of a function's size: what moves more is lost
+
+    template <class Names>
+    static consteval std::size_t number_of(const Names& names)
+    {
+        return names.size();
+    }
+    static constexpr std::size_t constraints = [] {
+        if constexpr (HasConstraints<M>) return number_of(M::constraints_names);
+        return std::size_t{0};
+    }();
+    static constexpr std::size_t watched = [] {
+        std::size_t number = constraints;
+        if constexpr (HasEnergy<M> || HasHamiltonian<M>) number += 1;
+        if constexpr (HasInvariants<M>) number += number_of(M::invariants_names);
+        return number;
+    }();
+    static constexpr std::size_t count = [] {
+        if constexpr (HasCasimirs<M>) return watched + number_of(M::casimirs_names);
+        return watched;
+    }();
+    using Values = std::array<double, count>;
+
+    static void visit_column(const auto& column, const auto& take)
+    {
+        for (Eigen::Index i = 0; i < column.size(); ++i) take(static_cast<double>(column[i]));
+    }
+
+    static void visit_watched(const M& model, double t, const State& s, const auto& take)
+    {
+        if constexpr (HasEnergy<M>)
+            take(static_cast<double>(model.energy(t, s)));
+        else if constexpr (HasHamiltonian<M>)
+            take(static_cast<double>(model.hamiltonian(t, s)));
+        if constexpr (HasInvariants<M>) visit_column(model.invariants(t, s), take);
+        if constexpr (HasConstraints<M>) visit_column(model.constraints(t, s), take);
+    }
+
+    static Values all_values(const M& model, double t, const State& s)
+    {
+        Values values;
+        std::size_t next = 0;
+        const auto put = [&](double value) { values[next++] = value; };
+        visit_watched(model, t, s, put);
+        if constexpr (HasCasimirs<M>) visit_column(model.casimirs(t, s), put);
+        return values;
+    }
+
+    [[gnu::noinline]] void begin(const M& model, double t, const State& s)
+    {
+        begun_ = true;
+        start_ = t;
+        start_state_ = s;
+        initial_ = reference_ = all_values(model, t, s);
+        for (std::size_t k = watched - constraints; k < watched; ++k) reference_[k] = 0;
+        for (std::size_t k = 0; k < count; ++k) allowed_[k] = part * std::abs(reference_[k]);
+        most_t_.fill(t);
+        size_.fill(nothing);
+        moved_at_.fill(nothing);
+    }
+
+    /// Function k has this value at t.
+    void watch(const M& model, std::size_t k, double t, double value)
+    {
+        const double distance = std::abs(value - reference_[k]);
+        if (distance <= most_[k] || most_[k] == infinity) return;
+        most_[k] = distance;
+        most_t_[k] = t;
+        if (!(distance <= allowed_[k])) lose(model, k, t);
+    }
+
+    /// Function k may have moved by more than `part` of its size, which is computed once.
+    [[gnu::noinline]] void lose(const M& model, std::size_t k, double t)
+    {
+        // What is no finite number is a drift without bound.
+        if (std::isnan(most_[k])) most_[k] = infinity;
+        if (std::isnan(size_[k])) {
+            size_[k] = size_of(model, k);
+            allowed_[k] = size_[k] > 0 ? part * size_[k] : infinity;
+            if (most_[k] <= allowed_[k]) return;
+        }
+        moved_at_[k] = t;
+        allowed_[k] = infinity;
+    }
+
+    [[gnu::noinline]] void look(const M& model, double t, const State& s)
+    {
+        Values values = all_values(model, t, s);
+        for (std::size_t k = watched; k < count; ++k) watch(model, k, t, values[k]);
+        for (std::size_t k = 0; k < count; ++k) values[k] -= reference_[k];
+        means_.see(t - start_, values);
+        if constexpr (constraints > 0) {
+            double square = 0;
+            for (std::size_t k = watched - constraints; k < watched; ++k) square += values[k] * values[k];
+            if (!(square <= off_)) off_ = square, off_t_ = t, off_state_ = s;
+        }
+    }
+
+    /// df_k/ds_i times `length`, by central differences at (t, s); 0 where that is no finite number.
+    static double change(const M& model, std::size_t k, double t, const State& s, Eigen::Index i, double length)
+    {
+        constexpr double step = 6e-6; // the third root of epsilon
+        State left = s, right = s;
+        left[i] -= step * length;
+        right[i] += step * length;
+        const double width = right[i] - left[i];
+        const double value = (all_values(model, t, right)[k] - all_values(model, t, left)[k]) / width * length;
+        return std::isfinite(value) ? value : 0;
+    }
+
+    [[nodiscard]] double size_of(const M& model, std::size_t k) const
+    {
+        double by_lanes = 0, squares = 0, length = 0;
+        for (Eigen::Index i = 0; i < start_state_.size(); ++i) length += start_state_[i] * start_state_[i];
+        length = std::sqrt(length);
+        for (Eigen::Index i = 0; i < start_state_.size(); ++i) {
+            const double lane = std::abs(start_state_[i]);
+            by_lanes += std::abs(change(model, k, start_, start_state_, i, lane));
+            const double whole = change(model, k, start_, start_state_, i, length);
+            squares += whole * whole;
+        }
+        const double size = std::max(std::abs(reference_[k]), by_lanes);
+        return size > 0 ? size : std::sqrt(squares);
+    }
+
+    /// |J^T (J J^T)^-1 c|, the way to where the constraints hold to first order, from the state where |c| was largest.
+    [[nodiscard]] double distance_from_manifold(const M& model) const
+    {
+        const Values values = all_values(model, off_t_, off_state_);
+        const Eigen::Index lanes = off_state_.size();
+        const auto number = static_cast<Eigen::Index>(constraints);
+        Eigen::MatrixXd rows(number, lanes); // orthonormal in the end, with what belongs to them on the right
+        Eigen::VectorXd right(number);
+        double square = 0;
+        for (Eigen::Index c = 0; c < number; ++c) {
+            const std::size_t k = watched - constraints + static_cast<std::size_t>(c);
+            for (Eigen::Index i = 0; i < lanes; ++i) {
+                const double lane = std::max(std::abs(off_state_[i]), 1e-3);
+                rows(c, i) = change(model, k, off_t_, off_state_, i, lane) / lane;
+            }
+            right[c] = values[k];
+            const double whole = rows.row(c).norm();
+            for (Eigen::Index d = 0; d < c; ++d) {
+                const double along = rows.row(c).dot(rows.row(d));
+                rows.row(c) -= along * rows.row(d);
+                right[c] -= along * right[d];
+            }
+            const double length = rows.row(c).norm();
+            if (!(length > 1e-8 * whole)) return nothing; // dependent here: there is no such way
+            rows.row(c) /= length;
+            right[c] /= length;
+            square += right[c] * right[c];
+        }
+        return std::sqrt(square);
+    }
+
+    bool begun_ = false;
+    double start_ = 0;
+    State start_state_;
+    Values initial_{}, reference_{}, most_{}, most_t_{}, allowed_{}, size_{}, moved_at_{};
+    BatchMeans<count> means_;
+    double off_ = -1, off_t_ = nothing; ///< the largest sum of squares of the constraints, and where it was
+    State off_state_;
+};
+
+} // namespace lagen::detail
