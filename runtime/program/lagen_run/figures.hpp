@@ -23,6 +23,11 @@ class Figures {
   public:
     using State = typename M::State;
 
+    Figures()
+    {
+        for (Values* values : {&initial_, &most_t_, &size_, &moved_at_}) values->fill(nothing);
+    }
+
     void see(const M& model, double t, const State& s)
     {
         if (!begun_) [[unlikely]]
@@ -119,8 +124,6 @@ class Figures {
         for (std::size_t k = watched - constraints; k < watched; ++k) reference_[k] = 0;
         for (std::size_t k = 0; k < count; ++k) allowed_[k] = part * std::abs(reference_[k]);
         most_t_.fill(t);
-        size_.fill(nothing);
-        moved_at_.fill(nothing);
     }
 
     /// Function k has this value at t.
