@@ -116,6 +116,7 @@ ExitCode run_chart(Arguments arguments)
     CheckedModel checked = charted_model(options, model_path(options.positional()[0]));
     show_warnings(checked);
     request.scene = scene_of(options, checked.model, options.named("initial"));
+    require_curve(options, request.scene, "charts are made");
     request.form = form_of(checked.model, request.scene);
     make_folder(folder);
     const Chart chart = make_chart(checked, request);

@@ -17,8 +17,7 @@ namespace lagen {
 namespace {
 
 const std::string derive_form_help =
-    form_list() + ", discrete, or exterior (dx^i and de^a); without it the first that the model has of discrete, " +
-    default_order();
+    form_list() + ", or exterior (dx^i and de^a); without it the first that the model has of " + default_order();
 
 const CommandSyntax derive_syntax{"derive",
                                   "MODEL",
@@ -56,9 +55,7 @@ ExitCode run_derive(Arguments arguments)
     // A refuted model has equations too, and reading them may show why; they come with the warning.
     const CheckedModel checked = load(model_path(options.positional()[0]), options.settings(), true);
     require_apart(options, checked.model);
-    const std::string form = options.has("form")      ? options.get("form")
-                             : checked.model.discrete ? discrete_form
-                                                      : default_form(checked.model);
+    const std::string form = options.has("form") ? options.get("form") : default_form(checked.model);
     const std::vector<std::string> warnings = warnings_of(checked, form);
     for (const std::string& warning : warnings) write_standard_error(fmt::format("warning: {}\n", warning));
     if (is_form(form, FormKind::lagrange) && checked.report.mechanics.regularity.kind == Regularity::Kind::degenerate)

@@ -10,6 +10,7 @@
 #include "elaborate/require_values.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/evaluate.hpp"
+#include "mechanics/scheme.hpp"
 #include "proof/partial_parts.hpp"
 
 #include <fmt/format.h>
@@ -39,6 +40,7 @@ class Elaboration {
         if (model_.control) lower_control();
         if (model_.groupoid) lower_arrows();
         lower_base();
+        apply_scheme();
         describe_algebroid();
         find_partial_parts();
         give_parameter_values();
@@ -132,7 +134,27 @@ class Elaboration {
                 model_.discrete->retraction_where, "retraction = \"exp\" leads into every matrix group");
         DiscreteSystem& discrete = system_.discrete.emplace();
         discrete.step = graph_.input(model_.discrete->step.name);
-        if (model_.discrete->lagrangian) discrete.lagrangian = lower_(model_.discrete->lagrangian);
+        discrete.written = model_.discrete->lagrangian != nullptr;
+        if (discrete.written) discrete.lagrangian = lower_(model_.discrete->lagrangian);
+    }
+
+    /// The discrete Lagrangian that a scheme makes of L.
+    void apply_scheme()
+    {
+        if (!system_.discrete || system_.discrete->written) return;
+        DiscreteSystem& discrete = *system_.discrete;
+        const std::string& scheme = model_.discrete->scheme;
+        if (model_.discrete->retraction == "exp")
+            discrete.obstacle = "this version of lagen makes it by Cayley's map, and the retraction is 'exp'";
+        else if (!system_.groupoid->generators.empty() && !system_.groupoid->has_cayley_map)
+            discrete.obstacle = "Cayley's map does not lead into the group, or is not shown to";
+        else if (depends_on_any(graph_, system_.forces, system_.states))
+            discrete.obstacle = "its forces depend on first-order states, which move in continuous time";
+        if (!discrete.obstacle.empty()) return;
+        SchemeLagrangian made = scheme_lagrangian(graph_, system_, quadrature_rule(scheme), discrete.step);
+        discrete.lagrangian = made.lagrangian;
+        discrete.inner = std::move(made.inner);
+        discrete.work = std::move(made.work);
     }
 
     void lower_control()

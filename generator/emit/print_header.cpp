@@ -125,6 +125,11 @@ void print_constants(TextBlock& out, const KernelModule& module)
     out.line(fmt::format("static constexpr int dimension = {};", lanes.size()));
     for (const LaneGroup& group : module.groups)
         out.line(fmt::format("static constexpr int {}_dimension = {};", group.role, group.lanes.size()));
+    if (module.step) {
+        out.line(fmt::format("static constexpr int horizontal = {};", module.step->horizontal));
+        out.line(fmt::format("static constexpr int group_order = {};", module.step->order));
+        out.line(fmt::format("static constexpr bool cayley = {};", module.step->cayley));
+    }
     if (module.second_order.kind != SecondOrder::Kind::no)
         out.line(fmt::format("static constexpr SecondOrder second_order = SecondOrder::{};",
                              module.second_order.kind == SecondOrder::Kind::general ? "general" : "velocity_free"));

@@ -14,7 +14,6 @@ namespace lagen {
 std::vector<std::string> derivation_names()
 {
     std::vector<std::string> names = form_names();
-    names.emplace_back(discrete_form);
     names.emplace_back("exterior");
     return names;
 }
@@ -23,11 +22,11 @@ EquationSet derive(const std::string& form, const Model& model, const System& sy
 {
     const WrittenAlgebroid& algebroid = system.written.algebroid;
     if (form == "exterior") return derive_exterior(model, system);
-    if (form == discrete_form) return derive_discrete(model, system);
     switch (form_named(form).kind) {
     case FormKind::lagrange: return derive_lagrange(model, algebroid, report.mechanics.regularity);
     case FormKind::hamilton: return derive_hamilton(model, algebroid, report.mechanics.regularity);
     case FormKind::pontryagin: return derive_pontryagin(model, algebroid, report.control.maximum);
+    case FormKind::discrete: return derive_discrete(model, system);
     }
     throw InternalError("a form without equations");
 }

@@ -123,7 +123,7 @@ class DiscreteDerivation {
 
 EquationSet derive_discrete(const Model& model, const System& system)
 {
-    if (!system.discrete || !system.discrete->lagrangian)
+    if (!system.discrete || !system.discrete->written)
         throw MathematicsError(system.discrete ? "the discrete Lagrangian of the model is made by a scheme: there is "
                                                  "none that is written out"
                                                : "the model has no [discrete]",

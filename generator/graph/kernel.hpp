@@ -138,6 +138,13 @@ struct GroupLanes {
     std::vector<Entry> generators; ///< of all of them, but zeros
 };
 
+/// Of a discrete motion: how the lanes of its arrows are divided.
+struct StepNumbers {
+    std::size_t horizontal = 0; ///< lanes of x_next - x
+    std::size_t order = 0;      ///< order^2 lanes of W - 1
+    bool cayley = false;        ///< Cayley's map leads into the group of W
+};
+
 /// Everything that one generated class holds.
 struct KernelModule {
     std::string name;  ///< class name: model name, with _FORM for forms other than lagrange
@@ -159,7 +166,8 @@ struct KernelModule {
     ModuleKind kind = ModuleKind::vector_field;
     std::vector<LaneGroup> groups; ///< of the lanes of State, in their order
     std::vector<GroupLanes> matrices;
-    SecondOrder second_order; ///< of the right-hand side
+    SecondOrder second_order;        ///< of the right-hand side
+    std::optional<StepNumbers> step; ///< of kind step
     Flows flows;
     std::vector<ImplicitBlock> implicit; ///< unknowns of the kernels at (t, s), in the order in which they are solved
     std::vector<Kernel> kernels;

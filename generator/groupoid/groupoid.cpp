@@ -170,10 +170,32 @@ std::vector<NodeId> matrix_one(Graph& graph, std::size_t n)
     return out;
 }
 
+namespace {
+
+/// By cofactors, n <= 3.
+std::vector<NodeId> matrix_inverse(Graph& graph, const std::vector<NodeId>& a, std::size_t n)
+{
+    const auto minor = [&](std::size_t i, std::size_t j) { // of the rows and columns behind i and j, in cyclic order
+        const auto at = [&](std::size_t row, std::size_t column) { return a[(i + row) % n * n + (j + column) % n]; };
+        if (n == 1) return graph.constant(1);
+        if (n == 2) return (i + j) % 2 == 0 ? at(1, 1) : graph.negate(at(1, 1));
+        return graph.subtract(graph.multiply(at(1, 1), at(2, 2)), graph.multiply(at(1, 2), at(2, 1)));
+    };
+    NodeId determinant = graph.constant(0);
+    for (std::size_t j = 0; j < n; ++j) determinant = graph.add(determinant, graph.multiply(a[j], minor(0, j)));
+    std::vector<NodeId> inverse(n * n);
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j < n; ++j) inverse[j * n + i] = graph.divide(minor(i, j), determinant);
+    return inverse;
+}
+
+} // namespace
+
 std::vector<NodeId> matrix_quotient(Graph& graph, const std::vector<NodeId>& a, const std::vector<NodeId>& b,
                                     std::size_t n)
 {
     if (n == 0) return {};
+    if (n <= 3) return matrix_product(graph, matrix_inverse(graph, a, n), b, n);
     std::vector<std::vector<NodeId>> columns(n, std::vector<NodeId>(n));
     for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = 0; j < n; ++j) columns[j][i] = b[i * n + j];

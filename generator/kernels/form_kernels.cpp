@@ -3,9 +3,9 @@
 
 #include "graph/calculus/differentiate.hpp"
 #include "graph/unknowns/tangent_size.hpp"
+#include "kernels/describe_module.hpp"
 #include "kernels/exact_flows.hpp"
 #include "kernels/formulation.hpp"
-#include "kernels/group_lanes.hpp"
 #include "kernels/kernel_table.hpp"
 #include "kernels/named_trees.hpp"
 #include "kernels/requested_kernels.hpp"
@@ -32,10 +32,15 @@ FormulationRequest formulation_request(const KernelRequest& request, std::vector
 class ModuleBuilder {
   public:
     ModuleBuilder(const Model& model, const System& system, const Report& report, const KernelRequest& request)
-        : model_(model), system_(system), request_(request), states_(carried_states(model, request.scene)),
+        : ModuleBuilder(model, system, report, request, request.form.empty() ? default_form(model) : request.form)
+    {
+    }
+
+    ModuleBuilder(const Model& model, const System& system, const Report& report, const KernelRequest& request,
+                  const std::string& form)
+        : model_(model), system_(system), request_(request), states_(carried_states(model, form, request.scene)),
           graph_(std::make_shared<Graph>(system.graph)),
-          form_(formulation(*graph_, model, system, report,
-                            form_named(request.form.empty() ? default_form(model) : request.form).kind,
+          form_(formulation(*graph_, model, system, report, form_named(form).kind,
                             formulation_request(request, states_))),
           lower_(*graph_, form_.binding)
     {
@@ -43,80 +48,49 @@ class ModuleBuilder {
 
     KernelModule build()
     {
-        describe();
-        if (wants("rhs")) add_right_hand_side();
-        if (wants("taylor")) add_taylor();
+        module_ = describe_module(graph_, model_, system_, form_);
+        if (has_rates() && wants("rhs")) add_right_hand_side();
+        if (has_rates() && wants("taylor")) add_taylor();
+        for (Kernel& kernel : form_.constants)
+            if (wants(kernel.name)) module_.kernels.push_back(simplified(std::move(kernel), {}));
         for (Kernel& kernel : form_.kernels)
             if (wants(kernel.name)) add(std::move(kernel));
         add_trees("constraints", constraint_trees(model_));
         add_trees("casimirs", model_.base.casimirs);
         add_domain();
-        if (has_kernel(module_, "domain") && (wants("taylor") || wants("domain_series"))) add_domain_series();
-        add_trees("observables", observable_trees(model_, request_.scene, form_.controls, lanes_of(module_)));
+        if (has_rates() && has_kernel(module_, "domain") && (wants("taylor") || wants("domain_series")))
+            add_domain_series();
+        add_trees("observables",
+                  observable_trees(model_, request_.scene, state_names(model_, module_.form), lanes_of(module_)));
         add_trees("invariants", model_.invariants);
+        if (has_rates()) add_motion();
+        simplify_implicit();
+        return std::move(module_);
+    }
+
+  private:
+    /// Else it goes from step to step.
+    [[nodiscard]] bool has_rates() const { return !form_.step; }
+
+    /// What is made of the rates beside them, and what happens between the steps.
+    void add_motion()
+    {
         if (wants("events")) add_trees("events", event_trees(model_, request_.scene));
         if (wants("event_series") && has_kernel(module_, "events")) add_series("event_series", "events");
         if (wants("jacobian")) add_jacobian();
         if (wants("variational")) add_variational();
         if (request_.time_scale != nullptr) add_time_scale();
         if (form_.hamiltonian && wants_flows()) add_flows(flows_of(*form_.hamiltonian));
-        simplify_implicit();
-        return std::move(module_);
     }
 
-  private:
     [[nodiscard]] bool wants(const std::string& name) const { return is_requested(request_, name); }
-
-    [[nodiscard]] static Quantity quantity(const Symbol& symbol, NodeId input)
-    {
-        return {symbol.name, symbol.text, symbol.unit, input};
-    }
-
-    void describe()
-    {
-        module_.model = model_.name;
-        module_.form = form_.form->name;
-        module_.name = model_.name + form_.form->suffix;
-        module_.title = model_.title;
-        module_.regenerate = fmt::format("lagen generate {}.toml", model_.name);
-        module_.graph = graph_;
-        module_.time = form_.time;
-        for (const Parameter& parameter : model_.parameters) {
-            const std::string& name = parameter.symbol.name;
-            const NodeId node = graph_->input(name);
-            if (parameter.bound)
-                module_.constants.push_back(fmt::format("{} = {}", name, to_text(*graph_, node)));
-            else
-                module_.parameters.push_back(quantity(parameter.symbol, node));
-        }
-        LaneGroup base{"Base", "base", "Base coordinates, the first lanes of State.", {}};
-        for (std::size_t i = 0; i < form_.x.size(); ++i)
-            base.lanes.push_back(quantity(model_.base.coordinates[i], form_.x[i]));
-        LaneGroup fibre{form_.form->lane_group, "fibre", "The other lanes of State.", {}};
-        for (std::size_t a = 0; a < form_.lanes.size(); ++a)
-            fibre.lanes.push_back(quantity(lane_symbol(a), form_.lanes[a]));
-        module_.groups = {std::move(base), std::move(fibre)};
-        if (!states_.empty())
-            module_.groups.push_back({"States", "states", "First-order states, the last lanes of State.", {}});
-        for (const std::size_t k : states_)
-            module_.groups.back().lanes.push_back(quantity(model_.states[k].symbol, system_.states[k]));
-        module_.matrices = group_lanes(model_, states_, form_.x.size() + form_.lanes.size());
-        module_.implicit = form_.implicit;
-        module_.parameter_conditions = form_.parameter_conditions;
-        for (const auto& [parameter, value] : system_.parameter_values) module_.parameter_defaults.push_back(value);
-    }
-
-    [[nodiscard]] const Symbol& lane_symbol(std::size_t a) const
-    {
-        return (form_.form->momenta ? model_.fibre.momenta : model_.fibre.coordinates)[a];
-    }
 
     void add(Kernel kernel) { module_.kernels.push_back(simplified(std::move(kernel))); }
 
     /// A kernel at (t, s) with its entries and pivots simplified together.
-    [[nodiscard]] Kernel simplified(Kernel kernel)
+    [[nodiscard]] Kernel simplified(Kernel kernel) { return simplified(std::move(kernel), point_inputs(module_)); }
+    [[nodiscard]] Kernel simplified(Kernel kernel, const std::vector<KernelInput>& inputs)
     {
-        std::vector<KernelInput> inputs = point_inputs(module_);
         kernel.inputs.insert(kernel.inputs.begin(), inputs.begin(), inputs.end());
         std::vector<NodeId> none;
         std::vector<NodeId>& pivots = kernel.checks ? kernel.checks->pivots : none;

@@ -4,6 +4,7 @@
 ///   lagrange    state (x, y):   W ydot = rho_a(L) + Q_a - (d2L/dydx) rho y - d2L/dydt - p_c C^c_ab y^b
 ///   hamilton    state (x, mu):  xdot = rho dH/dmu, mudot_a = -(rho_a(H) + mu_c C^c_ab dH/dmu_b) + Q_a
 ///   pontryagin  state (x, mu):  the same with H = mu_a sigma^a - cost where u maximises it          [Martinez 2004]
+///   discrete    state (x, g, mu):  mu = F^-L(g),  F^+L(g) = F^-L(g') where t(g) = s(g')             [Martinez 2001]
 #pragma once
 
 #include "graph/core/lower.hpp"
@@ -27,7 +28,9 @@ struct Formulation {
     std::string failures;                   ///< of the right-hand side, as in KernelChecks
     std::vector<ImplicitBlock> implicit;
     std::vector<Kernel> kernels;                 ///< of this form alone, in order; empty outputs are left out
-    std::vector<std::string> controls;           ///< their names, pontryagin
+    std::vector<Kernel> constants;               ///< the same, free of time and state
+    std::vector<LaneGroup> groups;               ///< of x and the lanes; empty: Base and those of the form
+    std::optional<StepNumbers> step;             ///< discrete
     std::optional<HamiltonianNodes> hamiltonian; ///< of Hamilton's form
     /// As in KernelModule: what this form asks of the parameters, beside the domain.
     std::vector<std::pair<std::string, NodeId>> parameter_conditions;
@@ -40,14 +43,17 @@ struct FormulationRequest {
     std::vector<std::size_t> states; ///< numbers of the first-order states that it carries
 };
 
-/// Throw MathematicsError where the system has no such form: no L, no H, no control problem; a degenerate L; a
-/// Hamiltonian that the controls do not maximise in a way that can be solved for. `graph`: a copy of the system's.
+/// Throw MathematicsError where the system has no such form: no L, no H, no control problem, no discrete Lagrangian; a
+/// degenerate L; a Hamiltonian that the controls do not maximise in a way that can be solved for. `graph`: a copy of
+/// the system's.
 [[nodiscard]] Formulation lagrange_form(Graph& graph, const System& system, const Report& report,
                                         const FormulationRequest& request);
 [[nodiscard]] Formulation hamilton_form(Graph& graph, const System& system, const Report& report,
                                         const FormulationRequest& request);
 [[nodiscard]] Formulation pontryagin_form(Graph& graph, const Model& model, const System& system, const Report& report,
                                           const FormulationRequest& request);
+[[nodiscard]] Formulation discrete_form(Graph& graph, const Model& model, const System& system,
+                                        const FormulationRequest& request);
 
 /// That of the form `kind`.
 [[nodiscard]] Formulation formulation(Graph& graph, const Model& model, const System& system, const Report& report,

@@ -5,9 +5,14 @@
 #include "graph/kernel.hpp"
 #include "model/form.hpp"
 
-#include <optional>
-
 namespace lagen {
+
+/// Forms of the equations, a bit each.
+using Forms = unsigned;
+[[nodiscard]] constexpr Forms only(FormKind form)
+{
+    return 1u << static_cast<unsigned>(form);
+}
 
 /// What a kernel says of its output.
 struct OutputSignature {
@@ -19,7 +24,7 @@ struct OutputSignature {
 
 struct KernelRow {
     const char* name = "";
-    std::optional<FormKind> form = std::nullopt; ///< none: every form
+    Forms forms = 0; ///< that have it
     OutputSignature output = {};
     const char* documentation = ""; ///< of the kernel; {0} and {1} are the rows and columns of its output
     bool on_request = false;        ///< made only where it is asked for by name
@@ -27,6 +32,11 @@ struct KernelRow {
 
 /// In the order in which lists of kernels are printed. A kernel of several forms with a formula each has several rows.
 [[nodiscard]] std::span<const KernelRow> kernel_table();
+
+[[nodiscard]] constexpr bool has_form(const KernelRow& row, FormKind form)
+{
+    return (row.forms & only(form)) != 0;
+}
 
 /// Throws InternalError where the form has no such kernel.
 [[nodiscard]] const KernelRow& kernel_row(const std::string& name, FormKind form);

@@ -13,16 +13,17 @@ std::vector<NamedTree> constraint_trees(const Model& model)
     return trees;
 }
 
-std::vector<NamedTree> observable_trees(const Model& model, const Scene* scene,
-                                        const std::vector<std::string>& controls, const std::vector<Quantity>& lanes)
+std::vector<NamedTree> observable_trees(const Model& model, const Scene* scene, const std::vector<std::string>& states,
+                                        const std::vector<Quantity>& lanes)
 {
     std::vector<NamedTree> trees = model.observables;
     if (scene == nullptr) return trees;
-    if (!scene->observe) {
-        for (const std::string& control : controls) trees.push_back({control, name(control), {}});
-        return trees;
-    }
-    for (const NamedTree& entry : *scene->observe) {
+    std::vector<NamedTree> observed;
+    if (scene->observe)
+        observed = *scene->observe;
+    else
+        for (const std::string& state : states) observed.push_back({state, name(state), {}});
+    for (const NamedTree& entry : observed) {
         const auto known = [&](const auto& other) { return other.name == entry.name; };
         if (std::ranges::none_of(trees, known) && std::ranges::none_of(lanes, known)) trees.push_back(entry);
     }

@@ -10,9 +10,9 @@ namespace lagen {
 [[nodiscard]] std::vector<NamedTree> constraint_trees(const Model& model);
 
 /// Those of the model, then what `scene` (if it is not null) asks for that is neither one of `lanes` nor one of them;
-/// where it asks for nothing, the controls.
+/// where it asks for nothing, `states`.
 [[nodiscard]] std::vector<NamedTree> observable_trees(const Model& model, const Scene* scene,
-                                                      const std::vector<std::string>& controls,
+                                                      const std::vector<std::string>& states,
                                                       const std::vector<Quantity>& lanes);
 
 /// Of `scene`, or of all where it is null; the same event of two scenes once, different ones of one name with the

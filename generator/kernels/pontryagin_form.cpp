@@ -162,13 +162,14 @@ void require_intervals(Graph& graph, const ControlProblem& control, const Contro
 void add_kernels(Graph& graph, const PhaseSystem& phase, bool proved, Formulation& form)
 {
     std::vector<NodeId> values;
+    std::vector<std::string> names;
     for (const auto& [control, value] : phase.found) {
-        form.controls.push_back(graph.input_name(control));
+        names.push_back(graph.input_name(control));
         values.push_back(value);
     }
     Kernel controls = table_kernel(form, "controls", column("u", values));
     if (!proved) controls.documentation = {stationary_controls};
-    controls.outputs[0].entry_names = form.controls;
+    controls.outputs[0].entry_names = std::move(names);
     form.kernels.push_back(std::move(controls));
     form.kernels.push_back(scalar_kernel(form, "hamiltonian", phase.hamiltonian));
     if (!graph.is_zero(phase.energy_rate)) form.kernels.push_back(scalar_kernel(form, "power", phase.energy_rate));

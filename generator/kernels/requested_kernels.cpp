@@ -77,8 +77,7 @@ void require_requested(const KernelModule& module, const Model& model, const Sys
         for (const Kernel& kernel : form_kernels(model, system, report, every).kernels) names.push_back(kernel.name);
         const FormKind form = form_named(module.form).kind;
         for (const KernelRow& row : kernel_table())
-            if (row.on_request && row.form.value_or(form) == form && has_what_it_needs(row, names))
-                names.emplace_back(row.name);
+            if (row.on_request && has_form(row, form) && has_what_it_needs(row, names)) names.emplace_back(row.name);
         refuse(fmt::format("the {} form of model '{}' has no kernel '{}'; it has", module.form, model.name, name), name,
                names);
     }

@@ -37,16 +37,19 @@ std::vector<NodeId> discrete_euler_lagrange(Graph& graph, const Groupoid& groupo
     return residual;
 }
 
-std::vector<NodeId> newton_matrix(Graph& graph, const Groupoid& groupoid, const DiscreteLegendre& legendre)
+std::vector<NodeId> newton_matrix(Graph& graph, const Groupoid& groupoid, const std::vector<NodeId>& functions,
+                                  const std::vector<NodeId>& inner)
 {
     const std::vector<NodeId> coordinates = groupoid.coordinates();
-    const std::size_t r = groupoid.r();
-    std::vector<NodeId> N(r * r);
-    for (std::size_t b = 0; b < r; ++b) {
+    const std::size_t r = groupoid.r(), size = r + inner.size();
+    std::vector<NodeId> N(size * size);
+    for (std::size_t b = 0; b < size; ++b) {
         std::vector<std::pair<NodeId, NodeId>> seeds;
-        for (const ColumnEntry& entry : groupoid.left[b]) seeds.emplace_back(coordinates[entry.index], entry.value);
-        const std::vector<NodeId> column = directional(graph, legendre.minus, seeds);
-        for (std::size_t a = 0; a < r; ++a) N[a * r + b] = column[a];
+        if (b >= r) seeds.emplace_back(inner[b - r], graph.constant(1));
+        for (std::size_t k = 0; b < r && k < groupoid.left[b].size(); ++k)
+            seeds.emplace_back(coordinates[groupoid.left[b][k].index], groupoid.left[b][k].value);
+        const std::vector<NodeId> column = directional(graph, functions, seeds);
+        for (std::size_t a = 0; a < size; ++a) N[a * size + b] = column[a];
     }
     return N;
 }

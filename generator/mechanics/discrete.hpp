@@ -24,8 +24,10 @@ struct DiscreteLegendre {
                                                           const DiscreteLegendre& legendre, const Arrow& g,
                                                           const Arrow& h);
 
-/// N_ab by rows, shape (r, r).
+/// The derivatives of `functions` (F^-L, and dL/dw of inner unknowns w, m of them) along <-e_b and along w, by rows,
+/// shape (r + m, r + m): N_ab.
 [[nodiscard]] std::vector<NodeId> newton_matrix(Graph& graph, const Groupoid& groupoid,
-                                                const DiscreteLegendre& legendre);
+                                                const std::vector<NodeId>& functions,
+                                                const std::vector<NodeId>& inner = {});
 
 } // namespace lagen

@@ -30,11 +30,20 @@ struct ControlProblem {
     [[nodiscard]] bool bounded() const;
 };
 
+/// The work of forces in a step, along variations of the start, of the end and of the inner unknowns; empty where
+/// there are no forces.
+struct DiscreteWork {
+    std::vector<NodeId> source, target, inner; ///< f^-_a, f^+_a, shapes (r), (r), (m)
+};
+
 /// A discrete Lagrangian on the system's groupoid.
 struct DiscreteSystem {
     NodeId step = 0;                  ///< h: an input, or the value of a bound parameter
-    std::optional<NodeId> lagrangian; ///< L over t, h, the arrow's coordinates and parameters; absent where a scheme
-                                      ///< makes it
+    std::optional<NodeId> lagrangian; ///< L over t, h, the arrow's coordinates, the inner unknowns and parameters
+    std::vector<NodeId> inner;        ///< inputs w at which L is stationary, of a scheme; shape (m)
+    DiscreteWork work;                ///< of a scheme
+    bool written = false;             ///< else a scheme made L
+    std::string obstacle;             ///< why there is no L
 };
 
 /// What of the algebroid stands in the model file as it is here, so that a hint can ask to change it.

@@ -2,6 +2,7 @@
 #include "model/carried_states.hpp"
 
 #include "model/families.hpp"
+#include "model/form.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -36,9 +37,10 @@ std::vector<std::size_t> together(const Model& model, std::size_t state)
 
 } // namespace
 
-std::vector<std::size_t> carried_states(const Model& model, const Scene* scene)
+std::vector<std::size_t> carried_states(const Model& model, const std::string& form, const Scene* scene)
 {
     std::vector<std::size_t> carried;
+    if (form_named(form).steps) return carried;
     if (scene == nullptr || !scene->observe) {
         carried.resize(model.states.size());
         std::iota(carried.begin(), carried.end(), std::size_t{0});

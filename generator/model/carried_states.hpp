@@ -8,7 +8,7 @@ namespace lagen {
 
 /// Numbers of the states of [states], ascending, that forces, invariants or the scene's columns, events and time scale
 /// use, and those that these follow from. Without a scene, and where the scene does not choose its columns: all.
-[[nodiscard]] std::vector<std::size_t> carried_states(const Model& model, const Scene* scene);
+[[nodiscard]] std::vector<std::size_t> carried_states(const Model& model, const std::string& form, const Scene* scene);
 
 /// Whether `tree` uses a state that is not among `carried`.
 [[nodiscard]] bool uses_other_states(const Model& model, const Tree& tree, const std::vector<std::size_t>& carried);

@@ -100,6 +100,13 @@ std::vector<Symbol> free_parameters(const Model& model)
     return out;
 }
 
+bool has_own_step(const Model& model)
+{
+    return model.discrete && std::ranges::none_of(model.parameters, [&](const Parameter& parameter) {
+               return parameter.symbol.name == model.discrete->step.name;
+           });
+}
+
 void declare_symbols(ModelReader& reader, const std::vector<Symbol>& symbols, Role role)
 {
     const std::size_t first = count_of(reader.model, role);

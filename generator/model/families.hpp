@@ -78,6 +78,8 @@ void declare_symbols(ModelReader& reader, const std::vector<Symbol>& symbols, Ro
 [[nodiscard]] std::vector<Symbol> state_symbols(const Model& model);
 /// Those that are not bound.
 [[nodiscard]] std::vector<Symbol> free_parameters(const Model& model);
+/// Whether the step of [discrete] is a symbol of its own, none of the parameters.
+[[nodiscard]] bool has_own_step(const Model& model);
 
 /// Declares the symbols of one role and their families in `scope`.
 void add_to_scope(Scope& scope, const Model& model, const std::vector<Symbol>& symbols, FamilyRole role);

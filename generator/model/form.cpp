@@ -37,12 +37,22 @@ constexpr std::array form_rows{
                  .needs = "no [control]",
                  .exists = [](const Model& model) { return model.control.has_value(); },
                  .rank = 0},
+    EquationForm{.kind = FormKind::discrete,
+                 .name = "discrete",
+                 .suffix = "_discrete",
+                 .lane_group = "Momenta",
+                 .lanes = "momenta",
+                 .momenta = true,
+                 .steps = true,
+                 .needs = "no [discrete]",
+                 .exists = [](const Model& model) { return model.discrete.has_value(); },
+                 .rank = -1},
 };
 
 static_assert([] {
     for (std::size_t k = 0; k < form_rows.size(); ++k)
         if (form_rows[k].kind != static_cast<FormKind>(k) || form_rows[k].exists == nullptr) return false;
-    return form_rows.back().kind == FormKind::pontryagin;
+    return form_rows.back().kind == FormKind::discrete;
 }()); // in the order of the enumeration, to its last entry
 
 } // namespace

@@ -8,7 +8,7 @@
 
 namespace lagen {
 
-enum class FormKind { lagrange, hamilton, pontryagin };
+enum class FormKind { lagrange, hamilton, pontryagin, discrete };
 
 struct EquationForm {
     FormKind kind = FormKind::lagrange;
@@ -17,6 +17,7 @@ struct EquationForm {
     const char* lane_group = "";       ///< the struct of the state's lanes behind the base coordinates
     const char* lanes = "";            ///< what they are
     bool momenta = false;              ///< are they the momenta? Else the fibre coordinates
+    bool steps = false;                ///< a motion from step to step, of which there are no rates
     const char* needs = "";            ///< what a model lacks that has not this form: "no [control]"
     bool (*exists)(const Model&) = {}; ///< does the model have what it needs?
     int rank = 0;                      ///< the form of lowest rank that a model has is its default

@@ -168,17 +168,15 @@ Scene read_scene(const ModelReader& reader, Scene scene, const TomlEntry& block,
     }
     require_acyclic_scene(reader, scene);
     const std::string form_of_scene = form_of(reader.model, scene);
-    if (form_of_scene == discrete_form) {
-        require_first_arrow(reader, scene);
-        require_values_in(reader.model, scene, form_of_scene);
-        return scene;
-    }
     if (!forms_of(reader.model).empty()) {
         std::string form = scene.form;
         scene = in_form(reader.model, std::move(scene), form_of_scene);
         scene.form = std::move(form);
     }
-    require_complete(reader, scene);
+    if (form_named(form_of_scene).steps)
+        require_first_arrow(reader, scene);
+    else
+        require_complete(reader, scene);
     return scene;
 }
 

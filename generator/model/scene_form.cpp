@@ -13,12 +13,6 @@ namespace lagen {
 
 namespace {
 
-/// What a model lacks that has not this form.
-const char* missing_block(const std::string& form)
-{
-    return form == discrete_form ? "no [discrete]" : form_named(form).needs;
-}
-
 std::vector<EquationForm> by_rank()
 {
     std::vector<EquationForm> rows(form_table().begin(), form_table().end());
@@ -50,12 +44,16 @@ std::vector<ForeignNames> foreign_names(const Model& model, const std::string& f
         out.push_back({"the control", names(model.control->controls),
                        fmt::format("controls are there in Pontryagin's form: form = \"{}\"",
                                    entry_of(FormKind::pontryagin).name)});
-    if (model.groupoid && form != discrete_form) {
+    if (is_form(form, FormKind::discrete)) {
+        const char* hint = "a discrete motion has points, arrows and momenta";
+        out.push_back({"the velocity", names(model.fibre.coordinates), hint});
+        out.push_back({"the function", {"hamiltonian"}, hint});
+    } else if (model.groupoid) {
         const std::string hint = "arrows of the groupoid are there in discrete scenes";
         out.push_back({"the entry of the group element", names(model.groupoid->element), hint});
         out.push_back({"the coordinate of the target", names(model.groupoid->next), hint});
     }
-    if (form == discrete_form && !model.states.empty())
+    if (form_named(form).steps && !model.states.empty())
         out.push_back({"the first-order state", names(state_symbols(model)),
                        "first-order states move in continuous time: give the scene another form"});
     return out;
@@ -106,6 +104,16 @@ void require_start_of_motion(const Scene& scene, const std::string& form)
                                  "fibre coordinates or momenta",
                                  scene.name, form),
                      scene.where, "give another scene 'initial' values of them");
+}
+
+/// A discrete motion has points at its steps alone.
+void require_no_events(const Scene& scene)
+{
+    if (scene.events.empty()) return;
+    throw ModelError(fmt::format("scene '{}' is discrete and has the event '{}', but a discrete motion has no values "
+                                 "between its steps in which it could be found",
+                                 scene.name, scene.events.front().name),
+                     scene.events.front().where, "observe its function, and look for the change of sign in the rows");
 }
 
 /// A costate follows from no velocity: sigma gives y for each (x, u), and u is what is sought.
@@ -183,22 +191,19 @@ std::vector<std::string> forms_of(const Model& model)
 
 void require_form(const Model& model, const std::string& form, const std::string& what, const SourceRange& where)
 {
-    std::vector<std::string> known = form_names();
-    known.emplace_back(discrete_form);
+    const std::vector<std::string>& known = form_names();
     if (std::ranges::find(known, form) == known.end())
         throw ModelError(fmt::format("{} is '{}', which is no form", what, form), where,
                          hint_for(form, known, "forms"));
-    if (form == discrete_form && model.discrete) return;
     const std::vector<std::string> forms = forms_of(model);
     if (std::ranges::find(forms, form) == forms.end())
-        throw ModelError(fmt::format("{} is '{}', but the model has {}", what, form, missing_block(form)), where,
+        throw ModelError(fmt::format("{} is '{}', but the model has {}", what, form, form_named(form).needs), where,
                          form_hint(forms));
 }
 
 std::string form_of(const Model& model, const Scene& scene)
 {
-    if (!scene.form.empty()) return scene.form;
-    return model.discrete ? discrete_form : default_form(model);
+    return scene.form.empty() ? default_form(model) : scene.form;
 }
 
 std::vector<std::string> state_names(const Model& model, const std::string& form)
@@ -207,10 +212,9 @@ std::vector<std::string> state_names(const Model& model, const std::string& form
     const auto append = [&](const std::vector<Symbol>& symbols) {
         for (const Symbol& symbol : symbols) names.push_back(symbol.name);
     };
-    const bool discrete = form == discrete_form;
-    if (discrete && model.groupoid) append(model.groupoid->element);
-    append(discrete || form_named(form).momenta ? model.fibre.momenta : model.fibre.coordinates);
-    if (!discrete) append(state_symbols(model));
+    if (is_form(form, FormKind::discrete) && model.groupoid) append(model.groupoid->element);
+    append(form_named(form).momenta ? model.fibre.momenta : model.fibre.coordinates);
+    if (!form_named(form).steps) append(state_symbols(model));
     if (is_form(form, FormKind::pontryagin) && model.control) append(model.control->controls);
     return names;
 }
@@ -238,20 +242,17 @@ Scene in_form(const Model& model, Scene scene, const std::string& form)
 {
     if (form == scene.form)
         require_form(model, form, fmt::format("'form' of scene '{}'", scene.name), scene.form_where);
-    if (form == discrete_form && model.discrete)
-        throw MathematicsError(
-            fmt::format("scene '{}' is discrete: this version of lagen reads and checks it, and makes "
-                        "no step of it",
-                        scene.name),
-            form_hint(forms_of(model)));
     const std::vector<std::string> forms = forms_of(model);
     if (form != form_of(model, scene) && std::ranges::find(forms, form) == forms.end())
         throw MathematicsError(
-            fmt::format("the form asked for is '{}', but the model has {}", form, missing_block(form)),
+            fmt::format("the form asked for is '{}', but the model has {}", form, form_named(form).needs),
             form_hint(forms));
     scene.form = form;
     replace_states(model, scene, form);
-    require_start_of_motion(scene, form);
+    if (form_named(form).steps)
+        require_no_events(scene);
+    else
+        require_start_of_motion(scene, form);
     if (is_form(form, FormKind::pontryagin)) require_momenta(model, scene);
     require_values_in(model, scene, form);
     return scene;

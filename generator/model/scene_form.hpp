@@ -24,11 +24,7 @@ namespace lagen {
 /// Throws ModelError where `form` is no form, or none of the model's. `what` calls it: "'form' of scene 'default'".
 void require_form(const Model& model, const std::string& form, const std::string& what, const SourceRange& where);
 
-/// The form of a scene that starts from an arrow of a groupoid; every model with [discrete] has it, and no equations
-/// of motion are derived, generated or run in it.
-inline constexpr const char* discrete_form = "discrete";
-
-/// The form of a scene; where it names none "discrete" of a model with [discrete], else the model's default.
+/// The form of a scene; where it names none the model's default.
 [[nodiscard]] std::string form_of(const Model& model, const Scene& scene);
 
 /// The columns of a state: base coordinates, then fibre coordinates (lagrange), momenta (hamilton), momenta and
@@ -40,13 +36,13 @@ inline constexpr const char* discrete_form = "discrete";
 void require_values_in(const Model& model, const Scene& scene, const std::string& form);
 
 /// Whether `tree` has a value in this form: controls have one in Pontryagin's alone, coordinates of an arrow in the
-/// discrete one.
+/// discrete one, which has neither velocities nor a Hamiltonian.
 [[nodiscard]] bool has_value(const Model& model, const Tree& tree, const std::string& form);
 
 /// `scene` with another form: "state" in `observe` means the states of that form. Throws MathematicsError where the
 /// model does not have it (ModelError where the scene itself names it; nothing for the default of a model that has
-/// none) and for the discrete form, and ModelError where the scene cannot do in this form: Pontryagin's equations start
-/// from momenta, no other form has controls to observe, and none but the discrete one starts from an arrow.
+/// none), and ModelError where the scene cannot do in this form: Pontryagin's equations start from momenta, no other
+/// form has controls to observe, and none but the discrete one starts from an arrow; that one has no events.
 [[nodiscard]] Scene in_form(const Model& model, Scene scene, const std::string& form);
 
 } // namespace lagen

@@ -6,6 +6,7 @@
 #include "model/carried_states.hpp"
 #include "model/dependency_order.hpp"
 #include "model/families.hpp"
+#include "model/scene_form.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -47,7 +48,7 @@ std::vector<NamedNumber> pick(const std::vector<Symbol>& symbols, const Values& 
 } // namespace
 
 SceneEvaluator::SceneEvaluator(const Model& model, const Scene& scene)
-    : model_(model), scene_(scene), carried_(carried_states(model, &scene))
+    : model_(model), scene_(scene), carried_(carried_states(model, form_of(model, scene), &scene))
 {
     std::map<std::string, const NamedTree*> own;
     for (const NamedTree& entry : scene_.parameters) own.emplace(entry.name, &entry);
@@ -72,7 +73,17 @@ long double SceneEvaluator::finite(const Tree& tree, const Values& values, const
                      tree->where.file ? tree->where : where);
 }
 
+/// Of a discrete scene the step that it gives wins over the parameter of that name.
 Values SceneEvaluator::parameter_values(const Values& given)
+{
+    Values values = values_in_order(given);
+    if (!scene_.step || !is_form(form_of(model_, scene_), FormKind::discrete) || has_own_step(model_)) return values;
+    Values with_step = given;
+    with_step[model_.discrete->step.name] = *optional_value(scene_.step, values, "'step' of scene '{}'", true);
+    return values_in_order(with_step);
+}
+
+Values SceneEvaluator::values_in_order(const Values& given)
 {
     Values values;
     for (const NamedTree& parameter : parameters_) {
@@ -244,12 +255,29 @@ std::vector<NamedNumber> SceneEvaluator::parameters(const Values& given)
     return pick(free_parameters(model_), parameter_values(given));
 }
 
+/// The step of a discrete motion, by the scene or by the parameter of that name.
+void SceneEvaluator::read_step(const Values& parameters, SceneValues& out)
+{
+    if (!is_form(form_of(model_, scene_), FormKind::discrete)) return;
+    const std::string& name = model_.discrete->step.name;
+    out.discrete = true;
+    out.steps = scene_.steps;
+    out.own_step = has_own_step(model_);
+    if (!out.own_step) out.step = parameters.at(name);
+    if (out.step && !(*out.step > 0))
+        throw StartError("invalid_input",
+                         fmt::format("the step '{}' of scene '{}' is {}, where a positive number is required", name,
+                                     scene_.name, static_cast<double>(*out.step)),
+                         scene_.step ? scene_.step->where : scene_.where);
+}
+
 SceneValues SceneEvaluator::operator()(const Values& given, const Values& initial)
 {
     SceneValues out;
     const Values parameters = parameter_values(given);
     out.parameters = pick(free_parameters(model_), parameters);
     read_times(parameters, out);
+    read_step(parameters, out);
     Values values = parameters;
     bool has_momenta = false;
     for (const NamedTree& entry : scene_.initial) {

@@ -28,6 +28,9 @@ struct SceneValues {
     std::vector<NamedNumber> next;     ///< and its target, by base coordinates; or empty
     long double start = 0;
     std::optional<long double> duration, step;
+    bool discrete = false;     ///< a discrete motion, by `step`
+    bool own_step = false;     ///< which is a parameter of the discrete form beside those of the model
+    std::optional<long> steps; ///< of a discrete scene
     std::optional<long double> relative, absolute; ///< `tolerance` fills both
     std::optional<long double> interval;           ///< of `sample`
     std::vector<long double> at;                   ///< of `at`
@@ -68,6 +71,8 @@ class SceneEvaluator {
     long double finite(const Tree& tree, const Values& values, const char* what, const std::string& name,
                        const SourceRange& where);
     Values parameter_values(const Values& given);
+    Values values_in_order(const Values& given);
+    void read_step(const Values& parameters, SceneValues& out);
     std::optional<long double> optional_value(const Tree& tree, const Values& values, const char* what, bool positive);
     void read_times(const Values& values, SceneValues& out);
     void require_constraints(Values& values);

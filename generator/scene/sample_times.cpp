@@ -55,10 +55,72 @@ void sort_rows(const Scene& scene, const SceneValues& values, SampleTimes& times
     }
 }
 
+/// `length` in steps.
+std::size_t steps_in(long double length, const Scene& scene, const SceneValues& values, const char* what,
+                     const Tree& tree)
+{
+    constexpr long double slack = 1e-9L, most = 1e15L;
+    const long double count = length / *values.step, whole = std::round(count);
+    if (whole >= 1 && whole <= most && std::abs(count - whole) <= slack * whole) return static_cast<std::size_t>(whole);
+    throw ModelError(fmt::format("{} of scene '{}' is {:.6g}, which is no whole number of steps of length {:.6g}", what,
+                                 scene.name, length, *values.step),
+                     tree && tree->where.file ? tree->where : scene.where,
+                     "a discrete motion has points at its steps alone");
+}
+
+std::size_t step_count(const Scene& scene, const SceneValues& values)
+{
+    if (values.duration) return steps_in(*values.duration, scene, values, "the duration", scene.duration);
+    if (values.steps) return static_cast<std::size_t>(*values.steps);
+    throw ModelError(fmt::format("scene '{}' gives neither 'steps' nor a duration", scene.name), scene.where,
+                     "give `steps`, or --t-end");
+}
+
+/// Steps between two rows.
+std::size_t steps_between(const Scene& scene, const SceneValues& values, std::size_t steps)
+{
+    switch (scene.sampling.kind) {
+    case Sampling::Kind::standard: return 1;
+    case Sampling::Kind::interval:
+        return steps_in(*values.interval, scene, values, "'sample'", scene.sampling.interval);
+    case Sampling::Kind::count:
+        if (scene.sampling.count > 1 && steps % (scene.sampling.count - 1) == 0)
+            return steps / (scene.sampling.count - 1);
+        throw ModelError(
+            fmt::format("scene '{}' asks for {} even rows of {} steps", scene.name, scene.sampling.count, steps),
+            scene.where, "a discrete motion has points at its steps alone");
+    case Sampling::Kind::at:
+        throw ModelError(fmt::format("scene '{}' is discrete: its rows are at its steps", scene.name), scene.where,
+                         "`sample` = a multiple of the step takes fewer of them");
+    }
+    return 1;
+}
+
+SampleTimes step_times(const Scene& scene, const SceneValues& values, std::size_t columns)
+{
+    if (!values.step)
+        throw ModelError(fmt::format("scene '{}' gives no value of the step", scene.name), scene.where,
+                         "give `step`, or --step");
+    SampleTimes times;
+    const std::size_t steps = step_count(scene, values);
+    times.start = held(values.start, fmt::format("the start of scene '{}'", scene.name), scene.where);
+    times.end = held(times.start + static_cast<long double>(steps) * *values.step,
+                     fmt::format("the end of scene '{}'", scene.name), scene.where);
+    times.every = steps_between(scene, values, steps);
+    const auto rows = static_cast<long double>(steps / times.every + 1);
+    if (rows * static_cast<long double>(columns) > most_numbers)
+        throw ModelError(fmt::format("scene '{}' asks for {:.6g} rows of {} numbers, where at most {:.6g} numbers are "
+                                     "possible",
+                                     scene.name, rows, columns, most_numbers),
+                         scene.where, "`sample` = a multiple of the step takes fewer rows");
+    return times;
+}
+
 } // namespace
 
 SampleTimes sample_times(const Scene& scene, const SceneValues& values, std::size_t columns, bool stretch)
 {
+    if (values.discrete) return step_times(scene, values, columns);
     SampleTimes times;
     times.kind = scene.sampling.kind;
     times.interval = values.interval;

@@ -109,7 +109,7 @@ TEST_CASE("Newton's matrix is the derivative of F-L along the source fibre")
         Graph& graph = system.graph;
         const Groupoid& groupoid = *system.groupoid;
         const DiscreteLegendre legendre = discrete_legendre(graph, groupoid, *system.discrete->lagrangian);
-        const std::vector<NodeId> N = newton_matrix(graph, groupoid, legendre);
+        const std::vector<NodeId> N = newton_matrix(graph, groupoid, legendre.minus);
         const auto values = parameters_of(system, file);
         const ReferenceArrow arrow = each.arrow(file["steps"][5], file["parameters"]);
         const std::vector<NodeId> coordinates = groupoid.coordinates();

@@ -140,7 +140,7 @@ TEST_CASE("a tangent bundle with [discrete] has the pair groupoid, whose targets
     CHECK(model.groupoid->kind == GroupoidKind::pair);
     CHECK(symbol_list(model.groupoid->next) == Strings{"x_next", "y_next[1]", "y_next[2]"});
     CHECK((model.discrete->scheme == "gauss:2" && model.discrete->lagrangian == nullptr));
-    CHECK(lagen::forms_of(model) == Strings{"lagrange", "hamilton"});
+    CHECK(lagen::forms_of(model) == Strings{"discrete", "lagrange", "hamilton"});
     CHECK(form_of(model, find_scene(model, "")) == "discrete");
     const SceneValues values = evaluate_scene(model, find_scene(model, ""));
     REQUIRE(values.next.size() == 3);

@@ -24,6 +24,7 @@ Kinship kinship_of(const MethodEntry& method)
     case MethodKind::series: return Kinship::series;
     case MethodKind::implicit_stages: return Kinship::implicit;
     case MethodKind::explicit_stages: break;
+    case MethodKind::discrete: throw InternalError("a discrete motion has no chart");
     }
     if (method.system != SecondOrder::Kind::no) return Kinship::nystrom;
     return method.adaptive ? Kinship::pair : Kinship::explicit_steps;

@@ -85,6 +85,9 @@ constexpr std::array entries = [] {
         MethodEntry{"kahanli8", "KahanLi8", "8", false, splitting, "Kahan and Li 1997, 17 leapfrogs", "symplectic"},
         MethodEntry{"sofroniou10", "Sofroniou10", "10", false, splitting, "Sofroniou and Spaletta 2005, 35 leapfrogs",
                     "symplectic"},
+        MethodEntry{"discrete", "Discrete", "of L", false, discrete,
+                    "discrete Euler-Lagrange equations on a Lie groupoid (Martinez 2001)",
+                    "symplectic or Poisson, momenta, the group"},
     };
 }();
 
@@ -173,6 +176,7 @@ bool goes_abreast(const MethodEntry& method)
 
 std::string system_of(const MethodEntry& method)
 {
+    if (method.kind == MethodKind::discrete) return "discrete Lagrangians";
     if (method.kind == MethodKind::splitting)
         return method.affine ? "x' = M y + c, y' = g(x)" : "x' = f(y), y' = g(x) or a sum of exact flows";
     switch (method.system) {

@@ -15,13 +15,14 @@ enum class MethodKind {
     implicit_stages,
     series,    ///< needs the kernels of Taylor coefficients
     splitting, ///< for xdot = f(y), ydot = g(x), or a sum of exact flows
+    discrete,  ///< of discrete Lagrangians alone, which take no other one
 };
 
 struct MethodEntry {
     const char* name;  ///< as in scenes and --method
     const char* type;  ///< the runtime's type
     const char* order; ///< "5(4)"
-    bool adaptive;     ///< takes a tolerance; else a step
+    bool adaptive;     ///< takes a tolerance; else a step (of a discrete Lagrangian its own)
     MethodKind kind;
     const char* text;                                 ///< one line, with the source
     const char* keeps = "";                           ///< what long runs keep

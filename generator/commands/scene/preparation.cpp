@@ -54,6 +54,12 @@ std::string vectors_of(const Driver& driver)
 
 std::optional<Obstacle> obstacle_of(const MethodEntry& method, const KernelModule& module)
 {
+    if ((method.kind == MethodKind::discrete) != (module.kind == ModuleKind::step))
+        return Obstacle{fmt::format("{} integrates {}, and model '{}' is in the form '{}'", method.name,
+                                    method.kind == MethodKind::discrete ? system_of(method) : "rates", module.model,
+                                    module.form),
+                        "`lagen methods` lists what each method takes"};
+    if (method.kind == MethodKind::discrete) return std::nullopt;
     if (method.kind == MethodKind::splitting) return obstacle_to_splitting(method, module);
     using Kind = SecondOrder::Kind;
     const SecondOrder& found = module.second_order;

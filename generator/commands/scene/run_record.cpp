@@ -40,8 +40,8 @@ void visit_lists(Record& record, Visit visit)
 {
     visit("warning", record.warnings);
     visit("lane", record.names.lanes);
-    visit("control", record.names.controls);
     visit("observable", record.names.observables);
+    visit("state", record.names.states);
     visit("proved_for", record.proved_for);
 }
 
@@ -99,7 +99,7 @@ RunRecord record_of(const CheckedModel& checked, const KernelModule& module, con
 {
     RunRecord record;
     record.warnings = checked.warnings;
-    record.names = names_of(module);
+    record.names = names_of(checked.model, module);
     record.energy_changes = has_kernel(module, "power");
     record.searches =
         std::ranges::any_of(module.implicit, [](const ImplicitBlock& block) { return block.follows && !block.angles; });

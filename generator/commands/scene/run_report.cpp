@@ -33,9 +33,13 @@ std::string list_text(const Items& items, Print print)
     return text + "]";
 }
 
-/// What ended a run whose controls could not be followed.
-std::string control_text(const std::string& status)
+/// What ended a run whose controls could not be followed, or a discrete one.
+std::string reason_text(const std::string& status)
 {
+    if (status == "no_solution")
+        return "no arrow has these momenta: they lie behind a fold of F^-L; shorter steps reach further";
+    if (status == "branch_lost")
+        return "no arrow with these momenta is connected with the one before: its branch ends at a fold of F^-L";
     if (status == "not_a_maximum")
         return "no maximum of H is found from the controls before, or from the guess: d2H/du2 is not negative definite";
     if (status == "singular_control") return "H does not depend on a control: b = c = 0 in a + b cos u + c sin u";
@@ -211,7 +215,7 @@ std::string report_text(const RunOutcome& outcome)
     for (const EventReport& event : outcome.events)
         text += fmt::format("  event {} at t = {}\n", event.name, brief(event.time, 15));
     const bool failed = !succeeded(outcome.status);
-    if (const std::string reason = control_text(outcome.status); !reason.empty())
+    if (const std::string reason = reason_text(outcome.status); !reason.empty())
         text += fmt::format("  {}\n{}", reason, last_state(outcome));
     else if (failed && outcome.steps != "0")
         text += last_state(outcome);

@@ -60,6 +60,22 @@ void require_splitting(const Options& options, const Scene& scene, const MethodE
     throw ModelError(text, scene.time_scale_where, hint);
 }
 
+/// The discrete form is stepped by its own equations, and no other one is.
+void require_form_of(const Options& options, const Scene& scene, const MethodEntry& method)
+{
+    const bool discrete = form_named(scene.form).steps;
+    if (discrete == (method.kind == MethodKind::discrete)) return;
+    const std::string text =
+        discrete ? fmt::format("the discrete form of scene '{}' is a motion from step to step, and {} integrates rates",
+                               scene.name, method.name)
+                 : fmt::format("{} makes the steps of the discrete form, and scene '{}' is run in the form '{}'",
+                               method.name, scene.name, scene.form);
+    const std::string hint = discrete ? "leave the method out, or take another form: --form lagrange"
+                                      : "--form discrete, or another method: `lagen methods` lists them";
+    if (options.has("method")) throw UsageError(fmt::format("lagen {}: {}\nhint: {}", options.command(), text, hint));
+    throw ModelError(text, scene.method_where.file ? scene.method_where : scene.where, hint);
+}
+
 } // namespace
 
 Tree option_tree(const Model& model, const std::string& name, const Excerpt& text)
@@ -129,9 +145,18 @@ Scene scene_of(const Options& options, const Model& model, const std::vector<Set
     return in_form(model, scene, options.has("form") ? options.get("form") : form_of(model, scene));
 }
 
+void require_curve(const Options& options, const Scene& scene, const char* what)
+{
+    if (!form_named(scene.form).steps) return;
+    throw UsageError(fmt::format("lagen {}: {} of curves, and scene '{}' is a discrete motion\nhint: --form lagrange, "
+                                 "where the model has [lagrangian]",
+                                 options.command(), what, scene.name));
+}
+
 const MethodEntry& method_of(const Options& options, const Scene& scene)
 {
-    const std::string name = scene.method.empty() ? standard_method : scene.method;
+    const bool discrete = form_named(scene.form).steps;
+    const std::string name = !scene.method.empty() ? scene.method : discrete ? "discrete" : standard_method;
     const std::string lagen = "lagen " + options.command() + ": ";
     const MethodEntry* method = find_method(name);
     if (method == nullptr) {
@@ -139,7 +164,8 @@ const MethodEntry& method_of(const Options& options, const Scene& scene)
         if (options.has("method")) throw UsageError(fmt::format("{}unknown method '{}'\nhint: {}", lagen, name, hint));
         throw ModelError(fmt::format("unknown method '{}'", name), scene.method_where, hint);
     }
-    if (!method->adaptive && !scene.step) {
+    require_form_of(options, scene, *method);
+    if (!method->adaptive && !scene.step && !discrete) {
         const std::string text =
             fmt::format("method '{}' needs a step: give --step, or `step` in scene '{}'", name, scene.name);
         if (options.has("method")) throw UsageError(lagen + text);

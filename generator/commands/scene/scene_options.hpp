@@ -33,6 +33,8 @@ void set_initial(const Model& model, Scene& scene, const Setting& setting);
 
 /// The scene's method; UsageError or ModelError (by where the name stands) where it is unknown, lacks a step, or
 /// takes no time scale. Warns on standard error of what it does not use.
+/// Throws where the form of the scene is a motion from step to step: `what` is made of curves.
+void require_curve(const Options& options, const Scene& scene, const char* what);
 [[nodiscard]] const MethodEntry& method_of(const Options& options, const Scene& scene);
 
 } // namespace lagen

@@ -4,11 +4,13 @@
 #include "commands/scene/scene_options.hpp"
 #include "diagnostic.hpp"
 #include "emit/print_header.hpp"
+#include "model/scene_form.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace lagen {
 
@@ -116,6 +118,17 @@ std::vector<std::string> entries_of(const KernelModule& module, const char* kern
     return kernel_named(module, kernel).outputs[0].entry_names;
 }
 
+/// At times, or by their number.
+void give_rows(const ProgramInput& input, const std::function<void(const char*, std::string)>& give)
+{
+    switch (input.times.kind) {
+    case Sampling::Kind::standard:
+    case Sampling::Kind::count: give("--samples", std::to_string(input.times.count)); break;
+    case Sampling::Kind::interval: give("--interval", text_of(*input.times.interval)); break;
+    case Sampling::Kind::at: give("--at-file", input.at_file); break;
+    }
+}
+
 } // namespace
 
 std::string program_text(const Driver& driver, const std::string& name, const MethodEntry& method, bool reversible)
@@ -127,25 +140,24 @@ std::string program_text(const Driver& driver, const std::string& name, const Me
         driver.folder, driver.function, cpp_names({name})[0], type);
 }
 
-TableNames names_of(const KernelModule& module)
+TableNames names_of(const Model& model, const KernelModule& module)
 {
-    TableNames names{{}, entries_of(module, "controls"), entries_of(module, "observables")};
+    TableNames names{{}, entries_of(module, "observables"), state_names(model, module.form)};
     for (const Quantity& lane : lanes_of(module)) names.lanes.push_back(lane.name);
     return names;
 }
 
 std::vector<TableColumn> columns_of(const TableNames& names, const Scene& scene)
 {
-    std::vector<TableColumn> columns;
-    if (!scene.observe) {
-        for (std::size_t k = 0; k < names.lanes.size(); ++k) columns.push_back({names.lanes[k], true, k});
-        for (const std::string& name : names.controls) columns.push_back(observable(names, name));
-        return columns;
+    std::vector<std::string> wanted = names.states;
+    if (scene.observe) {
+        wanted.clear();
+        for (const NamedTree& column : *scene.observe) wanted.push_back(column.name);
     }
-    for (const NamedTree& wanted : *scene.observe) {
-        const std::size_t lane = place_of(names.lanes, wanted.name);
-        columns.push_back(lane == names.lanes.size() ? observable(names, wanted.name)
-                                                     : TableColumn{wanted.name, true, lane});
+    std::vector<TableColumn> columns;
+    for (const std::string& name : wanted) {
+        const std::size_t lane = place_of(names.lanes, name);
+        columns.push_back(lane == names.lanes.size() ? observable(names, name) : TableColumn{name, true, lane});
     }
     return columns;
 }
@@ -155,11 +167,13 @@ void use_values(ProgramInput& input, const Scene& scene, const SceneValues& valu
     input.parameters = finite_numbers(values.parameters, scene);
     for (const std::vector<NamedNumber>* group : {&values.base, &values.fibre, &values.momenta, &values.states})
         (void)finite_numbers(*group, scene);
+    input.times = sample_times(scene, values, input.columns.size() + 1, stretch);
     input.initial = start(values);
-    input.step = values.step;
+    input.from_arrow = starts_from_arrow(values);
+    if (values.own_step) input.parameters.push_back(*values.step);
+    if (!values.discrete) input.step = values.step;
     input.relative = values.relative.value_or(standard_tolerance);
     input.absolute = values.absolute.value_or(standard_tolerance);
-    input.times = sample_times(scene, values, input.columns.size() + 1, stretch);
 }
 
 std::vector<std::string> watch_arguments(const ProgramInput& input)
@@ -186,12 +200,11 @@ std::vector<std::string> program_arguments(const std::string& program, const Pro
     if (input.step) give("--step", text_of(*input.step));
     if (input.relative) give("--relative", text_of(*input.relative));
     if (input.absolute) give("--absolute", text_of(*input.absolute));
-    switch (input.times.kind) {
-    case Sampling::Kind::standard:
-    case Sampling::Kind::count: give("--samples", std::to_string(input.times.count)); break;
-    case Sampling::Kind::interval: give("--interval", text_of(*input.times.interval)); break;
-    case Sampling::Kind::at: give("--at-file", input.at_file); break;
-    }
+    if (input.from_arrow) give("--from", "arrow");
+    if (input.times.every > 0)
+        give("--every", std::to_string(input.times.every));
+    else
+        give_rows(input, give);
     const std::vector<std::string> watched = watch_arguments(input);
     arguments.insert(arguments.end(), watched.begin(), watched.end());
     give("--report", input.report_file);

@@ -34,17 +34,19 @@ struct TableColumn {
 
 /// What a program's table can hold, in the program's order.
 struct TableNames {
-    std::vector<std::string> lanes, controls, observables;
+    std::vector<std::string> lanes, observables;
+    std::vector<std::string> states; ///< the columns of a scene that observes nothing else; lanes or observables
 };
-[[nodiscard]] TableNames names_of(const KernelModule& module);
+[[nodiscard]] TableNames names_of(const Model& model, const KernelModule& module);
 
-/// `t` apart, what the scene observes: all states and controls, or exactly its `observe` list.
+/// `t` apart, what the scene observes: all states, or exactly its `observe` list.
 [[nodiscard]] std::vector<TableColumn> columns_of(const TableNames& names, const Scene& scene);
 
 /// Everything that the program is told.
 struct ProgramInput {
     std::vector<long double> parameters;
     std::vector<long double> initial; ///< state lanes, base first
+    bool from_arrow = false;          ///< of a discrete motion: its momenta are those of the arrow
     SampleTimes times;
     std::optional<long double> step, relative, absolute;
     std::string at_file; ///< path of the file with the times

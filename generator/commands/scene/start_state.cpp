@@ -96,6 +96,18 @@ bool StartState::prepare(bool has_momenta, bool any)
     return true;
 }
 
+/// x_next - x and W - 1 of the first arrow, zeros of the arrow 1; zeros of the inner unknowns.
+std::vector<long double> StartState::arrow_lanes(const SceneValues& values) const
+{
+    const Groupoid& groupoid = *checked_(false).system.groupoid;
+    const std::size_t inner = checked_(false).system.discrete->inner.size();
+    std::vector<long double> lanes(groupoid.horizontal() + groupoid.arrow.W.size() + inner, 0);
+    for (std::size_t i = 0; i < values.next.size(); ++i) lanes[i] = values.next[i].second - values.base[i].second;
+    for (std::size_t k = 0; k < values.element.size(); ++k)
+        lanes[groupoid.horizontal() + k] = values.element[k].second - (k % (groupoid.size + 1) == 0 ? 1 : 0);
+    return lanes;
+}
+
 std::vector<long double> StartState::operator()(const SceneValues& values)
 {
     std::vector<long double> state = of_motion(values);
@@ -111,6 +123,14 @@ std::vector<long double> StartState::of_motion(const SceneValues& values)
         for (const auto& [name, value] : lanes) state.push_back(value);
     };
     append(values.base);
+    if (values.discrete) {
+        const std::vector<long double> arrow = arrow_lanes(values);
+        state.insert(state.end(), arrow.begin(), arrow.end());
+    }
+    if (starts_from_arrow(values)) { // whose momenta the program finds
+        state.resize(state.size() + checked_(false).system.r(), 0);
+        return state;
+    }
     const bool has_momenta = !values.momenta.empty();
     const std::vector<NamedNumber>& given = has_momenta ? values.momenta : values.fibre;
     if (!prepare(has_momenta, !given.empty())) {
@@ -124,6 +144,11 @@ std::vector<long double> StartState::of_motion(const SceneValues& values)
     const std::vector<long double> lanes = converted(given, std::move(inputs));
     state.insert(state.end(), lanes.begin(), lanes.end());
     return state;
+}
+
+bool starts_from_arrow(const SceneValues& values)
+{
+    return !values.element.empty() || !values.next.empty();
 }
 
 std::vector<long double> finite_numbers(const std::vector<NamedNumber>& named, const Scene& scene)

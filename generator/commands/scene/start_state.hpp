@@ -13,7 +13,9 @@ namespace lagen {
 
 /// Base lanes, the other lanes of `form`, the first-order states that the scene carries. Lagrange's form with momenta
 /// given: y solves p_a(x, y) = mu_a. Hamilton's with fibre coordinates given: mu = dL/dy, or mu solves dH/dmu_a = y^a.
-/// By Newton's method from 0, in long double; throws MathematicsError where it does not converge. `checked` is called
+/// By Newton's method from 0, in long double; throws MathematicsError where it does not converge. The discrete form:
+/// base, arrow, momenta; of a first arrow the momenta are 0, and of momenta the arrow is 1: the program finds what is
+/// missing. `checked` is called
 /// where the values given are not the lanes themselves, once; with `true` where it is needed what is decided of the
 /// regularity.
 class StartState {
@@ -45,12 +47,16 @@ class StartState {
                                               const std::vector<NodeId>& values, NodeId function, const char* given,
                                               const char* wanted);
     [[nodiscard]] std::vector<long double> of_motion(const SceneValues& values);
+    [[nodiscard]] std::vector<long double> arrow_lanes(const SceneValues& values) const;
     [[nodiscard]] std::vector<long double> converted(const std::vector<NamedNumber>& given, Values inputs) const;
 
     Checked checked_;
     std::string form_;
     std::optional<Conversion> conversion_;
 };
+
+/// Whether the momenta of the start are those of its arrow.
+[[nodiscard]] bool starts_from_arrow(const SceneValues& values);
 
 /// The numbers in the order of `named`. Throws ModelError where a double, as the compiled scene has it, cannot hold
 /// one.

@@ -19,13 +19,15 @@
 #include "lagen/integrate/tsit5.hpp"
 #include "lagen/integrate/verner.hpp"
 #include "lagen/ode.hpp"
+#include "lagen/variational/discrete.hpp"
 
 #include <type_traits>
 
 namespace lagen {
 
 /// Integrates ds/dt = model.rhs(t, s) from span.start to span.end, which may lie before it.
-/// @param model   RightHandSide; its optional parts `domain`, `events` and `parameter_status` are used where they are
+/// @param model   RightHandSide, or DiscreteMotion for the method Discrete; its optional parts `domain`, `events` and
+/// `parameter_status` are used where they are
 /// @param s       initial state
 /// @param method  Rk4{.step = h}, Dop853{.tolerance = e}, Yoshida6{.step = h}, ...; the last fixed step is shortened to
 /// end on time
@@ -39,7 +41,7 @@ namespace lagen {
 ///         the one after the last accepted step; on left_domain the last point found inside. Values inside a step come
 ///         from the method's dense output, or from a shorter step of the same method, so the sequence of steps does not
 ///         depend on the rows.
-template <RightHandSide M, class Method, class Observer>
+template <Motion M, class Method, class Observer>
 Run<M> integrate(const M& model, const std::type_identity_t<typename M::State>& s,
                  std::type_identity_t<Interval<real_t<typename M::Scalar>>> span, const Method& method,
                  const std::type_identity_t<Options<M>>& options, Observer&& observer)
@@ -47,7 +49,7 @@ Run<M> integrate(const M& model, const std::type_identity_t<typename M::State>& 
     return detail::March<M, Method, std::remove_reference_t<Observer>>(model, s, span, method, options, observer).run();
 }
 
-template <RightHandSide M, class Method>
+template <Motion M, class Method>
 Run<M> integrate(const M& model, const std::type_identity_t<typename M::State>& s,
                  std::type_identity_t<Interval<real_t<typename M::Scalar>>> span, const Method& method,
                  const std::type_identity_t<Options<M>>& options = {})

@@ -107,6 +107,30 @@ concept RightHandSide = requires(const M& model, typename M::Scalar t, const typ
     requires KeepsPromise<typename M::Scalar, noexcept(model.rhs(t, s, ds))>;
 };
 
+/// A discrete motion on a Lie groupoid, by the kernels of lagen's discrete form. A state is a point x of the base, an
+/// arrow from it, given by x_next - x and W - 1, inner unknowns w of its step, and the momenta of the arrow:
+/// M::base_dimension, M::horizontal, M::group_order^2, M::inner_dimension and M::fibre_dimension lanes. M::cayley:
+/// Cayley's map leads into the group.
+///   Scalar step()                               the length of a step
+///   void forward(t, s, x, mu)                   t(g) and F^+L(g)
+///   void arrow_equation(t, s, R, N)             R = (mu - F^-L(g), -dL/dw), Newton's matrix
+///   cayley_step(t, s, d), cayley_coordinates(t, s)   V = cay(d) - 1 of a move along the source fibre, W' = W (1 + V);
+///                                               d with cay(d) = W. Where M::cayley is false instead
+///   algebra_matrix(t, s, d), in_algebra(A)      the matrix A of a direction, dW = W A, and back
+template <class M>
+concept DiscreteMotion = requires(const M& model, typename M::Scalar t, const typename M::State& s)
+{
+    requires std::convertible_to<decltype(M::horizontal), int>;
+    requires std::convertible_to<decltype(M::group_order), int>;
+    requires std::convertible_to<decltype(M::cayley), bool>;
+    requires std::convertible_to<decltype(model.step()), typename M::Scalar>;
+    model.momentum(t, s);
+};
+
+/// What can be integrated.
+template <class M>
+concept Motion = RightHandSide<M> || DiscreteMotion<M>;
+
 /// A right-hand side that is a sum of M::flows vector fields, each with its flow: s + ds is where part k takes s in the
 /// time h,
 ///   status_t<Scalar> flow<k>(Scalar t, const State& s, Scalar h, State& ds) const noexcept.

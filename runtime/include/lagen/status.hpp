@@ -21,6 +21,8 @@ enum class Status : std::uint8_t {
     not_separable,    ///< a partitioned method was asked for, but the equations are not what it splits
     not_a_maximum,    ///< the controls that are followed are no maximum of H: d2H/du2 is not negative definite
     singular_control, ///< H does not depend on a control: it has no maximum to be found at
+    no_solution,      ///< the equation of a discrete step has none: its momenta lie behind a fold
+    branch_lost,      ///< no way leads from a discrete step to the next one on its branch of solutions
 };
 
 /// True where the computation may go on or ended as asked.
@@ -45,6 +47,8 @@ enum class Status : std::uint8_t {
     case Status::not_separable: return "not_separable";
     case Status::not_a_maximum: return "not_a_maximum";
     case Status::singular_control: return "singular_control";
+    case Status::no_solution: return "no_solution";
+    case Status::branch_lost: return "branch_lost";
     }
     return "unknown";
 }

@@ -12,6 +12,8 @@
 ///   --step H              fixed-step methods; required there (positive; the sign follows the interval)
 ///   --relative R --absolute A   adaptive methods; default 1e-9 each
 ///   --max-steps N
+///   --from arrow          a discrete motion: the momenta are those of the arrow, whatever --initial gives
+///   --every N             rows at the start and behind every N-th step; the rows of a discrete motion
 ///   --samples N | --interval H | --at-file FILE   rows at N even times, every H from the start on (and the end), or at
 ///   the
 ///                         numbers of FILE (separated by space or comma, in the direction of time). Default: --samples
@@ -113,6 +115,8 @@ Complaint plan_times(const DriveArguments& given, DrivePlan<M>& plan)
 {
     if (!given.end) return "--end is required";
     plan.span = {given.start.value_or(0.0), *given.end};
+    if (given.every) return *given.every > 0 ? Complaint{} : "--every: a positive number of steps is required";
+    if (DiscreteMotion<M>) return "--every: the rows of a discrete motion are at its steps";
     if (!given.at_file.empty()) {
         Complaint complaint = read_times(given.at_file, plan.times);
         return complaint.empty() ? check_order(plan.times, plan.span.end < plan.span.start) : complaint;
@@ -186,7 +190,9 @@ Complaint plan_event(const std::string& text, DrivePlan<M>& plan)
 template <class M, class Method>
 Complaint plan_method(const DriveArguments& given, Method& method)
 {
-    if constexpr (requires { method.step; }) {
+    if constexpr (DiscreteMotion<M>) {
+        if (given.step) return "--step: the step is a parameter of this model";
+    } else if constexpr (requires { method.step; }) {
         if (!given.step || !(*given.step > 0)) return "--step: a positive step is required by this method";
         method.step = *given.step;
     } else {
@@ -261,7 +267,9 @@ try {
 
     std::signal(SIGINT, detail::lagen_drive_interrupt);
     std::signal(SIGTERM, detail::lagen_drive_interrupt);
-    detail::DriveRecord<M> record(plan.model, plan.columns, given.format == "binary", stdout);
+    detail::DriveRecord<M> record(plan.model, plan.columns, given.format == "binary", stdout, given.every.value_or(0));
+    if constexpr (DiscreteMotion<M>)
+        if (given.from_arrow) plan.initial = at_arrow(plan.model, plan.span.start, plan.initial);
     Options<M> options{.at = plan.times, .events = plan.events, .signal = &detail::drive_interrupted};
     if (given.max_steps) options.max_steps = *given.max_steps;
 

@@ -26,8 +26,9 @@ class DriveRecord {
   public:
     using State = typename M::State;
 
-    DriveRecord(const M& model, std::vector<Column> columns, bool binary, std::FILE* out)
-        : model_(model), columns_(std::move(columns)), binary_(binary), out_(out)
+    /// `every`: rows at the start and behind every so many steps; 0 where row(t, s) is told of all of them.
+    DriveRecord(const M& model, std::vector<Column> columns, bool binary, std::FILE* out, std::size_t every = 0)
+        : model_(model), columns_(std::move(columns)), binary_(binary), out_(out), every_(every)
     {
     }
 
@@ -51,6 +52,7 @@ class DriveRecord {
     [[gnu::noinline]] void operator()(double t, const State& s)
     {
         follow(t, s);
+        if (every_ > 0 && seen_++ % every_ == 0) row(t, s);
         figures_.see(model_, t, s);
     }
 
@@ -84,6 +86,7 @@ class DriveRecord {
     std::vector<Column> columns_;
     bool binary_;
     std::FILE* out_;
+    std::size_t every_ = 0, seen_ = 0;
     Figures<M> figures_;
     std::size_t rows_ = 0;
     double last_time_ = std::numeric_limits<double>::quiet_NaN();

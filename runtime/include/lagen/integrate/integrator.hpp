@@ -25,7 +25,7 @@ namespace lagen {
 /// An initial-value problem and where it stands. It keeps the model and allocates nothing in a step. Every status is
 /// that of `integrate`; a step that fails leaves time and state as they are. Of a pack, lanes that fail keep their
 /// state while the others go on (`lanes()`), and the status is not ok where all have failed.
-template <RightHandSide M, class Method>
+template <Motion M, class Method>
 class Integrator {
   public:
     using Scalar = typename M::Scalar;
@@ -143,7 +143,7 @@ class Integrator {
         if constexpr (adaptive) {
             return method_.control().is_valid();
         } else {
-            h_ = static_cast<Real>(method_.step);
+            h_ = static_cast<Real>(detail::step_length(model_, method_));
             return h_ > Real(0) && h_ - h_ == Real(0);
         }
     }

@@ -24,6 +24,16 @@ struct Attempt {
     bool last;
 };
 
+/// Of a method of fixed steps; a discrete motion has its own.
+template <class M, class Method>
+[[nodiscard]] auto step_length([[maybe_unused]] const M& model, [[maybe_unused]] const Method& method) noexcept
+{
+    if constexpr (requires { model.step(); })
+        return model.step();
+    else
+        return method.step;
+}
+
 template <class M, class Method, class Observer>
 class March;
 

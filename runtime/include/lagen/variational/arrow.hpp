@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: MIT
+/// The arrow h of a Lie groupoid that a momentum determines: F^-L(h) = mu with s(h) = x given. Newton's method moves h
+/// along its source fibre, h <- h eta(d) with N d = mu - F^-L(h), N_ab = <-e_b (F^-L_a); eta is Cayley's map or exp.
+///
+/// The equation may have several solutions, and folds where det N = 0 behind which there are none. The one that is
+/// taken is connected with the guess: Newton's method is trusted where its steps shrink by a factor of four and det N
+/// keeps its sign; else mu is led from F^-L(guess) to its value, in steps as short as they have to be.
+/// A discrete Lagrangian that a scheme made may have inner unknowns w of a step, at which it is stationary; they are
+/// found with the arrow, by dL/dw = 0.
+#pragma once
+
+#include "lagen/group/retraction.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace lagen {
+
+namespace detail {
+
+/// Where the parts of the state of a discrete motion stand: x, x_next - x, W - 1 by rows, w, mu.
+template <DiscreteMotion M>
+struct ArrowLanes {
+    static constexpr int n = M::base_dimension;
+    static constexpr int horizontal = M::horizontal;
+    static constexpr int order = M::group_order;
+    static constexpr int inner = M::inner_dimension;
+    static constexpr int rank = M::fibre_dimension;
+    static constexpr int unknowns = rank + inner;
+    static constexpr int next = n, element = n + horizontal, within = element + order * order, momenta = within + inner;
+    static_assert(momenta + rank == M::dimension);
+};
+
+/// W - 1, by rows behind lane `element`.
+template <DiscreteMotion M>
+[[nodiscard]] auto group_part(const typename M::State& s) noexcept
+{
+    using Lanes = ArrowLanes<M>;
+    GroupMatrix<typename M::Scalar, Lanes::order> V;
+    for (int i = 0; i < Lanes::order; ++i)
+        for (int j = 0; j < Lanes::order; ++j) V(i, j) = s[Lanes::element + i * Lanes::order + j];
+    return V;
+}
+
+template <DiscreteMotion M>
+void set_group_part(typename M::State& s, const GroupMatrix<typename M::Scalar, ArrowLanes<M>::order>& V) noexcept
+{
+    using Lanes = ArrowLanes<M>;
+    for (int i = 0; i < Lanes::order; ++i)
+        for (int j = 0; j < Lanes::order; ++j) s[Lanes::element + i * Lanes::order + j] = V(i, j);
+}
+
+/// The arrow of s moved along its source fibre, h <- h eta(d), and w by the rest of d; false where eta has no value.
+template <DiscreteMotion M>
+[[nodiscard]] bool move_arrow(const M& model, const typename M::Scalar& t, typename M::State& s,
+                              const Eigen::Matrix<typename M::Scalar, ArrowLanes<M>::unknowns, 1>& d) noexcept
+{
+    using S = typename M::Scalar;
+    using Lanes = ArrowLanes<M>;
+    if constexpr (Lanes::order > 0) {
+        GroupMatrix<S, Lanes::order> step;
+        if constexpr (M::cayley)
+            step = model.cayley_step(t, s, d.template head<Lanes::rank>());
+        else
+            step = exp_less_one<S, Lanes::order>(model.algebra_matrix(t, s, d.template head<Lanes::rank>()));
+        if (!step.allFinite()) return false;
+        const GroupMatrix<S, Lanes::order> V = group_part<M>(s);
+        set_group_part<M>(s, V + step + V * step);
+    }
+    for (int i = 0; i < Lanes::horizontal; ++i) s[Lanes::next + i] += d[i];
+    for (int k = 0; k < Lanes::inner; ++k) s[Lanes::within + k] += d[Lanes::rank + k];
+    return true;
+}
+
+/// Takes W back to its group, from which products of many steps lead away by their rounding. Where the chart around 1
+/// does not reach W it stays as it is.
+template <DiscreteMotion M>
+void renew_group_part(const M& model, const typename M::Scalar& t, typename M::State& s) noexcept
+{
+    using S = typename M::Scalar;
+    using Lanes = ArrowLanes<M>;
+    if constexpr (Lanes::order > 0) {
+        const GroupMatrix<S, Lanes::order> V = group_part<M>(s);
+        GroupMatrix<S, Lanes::order> renewed;
+        if constexpr (M::cayley) {
+            renewed = model.cayley_step(t, s, model.cayley_coordinates(t, s));
+        } else {
+            GroupMatrix<S, Lanes::order> A;
+            if (!log_of_one_and<S, Lanes::order>(V, A)) return;
+            renewed = exp_less_one<S, Lanes::order>(model.algebra_matrix(t, s, model.in_algebra(A)));
+        }
+        // Beside the edge of the chart it is worse than what it renews.
+        using std::abs;
+        using std::sqrt;
+        const S near = S(sqrt(std::numeric_limits<real_t<S>>::epsilon()));
+        if ((renewed - V).cwiseAbs().maxCoeff() <= near) set_group_part<M>(s, renewed);
+    }
+}
+
+} // namespace detail
+
+template <DiscreteMotion M>
+class ArrowSolver {
+  public:
+    using Scalar = typename M::Scalar;
+    using State = typename M::State;
+    static constexpr int rank = M::fibre_dimension + M::inner_dimension; ///< of the equations
+    using Column = Eigen::Matrix<Scalar, rank, 1>;
+
+    /// Solves for the arrow of `s`, from the one that stands there; its base point and momenta stay. `before`: the
+    /// arrow of the step before where the guess goes on from it. What fails leaves `s` as it is:
+    /// @return singular_mass_matrix where N is singular at the guess; no_solution where mu lies behind a fold;
+    ///         branch_lost where no way is found along which det N keeps the sign that it had; newton_diverged;
+    ///         non_finite.
+    [[nodiscard]] Status solve(const M& model, const Scalar& t, State& s, const State* before = nullptr) noexcept
+    {
+        State z = s;
+        moved_.setZero();
+        shift_.setZero();
+        const Status status = newton(model, t, z, before != nullptr);
+        if (status == Status::ok) return s = z, status;
+        z = s;
+        if (before != nullptr)
+            for (int k = Lanes::next; k < Lanes::momenta; ++k) z[k] = (*before)[k];
+        const Status led = lead(model, t, z, before != nullptr);
+        if (led == Status::ok) s = z;
+        return led;
+    }
+
+    /// The sum of the moves from the guess to the arrow that was found.
+    [[nodiscard]] const Column& moved() const noexcept { return moved_; }
+    [[nodiscard]] std::size_t evaluations() const noexcept { return evaluations_; }
+    [[nodiscard]] std::size_t decompositions() const noexcept { return decompositions_; }
+
+  private:
+    using Lanes = detail::ArrowLanes<M>;
+    using Real = real_t<Scalar>;
+    static constexpr int most_steps = 30;
+    static constexpr Real epsilon = std::numeric_limits<Real>::epsilon();
+
+    /// What is left of R = (mu - F^-L(h), -dL/dw), and N; false where they are no finite numbers.
+    [[nodiscard]] bool evaluate(const M& model, const Scalar& t, const State& z) noexcept
+    {
+        ++evaluations_;
+        model.arrow_equation(t, z, residual_, N_);
+        residual_ -= shift_;
+        return residual_.allFinite() && N_.allFinite();
+    }
+
+    /// N^-1 of a right-hand side; the sign of det N, 0 where N is singular.
+    [[nodiscard]] int solved(Column& right) noexcept
+    {
+        ++decompositions_;
+        Eigen::Matrix<Scalar, rank, rank> N = N_;
+        return detail::eliminate(N, right);
+    }
+
+    /// Of momenta F^-L(h) of the size N (h - 1), and of mu.
+    [[nodiscard]] bool is_rounding(const State& z) const noexcept
+    {
+        using std::abs;
+        const Scalar length = largest(z);
+        for (int a = 0; a < rank; ++a) {
+            Scalar size = a < M::fibre_dimension ? abs(z[Lanes::momenta + a]) : Scalar(0);
+            for (int b = 0; b < rank; ++b) size += abs(N_(a, b)) * length;
+            if (!(abs(residual_[a]) <= Scalar(epsilon) * size)) return false;
+        }
+        return true;
+    }
+
+    [[nodiscard]] static Scalar largest(const State& z) noexcept
+    {
+        using std::abs;
+        Scalar most(0);
+        for (int k = Lanes::next; k < Lanes::momenta; ++k) most = std::max<Scalar>(most, abs(z[k]));
+        return most;
+    }
+
+    /// Undamped steps that shrink; with `follows`, det N has the sign that it had. newton_diverged where they do not
+    /// shrink.
+    [[nodiscard]] Status newton(const M& model, const Scalar& t, State& z, bool follows) noexcept
+    {
+        Scalar before(0);
+        bool negative = negative_;
+        for (int k = 0; k < most_steps; ++k) {
+            if (!evaluate(model, t, z)) return Status::non_finite;
+            if (is_rounding(z)) return settle(k > 0 || follows, negative);
+            Column d = residual_;
+            const int sign = solved(d);
+            if (sign == 0) return Status::singular_mass_matrix;
+            if (k == 0 && !follows) negative = sign < 0;
+            if ((sign < 0) != negative) return Status::branch_lost;
+            const Scalar length = d.cwiseAbs().maxCoeff(), noise = Scalar(Real(4) * epsilon) * largest(z);
+            if (!(length - length == Scalar(0))) return Status::newton_diverged;
+            if (k > 0 && length <= noise) return settle(true, negative);
+            if (k > 0 && !(length <= Scalar(Real(0.25)) * before)) return Status::newton_diverged;
+            if (!detail::move_arrow(model, t, z, d)) return Status::newton_diverged;
+            moved_ += d;
+            // What the next step would be, by quadratic convergence.
+            if (k > 0) {
+                const Scalar rate = length / before;
+                if (length * rate * rate <= Scalar(Real(0.125) * epsilon) * largest(z)) return settle(true, negative);
+            }
+            before = length;
+        }
+        return Status::newton_diverged;
+    }
+
+    /// The sign of det N is that of the branch from now on; unknown where N was not looked at.
+    [[nodiscard]] Status settle(bool known, bool negative) noexcept
+    {
+        if (known) negative_ = negative;
+        return Status::ok;
+    }
+
+    /// Leads mu from F^-L of the arrow that stands in z to the one in z.
+    [[nodiscard]] Status lead(const M& model, const Scalar& t, State& z, bool follows) noexcept
+    {
+        constexpr Real shortest = Real(1e-10), folded = Real(1e3);
+        moved_.setZero();
+        if (!evaluate(model, t, z)) return Status::non_finite;
+        const Column way = residual_;
+        Column rate = way;
+        const int sign = solved(rate);
+        if (sign == 0) return Status::singular_mass_matrix;
+        if (follows && (sign < 0) != negative_) return Status::branch_lost;
+        negative_ = sign < 0;
+        const Scalar first = rate.cwiseAbs().maxCoeff();
+        Status reason = Status::ok;
+        Real done(0);
+        for (Real part = Real(0.25); done < Real(1);) {
+            const Real to = std::min(Real(1), done + part);
+            State there = z;
+            shift_ = Scalar(Real(1) - to) * way;
+            const Column kept = moved_;
+            reason = newton(model, t, there, true);
+            if (reason == Status::ok) {
+                z = there;
+                done = to;
+                part *= Real(2);
+                continue;
+            }
+            moved_ = kept;
+            part /= Real(2);
+            if (part < shortest) return verdict(model, t, z, way, Scalar(Real(folded)) * first, reason);
+        }
+        return Status::ok;
+    }
+
+    /// Of a way that goes no further: before a fold its rate grows without bound.
+    [[nodiscard]] Status verdict(const M& model, const Scalar& t, const State& z, const Column& way,
+                                 const Scalar& steep, Status reason) noexcept
+    {
+        if (reason == Status::non_finite || !evaluate(model, t, z)) return Status::non_finite;
+        Column rate = way;
+        if (solved(rate) == 0) return Status::no_solution;
+        return rate.cwiseAbs().maxCoeff() >= steep ? Status::no_solution : Status::newton_diverged;
+    }
+
+    Column residual_, moved_ = Column::Zero(),
+                      shift_ = Column::Zero(); ///< shift_: of a way that is not at its end
+    Eigen::Matrix<Scalar, rank, rank> N_;
+    bool negative_ = false; ///< the sign of det N on the branch
+    std::size_t evaluations_ = 0, decompositions_ = 0;
+};
+
+} // namespace lagen

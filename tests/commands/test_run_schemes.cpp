@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Discrete Lagrangians made of L by schemes: the Verlet reference, and measured orders on all kinds of groupoid.
+#include "program.hpp"
+
+#include "groupoid/reference_models.hpp"
+#include "support/json.hpp"
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+
+using namespace lagen::testing;
+namespace json = lagen::json;
+
+namespace {
+
+constexpr const char* curve_scene = R"toml(
+[scene.curve]
+form = "hamilton"
+duration = 4
+method = "dop853"
+tolerance = 1e-14
+)toml";
+
+/// Parts of a model with a Lagrangian and a groupoid; `start` is the scenes' `initial`.
+struct SchemeModel {
+    const char* name;
+    const char* text;
+    const char* start;
+};
+
+constexpr SchemeModel pairs{"pendulum", R"toml(
+[base]
+coordinates = ["q"]
+[groupoid]
+kind = "pair"
+[lagrangian]
+L = "v_q^2/2 + cos(q)"
+)toml",
+                            "{ q = 1.2, v_q = 0.4 }"};
+
+constexpr SchemeModel top{"top", R"toml(
+[base]
+coordinates = ["G[1..3]"]
+constraints = ["dot(G, G) - 1"]
+[fibre]
+coordinates = ["w1", "w2", "w3"]
+[groupoid]
+kind = "action"
+group = "SO(3)"
+action = { G = "transpose(W)*G" }
+[lagrangian]
+L = "(1.2*w1^2 + 2.1*w2^2 + 2.9*w3^2)/2 - 1.7*(0.48*G[1] + 0.6*G[2] + 0.64*G[3])"
+)toml",
+                          "{ G = [0.6, 0, 0.8], w1 = 0.4, w2 = 0.9, w3 = -0.3 }"};
+
+constexpr SchemeModel charged{"charged", R"toml(
+[base]
+coordinates = ["x", "y"]
+[fibre]
+coordinates = ["u", "v", "w"]
+[algebroid]
+kind = "atiyah"
+bracket = {}
+connection = { x = { w = "-y/2 - x*y^2" }, y = { w = "x/2 + sin(x)" } }
+[groupoid]
+kind = "atiyah"
+group = "SO(2)"
+[lagrangian]
+L = "1.3*(u^2 + v^2)/2 + w^2/2 + x*w/5 - x^2/2 - y^4/4"
+)toml",
+                              "{ x = 0.5, y = 0.2, u = 0.4, v = 0.9, w = -0.3 }"};
+
+constexpr SchemeModel driven{"driven", R"toml(
+[base]
+coordinates = ["x", "y"]
+[fibre]
+coordinates = ["u", "v", "w"]
+[algebroid]
+kind = "atiyah"
+bracket = {}
+connection = { x = { w = "-y/2 - x*y^2" }, y = { w = "x/2 + sin(x)" } }
+[groupoid]
+kind = "atiyah"
+group = "SO(2)"
+[lagrangian]
+L = "1.3*(u^2 + v^2)/2 + w^2/2 + x*w/5 - x^2/2 - y^4/4"
+[forces]
+u = "-0.3*u*x"
+v = "w*x + sin(2*t)/5"
+w = "-0.2*w + u*y"
+)toml",
+                             "{ x = 0.5, y = 0.2, u = 0.4, v = 0.9, w = -0.3 }"};
+
+long double entry(const json::Value& found, const std::string& column)
+{
+    for (std::size_t k = 0; k < found["columns"].size(); ++k)
+        if (found["columns"][k].text == column) return std::stold(found["rows"][found["rows"].size() - 1][k].text);
+    FAIL("no column " << column);
+    return 0;
+}
+
+json::Value ran(const std::vector<std::string>& arguments)
+{
+    std::vector<std::string> all{"run"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    all.insert(all.end(), {"--format", "json"});
+    const Outcome outcome = call(all);
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    return json::parse(outcome.out);
+}
+
+std::string scheme_file(const SchemeModel& model, const std::string& scheme)
+{
+    std::string text =
+        fmt::format("name = \"{}\"\n{}[discrete]\nstep = \"h\"\nscheme = \"{}\"\n", model.name, model.text, scheme);
+    text += fmt::format("[scene.default]\nsteps = 1\ninitial = {}\n{}initial = {}\n", model.start, curve_scene,
+                        model.start);
+    const std::string path = fresh_folder() + "/" + model.name + ".toml";
+    std::ofstream(path) << text;
+    return path;
+}
+
+/// The error at t = 4 of two steps, and the order between them.
+void require_order(const SchemeModel& model, const std::string& scheme, double order)
+{
+    INFO(model.name << " by " << scheme);
+    const std::string path = scheme_file(model, scheme);
+    const json::Value exact = ran({path, "--scene", "curve", "--at", "4"});
+    const auto error = [&](const char* step) {
+        const json::Value found = ran({path, "--t-end", "4", "--step", step});
+        long double most = 0;
+        for (std::size_t k = 1; k < exact["columns"].size(); ++k) {
+            const std::string column = exact["columns"][k].text;
+            most = std::max(most, std::abs(entry(found, column) - entry(exact, column)));
+        }
+        return most;
+    };
+    const long double coarse = error("0.2"), fine = error("0.1");
+    CHECK(coarse > 0);
+    const auto found = static_cast<double>(std::log2(coarse / fine));
+    CHECK(std::abs(found - order) < 0.25);
+}
+
+} // namespace
+
+TEST_CASE("the trapezoidal scheme of a pendulum is Verlet's method", "[run]")
+{
+    const json::Value file = lagen::read_discrete_case("verlet_pendulum");
+    const std::string path = fresh_folder() + "/verlet.toml";
+    std::ofstream(path) << "name = \"verlet\"\n"
+                        << pairs.text << R"toml([discrete]
+step = "h"
+scheme = "trapezoidal"
+[scene.default]
+step = 0.1
+initial = { q = 1.2 }
+next = { q = 1.18 }
+steps = 50
+)toml";
+    const json::Value found = ran({path});
+    const std::vector<json::Value>& steps = file["steps"].entries;
+    REQUIRE(found["rows"].size() == steps.size());
+    for (std::size_t k = 0; k < steps.size(); ++k) {
+        CHECK(std::abs(std::stold(found["rows"][k][1].text) - std::stold(steps[k]["q"].text)) < 1e-14L);
+        CHECK(std::abs(std::stold(found["rows"][k][2].text) - std::stold(steps[k]["p"].text)) < 1e-13L);
+    }
+}
+
+TEST_CASE("schemes have their orders on an action groupoid", "[run]")
+{
+    require_order(top, "gauss:2", 4);
+    require_order(top, "lobatto:4", 6);
+    require_order(driven, "lobatto:3", 4); // forces, dissipation and explicit time
+}
+
+TEST_CASE("every scheme has its order on pairs, on an action groupoid and on an Atiyah groupoid with a connection",
+          "[long]")
+{
+    require_order(pairs, "left", 1);
+    for (const SchemeModel* model : {&pairs, &top, &charged, &driven}) {
+        for (const auto& [scheme, order] : {std::pair("midpoint", 2),
+                                            {"trapezoidal", 2},
+                                            {"gauss:2", 4},
+                                            {"gauss:3", 6},
+                                            {"lobatto:3", 4},
+                                            {"lobatto:4", 6}})
+            require_order(*model, scheme, order);
+    }
+    for (const SchemeModel* model : {&pairs, &charged})
+        for (const char* scheme : {"gauss:4", "lobatto:5"}) require_order(*model, scheme, 8);
+}
