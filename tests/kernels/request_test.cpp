@@ -63,9 +63,9 @@ TEST_CASE("a kernel that does not exist is refused with the list of those that d
           "error: there is no kernel 'enrgy'; there are rhs, jacobian, variational, taylor, event_series, "
           "domain_series, flows, mass_matrix, momentum, velocity, controls, energy, power, hamiltonian, lagrangian, "
           "cost, "
-          "constraints, "
-          "domain, observables, invariants, "
-          "lagrangian_hessian, hamiltonian_hessian, events\nhint: did you mean 'energy'?");
+          "constraints, casimirs, domain, observables, invariants, "
+          "lagrangian_hessian, hamiltonian_hessian, step, forward, arrow_equation, cayley_step, cayley_coordinates, "
+          "algebra_matrix, in_algebra, element, events\nhint: did you mean 'energy'?");
 }
 
 TEST_CASE("a kernel that a form of the model does not have is refused with the list of those that it has", "[kernels]")

@@ -23,7 +23,7 @@ std::vector<StabilityRow> stability_rows()
     std::vector<StabilityRow> rows;
     for (const MethodEntry& method : method_table())
         if (method.kind == MethodKind::series)
-            for (const std::size_t order : {4, 10, 20, 30})
+            for (const std::size_t order : {4U, 10U, 20U, 30U})
                 rows.push_back({method.name, std::to_string(order), taylor_limits(order)});
         else if (const std::optional<LinearLimits> limits = linear_limits(method.type))
             rows.push_back({method.name, method.order, *limits});
