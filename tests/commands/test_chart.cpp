@@ -151,7 +151,8 @@ TEST_CASE("points are read as a chart's program prints them")
 {
     const std::vector<lagen::ChartPoint> points = lagen::read_points(
         "point=rk4\nparameter=0.5\nstatus=ok\nerror=0.25\nsteps=2\nrejected=0\nrhs_calls=8\nseconds=1e-06\n"
-        "energy=3,0.125\ninvariant:area=1,0.5\npoint=euler\nparameter=0.125\nstatus=non_finite\nsteps=7\nrejected=1\n"
+        "energy=3,0.125,1,0,0,3,\ninvariant:area=1,0.5,1,0,0,1,\npoint=euler\nparameter=0.125\nstatus=non_"
+        "finite\nsteps=7\nrejected=1\n"
         "rhs_calls=7\nseconds=2e-06\n");
     REQUIRE(points.size() == 2);
     CHECK(points[0].method == "rk4");
