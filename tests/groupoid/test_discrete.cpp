@@ -133,3 +133,36 @@ TEST_CASE("Newton's matrix is the derivative of F-L along the source fibre")
         }
     }
 }
+
+TEST_CASE("forces of a scheme do the work of the quadrature on the variations of both ends")
+{
+    const auto q = [](long double t, long double x, long double v) { return -0.3L * v * x + std::sin(2 * t) / 5; };
+    const long double t = 0.4L, h = 0.2L, x = 1.1L, y = 1.25L, v = (y - x) / h;
+    const std::string model = R"toml(
+[base]
+coordinates = ["q"]
+[groupoid]
+kind = "pair"
+[lagrangian]
+L = "v_q^2/2 + cos(q)"
+[forces]
+v_q = "-3/10*v_q*q + sin(2*t)/5"
+[discrete]
+step = "h"
+scheme = )toml";
+    const std::map<std::string, std::pair<long double, long double>> expected{
+        {"midpoint", {h / 2 * q(t + h / 2, (x + y) / 2, v), h / 2 * q(t + h / 2, (x + y) / 2, v)}},
+        {"trapezoidal", {h / 2 * q(t, x, v), h / 2 * q(t + h, y, v)}},
+        {"left", {h * q(t, x, v), 0}}};
+    for (const auto& [scheme, forces] : expected) {
+        INFO(scheme);
+        const System system = elaborate(read_model_text("driven.toml", model + '"' + scheme + "\"\n"));
+        const DiscreteWork& work = system.discrete->work;
+        REQUIRE((work.source.size() == 1 && work.target.size() == 1 && work.inner.empty()));
+        const std::vector<long double> found = evaluate<long double>(
+            system.graph, std::vector<NodeId>{work.source[0], work.target[0]},
+            std::map<std::string, long double>{{"t", t}, {"h", h}, {"q", x}, {"q_next", y}});
+        CHECK(std::abs(found[0] - forces.first) <= tolerance::roundoff(1));
+        CHECK(std::abs(found[1] - forces.second) <= tolerance::roundoff(1));
+    }
+}
