@@ -116,10 +116,10 @@ ExitCode run_run(Arguments arguments)
     const Model& model = checked.model;
     require_apart(options, model);
     // What a chart chooses is chosen for the equations that it ran: those of the values.
-    if (options.has("accuracy")) require_curve(options, scene_of(options, model, {}), "charts of an accuracy are made");
-    if (options.has("accuracy"))
+    if (options.has("accuracy")) {
+        require_curve(options, scene_of(options, model, {}), "charts of an accuracy are made");
         bind_all_in_scene(checked.model, find_scene(model, options.get("scene")));
-    else if (options.has("bind"))
+    } else if (options.has("bind"))
         bind_in_scene(checked.model, find_scene(model, options.get("scene")));
     const std::optional<AccurateMethod> accurate = accurate_method(options, checked, path);
     Preparation preparation(options, checked, run_driver, accurate ? accurate->method->name : options.get("method"));

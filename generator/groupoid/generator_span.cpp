@@ -51,6 +51,16 @@ std::vector<NodeId> GeneratorSpan::components(const std::vector<NodeId>& Z)
     return f;
 }
 
+std::vector<NodeId> GeneratorSpan::matrix(std::span<const NodeId> f)
+{
+    std::vector<NodeId> sum(parts_.size * parts_.size, graph_.constant(0));
+    for (std::size_t c = 0; c < m_; ++c)
+        for (std::size_t k = 0; k < sum.size(); ++k)
+            if (const NodeId entry = parts_.generators[c][k]; !graph_.is_zero(entry))
+                sum[k] = graph_.add(sum[k], graph_.multiply(f[c], entry));
+    return sum;
+}
+
 std::vector<NodeId> GeneratorSpan::outside(std::vector<NodeId> Z, const std::vector<NodeId>& f)
 {
     for (std::size_t c = 0; c < m_; ++c)

@@ -13,6 +13,8 @@ class GeneratorSpan {
 
     /// f_c with Z = f_c E_c on the entries `rows`.
     [[nodiscard]] std::vector<NodeId> components(const std::vector<NodeId>& Z);
+    /// f_c E_c
+    [[nodiscard]] std::vector<NodeId> matrix(std::span<const NodeId> f);
     /// Z - f_c E_c; all entries vanish where Z lies in g.
     [[nodiscard]] std::vector<NodeId> outside(std::vector<NodeId> Z, const std::vector<NodeId>& f);
 

@@ -6,6 +6,7 @@
 /// with the last A at x_next, so that momenta gain no rounding error of that size in a step. Forces make the momenta
 /// F^-L - f^- and F^+L + f^+ (mechanics/scheme.hpp).
 #include "graph/calculus/differentiate.hpp"
+#include "groupoid/cayley.hpp"
 #include "groupoid/generator_span.hpp"
 #include "kernels/formulation.hpp"
 #include "mechanics/discrete.hpp"
@@ -20,7 +21,8 @@ class DiscreteForm {
   public:
     DiscreteForm(Graph& graph, const Model& model, const System& system, const FormulationRequest& request)
         : graph_(graph), model_(model), system_(system), groupoid_(*system.groupoid), L_(*system.discrete->lagrangian),
-          legendre_(discrete_legendre(graph, groupoid_, L_)), form_(empty_form(system, FormKind::discrete, {}, request))
+          legendre_(discrete_legendre(graph, groupoid_, L_)), span_(graph, groupoid_),
+          form_(empty_form(system, FormKind::discrete, {}, request))
     {
     }
 
@@ -114,13 +116,12 @@ class DiscreteForm {
     {
         const std::size_t size = groupoid_.size, m = lambda.size();
         if (m == 0) return {};
-        GeneratorSpan span(graph_, groupoid_);
         std::vector<NodeId> functional(size * size, graph_.constant(0)); // transposed: tr(functional Z) = lambda(Z)
         for (std::size_t k = 0; k < m; ++k) {
             const std::size_t row = groupoid_.rows[k];
             std::vector<NodeId> unit(size * size, graph_.constant(0));
             unit[row] = graph_.constant(1);
-            const std::vector<NodeId> components = span.components(unit);
+            const std::vector<NodeId> components = span_.components(unit);
             NodeId& entry = functional[row % size * size + row / size];
             for (std::size_t b = 0; b < m; ++b) entry = graph_.add(entry, graph_.multiply(lambda[b], components[b]));
         }
@@ -227,14 +228,14 @@ class DiscreteForm {
         const std::size_t size = groupoid_.size, horizontal = groupoid_.horizontal(), r = system_.r();
         if (size == 0) return;
         KernelInput d = input("d", r, 1);
-        std::vector<NodeId> sum(size * size, graph_.constant(0));
-        for (std::size_t c = 0; c + horizontal < r; ++c) {
-            NodeId along = d.entries[horizontal + c].input;
-            for (std::size_t i = 0; i < horizontal && !groupoid_.connection.empty(); ++i)
-                along = graph_.subtract(along, graph_.multiply(connection_behind(i)[c], d.entries[i].input));
-            for (std::size_t k = 0; k < sum.size(); ++k)
-                sum[k] = graph_.add(sum[k], graph_.multiply(along, groupoid_.generators[c][k]));
+        std::vector<NodeId> along;
+        for (std::size_t c = horizontal; c < r; ++c) along.push_back(d.entries[c].input);
+        for (std::size_t i = 0; i < horizontal && !groupoid_.connection.empty(); ++i) {
+            const std::vector<NodeId> there = connection_behind(i);
+            for (std::size_t c = 0; c < along.size(); ++c)
+                along[c] = graph_.subtract(along[c], graph_.multiply(there[c], d.entries[i].input));
         }
+        const std::vector<NodeId> sum = span_.matrix(along);
         if (groupoid_.has_cayley_map)
             add_cayley(std::move(d), sum);
         else
@@ -243,20 +244,11 @@ class DiscreteForm {
             table_kernel(form_, "element", matrix(graph_, "W", size, size, over_lanes(groupoid_.arrow.W))));
     }
 
-    /// 1 + factor X
-    [[nodiscard]] std::vector<NodeId> one_and(const std::vector<NodeId>& X, const Rational& factor)
-    {
-        std::vector<NodeId> out = matrix_one(graph_, groupoid_.size);
-        for (std::size_t k = 0; k < out.size(); ++k)
-            out[k] = graph_.add(out[k], graph_.multiply(graph_.constant(factor), X[k]));
-        return out;
-    }
-
     /// Zeros of the horizontal sections, then the components of A.
     [[nodiscard]] std::vector<NodeId> coordinates_of(const std::vector<NodeId>& A)
     {
         std::vector<NodeId> coordinates(groupoid_.horizontal(), graph_.constant(0));
-        for (const NodeId component : GeneratorSpan(graph_, groupoid_).components(A)) coordinates.push_back(component);
+        for (const NodeId component : span_.components(A)) coordinates.push_back(component);
         return coordinates;
     }
 
@@ -264,14 +256,12 @@ class DiscreteForm {
     void add_cayley(KernelInput d, const std::vector<NodeId>& A)
     {
         const std::size_t size = groupoid_.size;
-        const std::vector<NodeId> step = matrix_quotient(graph_, one_and(A, Rational(-1, 2)), A, size);
+        const std::vector<NodeId> step = cayley_less_one(graph_, A, size);
         Kernel kernel = table_kernel(form_, "cayley_step", matrix(graph_, "V", size, size, over_lanes(step)));
         kernel.inputs.push_back(std::move(d));
         form_.kernels.push_back(std::move(kernel));
-        std::vector<NodeId> V;
-        const std::vector<NodeId> one = matrix_one(graph_, size), W = over_lanes(groupoid_.arrow.W);
-        for (std::size_t k = 0; k < W.size(); ++k) V.push_back(graph_.subtract(W[k], one[k]));
-        const std::vector<NodeId> back = matrix_quotient(graph_, one_and(V, Rational(1, 2)), V, size);
+        const std::vector<NodeId> V = less_one(graph_, over_lanes(groupoid_.arrow.W), size);
+        const std::vector<NodeId> back = cayley_inverse(graph_, V, size);
         form_.kernels.push_back(table_kernel(form_, "cayley_coordinates", column("d", coordinates_of(back))));
     }
 
@@ -318,6 +308,7 @@ class DiscreteForm {
     const Groupoid& groupoid_;
     NodeId L_;
     DiscreteLegendre legendre_;
+    GeneratorSpan span_;
     Formulation form_;
     std::vector<std::pair<NodeId, NodeId>> lanes_; ///< x_next and W by the lanes
 };

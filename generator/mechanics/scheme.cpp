@@ -2,6 +2,7 @@
 #include "mechanics/scheme.hpp"
 
 #include "graph/calculus/differentiate.hpp"
+#include "groupoid/cayley.hpp"
 #include "groupoid/generator_span.hpp"
 
 #include <fmt/format.h>
@@ -14,7 +15,7 @@ class SchemeBuilder {
   public:
     SchemeBuilder(Graph& graph, const System& system, const QuadratureRule& rule, NodeId step)
         : graph_(graph), system_(system), groupoid_(*system.groupoid), rule_(rule), step_(step),
-          polynomials_(rule.degree)
+          polynomials_(rule.degree), span_(graph, groupoid_)
     {
         for (std::size_t i = 0; i < groupoid_.horizontal(); ++i)
             chord_.push_back(graph.subtract(groupoid_.arrow.next[i], groupoid_.arrow.x[i]));
@@ -43,14 +44,7 @@ class SchemeBuilder {
     {
         const std::size_t n = groupoid_.size;
         if (n == 0) return {};
-        const std::vector<NodeId> one = matrix_one(graph_, n);
-        std::vector<NodeId> above, below;
-        for (std::size_t k = 0; k < one.size(); ++k) {
-            const NodeId W = groupoid_.arrow.W[k];
-            above.push_back(graph_.multiply(graph_.constant(2), graph_.subtract(W, one[k])));
-            below.push_back(graph_.add(W, one[k]));
-        }
-        return GeneratorSpan(graph_, groupoid_).components(matrix_quotient(graph_, below, above, n));
+        return span_.components(cayley_inverse(graph_, less_one(graph_, groupoid_.arrow.W, n), n));
     }
 
     /// Along the sections at c, of the chord and its inner corrections.
@@ -68,24 +62,10 @@ class SchemeBuilder {
         return out;
     }
 
-    /// sum_c xi^c E_c of the vertical components.
+    /// xi^c E_c of the vertical components.
     [[nodiscard]] std::vector<NodeId> in_algebra(const std::vector<NodeId>& components)
     {
-        std::vector<NodeId> sum(groupoid_.size * groupoid_.size, graph_.constant(0));
-        for (std::size_t c = 0; c < groupoid_.generators.size(); ++c)
-            for (std::size_t k = 0; k < sum.size(); ++k)
-                sum[k] = graph_.add(
-                    sum[k], graph_.multiply(components[groupoid_.horizontal() + c], groupoid_.generators[c][k]));
-        return sum;
-    }
-
-    /// 1 + sign X/2
-    [[nodiscard]] std::vector<NodeId> one_and_half(const std::vector<NodeId>& X, long sign)
-    {
-        std::vector<NodeId> out = matrix_one(graph_, groupoid_.size);
-        for (std::size_t k = 0; k < out.size(); ++k)
-            out[k] = graph_.add(out[k], graph_.multiply(graph_.constant(Rational(sign, 2)), X[k]));
-        return out;
+        return span_.matrix(std::span(components).subspan(groupoid_.horizontal()));
     }
 
     [[nodiscard]] std::vector<NodeId> transposed(const std::vector<NodeId>& X) const
@@ -100,9 +80,9 @@ class SchemeBuilder {
     [[nodiscard]] std::vector<NodeId> body_velocity(const std::vector<NodeId>& X, const std::vector<NodeId>& slope)
     {
         const std::size_t n = groupoid_.size;
-        const std::vector<NodeId> left = matrix_quotient(graph_, one_and_half(X, 1), slope, n);
-        const std::vector<NodeId> both = matrix_quotient(graph_, transposed(one_and_half(X, -1)), transposed(left), n);
-        return GeneratorSpan(graph_, groupoid_).components(transposed(both));
+        const std::vector<NodeId> left = matrix_quotient(graph_, one_and(graph_, Rational(1, 2), X, n), slope, n);
+        const std::vector<NodeId> right = one_and(graph_, Rational(-1, 2), X, n);
+        return span_.components(transposed(matrix_quotient(graph_, transposed(right), transposed(left), n)));
     }
 
     /// A point of the curve: x, W, and what stands there for x, y and t.
@@ -115,8 +95,7 @@ class SchemeBuilder {
     {
         if (c == 0) return matrix_one(graph_, groupoid_.size);
         if (c == 1) return groupoid_.arrow.W;
-        const std::vector<NodeId> X = in_algebra(along);
-        return matrix_quotient(graph_, one_and_half(X, -1), one_and_half(X, 1), groupoid_.size);
+        return cayley(graph_, in_algebra(along), groupoid_.size);
     }
 
     [[nodiscard]] std::vector<NodeId> point(const Rational& c, const std::vector<NodeId>& along,
@@ -164,7 +143,7 @@ class SchemeBuilder {
             const std::vector<NodeId> start = S.empty() ? S : matrix_product(graph_, S, there.W, groupoid_.size);
             for (std::size_t k = 0; k < start.size(); ++k) moved[k] = graph_.add(moved[k], start[k]);
             const std::vector<NodeId> body = matrix_quotient(graph_, there.W, moved, groupoid_.size);
-            for (const NodeId component : GeneratorSpan(graph_, groupoid_).components(body)) out.push_back(component);
+            for (const NodeId component : span_.components(body)) out.push_back(component);
         }
         add_connection(there.x, out);
         return out;
@@ -226,6 +205,7 @@ class SchemeBuilder {
     const QuadratureRule& rule_;
     NodeId step_;
     InnerPolynomials polynomials_;
+    GeneratorSpan span_;
     std::vector<NodeId> chord_; ///< x_next - x, then cay^-1(W)
     std::vector<NodeId> inner_; ///< w of each point inside, along the sections
     DiscreteWork work_;

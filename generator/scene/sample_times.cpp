@@ -55,6 +55,17 @@ void sort_rows(const Scene& scene, const SceneValues& values, SampleTimes& times
     }
 }
 
+/// A table of this size, or ModelError.
+void require_possible(const Scene& scene, long double rows, std::size_t columns, const char* hint)
+{
+    if (rows * static_cast<long double>(columns) <= most_numbers) return;
+    const Tree& interval = scene.sampling.interval;
+    throw ModelError(fmt::format("scene '{}' asks for {:.6g} rows of {} numbers, where at most {:.6g} numbers are "
+                                 "possible",
+                                 scene.name, rows, columns, most_numbers),
+                     interval ? interval->where : scene.where, hint);
+}
+
 /// `length` in steps.
 std::size_t steps_in(long double length, const Scene& scene, const SceneValues& values, const char* what,
                      const Tree& tree)
@@ -107,12 +118,8 @@ SampleTimes step_times(const Scene& scene, const SceneValues& values, std::size_
     times.end = held(times.start + static_cast<long double>(steps) * *values.step,
                      fmt::format("the end of scene '{}'", scene.name), scene.where);
     times.every = steps_between(scene, values, steps);
-    const auto rows = static_cast<long double>(steps / times.every + 1);
-    if (rows * static_cast<long double>(columns) > most_numbers)
-        throw ModelError(fmt::format("scene '{}' asks for {:.6g} rows of {} numbers, where at most {:.6g} numbers are "
-                                     "possible",
-                                     scene.name, rows, columns, most_numbers),
-                         scene.where, "`sample` = a multiple of the step takes fewer rows");
+    require_possible(scene, static_cast<long double>(steps / times.every + 1), columns,
+                     "`sample` = a multiple of the step takes fewer rows");
     return times;
 }
 
@@ -140,13 +147,7 @@ SampleTimes sample_times(const Scene& scene, const SceneValues& values, std::siz
         times.count = 1;
         rows = 1;
     }
-    if (rows * static_cast<long double>(columns) > most_numbers) {
-        const Tree& interval = scene.sampling.interval;
-        throw ModelError(fmt::format("scene '{}' asks for {:.6g} rows of {} numbers, where at most {:.6g} numbers "
-                                     "are possible",
-                                     scene.name, rows, columns, most_numbers),
-                         interval ? interval->where : scene.where, "take fewer rows");
-    }
+    require_possible(scene, rows, columns, "take fewer rows");
     return times;
 }
 

@@ -7,6 +7,8 @@
 /// (1 + A/2), A = s^c E_c. What is analytic holds on the connected group then.
 #include "graph/calculus/differentiate.hpp"
 #include "groupoid/algebroid_of.hpp"
+#include "groupoid/cayley.hpp"
+#include "groupoid/generator_span.hpp"
 #include "verify/claims.hpp"
 
 #include <algorithm>
@@ -93,14 +95,7 @@ class ActionClaims {
     /// cay(A), A = s^c E_c
     [[nodiscard]] std::vector<NodeId> chart(const std::vector<NodeId>& s)
     {
-        std::vector<NodeId> plus = matrix_one(graph_, groupoid_.size), minus = plus;
-        for (std::size_t c = 0; c < s.size(); ++c)
-            for (std::size_t k = 0; k < plus.size(); ++k) {
-                const NodeId half = graph_.multiply(graph_.constant(Rational(1, 2)), groupoid_.generators[c][k]);
-                plus[k] = graph_.add(plus[k], graph_.multiply(s[c], half));
-                minus[k] = graph_.subtract(minus[k], graph_.multiply(s[c], half));
-            }
-        return matrix_quotient(graph_, minus, plus, groupoid_.size);
+        return cayley(graph_, GeneratorSpan(graph_, groupoid_).matrix(s), groupoid_.size);
     }
 
     [[nodiscard]] Decision on_group(NodeId residual)

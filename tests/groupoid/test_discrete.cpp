@@ -159,9 +159,9 @@ scheme = )toml";
         const System system = elaborate(read_model_text("driven.toml", model + '"' + scheme + "\"\n"));
         const DiscreteWork& work = system.discrete->work;
         REQUIRE((work.source.size() == 1 && work.target.size() == 1 && work.inner.empty()));
-        const std::vector<long double> found = evaluate<long double>(
-            system.graph, std::vector<NodeId>{work.source[0], work.target[0]},
-            std::map<std::string, long double>{{"t", t}, {"h", h}, {"q", x}, {"q_next", y}});
+        const std::vector<long double> found =
+            evaluate<long double>(system.graph, std::vector<NodeId>{work.source[0], work.target[0]},
+                                  std::map<std::string, long double>{{"t", t}, {"h", h}, {"q", x}, {"q_next", y}});
         CHECK(std::abs(found[0] - forces.first) <= tolerance::roundoff(1));
         CHECK(std::abs(found[1] - forces.second) <= tolerance::roundoff(1));
     }

@@ -6,7 +6,7 @@
 /// Cayley's map leads into the quadratic groups (SO, SE, Sp and their like), exp into every one. [Iserles et al. 2000]
 #pragma once
 
-#include "lagen/group/eliminate.hpp"
+#include "lagen/linear.hpp"
 
 #include <cmath>
 
@@ -17,29 +17,46 @@ using GroupMatrix = Eigen::Matrix<S, N, N>;
 
 namespace detail {
 
-/// A^-1 B; false where A is singular, and X is left as it is then.
+/// A^-1 B, a lane where packs are the entries; answers where A is regular.
 template <class S, int N>
-[[nodiscard]] bool solve_matrix(GroupMatrix<S, N> A, GroupMatrix<S, N> B, GroupMatrix<S, N>& X) noexcept
+[[nodiscard]] typename StatusOf<S>::mask solve_matrix(const GroupMatrix<S, N>& A, const GroupMatrix<S, N>& B,
+                                                      GroupMatrix<S, N>& X) noexcept
 {
-    if (eliminate(A, B) == 0) return false;
-    X = B;
-    return true;
+    constexpr auto size = static_cast<std::size_t>(N);
+    std::array<S, size * size> entries;
+    for (std::size_t k = 0; k < entries.size(); ++k)
+        entries[k] = A(static_cast<int>(k / size), static_cast<int>(k % size));
+    PivotedLu<S, N> lu;
+    const auto singular = lu.factor(entries);
+    for (int j = 0; j < N; ++j) {
+        std::array<S, size> column;
+        for (int i = 0; i < N; ++i) column[static_cast<std::size_t>(i)] = B(i, j);
+        column = lu.solve(column);
+        for (int i = 0; i < N; ++i) X(i, j) = column[static_cast<std::size_t>(i)];
+    }
+    return !singular;
 }
 
 } // namespace detail
 
-/// W - 1 = (1 - A/2)^-1 A into V; false where 1 - A/2 is singular.
+/// W - 1 = (1 - A/2)^-1 A into V; answers where 1 - A/2 is regular.
 template <class S, int N>
-[[nodiscard]] bool cayley_less_one(const GroupMatrix<S, N>& A, GroupMatrix<S, N>& V) noexcept
+[[nodiscard]] typename StatusOf<S>::mask cayley_less_one(const GroupMatrix<S, N>& A, GroupMatrix<S, N>& V) noexcept
 {
-    return detail::solve_matrix<S, N>(GroupMatrix<S, N>::Identity() - A / S(2), A, V);
+    GroupMatrix<S, N> left;
+    for (int i = 0; i < N; ++i)
+        for (int j = 0; j < N; ++j) left(i, j) = S(i == j ? 1 : 0) - S(0.5) * A(i, j);
+    return detail::solve_matrix<S, N>(left, A, V);
 }
 
-/// A with (1 - A/2)^-1 (1 + A/2) = 1 + V; false where 2 + V is singular (a rotation by pi).
+/// A with (1 - A/2)^-1 (1 + A/2) = 1 + V; answers where 2 + V is regular (a rotation by pi is not).
 template <class S, int N>
-[[nodiscard]] bool cayley_inverse(const GroupMatrix<S, N>& V, GroupMatrix<S, N>& A) noexcept
+[[nodiscard]] typename StatusOf<S>::mask cayley_inverse(const GroupMatrix<S, N>& V, GroupMatrix<S, N>& A) noexcept
 {
-    return detail::solve_matrix<S, N>(GroupMatrix<S, N>::Identity() + V / S(2), V, A);
+    GroupMatrix<S, N> left;
+    for (int i = 0; i < N; ++i)
+        for (int j = 0; j < N; ++j) left(i, j) = S(i == j ? 1 : 0) + S(0.5) * V(i, j);
+    return detail::solve_matrix<S, N>(left, V, A);
 }
 
 /// exp(A) - 1.
@@ -47,7 +64,6 @@ template <class S, int N>
 [[nodiscard]] GroupMatrix<S, N> exp_less_one(GroupMatrix<S, N> A) noexcept
 {
     using std::abs;
-    using std::isfinite;
     constexpr int most_halvings = 64, most_terms = 60;
     S size(0);
     for (int i = 0; i < N; ++i)

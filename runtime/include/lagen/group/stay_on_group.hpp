@@ -7,10 +7,11 @@
 /// g0 is, to rounding. [Hairer, Lubich, Wanner, Geometric Numerical Integration, IV.8]
 #pragma once
 
-#include "lagen/linear.hpp"
+#include "lagen/group/retraction.hpp"
 
 #include <array>
 #include <cstddef>
+#include <utility>
 
 namespace lagen {
 
@@ -22,23 +23,28 @@ struct GroupEntry {
 
 namespace detail {
 
-/// The part of A, size x size by rows, that the generators span.
-template <class S, std::size_t size2, std::size_t entries>
-[[nodiscard]] std::array<S, size2> part_in_algebra(const std::array<GroupEntry, entries>& generators,
-                                                   const std::array<S, size2>& A, std::size_t size) noexcept
+/// The part of A that the generators span.
+template <class S, int n, std::size_t entries>
+[[nodiscard]] GroupMatrix<S, n> part_in_algebra(const std::array<GroupEntry, entries>& generators,
+                                                const GroupMatrix<S, n>& A) noexcept
 {
-    std::array<S, size2> part;
+    GroupMatrix<S, n> part;
     part.fill(S(0));
+    const auto place = [](const GroupEntry& E) {
+        return std::pair(static_cast<int>(E.row), static_cast<int>(E.column));
+    };
     for (std::size_t begin = 0, end = 0; begin < entries; begin = end) {
         double square = 0;
         S product(0);
         for (; end < entries && generators[end].generator == generators[begin].generator; ++end) {
-            const GroupEntry& E = generators[end];
-            square += E.value * E.value;
-            product += S(E.value) * A[E.row * size + E.column];
+            const auto [row, column] = place(generators[end]);
+            square += generators[end].value * generators[end].value;
+            product += S(generators[end].value) * A(row, column);
         }
-        for (std::size_t k = begin; k < end; ++k)
-            part[generators[k].row * size + generators[k].column] += S(generators[k].value / square) * product;
+        for (std::size_t k = begin; k < end; ++k) {
+            const auto [row, column] = place(generators[k]);
+            part(row, column) += S(generators[k].value / square) * product;
+        }
     }
     return part;
 }
@@ -52,34 +58,21 @@ void stay_on_group(const std::array<GroupEntry, entries>& generators, const Stat
                    Eigen::Index first) noexcept
 {
     using S = typename State::Scalar;
-    constexpr auto size = static_cast<std::size_t>(n);
-    const auto lane = [&](std::size_t i, std::size_t j) { return first + static_cast<Eigen::Index>(i * size + j); };
-    std::array<S, size * size> sum, A, left;
-    for (std::size_t i = 0; i < size; ++i)
-        for (std::size_t j = 0; j < size; ++j) sum[i * size + j] = s0[lane(i, j)] + s1[lane(i, j)];
-    PivotedLu<S, n> lu;
-    auto fails = lu.factor(sum);
-    for (std::size_t j = 0; j < size; ++j) {
-        std::array<S, size> column;
-        for (std::size_t i = 0; i < size; ++i) column[i] = S(2) * (s1[lane(i, j)] - s0[lane(i, j)]);
-        column = lu.solve(column);
-        for (std::size_t i = 0; i < size; ++i) A[i * size + j] = column[i];
-    }
-    const std::array<S, size* size> P = detail::part_in_algebra(generators, A, size);
-    for (std::size_t k = 0; k < size * size; ++k) left[k] = S(k % (size + 1) == 0 ? 1 : 0) - S(0.5) * P[k];
-    fails = fails | lu.factor(left);
-    for (std::size_t j = 0; j < size; ++j) { // cay(P) - 1 = (1 - P/2)^-1 P
-        std::array<S, size> column;
-        for (std::size_t i = 0; i < size; ++i) column[i] = P[i * size + j];
-        column = lu.solve(column);
-        for (std::size_t i = 0; i < size; ++i) A[i * size + j] = column[i];
-    }
-    for (std::size_t i = 0; i < size; ++i)
-        for (std::size_t j = 0; j < size; ++j) {
-            S step(0);
-            for (std::size_t k = 0; k < size; ++k) step += s0[lane(i, k)] * A[k * size + j];
+    const auto lane = [&](int i, int j) { return first + static_cast<Eigen::Index>(i * n + j); };
+    GroupMatrix<S, n> sum, difference, A, step;
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+            sum(i, j) = s0[lane(i, j)] + s1[lane(i, j)];
+            difference(i, j) = S(2) * (s1[lane(i, j)] - s0[lane(i, j)]);
+        }
+    auto holds = detail::solve_matrix<S, n>(sum, difference, A);
+    holds = holds & cayley_less_one<S, n>(detail::part_in_algebra<S, n>(generators, A), step);
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+            S moved(0);
+            for (int k = 0; k < n; ++k) moved += s0[lane(i, k)] * step(k, j);
             S& entry = s1[lane(i, j)];
-            entry = select(fails, entry, S(s0[lane(i, j)] + step));
+            entry = select(holds, S(s0[lane(i, j)] + moved), entry);
         }
 }
 

@@ -15,6 +15,8 @@
 ///   hand_over_length(lane, own)   and, where it chooses lengths itself, how long the next step may be
 #pragma once
 
+#include "lagen/kernel.hpp"
+
 namespace lagen::detail {
 
 /// A step that is attempted: its signed length, and whether it ends at the end.
@@ -28,7 +30,7 @@ struct Attempt {
 template <class M, class Method>
 [[nodiscard]] auto step_length([[maybe_unused]] const M& model, [[maybe_unused]] const Method& method) noexcept
 {
-    if constexpr (requires { model.step(); })
+    if constexpr (DiscreteMotion<M>)
         return model.step();
     else
         return method.step;

@@ -9,6 +9,7 @@
 /// found with the arrow, by dL/dw = 0.
 #pragma once
 
+#include "lagen/group/eliminate.hpp"
 #include "lagen/group/retraction.hpp"
 
 #include <algorithm>
@@ -90,7 +91,6 @@ void renew_group_part(const M& model, const typename M::Scalar& t, typename M::S
             renewed = exp_less_one<S, Lanes::order>(model.algebra_matrix(t, s, model.in_algebra(A)));
         }
         // Beside the edge of the chart it is worse than what it renews.
-        using std::abs;
         using std::sqrt;
         const S near = S(sqrt(std::numeric_limits<real_t<S>>::epsilon()));
         if ((renewed - V).cwiseAbs().maxCoeff() <= near) set_group_part<M>(s, renewed);

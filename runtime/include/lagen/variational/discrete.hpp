@@ -18,7 +18,6 @@ class DiscreteStepper {
     using Real = step_time_t<M>;
     using State = typename M::State;
     static constexpr bool adaptive = false;
-    static constexpr int order = 2;
     static constexpr int dense_order = 0;
 
     template <class Method>
