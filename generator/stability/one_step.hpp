@@ -55,13 +55,13 @@ mpq_class weight_of_step(std::size_t j)
 template <class Tableau>
 Polynomial explicit_function()
 {
-    const Polynomial z{0, 1};
+    const Polynomial one{1}, z{0, 1}; // named: clang 14 makes a temporary Polynomial{1} of a template the list of one 0
     std::vector<Polynomial> x;
-    Polynomial r{1};
+    Polynomial r = one;
     for (std::size_t i = 0; i < stages_of_step<Tableau>(); ++i) {
         Polynomial sum;
         for (std::size_t j = 0; j < i; ++j) sum = sum + exact(Tableau::a[detail::lower_index(i, j)]) * x[j];
-        x.push_back(Polynomial{1} + z * sum);
+        x.push_back(one + z * sum);
         r = r + z * (weight_of_step<Tableau>(i) * x[i]);
     }
     return r;
@@ -78,12 +78,12 @@ struct StepMatrix {
 template <class Tableau>
 StepMatrix nystrom_matrix()
 {
-    const Polynomial minus_u{0, -1};
+    const Polynomial one{1}, minus_u{0, -1};
     std::vector<std::array<Polynomial, 2>> stages; // what x and h v are multiplied by
     StepMatrix m;
     m.xv = {1};
     for (std::size_t i = 0; i < Tableau::stages; ++i) {
-        std::array<Polynomial, 2> stage{Polynomial{1}, Polynomial{exact(Tableau::c[i])}};
+        std::array<Polynomial, 2> stage{one, {exact(Tableau::c[i])}};
         for (std::size_t j = 0; j < i; ++j) {
             const Polynomial weight = exact(Tableau::abar[detail::lower_index(i, j)]) * minus_u;
             for (std::size_t k = 0; k < 2; ++k) stage[k] = stage[k] + weight * stages[j][k];
