@@ -6,9 +6,11 @@
 #include "commands/machine/places.hpp"
 #include "commands/machine/write_file.hpp"
 #include "commands/report_check.hpp"
+#include "commands/report_morphism.hpp"
 #include "elaborate/elaborate.hpp"
 #include "elaborate/require_values.hpp"
 #include "expression/parse.hpp"
+#include "model/read_file.hpp"
 #include "scene/evaluate_scene.hpp"
 
 #include <fmt/core.h>
@@ -20,8 +22,8 @@ namespace {
 const CommandSyntax check_syntax{
     "check",
     "MODEL...",
-    "Decides the structure equations, tangency, Casimirs and invariants: each proved, refuted "
-    "at a point, or undecided.",
+    "Decides the structure equations, tangency, Casimirs and invariants, and what a morphism file claims: each "
+    "proved, refuted at a point, or undecided.",
     {{"invariant", "EXPR", "decide also whether this function is conserved (may be repeated)"},
      {"verify", nullptr, "evaluate every residual again, at other points and to 60 digits"},
      {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
@@ -59,26 +61,51 @@ ExitCode code_of(Verdict verdict)
     return ExitCode::undecided;
 }
 
-/// One model: its report to `text` or `json`; what is wrong with the file goes to standard error.
+/// A report to `text` or, where there is one, to `json`.
+struct Output {
+    std::string& text;
+    JsonWriter* json;
+};
+
+ExitCode check_model(const Model& model, const Options& options, std::size_t points, const Output& output)
+{
+    require_arrows(model);
+    const std::vector<NamedTree> claims = extra_invariants(options, model);
+    require_values(claims);
+    const System system = elaborate(model);
+    Report verified = verify(system, claims, points);
+    advise(system, verified);
+    if (verified.control.maximum.kind == ControlMaximum::Kind::stationary)
+        write_standard_error(fmt::format("warning: {}\n", stationary_controls));
+    if (output.json != nullptr)
+        report_json(*output.json, model.name, verified);
+    else
+        output.text += report_text(model.name, verified);
+    return code_of(verified.structure.verdict);
+}
+
+ExitCode check_morphism(const MorphismFile& file, const Options& options, std::size_t points, const Output& output)
+{
+    if (options.has("invariant"))
+        throw UsageError("lagen check: --invariant is of a model, and " + quote(file.file->name) + " is a morphism");
+    const VerifiedMorphism verified = verify_morphism(file, points);
+    if (output.json != nullptr)
+        morphism_json(*output.json, verified);
+    else
+        output.text += morphism_text(verified);
+    return code_of(verdict_of(verified));
+}
+
+/// One file; what is wrong with it goes to standard error.
 ExitCode check_one(const std::string& path, const Options& options, std::string& text, JsonWriter* json)
 {
     try {
-        const Model model = read_model(model_path(path), options.settings());
-        require_arrows(model);
+        const std::string place = model_path(path);
+        const auto file = std::make_shared<const SourceFile>(SourceFile{place, read_file(place)});
         const std::size_t points = options.has("verify") ? reevaluation_points : 0;
-        const std::vector<NamedTree> claims = extra_invariants(options, model);
-        require_values(claims);
-        const System system = elaborate(model);
-        Report verified = verify(system, claims, points);
-        advise(system, verified);
-        if (verified.control.maximum.kind == ControlMaximum::Kind::stationary)
-            write_standard_error(fmt::format("warning: {}\n", stationary_controls));
-        if (json != nullptr) {
-            report_json(*json, model.name, verified);
-        } else {
-            text += report_text(model.name, verified);
-        }
-        return code_of(verified.structure.verdict);
+        const Output output{text, json};
+        if (is_morphism(file)) return check_morphism(read_morphism(file, options.settings()), options, points, output);
+        return check_model(read_model_text(place, file->text, options.settings()), options, points, output);
     } catch (const Error& error) {
         const std::string said = error.what();
         write_standard_error(said + (said.ends_with('\n') ? "" : "\n"));

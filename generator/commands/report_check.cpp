@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/report_check.hpp"
 
+#include "commands/describe_check.hpp"
+
 #include <fmt/format.h>
 
 #include <array>
@@ -84,44 +86,6 @@ std::string summary_text(const StructureReport& structure)
                                                                      structure.trivial == 1 ? "equation" : "equations");
     if (trivial.empty() && counts.empty()) return "";
     return fmt::format("  {}{}{}\n", trivial, trivial.empty() || counts.empty() ? "" : ", ", counts);
-}
-
-/// What should vanish, in sections by name; empty for kinds whose name says it.
-/// "a,b" of (A, a, b); "value" of a function.
-std::string component_of(const Check& check)
-{
-    std::string text;
-    for (std::size_t k = 1; k < check.indices.size(); ++k) text += (k == 1 ? "" : ",") + check.indices[k];
-    return text.empty() ? "value" : text;
-}
-
-std::string equation_text(const Check& check)
-{
-    const std::vector<std::string>& k = check.indices;
-    if (check.name == "antisymmetry" && k.size() == 3)
-        return fmt::format("component {2} of [{0}, {1}] + [{1}, {0}]", k[0], k[1], k[2]);
-    if (check.name == "anchor" && k.size() == 3)
-        return fmt::format("component {2} of [rho({0}), rho({1})] - rho([{0}, {1}])", k[0], k[1], k[2]);
-    if (check.name == "jacobi" && k.size() == 4)
-        return fmt::format("component {3} of [{0}, [{1}, {2}]] + [{1}, [{2}, {0}]] + [{2}, [{0}, {1}]]", k[0], k[1],
-                           k[2], k[3]);
-    if (check.name == "tangency" && k.size() == 2)
-        return fmt::format("rho({}) of the constraint {}, on the constraints", k[0], k[1]);
-    if (check.name == "casimir" && k.size() == 2) return fmt::format("rho({}) of {}", k[0], k[1]);
-    if (check.name == "unit" && k.size() == 1) return fmt::format("coordinate {0} of x.1 less {0}", k[0]);
-    if (check.name == "action" && k.size() == 1) return fmt::format("coordinate {} of x.(W W') less (x.W).W'", k[0]);
-    if (check.name == "algebroid_of_groupoid" && k.size() == 2)
-        return fmt::format("coordinate {1} of rho({0}) as it is given less that of the groupoid", k[0], k[1]);
-    if (check.name == "algebroid_of_groupoid" && k.size() == 3)
-        return fmt::format("component {2} of [{0}, {1}] as it is given less that of the groupoid", k[0], k[1], k[2]);
-    if (check.name == "closed" && !k.empty()) return fmt::format("component {} of d({})", component_of(check), k[0]);
-    if (check.name == "equals" && !k.empty())
-        return fmt::format("component {} of {} less what it is said to equal", component_of(check), k[0]);
-    if (check.name == "legendre") return "H at mu = dL/dy less y dL/dy - L";
-    if (check.name == "maximum") return "H = mu_a sigma^a - cost is largest at the controls of Pontryagin's equations";
-    if (check.name == "invariant" && k.size() == 1)
-        return fmt::format("the rate of {} along the equations of motion", k[0]);
-    return "";
 }
 
 std::string failure_text(const Check& check, bool with_hint)
@@ -281,10 +245,8 @@ std::string report_text(const std::string& model, const Report& verified)
     return text + failures_text(structure, ProofStatus::refuted) + failures_text(structure, ProofStatus::undecided);
 }
 
-void report_json(JsonWriter& json, const std::string& model, const Report& verified)
+void structure_json(JsonWriter& json, const StructureReport& structure)
 {
-    const StructureReport& structure = verified.structure;
-    json.begin_object().key("model").value(model).key("verdict").value(to_text(structure.verdict));
     json.key("trivial").value(structure.trivial).key("checks").begin_array();
     for (const Check& check : structure.checks) check_json(json, check);
     json.end_array();
@@ -301,6 +263,13 @@ void report_json(JsonWriter& json, const std::string& model, const Report& verif
                 .end_object();
         json.end_array();
     }
+}
+
+void report_json(JsonWriter& json, const std::string& model, const Report& verified)
+{
+    const StructureReport& structure = verified.structure;
+    json.begin_object().key("model").value(model).key("verdict").value(to_text(structure.verdict));
+    structure_json(json, structure);
     const Regularity& regularity = verified.mechanics.regularity;
     json.key("regularity").begin_object().key("status").value(kind_text(regularity.kind));
     json.key("rank");

@@ -14,4 +14,7 @@ namespace lagen {
 /// {"model", "verdict", "trivial", "checks": [...], "regularity": {...}} into `json`.
 void report_json(JsonWriter& json, const std::string& model, const Report& verified);
 
+/// "trivial": .., "checks": [..], and "forms" where there are some, into the open object.
+void structure_json(JsonWriter& json, const StructureReport& structure);
+
 } // namespace lagen

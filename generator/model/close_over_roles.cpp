@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Closing an expression that may use only some of the model's names.
+#include "expression/find_name.hpp"
 #include "expression/name_hints.hpp"
 #include "model/model_reader.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <set>
 
 namespace lagen {
 
@@ -17,24 +17,12 @@ Role role_of(const Names& names, const std::string& name)
     return entry != nullptr ? entry->role : name == "t" ? Role::time : Role::built_in;
 }
 
-/// The first name in `trees` that plays none of `roles`; walks shared trees once.
+/// The first name in `trees` that plays none of `roles`.
 const TreeNode* first_forbidden(const std::vector<Tree>& trees, const Names& names, std::initializer_list<Role> roles)
 {
-    std::set<const TreeNode*> seen;
-    std::vector<const TreeNode*> stack;
-    for (auto tree = trees.rbegin(); tree != trees.rend(); ++tree) stack.push_back(tree->get());
-    while (!stack.empty()) {
-        const TreeNode* node = stack.back();
-        stack.pop_back();
-        if (!seen.insert(node).second) continue;
-        if (node->kind == TreeKind::name &&
-            std::find(roles.begin(), roles.end(), role_of(names, node->name)) == roles.end())
-            return node;
-        for (auto argument = node->arguments.rbegin(); argument != node->arguments.rend(); ++argument) {
-            stack.push_back(argument->get());
-        }
-    }
-    return nullptr;
+    return find_name(trees, [&](const std::string& name) {
+        return std::find(roles.begin(), roles.end(), role_of(names, name)) == roles.end();
+    });
 }
 
 void require_roles(const std::vector<Tree>& closed, const Names& names, std::initializer_list<Role> roles,

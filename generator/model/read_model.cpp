@@ -2,6 +2,7 @@
 /// The blocks of a model file, in the order in which they can be understood.
 #include "model/read_model.hpp"
 
+#include "model/algebroid_draft.hpp"
 #include "model/model_reader.hpp"
 #include "model/read_file.hpp"
 #include "model/table_reader.hpp"
@@ -14,8 +15,6 @@ namespace {
 
 constexpr std::initializer_list<const char*> later_blocks = {
     "hamilton_jacobi",
-    "morphism",
-    "compose",
 };
 
 } // namespace
@@ -41,6 +40,10 @@ Model read_model_text(const std::string& name, std::string text, const std::vect
     const TomlValue document = parse_toml(reader.model.file);
     TableReader top(document, "the model");
     top.refuse_later(later_blocks);
+    for (const char* key : {"morphism", "compose"})
+        if (const TomlEntry* entry = find_entry(document, key))
+            throw ModelError("this file is a morphism between models, where a model is wanted", entry->where(),
+                             "`lagen check` reads morphisms");
     const TomlEntry* model_name = top.take("name");
     const TomlEntry* title = top.take("title");
     const TomlEntry* sizes = top.take("sizes");

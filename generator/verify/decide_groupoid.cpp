@@ -3,12 +3,9 @@
 /// its own.
 ///   unit       x.1 = x
 ///   action     x.(W W') = (x.W).W'
-/// The latter for all matrices W and W' or, where that fails, for those of the group near 1: cay(A) = (1 - A/2)^-1
-/// (1 + A/2), A = s^c E_c. What is analytic holds on the connected group then.
 #include "graph/calculus/differentiate.hpp"
 #include "groupoid/algebroid_of.hpp"
-#include "groupoid/cayley.hpp"
-#include "groupoid/generator_span.hpp"
+#include "verify/arrow_decider.hpp"
 #include "verify/claims.hpp"
 
 #include <algorithm>
@@ -16,15 +13,12 @@
 namespace lagen {
 namespace {
 
-constexpr std::size_t largest_chart = 6; ///< rows of a matrix whose inverse is written out in a proof
-constexpr const char* chart_text = "W = cay(s(c) E_c), W' = cay(s'(c) E_c) with the generators E_c of the group";
-
 /// The action property with two matrices of inputs, and the same in charts of the group.
 class ActionClaims {
   public:
     ActionClaims(Graph& graph, const System& system, const ProofBudget& budget)
-        : graph_(graph), system_(system), groupoid_(*system.groupoid), budget_(budget), W_(groupoid_.arrow.W),
-          second_(primed(W_))
+        : graph_(graph), groupoid_(*system.groupoid), W_(groupoid_.arrow.W), second_(primed(W_)),
+          decider_(graph, arrow_setting(graph, system, {groupoid_.arrow.x}), groupoid_, {W_, second_}, budget)
     {
         const Arrow g{groupoid_.arrow.x, {}, W_}, h{target(graph, groupoid_, g), {}, second_};
         const std::vector<NodeId> both = target(graph, groupoid_, h);
@@ -34,18 +28,7 @@ class ActionClaims {
         left_ = differences(target(graph, groupoid_, product(graph, groupoid_, g, h)), target(graph, groupoid_, other));
     }
 
-    [[nodiscard]] Decision decide(NodeId residual)
-    {
-        Decision free = on_matrices(residual);
-        if (free.status == ProofStatus::proved) return free;
-        if (groupoid_.has_cayley_map && groupoid_.size <= largest_chart)
-            if (Decision charted = on_group(residual); charted.status != ProofStatus::undecided) return charted;
-        Decision open;
-        open.residual = free.residual;
-        open.evidence =
-            "it does not hold, or is not shown, for all matrices; of those of the group alone it is not decided";
-        return open;
-    }
+    [[nodiscard]] Decision decide(NodeId residual) { return decider_.decide(residual); }
 
     /// Whether x.(W W') = (x.W').W, by a proof.
     [[nodiscard]] bool is_left_action()
@@ -74,57 +57,11 @@ class ActionClaims {
         return out;
     }
 
-    [[nodiscard]] ProofSetting setting_over(const std::vector<NodeId>& more) const
-    {
-        ProofSetting setting;
-        setting.variables = groupoid_.arrow.x;
-        setting.variables.insert(setting.variables.end(), more.begin(), more.end());
-        setting.parameters = system_.parameters;
-        setting.constraints = system_.functions.constraints;
-        setting.domain = system_.domain;
-        return setting;
-    }
-
-    [[nodiscard]] Decision on_matrices(NodeId residual)
-    {
-        std::vector<NodeId> variables = W_;
-        variables.insert(variables.end(), second_.begin(), second_.end());
-        return ZeroDecider(graph_, setting_over(variables), budget_).decide(residual);
-    }
-
-    /// cay(A), A = s^c E_c
-    [[nodiscard]] std::vector<NodeId> chart(const std::vector<NodeId>& s)
-    {
-        return cayley(graph_, GeneratorSpan(graph_, groupoid_).matrix(s), groupoid_.size);
-    }
-
-    [[nodiscard]] Decision on_group(NodeId residual)
-    {
-        if (charted_.empty()) {
-            std::vector<NodeId> s, t;
-            for (std::size_t c = 0; c < groupoid_.generators.size(); ++c) {
-                s.push_back(graph_.input("s(" + std::to_string(c + 1) + ")"));
-                t.push_back(graph_.input("s'(" + std::to_string(c + 1) + ")"));
-            }
-            charted_ = replacements(W_, chart(s));
-            for (const auto& pair : replacements(second_, chart(t))) charted_.push_back(pair);
-            chart_variables_ = s;
-            chart_variables_.insert(chart_variables_.end(), t.begin(), t.end());
-        }
-        const NodeId charted = substitute(graph_, {&residual, 1}, charted_)[0];
-        Decision decision = ZeroDecider(graph_, setting_over(chart_variables_), budget_).decide(charted);
-        decision.evidence += decision.evidence.empty() ? chart_text : std::string("; ") + chart_text;
-        return decision;
-    }
-
     Graph& graph_;
-    const System& system_;
     const Groupoid& groupoid_;
-    ProofBudget budget_;
     std::vector<NodeId> W_, second_;
+    ArrowDecider decider_;
     std::vector<NodeId> right_, left_; ///< x.(W W') - (x.W).W', x.(W W') - (x.W').W
-    Replacements charted_;
-    std::vector<NodeId> chart_variables_;
 };
 
 /// Every entry of two columns, those that neither has left out.

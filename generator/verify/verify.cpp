@@ -17,8 +17,6 @@ const char* to_text(Verdict verdict)
     return "undecided";
 }
 
-namespace {
-
 Verdict verdict_of(const StructureReport& structure)
 {
     Verdict verdict = structure.note.empty() ? Verdict::valid : Verdict::undecided;
@@ -28,6 +26,8 @@ Verdict verdict_of(const StructureReport& structure)
     }
     return verdict;
 }
+
+namespace {
 
 std::optional<Reevaluation> summary_of(const StructureReport& structure, std::size_t points)
 {

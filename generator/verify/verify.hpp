@@ -109,6 +109,9 @@ struct ControlReport {
     ControlMaximum maximum;
 };
 
+/// `invalid` where a check is refuted, `undecided` where one is or where there is a note.
+[[nodiscard]] Verdict verdict_of(const StructureReport& structure);
+
 /// What is known of a system.
 struct Report {
     StructureReport structure;

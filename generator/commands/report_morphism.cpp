@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/report_morphism.hpp"
+
+#include "advice/advise.hpp"
+#include "commands/report_check.hpp"
+#include "elaborate/elaborate_morphism.hpp"
+
+#include <fmt/format.h>
+
+namespace lagen {
+
+namespace {
+
+Report verify_model(const System& system, std::size_t points)
+{
+    Report report = verify(system, {}, points);
+    advise(system, report);
+    return report;
+}
+
+VerifiedMorphism verify_one(const MorphismFile& file, const SystemMorphism& morphism, std::size_t points)
+{
+    VerifiedMorphism verified;
+    verified.name = file.name;
+    verified.source_name = morphism.source.name;
+    verified.target_name = morphism.target.name;
+    verified.map = verify(morphism, points);
+    verified.source = verify_model(morphism.source, points);
+    verified.target = verify_model(morphism.target, points);
+    return verified;
+}
+
+struct Consequence {
+    const char* name;
+    bool holds;
+    const char* text;
+};
+
+std::vector<Consequence> consequences(const VerifiedMorphism& verified)
+{
+    const MorphismTheorems& theorems = verified.map.theorems;
+    return {{"reduction", theorems.reduction, "solutions of the source project to solutions of the target"},
+            {"reconstruction", theorems.reconstruction,
+             "admissible curves over solutions of the target are solutions of the source"},
+            {"discrete", theorems.discrete, "solutions of the source's discrete equations project likewise"},
+            {"stages", !verified.stages.empty() && verdict_of(verified) == Verdict::valid,
+             "the composition is the reduction by its stages"}};
+}
+
+std::string rank_text(const FibreRank& rank)
+{
+    if (!rank.rank) return "not decided";
+    std::string text = std::to_string(*rank.rank);
+    if (rank.surjective && rank.injective)
+        text += ", surjective and injective";
+    else if (rank.surjective || rank.injective)
+        text += rank.surjective ? ", surjective" : ", injective";
+    if (!rank.where.empty()) text += fmt::format(" where {}", fmt::join(rank.where, " and "));
+    return text;
+}
+
+void body_json(JsonWriter& json, const VerifiedMorphism& verified)
+{
+    json.key("verdict").value(to_text(verdict_of(verified)));
+    structure_json(json, verified.map.structure);
+    const FibreRank& rank = verified.map.rank;
+    json.key("rank").begin_object().key("rank");
+    rank.rank ? json.value(*rank.rank) : json.null();
+    json.key("surjective").value(rank.surjective).key("injective").value(rank.injective);
+    if (!rank.where.empty()) {
+        json.key("where").begin_array();
+        for (const std::string& condition : rank.where) json.value(condition);
+        json.end_array();
+    }
+    json.end_object().key("follows").begin_array();
+    for (const Consequence& each : consequences(verified))
+        if (each.holds) json.value(each.name);
+    json.end_array();
+}
+
+} // namespace
+
+VerifiedMorphism verify_morphism(const MorphismFile& file, std::size_t points)
+{
+    if (file.stages.empty()) return verify_one(file, elaborate(file), points);
+    std::vector<VerifiedMorphism> stages;
+    std::optional<SystemMorphism> whole;
+    for (const MorphismFile& stage : file.stages) {
+        SystemMorphism next = elaborate(stage);
+        stages.push_back(verify_one(stage, next, points));
+        whole = whole ? composition(*whole, next) : std::move(next);
+    }
+    VerifiedMorphism verified;
+    verified.name = file.name;
+    verified.source_name = stages.front().source_name;
+    verified.target_name = stages.back().target_name;
+    verified.map = verify(*whole, points);
+    verified.source = stages.front().source;
+    verified.target = stages.back().target;
+    verified.stages = std::move(stages);
+    return verified;
+}
+
+Verdict verdict_of(const VerifiedMorphism& verified)
+{
+    Verdict verdict = worse(verified.map.structure.verdict,
+                            worse(verified.source.structure.verdict, verified.target.structure.verdict));
+    for (const VerifiedMorphism& stage : verified.stages) verdict = worse(verdict, verdict_of(stage));
+    return verdict;
+}
+
+std::string morphism_text(const VerifiedMorphism& verified)
+{
+    Report map;
+    map.structure = verified.map.structure;
+    const std::string text = report_text(verified.name, map);
+    const std::size_t summary = text.find('\n');
+    const std::size_t failures = std::min(text.find("\n\n"), text.size() - 1);
+    std::string out = fmt::format("{}: {}{}", verified.name, to_text(verdict_of(verified)),
+                                  text.substr(summary, failures + 1 - summary));
+    out += fmt::format("  {:<15} {}\n", "fibrewise rank", rank_text(verified.map.rank));
+    for (const VerifiedMorphism& stage : verified.stages)
+        out += fmt::format("  {:<15} {}: {}\n", "stage", stage.name, to_text(verdict_of(stage)));
+    out += fmt::format("  {:<15} {}: {}\n", "source", verified.source_name, to_text(verified.source.structure.verdict));
+    out += fmt::format("  {:<15} {}: {}\n", "target", verified.target_name, to_text(verified.target.structure.verdict));
+    for (const Consequence& each : consequences(verified))
+        if (each.holds) out += fmt::format("  {:<15} {}\n", each.name, each.text);
+    out += text.substr(failures + 1);
+    for (const VerifiedMorphism& stage : verified.stages)
+        if (verdict_of(stage) != Verdict::valid) out += "\n" + morphism_text(stage);
+    if (!verified.stages.empty()) return out;
+    if (verified.source.structure.verdict != Verdict::valid)
+        out += "\n" + report_text(verified.source_name, verified.source);
+    if (verified.target.structure.verdict != Verdict::valid)
+        out += "\n" + report_text(verified.target_name, verified.target);
+    return out;
+}
+
+void morphism_json(JsonWriter& json, const VerifiedMorphism& verified)
+{
+    json.begin_object().key("model").value(verified.name);
+    body_json(json, verified);
+    json.key("source");
+    report_json(json, verified.source_name, verified.source);
+    json.key("target");
+    report_json(json, verified.target_name, verified.target);
+    if (!verified.stages.empty()) {
+        json.key("stages").begin_array();
+        for (const VerifiedMorphism& stage : verified.stages) morphism_json(json, stage);
+        json.end_array();
+    }
+    json.end_object();
+}
+
+} // namespace lagen

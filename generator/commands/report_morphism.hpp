@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// A morphism file with both its models decided, for people and for programs.
+#pragma once
+
+#include "emit/json.hpp"
+#include "model/morphism.hpp"
+#include "verify/verify_morphism.hpp"
+
+namespace lagen {
+
+/// Of a composition the map is that of all stages, source and target are those of the first and of the last.
+struct VerifiedMorphism {
+    std::string name, source_name, target_name;
+    MorphismReport map;
+    Report source, target;
+    std::vector<VerifiedMorphism> stages;
+};
+[[nodiscard]] VerifiedMorphism verify_morphism(const MorphismFile& file, std::size_t points);
+
+/// The worst of the map, of both models and of all stages.
+[[nodiscard]] Verdict verdict_of(const VerifiedMorphism& verified);
+
+[[nodiscard]] std::string morphism_text(const VerifiedMorphism& verified);
+/// {"model", "verdict", "trivial", "checks", "rank", "follows", "source": report, "target": report}, and "stages".
+void morphism_json(JsonWriter& json, const VerifiedMorphism& verified);
+
+} // namespace lagen

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "elaborate/elaborate_morphism.hpp"
+
+#include "elaborate/elaborate.hpp"
+#include "graph/calculus/differentiate.hpp"
+#include "proof/decide.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace lagen {
+
+namespace {
+
+std::vector<NodeId> lowered(Lowering& lower, const std::vector<Tree>& trees)
+{
+    std::vector<NodeId> nodes;
+    for (const Tree& tree : trees) nodes.push_back(lower(tree));
+    return nodes;
+}
+
+/// A parameter that the source does not know is an input of its own, under a name that is free there.
+void match_parameters(SystemMorphism& morphism, Lowering& lower, const std::vector<Tree>& values)
+{
+    System& source = morphism.source;
+    const System& target = morphism.target;
+    for (std::size_t k = 0; k < target.parameters.size(); ++k) {
+        const NodeId parameter = target.parameters[k];
+        NodeId& value = morphism.parameters[parameter];
+        if (values[k]) {
+            value = lower(values[k]);
+            continue;
+        }
+        std::string name = target.graph.input_name(parameter);
+        value = source.graph.input(name);
+        if (std::ranges::find(source.parameters, value) != source.parameters.end() ||
+            source.graph.op(value) != Op::input) // a parameter of the source that is bound
+            continue;
+        if (source.declares(name)) value = source.graph.input(name + "'");
+        morphism.free_parameters.push_back(value);
+    }
+}
+
+/// Phi^a_b(x) y^b in place of what is linear in y and does not look it. Throws ModelError for what is not linear, or
+/// not shown to be.
+void require_linear(SystemMorphism& morphism, const MorphismFile& file)
+{
+    Graph& graph = morphism.source.graph;
+    const std::vector<NodeId>& y = morphism.source.algebroid.y;
+    const std::vector<NodeId> zeros(y.size(), graph.constant(0));
+    ProofSetting setting;
+    setting.variables = morphism.source.algebroid.x;
+    setting.variables.insert(setting.variables.end(), y.begin(), y.end());
+    setting.parameters = morphism.source.parameters;
+    setting.constraints = morphism.source.functions.constraints;
+    setting.domain = morphism.source.domain;
+    for (std::size_t a = 0; a < morphism.fibre.size(); ++a) {
+        NodeId& value = morphism.fibre[a];
+        const auto row = substitute_where_defined(graph, gradient(graph, value, y), replacements(y, zeros));
+        NodeId linear = graph.constant(0);
+        for (std::size_t b = 0; row && b < y.size(); ++b) linear = graph.add(linear, graph.multiply((*row)[b], y[b]));
+        const NodeId rest = graph.subtract(value, linear);
+        const bool shown =
+            row && (graph.is_zero(rest) || ZeroDecider(graph, setting).status(rest) == ProofStatus::proved);
+        if (!shown)
+            throw ModelError(fmt::format("the value of '{}' is not linear in the fibre coordinates of {}",
+                                         file.target.fibre.coordinates[a].name, file.source.name),
+                             file.fibre[a]->where, "a morphism of algebroids is linear on each fibre");
+        value = linear;
+    }
+}
+
+} // namespace
+
+SystemMorphism elaborate(const MorphismFile& file)
+{
+    SystemMorphism morphism;
+    morphism.source = elaborate(file.source);
+    morphism.target = elaborate(file.target);
+    Lowering lower(morphism.source.graph);
+    match_parameters(morphism, lower, file.parameters);
+    morphism.base = lowered(lower, file.base);
+    morphism.fibre = lowered(lower, file.fibre);
+    morphism.controls = lowered(lower, file.controls);
+    morphism.element = lowered(lower, file.element);
+    require_linear(morphism, file);
+    const bool both = morphism.source.groupoid && morphism.target.groupoid;
+    morphism.of_groupoids = both && (!file.element.empty() || !file.target.groupoid->has_group());
+    return morphism;
+}
+
+} // namespace lagen

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "verify/arrow_decider.hpp"
+
+#include "graph/calculus/differentiate.hpp"
+#include "groupoid/cayley.hpp"
+#include "groupoid/generator_span.hpp"
+
+namespace lagen {
+
+namespace {
+
+constexpr std::size_t largest_chart = 6; ///< rows of a matrix whose inverse is written out in a proof
+
+void append(std::vector<NodeId>& list, const std::vector<NodeId>& more)
+{
+    list.insert(list.end(), more.begin(), more.end());
+}
+
+} // namespace
+
+ProofSetting arrow_setting(Graph& graph, const System& system, const std::vector<std::vector<NodeId>>& points)
+{
+    ProofSetting setting;
+    setting.parameters = system.parameters;
+    for (const std::vector<NodeId>& point : points) {
+        const Replacements there = replacements(system.algebroid.x, point);
+        append(setting.variables, point);
+        append(setting.constraints, substitute(graph, system.functions.constraints, there));
+        append(setting.domain, substitute(graph, system.domain, there));
+    }
+    return setting;
+}
+
+ArrowDecider::ArrowDecider(Graph& graph, ProofSetting setting, const Groupoid& groupoid,
+                           std::vector<std::vector<NodeId>> elements, const ProofBudget& budget)
+    : graph_(graph), setting_(std::move(setting)), groupoid_(groupoid), elements_(std::move(elements)), budget_(budget)
+{
+}
+
+Decision ArrowDecider::decide(NodeId residual)
+{
+    Decision free = on_matrices(residual);
+    if (free.status == ProofStatus::proved) return free;
+    bool of_group = false;
+    for (const std::vector<NodeId>& W : elements_) of_group = of_group || depends_on_any(graph_, {&residual, 1}, W);
+    if (!of_group) return free;
+    if (groupoid_.has_cayley_map && groupoid_.size <= largest_chart)
+        if (Decision charted = on_group(residual); charted.status != ProofStatus::undecided) return charted;
+    Decision open;
+    open.residual = free.residual;
+    open.evidence =
+        "it does not hold, or is not shown, for all matrices; of those of the group alone it is not decided";
+    return open;
+}
+
+Decision ArrowDecider::on_matrices(NodeId residual) const
+{
+    ProofSetting setting = setting_;
+    for (const std::vector<NodeId>& W : elements_) append(setting.variables, W);
+    return ZeroDecider(graph_, setting, budget_).decide(residual);
+}
+
+Decision ArrowDecider::on_group(NodeId residual)
+{
+    if (charted_.empty()) {
+        std::string prime;
+        for (const std::vector<NodeId>& W : elements_) {
+            std::vector<NodeId> s;
+            for (std::size_t c = 0; c < groupoid_.generators.size(); ++c)
+                s.push_back(graph_.input("s" + prime + "(" + std::to_string(c + 1) + ")"));
+            const std::vector<NodeId> A = GeneratorSpan(graph_, groupoid_).matrix(s);
+            for (const auto& pair : replacements(W, cayley(graph_, A, groupoid_.size))) charted_.push_back(pair);
+            append(chart_variables_, s);
+            prime += "'";
+        }
+    }
+    ProofSetting setting = setting_;
+    append(setting.variables, chart_variables_);
+    const NodeId charted = substitute(graph_, {&residual, 1}, charted_)[0];
+    Decision decision = ZeroDecider(graph_, setting, budget_).decide(charted);
+    std::string text = "W = cay(s(c) E_c)";
+    if (elements_.size() > 1) text += ", W' = cay(s'(c) E_c)";
+    text += " with the generators E_c of the group";
+    decision.evidence += decision.evidence.empty() ? text : "; " + text;
+    return decision;
+}
+
+} // namespace lagen

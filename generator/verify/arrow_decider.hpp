@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Residuals over arrows of a groupoid: for all matrices W or, where that fails, for those of the group near 1: cay(A)
+/// = (1 - A/2)^-1 (1 + A/2), A = s^c E_c. What is analytic holds on the connected group then.
+#pragma once
+
+#include "mechanics/system.hpp"
+#include "proof/decide.hpp"
+
+namespace lagen {
+
+/// The parameters, and for each of these points of M its coordinates, constraints and domain.
+[[nodiscard]] ProofSetting arrow_setting(Graph& graph, const System& system,
+                                         const std::vector<std::vector<NodeId>>& points);
+
+class ArrowDecider {
+  public:
+    /// `elements`: inputs W of arrows, by rows. Keeps references to the graph and the groupoid.
+    ArrowDecider(Graph& graph, ProofSetting setting, const Groupoid& groupoid,
+                 std::vector<std::vector<NodeId>> elements, const ProofBudget& budget);
+
+    [[nodiscard]] Decision decide(NodeId residual);
+
+  private:
+    [[nodiscard]] Decision on_matrices(NodeId residual) const;
+    [[nodiscard]] Decision on_group(NodeId residual);
+
+    Graph& graph_;
+    ProofSetting setting_;
+    const Groupoid& groupoid_;
+    std::vector<std::vector<NodeId>> elements_;
+    ProofBudget budget_;
+    Replacements charted_;
+    std::vector<NodeId> chart_variables_;
+};
+
+} // namespace lagen

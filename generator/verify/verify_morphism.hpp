@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// The claims of a morphism Phi: E -> E' over phi, each proved, refuted or undecided:
+///   constraint   h'(phi(x)) = 0 for each base constraint h' of the target
+///   admissible   rho'(Phi e_b) = rho(e_b)(phi^i)                                     (b, i)
+///   morphism     Phi [e_b, e_c] against [Phi e_b, Phi e_c], component a              (b, c, a)
+///   invariance   L = L' o Phi;  Q_b = Phi^a_b Q'_a;  H o Phi^* = H';  cost, sigma;  discrete L = L' o phi
+/// and where both are of groupoids, of the map of arrows g -> (phi(s(g)), phi(t(g)), W'(g)):
+///   target       phi(t(g)) is the target of the image                                (i)
+///   product      W'(g h) = W'(g) W'(h), t(g) = s(h)                                   (row, column)
+///   unit         W' = 1 at the arrows 1                                               (row, column)
+///   element      dW' is in the algebra of the target's group there, and W' in the group then
+///   fibre        the fibre map that is given is that of the arrows                    (a, b)
+/// The rank of Phi^a_b stands outside of the verdict.                                          [Martinez 2001]
+#pragma once
+
+#include "mechanics/morphism.hpp"
+#include "verify/fibre_rank.hpp"
+#include "verify/verify.hpp"
+
+namespace lagen {
+
+/// What follows from the claims.
+struct MorphismTheorems {
+    bool reduction = false;      ///< solutions of the source project to solutions of the target
+    bool reconstruction = false; ///< admissible curves over solutions of the target are solutions of the source
+    bool discrete = false;       ///< solutions of the discrete equations project
+};
+
+struct MorphismReport {
+    StructureReport structure; ///< of the map alone
+    FibreRank rank;
+    MorphismTheorems theorems;
+};
+
+/// Of the map alone; the models are verified by `verify` of each. `points` as there.
+[[nodiscard]] MorphismReport verify(const SystemMorphism& morphism, std::size_t points = 0,
+                                    const ProofBudget& budget = {});
+
+/// The worse of two: invalid, undecided, valid.
+[[nodiscard]] Verdict worse(Verdict a, Verdict b);
+
+} // namespace lagen
