@@ -73,14 +73,20 @@ std::string moved_json(const RunOutcome& outcome, const Drift& drift)
     return fmt::format(", \"size\": {}, \"moved_at\": {}", number_text(drift.size), drift.moved_at);
 }
 
+/// The members behind the first ones.
+std::string rest_json(const RunOutcome& outcome, const Drift& drift)
+{
+    return fmt::format(", \"t\": {}{}{}", number_text(drift.time), slope_json(drift), moved_json(outcome, drift));
+}
+
 /// An object with a member a function; `first` prints its first members.
 template <class First>
 std::string drifts_json(const RunOutcome& outcome, const std::vector<Drift>& drifts, First first)
 {
     std::string text = "{";
     for (const Drift& drift : drifts)
-        text += fmt::format("{}{}: {{{}, \"t\": {}{}{}}}", text.size() == 1 ? "" : ", ", string_text(drift.name),
-                            first(drift), number_text(drift.time), slope_json(drift), moved_json(outcome, drift));
+        text += fmt::format("{}{}: {{{}{}}}", text.size() == 1 ? "" : ", ", string_text(drift.name), first(drift),
+                            rest_json(outcome, drift));
     return text + "}";
 }
 
@@ -96,6 +102,9 @@ std::string figures_json(const RunOutcome& outcome)
                                    drifts_json(outcome, outcome.invariants, from_start),
                                    drifts_json(outcome, outcome.casimirs, from_start),
                                    drifts_json(outcome, outcome.constraints, from_zero));
+    for (const Drift& drift : outcome.balance)
+        text += fmt::format(",\n \"energy_balance\": {{{}, \"work\": {}{}}}", from_start(drift),
+                            number_text(outcome.work), rest_json(outcome, drift));
     if (!outcome.manifold.empty())
         text += fmt::format(",\n \"manifold_distance\": {{\"max\": {}, \"t\": {}}}", number_text(outcome.manifold),
                             number_text(outcome.manifold_time));
@@ -112,7 +121,7 @@ std::string slope_text(const Drift& drift)
 std::string figures_text(const RunOutcome& outcome)
 {
     std::string text;
-    for (const auto* drifts : {&outcome.invariants, &outcome.casimirs})
+    for (const auto* drifts : {&outcome.invariants, &outcome.balance, &outcome.casimirs})
         for (const Drift& drift : *drifts) {
             if (!is_number(drift.initial))
                 text += fmt::format("  {}: no finite number at the start\n", drift.name);
@@ -226,7 +235,7 @@ std::string report_text(const RunOutcome& outcome)
 std::string drift_warnings(const RunOutcome& outcome)
 {
     std::string text;
-    for (const auto* drifts : {&outcome.invariants, &outcome.casimirs, &outcome.constraints})
+    for (const auto* drifts : {&outcome.invariants, &outcome.balance, &outcome.casimirs, &outcome.constraints})
         for (const Drift& drift : *drifts)
             if (is_number(drift.moved_at) && !changes_by_itself(outcome, drift))
                 text +=

@@ -87,6 +87,8 @@ void read_line(const std::string& key, const std::string& value, RunOutcome& out
         const std::size_t at = value.rfind('@');
         outcome.events.push_back({value.substr(0, at), at == std::string::npos ? "" : value.substr(at + 1)});
     }
+    if (key == "balance") outcome.balance.push_back(drift_of("energy less work", value));
+    if (key == "work") outcome.work = value;
     if (key == "energy" || key == "hamiltonian") outcome.invariants.push_back(drift_of(key, value));
     for (const auto& [prefix, drifts] : followed)
         if (key.starts_with(prefix)) drifts->push_back(drift_of(key.substr(prefix.size()), value));
@@ -239,7 +241,8 @@ void read_report(const std::string& text, RunOutcome& outcome)
     const bool refused = outcome.status == "not_separable" || outcome.status == "invalid_input" ||
                          outcome.status == "singular_mass_matrix";
     if (!refused || outcome.steps != "0") return;
-    for (auto* drifts : {&outcome.invariants, &outcome.casimirs, &outcome.constraints}) drifts->clear();
+    for (auto* drifts : {&outcome.invariants, &outcome.balance, &outcome.casimirs, &outcome.constraints})
+        drifts->clear();
     outcome.manifold.clear();
 }
 

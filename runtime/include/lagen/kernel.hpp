@@ -151,6 +151,15 @@ concept HasEnergy = requires(const M& model, typename M::Scalar t, const typenam
     requires KeepsPromise<typename M::Scalar, noexcept(model.energy(t, s))>;
 };
 
+/// The rate of the energy (of Pontryagin's form: of the Hamiltonian), where it is none by itself: forces, explicit
+/// time.
+template <class M>
+concept HasPower = requires(const M& model, typename M::Scalar t, const typename M::State& s)
+{
+    requires std::convertible_to<decltype(model.power(t, s)), typename M::Scalar>;
+    requires KeepsPromise<typename M::Scalar, noexcept(model.power(t, s))>;
+};
+
 /// Of Pontryagin's form, where the Hamiltonian is no energy.
 template <class M>
 concept HasHamiltonian = requires(const M& model, typename M::Scalar t, const typename M::State& s)

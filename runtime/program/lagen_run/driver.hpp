@@ -36,11 +36,12 @@
 ///   steps=  rejected=  rhs_calls=  [newton=  decompositions=]  rows=  seconds=      those in brackets of implicit
 ///   methods
 ///   event=NAME@T          one line an event found, in the order of the run
-///   [energy= or hamiltonian=]  [invariant:NAME=]  [constraint:NAME=]  [casimir:NAME=]
+///   [energy= or hamiltonian=]  [balance=, work=]  [invariant:NAME=]  [constraint:NAME=]  [casimir:NAME=]
 ///                         INITIAL,MOST,T,SLOPE,ERROR,SIZE,MOVED_AT, over the steps that figures.hpp names: the first
 ///                         value; the largest distance from it (from 0, of constraints) and where that was; slope and
 ///                         error of slope.hpp; where the distance was more than 1e-3 of |value|, the size of
-///                         figures.hpp and where it first was more than 1e-3 of that ("nan" where there is none)
+///                         figures.hpp and where it first was more than 1e-3 of that ("nan" where there is none).
+///                         balance: the energy less the work, which is the integral of the power up to the end
 ///   [manifold=DISTANCE,T] the largest distance from where the constraints hold, to first order, and where that was
 ///   state=v,v,..          the last good state
 /// Exit codes: 0 ok or stopped by an event, 1 another status, 4 wrong arguments (one sentence on standard error, no

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 /// What is followed along a run because the equations keep it, or because it tells of the motion. At every accepted
-/// step: how far energy (or Pontryagin's Hamiltonian), invariants and base constraints (whose values should be 0)
-/// moved. At the steps that slope.hpp takes, which are so few of a long run that they cost nothing: Casimirs, slopes,
-/// and the distance from where the constraints hold.
+/// step: how far energy (or Pontryagin's Hamiltonian), the energy less the work of its power, invariants and base
+/// constraints (whose values should be 0) moved. At the steps that slope.hpp takes, which are so few of a long run that
+/// they cost nothing: Casimirs, slopes, and the distance from where the constraints hold.
 ///
 /// The size of a function f is sum_i |s_i df/ds_i| at the start, or |f| where that is larger; where both are 0, it is
 /// |s| |df/ds|. It is computed only where f moved by more than 1e-3 of |f|.
 #pragma once
 
+#include "lagen/integrate/collocation.hpp"
 #include "lagen/kernel.hpp"
 #include "lagen_run/slope.hpp"
 #include "lagen_run/text.hpp"
@@ -33,8 +34,20 @@ class Figures {
         if (!begun_) [[unlikely]]
             begin(model, t, s);
         std::size_t next = 0;
-        visit_watched(model, t, s, [&](double value) { watch(model, next++, t, value); });
+        visit_watched(model, t, s, work_, [&](double value) { watch(model, next++, t, value); });
         if (means_.wants()) look(model, t, s);
+    }
+
+    /// The motion over a time h from t0 on, inside(x) its state at t0 + x h: the work of the power, by Gauss' formula.
+    template <int nodes, class Inside>
+    void sum(const M& model, double t0, double h, const Inside& inside) requires(HasPower<M>)
+    {
+        static const auto rule = legendre_nodes<nodes, double>();
+        for (std::size_t i = 0; i < nodes; ++i) {
+            const double x = (1 + rule.first[i]) / 2;
+            work_ += h * rule.second[i] * static_cast<double>(model.power(t0 + x * h, inside(x)));
+        }
+        sums_ = true;
     }
 
     /// The lines of the report that driver.hpp describes.
@@ -53,6 +66,12 @@ class Figures {
             put("energy");
         else if constexpr (HasHamiltonian<M>)
             put("hamiltonian");
+        if constexpr (balance > 0) {
+            if (sums_)
+                put("balance"), text += "work=" + number_text(work_) + '\n';
+            else
+                ++k;
+        }
         if constexpr (HasInvariants<M>)
             for (const char* name : M::invariants_names) put(std::string("invariant:") + name);
         if constexpr (HasConstraints<M>)
@@ -81,6 +100,7 @@ class Figures {
     static constexpr std::size_t watched = [] {
         std::size_t number = constraints;
         if constexpr (HasEnergy<M> || HasHamiltonian<M>) number += 1;
+        if constexpr (HasPower<M>) number += 1;
         if constexpr (HasInvariants<M>) number += number_of(M::invariants_names);
         return number;
     }();
@@ -88,6 +108,8 @@ class Figures {
         if constexpr (HasCasimirs<M>) return watched + number_of(M::casimirs_names);
         return watched;
     }();
+    /// The place of the energy less the work, behind the energy; 0: there is none.
+    static constexpr std::size_t balance = HasPower<M> ? 1 : 0;
     using Values = std::array<double, count>;
 
     static void visit_column(const auto& column, const auto& take)
@@ -95,22 +117,31 @@ class Figures {
         for (Eigen::Index i = 0; i < column.size(); ++i) take(static_cast<double>(column[i]));
     }
 
-    static void visit_watched(const M& model, double t, const State& s, const auto& take)
+    static double energy_of(const M& model, double t, const State& s)
     {
         if constexpr (HasEnergy<M>)
-            take(static_cast<double>(model.energy(t, s)));
-        else if constexpr (HasHamiltonian<M>)
-            take(static_cast<double>(model.hamiltonian(t, s)));
+            return static_cast<double>(model.energy(t, s));
+        else
+            return static_cast<double>(model.hamiltonian(t, s));
+    }
+
+    static void visit_watched(const M& model, double t, const State& s, double work, const auto& take)
+    {
+        if constexpr (HasEnergy<M> || HasHamiltonian<M>) {
+            const double energy = energy_of(model, t, s);
+            take(energy);
+            if constexpr (HasPower<M>) take(energy - work);
+        }
         if constexpr (HasInvariants<M>) visit_column(model.invariants(t, s), take);
         if constexpr (HasConstraints<M>) visit_column(model.constraints(t, s), take);
     }
 
-    static Values all_values(const M& model, double t, const State& s)
+    static Values all_values(const M& model, double t, const State& s, double work = 0)
     {
         Values values;
         std::size_t next = 0;
         const auto put = [&](double value) { values[next++] = value; };
-        visit_watched(model, t, s, put);
+        visit_watched(model, t, s, work, put);
         if constexpr (HasCasimirs<M>) visit_column(model.casimirs(t, s), put);
         return values;
     }
@@ -133,6 +164,8 @@ class Figures {
         if (distance <= most_[k] || most_[k] == infinity) return;
         most_[k] = distance;
         most_t_[k] = t;
+        // What a balance may have lost is a part of what came and went, too.
+        if (balance > 0 && k == balance && distance <= part * most_[0]) return;
         if (!(distance <= allowed_[k])) lose(model, k, t);
     }
 
@@ -152,7 +185,7 @@ class Figures {
 
     [[gnu::noinline]] void look(const M& model, double t, const State& s)
     {
-        Values values = all_values(model, t, s);
+        Values values = all_values(model, t, s, work_);
         for (std::size_t k = watched; k < count; ++k) watch(model, k, t, values[k]);
         for (std::size_t k = 0; k < count; ++k) values[k] -= reference_[k];
         means_.see(t - start_, values);
@@ -221,8 +254,8 @@ class Figures {
         return std::sqrt(square);
     }
 
-    bool begun_ = false;
-    double start_ = 0;
+    bool begun_ = false, sums_ = false;
+    double start_ = 0, work_ = 0;
     State start_state_;
     Values initial_{}, reference_{}, most_{}, most_t_{}, allowed_{}, size_{}, moved_at_{};
     BatchMeans<count> means_;

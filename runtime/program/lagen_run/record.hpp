@@ -56,6 +56,22 @@ class DriveRecord {
         figures_.see(model_, t, s);
     }
 
+    /// The motion over a time h from t0 on, inside(x) its state at t0 + x h.
+    template <int nodes, class Inside>
+    void sum(double t0, double h, const Inside& inside) requires(HasPower<M>)
+    {
+        if constexpr (Follows<M>) {
+            M followed = model_;
+            figures_.template sum<nodes>(followed, t0, h, [&](double x) -> const State& {
+                const State& s = inside(x);
+                static_cast<void>(followed.follow(t0 + x * h, s));
+                return s;
+            });
+        } else {
+            figures_.template sum<nodes>(model_, t0, h, inside);
+        }
+    }
+
     [[nodiscard]] std::size_t rows() const noexcept { return rows_; }
     /// Of the last row; NaN before the first.
     [[nodiscard]] double last_time() const noexcept { return last_time_; }

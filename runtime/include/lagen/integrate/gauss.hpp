@@ -86,7 +86,7 @@ class CollocationStepper {
     {
         const Real length = theta * h;
         const auto guess = [&] {
-            for (std::size_t i = 0; i < stages; ++i) along(Real(theta * equations_.method().c[i]), inner_[i]);
+            for (std::size_t i = 0; i < stages; ++i) polynomial(Real(theta * equations_.method().c[i]), inner_[i]);
         };
         guess();
         bool solved = simple && iterate_simply(model, t, s, length, inner_) == Status::ok;
@@ -97,10 +97,18 @@ class CollocationStepper {
             for (Eigen::Index lane = 0; lane < s.size(); ++lane)
                 out[lane] = s[lane] + (gain(inner_, lane) - lost_[lane]);
         } else {
-            along(theta, out);
+            polynomial(theta, out);
             out += s;
         }
         return detail::check_finite(out);
+    }
+
+    /// What the polynomial of the last step has more than its beginning.
+    void polynomial(const Real& theta, State& out) const noexcept
+    {
+        Weights weights;
+        detail::collocation_weights(equations_.method().c, theta, weights);
+        combine(weights, out);
     }
 
     [[nodiscard]] std::size_t calls() const noexcept { return equations_.calls; }
@@ -134,14 +142,6 @@ class CollocationStepper {
             for (std::size_t j = 1; j < stages; ++j) sum += weights[j] * z_[j][lane];
             out[lane] = sum;
         });
-    }
-
-    /// Z(theta) of the last step's collocation polynomial.
-    void along(const Real& theta, State& out) noexcept
-    {
-        Weights weights;
-        detail::collocation_weights(equations_.method().c, theta, weights);
-        combine(weights, out);
     }
 
     /// The stages of a step of length h from the collocation polynomial of the step before; of the first step: s.

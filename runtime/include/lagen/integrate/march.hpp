@@ -25,6 +25,11 @@ class March {
     static Real epsilon() noexcept { return std::numeric_limits<Real>::epsilon(); }
     /// Adaptive steps are long and their interpolants cheap: events are looked for in so many pieces of each.
     static constexpr int pieces = Stepper::adaptive ? 4 : 1;
+    static constexpr int nodes = (Stepper::dense_order + 3) / 2;
+    static constexpr bool sums = requires(Observer observer, Real t, const State& (*inside)(const Real&))
+    {
+        observer.template sum<nodes>(t, t, inside);
+    };
 
     March(const M& model, const State& s, Interval<Real> span, const Method& method, const Options<M>& options,
           Observer& observer)
@@ -181,6 +186,22 @@ class March {
         return ending;
     }
 
+    /// For an observer that integrates along the motion: the part of the step that counts, from t0 on and theta h long,
+    /// the state at each fraction x of it, and how many of Gauss' nodes an integral needs to have the order of the
+    /// method. A collocation polynomial gives integrals over whole steps that order too.
+    void sum(const Real& theta, const Real& t0, const Real& h)
+    {
+        if constexpr (sums)
+            observer_.template sum<nodes>(t0, Real(theta * h), [&](const Real& x) -> const State& {
+                if constexpr (requires { steps_.stepper_.polynomial(x, steps_.inner_); })
+                    if (theta == Real(1)) {
+                        steps_.stepper_.polynomial(x, steps_.inner_);
+                        return steps_.inner_ += steps_.from_;
+                    }
+                return *inside(Real(x * theta), t0, h).second;
+            });
+    }
+
     /// The ends of the parts of (0, theta] in which events are looked for: where the stepper knows between which times
     /// they change their signs, those; else equal ones.
     std::span<const Real> parts(const Real& theta, const Real& h)
@@ -211,6 +232,7 @@ class March {
     void move(const Real& theta, const Real& t0, const Real& h)
     {
         const Real end = theta == Real(1) ? steps_.t_ : Real(t0 + theta * h);
+        sum(theta, t0, h);
         rows_until(end, [&](const Real& time) {
             // A row within rounding of the step's end is the step's end.
             Real x = (time - t0) / h;
@@ -270,7 +292,7 @@ class March {
     std::vector<Real> parts_; ///< of a step
     std::size_t row_ = 0;
     bool forward_;
-    bool looks_;        ///< into every step: there are rows, events or a solution
+    bool looks_;        ///< into every step: there are integrals, rows, events or a solution
     std::size_t limit_; ///< tries up to which nothing has to be looked at
 };
 
