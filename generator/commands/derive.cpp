@@ -61,6 +61,9 @@ ExitCode run_derive(Arguments arguments)
     if (is_form(form, FormKind::lagrange) && checked.report.mechanics.regularity.kind == Regularity::Kind::degenerate)
         write_standard_error(
             "warning: the Lagrangian is degenerate: the accelerations are not determined by the equations\n");
+    if (is_form(form, FormKind::discrete) && checked.report.mechanics.discrete.kind == Regularity::Kind::degenerate)
+        write_standard_error(
+            "warning: the discrete Lagrangian is degenerate: the arrow of a step is not determined by the equations\n");
     const EquationSet equations = derive(form, checked.model, checked.system, checked.report);
     const std::string text = marked(format == "text"    ? print_text(equations)
                                     : format == "latex" ? print_latex(equations)

@@ -135,6 +135,17 @@ std::string largest_text(const Reevaluation& reevaluation)
     return reevaluation.bound == 0 ? "0" : fmt::format("{:.0e}", reevaluation.bound);
 }
 
+/// Which matrix it is, where it is not d2L/dy2.
+const char* matrix_text(Regularity::Matrix matrix)
+{
+    switch (matrix) {
+    case Regularity::Matrix::lagrangian: break;
+    case Regularity::Matrix::hamiltonian: return "d2H/dmu2: the model has no Lagrangian";
+    case Regularity::Matrix::newton: return "N_ab = <-e_b(F^-L_a) of the discrete Lagrangian";
+    }
+    return "";
+}
+
 std::string regularity_text(const Regularity& regularity)
 {
     if (regularity.kind == Regularity::Kind::absent) return "";
@@ -144,8 +155,9 @@ std::string regularity_text(const Regularity& regularity)
     std::string text = fmt::format("  {:<16}{}{}{}{}\n", "regularity", kind_text(regularity.kind), rank,
                                    regularity.positive_definite ? ", positive definite" : "",
                                    regularity.for_given_parameters ? " (for the parameter values of the file)" : "");
-    if (regularity.of_hamiltonian) text += fmt::format("  {:<16}of d2H/dmu2: the model has no Lagrangian\n", "");
-    if (regularity.kind == Regularity::Kind::degenerate && !regularity.of_hamiltonian)
+    if (const char* matrix = matrix_text(regularity.of); *matrix != '\0')
+        text += fmt::format("  {:<16}of {}\n", "", matrix);
+    if (regularity.kind == Regularity::Kind::degenerate && regularity.of != Regularity::Matrix::hamiltonian)
         text += fmt::format("  {:<16}`generate` and `run` refuse a degenerate Lagrangian\n", "");
     for (const auto& vector : regularity.kernel)
         text += fmt::format("  {:<16}kernel vector {}\n", "", values_text(vector, "k_"));
@@ -158,6 +170,7 @@ std::string regularity_text(const Regularity& regularity)
         text += fmt::format("  {:<16}singular everywhere for the parameter values of the file\n", "");
     for (const NamedPoint& point : regularity.singular_at)
         text += fmt::format("  {:<16}singular at {}\n", "", point_text(point));
+    if (!regularity.coordinates.empty()) text += fmt::format("  {:<16}{}\n", "", regularity.coordinates);
     return text;
 }
 
@@ -225,6 +238,30 @@ void check_json(JsonWriter& json, const Check& check)
     json.end_object();
 }
 
+void regularity_json(JsonWriter& json, const Regularity& regularity)
+{
+    json.begin_object().key("status").value(kind_text(regularity.kind));
+    json.key("rank");
+    regularity.kind == Regularity::Kind::undecided ? json.null() : json.value(regularity.rank);
+    json.key("positive_definite").value(regularity.positive_definite);
+    json.key("for_given_parameters").value(regularity.for_given_parameters);
+    if (!regularity.evidence.empty()) json.key("evidence").value(regularity.evidence);
+    if (!regularity.coordinates.empty()) json.key("coordinates").value(regularity.coordinates);
+    if (regularity.of == Regularity::Matrix::hamiltonian) json.key("of").value("d2H/dmu2");
+    if (regularity.of == Regularity::Matrix::newton) json.key("of").value("N");
+    if (regularity.kind == Regularity::Kind::degenerate) {
+        json.key("kernel").begin_array();
+        for (const auto& vector : regularity.kernel) values_json(json, vector);
+        json.end_array();
+    }
+    json.key("singular_everywhere").value(regularity.singular_everywhere);
+    json.key("singular_at").begin_array();
+    for (const NamedPoint& point : regularity.singular_at) values_json(json, point);
+    json.end_array().key("singular_where").begin_array();
+    for (const std::string& factor : regularity.singular_where) json.value(factor);
+    json.end_array().end_object();
+}
+
 } // namespace
 
 std::string report_text(const std::string& model, const Report& verified)
@@ -238,7 +275,8 @@ std::string report_text(const std::string& model, const Report& verified)
     }
     for (const FormReport& form : structure.forms)
         text += fmt::format("  {:<16}degree {}, {}\n", "form " + form.name, form.degree, closed_text(form.closed));
-    text += regularity_text(verified.mechanics.regularity);
+    for (const Regularity* each : {&verified.mechanics.discrete, &verified.mechanics.regularity})
+        text += regularity_text(*each);
     if (const auto& again = structure.reevaluation)
         text += fmt::format("  {:<16}{}\n", "re-evaluated", confirmed_text(structure, *again));
     if (!structure.note.empty()) text += fmt::format("  note: {}\n", structure.note);
@@ -270,25 +308,11 @@ void report_json(JsonWriter& json, const std::string& model, const Report& verif
     const StructureReport& structure = verified.structure;
     json.begin_object().key("model").value(model).key("verdict").value(to_text(structure.verdict));
     structure_json(json, structure);
-    const Regularity& regularity = verified.mechanics.regularity;
-    json.key("regularity").begin_object().key("status").value(kind_text(regularity.kind));
-    json.key("rank");
-    regularity.kind == Regularity::Kind::undecided ? json.null() : json.value(regularity.rank);
-    json.key("positive_definite").value(regularity.positive_definite);
-    json.key("for_given_parameters").value(regularity.for_given_parameters);
-    if (!regularity.evidence.empty()) json.key("evidence").value(regularity.evidence);
-    if (regularity.of_hamiltonian) json.key("of").value("d2H/dmu2");
-    if (regularity.kind == Regularity::Kind::degenerate) {
-        json.key("kernel").begin_array();
-        for (const auto& vector : regularity.kernel) values_json(json, vector);
-        json.end_array();
-    }
-    json.key("singular_everywhere").value(regularity.singular_everywhere);
-    json.key("singular_at").begin_array();
-    for (const NamedPoint& point : regularity.singular_at) values_json(json, point);
-    json.end_array().key("singular_where").begin_array();
-    for (const std::string& factor : regularity.singular_where) json.value(factor);
-    json.end_array().end_object();
+    const Regularity &discrete = verified.mechanics.discrete, &regularity = verified.mechanics.regularity;
+    const bool is_discrete = discrete.kind != Regularity::Kind::absent;
+    regularity_json(json.key("regularity"), is_discrete ? discrete : regularity);
+    if (is_discrete && regularity.kind != Regularity::Kind::absent)
+        regularity_json(json.key("regularity_of_lagrangian"), regularity);
     verified_json(json, structure.reevaluation);
     if (!structure.note.empty()) json.key("note").value(structure.note);
     json.end_object();

@@ -21,7 +21,7 @@ class DiscreteForm {
   public:
     DiscreteForm(Graph& graph, const Model& model, const System& system, const FormulationRequest& request)
         : graph_(graph), model_(model), system_(system), groupoid_(*system.groupoid), L_(*system.discrete->lagrangian),
-          legendre_(discrete_legendre(graph, groupoid_, L_)), span_(graph, groupoid_),
+          equations_(arrow_equations(graph, system)), span_(graph, groupoid_),
           form_(empty_form(system, FormKind::discrete, {}, request))
     {
     }
@@ -182,30 +182,15 @@ class DiscreteForm {
         form_.kernels.push_back(std::move(kernel));
     }
 
-    /// F^-L - f^-
-    [[nodiscard]] std::vector<NodeId> momenta_of_arrow()
-    {
-        std::vector<NodeId> momenta = legendre_.minus;
-        const std::vector<NodeId>& work = system_.discrete->work.source;
-        for (std::size_t a = 0; a < work.size(); ++a) momenta[a] = graph_.subtract(momenta[a], work[a]);
-        return momenta;
-    }
-
     void add_arrow_equation()
     {
-        const std::vector<NodeId>& inner = system_.discrete->inner;
-        const std::size_t unknowns = system_.r() + inner.size();
-        std::vector<NodeId> current = momenta_of_arrow(), residual; // N is the derivative of `current`
-        const std::vector<NodeId> stationary = gradient(graph_, L_, inner), &work = system_.discrete->work.inner;
-        for (std::size_t k = 0; k < inner.size(); ++k)
-            current.push_back(work.empty() ? stationary[k] : graph_.add(stationary[k], work[k]));
-        for (std::size_t a = 0; a < unknowns; ++a)
-            residual.push_back(a < system_.r() ? graph_.subtract(system_.mu[a], current[a])
-                                               : graph_.negate(current[a]));
-        residual = over_lanes(residual);
-        Kernel kernel = table_kernel(form_, "arrow_equation", column("R", residual));
-        kernel.outputs.push_back(
-            matrix(graph_, "N", unknowns, unknowns, over_lanes(newton_matrix(graph_, groupoid_, current, inner))));
+        std::vector<NodeId> residual;
+        for (std::size_t a = 0; a < system_.r(); ++a)
+            residual.push_back(graph_.subtract(system_.mu[a], equations_.momenta[a]));
+        for (const NodeId slope : equations_.stationary) residual.push_back(graph_.negate(slope));
+        const std::size_t unknowns = equations_.unknowns();
+        Kernel kernel = table_kernel(form_, "arrow_equation", column("R", over_lanes(residual)));
+        kernel.outputs.push_back(matrix(graph_, "N", unknowns, unknowns, over_lanes(equations_.matrix)));
         kernel.documentation.emplace_back("N_ab = <-e_b(F^-L_a) is Newton's matrix. Inner unknowns w add R = -dL/dw.");
         form_.kernels.push_back(std::move(kernel));
     }
@@ -282,7 +267,7 @@ class DiscreteForm {
 
     void add_functions()
     {
-        form_.kernels.push_back(table_kernel(form_, "momentum", column("p", over_lanes(momenta_of_arrow()))));
+        form_.kernels.push_back(table_kernel(form_, "momentum", column("p", over_lanes(equations_.momenta))));
         const NodeId L = over_lanes({L_})[0];
         form_.binding["lagrangian"] = L;
         if (const NodeId step = system_.discrete->step; graph_.op(step) == Op::input) {
@@ -307,7 +292,7 @@ class DiscreteForm {
     const System& system_;
     const Groupoid& groupoid_;
     NodeId L_;
-    DiscreteLegendre legendre_;
+    ArrowEquations equations_;
     GeneratorSpan span_;
     Formulation form_;
     std::vector<std::pair<NodeId, NodeId>> lanes_; ///< x_next and W by the lanes
@@ -315,7 +300,35 @@ class DiscreteForm {
 
 } // namespace
 
-Formulation discrete_form(Graph& graph, const Model& model, const System& system, const FormulationRequest& request)
+namespace {
+
+/// "k_w1 = 1, k_w2 = x"
+std::string vector_text(const std::vector<std::pair<std::string, Tree>>& vector)
+{
+    std::string text;
+    for (const auto& [name, value] : vector)
+        text += fmt::format("{}k_{} = {}", text.empty() ? "" : ", ", name, to_text(value));
+    return text;
+}
+
+void require_regular(const System& system, const Regularity& regularity)
+{
+    if (regularity.kind != Regularity::Kind::degenerate) return;
+    throw MathematicsError(
+        fmt::format("the discrete Lagrangian of model '{}' is degenerate: N_ab = <-e_b(F^-L_a) has rank {}, and the "
+                    "discrete form needs rank {}",
+                    system.name, regularity.rank, system.r()),
+        regularity.kernel.empty()
+            ? "the arrow of a step cannot be solved for; let L depend on the arrow in every direction"
+            : fmt::format(
+                  "the arrow of a step cannot be solved for: the momenta F^-L do not change along the kernel vector {}",
+                  vector_text(regularity.kernel[0])));
+}
+
+} // namespace
+
+Formulation discrete_form(Graph& graph, const Model& model, const System& system, const Report& report,
+                          const FormulationRequest& request)
 {
     if (!system.discrete)
         throw MathematicsError(fmt::format("model '{}' has no [discrete], which the discrete form needs", model.name));
@@ -323,6 +336,7 @@ Formulation discrete_form(Graph& graph, const Model& model, const System& system
         throw MathematicsError(fmt::format("the scheme '{}' makes no discrete Lagrangian of model '{}': {}",
                                            model.discrete->scheme, model.name, system.discrete->obstacle),
                                "write it out: [discrete] L = \"..\"");
+    require_regular(system, report.mechanics.discrete);
     return DiscreteForm(graph, model, system, request).build();
 }
 

@@ -18,7 +18,7 @@ Formulation formulation(Graph& graph, const Model& model, const System& system, 
     case FormKind::lagrange: return lagrange_form(graph, system, report, request);
     case FormKind::hamilton: return hamilton_form(graph, system, report, request);
     case FormKind::pontryagin: return pontryagin_form(graph, model, system, report, request);
-    case FormKind::discrete: return discrete_form(graph, model, system, request);
+    case FormKind::discrete: return discrete_form(graph, model, system, report, request);
     }
     throw InternalError("a form without kernels");
 }

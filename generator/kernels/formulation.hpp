@@ -52,7 +52,7 @@ struct FormulationRequest {
                                         const FormulationRequest& request);
 [[nodiscard]] Formulation pontryagin_form(Graph& graph, const Model& model, const System& system, const Report& report,
                                           const FormulationRequest& request);
-[[nodiscard]] Formulation discrete_form(Graph& graph, const Model& model, const System& system,
+[[nodiscard]] Formulation discrete_form(Graph& graph, const Model& model, const System& system, const Report& report,
                                         const FormulationRequest& request);
 
 /// That of the form `kind`.

@@ -54,4 +54,21 @@ std::vector<NodeId> newton_matrix(Graph& graph, const Groupoid& groupoid, const 
     return N;
 }
 
+ArrowEquations arrow_equations(Graph& graph, const System& system)
+{
+    const Groupoid& groupoid = *system.groupoid;
+    const DiscreteSystem& discrete = *system.discrete;
+    const NodeId L = *discrete.lagrangian;
+    ArrowEquations equations{discrete_legendre(graph, groupoid, L).minus, gradient(graph, L, discrete.inner), {}};
+    const DiscreteWork& work = discrete.work;
+    for (std::size_t a = 0; a < work.source.size(); ++a)
+        equations.momenta[a] = graph.subtract(equations.momenta[a], work.source[a]);
+    for (std::size_t k = 0; k < work.inner.size(); ++k)
+        equations.stationary[k] = graph.add(equations.stationary[k], work.inner[k]);
+    std::vector<NodeId> solved = equations.momenta;
+    solved.insert(solved.end(), equations.stationary.begin(), equations.stationary.end());
+    equations.matrix = newton_matrix(graph, groupoid, solved, discrete.inner);
+    return equations;
+}
+
 } // namespace lagen

@@ -8,7 +8,7 @@
 /// N_ab E-^a ^ E+^b is its Cartan 2-section Omega_L.                                             [Martinez 2001]
 #pragma once
 
-#include "groupoid/groupoid.hpp"
+#include "mechanics/system.hpp"
 
 namespace lagen {
 
@@ -29,5 +29,18 @@ struct DiscreteLegendre {
 [[nodiscard]] std::vector<NodeId> newton_matrix(Graph& graph, const Groupoid& groupoid,
                                                 const std::vector<NodeId>& functions,
                                                 const std::vector<NodeId>& inner = {});
+
+/// What a step solves for the arrow h and the inner unknowns w of a scheme, with the work f of forces:
+///   F^-L(h)_a - f^-_a = mu_a,      dL/dw + f_w = 0
+struct ArrowEquations {
+    std::vector<NodeId> momenta;    ///< F^-L_a - f^-_a, shape (r)
+    std::vector<NodeId> stationary; ///< dL/dw + f_w, shape (m)
+    std::vector<NodeId> matrix;     ///< N: the derivatives of both, shape (r + m, r + m)
+
+    [[nodiscard]] std::size_t unknowns() const { return momenta.size() + stationary.size(); }
+};
+
+/// Of a system with a discrete Lagrangian.
+[[nodiscard]] ArrowEquations arrow_equations(Graph& graph, const System& system);
 
 } // namespace lagen

@@ -2,14 +2,11 @@
 #include "verify/arrow_decider.hpp"
 
 #include "graph/calculus/differentiate.hpp"
-#include "groupoid/cayley.hpp"
-#include "groupoid/generator_span.hpp"
+#include "verify/group_chart.hpp"
 
 namespace lagen {
 
 namespace {
-
-constexpr std::size_t largest_chart = 6; ///< rows of a matrix whose inverse is written out in a proof
 
 void append(std::vector<NodeId>& list, const std::vector<NodeId>& more)
 {
@@ -44,7 +41,7 @@ Decision ArrowDecider::decide(NodeId residual)
     bool of_group = false;
     for (const std::vector<NodeId>& W : elements_) of_group = of_group || depends_on_any(graph_, {&residual, 1}, W);
     if (!of_group) return free;
-    if (groupoid_.has_cayley_map && groupoid_.size <= largest_chart)
+    if (has_chart(groupoid_))
         if (Decision charted = on_group(residual); charted.status != ProofStatus::undecided) return charted;
     Decision open;
     open.residual = free.residual;
@@ -65,12 +62,9 @@ Decision ArrowDecider::on_group(NodeId residual)
     if (charted_.empty()) {
         std::string prime;
         for (const std::vector<NodeId>& W : elements_) {
-            std::vector<NodeId> s;
-            for (std::size_t c = 0; c < groupoid_.generators.size(); ++c)
-                s.push_back(graph_.input("s" + prime + "(" + std::to_string(c + 1) + ")"));
-            const std::vector<NodeId> A = GeneratorSpan(graph_, groupoid_).matrix(s);
-            for (const auto& pair : replacements(W, cayley(graph_, A, groupoid_.size))) charted_.push_back(pair);
-            append(chart_variables_, s);
+            const GroupChart chart = group_chart(graph_, groupoid_, W, "s" + prime);
+            charted_.insert(charted_.end(), chart.element.begin(), chart.element.end());
+            append(chart_variables_, chart.s);
             prime += "'";
         }
     }

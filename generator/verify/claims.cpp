@@ -2,6 +2,7 @@
 /// The setting in which the claims of a system are decided, and what is refused before.
 #include "verify/claims.hpp"
 
+#include "verify/discrete_regularity.hpp"
 #include "verify/legendre_obstacle.hpp"
 #include "verify/proof_setting.hpp"
 #include "verify/regularity.hpp"
@@ -101,9 +102,14 @@ Regularity Claims::decide_regularity()
     const FibreHessian& hessian = of_hamiltonian ? *hamiltonian_hessian_ : lagrangian_->fibre;
     const Replacements& values = system_.parameter_values;
     Regularity regularity = lagen::decide_regularity(graph_, hessian, setting_, judge_->decider(), values);
-    regularity.of_hamiltonian = of_hamiltonian;
+    if (of_hamiltonian) regularity.of = Regularity::Matrix::hamiltonian;
     decide_legendre_transform(graph_, hessian, setting_, judge_->decider().budget(), values, regularity);
     return regularity;
+}
+
+Regularity Claims::decide_discrete_regularity()
+{
+    return lagen::decide_discrete_regularity(graph_, system_, judge_->decider().budget());
 }
 
 } // namespace lagen

@@ -25,6 +25,7 @@ class Claims {
     /// closed and equals of [forms], and whether each form is closed.
     void decide_forms(StructureReport& structure);
     [[nodiscard]] Regularity decide_regularity();
+    [[nodiscard]] Regularity decide_discrete_regularity();
     /// Where L and H are given: H(t, x, dL/dy) - (y^a dL/dy^a - L)
     void decide_legendre(StructureReport& structure);
     /// Of a control problem: do the controls maximise H?

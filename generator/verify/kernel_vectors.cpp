@@ -115,22 +115,28 @@ void append_vectors(std::vector<KernelVector>& vectors, Graph& graph, const Fibr
     if (!minor) return;
     for (const std::size_t j : block) {
         if (std::ranges::find(*minor, j) != minor->end()) continue;
-        std::vector<NodeId> k = kernel_entries(graph, hessian, block, *minor, j);
+        const std::vector<NodeId> k = kernel_entries(graph, hessian, block, *minor, j);
         if (!is_in_kernel(graph, hessian, block, k, decider)) continue;
-        k = without_denominators(graph, k, order, decider);
-        KernelVector vector;
-        bool readable = true;
-        for (std::size_t b = 0; b < block.size(); ++b) {
-            const Decision decision = decider.decide(k[b]);
-            if (decision.status == ProofStatus::proved) continue;
-            vector.emplace_back(block[b], tree_of(graph, k[b], decision, order, decider));
-            readable = readable && vector.back().second != nullptr;
-        }
-        if (readable) vectors.push_back(std::move(vector));
+        if (auto vector = readable_vector(graph, block, k, order, decider)) vectors.push_back(std::move(*vector));
     }
 }
 
 } // namespace
+
+std::optional<KernelVector> readable_vector(Graph& graph, const std::vector<std::size_t>& places,
+                                            const std::vector<NodeId>& k, const Order& order,
+                                            const ZeroDecider& decider)
+{
+    const std::vector<NodeId> multiple = without_denominators(graph, k, order, decider);
+    KernelVector vector;
+    for (std::size_t b = 0; b < places.size(); ++b) {
+        const Decision decision = decider.decide(multiple[b]);
+        if (decision.status == ProofStatus::proved) continue;
+        vector.emplace_back(places[b], tree_of(graph, multiple[b], decision, order, decider));
+        if (vector.back().second == nullptr) return {};
+    }
+    return vector;
+}
 
 std::optional<Block> nonzero_principal_minor(Graph& graph, const FibreHessian& hessian, const Block& block,
                                              const ZeroDecider& decider)

@@ -5,6 +5,7 @@
 
 #include "mechanics/fibre_hessian.hpp"
 #include "proof/decide.hpp"
+#include "symbolic/ginac_door.hpp"
 
 namespace lagen {
 
@@ -16,6 +17,11 @@ namespace lagen {
 
 /// Components that are not zero, by fibre coordinate.
 using KernelVector = std::vector<std::pair<std::size_t, Tree>>;
+
+/// The entries k at `places`, without their denominators; nothing where one is too long to be read.
+[[nodiscard]] std::optional<KernelVector> readable_vector(Graph& graph, const std::vector<std::size_t>& places,
+                                                          const std::vector<NodeId>& k, const Order& order,
+                                                          const ZeroDecider& decider);
 
 /// A basis of the kernel wherever minors and denominators do not vanish; W k = 0 is proved of each vector that is
 /// listed. A vector is left out where that is not decided, where a component is too long to be read, and in blocks of

@@ -168,7 +168,7 @@ struct Transform {
 Transform transform_of(Graph& graph, const FibreHessian& hessian, const ProofSetting& setting,
                        const ProofBudget& budget, const Regularity& regularity)
 {
-    const bool is_hamiltonian = regularity.of_hamiltonian;
+    const bool is_hamiltonian = regularity.of == Regularity::Matrix::hamiltonian;
     const std::string matrix = is_hamiltonian ? "d2H/dmu2" : "d2L/dy2";
     SmoothSet smooth(graph, hessian, setting, budget, is_hamiltonian ? "H" : "L");
     if (!smooth.obstacle().empty()) return {smooth.obstacle(), {}};

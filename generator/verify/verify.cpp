@@ -66,6 +66,7 @@ Report verify(const System& system, const std::vector<NamedTree>& extra_invarian
     claims.decide_groupoid(report.structure);
     claims.decide_forms(report.structure);
     report.mechanics.regularity = claims.decide_regularity();
+    report.mechanics.discrete = claims.decide_discrete_regularity();
     claims.decide_legendre(report.structure);
     claims.decide_invariants(report, extra_invariants);
     claims.decide_controls(report);

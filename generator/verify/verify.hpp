@@ -35,13 +35,17 @@ struct Check {
 enum class Verdict { valid, invalid, undecided };
 [[nodiscard]] const char* to_text(Verdict verdict);
 
-/// Of the fibre Hessian W = d2L/dy2.
+/// Of the fibre Hessian W = d2L/dy2, or of another matrix that the equations of motion are solved with.
 struct Regularity {
+    enum class Matrix {
+        lagrangian,  ///< d2L/dy2
+        hamiltonian, ///< d2H/dmu2, where the model has H and no L
+        newton,      ///< N_ab = <-e_b (F^-L_a) of the discrete L
+    } of = Matrix::lagrangian;
     enum class Kind { regular, generically_regular, degenerate, absent, undecided } kind = Kind::absent;
     std::size_t rank = 0;               ///< generic rank, by a witness
     bool positive_definite = false;     ///< proved on the whole domain
     bool for_given_parameters = false;  ///< `regular` and `positive_definite` rest on the parameter values of the file
-    bool of_hamiltonian = false;        ///< of d2H/dmu2, where the model has H and no L
     std::string evidence;               ///< why `undecided`; may be empty
     std::string legendre_obstacle;      ///< why y -> dL/dy is not shown to be one-to-one; empty where it is
     std::vector<Rational> newton_start; ///< a y where dL/dy is defined, if it is not at 0; else empty
@@ -49,10 +53,12 @@ struct Regularity {
     std::vector<std::pair<NodeId, NodeId>> legendre_values;
     bool singular_everywhere = false;    ///< generically_regular, but det W = 0 for the parameter values of the file
     std::vector<NamedPoint> singular_at; ///< known singular points
+    std::string coordinates;             ///< what those of points and kernels stand for; empty: those of the model
     std::vector<std::string> singular_where; ///< where L is defined W is singular where one of these vanishes, for the
                                              ///< parameter values of the file; empty where that is not known
     std::vector<std::vector<std::pair<std::string, Tree>>>
-        kernel; ///< where degenerate: vectors k with W k = 0, proved, as components by fibre coordinate
+        kernel; ///< where degenerate: vectors k with W k = 0, proved, as components by fibre coordinate (and inner
+                ///< unknown)
 };
 
 /// Whether other values of the parameters might be decided otherwise.
@@ -102,6 +108,7 @@ struct StructureReport {
 /// Whether the equations of motion are determined.
 struct MechanicsReport {
     Regularity regularity; ///< of L, else of H
+    Regularity discrete;   ///< of the discrete L
 };
 
 /// Whether the equations of motion are those of extremals.
