@@ -162,7 +162,7 @@ const std::string& models_folder()
         const std::string made = root().file("models");
         for (const char* from : {"/models", "/tests/commands/models"})
             for (const fs::directory_entry& entry : fs::directory_iterator(LAGEN_SOURCE_DIR + std::string(from)))
-                fs::copy_file(entry.path(), fs::path(made) / entry.path().filename());
+                fs::copy(entry.path(), fs::path(made) / entry.path().filename(), fs::copy_options::recursive);
         return made;
     }();
     return folder;

@@ -43,7 +43,7 @@ struct Started {
 
 /// A new empty folder, removed with everything else when the test program ends.
 [[nodiscard]] std::string fresh_folder();
-/// A folder with a copy of models/*.toml and of tests/commands/models/*.toml.
+/// A folder with a copy of what is in models and in tests/commands/models.
 [[nodiscard]] const std::string& models_folder();
 /// The example models by name, sorted.
 [[nodiscard]] std::vector<std::string> example_models();

@@ -140,6 +140,27 @@ TEST_CASE("a discrete run starts from the momenta of its first arrow as well", "
             CHECK(std::abs(long_number(found["rows"][k][column]) - long_number(expected["rows"][k][column])) < 1e-13L);
 }
 
+TEST_CASE("a discrete body turns by asin(h Omega) a step up to a quarter of a turn, and no step has more", "[run]")
+{
+    for (const auto& [speed, most] : {std::pair{0.1, 3}, {0.5, 6}, {0.9, 17}, {0.99, 56}, {0.999, 82}}) {
+        INFO("h Omega = " << speed);
+        const std::string momenta = fmt::format("p_w1 = 0, p_w2 = 0, p_w3 = {:.17g}", 34 * speed); // I3/h = 34
+        const json::Value run = steps_of({written("body", free_body_from(momenta))});
+        CHECK(run["status"].text == "ok");
+        // The first arrow is led to where the others are at once.
+        const json::Value once = steps_of({written("body", free_body_from(momenta)), "--t-end", "0.1"});
+        CHECK(once["newton_iterations"].number() >= most);
+        CHECK(once["newton_iterations"].number() <= most + 2);
+        CHECK(run["newton_iterations"].number() <= once["newton_iterations"].number() + 2 * 49);
+        CHECK(std::abs(long_number(run["rows"][50][1]) - std::sqrt(1 - speed * speed)) < 1e-11L); // cos of the angle
+        CHECK(std::abs(long_number(run["rows"][50][2]) + speed) < 1e-13L);
+    }
+    for (const char* beyond : {"34", "34.034"})
+        CHECK(steps_of({written("body", free_body_from(fmt::format("p_w1 = 0, p_w2 = 0, p_w3 = {}", beyond)))},
+                       1)["status"]
+                  .text == "no_solution");
+}
+
 TEST_CASE("the momenta of a discrete step beyond the fold have no arrow, those before it have one", "[run]")
 {
     // About the first axis F^-L = 2 J.. sin(angle)/h = I1 sin(angle)/h: no more than I1/h = 11.

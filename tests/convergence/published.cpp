@@ -163,6 +163,7 @@ TEST_CASE("RK4 keeps the heavy top's transverse oscillation bounded at h = 0.019
     };
     CHECK_THAT(norm(0.005), Catch::WithinAbs(0.9265, 5e-5));
     CHECK_THAT(norm(0.01), Catch::WithinAbs(0.100, 5e-4));
+    CHECK_THAT(norm(0.015), Catch::WithinAbs(1.1e-7, 5e-9));
 }
 
 TEST_CASE("DOP853 follows the heavy top to the published states at t = 1 and 2")

@@ -185,6 +185,28 @@ TEST_CASE("impulses resonate with what is fast: pi - 2 atan(h / 2 omega) < h ome
     }
 }
 
+// `lagen run` finds these arrows by a way of its own (commands, "a discrete body turns by asin(h Omega)").
+TEST_CASE("Newton's method for Moser and Veselov's step takes 3, 4, 6, 7, 9, 22 iterations up to h Omega = 1")
+{
+    // J W - W^T J = h hat(mu) about a principal axis, in the rotation by theta: I sin(theta) = I h Omega, from 1 on.
+    const auto iterations = [](double speed) {
+        double theta = 0;
+        for (int k = 0; k < 100; ++k) {
+            const double residual = speed - std::sin(theta);
+            if (std::abs(residual) < 1e-13) return k;
+            theta += residual / std::cos(theta);
+        }
+        return -1;
+    };
+    CHECK(iterations(0.1) == 3);
+    CHECK(iterations(0.5) == 4);
+    CHECK(iterations(0.9) == 6);
+    CHECK(iterations(0.99) == 7);
+    CHECK(iterations(0.999) == 9);
+    CHECK(iterations(1) == 22);
+    CHECK(iterations(1.001) == -1);
+}
+
 TEST_CASE("a million steps of RK4 damp an oscillation by (1 - y^6/72 + y^8/576)^(10^6)")
 {
     lagen::Integrator integrator(Spring(), Eigen::Vector2d(1, 0), 0.0, lagen::Rk4{.step = 0.1});
