@@ -11,6 +11,7 @@
 #include "commands/scene/scene_options.hpp"
 #include "commands/scene/scene_program.hpp"
 #include "elaborate/bind_parameters.hpp"
+#include "elaborate/variational_model.hpp"
 #include "model/scene_form.hpp"
 #include "pipeline.hpp"
 
@@ -87,6 +88,15 @@ std::vector<Panel> panels_of(const std::vector<TableColumn>& columns, const Mode
     return panels;
 }
 
+/// Of the variational method that is asked for; empty where it is another one.
+const char* scheme_of(const Options& options, const Model& model)
+{
+    const std::string asked = options.get("method");
+    if (asked.empty() && model.scenes.empty()) return "";
+    const MethodEntry* method = find_method(asked.empty() ? find_scene(model, options.get("scene")).method : asked);
+    return method == nullptr ? "" : method->scheme;
+}
+
 void tell(const Options& options, const RunOutcome& outcome, bool as_json)
 {
     if (as_json) {
@@ -113,6 +123,8 @@ ExitCode run_run(Arguments arguments)
 
     const std::string path = model_path(options.positional()[0]);
     CheckedModel checked = read(path, options.settings(), options.has("unchecked"));
+    if (const char* scheme = scheme_of(options, checked.model); *scheme != '\0')
+        checked.model = variational_model(std::move(checked.model), scheme);
     const Model& model = checked.model;
     require_apart(options, model);
     // What a chart chooses is chosen for the equations that it ran: those of the values.

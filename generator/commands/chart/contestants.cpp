@@ -70,7 +70,7 @@ std::vector<MethodFamily> method_families(const ChartProblem& problem, const std
 {
     std::map<Kinship, std::vector<const MethodEntry*>> families;
     for (const MethodEntry& method : method_table()) {
-        if (!wanted.empty() && std::ranges::find(wanted, &method) == wanted.end()) continue;
+        if (wanted.empty() ? *method.scheme != '\0' : std::ranges::find(wanted, &method) == wanted.end()) continue;
         const std::string obstacle = obstacle_to(method, problem);
         if (!obstacle.empty() && !wanted.empty()) throw UsageError("lagen chart: " + obstacle);
         if (obstacle.empty())

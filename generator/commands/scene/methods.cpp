@@ -16,6 +16,14 @@ namespace lagen {
 
 namespace {
 
+constexpr MethodEntry variational(const char* name, const char* order, const char* scheme, const char* text)
+{
+    MethodEntry entry{
+        name, "Discrete", order, false, MethodKind::discrete, text, "symplectic or Poisson, momenta, the group"};
+    entry.scheme = scheme;
+    return entry;
+}
+
 constexpr std::array entries = [] {
     using enum MethodKind;
     return std::array{
@@ -88,6 +96,10 @@ constexpr std::array entries = [] {
         MethodEntry{"discrete", "Discrete", "of L", false, discrete,
                     "discrete Euler-Lagrange equations on a Lie groupoid (Martinez 2001)",
                     "symplectic or Poisson, momenta, the group"},
+        variational("variational2", "2", "gauss:1", "discrete Lagrangian of L by the midpoint, on pairs and groups"),
+        variational("variational4", "4", "gauss:2", "Galerkin, two Gauss points (Marsden and West 2001)"),
+        variational("variational6", "6", "gauss:3", "Galerkin, three Gauss points (Marsden and West 2001)"),
+        variational("variational8", "8", "gauss:4", "Galerkin, four Gauss points (Marsden and West 2001)"),
     };
 }();
 
@@ -176,6 +188,7 @@ bool goes_abreast(const MethodEntry& method)
 
 std::string system_of(const MethodEntry& method)
 {
+    if (*method.scheme != '\0') return "L on a tangent bundle, a Lie algebra, an action or an Atiyah algebroid";
     if (method.kind == MethodKind::discrete) return "discrete Lagrangians";
     if (method.kind == MethodKind::splitting)
         return method.affine ? "x' = M y + c, y' = g(x)" : "x' = f(y), y' = g(x) or a sum of exact flows";

@@ -29,6 +29,7 @@ struct MethodEntry {
     SecondOrder::Kind system = SecondOrder::Kind::no; ///< for x'' = f(t, x, x') or f(t, x) only
     bool affine = false;                              ///< of splittings: xdot has to be affine in y
     bool symmetric = true;                            ///< of splittings: a step back undoes one
+    const char* scheme = "";                          ///< of variational methods: what makes the discrete L of L
 };
 
 [[nodiscard]] std::span<const MethodEntry> method_table();
