@@ -38,6 +38,9 @@
 ///   invariants          1      1      1          0       0            4
 ///   events              0      0      0          0       0            0
 ///   jacobian            1      1      0          0       0            2
+///   algebra_element      0      0      0          0       0            0
+///   algebra_action      0      2      0          0       0            2
+///   algebra_bracket      1      2      0          0       0            3
 ///
 /// State:
 ///   s[0] x [1]: horizontal position
@@ -223,6 +226,46 @@ class half_plane {
         for (std::size_t k = 0; k < 7; ++k) result(jacobian_rows[k], jacobian_columns[k]) = values[k];
         return result;
     }
+
+    /// The element xi(t, s) of the Lie algebra by which a group moves lanes of the state, s' = A(xi) s; shape (2).
+    [[nodiscard]] status_t<S> algebra_element([[maybe_unused]] S t, const State& s, Eigen::Matrix<S, 2, 1>& xi) const
+            noexcept
+    {
+        const S a = s[2], b = s[3];
+        xi[0] = a;
+        xi[1] = b;
+        return StatusOf<S>::good();
+    }
+
+    /// A(xi) s, linear in xi and in the lanes that the group moves; 0 in the others.
+    [[nodiscard]] Eigen::Matrix<S, 4, 1> algebra_action([[maybe_unused]] S t, const State& s, const Eigen::Matrix<S, 2,
+            1>& xi) const noexcept
+    {
+        Eigen::Matrix<S, 4, 1> result;
+        const S y = s[1];
+        const S xi_a = xi[0], xi_b = xi[1];
+        result[0] = y * xi_a;
+        result[1] = y * xi_b;
+        result[2] = S(0);
+        result[3] = S(0);
+        return result;
+    }
+
+    /// [xi, eta], shape (2): A([xi, eta]) = A(eta) A(xi) - A(xi) A(eta).
+    [[nodiscard]] Eigen::Matrix<S, 2, 1> algebra_bracket(const Eigen::Matrix<S, 2, 1>& xi, const Eigen::Matrix<S, 2, 1>&
+            eta) const noexcept
+    {
+        Eigen::Matrix<S, 2, 1> result;
+        const S xi_a = xi[0], xi_b = xi[1];
+        const S eta_a = eta[0], eta_b = eta[1];
+        result[0] = eta_a * xi_b - xi_a * eta_b;
+        result[1] = S(0);
+        return result;
+    }
+
+    /// Elements of the Lie algebra of the group that moves these lanes of State, for lagen::Rkmk4 and its like.
+    static constexpr int algebra_dimension = 2;
+    static constexpr std::array<bool, 4> moved_by_group = {true, true, false, false};
 };
 
 } // namespace lagen::models

@@ -52,6 +52,9 @@
 ///   constraints         3      3      0          0       0            6
 ///   casimirs            2      3      0          0       0            5
 ///   jacobian            9      3      0          0       0           15
+///   algebra_element      0      0      0          0       0            0
+///   algebra_action      3      6      0          0       0            9
+///   algebra_bracket      3      6      0          0       0            9
 ///
 /// Parameters:
 ///   I1 [kg m^2]: first principal moment of inertia
@@ -312,6 +315,63 @@ class heavy_top_prolongation {
         for (std::size_t k = 0; k < 21; ++k) result(jacobian_rows[k], jacobian_columns[k]) = values[k];
         return result;
     }
+
+    /// The element xi(t, s) of the Lie algebra by which a group moves lanes of the state, s' = A(xi) s; shape (6).
+    [[nodiscard]] status_t<S> algebra_element([[maybe_unused]] S t, const State& s, Eigen::Matrix<S, 6, 1>& xi) const
+            noexcept
+    {
+        const S X_w1 = s[6], X_w2 = s[7], X_w3 = s[8], V_w1 = s[9], V_w2 = s[10], V_w3 = s[11];
+        xi[0] = X_w1;
+        xi[1] = X_w2;
+        xi[2] = X_w3;
+        xi[3] = V_w1;
+        xi[4] = V_w2;
+        xi[5] = V_w3;
+        return StatusOf<S>::good();
+    }
+
+    /// A(xi) s, linear in xi and in the lanes that the group moves; 0 in the others.
+    [[nodiscard]] Eigen::Matrix<S, 12, 1> algebra_action([[maybe_unused]] S t, const State& s, const Eigen::Matrix<S, 6,
+            1>& xi) const noexcept
+    {
+        Eigen::Matrix<S, 12, 1> result;
+        const S g1 = s[0], g2 = s[1], g3 = s[2];
+        const S xi_X_w1 = xi[0], xi_X_w2 = xi[1], xi_X_w3 = xi[2];
+        result[0] = g2 * xi_X_w3 - g3 * xi_X_w2;
+        result[1] = g3 * xi_X_w1 - g1 * xi_X_w3;
+        result[2] = g1 * xi_X_w2 - g2 * xi_X_w1;
+        result[3] = S(0);
+        result[4] = S(0);
+        result[5] = S(0);
+        result[6] = S(0);
+        result[7] = S(0);
+        result[8] = S(0);
+        result[9] = S(0);
+        result[10] = S(0);
+        result[11] = S(0);
+        return result;
+    }
+
+    /// [xi, eta], shape (6): A([xi, eta]) = A(eta) A(xi) - A(xi) A(eta).
+    [[nodiscard]] Eigen::Matrix<S, 6, 1> algebra_bracket(const Eigen::Matrix<S, 6, 1>& xi, const Eigen::Matrix<S, 6, 1>&
+            eta) const noexcept
+    {
+        Eigen::Matrix<S, 6, 1> result;
+        const S xi_X_w1 = xi[0], xi_X_w2 = xi[1], xi_X_w3 = xi[2];
+        const S eta_X_w1 = eta[0], eta_X_w2 = eta[1], eta_X_w3 = eta[2];
+        result[0] = xi_X_w2 * eta_X_w3 - eta_X_w2 * xi_X_w3;
+        result[1] = eta_X_w1 * xi_X_w3 - xi_X_w1 * eta_X_w3;
+        result[2] = xi_X_w1 * eta_X_w2 - eta_X_w1 * xi_X_w2;
+        result[3] = S(0);
+        result[4] = S(0);
+        result[5] = S(0);
+        return result;
+    }
+
+    /// Elements of the Lie algebra of the group that moves these lanes of State, for lagen::Rkmk4 and its like.
+    static constexpr int algebra_dimension = 6;
+    static constexpr std::array<bool, 12> moved_by_group = {true, true, true, false, false, false, false, false, false,
+            false, false, false};
 };
 
 } // namespace lagen::models

@@ -41,6 +41,9 @@
 ///   observables         0      0      0          0       0            0
 ///   invariants          6     13      1          0       0           21
 ///   jacobian            9      4      2          0       0           16
+///   algebra_element      0      0      0          0       0            0
+///   algebra_action      3      6      0          0       0            9
+///   algebra_bracket      3      6      0          0       0            9
 ///
 /// Parameters:
 ///   J [kg m^2]: third principal moment of inertia, half of the others
@@ -275,6 +278,50 @@ class kovalevskaya {
         for (std::size_t k = 0; k < 20; ++k) result(jacobian_rows[k], jacobian_columns[k]) = values[k];
         return result;
     }
+
+    /// The element xi(t, s) of the Lie algebra by which a group moves lanes of the state, s' = A(xi) s; shape (3).
+    [[nodiscard]] status_t<S> algebra_element([[maybe_unused]] S t, const State& s, Eigen::Matrix<S, 3, 1>& xi) const
+            noexcept
+    {
+        const S w1 = s[3], w2 = s[4], w3 = s[5];
+        xi[0] = w1;
+        xi[1] = w2;
+        xi[2] = w3;
+        return StatusOf<S>::good();
+    }
+
+    /// A(xi) s, linear in xi and in the lanes that the group moves; 0 in the others.
+    [[nodiscard]] Eigen::Matrix<S, 6, 1> algebra_action([[maybe_unused]] S t, const State& s, const Eigen::Matrix<S, 3,
+            1>& xi) const noexcept
+    {
+        Eigen::Matrix<S, 6, 1> result;
+        const S g1 = s[0], g2 = s[1], g3 = s[2];
+        const S xi_w1 = xi[0], xi_w2 = xi[1], xi_w3 = xi[2];
+        result[0] = g2 * xi_w3 - g3 * xi_w2;
+        result[1] = g3 * xi_w1 - g1 * xi_w3;
+        result[2] = g1 * xi_w2 - g2 * xi_w1;
+        result[3] = S(0);
+        result[4] = S(0);
+        result[5] = S(0);
+        return result;
+    }
+
+    /// [xi, eta], shape (3): A([xi, eta]) = A(eta) A(xi) - A(xi) A(eta).
+    [[nodiscard]] Eigen::Matrix<S, 3, 1> algebra_bracket(const Eigen::Matrix<S, 3, 1>& xi, const Eigen::Matrix<S, 3, 1>&
+            eta) const noexcept
+    {
+        Eigen::Matrix<S, 3, 1> result;
+        const S xi_w1 = xi[0], xi_w2 = xi[1], xi_w3 = xi[2];
+        const S eta_w1 = eta[0], eta_w2 = eta[1], eta_w3 = eta[2];
+        result[0] = xi_w2 * eta_w3 - eta_w2 * xi_w3;
+        result[1] = eta_w1 * xi_w3 - xi_w1 * eta_w3;
+        result[2] = xi_w1 * eta_w2 - eta_w1 * xi_w2;
+        return result;
+    }
+
+    /// Elements of the Lie algebra of the group that moves these lanes of State, for lagen::Rkmk4 and its like.
+    static constexpr int algebra_dimension = 3;
+    static constexpr std::array<bool, 6> moved_by_group = {true, true, true, false, false, false};
 };
 
 } // namespace lagen::models

@@ -61,6 +61,7 @@ std::set<std::string> class_scope_names(const KernelModule& module, const std::s
     }
     for (const LaneGroup& group : module.groups) names.insert(group.role + "_dimension");
     if (module.second_order.kind != SecondOrder::Kind::no) names.insert("second_order");
+    if (!module.motion.moved.empty()) names.insert({"algebra_dimension", "moved_by_group"});
     if (module.flows.count > 0) names.insert({"flows", "flow", "part"});
     if (!module.implicit.empty())
         names.insert({"z", "newton", "bracket", "lower", "upper", "unknowns", "residual", "derivative", "size",

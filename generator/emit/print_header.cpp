@@ -155,6 +155,20 @@ void print_flows(TextBlock& out, const KernelModule& module)
     close_block(out);
 }
 
+void print_group_motion(TextBlock& out, const KernelModule& module)
+{
+    for (const char* name : {"algebra_element", "algebra_action", "algebra_bracket"})
+        if (!has_kernel(module, name)) return;
+    std::vector<std::string> moved;
+    for (const bool lane : module.motion.moved) moved.emplace_back(lane ? "true" : "false");
+    out.blank();
+    out.comment(
+        "Elements of the Lie algebra of the group that moves these lanes of State, for lagen::Rkmk4 and its like.");
+    out.line(fmt::format("static constexpr int algebra_dimension = {};", module.motion.dimension));
+    out.line(
+        fmt::format("static constexpr std::array<bool, {}> moved_by_group = {{{}}};", moved.size(), joined(moved)));
+}
+
 /// What keeps matrices on their groups from step to step.
 void print_matrices(TextBlock& out, const KernelModule& module, Includes& includes)
 {
@@ -218,6 +232,7 @@ std::string print_header(const KernelModule& module)
     for (const ImplicitBlock& block : module.implicit) print_implicit(kernels, module, names, block, includes);
     print_follow(kernels, module, names);
     for (const Kernel& kernel : module.kernels) print_kernel(kernels, module, names, kernel, includes);
+    print_group_motion(kernels, module);
     print_flows(kernels, module);
     print_matrices(kernels, module, includes);
 

@@ -138,6 +138,13 @@ struct GroupLanes {
     std::vector<Entry> generators; ///< of all of them, but zeros
 };
 
+/// Lanes that a group moves linearly, by the kernels algebra_element, algebra_action and algebra_bracket.
+struct GroupMotion {
+    std::size_t dimension = 0; ///< of its Lie algebra
+    std::vector<bool> moved;   ///< of every lane; empty where no group moves any
+    std::string obstacle;      ///< in names of the model, where none does
+};
+
 /// Of a discrete motion: how the lanes of its arrows are divided.
 struct StepNumbers {
     std::size_t horizontal = 0; ///< lanes of x_next - x
@@ -166,6 +173,7 @@ struct KernelModule {
     ModuleKind kind = ModuleKind::vector_field;
     std::vector<LaneGroup> groups; ///< of the lanes of State, in their order
     std::vector<GroupLanes> matrices;
+    GroupMotion motion;
     SecondOrder second_order;        ///< of the right-hand side
     std::optional<StepNumbers> step; ///< of kind step
     Flows flows;

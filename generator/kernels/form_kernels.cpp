@@ -3,6 +3,7 @@
 
 #include "graph/calculus/differentiate.hpp"
 #include "graph/unknowns/tangent_size.hpp"
+#include "kernels/algebra_action.hpp"
 #include "kernels/describe_module.hpp"
 #include "kernels/exact_flows.hpp"
 #include "kernels/formulation.hpp"
@@ -80,6 +81,7 @@ class ModuleBuilder {
         if (wants("jacobian")) add_jacobian();
         if (wants("variational")) add_variational();
         if (request_.time_scale != nullptr) add_time_scale();
+        add_group_motion();
         if (form_.hamiltonian && wants_flows()) add_flows(flows_of(*form_.hamiltonian));
     }
 
@@ -304,6 +306,16 @@ class ModuleBuilder {
         Kernel kernel{.name = "time_scale", .inputs = {}, .outputs = {column("value", {scale, rate})}};
         kernel.documentation = {"A time scale of the motion, and its rate along it, for lagen::Reversible."};
         add(std::move(kernel));
+    }
+
+    void add_group_motion()
+    {
+        AlgebraAction found = algebra_action(*graph_, model_, system_, form_);
+        module_.motion = std::move(found.motion);
+        for (Kernel& kernel : found.at_states)
+            if (wants(kernel.name)) add(std::move(kernel));
+        for (Kernel& kernel : found.constants)
+            if (wants(kernel.name)) module_.kernels.push_back(simplified(std::move(kernel), {}));
     }
 
     [[nodiscard]] bool wants_flows() const

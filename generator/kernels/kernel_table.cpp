@@ -13,6 +13,7 @@ constexpr Forms hamilton = only(FormKind::hamilton);
 constexpr Forms pontryagin = only(FormKind::pontryagin);
 constexpr Forms discrete = only(FormKind::discrete);
 constexpr Forms flow = lagrange | hamilton | pontryagin; ///< those with rates
+constexpr Forms mechanical = lagrange | hamilton;
 constexpr Forms every = flow | discrete;
 
 constexpr OutputSignature number{};
@@ -73,6 +74,13 @@ constexpr std::array kernel_rows{
     KernelRow{"momentum", discrete, column_of_values, "F^-L(g)_a = (->e_a L)(g), shape ({0})."},
     KernelRow{"energy", discrete, number, "E = -dL/dh."},
     KernelRow{"lagrangian", discrete, number, "L(g)."},
+    KernelRow{"algebra_element", mechanical, column_of_values_checked,
+              "The element xi(t, s) of the Lie algebra by which a group moves lanes of the state, s' = A(xi) s; shape "
+              "({0})."},
+    KernelRow{"algebra_action", mechanical, column_of_values,
+              "A(xi) s, linear in xi and in the lanes that the group moves; 0 in the others."},
+    KernelRow{"algebra_bracket", mechanical, column_of_values,
+              "[xi, eta], shape ({0}): A([xi, eta]) = A(eta) A(xi) - A(xi) A(eta)."},
     KernelRow{"events", flow, column_of_values, "Events: each happens where its value crosses 0."},
 };
 

@@ -15,22 +15,35 @@
 using namespace lagen::testing;
 namespace json = lagen::json;
 
+namespace {
+
+bool takes_oscillator(const lagen::MethodEntry& entry)
+{
+    using enum lagen::MethodKind;
+    return entry.kind != discrete && entry.kind != group && entry.kind != poisson;
+}
+
+} // namespace
+
 TEST_CASE("lagen methods names every integrator of the interface")
 {
     const json::Value list = json::parse(call({"methods", "--format", "json"}).out);
     std::vector<std::string> names;
     for (const json::Value& entry : list.entries) names.push_back(entry["name"].text);
-    for (const char* name : {"euler",    "midpoint", "rk4",         "dopri5",      "tsit5", "dop853",   "verner65",
-                             "verner76", "verner87", "verner98",    "rkn64",       "rkn86", "rkn1210",  "rkng54",
-                             "gauss12",  "gauss16",  "blanesmoan4", "blanesmoan6", "srkn6", "kahanli8", "sofroniou10"})
+    for (const char* name : {"euler",        "midpoint",    "rk4",         "dopri5",     "tsit5",
+                             "dop853",       "verner65",    "verner76",    "verner87",   "verner98",
+                             "rkn64",        "rkn86",       "rkn1210",     "rkng54",     "gauss12",
+                             "gauss16",      "blanesmoan4", "blanesmoan6", "srkn6",      "kahanli8",
+                             "sofroniou10",  "rkmk4",       "rkmk_dop853", "gauss_lie4", "crouch_grossman3",
+                             "lie_poisson2", "lie_poisson4"})
         CHECK(std::count(names.begin(), names.end(), name) == 1);
     CHECK(list.size() == lagen::method_table().size());
     CHECK(list[0].keys ==
           std::vector<std::string>{"name", "order", "adaptive", "separable_only", "text", "keeps", "system"});
     const std::string text = call({"methods"}).out;
     CHECK(std::count(text.begin(), text.end(), '\n') == static_cast<std::ptrdiff_t>(list.size()));
-    CHECK(text.find("\ndop853        order 8(5,3)  tolerance ") != std::string::npos);
-    CHECK(text.find("\nrkn1210       order 12(10)  tolerance ") != std::string::npos);
+    CHECK(text.find("\ndop853           order 8(5,3)  tolerance ") != std::string::npos);
+    CHECK(text.find("\nrkn1210          order 12(10)  tolerance ") != std::string::npos);
     std::map<std::string, std::string> systems, kept;
     for (const json::Value& entry : list.entries) {
         systems[entry["name"].text] = entry["system"].text;
@@ -45,6 +58,10 @@ TEST_CASE("lagen methods names every integrator of the interface")
     CHECK(kept["mclachlan4"] == "symplectic");
     CHECK(kept["kahanli8"] == "symplectic");
     CHECK(kept["rkn64"].empty());
+    CHECK(systems["rkmk_dop853"] == "states that a group moves linearly");
+    CHECK(kept["rkmk_dop853"] == "group, orbits, Casimirs");
+    CHECK(systems["lie_poisson4"] == "Lie-Poisson systems");
+    CHECK(kept["lie_poisson4"] == "Poisson, group, orbits, Casimirs");
 }
 
 TEST_CASE("lagen methods --stability tells how long the steps of every method may be")
@@ -83,7 +100,7 @@ TEST_CASE("every method's type integrates the generated oscillator to its accura
                 .code == 0);
     std::string calls;
     for (const lagen::MethodEntry& entry : lagen::method_table())
-        if (entry.kind != lagen::MethodKind::discrete)
+        if (takes_oscillator(entry))
             calls += std::string("    show(lagen::") + entry.type +
                      (entry.adaptive ? "{.tolerance = 1e-8}" : "{.step = 0x1p-9}") + ", " +
                      std::to_string(std::atoi(entry.order)) + ");\n";
@@ -108,6 +125,6 @@ int main()
     REQUIRE(build.status == 0);
     std::string expected;
     for (const lagen::MethodEntry& entry : lagen::method_table())
-        if (entry.kind != lagen::MethodKind::discrete) expected += "good\n";
+        if (takes_oscillator(entry)) expected += "good\n";
     CHECK(run_shell(folder + "/main").output == expected);
 }

@@ -138,4 +138,23 @@ void follow(const std::string& name, const std::vector<std::string>& absent = {}
     check_trajectory(AnyModel<Model::dimension>(model), known, state_of<typename Model::State>(known.initial));
 }
 
+/// The samples of the case by another method, to this error.
+template <class Model, class Method>
+void follow_by(const std::string& name, const Method& method, double error)
+{
+    CAPTURE(name);
+    const ReferenceCase& known = reference(name);
+    const Model model = with_parameters<Model>(known, {});
+    std::vector<double> times;
+    for (const ReferenceSample& sample : known.samples) times.push_back(decimal(sample.t));
+    const auto start = state_of<typename Model::State>(known.initial);
+    const auto run = integrate(model, start, {times.front(), times.back()}, method, {.at = times});
+    REQUIRE(run.status() == Status::ok);
+    double worst = 0;
+    for (std::size_t k = 0; k < times.size(); ++k)
+        worst = std::max(worst, relative_error(run.states[k], state_of<typename Model::State>(known.samples[k].state)));
+    CAPTURE(worst);
+    CHECK(worst < error);
+}
+
 } // namespace lagen::examples

@@ -12,6 +12,7 @@
 
 using namespace lagen;
 using examples::follow;
+using examples::follow_by;
 
 TEST_CASE("bodies in an ideal fluid follow the reference on se(2) and se(3)")
 {
@@ -40,4 +41,14 @@ TEST_CASE("the heavy top and Lagrange's top follow the reference")
 TEST_CASE("a body with a rotor follows the reference")
 {
     follow<models::gyrostat<double>>("gyrostat");
+}
+
+TEST_CASE("methods on groups follow the references of heavy tops")
+{
+    using Top = models::heavy_top<double>;
+    follow_by<Top>("heavy_top_asymmetric", RkmkDop853{.tolerance = 1e-13}, 1e-10);
+    follow_by<Top>("heavy_top_asymmetric", Rkmk4{.step = 0.001}, 1e-9);
+    follow_by<Top>("heavy_top_asymmetric", GaussLie4{.step = 0.001}, 1e-9);
+    follow_by<Top>("heavy_top_asymmetric", CrouchGrossman3{.step = 0.001}, 1e-6);
+    follow_by<models::heavy_top_quaternion<double>>("heavy_top_quaternion", RkmkDop853{.tolerance = 1e-13}, 1e-10);
 }

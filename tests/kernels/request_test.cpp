@@ -65,7 +65,8 @@ TEST_CASE("a kernel that does not exist is refused with the list of those that d
           "cost, "
           "constraints, casimirs, domain, observables, invariants, "
           "lagrangian_hessian, hamiltonian_hessian, step, forward, arrow_equation, cayley_step, cayley_coordinates, "
-          "algebra_matrix, in_algebra, element, events\nhint: did you mean 'energy'?");
+          "algebra_matrix, in_algebra, element, algebra_element, algebra_action, algebra_bracket, events\nhint: did "
+          "you mean 'energy'?");
 }
 
 TEST_CASE("a kernel that a form of the model does not have is refused with the list of those that it has", "[kernels]")

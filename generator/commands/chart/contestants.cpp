@@ -15,7 +15,7 @@ namespace lagen {
 
 namespace {
 
-enum class Kinship { explicit_steps, pair, nystrom, series, implicit, splitting };
+enum class Kinship { explicit_steps, pair, nystrom, series, implicit, splitting, group };
 
 Kinship kinship_of(const MethodEntry& method)
 {
@@ -23,6 +23,8 @@ Kinship kinship_of(const MethodEntry& method)
     case MethodKind::splitting: return Kinship::splitting;
     case MethodKind::series: return Kinship::series;
     case MethodKind::implicit_stages: return Kinship::implicit;
+    case MethodKind::group:
+    case MethodKind::poisson: return Kinship::group;
     case MethodKind::explicit_stages: break;
     case MethodKind::discrete: throw InternalError("a discrete motion has no chart");
     }

@@ -93,6 +93,19 @@ constexpr std::array entries = [] {
         MethodEntry{"kahanli8", "KahanLi8", "8", false, splitting, "Kahan and Li 1997, 17 leapfrogs", "symplectic"},
         MethodEntry{"sofroniou10", "Sofroniou10", "10", false, splitting, "Sofroniou and Spaletta 2005, 35 leapfrogs",
                     "symplectic"},
+        MethodEntry{"rkmk4", "Rkmk4", "4", false, group, "Munthe-Kaas 1999, the classical Runge-Kutta method in charts",
+                    "group, orbits, Casimirs"},
+        MethodEntry{"rkmk_dop853", "RkmkDop853", "8(5,3)", true, group,
+                    "Munthe-Kaas 1999, DOP853 in charts, dense output of order 7", "group, orbits, Casimirs"},
+        MethodEntry{"gauss_lie4", "GaussLie4", "4", false, group, "Gauss, two stages, in charts",
+                    "group, orbits, Casimirs"},
+        MethodEntry{"crouch_grossman3", "CrouchGrossman3", "3", false, group, "Crouch and Grossman 1993, three stages",
+                    "group, orbits, Casimirs"},
+        MethodEntry{"lie_poisson2", "LiePoisson2", "2", false, poisson,
+                    "variational, logarithmic midpoint (Bou-Rabee and Marsden 2009)",
+                    "Poisson, group, orbits, Casimirs"},
+        MethodEntry{"lie_poisson4", "LiePoisson4", "4", false, poisson, "five steps of lie_poisson2 (Suzuki 1990)",
+                    "Poisson, group, orbits, Casimirs"},
         MethodEntry{"discrete", "Discrete", "of L", false, discrete,
                     "discrete Euler-Lagrange equations on a Lie groupoid (Martinez 2001)",
                     "symplectic or Poisson, momenta, the group"},
@@ -190,6 +203,8 @@ std::string system_of(const MethodEntry& method)
 {
     if (*method.scheme != '\0') return "L on a tangent bundle, a Lie algebra, an action or an Atiyah algebroid";
     if (method.kind == MethodKind::discrete) return "discrete Lagrangians";
+    if (method.kind == MethodKind::group) return "states that a group moves linearly";
+    if (method.kind == MethodKind::poisson) return "Lie-Poisson systems";
     if (method.kind == MethodKind::splitting)
         return method.affine ? "x' = M y + c, y' = g(x)" : "x' = f(y), y' = g(x) or a sum of exact flows";
     switch (method.system) {
@@ -230,7 +245,7 @@ ExitCode run_methods(Arguments arguments)
     std::string text;
     for (const MethodEntry& entry : entries) {
         const std::string keeps = entry.keeps, system = system_of(entry);
-        text += fmt::format("{:<14}order {:<8}{:<10}{}{}{}\n", entry.name, entry.order,
+        text += fmt::format("{:<17}order {:<8}{:<10}{}{}{}\n", entry.name, entry.order,
                             entry.adaptive ? "tolerance" : "step", entry.text, keeps.empty() ? "" : ", " + keeps,
                             system.empty() ? "" : fmt::format(" (for {} only)", system));
     }

@@ -15,6 +15,8 @@ enum class MethodKind {
     implicit_stages,
     series,    ///< needs the kernels of Taylor coefficients
     splitting, ///< for xdot = f(y), ydot = g(x), or a sum of exact flows
+    group,     ///< along the orbits of a group that moves lanes of the state
+    poisson,   ///< for Lie-Poisson systems, all lanes of which a group moves
     discrete,  ///< of discrete Lagrangians alone, which take no other one
 };
 

@@ -5,6 +5,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -43,6 +44,23 @@ std::optional<Obstacle> obstacle_to_splitting(const MethodEntry& method, const K
     return obstacle;
 }
 
+/// What no group moves, wholly or in part.
+std::optional<Obstacle> obstacle_to_group(const MethodEntry& method, const KernelModule& module)
+{
+    const GroupMotion& motion = module.motion;
+    const auto free = std::ranges::find(motion.moved, false);
+    if (!motion.moved.empty() && (method.kind == MethodKind::group || free == motion.moved.end())) return std::nullopt;
+    std::string found = motion.obstacle;
+    if (!motion.moved.empty()) {
+        const auto lane = static_cast<std::size_t>(free - motion.moved.begin());
+        found = fmt::format("the group does not move {}", lanes_of(module)[lane].name);
+    }
+    return Obstacle{
+        fmt::format("{} integrates {}, and in model '{}' {}", method.name, system_of(method), module.model, found),
+        "a group moves momenta on a Lie algebra (--form hamilton, without forces), base coordinates on which it acts "
+        "linearly, and matrices of [reconstruct]"};
+}
+
 /// What of this machine the program depends on: another machine may see the same cache.
 std::string vectors_of(const Driver& driver)
 {
@@ -60,6 +78,8 @@ std::optional<Obstacle> obstacle_of(const MethodEntry& method, const KernelModul
                                     module.form),
                         "`lagen methods` lists what each method takes"};
     if (method.kind == MethodKind::discrete) return std::nullopt;
+    if (method.kind == MethodKind::group || method.kind == MethodKind::poisson)
+        return obstacle_to_group(method, module);
     if (method.kind == MethodKind::splitting) return obstacle_to_splitting(method, module);
     using Kind = SecondOrder::Kind;
     const SecondOrder& found = module.second_order;

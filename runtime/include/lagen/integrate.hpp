@@ -4,6 +4,9 @@
 ///   if (!run) std::cerr << run.status();
 #pragma once
 
+#include "lagen/group/crouch_grossman.hpp"
+#include "lagen/group/lie_poisson.hpp"
+#include "lagen/group/munthe_kaas.hpp"
 #include "lagen/integrate/dop853.hpp"
 #include "lagen/integrate/dopri5.hpp"
 #include "lagen/integrate/fixed_step.hpp"

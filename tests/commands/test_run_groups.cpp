@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Runs by methods on groups: bodies with their attitude, tops on the dual of a semidirect sum.
+#include "program.hpp"
+
+#include "support/json.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <cstdlib>
+
+using namespace lagen::testing;
+namespace json = lagen::json;
+
+namespace {
+
+double number(const json::Value& value)
+{
+    return std::strtod(value.text.c_str(), nullptr);
+}
+
+} // namespace
+
+TEST_CASE("methods on groups turn a body so that R I w is constant and R a rotation", "[run]")
+{
+    for (const std::string method : {"rkmk4", "gauss_lie4", "crouch_grossman3", "rkmk_dop853"}) {
+        INFO(method);
+        const std::vector<double> row = last_row({"turning_body.toml", "--method", method, "--step", "0.01"});
+        REQUIRE(row.size() == 13); // t, space, R
+        CHECK(row[1] == Approx(0.3).margin(5e-6));
+        CHECK(row[2] == Approx(2).margin(5e-6));
+        CHECK(row[3] == Approx(0.6).margin(5e-6));
+        const double* R = &row[4];
+        CHECK(std::abs(R[0] - 1) > 0.01);
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) {
+                double product = i == j ? -1 : 0;
+                for (int k = 0; k < 3; ++k) product += R[3 * k + i] * R[3 * k + j];
+                CHECK(std::abs(product) < 2e-14);
+            }
+    }
+}
+
+TEST_CASE("Lie-Poisson steps of a heavy top keep its Casimirs to rounding, and end where DOP853 does", "[run]")
+{
+    const std::string model = std::string(LAGEN_SOURCE_DIR) + "/models/heavy_top.toml";
+    const std::vector<double> exact = last_row({model, "--form", "hamilton", "--tolerance", "1e-13"});
+    for (const std::string method : {"lie_poisson4", "rkmk4"}) {
+        INFO(method);
+        const Outcome run = call({"run", model, "--form", "hamilton", "--method", method, "--step", "0.01", "--format",
+                                  "json", "--at", "8"});
+        REQUIRE(run.code == 0);
+        const json::Value result = json::parse(run.out);
+        for (std::size_t k = 1; k < exact.size(); ++k)
+            CHECK(number(result["rows"][0][k]) == Approx(exact[k]).margin(2e-7));
+        CHECK(number(result["casimirs"]["norm_squared"]["max_drift"]) < 1e-14);
+        CHECK(number(result["invariants"]["area"]["max_drift"]) < 2e-14);
+        CHECK(number(result["invariants"]["energy"]["max_drift"]) > 1e-12);
+    }
+}
+
+TEST_CASE("a body in the dual of its algebra keeps |p| to rounding", "[run]")
+{
+    const std::vector<double> row = last_row(
+        {"turning_body.toml", "--scene", "free", "--form", "hamilton", "--method", "lie_poisson2", "--step", "0.1"});
+    REQUIRE(row.size() == 4);
+    CHECK(row[1] * row[1] + row[2] * row[2] + row[3] * row[3] == Approx(0.09 + 4 + 0.36).epsilon(1e-14));
+    CHECK(std::abs(row[1] - 0.3) > 0.01);
+}
