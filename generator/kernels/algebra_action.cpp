@@ -53,6 +53,7 @@ class ActionBuilder {
     {
         std::vector<NodeId> variables = lanes_;
         variables.push_back(system_.time);
+        if (!depends_on_any(graph_, std::array{node}, variables)) return std::nullopt;
         for (const NodeId variable : variables)
             if (depends_on_any(graph_, std::array{node}, std::array{variable})) return variable;
         return std::nullopt;

@@ -14,7 +14,7 @@ namespace json = lagen::json;
 
 namespace {
 
-double number(const json::Value& value)
+double decimal_of(const json::Value& value)
 {
     return std::strtod(value.text.c_str(), nullptr);
 }
@@ -52,11 +52,39 @@ TEST_CASE("Lie-Poisson steps of a heavy top keep its Casimirs to rounding, and e
         REQUIRE(run.code == 0);
         const json::Value result = json::parse(run.out);
         for (std::size_t k = 1; k < exact.size(); ++k)
-            CHECK(number(result["rows"][0][k]) == Approx(exact[k]).margin(2e-7));
-        CHECK(number(result["casimirs"]["norm_squared"]["max_drift"]) < 1e-14);
-        CHECK(number(result["invariants"]["area"]["max_drift"]) < 2e-14);
-        CHECK(number(result["invariants"]["energy"]["max_drift"]) > 1e-12);
+            CHECK(decimal_of(result["rows"][0][k]) == Approx(exact[k]).margin(2e-7));
+        CHECK(decimal_of(result["casimirs"]["norm_squared"]["max_drift"]) < 1e-14);
+        CHECK(decimal_of(result["invariants"]["area"]["max_drift"]) < 2e-14);
+        CHECK(decimal_of(result["invariants"]["energy"]["max_drift"]) > 1e-12);
     }
+}
+
+TEST_CASE("a hundred thousand steps of the heavy top by every method on groups keep its Casimirs to rounding", "[long]")
+{
+    const std::string model = std::string(LAGEN_SOURCE_DIR) + "/models/heavy_top.toml";
+    const auto lost = [&](const std::string& method) {
+        const Outcome run = call({"run", model, "--form", "hamilton", "--method", method, "--step", "0.02", "--t-end",
+                                  "2000", "--at", "2000", "--format", "json"});
+        REQUIRE(run.code == 0);
+        const json::Value result = json::parse(run.out);
+        return std::max(decimal_of(result["casimirs"]["norm_squared"]["max_drift"]),
+                        decimal_of(result["invariants"]["area"]["max_drift"]));
+    };
+    for (const std::string method :
+         {"rkmk4", "gauss_lie4", "crouch_grossman3", "lie_poisson2", "lie_poisson4", "rkmk_dop853"}) {
+        INFO(method);
+        CHECK(lost(method) < 1e-12);
+    }
+    CHECK(lost("rk4") > 1e-7);
+}
+
+TEST_CASE("a step that turns too far for its chart ends the run, which says so", "[run]")
+{
+    const Outcome run = call({"run", "turning_body.toml", "--method", "rkmk4", "--step", "5"});
+    CHECK(run.code == 1);
+    CHECK(run.err.find("branch_lost") != std::string::npos);
+    CHECK(run.err.find("the step turns farther than the chart of the group reaches: take a shorter one") !=
+          std::string::npos);
 }
 
 TEST_CASE("a body in the dual of its algebra keeps |p| to rounding", "[run]")

@@ -31,24 +31,43 @@ inline std::string hex_literal(double value)
     return fmt::format("S({:a})", value);
 }
 
-inline std::string call_text(const Kernel& kernel)
+/// Declares the arguments of a kernel beside t and s, and lists all of them.
+inline std::string declared_arguments(const Graph& graph, const Kernel& kernel, const Point& point, std::string& list)
+{
+    std::string text;
+    for (const KernelInput& input : kernel.inputs) {
+        list += (list.empty() ? "" : ", ") + input.name;
+        if (input.role != ArrayRole::value) continue;
+        text += fmt::format("Eigen::Matrix<S, {}, 1> {}; ", input.shape.rows, input.name);
+        for (std::size_t k = 0; k < input.entries.size(); ++k)
+            text += fmt::format("{}[{}] = {}; ", input.name, k,
+                                hex_literal(point.at(graph.input_name(input.entries[k].input))));
+    }
+    return text;
+}
+
+inline std::string call_text(const Graph& graph, const Kernel& kernel, const Point& point)
 {
     const KernelOutput& output = kernel.outputs[0];
+    std::string list;
+    const std::string declared = declared_arguments(graph, kernel, point, list);
     if (kernel.checks) {
-        std::string text =
-            fmt::format("typename M::State ds; check(lagen::StatusOf<S>::all_good(m.{}(t, s, ds)));", kernel.name);
+        const std::string type =
+            has_lanes(output.role) ? "typename M::State" : fmt::format("Eigen::Matrix<S, {}, 1>", output.shape.rows);
+        std::string text = fmt::format("{}{} ds; check(lagen::StatusOf<S>::all_good(m.{}({}, ds)));", declared, type,
+                                       kernel.name, list);
         for (const KernelEntry& entry : output.entries) text += fmt::format(" show(ds[{}]);", entry.row);
         return text;
     }
     if (output.sparse) {
         const std::size_t count = output.entries.size();
-        std::string text = fmt::format("std::array<S, {}> v; m.{}_values(t, s, v);", count, kernel.name);
+        std::string text = fmt::format("std::array<S, {}> v; m.{}_values({}, v);", count, kernel.name, list);
         text += fmt::format(" static_assert(M::{0}_rows.size() == {1} && M::{0}_columns.size() == {1});", kernel.name,
                             count);
         return text + " for (const S& value : v) show(value);";
     }
-    if (output.shape.rank == 0) return fmt::format("show(m.{}(t, s));", kernel.name);
-    std::string text = fmt::format("const auto v = m.{}(t, s);", kernel.name);
+    if (output.shape.rank == 0) return fmt::format("show(m.{}({}));", kernel.name, list);
+    std::string text = fmt::format("{}const auto v = m.{}({});", declared, kernel.name, list);
     for (const KernelEntry& entry : output.entries) text += fmt::format(" show(v({}, {}));", entry.row, entry.column);
     return text;
 }
@@ -102,7 +121,8 @@ inline std::string program_text(const std::vector<CompiledCase>& cases, const st
             for (const Quantity& quantity : lanes_of(module))
                 text += fmt::format("        s[{}] = {};\n", lane++, hex_literal(point.at(quantity.name)));
             text += "        check(lagen::StatusOf<S>::all_good(m.parameter_status()));\n";
-            for (const Kernel& kernel : module.kernels) text += "        { " + call_text(kernel) + " }\n";
+            for (const Kernel& kernel : module.kernels)
+                text += "        { " + call_text(*module.graph, kernel, point) + " }\n";
             text += "    }\n";
         }
         text += "}\n";

@@ -33,11 +33,14 @@ std::string list_text(const Items& items, Print print)
     return text + "]";
 }
 
-/// What ended a run whose controls could not be followed, or a discrete one.
-std::string reason_text(const std::string& status)
+/// What ended a run whose controls could not be followed, a discrete one, or one on a group.
+std::string reason_text(const RunOutcome& outcome)
 {
+    const std::string& status = outcome.status;
     if (status == "no_solution")
         return "no arrow has these momenta: they lie behind a fold of F^-L; shorter steps reach further";
+    if (status == "branch_lost" && outcome.form != "discrete")
+        return "the step turns farther than the chart of the group reaches: take a shorter one";
     if (status == "branch_lost")
         return "no arrow with these momenta is connected with the one before: its branch ends at a fold of F^-L";
     if (status == "not_a_maximum")
@@ -224,7 +227,7 @@ std::string report_text(const RunOutcome& outcome)
     for (const EventReport& event : outcome.events)
         text += fmt::format("  event {} at t = {}\n", event.name, brief(event.time, 15));
     const bool failed = !succeeded(outcome.status);
-    if (const std::string reason = reason_text(outcome.status); !reason.empty())
+    if (const std::string reason = reason_text(outcome); !reason.empty())
         text += fmt::format("  {}\n{}", reason, last_state(outcome));
     else if (failed && outcome.steps != "0")
         text += last_state(outcome);

@@ -188,6 +188,7 @@ inline const char* outcome_of(Status status)
 {
     switch (status) {
     case Status::ok: return "bounded";
+    case Status::branch_lost:
     case Status::newton_diverged: return "newton_diverged";
     case Status::non_finite:
     case Status::step_too_small:
