@@ -87,6 +87,8 @@ class ChartStepper : public Base {
         return detail::check_finite(out);
     }
 
+    void polynomial() const = delete; ///< that of the base is one in the chart
+
   private:
     using Chart = typename detail::ExponentialChart<M>::State;
 
