@@ -42,7 +42,8 @@ std::vector<Consequence> consequences(const VerifiedMorphism& verified)
     return {{"reduction", theorems.reduction, "solutions of the source project to solutions of the target"},
             {"reconstruction", theorems.reconstruction,
              "admissible curves over solutions of the target are solutions of the source"},
-            {"discrete", theorems.discrete, "solutions of the source's discrete equations project likewise"},
+            {"discrete", theorems.discrete,
+             "arrows solve the source's discrete equations where their images solve the target's, and there alone"},
             {"stages", !verified.stages.empty() && verdict_of(verified) == Verdict::valid,
              "the composition is the reduction by its stages"}};
 }

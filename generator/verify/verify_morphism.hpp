@@ -23,7 +23,7 @@ namespace lagen {
 struct MorphismTheorems {
     bool reduction = false;      ///< solutions of the source project to solutions of the target
     bool reconstruction = false; ///< admissible curves over solutions of the target are solutions of the source
-    bool discrete = false;       ///< solutions of the discrete equations project
+    bool discrete = false;       ///< arrows solve the discrete equations exactly where their images do
 };
 
 struct MorphismReport {

@@ -71,6 +71,7 @@ constexpr Case cases[] = {
     {"se2_reduction", "", 3, true, true},
     {"se2_wrong_side", "invariance 1, product 2", 3, true, true},
     {"top_reduction", "", 3, true, true},
+    {"top_of_any_vertical", "", 3, true, true},
     {"forget_gravity", "invariance 1", 3, true, true},
     {"turned", "", 3, true, true},
     {"inverse_map", "morphism 3, product 9", 3, true, true},
