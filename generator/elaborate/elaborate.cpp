@@ -42,6 +42,7 @@ class Elaboration {
         lower_base();
         apply_scheme();
         describe_algebroid();
+        lower_symmetries();
         find_partial_parts();
         give_parameter_values();
         if (!model_.forms.empty()) system_.forms = lower_forms(system_, lower_, model_.forms);
@@ -155,6 +156,16 @@ class Elaboration {
         discrete.lagrangian = made.lagrangian;
         discrete.inner = std::move(made.inner);
         discrete.work = std::move(made.work);
+    }
+
+    void lower_symmetries()
+    {
+        for (const Symmetry& symmetry : model_.symmetries) {
+            SymmetryClaim& claim = system_.symmetries.emplace_back();
+            claim.name = symmetry.name;
+            claim.s.assign(system_.r(), graph_.constant(0));
+            for (const ComponentEntry& entry : symmetry.section) claim.s[entry.section] = lower_(entry.value);
+        }
     }
 
     void lower_control()

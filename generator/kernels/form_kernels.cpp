@@ -63,7 +63,7 @@ class ModuleBuilder {
             add_domain_series();
         add_trees("observables",
                   observable_trees(model_, request_.scene, state_names(model_, module_.form), lanes_of(module_)));
-        add_trees("invariants", model_.invariants);
+        add_trees("invariants", conserved_trees(model_));
         if (has_rates()) add_motion();
         simplify_implicit();
         return std::move(module_);

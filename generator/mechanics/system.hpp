@@ -63,6 +63,12 @@ struct FormClaim {
     std::vector<NodeId> equals_parts;   ///< the functions in `equals`, and their partial parts
 };
 
+/// A section s = s^a e_a whose complete lift is claimed to leave L (H, the discrete L) invariant.
+struct SymmetryClaim {
+    std::string name;
+    std::vector<NodeId> s; ///< s^a over x, shape (r)
+};
+
 /// The trees that the nodes were lowered from, for what asks how something is written and where.
 struct Written {
     WrittenAlgebroid algebroid;
@@ -98,6 +104,7 @@ struct System {
     std::optional<Groupoid> groupoid;
     bool groupoid_is_claim = false; ///< the algebroid is given beside the groupoid, and claimed to be that of it
     std::optional<DiscreteSystem> discrete;
+    std::vector<SymmetryClaim> symmetries;
     std::vector<FormClaim> forms;
     std::vector<NodeId> partial_parts; ///< must be defined, though folded away: log(-1 - x^2) of 0*log(-1 - x^2)
     bool is_distribution = false;      ///< a subbundle of TM: the anchor equations say that it is involutive

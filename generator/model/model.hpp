@@ -285,6 +285,14 @@ struct NamedForm {
     std::optional<FormExpression> equals; ///< claimed
 };
 
+/// A section s = s^a(x) e_a of E whose complete lift is claimed to leave L (H, the discrete L) invariant.
+struct Symmetry {
+    std::string name;
+    SourceRange where;
+    std::vector<ComponentEntry> section;
+    Tree momentum; ///< p_a s^a, the observable "momentum.NAME"
+};
+
 struct Model {
     std::string name; ///< a C++ identifier
     SourceRange name_where;
@@ -312,6 +320,7 @@ struct Model {
     std::vector<Reconstruction> reconstructions;
     std::vector<NamedTree> observables;
     std::vector<NamedTree> invariants;
+    std::vector<Symmetry> symmetries;
     std::vector<NamedForm> forms;
     std::vector<Symbol> notes; ///< [about] of definitions, Casimirs, observables, invariants and t
     std::vector<Scene> scenes; ///< in the order of the file
@@ -320,6 +329,10 @@ struct Model {
     Scope observer; ///< with momenta, controls, first-order states, energy, hamiltonian, lagrangian, observables and
                     ///< invariants: what expressions from the command line may use
 };
+
+/// What runs follow as constant: the invariants, and the momenta of symmetries where nothing pushes and no control
+/// acts.
+[[nodiscard]] std::vector<NamedTree> conserved_trees(const Model& model);
 
 /// The scene called `name`; with an empty name `default`, else the first. Throws ModelError where there is none.
 [[nodiscard]] const Scene& find_scene(const Model& model, const std::string& name);

@@ -63,6 +63,7 @@ Model read_model_text(const std::string& name, std::string text, const std::vect
     reader.reconstruct = top.take("reconstruct");
     const TomlEntry* observables = top.take("observables");
     const TomlEntry* invariants = top.take("invariants");
+    const TomlEntry* symmetries = top.take("symmetries");
     const TomlEntry* forms = top.take("forms");
     const TomlEntry* about = top.take("about");
     const TomlEntry* scenes = top.take("scene");
@@ -94,6 +95,7 @@ Model read_model_text(const std::string& name, std::string text, const std::vect
     read_discrete(reader);
     read_control(reader);
     read_quantities(reader);
+    read_symmetries(reader, symmetries);
     read_forms(reader, forms);
     read_about(reader, about);
     read_scenes(reader, scenes, settings);

@@ -19,6 +19,20 @@ namespace {
 constexpr std::size_t most_times = 100'000;
 constexpr std::size_t most_columns = 4096;
 
+/// The observable "momentum.s" of a symmetry s; null for every other text.
+const NamedTree* momentum_named(const Model& model, const Excerpt& text)
+{
+    constexpr std::string_view prefix = "momentum.";
+    if (!text.text.starts_with(prefix)) return nullptr;
+    std::vector<std::string> known;
+    for (const NamedTree& observable : model.observables) {
+        if (observable.name == text.text) return &observable;
+        if (observable.name.starts_with(prefix)) known.push_back(observable.name);
+    }
+    throw ModelError(fmt::format("there is no symmetry called '{}'", text.text.substr(prefix.size())),
+                     text.range(0, text.text.size()), hint_for(text.text, known, "momenta"));
+}
+
 void read_observe(const ModelReader& reader, Scene& scene, const TomlEntry& entry)
 {
     std::vector<NamedTree> out;
@@ -37,6 +51,10 @@ void read_observe(const ModelReader& reader, Scene& scene, const TomlEntry& entr
             continue;
         }
         const Excerpt inner = trimmed(text, 0, text.text.size());
+        if (const auto* momentum = momentum_named(reader.model, inner)) {
+            add({momentum->name, momentum->value, where});
+            continue;
+        }
         const ArrayValue value = reader.close_observed_array(parse_expression(text));
         for (std::size_t k = 0; k < value.entries.size(); ++k)
             add({value_name(inner.text, value.shape, k), value.entries[k], where});

@@ -28,6 +28,8 @@ class Claims {
     [[nodiscard]] Regularity decide_discrete_regularity();
     /// Where L and H are given: H(t, x, dL/dy) - (y^a dL/dy^a - L)
     void decide_legendre(StructureReport& structure);
+    /// The sections of [symmetries]
+    void decide_symmetries(StructureReport& structure);
     /// Of a control problem: do the controls maximise H?
     void decide_controls(Report& report);
     void decide_invariants(Report& report, const std::vector<NamedTree>& extra);
@@ -48,6 +50,8 @@ class Claims {
     };
     [[nodiscard]] Vanishing vanishing(const std::string& name, const FormClaim& claim, const ExteriorForm& residual);
     void decide_action(StructureReport& structure);
+    /// A residual over the coordinates of an arrow.
+    [[nodiscard]] Decision decide_on_arrows(NodeId residual);
     void append_equality(StructureReport& structure, const char* name, std::vector<std::string> indices, NodeId value,
                          NodeId wanted);
     [[nodiscard]] Check check_of(const Residual& residual);

@@ -11,6 +11,7 @@
 ///   closed        d A = 0, by components (A, a, b, ..)                        of E-forms that claim it
 ///   equals        A - B = 0, by components (A, a, ..)
 ///   legendre      H(t, x, dL/dy) = y^a dL/dy^a - L                            (where both are given)
+///   symmetry      s^c(L) = 0 (else of H), (<-s - ->s)(L) = 0 of a discrete L    of the sections of [symmetries]
 ///   invariant     df/dt = 0 along the equations of motion of the model's default form
 /// Of tangency, casimir and invariant a proof says that the rate vanishes wherever the function and the motion are
 /// defined; where that leaves holes and jumps `Check::where` names them.

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Sections that are claimed to be symmetries: of L, else of H, and of a discrete L that is written out. (That of a
+/// scheme is as symmetric as its curves; a run measures what it keeps.)
+#include "mechanics/symmetry.hpp"
+#include "verify/arrow_decider.hpp"
+#include "verify/claims.hpp"
+
+#include <algorithm>
+
+namespace lagen {
+
+void Claims::decide_symmetries(StructureReport& structure)
+{
+    const auto append = [&](std::vector<std::string> indices, NodeId residual, auto decide) {
+        if (graph_.is_zero(residual)) {
+            ++structure.trivial;
+            return;
+        }
+        Check check{"symmetry", std::move(indices), decide(residual), {}, {}};
+        if (check.decision.status == ProofStatus::refuted)
+            check.hint = "the residual is the rate of the momentum p_a s^a along motions without forces";
+        structure.checks.push_back(std::move(check));
+    };
+    for (const SymmetryClaim& claim : system_.symmetries) {
+        const auto judge = [&](NodeId residual) { return judge_->decide(residual); };
+        if (lagrangian_)
+            append({claim.name}, lift_of_lagrangian(graph_, system_, *lagrangian_, claim.s), judge);
+        else if (system_.hamiltonian)
+            append({claim.name}, lift_of_hamiltonian(graph_, system_, claim.s), judge);
+        if (system_.discrete && system_.discrete->written)
+            append(lagrangian_ || system_.hamiltonian ? std::vector<std::string>{claim.name, "discrete"}
+                                                      : std::vector<std::string>{claim.name},
+                   lift_of_discrete_lagrangian(graph_, system_, claim.s),
+                   [&](NodeId residual) { return decide_on_arrows(residual); });
+    }
+}
+
+Decision Claims::decide_on_arrows(NodeId residual)
+{
+    const Groupoid& groupoid = *system_.groupoid;
+    std::vector<std::vector<NodeId>> points{groupoid.arrow.x};
+    if (!groupoid.arrow.next.empty()) points.push_back(groupoid.arrow.next);
+    ProofSetting setting = arrow_setting(graph_, system_, points);
+    if (depends_on_any(graph_, {&residual, 1}, {&system_.time, 1})) setting.variables.push_back(system_.time);
+    const NodeId step = system_.discrete->step;
+    if (graph_.op(step) == Op::input) {
+        if (std::ranges::find(setting.parameters, step) == setting.parameters.end()) setting.parameters.push_back(step);
+        setting.domain.push_back(graph_.apply(Op::greater, step, graph_.constant(0)));
+    }
+    std::vector<std::vector<NodeId>> elements;
+    if (!groupoid.arrow.W.empty()) elements.push_back(groupoid.arrow.W);
+    return ArrowDecider(graph_, setting, groupoid, elements, judge_->decider().budget()).decide(residual);
+}
+
+} // namespace lagen
