@@ -168,11 +168,11 @@ std::vector<std::string> Scope::value_names() const
 
 std::string Scope::entry_meant(const std::string& name) const
 {
-    const std::size_t letters = name.find_last_not_of("0123456789") + 1;
-    if (letters == 0 || letters == name.size()) return {};
-    const std::string digits = name.substr(letters);
-    const std::string family = name.substr(0, name[letters - 1] == '_' ? letters - 1 : letters);
-    for (const std::string& stem : {name.substr(0, letters), family}) {
+    const std::size_t length = name.find_last_not_of("0123456789") + 1;
+    if (length == 0 || length == name.size()) return {};
+    const std::string digits = name.substr(length);
+    const std::string family = name.substr(0, name[length - 1] == '_' ? length - 1 : length);
+    for (const std::string& stem : {name.substr(0, length), family}) {
         std::string entry = fmt::format("{}[{}]", stem, digits);
         if (has_symbol(entry)) return entry;
         if (digits.size() == 2) entry = fmt::format("{}[{},{}]", stem, digits[0], digits[1]);
