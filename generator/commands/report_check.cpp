@@ -264,15 +264,26 @@ void regularity_json(JsonWriter& json, const Regularity& regularity)
 
 } // namespace
 
-std::string report_text(const std::string& model, const Report& verified)
+std::string claims_text(const StructureReport& structure)
 {
-    const StructureReport& structure = verified.structure;
-    std::string text = fmt::format("{}: {}\n{}", model, to_text(structure.verdict), summary_text(structure));
+    std::string text = summary_text(structure);
     for (const std::string& kind : kinds_of(structure)) {
         text += fmt::format("  {:<15} {}\n", kind, counts_text(counts_of(structure, kind)));
         text += where_text(structure, kind);
         if (kind == "maximum") text += maximum_text(structure);
     }
+    return text;
+}
+
+std::string failures_text(const StructureReport& structure)
+{
+    return failures_text(structure, ProofStatus::refuted) + failures_text(structure, ProofStatus::undecided);
+}
+
+std::string report_text(const std::string& model, const Report& verified)
+{
+    const StructureReport& structure = verified.structure;
+    std::string text = fmt::format("{}: {}\n{}", model, to_text(structure.verdict), claims_text(structure));
     for (const FormReport& form : structure.forms)
         text += fmt::format("  {:<16}degree {}, {}\n", "form " + form.name, form.degree, closed_text(form.closed));
     for (const Regularity* each : {&verified.mechanics.discrete, &verified.mechanics.regularity})
@@ -280,7 +291,7 @@ std::string report_text(const std::string& model, const Report& verified)
     if (const auto& again = structure.reevaluation)
         text += fmt::format("  {:<16}{}\n", "re-evaluated", confirmed_text(structure, *again));
     if (!structure.note.empty()) text += fmt::format("  note: {}\n", structure.note);
-    return text + failures_text(structure, ProofStatus::refuted) + failures_text(structure, ProofStatus::undecided);
+    return text + failures_text(structure);
 }
 
 void structure_json(JsonWriter& json, const StructureReport& structure)

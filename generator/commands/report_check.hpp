@@ -11,6 +11,10 @@ namespace lagen {
 /// of each status) with its residual, witness and value, or evidence, and each hint once.
 [[nodiscard]] std::string report_text(const std::string& model, const Report& verified);
 
+/// Of it, counts in all and a kind of check; and what is not proved.
+[[nodiscard]] std::string claims_text(const StructureReport& structure);
+[[nodiscard]] std::string failures_text(const StructureReport& structure);
+
 /// {"model", "verdict", "trivial", "checks": [...], "regularity": {...}} into `json`.
 void report_json(JsonWriter& json, const std::string& model, const Report& verified);
 

@@ -18,14 +18,16 @@ Report verify_model(const System& system, std::size_t points)
     return report;
 }
 
-VerifiedMorphism verify_one(const MorphismFile& file, const SystemMorphism& morphism, std::size_t points)
+/// `source`: what is known of the source already; null where nothing is.
+VerifiedMorphism verify_one(const MorphismFile& file, const SystemMorphism& morphism, const Report* source,
+                            std::size_t points)
 {
     VerifiedMorphism verified;
     verified.name = file.name;
     verified.source_name = morphism.source.name;
     verified.target_name = morphism.target.name;
     verified.map = verify(morphism, points);
-    verified.source = verify_model(morphism.source, points);
+    verified.source = source != nullptr ? *source : verify_model(morphism.source, points);
     verified.target = verify_model(morphism.target, points);
     return verified;
 }
@@ -83,12 +85,13 @@ void body_json(JsonWriter& json, const VerifiedMorphism& verified)
 
 VerifiedMorphism verify_morphism(const MorphismFile& file, std::size_t points)
 {
-    if (file.stages.empty()) return verify_one(file, elaborate(file), points);
+    if (file.stages.empty()) return verify_one(file, elaborate(file), nullptr, points);
     std::vector<VerifiedMorphism> stages;
     std::optional<SystemMorphism> whole;
     for (const MorphismFile& stage : file.stages) {
         SystemMorphism next = elaborate(stage);
-        stages.push_back(verify_one(stage, next, points));
+        const Report* middle = stages.empty() ? nullptr : &stages.back().target; // the same model as the source
+        stages.push_back(verify_one(stage, next, middle, points));
         whole = whole ? composition(*whole, next) : std::move(next);
     }
     VerifiedMorphism verified;
@@ -112,13 +115,8 @@ Verdict verdict_of(const VerifiedMorphism& verified)
 
 std::string morphism_text(const VerifiedMorphism& verified)
 {
-    Report map;
-    map.structure = verified.map.structure;
-    const std::string text = report_text(verified.name, map);
-    const std::size_t summary = text.find('\n');
-    const std::size_t failures = std::min(text.find("\n\n"), text.size() - 1);
-    std::string out = fmt::format("{}: {}{}", verified.name, to_text(verdict_of(verified)),
-                                  text.substr(summary, failures + 1 - summary));
+    std::string out =
+        fmt::format("{}: {}\n{}", verified.name, to_text(verdict_of(verified)), claims_text(verified.map.structure));
     out += fmt::format("  {:<15} {}\n", "fibrewise rank", rank_text(verified.map.rank));
     for (const VerifiedMorphism& stage : verified.stages)
         out += fmt::format("  {:<15} {}: {}\n", "stage", stage.name, to_text(verdict_of(stage)));
@@ -126,7 +124,7 @@ std::string morphism_text(const VerifiedMorphism& verified)
     out += fmt::format("  {:<15} {}: {}\n", "target", verified.target_name, to_text(verified.target.structure.verdict));
     for (const Consequence& each : consequences(verified))
         if (each.holds) out += fmt::format("  {:<15} {}\n", each.name, each.text);
-    out += text.substr(failures + 1);
+    out += failures_text(verified.map.structure);
     for (const VerifiedMorphism& stage : verified.stages)
         if (verdict_of(stage) != Verdict::valid) out += "\n" + morphism_text(stage);
     if (!verified.stages.empty()) return out;

@@ -41,7 +41,7 @@ class GroupBuilder {
         const std::size_t m = moved_;
         if (independent(moving)) return as_arrays(moving, m);
         const std::vector<Matrix> own = algebra_matrices(first);
-        const std::size_t k = side_of(own[0]);
+        const std::size_t k = side_of(own[0].size());
         std::vector<Matrix> joined;
         for (std::size_t c = 0; c < r; ++c) {
             Matrix& E = joined.emplace_back((m + k) * (m + k));
@@ -57,8 +57,7 @@ class GroupBuilder {
     [[nodiscard]] std::vector<Tree> action(const std::vector<Symbol>& W) const
     {
         const std::size_t m = moved_;
-        std::size_t size = 0;
-        while (size * size < W.size()) ++size;
+        const std::size_t size = side_of(W.size());
         const auto entry = [&](std::size_t i, std::size_t j) { return name(W[i * size + j].name, W[0].where); };
         const auto x = [&](std::size_t i) {
             return i < n_ ? name(model_.base.coordinates[i].name, W[0].where) : number(1, W[0].where);
@@ -81,10 +80,11 @@ class GroupBuilder {
     }
 
   private:
-    [[nodiscard]] static std::size_t side_of(const Matrix& matrix)
+    /// Rows of a square matrix with so many entries.
+    [[nodiscard]] static std::size_t side_of(std::size_t entries)
     {
         std::size_t m = 0;
-        while (m * m < matrix.size()) ++m;
+        while (m * m < entries) ++m;
         return m;
     }
 

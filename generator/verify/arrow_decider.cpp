@@ -4,6 +4,8 @@
 #include "graph/calculus/differentiate.hpp"
 #include "verify/group_chart.hpp"
 
+#include <algorithm>
+
 namespace lagen {
 
 namespace {
@@ -26,6 +28,20 @@ ProofSetting arrow_setting(Graph& graph, const System& system, const std::vector
         append(setting.domain, substitute(graph, system.domain, there));
     }
     return setting;
+}
+
+void append_step(ProofSetting& setting, const System& system)
+{
+    const NodeId step = system.discrete->step;
+    if (system.graph.op(step) == Op::input && std::ranges::find(setting.parameters, step) == setting.parameters.end())
+        setting.parameters.push_back(step);
+}
+
+std::vector<NodeId> primed(Graph& graph, const std::vector<NodeId>& inputs)
+{
+    std::vector<NodeId> out;
+    for (const NodeId input : inputs) out.push_back(graph.input(graph.input_name(input) + "'"));
+    return out;
 }
 
 ArrowDecider::ArrowDecider(Graph& graph, ProofSetting setting, const Groupoid& groupoid,

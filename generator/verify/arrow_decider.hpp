@@ -12,6 +12,12 @@ namespace lagen {
 [[nodiscard]] ProofSetting arrow_setting(Graph& graph, const System& system,
                                          const std::vector<std::vector<NodeId>>& points);
 
+/// A step that is no parameter of the model takes all values like one.
+void append_step(ProofSetting& setting, const System& system);
+
+/// As many inputs more, under names that no model can have.
+[[nodiscard]] std::vector<NodeId> primed(Graph& graph, const std::vector<NodeId>& inputs);
+
 class ArrowDecider {
   public:
     /// `elements`: inputs W of arrows, by rows. Keeps references to the graph and the groupoid.

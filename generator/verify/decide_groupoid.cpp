@@ -17,7 +17,7 @@ namespace {
 class ActionClaims {
   public:
     ActionClaims(Graph& graph, const System& system, const ProofBudget& budget)
-        : graph_(graph), groupoid_(*system.groupoid), W_(groupoid_.arrow.W), second_(primed(W_)),
+        : graph_(graph), groupoid_(*system.groupoid), W_(groupoid_.arrow.W), second_(primed(graph, W_)),
           decider_(graph, arrow_setting(graph, system, {groupoid_.arrow.x}), groupoid_, {W_, second_}, budget)
     {
         const Arrow g{groupoid_.arrow.x, {}, W_}, h{target(graph, groupoid_, g), {}, second_};
@@ -42,14 +42,6 @@ class ActionClaims {
     [[nodiscard]] const std::vector<NodeId>& residuals() const { return right_; }
 
   private:
-    /// Inputs that no model can name.
-    [[nodiscard]] std::vector<NodeId> primed(const std::vector<NodeId>& inputs)
-    {
-        std::vector<NodeId> out;
-        for (const NodeId input : inputs) out.push_back(graph_.input(graph_.input_name(input) + "'"));
-        return out;
-    }
-
     [[nodiscard]] std::vector<NodeId> differences(const std::vector<NodeId>& a, const std::vector<NodeId>& b)
     {
         std::vector<NodeId> out;

@@ -5,8 +5,6 @@
 #include "verify/arrow_decider.hpp"
 #include "verify/claims.hpp"
 
-#include <algorithm>
-
 namespace lagen {
 
 void Claims::decide_symmetries(StructureReport& structure)
@@ -42,11 +40,9 @@ Decision Claims::decide_on_arrows(NodeId residual)
     if (!groupoid.arrow.next.empty()) points.push_back(groupoid.arrow.next);
     ProofSetting setting = arrow_setting(graph_, system_, points);
     if (depends_on_any(graph_, {&residual, 1}, {&system_.time, 1})) setting.variables.push_back(system_.time);
+    append_step(setting, system_);
     const NodeId step = system_.discrete->step;
-    if (graph_.op(step) == Op::input) {
-        if (std::ranges::find(setting.parameters, step) == setting.parameters.end()) setting.parameters.push_back(step);
-        setting.domain.push_back(graph_.apply(Op::greater, step, graph_.constant(0)));
-    }
+    if (graph_.op(step) == Op::input) setting.domain.push_back(graph_.apply(Op::greater, step, graph_.constant(0)));
     std::vector<std::vector<NodeId>> elements;
     if (!groupoid.arrow.W.empty()) elements.push_back(groupoid.arrow.W);
     return ArrowDecider(graph_, setting, groupoid, elements, judge_->decider().budget()).decide(residual);

@@ -9,6 +9,7 @@
 #include "graph/core/evaluate.hpp"
 #include "mechanics/discrete.hpp"
 #include "proof/almost_everywhere.hpp"
+#include "verify/arrow_decider.hpp"
 #include "verify/at_values.hpp"
 #include "verify/definiteness.hpp"
 #include "verify/group_chart.hpp"
@@ -92,9 +93,7 @@ class DiscreteRegularity {
         if (depends_on_any(graph_, equations_.matrix, std::vector{system_.time}))
             setting.variables.push_back(system_.time);
         setting.parameters = system_.parameters;
-        if (graph_.op(system_.discrete->step) == Op::input &&
-            std::ranges::find(setting.parameters, system_.discrete->step) == setting.parameters.end())
-            setting.parameters.push_back(system_.discrete->step);
+        append_step(setting, system_);
         return setting;
     }
 

@@ -2,6 +2,7 @@
 #include "verify/fibre_rank.hpp"
 
 #include "graph/calculus/determinant.hpp"
+#include "verify/pivoted_minor.hpp"
 
 #include <algorithm>
 
@@ -9,13 +10,10 @@ namespace lagen {
 
 namespace {
 
-/// Rows and columns of a minor that is certainly not zero at some point; it grows by a row and a column at a time.
-struct Minor {
-    std::vector<std::size_t> rows, columns;
-
-    [[nodiscard]] bool contains_row(std::size_t a) const { return std::ranges::find(rows, a) != rows.end(); }
-    [[nodiscard]] bool contains_column(std::size_t b) const { return std::ranges::find(columns, b) != columns.end(); }
-};
+bool contains(const std::vector<std::size_t>& places, std::size_t place)
+{
+    return std::ranges::find(places, place) != places.end();
+}
 
 } // namespace
 
@@ -24,8 +22,8 @@ FibreRank fibre_rank(Graph& graph, const std::vector<NodeId>& matrix, std::size_
 {
     FibreRank result;
     const std::size_t full = std::min(rows, columns);
-    Minor minor;
-    const auto value = [&](const Minor& of) {
+    PivotedMinor minor; // certainly not zero at some point; it grows by a row and a column at a time
+    const auto value = [&](const PivotedMinor& of) {
         return of.rows.empty() ? graph.constant(1) : determinant_of(graph, matrix, columns, of.rows, of.columns);
     };
     for (bool grown = true; grown && minor.rows.size() < full;) {
@@ -33,8 +31,8 @@ FibreRank fibre_rank(Graph& graph, const std::vector<NodeId>& matrix, std::size_
         grown = false;
         for (std::size_t a = 0; a < rows && !grown; ++a)
             for (std::size_t b = 0; b < columns && !grown; ++b) {
-                if (minor.contains_row(a) || minor.contains_column(b)) continue;
-                Minor larger = minor;
+                if (contains(minor.rows, a) || contains(minor.columns, b)) continue;
+                PivotedMinor larger = minor;
                 larger.rows.push_back(a);
                 larger.columns.push_back(b);
                 const ProofStatus zero = decider.status(value(larger));

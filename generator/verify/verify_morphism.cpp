@@ -148,28 +148,18 @@ class MorphismClaims {
         }
     }
 
-    /// Inputs of a second arrow h with s(h) = t(g).
-    [[nodiscard]] std::vector<NodeId> second(const std::vector<NodeId>& inputs)
-    {
-        std::vector<NodeId> out;
-        for (const NodeId input : inputs) out.push_back(graph_.input(graph_.input_name(input) + "'"));
-        return out;
-    }
-
     void decide_arrows()
     {
         const Groupoid &from = *from_.groupoid, &to = *to_.groupoid;
         const Arrow& g = from.arrow;
-        const Arrow h{target(graph_, from, g), second(g.next), second(g.W)};
+        const Arrow h{target(graph_, from, g), primed(graph_, g.next), primed(graph_, g.W)}; // s(h) = t(g)
         std::vector<std::vector<NodeId>> points{g.x};
         for (const auto* more : {&g.next, &h.next})
             if (!more->empty()) points.push_back(*more);
         ProofSetting setting = arrow_setting(graph_, from_, points);
         setting.parameters.insert(setting.parameters.end(), morphism_.free_parameters.begin(),
                                   morphism_.free_parameters.end());
-        if (from_.discrete && std::ranges::find(setting.parameters, from_.discrete->step) == setting.parameters.end() &&
-            graph_.op(from_.discrete->step) == Op::input)
-            setting.parameters.push_back(from_.discrete->step);
+        if (from_.discrete) append_step(setting, from_);
         setting.variables.push_back(from_.time);
         std::vector<std::vector<NodeId>> elements;
         if (!g.W.empty()) elements = {g.W, h.W};
