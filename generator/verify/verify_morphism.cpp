@@ -223,9 +223,10 @@ class MorphismClaims {
         structure.verdict = verdict_of(structure);
         if (structure.verdict != Verdict::valid) return;
         const bool both = from_.lagrangian && to_.lagrangian;
-        report_.theorems.reduction = both && report_.rank.surjective;
-        report_.theorems.reconstruction = both && report_.rank.surjective && report_.rank.injective;
-        report_.theorems.discrete = morphism_.of_groupoids && from_.discrete && to_.discrete && report_.rank.surjective;
+        const bool surjective = report_.rank.surjective && report_.rank.where.empty(); // at every point
+        report_.theorems.reduction = both && surjective;
+        report_.theorems.reconstruction = both && surjective && report_.rank.injective;
+        report_.theorems.discrete = morphism_.of_groupoids && from_.discrete && to_.discrete && surjective;
     }
 
     const SystemMorphism& morphism_;

@@ -68,6 +68,7 @@ constexpr Case cases[] = {
     {"polar_to_cartesian", "", 2, true, true},
     {"bad_polar", "admissible 1, morphism 1", 2, true, true},
     {"polar_one_form", "", 1, true, false},
+    {"folded_line", "", 1, true, true},
     {"se2_reduction", "", 3, true, true},
     {"se2_wrong_side", "invariance 1, product 2", 3, true, true},
     {"top_reduction", "", 3, true, true},
@@ -108,6 +109,14 @@ TEST_CASE("what a morphism allows is said where everything is proved, and not wh
     CHECK((!discrete.reduction && discrete.discrete));
     const MorphismTheorems wrong = verified("wrong_row").report.theorems;
     CHECK((!wrong.reduction && !wrong.reconstruction && !wrong.discrete));
+}
+
+TEST_CASE("where a fibre map may fall in rank nothing follows for the motions, whatever holds elsewhere")
+{
+    const MorphismReport folded = verified("folded_line").report;
+    CHECK(folded.structure.verdict == Verdict::valid);
+    CHECK(folded.rank.where == std::vector<std::string>{"x != 0"});
+    CHECK((!folded.theorems.reduction && !folded.theorems.reconstruction));
 }
 
 TEST_CASE("the rank of a morphism names where it may fall")
