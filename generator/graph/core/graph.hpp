@@ -7,6 +7,7 @@
 #include "expression/tree.hpp"
 
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <span>
 #include <string>
@@ -124,8 +125,9 @@ class Graph {
     [[nodiscard]] Op op(NodeId id) const { return ops_[id]; }
     [[nodiscard]] std::span<const NodeId> operands(NodeId id) const;
     [[nodiscard]] std::uint32_t payload(NodeId id) const { return payloads_[id]; }
-    [[nodiscard]] const Rational& value(NodeId id) const;         ///< of a constant
-    [[nodiscard]] const std::string& input_name(NodeId id) const; ///< of an input
+    /// Of a constant, and of an input; the reference stays valid while nodes are added.
+    [[nodiscard]] const Rational& value(NodeId id) const;
+    [[nodiscard]] const std::string& input_name(NodeId id) const;
     [[nodiscard]] bool is_constant(NodeId id) const { return ops_[id] == Op::constant; }
     [[nodiscard]] bool is_zero(NodeId id) const; ///< the constant 0 (structurally; not a proof of anything else)
     [[nodiscard]] bool is_one(NodeId id) const;
@@ -140,8 +142,8 @@ class Graph {
     std::vector<std::uint32_t> payloads_;
     std::vector<std::uint32_t> first_; ///< start of the operands in `operands_`; size() + 1 entries
     std::vector<NodeId> operands_;
-    std::vector<Rational> constants_;
-    std::vector<std::string> names_;
+    std::deque<Rational> constants_; ///< value() and input_name() stay valid while nodes are added
+    std::deque<std::string> names_;
     std::vector<NodeId> inputs_;
     std::unordered_map<std::string, NodeId> input_ids_;
     std::unordered_map<std::string, NodeId> constant_ids_;
