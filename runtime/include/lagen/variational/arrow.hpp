@@ -108,14 +108,15 @@ class ArrowSolver {
     using Column = Eigen::Matrix<Scalar, rank, 1>;
 
     /// Solves for the arrow of `s`, from the one that stands there; its base point and momenta stay. `before`: the
-    /// arrow of the step before where the guess goes on from it. What fails leaves `s` as it is:
+    /// arrow of the step before where the guess goes on from it, by the move `ahead`. What fails leaves `s` as it is:
     /// @return singular_mass_matrix where N is singular at the guess; no_solution where mu lies behind a fold;
     ///         branch_lost where no way is found along which det N keeps the sign that it had; newton_diverged;
     ///         non_finite.
-    [[nodiscard]] Status solve(const M& model, const Scalar& t, State& s, const State* before = nullptr) noexcept
+    [[nodiscard]] Status solve(const M& model, const Scalar& t, State& s, const State* before = nullptr,
+                               const Column& ahead = Column::Zero()) noexcept
     {
         State z = s;
-        moved_.setZero();
+        moved_ = ahead;
         shift_.setZero();
         const Status status = newton(model, t, z, before != nullptr);
         if (status == Status::ok) return s = z, status;
@@ -127,7 +128,7 @@ class ArrowSolver {
         return led;
     }
 
-    /// The sum of the moves from the guess to the arrow that was found.
+    /// The sum of the moves to the arrow that was found: from `before`, or from the guess where there is none.
     [[nodiscard]] const Column& moved() const noexcept { return moved_; }
     [[nodiscard]] std::size_t evaluations() const noexcept { return evaluations_; }
     [[nodiscard]] std::size_t decompositions() const noexcept { return decompositions_; }

@@ -47,11 +47,10 @@ class DiscreteStepper {
         const Scalar t1(t + length);
         detail::renew_group_part(model, t1, s1);
         const State before = s1;
-        const bool drifts = detail::move_arrow(model, t1, s1, drift_);
-        if (!drifts) s1 = before;
-        const Status status = solver_.solve(model, t1, s1, &before);
+        Column ahead = drift_;
+        if (!detail::move_arrow(model, t1, s1, ahead)) s1 = before, ahead.setZero();
+        const Status status = solver_.solve(model, t1, s1, &before, ahead);
         next_drift_ = solver_.moved();
-        if (drifts) next_drift_ += drift_;
         return status;
     }
 
