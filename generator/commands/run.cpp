@@ -6,6 +6,7 @@
 #include "commands/machine/places.hpp"
 #include "commands/machine/write_file.hpp"
 #include "commands/scene/integrate_scene.hpp"
+#include "commands/scene/largest_step.hpp"
 #include "commands/scene/plot.hpp"
 #include "commands/scene/preparation.hpp"
 #include "commands/scene/scene_options.hpp"
@@ -164,6 +165,7 @@ ExitCode run_run(Arguments arguments)
     for (const TableColumn& column : input.columns) outcome.table.columns.push_back(column.name);
     for (const std::string& lane : record.names.lanes) outcome.state.emplace_back(lane, "");
     integrate_scene(record.program, input, outcome);
+    if (!options.has("bind")) outcome.largest_step = largest_step(model, scene, record.program, input, start, outcome);
     if (options.has("output")) write_file(options.get("output"), to_csv(outcome.table));
     if (options.has("plot"))
         plot_table(outcome.table, panels_of(input.columns, model, form_named(form).lanes),

@@ -172,6 +172,23 @@ TEST_CASE("the momenta of a discrete step beyond the fold have no arrow, those b
     const json::Value beyond = steps_of({written("body", free_body_from("p_w1 = 11.011, p_w2 = 0, p_w3 = 0"))}, 1);
     CHECK(beyond["status"].text == "no_solution");
     CHECK(beyond["steps"].text == "0");
+    CHECK(beyond["largest_step"].text == "0.0999"); // 11.011 h <= 1.1
+}
+
+TEST_CASE("a discrete run that fails on its way tells the largest step near its own that goes on", "[run]")
+{
+    // sin(q_next - q)/h = p + h, p = k h behind k steps: a fold at h^2 (k + 1) = 1.
+    const std::string model = written("fold", "[base]\ncoordinates = [\"q\"]\n[groupoid]\nkind = \"pair\"\n[discrete]\n"
+                                              "step = \"h\"\nL = \"(1 - cos(q_next - q))/h + h*q\"\n"
+                                              "[scene.default]\nstep = 0.2\nsteps = 100\ninitial = { q = 0, p_v_q = 0 "
+                                              "}\n");
+    const json::Value failed = steps_of({model}, 1);
+    REQUIRE(failed["status"].text == "no_solution");
+    CHECK(failed["steps"].text == "23");
+    CHECK(failed["largest_step"].text == "0.196"); // 25 steps to behind 4.8: 26 h^2 <= 1
+    CHECK(call({"run", model}).err.find("the largest step near it that goes on there: 0.196\n") != std::string::npos);
+    CHECK(steps_of({model, "--step", "0.196", "--t-end", "4.9"})["status"].text == "ok");
+    steps_of({model, "--step", "0.197", "--t-end", "4.925"}, 1);
 }
 
 TEST_CASE("rows of a discrete run are at its steps, and it takes its step from the command line first", "[run]")

@@ -205,7 +205,10 @@ std::string report_json(const RunOutcome& outcome)
         "{},\n{}}}\n",
         string_text(outcome.model), string_text(outcome.scene), string_text(outcome.form), string_text(outcome.method),
         string_text(outcome.status), number_text(outcome.time), state,
-        succeeded(outcome.status) ? "" : fmt::format(" \"failed_at\": {},", number_text(outcome.failed_at)),
+        succeeded(outcome.status)
+            ? ""
+            : fmt::format(" \"failed_at\": {},", number_text(outcome.failed_at)) +
+                  (outcome.largest_step.empty() ? "" : fmt::format(" \"largest_step\": {},", outcome.largest_step)),
         number_text(outcome.steps), number_text(outcome.rejected), number_text(outcome.rhs_calls), implicit,
         number_text(outcome.seconds),
         list_text(outcome.table.columns, [](const std::string& column) { return string_text(column); }),
@@ -231,6 +234,8 @@ std::string report_text(const RunOutcome& outcome)
         text += fmt::format("  {}\n{}", reason, last_state(outcome));
     else if (failed && outcome.steps != "0")
         text += last_state(outcome);
+    if (!outcome.largest_step.empty())
+        text += fmt::format("  the largest step near it that goes on there: {}\n", outcome.largest_step);
     if (failed && outcome.steps == "0") return text + start_hint(outcome);
     return text + figures_text(outcome);
 }

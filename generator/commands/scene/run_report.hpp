@@ -32,7 +32,8 @@ struct RunOutcome {
     std::string status; ///< "ok", "stopped_by_event", "left_domain", ... (runtime's names)
     std::string time;   ///< of the last good state
     std::vector<std::pair<std::string, std::string>> state; ///< the last good state: lanes by name, base first
-    std::string failed_at; ///< time at which the run met what ended it; `time` where nothing failed
+    std::string failed_at;    ///< time at which the run met what ended it; `time` where nothing failed
+    std::string largest_step; ///< near that of a discrete motion that failed, which would have gone on; or ""
     std::string steps, rejected, rhs_calls, seconds; ///< numbers as printed
     std::string newton, decompositions; ///< Newton iterations and factorisations of implicit methods; else empty
     bool searches = false;              ///< controls are searched for, and followed
