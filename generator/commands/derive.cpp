@@ -16,8 +16,10 @@ namespace lagen {
 
 namespace {
 
-const std::string derive_form_help =
-    form_list() + ", or exterior (dx^i and de^a); without it the first that the model has of " + default_order();
+const std::string derive_form_help = form_list() +
+                                     ", exterior (dx^i and de^a) or cartan (Theta-, Theta+ and Omega_L of [discrete]); "
+                                     "without it the first that the model has of " +
+                                     default_order();
 
 const CommandSyntax derive_syntax{"derive",
                                   "MODEL",

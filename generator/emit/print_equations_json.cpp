@@ -2,12 +2,15 @@
 /// Equations as JSON. Expressions are texts of the expression language:
 ///   {"model", "title", "form", "blocks": [{"title", "formula", "equations":
 ///     [{"left": {"kind": "time_derivative" | "symbol" | "zero" | "bracket" | "differential" | "form", "symbol",
-///     "other",
+///     "other", "arguments": [..],
 ///                "mass": [{"symbol", "value"}]},
-///       "relation": "at_least" | "at_most", "right": "...", "groups": [{"label", "value"}]}]}]}
+///       "relation": "at_least" | "at_most", "right": "...", "groups": [{"label", "value"}]}]}],
+///   "statements": [{"formula", "status", "component": [..], "residual", "witness": {}, "value", "evidence"}]}
 /// `symbol` is left out of kind "zero", `mass` where the left side has no mass matrix; `other` is of kind "bracket",
-/// {symbol, other}; `relation` is left out of equations. Of kinds "differential", d symbol, and "form", d e^symbol, the
-/// right side is the sum of value e^{basis[0]} ^ e^{basis[1]} .. of the groups, each {"label", "value", "basis"}.
+/// {symbol, other}; `arguments` are those of kind "component",
+/// symbol(arguments); `relation` is left out of equations, `statements` where there are none. Of kinds "differential",
+/// d symbol, and "form", d e^symbol, the right side is the sum of value e^{basis[0]} ^ e^{basis[1]} .. of the groups,
+/// each {"label", "value", "basis"}.
 #include "emit/json.hpp"
 #include "emit/print_equations.hpp"
 #include "emit/print_equations_terms.hpp"
@@ -24,6 +27,13 @@ std::string right_text(const Equation& equation)
     return to_text(terms.size() == 1 ? terms[0] : add(terms));
 }
 
+void write_names(JsonWriter& json, const std::vector<std::string>& names)
+{
+    json.begin_array();
+    for (const std::string& name : names) json.value(name);
+    json.end_array();
+}
+
 void write_left(JsonWriter& json, const Equation& equation)
 {
     json.key("left").begin_object();
@@ -34,9 +44,11 @@ void write_left(JsonWriter& json, const Equation& equation)
     case LeftSide::bracket: json.key("kind").value("bracket"); break;
     case LeftSide::differential: json.key("kind").value("differential"); break;
     case LeftSide::form: json.key("kind").value("form"); break;
+    case LeftSide::component: json.key("kind").value("component"); break;
     }
     if (equation.left != LeftSide::zero) json.key("symbol").value(equation.symbol);
     if (equation.left == LeftSide::bracket) json.key("other").value(equation.other);
+    if (equation.left == LeftSide::component) write_names(json.key("arguments"), equation.arguments);
     if (!equation.mass.empty()) {
         json.key("mass").begin_array();
         for (const TermGroup& entry : equation.mass)
@@ -59,14 +71,24 @@ void write_equation(JsonWriter& json, const Equation& equation)
     json.key("groups").begin_array();
     for (const TermGroup& group : equation.groups) {
         json.begin_object().key("label").value(group.label).key("value").value(to_text(group.value));
-        if (!group.basis.empty()) {
-            json.key("basis").begin_array();
-            for (const std::string& name : group.basis) json.value(name);
-            json.end_array();
-        }
+        if (!group.basis.empty()) write_names(json.key("basis"), group.basis);
         json.end_object();
     }
     json.end_array().end_object();
+}
+
+void write_statement(JsonWriter& json, const DecidedStatement& statement)
+{
+    json.begin_object().key("formula").value(statement.formula).key("status").value(statement.status);
+    if (!statement.component.empty()) write_names(json.key("component"), statement.component);
+    if (!statement.residual.empty()) json.key("residual").value(statement.residual);
+    if (!statement.witness.empty()) {
+        json.key("witness").begin_object();
+        for (const auto& [name, value] : statement.witness) json.key(name).value(value);
+        json.end_object().key("value").value(statement.value);
+    }
+    if (!statement.evidence.empty()) json.key("evidence").value(statement.evidence);
+    json.end_object();
 }
 
 } // namespace
@@ -82,7 +104,13 @@ std::string print_json(const EquationSet& equations)
         for (const Equation& equation : block.equations) write_equation(json, equation);
         json.end_array().end_object();
     }
-    json.end_array().end_object();
+    json.end_array();
+    if (!equations.statements.empty()) {
+        json.key("statements").begin_array();
+        for (const DecidedStatement& statement : equations.statements) write_statement(json, statement);
+        json.end_array();
+    }
+    json.end_object();
     return json.text();
 }
 

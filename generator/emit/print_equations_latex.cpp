@@ -3,6 +3,7 @@
 #include "emit/print_equations.hpp"
 #include "emit/print_equations_names.hpp"
 #include "emit/print_equations_terms.hpp"
+#include "emit/text_block.hpp"
 
 #include <algorithm>
 
@@ -219,6 +220,9 @@ std::string left_side(const Equation& equation, const LatexNames& names)
     if (equation.left == LeftSide::form) return "de^{" + names.symbol(equation.symbol) + "}";
     if (equation.left == LeftSide::bracket)
         return "\\{" + names.symbol(equation.symbol) + ", " + names.symbol(equation.other) + "\\}";
+    std::vector<std::string> symbols;
+    for (const std::string& name : equation.arguments) symbols.push_back(names.symbol(name));
+    if (equation.left == LeftSide::component) return names.symbol(equation.symbol) + "(" + joined(symbols) + ")";
     if (equation.mass.empty()) return names.dotted(equation.symbol);
     std::string text;
     for (const TermGroup& entry : equation.mass) {
@@ -279,6 +283,10 @@ std::string print_latex(const EquationSet& equations)
         "\\subsection*{" + escape_latex(equations.title.empty() ? equations.model : equations.title) + "}\n";
     for (const EquationBlock& block : equations.blocks)
         if (!block.equations.empty()) print_block(text, block, names);
+    if (!equations.statements.empty()) text += "\\paragraph{statements}\n\\begin{itemize}\n";
+    for (const DecidedStatement& statement : equations.statements)
+        text += "  \\item $" + statement.latex_formula + "$: " + statement.status + "\n";
+    if (!equations.statements.empty()) text += "\\end{itemize}\n";
     return text;
 }
 

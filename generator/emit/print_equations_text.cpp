@@ -3,6 +3,9 @@
 /// d/dt before any other.
 #include "emit/print_equations.hpp"
 #include "emit/print_equations_terms.hpp"
+#include "emit/text_block.hpp"
+
+#include <fmt/core.h>
 
 #include <algorithm>
 
@@ -174,6 +177,7 @@ std::string left_side(const Equation& equation)
     if (equation.left == LeftSide::differential) return "d" + equation.symbol;
     if (equation.left == LeftSide::form) return "de^" + equation.symbol;
     if (equation.left == LeftSide::bracket) return "{" + equation.symbol + ", " + equation.other + "}";
+    if (equation.left == LeftSide::component) return equation.symbol + "(" + joined(equation.arguments) + ")";
     if (equation.mass.empty()) return dotted(equation.symbol);
     std::string text;
     for (const TermGroup& entry : equation.mass) {
@@ -220,6 +224,21 @@ void print_block(std::string& text, const EquationBlock& block)
     }
 }
 
+void print_statement(std::string& text, const DecidedStatement& statement)
+{
+    text += "  " + statement.status + std::string(11 - statement.status.size(), ' ') + statement.formula + "\n";
+    const std::string margin(13, ' ');
+    if (!statement.residual.empty() && statement.status != "proved") {
+        text += margin + "residual";
+        if (!statement.component.empty()) text += "(" + joined(statement.component) + ")";
+        text += " " + statement.residual + "\n";
+    }
+    std::vector<std::string> point;
+    for (const auto& [name, value] : statement.witness) point.push_back(name + " = " + value);
+    if (!point.empty()) text += fmt::format("{}at {}: {:.17g}\n", margin, joined(point), statement.value);
+    if (!statement.evidence.empty()) text += margin + "known: " + statement.evidence + "\n";
+}
+
 } // namespace
 
 std::string print_text(const EquationSet& equations)
@@ -227,6 +246,8 @@ std::string print_text(const EquationSet& equations)
     std::string text = (equations.title.empty() ? equations.model : equations.title) + "\n";
     for (const EquationBlock& block : equations.blocks)
         if (!block.equations.empty()) print_block(text, block);
+    if (!equations.statements.empty()) text += "\nstatements:\n";
+    for (const DecidedStatement& statement : equations.statements) print_statement(text, statement);
     return text;
 }
 

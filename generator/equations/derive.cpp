@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "equations/derive.hpp"
 
+#include "equations/cartan.hpp"
 #include "equations/discrete.hpp"
 #include "equations/exterior.hpp"
 #include "equations/hamilton.hpp"
@@ -14,7 +15,7 @@ namespace lagen {
 std::vector<std::string> derivation_names()
 {
     std::vector<std::string> names = form_names();
-    names.emplace_back("exterior");
+    for (const char* more : {"exterior", "cartan"}) names.emplace_back(more);
     return names;
 }
 
@@ -22,6 +23,7 @@ EquationSet derive(const std::string& form, const Model& model, const System& sy
 {
     const WrittenAlgebroid& algebroid = system.written.algebroid;
     if (form == "exterior") return derive_exterior(model, system);
+    if (form == "cartan") return derive_cartan(model, system);
     switch (form_named(form).kind) {
     case FormKind::lagrange: return derive_lagrange(model, algebroid, report.mechanics.regularity);
     case FormKind::hamilton: return derive_hamilton(model, algebroid, report.mechanics.regularity);

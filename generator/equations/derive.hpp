@@ -8,7 +8,7 @@
 
 namespace lagen {
 
-/// What `derive` can print: form_names() and "exterior".
+/// What `derive` can print: form_names(), "exterior" and "cartan".
 [[nodiscard]] std::vector<std::string> derivation_names();
 
 /// `form` is one of derivation_names(). Throws MathematicsError where the model has no equations of that form.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "equations/discrete.hpp"
 
-#include "equations/symbolic_model.hpp"
 #include "graph/core/lower.hpp"
 #include "mechanics/discrete.hpp"
 #include "model/families.hpp"
@@ -37,13 +36,7 @@ class DiscreteDerivation {
           symbolic_(model, system.written.algebroid, {model.discrete->lagrangian}),
           legendre_(discrete_legendre(graph_, groupoid_, *system.discrete->lagrangian))
     {
-        for (const Arrow& arrow : {groupoid_.arrow, second_arrow()})
-            for (const auto* nodes : {&arrow.next, &arrow.W})
-                for (const NodeId node : *nodes)
-                    if (graph_.op(node) == Op::input) symbolic_.add_variable(graph_.input_name(node));
-        if (const std::vector<std::string> names = symbol_names(model); // a parameter, or a symbol of its own
-            std::ranges::find(names, model.discrete->step.name) == names.end())
-            symbolic_.add_variable(model.discrete->step.name);
+        add_arrow_names(symbolic_, graph_, {groupoid_.arrow, second_arrow()});
     }
 
     EquationSet run()
@@ -121,13 +114,30 @@ class DiscreteDerivation {
 
 } // namespace
 
-EquationSet derive_discrete(const Model& model, const System& system)
+void require_written_discrete(const System& system)
 {
     if (!system.discrete || !system.discrete->written)
         throw MathematicsError(system.discrete ? "the discrete Lagrangian of the model is made by a scheme: there is "
                                                  "none that is written out"
                                                : "the model has no [discrete]",
                                "[discrete] L = \"..\" over x, x_next and the element");
+}
+
+void add_arrow_names(SymbolicModel& symbolic, const Graph& graph, std::initializer_list<Arrow> arrows)
+{
+    for (const Arrow& arrow : arrows)
+        for (const auto* nodes : {&arrow.next, &arrow.W})
+            for (const NodeId node : *nodes)
+                if (graph.op(node) == Op::input) symbolic.add_variable(graph.input_name(node));
+    const std::string& step = symbolic.model().discrete->step.name;
+    if (const std::vector<std::string> names = symbol_names(symbolic.model()); // a parameter, or a symbol of its own
+        std::ranges::find(names, step) == names.end())
+        symbolic.add_variable(step);
+}
+
+EquationSet derive_discrete(const Model& model, const System& system)
+{
+    require_written_discrete(system);
     return derived(model, "the discrete equations", [&] { return DiscreteDerivation(model, system).run(); });
 }
 

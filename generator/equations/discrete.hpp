@@ -3,13 +3,18 @@
 /// at its target, and the discrete Euler-Lagrange equations F^+L(g) = F^-L(h) of two arrows with t(g) = s(h).
 #pragma once
 
+#include "equations/symbolic_model.hpp"
 #include "mechanics/system.hpp"
-#include "model/model.hpp"
-#include "notation/equation_set.hpp"
 
 namespace lagen {
 
 /// Throws MathematicsError where the model has no discrete Lagrangian that is written out.
 [[nodiscard]] EquationSet derive_discrete(const Model& model, const System& system);
+
+/// Throws MathematicsError likewise.
+void require_written_discrete(const System& system);
+
+/// Coordinates of these arrows, and the step, behind the names of the model in the order of terms.
+void add_arrow_names(SymbolicModel& symbolic, const Graph& graph, std::initializer_list<Arrow> arrows);
 
 } // namespace lagen

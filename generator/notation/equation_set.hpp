@@ -14,6 +14,7 @@ enum class LeftSide {
     bracket,         ///< {symbol, other}
     differential,    ///< d of the function symbol
     form,            ///< the basis form e^symbol under d
+    component,       ///< symbol(arguments): a form on sections
 };
 
 /// How the left side stands to the right one.
@@ -37,6 +38,7 @@ struct Equation {
     std::vector<TermGroup> groups; ///< empty: the right side is 0
     std::string other = {};        ///< of a bracket: its second function
     Relation relation = Relation::equal;
+    std::vector<std::string> arguments = {}; ///< of a component: the sections by name
 };
 
 /// One titled block, e.g. "momenta" or "equations of motion (acceleration form)", with its formula in UTF-8.
@@ -45,6 +47,18 @@ struct EquationBlock {
     std::string formula; ///< e.g. "W_ab ẏ^b = ρ_a(L) − (∂²L/∂y^a∂x^i) ρ^i_b y^b − p_c C^c_ab y^b"
     std::string latex_formula;
     std::vector<Equation> equations;
+};
+
+/// What is said of the equations, and whether it was proved.
+struct DecidedStatement {
+    std::string formula, latex_formula;
+    std::string status; ///< "proved", "refuted", "undecided"
+    /// Of the first component that is not proved: its sections, what should vanish, a point with the value there.
+    std::vector<std::string> component = {};
+    std::string residual = {};
+    std::vector<std::pair<std::string, std::string>> witness = {};
+    double value = 0;
+    std::string evidence = {}; ///< what is known of it; may be empty
 };
 
 struct SymbolText {
@@ -59,6 +73,7 @@ struct EquationSet {
     std::string form; ///< its name: "lagrange", "exterior"
     std::vector<SymbolText> symbols;
     std::vector<EquationBlock> blocks;
+    std::vector<DecidedStatement> statements = {};
 };
 
 } // namespace lagen

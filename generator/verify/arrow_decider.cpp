@@ -95,4 +95,19 @@ Decision ArrowDecider::on_group(NodeId residual)
     return decision;
 }
 
+Decision decide_on_arrows(Graph& graph, const System& system, NodeId residual, const ProofBudget& budget)
+{
+    const Groupoid& groupoid = *system.groupoid;
+    std::vector<std::vector<NodeId>> points{groupoid.arrow.x};
+    if (!groupoid.arrow.next.empty()) points.push_back(groupoid.arrow.next);
+    ProofSetting setting = arrow_setting(graph, system, points);
+    if (depends_on_any(graph, {&residual, 1}, {&system.time, 1})) setting.variables.push_back(system.time);
+    append_step(setting, system);
+    const NodeId step = system.discrete->step;
+    if (graph.op(step) == Op::input) setting.domain.push_back(graph.apply(Op::greater, step, graph.constant(0)));
+    std::vector<std::vector<NodeId>> elements;
+    if (!groupoid.arrow.W.empty()) elements.push_back(groupoid.arrow.W);
+    return ArrowDecider(graph, setting, groupoid, elements, budget).decide(residual);
+}
+
 } // namespace lagen

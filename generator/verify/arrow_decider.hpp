@@ -39,4 +39,7 @@ class ArrowDecider {
     std::vector<NodeId> chart_variables_;
 };
 
+/// A residual over t, the step h > 0, the parameters and the coordinates of one arrow.
+[[nodiscard]] Decision decide_on_arrows(Graph& graph, const System& system, NodeId residual, const ProofBudget& budget);
+
 } // namespace lagen

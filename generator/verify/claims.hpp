@@ -50,8 +50,6 @@ class Claims {
     };
     [[nodiscard]] Vanishing vanishing(const std::string& name, const FormClaim& claim, const ExteriorForm& residual);
     void decide_action(StructureReport& structure);
-    /// A residual over the coordinates of an arrow.
-    [[nodiscard]] Decision decide_on_arrows(NodeId residual);
     void append_equality(StructureReport& structure, const char* name, std::vector<std::string> indices, NodeId value,
                          NodeId wanted);
     [[nodiscard]] Check check_of(const Residual& residual);

@@ -28,24 +28,10 @@ void Claims::decide_symmetries(StructureReport& structure)
         if (system_.discrete && system_.discrete->written)
             append(lagrangian_ || system_.hamiltonian ? std::vector<std::string>{claim.name, "discrete"}
                                                       : std::vector<std::string>{claim.name},
-                   lift_of_discrete_lagrangian(graph_, system_, claim.s),
-                   [&](NodeId residual) { return decide_on_arrows(residual); });
+                   lift_of_discrete_lagrangian(graph_, system_, claim.s), [&](NodeId residual) {
+                       return decide_on_arrows(graph_, system_, residual, judge_->decider().budget());
+                   });
     }
-}
-
-Decision Claims::decide_on_arrows(NodeId residual)
-{
-    const Groupoid& groupoid = *system_.groupoid;
-    std::vector<std::vector<NodeId>> points{groupoid.arrow.x};
-    if (!groupoid.arrow.next.empty()) points.push_back(groupoid.arrow.next);
-    ProofSetting setting = arrow_setting(graph_, system_, points);
-    if (depends_on_any(graph_, {&residual, 1}, {&system_.time, 1})) setting.variables.push_back(system_.time);
-    append_step(setting, system_);
-    const NodeId step = system_.discrete->step;
-    if (graph_.op(step) == Op::input) setting.domain.push_back(graph_.apply(Op::greater, step, graph_.constant(0)));
-    std::vector<std::vector<NodeId>> elements;
-    if (!groupoid.arrow.W.empty()) elements.push_back(groupoid.arrow.W);
-    return ArrowDecider(graph_, setting, groupoid, elements, judge_->decider().budget()).decide(residual);
 }
 
 } // namespace lagen

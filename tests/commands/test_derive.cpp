@@ -63,7 +63,7 @@ TEST_CASE("a form that is none is answered with the nearest one")
     const Outcome outcome = call({"derive", "pendulum.toml", "--form", "hamiltonian"});
     CHECK(outcome.code == 4);
     CHECK(outcome.err == "lagen derive: --form is 'hamiltonian', it must be one of lagrange, hamilton, pontryagin, "
-                         "discrete, exterior; did "
+                         "discrete, exterior, cartan; did "
                          "you mean 'hamilton'?\n");
 }
 

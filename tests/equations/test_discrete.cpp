@@ -2,8 +2,8 @@
 /// The discrete equations that a person reads have the values of those on the graph, and the form of the textbooks.
 #include "emit/print_equations.hpp"
 #include "equations/derive.hpp"
+#include "equations/printed_value.hpp"
 #include "graph/core/evaluate.hpp"
-#include "graph/core/lower.hpp"
 #include "groupoid/reference_models.hpp"
 #include "mechanics/discrete.hpp"
 #include "model/families.hpp"
@@ -29,16 +29,6 @@ struct Derived {
     {
     }
 };
-
-/// The right side of an equation where the names have these values.
-long double value_of(const Equation& equation, const std::map<std::string, long double>& values)
-{
-    Graph graph;
-    Lowering lower(graph);
-    NodeId sum = graph.constant(0);
-    for (const TermGroup& group : equation.groups) sum = graph.add(sum, lower(group.value));
-    return evaluate<long double>(graph, {&sum, 1}, values)[0];
-}
 
 } // namespace
 
