@@ -4,7 +4,8 @@
 /// Of F^+L the part of size 1/h follows from F^-L,
 ///   F^+L(g)_c = Ad_W^b_c (mu_b + rho_b(L)),     F^+L(g)_i = mu_i + A_i^c mu_c + dL/dx^i + dL/dx_next^i - A_i^c F^+L_c
 /// with the last A at x_next, so that momenta gain no rounding error of that size in a step. Forces make the momenta
-/// F^-L - f^- and F^+L + f^+ (mechanics/scheme.hpp).
+/// F^-L - f^- and F^+L + f^+ (mechanics/scheme.hpp). On pairs where N does not depend on the arrow, F^-L is affine in
+/// it, and a step is explicit.
 #include "graph/calculus/differentiate.hpp"
 #include "groupoid/cayley.hpp"
 #include "groupoid/generator_span.hpp"
@@ -32,6 +33,7 @@ class DiscreteForm {
         add_step();
         add_forward();
         add_arrow_equation();
+        add_explicit_step();
         add_algebra();
         add_functions();
         bind_names();
@@ -193,6 +195,33 @@ class DiscreteForm {
         kernel.outputs.push_back(matrix(graph_, "N", unknowns, unknowns, over_lanes(equations_.matrix)));
         kernel.documentation.emplace_back("N_ab = <-e_b(F^-L_a) is Newton's matrix. Inner unknowns w add R = -dL/dw.");
         form_.kernels.push_back(std::move(kernel));
+    }
+
+    /// The state behind a step: N d = mu - F^-L(x, x), all of it at x_next, t + h and the momenta F^+L.
+    void add_explicit_step()
+    {
+        const std::vector<NodeId>&x = groupoid_.arrow.x, &next = groupoid_.arrow.next;
+        if (groupoid_.size > 0 || next.size() < groupoid_.n() || !equations_.stationary.empty() ||
+            depends_on_any(graph_, equations_.matrix, next))
+            return;
+        std::vector<std::pair<NodeId, NodeId>> stays,
+            moves{{system_.time, graph_.add(system_.time, system_.discrete->step)}};
+        std::vector<NodeId> behind = gradient(graph_, L_, next);
+        const std::vector<NodeId>& work = system_.discrete->work.target;
+        for (std::size_t a = 0; a < work.size(); ++a) behind[a] = graph_.add(behind[a], work[a]);
+        const std::vector<NodeId> target = over_lanes(next), momenta = over_lanes(behind);
+        for (std::size_t i = 0; i < next.size(); ++i) {
+            stays.emplace_back(next[i], x[i]);
+            moves.emplace_back(x[i], target[i]);
+            moves.emplace_back(system_.mu[i], momenta[i]);
+        }
+        std::vector<NodeId> right = substitute(graph_, equations_.momenta, stays);
+        for (std::size_t a = 0; a < right.size(); ++a) right[a] = graph_.subtract(system_.mu[a], right[a]);
+        const std::vector<NodeId> arrow = graph_.solve(equations_.matrix, right, MatrixStructure::general);
+        std::vector<NodeId> state = target;
+        for (const NodeId d : substitute(graph_, arrow, moves)) state.push_back(d);
+        state.insert(state.end(), momenta.begin(), momenta.end());
+        form_.kernels.push_back(table_kernel(form_, "explicit_step", column("s1", state)));
     }
 
     /// The entries of a direction d or of a matrix A as inputs.

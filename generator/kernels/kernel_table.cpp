@@ -61,6 +61,7 @@ constexpr std::array kernel_rows{
               "Behind the step: x = t(g), shape ({0}), and its momenta mu = F^+L(g) by those that the state has."},
     KernelRow{"arrow_equation", discrete, column_of_values,
               "The equation of the arrow g: R_a = mu_a - F^-L(g)_a, shape ({0})."},
+    KernelRow{"explicit_step", discrete, column_of_values, "The state behind the step, where that is explicit."},
     KernelRow{
         "cayley_step", discrete, dense_matrix,
         "The group part of a move by d along the source fibre, W' = W (1 + V), by Cayley's map; shape ({0}, {1})."},

@@ -65,8 +65,12 @@ TEST_CASE("the work of a run is what its energy gained, by a closed form and by 
 TEST_CASE("the balance falls with the order of the method", "[run]")
 {
     CHECK(order_of("driven_pendulum.toml", "rk4", "0.1", "0.05") == Approx(4).margin(0.2));
-    CHECK(order_of("driven_pendulum.toml", "euler", "0.02", "0.01") == Approx(1).margin(0.2));
     CHECK(order_of("driven_top.toml", "gauss8", "0.4", "0.2") == Approx(8).margin(0.3));
+}
+
+TEST_CASE("the balance falls with the order of every kind of method", "[all]")
+{
+    CHECK(order_of("driven_pendulum.toml", "euler", "0.02", "0.01") == Approx(1).margin(0.2));
     CHECK(order_of("driven_top.toml", "gauss_lie4", "0.1", "0.05") == Approx(4).margin(0.2));
     CHECK(order_of("driven_top.toml", "radau5_fixed", "0.1", "0.05") == Approx(5).margin(0.2));
     CHECK(order_of("parametric_pendulum.toml", "leapfrog_kdk", "0.1", "0.05") == Approx(2).margin(0.1));

@@ -24,7 +24,7 @@ double decimal_of(const json::Value& value)
 
 TEST_CASE("methods on groups turn a body so that R I w is constant and R a rotation", "[run]")
 {
-    for (const std::string method : {"rkmk4", "gauss_lie4", "crouch_grossman3", "rkmk_dop853"}) {
+    for (const std::string method : {"gauss_lie4", "rkmk_dop853"}) { // the others: [long]
         INFO(method);
         const std::vector<double> row = last_row({"turning_body.toml", "--method", method, "--step", "0.01"});
         check_turned(row, 5e-6);

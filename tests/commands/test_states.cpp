@@ -85,17 +85,20 @@ TEST_CASE("equations of first-order states are printed behind those of the motio
     CHECK(latex.out.find("\\dot z = f(t, x, y, z)") != std::string::npos);
 }
 
-TEST_CASE("a rigid body turns with its velocity: R stays a rotation and R I w is constant, whatever the method",
+TEST_CASE("a rigid body turns with its velocity: R stays a rotation and R I w is constant, by steps and implicitly",
           "[run]")
 {
-    for (const std::string method : {"dop853", "rk4", "gauss4", "taylor", "radau5"}) {
-        INFO(method);
-        const std::vector<double> row = last_row({"turning_body.toml", "--method", method, "--step", "0.01"});
-        check_turned(row, 2e-6);
-    }
+    for (const std::string method : {"dop853", "gauss4"})
+        check_turned(last_row({"turning_body.toml", "--method", method, "--step", "0.01"}), 2e-6);
     CHECK(last_row({"turning_body.toml", "--scene", "bare"}).size() == 2);
     const std::vector<double> upright = last_row({"turning_body.toml", "--scene", "upright"});
     REQUIRE(upright.size() == 13);
     CHECK(upright[4] == Approx(std::cos(2.5)).epsilon(1e-9));
     CHECK(upright[5] == Approx(-std::sin(2.5)).epsilon(1e-9));
+}
+
+TEST_CASE("a rigid body turns with its velocity, whatever the method", "[all]")
+{
+    for (const std::string method : {"rk4", "taylor", "radau5"})
+        check_turned(last_row({"turning_body.toml", "--method", method, "--step", "0.01"}), 2e-6);
 }

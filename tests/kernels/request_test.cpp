@@ -64,7 +64,8 @@ TEST_CASE("a kernel that does not exist is refused with the list of those that d
           "domain_series, flows, mass_matrix, momentum, velocity, controls, energy, power, hamiltonian, lagrangian, "
           "cost, "
           "constraints, casimirs, domain, observables, invariants, "
-          "lagrangian_hessian, hamiltonian_hessian, step, forward, arrow_equation, cayley_step, cayley_coordinates, "
+          "lagrangian_hessian, hamiltonian_hessian, step, forward, arrow_equation, explicit_step, cayley_step, "
+          "cayley_coordinates, "
           "algebra_matrix, in_algebra, element, algebra_element, algebra_action, algebra_bracket, events\nhint: did "
           "you mean 'energy'?");
 }

@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <tuple>
 #include <vector>
 
 using namespace lagen;
@@ -233,8 +234,16 @@ std::vector<Task<Top>> tops()
 
 } // namespace
 
-TEMPLATE_TEST_CASE("A trajectory on a lane has the bits of one alone, by adaptive methods", "", Dopri5, Tsit5, Dop853,
-                   Verner65, Verner76, Verner87, Verner98)
+// Each is compiled for half a minute.
+#ifdef LAGEN_ALL_TESTS
+using Adaptive = std::tuple<Dopri5, Tsit5, Dop853, Verner65, Verner76, Verner87, Verner98>;
+using FixedStep = std::tuple<Euler, Kutta3, Rk4>;
+#else
+using Adaptive = std::tuple<Dopri5, Dop853>;
+using FixedStep = std::tuple<Rk4>;
+#endif
+
+TEMPLATE_LIST_TEST_CASE("A trajectory on a lane has the bits of one alone, by adaptive methods", "", Adaptive)
 {
     const std::vector<TestType> methods{TestType{.tolerance = 1e-6}, TestType{.tolerance = 1e-9},
                                         TestType{.relative = 1e-3, .absolute = 1e-5, .max_step = 0.3}};
@@ -243,7 +252,7 @@ TEMPLATE_TEST_CASE("A trajectory on a lane has the bits of one alone, by adaptiv
     check_abreast<4>(tops(), methods, {});
 }
 
-TEMPLATE_TEST_CASE("A trajectory on a lane has the bits of one alone, by methods of fixed step", "", Euler, Kutta3, Rk4)
+TEMPLATE_LIST_TEST_CASE("A trajectory on a lane has the bits of one alone, by methods of fixed step", "", FixedStep)
 {
     const std::vector<TestType> methods{TestType{.step = 0.01}, TestType{.step = 0.003}};
     check_abreast<2>(orbits(), methods, {});

@@ -117,6 +117,7 @@ concept RightHandSide = requires(const M& model, typename M::Scalar t, const typ
 ///   cayley_step(t, s, d), cayley_coordinates(t, s)   V = cay(d) - 1 of a move along the source fibre, W' = W (1 + V);
 ///                                               d with cay(d) = W. Where M::cayley is false instead
 ///   algebra_matrix(t, s, d), in_algebra(A)      the matrix A of a direction, dW = W A, and back
+///   State explicit_step(t, s)                   the state behind a step; where F^-L is affine in the arrow of a pair
 template <class M>
 concept DiscreteMotion = requires(const M& model, typename M::Scalar t, const typename M::State& s)
 {

@@ -38,6 +38,41 @@ class DiscreteStepper {
         using std::abs;
         const Real length = Real(model.step()), slack = Real(64) * std::numeric_limits<Real>::epsilon();
         if (!(abs(h - length) <= slack * (abs(t) + length))) return Status::invalid_input;
+        if constexpr (has_explicit_step) {
+            ++explicit_steps_;
+            s1 = model.explicit_step(Scalar(t), s);
+            return s1.allFinite() ? Status::ok : Status::non_finite;
+        } else {
+            return solve_step(model, t, length, s, s1);
+        }
+    }
+
+    void accept() noexcept { drift_ = next_drift_; }
+    /// Behind a step that failed.
+    void forget() noexcept { drift_.setZero(); }
+
+    /// A discrete motion has no values inside of its steps.
+    Status interpolate(const M&, const Real&, const State&, const Real&, const State&, const Real&, State& out) noexcept
+    {
+        out.setConstant(Scalar(std::numeric_limits<real_t<Scalar>>::quiet_NaN()));
+        return Status::ok;
+    }
+
+    [[nodiscard]] std::size_t calls() const noexcept { return solver_.evaluations() + explicit_steps_; }
+    [[nodiscard]] std::size_t newton_iterations() const noexcept { return solver_.evaluations(); }
+    [[nodiscard]] std::size_t decompositions() const noexcept { return solver_.decompositions(); }
+
+  private:
+    using Lanes = detail::ArrowLanes<M>;
+    using Column = Eigen::Matrix<Scalar, Lanes::unknowns, 1>;
+    static constexpr bool has_explicit_step = requires(const M& model, const State& s)
+    {
+        model.explicit_step(s[0], s);
+    };
+
+    [[nodiscard]] Status solve_step(const M& model, const Real& t, const Real& length, const State& s,
+                                    State& s1) noexcept
+    {
         Eigen::Matrix<Scalar, Lanes::n, 1> x;
         Eigen::Matrix<Scalar, Lanes::rank, 1> mu;
         model.forward(Scalar(t), s, x, mu);
@@ -54,26 +89,8 @@ class DiscreteStepper {
         return status;
     }
 
-    void accept() noexcept { drift_ = next_drift_; }
-    /// Behind a step that failed.
-    void forget() noexcept { drift_.setZero(); }
-
-    /// A discrete motion has no values inside of its steps.
-    Status interpolate(const M&, const Real&, const State&, const Real&, const State&, const Real&, State& out) noexcept
-    {
-        out.setConstant(Scalar(std::numeric_limits<real_t<Scalar>>::quiet_NaN()));
-        return Status::ok;
-    }
-
-    [[nodiscard]] std::size_t calls() const noexcept { return solver_.evaluations(); }
-    [[nodiscard]] std::size_t newton_iterations() const noexcept { return solver_.evaluations(); }
-    [[nodiscard]] std::size_t decompositions() const noexcept { return solver_.decompositions(); }
-
-  private:
-    using Lanes = detail::ArrowLanes<M>;
-    using Column = Eigen::Matrix<Scalar, Lanes::unknowns, 1>;
-
     ArrowSolver<M> solver_;
+    std::size_t explicit_steps_ = 0;
     Column drift_ = Column::Zero(), next_drift_ = Column::Zero(); ///< how the arrow of the last step moved
 };
 
