@@ -243,7 +243,7 @@ TEST_CASE("a run by an implicit method tells its Newton iterations and factorisa
     CHECK_THAT(explicitly.err, !Catch::Contains("Newton"));
 }
 
-TEST_CASE("splittings compose exact flows where Hamilton's equations do not separate", "[run]")
+TEST_CASE("splittings compose exact flows where Hamilton's equations do not separate", "[all]")
 {
     for (const std::string model : {"heavy_top.toml", "kirchhoff.toml"}) {
         INFO(model);

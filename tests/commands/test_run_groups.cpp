@@ -22,7 +22,7 @@ double decimal_of(const json::Value& value)
 
 } // namespace
 
-TEST_CASE("methods on groups turn a body so that R I w is constant and R a rotation", "[run]")
+TEST_CASE("methods on groups turn a body so that R I w is constant and R a rotation", "[all]")
 {
     for (const std::string method : {"gauss_lie4", "rkmk_dop853"}) { // the others: [long]
         INFO(method);

@@ -178,7 +178,7 @@ steps = 50
     }
 }
 
-TEST_CASE("a scheme has its order on an action groupoid", "[run]")
+TEST_CASE("a scheme has its order on an action groupoid", "[all]")
 {
     require_orders(top, {{"gauss:2", 4}});
 }

@@ -60,7 +60,7 @@ double order_of(const std::string& model, const std::string& method, double step
 
 } // namespace
 
-TEST_CASE("a variational method has its order on a pair groupoid and on an action groupoid", "[run]")
+TEST_CASE("a variational method has its order on a pair groupoid and on an action groupoid", "[all]")
 {
     CHECK(order_of(models_folder() + "/kepler.toml", "variational4", 0.05, "2") == Approx(4).margin(0.15));
     CHECK(order_of(models_folder() + "/heavy_top.toml", "variational2", 0.02, "2") == Approx(2).margin(0.15));
