@@ -7,6 +7,7 @@
 #     [COMPUTES]         left out of them too, but for scripts/test --all: its tests print, or compute again what is proved
 #     [APART tags]       its tests of each tag are a test by themselves, NAME_tag; those of the tag `all` are for
 #                        scripts/test --all only (LAGEN_ALL_TESTS)
+#     [LATER files..]    these of its files are compiled for scripts/test --all only
 #     [SECONDS n..]      processor seconds that NAME and its tests apart are expected to take, in this order (5 each)
 #     [SANITIZED n..])   the same with sanitizers
 #   lagen_fuzz_target(NAME LIBRARIES libs... SOURCES files... CORPUS places... LONGEST bytes RUNS n ALL n
@@ -112,8 +113,12 @@ function(lagen_timed_test name seconds)
 endfunction()
 
 function(lagen_test_room name)
-  cmake_parse_arguments(PARSE_ARGV 1 ROOM "SEPARATE;TEMPLATES;UNSANITIZED;COMPUTES" "" "LIBRARIES;APART;SECONDS;SANITIZED")
+  cmake_parse_arguments(PARSE_ARGV 1 ROOM "SEPARATE;TEMPLATES;UNSANITIZED;COMPUTES" "" "LIBRARIES;APART;LATER;SECONDS;SANITIZED")
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
+  if(ROOM_LATER AND NOT LAGEN_ALL_TESTS)
+    list(TRANSFORM ROOM_LATER REPLACE "(.+)" "${CMAKE_CURRENT_SOURCE_DIR}/${name}/\\1.cpp")
+    list(REMOVE_ITEM sources ${ROOM_LATER})
+  endif()
   if(NOT sources OR (LAGEN_SANITIZE AND (ROOM_UNSANITIZED OR (ROOM_COMPUTES AND NOT LAGEN_ALL_TESTS))))
     return()
   endif()

@@ -72,7 +72,7 @@ TEST_CASE("a name alone is bound to the value that it has")
     CHECK(one.out.substr(one.out.find(kernels)) == same.out.substr(same.out.find(kernels)));
 }
 
-TEST_CASE("--set and --bind do not both give a value to the same parameter")
+TEST_CASE("--set and --bind do not both give a value to the same parameter", "[run]")
 {
     const std::pair<const char*, const char*> pairs[] = {{"m=1", "m=2"}, {"m[7]=1", "m=2"}, {"m=1", "m[7]=2"}};
     for (const auto& [set, bind] : pairs) {

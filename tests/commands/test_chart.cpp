@@ -281,7 +281,7 @@ TEST_CASE("the errors of a chart are those of lagen run against 28 digits", "[ch
             CHECK(again["points"][k][key].text == chart["points"][k][key].text);
 }
 
-TEST_CASE("a chart ends where its reference ends, or the event of its scene, and says so", "[chart]")
+TEST_CASE("a chart ends where its reference ends, or the event of its scene, and says so", "[all]")
 {
     const std::string folder = fresh_folder();
     write_text(folder + "/pole.toml", R"(title = "x'' = 6 x^2: x = 1/(1 - t)^2"

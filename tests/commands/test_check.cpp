@@ -10,7 +10,7 @@
 using namespace lagen::testing;
 namespace json = lagen::json;
 
-TEST_CASE("every example model is proved")
+TEST_CASE("every example model is proved", "[long]")
 {
     std::vector<std::string> arguments{"check", "--format", "json"};
     for (const std::string& name : example_models()) arguments.push_back(name + ".toml");

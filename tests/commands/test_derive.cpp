@@ -41,7 +41,8 @@ TEST_CASE("the equations of every model are the same text in fresh processes, in
         for (const std::string& format : formats) check_equations(name, format);
 }
 
-TEST_CASE("Hamilton's equations are the same text in fresh processes, and those of a control problem are Pontryagin's")
+TEST_CASE("Hamilton's equations are the same text in fresh processes, and those of a control problem are Pontryagin's",
+          "[long]")
 {
     for (const std::string name :
          {"double_pendulum", "elroys_beanie", "heavy_top", "relativistic_oscillator", "wong"}) {

@@ -87,7 +87,8 @@ TEST_CASE("of a system that was solved in two ways the summary shows the way tha
     CHECK(through_terms.find(" 30\n") == std::string::npos);
 }
 
-TEST_CASE("--report prints a table that fits on a page, --report=full everything, and neither changes the header")
+TEST_CASE("--report prints a table that fits on a page, --report=full everything, and neither changes the header",
+          "[long]")
 {
     const Outcome plain = call({"generate", "double_pendulum.toml"});
     const Outcome summary = call({"generate", "--report", "double_pendulum.toml"});

@@ -230,7 +230,7 @@ TEST_CASE("--plot draws SVG and PNG")
     CHECK(names_in(folder) == std::vector<std::string>{"a.csv", "a.png", "a.svg"});
 }
 
-TEST_CASE("a run by an implicit method tells its Newton iterations and factorisations")
+TEST_CASE("a run by an implicit method tells its Newton iterations and factorisations", "[run]")
 {
     const Outcome text = call({"run", "oscillator.toml", "--method", "gauss4", "--step", "1/2", "--at", "1"});
     CHECK(text.code == 0);
@@ -268,7 +268,7 @@ TEST_CASE("--time-scale makes reversible steps, with the published error of an e
     CHECK(number(value["steps"]) / 100 == Approx(136).epsilon(4e-3));
 }
 
-TEST_CASE("a scene's time_scale is that of --time-scale, in runs and in sweeps", "[run]")
+TEST_CASE("a scene's time_scale is that of --time-scale, in runs and in sweeps", "[all]")
 {
     const std::string folder = fresh_folder();
     write_text(folder + "/kepler.toml",

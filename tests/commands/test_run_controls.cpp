@@ -41,7 +41,7 @@ ControlRun run_of(const std::string& model, const std::vector<std::string>& more
 
 } // namespace
 
-TEST_CASE("Zermelo's boat reaches the origin, its heading counted from either direction", "[run]")
+TEST_CASE("Zermelo's boat reaches the origin, its heading counted from either direction", "[all]")
 {
     for (const char* model : {"zermelo.toml", "zermelo_shifted.toml"}) {
         const ControlRun run = run_of(model);
@@ -137,7 +137,7 @@ TEST_CASE("a maximum that is lost ends the run at its time", "[run]")
     CHECK(late.value["rows"].size() == 0);
 }
 
-TEST_CASE("fixed steps and implicit methods follow the controls too", "[run]")
+TEST_CASE("fixed steps and implicit methods follow the controls too", "[all]")
 {
     const ControlRun fixed = run_of("zermelo.toml", {"--method", "rk4", "--step", "0.005"});
     INFO(fixed.outcome.err);

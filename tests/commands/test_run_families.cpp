@@ -73,7 +73,7 @@ TEST_CASE("Jupiter and Pluto are where quadruple precision has them after 200000
     }
 }
 
-TEST_CASE("a chain of two links is the double pendulum", "[run]")
+TEST_CASE("a chain of two links is the double pendulum", "[all]")
 {
     std::ostringstream chain;
     chain << std::ifstream(models_folder() + "/chain.toml").rdbuf();

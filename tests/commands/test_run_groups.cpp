@@ -49,7 +49,7 @@ TEST_CASE("Lie-Poisson steps of a heavy top keep its Casimirs to rounding, and e
     }
 }
 
-TEST_CASE("a hundred thousand steps of the heavy top by every method on groups keep its Casimirs to rounding", "[long]")
+TEST_CASE("a hundred thousand steps of the heavy top by every method on groups keep its Casimirs to rounding", "[all]")
 {
     const std::string model = std::string(LAGEN_SOURCE_DIR) + "/models/heavy_top.toml";
     const auto lost = [&](const std::string& method) {

@@ -135,7 +135,7 @@ method = "dop853"
     }
 }
 
-TEST_CASE("a run that leaves the domain, or whose steps have no solution, is told as that", "[chart]")
+TEST_CASE("a run that leaves the domain, or whose steps have no solution, is told as that", "[all]")
 {
     const std::string folder = fresh_folder();
     write_text(folder + "/fall.toml", R"([base]

@@ -20,7 +20,8 @@ constexpr double most_roundings = 1000;
 
 } // namespace
 
-TEST_CASE("a Jacobian by columns agrees with long double, packs bit for bit, derivatives are carried through it")
+TEST_CASE("a Jacobian by columns agrees with long double, packs bit for bit, derivatives are carried through it",
+          "[all]")
 {
     const std::string output = run_on_headers("columns", {chain_model}, chain_options);
     INFO(output);

@@ -37,7 +37,7 @@ class PrecompiledHeaders {
     }
 
     std::string header_;
-    static inline const std::string optimisation = "-O1";
+    static inline const std::string optimisation = "-Og";
 };
 
 } // namespace lagen::testing
