@@ -12,22 +12,44 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 namespace lagen {
 
 namespace {
 
-const std::string derive_form_help = form_list() +
-                                     ", exterior (dx^i and de^a) or cartan (Theta-, Theta+ and Omega_L of [discrete]); "
-                                     "without it the first that the model has of " +
-                                     default_order();
+const std::string derive_form_help =
+    form_list() +
+    ", exterior (dx^i and de^a), cartan (theta_L and omega_L, or Theta-, Theta+ and "
+    "Omega_L of [discrete]) or poisson (brackets on E*); without it the first that the model has of " +
+    default_order();
 
 const CommandSyntax derive_syntax{"derive",
                                   "MODEL",
                                   "Prints the equations of motion.",
                                   {{"form", "FORM", derive_form_help.c_str()},
+                                   {"bracket", "F",
+                                    "with --form poisson: the bracket {F, G} of two functions of base "
+                                    "coordinates and momenta (twice)"},
                                    {"output,o", "FILE", "write there instead of to standard output"},
                                    {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
                                    {"format,f", "FORMAT", "text, latex or json", "text"}}};
+
+std::string momenta_of(const Model& model)
+{
+    std::string names;
+    for (const Symbol& each : model.fibre.momenta) names += (names.empty() ? "" : ", ") + each.name;
+    return names;
+}
+
+/// Whether a name is a base coordinate, a momentum, a parameter or the time.
+bool is_on_dual(const Model& model, const std::string& name)
+{
+    const auto called = [&](const Symbol& each) { return each.name == name; };
+    return std::ranges::any_of(model.base.coordinates, called) || std::ranges::any_of(model.fibre.momenta, called) ||
+           std::ranges::any_of(model.parameters, [&](const Parameter& each) { return called(each.symbol); }) ||
+           (name == "t" && std::ranges::none_of(model.fibre.coordinates, called));
+}
 
 /// The equations of a refuted model say so themselves: they may go on without the error stream.
 std::string marked(const std::string& text, const std::string& format, const std::vector<std::string>& warnings)
@@ -46,6 +68,25 @@ std::string marked(const std::string& text, const std::string& format, const std
     return mark + text;
 }
 
+/// The functions of --bracket, over coordinates of E*, t and parameters.
+std::vector<Tree> bracket_functions(const Options& options, const Model& model, const std::string& form)
+{
+    const std::vector<std::string> texts = options.all("bracket");
+    if (!texts.empty() && form != "poisson") throw UsageError("lagen derive: --bracket goes with --form poisson");
+    if (texts.size() % 2 != 0) throw UsageError("lagen derive: --bracket is given twice, for F and G of {F, G}");
+    std::vector<Tree> functions;
+    for (const std::string& text : texts) {
+        const Excerpt excerpt = whole_text("<--bracket>", text);
+        functions.push_back(model.observer.close(parse_expression(excerpt)));
+        for (const std::string& used : names_in(functions.back()))
+            if (!is_on_dual(model, used))
+                throw ModelError(
+                    fmt::format("'{}' is no function of base coordinates and momenta: it depends on '{}'", text, used),
+                    excerpt.range(0, text.size()), fmt::format("the momenta are {}", momenta_of(model)));
+    }
+    return functions;
+}
+
 } // namespace
 
 ExitCode run_derive(Arguments arguments)
@@ -58,6 +99,7 @@ ExitCode run_derive(Arguments arguments)
     const CheckedModel checked = load(model_path(options.positional()[0]), options.settings(), true);
     require_apart(options, checked.model);
     const std::string form = options.has("form") ? options.get("form") : default_form(checked.model);
+    const std::vector<Tree> brackets = bracket_functions(options, checked.model, form);
     const std::vector<std::string> warnings = warnings_of(checked, form);
     for (const std::string& warning : warnings) write_standard_error(fmt::format("warning: {}\n", warning));
     if (is_form(form, FormKind::lagrange) && checked.report.mechanics.regularity.kind == Regularity::Kind::degenerate)
@@ -66,7 +108,7 @@ ExitCode run_derive(Arguments arguments)
     if (is_form(form, FormKind::discrete) && checked.report.mechanics.discrete.kind == Regularity::Kind::degenerate)
         write_standard_error(
             "warning: the discrete Lagrangian is degenerate: the arrow of a step is not determined by the equations\n");
-    const EquationSet equations = derive(form, checked.model, checked.system, checked.report);
+    const EquationSet equations = derive(form, checked.model, checked.system, checked.report, brackets);
     const std::string text = marked(format == "text"    ? print_text(equations)
                                     : format == "latex" ? print_latex(equations)
                                                         : print_json(equations),

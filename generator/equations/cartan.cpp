@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "equations/cartan.hpp"
 
+#include "equations/decided_statement.hpp"
 #include "equations/discrete.hpp"
 #include "graph/core/lower.hpp"
 #include "mechanics/cartan.hpp"
@@ -101,24 +102,13 @@ class CartanDerivation {
     }
 
     /// The form vanishes for all arrows.
-    [[nodiscard]] DecidedStatement decided(const char* formula, const char* latex, ExteriorForm residual)
+    [[nodiscard]] DecidedStatement decided(const char* formula, const char* latex, const ExteriorForm& residual)
     {
-        // A form without components is decided too: there may be no arrow at which the model is defined.
-        if (residual.components.empty()) residual.components.emplace(FormIndex{}, graph_.constant(0));
-        DecidedStatement statement{formula, latex, to_text(ProofStatus::proved)};
-        for (const auto& [index, value] : residual.components) {
-            const Decision decision = decide_on_arrows(graph_, system_, value, {});
-            if (decision.status == ProofStatus::proved) continue;
-            if (statement.status != to_text(ProofStatus::proved) && decision.status != ProofStatus::refuted) continue;
-            statement = {formula, latex, to_text(decision.status), {}, decision.residual, {}, 0, decision.evidence};
-            for (const std::size_t k : index)
-                statement.component.push_back((k < system_.r() ? "E⁻_" : "E⁺_") + section_name(k % system_.r()));
-            if (!decision.witness) continue;
-            for (const auto& [name, at] : decision.witness->point) statement.witness.emplace_back(name, to_text(at));
-            statement.value = decision.witness->value;
-            break;
-        }
-        return statement;
+        const auto name_of = [&](std::size_t k) {
+            return (k < system_.r() ? "E⁻_" : "E⁺_") + section_name(k % system_.r());
+        };
+        return decided_statement(graph_, formula, latex, residuals_of(residual, name_of),
+                                 [&](NodeId value) { return decide_on_arrows(graph_, system_, value, {}); });
     }
 
     const System& system_;

@@ -8,11 +8,12 @@
 
 namespace lagen {
 
-/// What `derive` can print: form_names(), "exterior" and "cartan".
+/// What `derive` can print: form_names(), "exterior", "cartan" and "poisson".
 [[nodiscard]] std::vector<std::string> derivation_names();
 
-/// `form` is one of derivation_names(). Throws MathematicsError where the model has no equations of that form.
+/// `form` is one of derivation_names(); `brackets`: functions on E* by pairs, for "poisson". Throws MathematicsError
+/// where the model has no equations of that form.
 [[nodiscard]] EquationSet derive(const std::string& form, const Model& model, const System& system,
-                                 const Report& report);
+                                 const Report& report, const std::vector<Tree>& brackets = {});
 
 } // namespace lagen

@@ -2,36 +2,12 @@
 #include "equations/hamilton.hpp"
 
 #include "equations/legendre.hpp"
+#include "equations/poisson.hpp"
 #include "model/form.hpp"
 #include "verify/legendre_obstacle.hpp"
 
 namespace lagen {
 namespace {
-
-/// {mu_a, x^j} = rho^j_a and {mu_a, mu_b} = C^c_ab mu_c, those that are not zero.
-EquationBlock poisson_brackets(const SymbolicModel& symbolic)
-{
-    EquationBlock block{
-        "Poisson brackets",
-        "{μ_a, x^j} = ρ^j_a,  {μ_a, μ_b} = C^c_ab μ_c;  Ḟ = {H, F}",
-        R"(\{\mu_a, x^j\} = \rho^j_a, \quad \{\mu_a, \mu_b\} = C^c_{ab}\, \mu_c; \quad \dot F = \{H, F\})",
-        {}};
-    const auto append = [&](const std::string& first, const std::string& second, const Sum& terms) {
-        Equation bracket = symbolic.equation(LeftSide::bracket, first, terms);
-        bracket.other = second;
-        if (!bracket.groups.empty()) block.equations.push_back(std::move(bracket));
-    };
-    for (std::size_t a = 0; a < symbolic.r(); ++a)
-        for (std::size_t j = 0; j < symbolic.n(); ++j)
-            append(symbolic.momentum_name(a), symbolic.algebroid().base[j].name, {symbolic.rho(j, a)});
-    for (std::size_t a = 0; a < symbolic.r(); ++a)
-        for (std::size_t b = a + 1; b < symbolic.r(); ++b) {
-            Sum terms;
-            for (std::size_t c = 0; c < symbolic.r(); ++c) terms.push_back(symbolic.C(c, a, b) * symbolic.mu()[c]);
-            append(symbolic.momentum_name(a), symbolic.momentum_name(b), terms);
-        }
-    return block;
-}
 
 class HamiltonDerivation {
   public:

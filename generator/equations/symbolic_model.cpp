@@ -250,6 +250,13 @@ EquationBlock SymbolicModel::casimirs()
     return block;
 }
 
+std::string SymbolicModel::fibre_latex(std::size_t a) const
+{
+    const Symbol& symbol = algebroid_.fibre[a];
+    if (!symbol.latex.empty()) return symbol.latex;
+    return symbol.name.size() == 1 ? symbol.name : R"(\mathit{)" + symbol.name + "}";
+}
+
 EquationSet SymbolicModel::empty_set(const std::string& form) const
 {
     EquationSet set{model_.name, model_.title, form, {}, {}};

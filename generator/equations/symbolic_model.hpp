@@ -47,6 +47,8 @@ class SymbolicModel {
         return bracket_[(a * r() + b) * r() + c];
     }
     [[nodiscard]] const std::string& momentum_name(std::size_t a) const { return model_.fibre.momenta[a].name; }
+    /// How LaTeX shows y^a as an index: what [about] says, else its name.
+    [[nodiscard]] std::string fibre_latex(std::size_t a) const;
 
     /// A name that stands behind those of the model in the order of terms.
     void add_variable(const std::string& name) { (void)variable(name); }
