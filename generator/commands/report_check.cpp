@@ -180,6 +180,14 @@ const char* closed_text(ProofStatus closed)
     return closed == ProofStatus::proved ? "closed" : "not closed";
 }
 
+const char* lifts_text(ProofStatus lifts)
+{
+    if (lifts == ProofStatus::undecided) return "not decided whether integral curves of ρ(∂H/∂μ ∘ α) lift to solutions";
+    return lifts == ProofStatus::proved
+               ? "along integral curves of ρ(∂H/∂μ ∘ α) the momenta α solve Hamilton's equations"
+               : "along integral curves of ρ(∂H/∂μ ∘ α) the momenta α do not solve Hamilton's equations";
+}
+
 /// How a proved maximum is known, where more is to be said of it than its name says.
 std::string maximum_text(const StructureReport& structure)
 {
@@ -286,6 +294,8 @@ std::string report_text(const std::string& model, const Report& verified)
     std::string text = fmt::format("{}: {}\n{}", model, to_text(structure.verdict), claims_text(structure));
     for (const FormReport& form : structure.forms)
         text += fmt::format("  {:<16}degree {}, {}\n", "form " + form.name, form.degree, closed_text(form.closed));
+    if (structure.hamilton_jacobi)
+        text += fmt::format("  {:<16}{}\n", "solutions", lifts_text(structure.hamilton_jacobi->lifts));
     for (const Regularity* each : {&verified.mechanics.discrete, &verified.mechanics.regularity})
         text += regularity_text(*each);
     if (const auto& again = structure.reevaluation)
@@ -312,6 +322,16 @@ void structure_json(JsonWriter& json, const StructureReport& structure)
                 .end_object();
         json.end_array();
     }
+    if (const auto& candidate = structure.hamilton_jacobi)
+        json.key("hamilton_jacobi")
+            .begin_object()
+            .key("closed")
+            .value(to_text(candidate->closed))
+            .key("constant_on_leaves")
+            .value(to_text(candidate->equation))
+            .key("lifts")
+            .value(to_text(candidate->lifts))
+            .end_object();
 }
 
 void report_json(JsonWriter& json, const std::string& model, const Report& verified)

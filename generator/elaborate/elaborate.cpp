@@ -43,6 +43,7 @@ class Elaboration {
         apply_scheme();
         describe_algebroid();
         lower_symmetries();
+        lower_hamilton_jacobi();
         find_partial_parts();
         give_parameter_values();
         if (!model_.forms.empty()) system_.forms = lower_forms(system_, lower_, model_.forms);
@@ -166,6 +167,24 @@ class Elaboration {
             claim.s.assign(system_.r(), graph_.constant(0));
             for (const ComponentEntry& entry : symmetry.section) claim.s[entry.section] = lower_(entry.value);
         }
+    }
+
+    /// alpha_a as it is given, or rho_a(S).
+    void lower_hamilton_jacobi()
+    {
+        if (!model_.hamilton_jacobi) return;
+        HamiltonJacobiClaim& claim = system_.hamilton_jacobi.emplace();
+        claim.alpha.assign(system_.r(), graph_.constant(0));
+        for (const ComponentEntry& entry : model_.hamilton_jacobi->alpha) {
+            claim.alpha[entry.section] = lower_(entry.value);
+            append_parts(claim.parts, entry.value);
+        }
+        if (model_.hamilton_jacobi->S == nullptr) return;
+        const NodeId S = lower_(model_.hamilton_jacobi->S);
+        append_parts(claim.parts, model_.hamilton_jacobi->S);
+        claim.parts.push_back(S);
+        BaseGradient partial(graph_, system_.algebroid.x);
+        for (std::size_t a = 0; a < system_.r(); ++a) claim.alpha[a] = partial.along(system_.algebroid.anchor[a], S);
     }
 
     void lower_control()

@@ -63,6 +63,12 @@ struct FormClaim {
     std::vector<NodeId> equals_parts;   ///< the functions in `equals`, and their partial parts
 };
 
+/// A section alpha of E* that is claimed to solve Hamilton and Jacobi's equation.
+struct HamiltonJacobiClaim {
+    std::vector<NodeId> alpha; ///< alpha_a over x, shape (r)
+    std::vector<NodeId> parts; ///< its partial operations as it is written
+};
+
 /// A section s = s^a e_a whose complete lift is claimed to leave L (H, the discrete L) invariant.
 struct SymmetryClaim {
     std::string name;
@@ -106,6 +112,7 @@ struct System {
     std::optional<DiscreteSystem> discrete;
     std::vector<SymmetryClaim> symmetries;
     std::vector<FormClaim> forms;
+    std::optional<HamiltonJacobiClaim> hamilton_jacobi;
     std::vector<NodeId> partial_parts; ///< must be defined, though folded away: log(-1 - x^2) of 0*log(-1 - x^2)
     bool is_distribution = false;      ///< a subbundle of TM: the anchor equations say that it is involutive
     Editable editable;

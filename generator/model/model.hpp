@@ -285,6 +285,13 @@ struct NamedForm {
     std::optional<FormExpression> equals; ///< claimed
 };
 
+/// A candidate section alpha of E* for Hamilton and Jacobi's equation: alpha = dS, or by its components over the base.
+struct HamiltonJacobi {
+    SourceRange where;
+    Tree S; ///< null where the components are given
+    std::vector<ComponentEntry> alpha;
+};
+
 /// A section s = s^a(x) e_a of E whose complete lift is claimed to leave L (H, the discrete L) invariant.
 struct Symmetry {
     std::string name;
@@ -322,6 +329,7 @@ struct Model {
     std::vector<NamedTree> invariants;
     std::vector<Symmetry> symmetries;
     std::vector<NamedForm> forms;
+    std::optional<HamiltonJacobi> hamilton_jacobi;
     std::vector<Symbol> notes; ///< [about] of definitions, Casimirs, observables, invariants and t
     std::vector<Scene> scenes; ///< in the order of the file
 

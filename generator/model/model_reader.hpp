@@ -163,6 +163,8 @@ void read_quantities(ModelReader& reader);
 void read_forms(ModelReader& reader, const TomlEntry* block);
 /// Sections, and their momenta as observables; once observables and mechanics are read.
 void read_symmetries(ModelReader& reader, const TomlEntry* block);
+/// Once mechanics is read.
+void read_hamilton_jacobi(ModelReader& reader, const TomlEntry* block);
 void read_about(ModelReader& reader, const TomlEntry* block);
 void read_scenes(ModelReader& reader, const TomlEntry* block, const std::vector<Setting>& settings);
 void read_scene_events(const ModelReader& reader, Scene& scene, const TomlEntry& block);

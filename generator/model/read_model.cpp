@@ -11,14 +11,6 @@
 
 namespace lagen {
 
-namespace {
-
-constexpr std::initializer_list<const char*> later_blocks = {
-    "hamilton_jacobi",
-};
-
-} // namespace
-
 Model read_model(const std::string& path, const std::vector<Setting>& settings)
 {
     return read_model_text(path, read_file(path), settings);
@@ -39,7 +31,6 @@ Model read_model_text(const std::string& name, std::string text, const std::vect
     reader.model.file = std::make_shared<const SourceFile>(SourceFile{name, std::move(text)});
     const TomlValue document = parse_toml(reader.model.file);
     TableReader top(document, "the model");
-    top.refuse_later(later_blocks);
     for (const char* key : {"morphism", "compose"})
         if (const TomlEntry* entry = find_entry(document, key))
             throw ModelError("this file is a morphism between models, where a model is wanted", entry->where(),
@@ -65,6 +56,7 @@ Model read_model_text(const std::string& name, std::string text, const std::vect
     const TomlEntry* invariants = top.take("invariants");
     const TomlEntry* symmetries = top.take("symmetries");
     const TomlEntry* forms = top.take("forms");
+    const TomlEntry* hamilton_jacobi = top.take("hamilton_jacobi");
     const TomlEntry* about = top.take("about");
     const TomlEntry* scenes = top.take("scene");
     top.finish();
@@ -97,6 +89,7 @@ Model read_model_text(const std::string& name, std::string text, const std::vect
     read_quantities(reader);
     read_symmetries(reader, symmetries);
     read_forms(reader, forms);
+    read_hamilton_jacobi(reader, hamilton_jacobi);
     read_about(reader, about);
     read_scenes(reader, scenes, settings);
     reader.model.observer = std::move(reader.observer);

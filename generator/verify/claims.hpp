@@ -30,6 +30,8 @@ class Claims {
     void decide_legendre(StructureReport& structure);
     /// The sections of [symmetries]
     void decide_symmetries(StructureReport& structure);
+    /// closed and hamilton_jacobi of [hamilton_jacobi], and whether its integral curves lift.
+    void decide_hamilton_jacobi(StructureReport& structure, const Regularity& regularity);
     /// Of a control problem: do the controls maximise H?
     void decide_controls(Report& report);
     void decide_invariants(Report& report, const std::vector<NamedTree>& extra);

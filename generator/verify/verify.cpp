@@ -69,6 +69,7 @@ Report verify(const System& system, const std::vector<NamedTree>& extra_invarian
     report.mechanics.discrete = claims.decide_discrete_regularity();
     claims.decide_legendre(report.structure);
     claims.decide_symmetries(report.structure);
+    claims.decide_hamilton_jacobi(report.structure, report.mechanics.regularity);
     claims.decide_invariants(report, extra_invariants);
     claims.decide_controls(report);
     for (const Check& check : report.structure.checks) require_confirmed(check);

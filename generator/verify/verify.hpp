@@ -95,12 +95,20 @@ struct FormReport {
     ProofStatus closed = ProofStatus::undecided;
 };
 
+/// What is known of the candidate of [hamilton_jacobi]; `lifts` stands outside the verdict.
+struct HamiltonJacobiReport {
+    ProofStatus closed = ProofStatus::undecided;
+    ProofStatus equation = ProofStatus::undecided; ///< H o alpha is constant on leaves
+    ProofStatus lifts = ProofStatus::undecided;    ///< integral curves of rho(F_H o alpha) lift to solutions
+};
+
 /// Which claims hold: the structure equations of the algebroid, and what else its model says of it.
 struct StructureReport {
     std::vector<Check> checks;
     std::size_t trivial = 0; ///< residuals that are zero by structure: counted, not listed
     Verdict verdict = Verdict::undecided;
     std::vector<FormReport> forms;
+    std::optional<HamiltonJacobiReport> hamilton_jacobi;
     std::string note; ///< e.g. "no regular point was found: ..."
     std::optional<Reevaluation>
         reevaluation; ///< of all residuals that were proved: the least points, the largest bound

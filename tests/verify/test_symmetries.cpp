@@ -19,7 +19,7 @@ Lines symmetries_of(const std::string& text)
     return lines;
 }
 
-std::string plane(const std::string& L, const std::string& symmetry)
+std::string flat_plane(const std::string& L, const std::string& symmetry)
 {
     return "[base]\ncoordinates = [\"x\", \"y\"]\n[fibre]\ncoordinates = [\"u\", \"v\"]\nmomenta = [\"p\", \"q\"]\n"
            "[algebroid]\nkind = \"tangent\"\n" +
@@ -48,16 +48,16 @@ const std::string discrete_symmetric =
 
 TEST_CASE("Kepler's problem is invariant under rotations and not under translations")
 {
-    CHECK(symmetries_of(plane(kepler, "u = \"-y\", v = \"x\"")) == Lines{"symmetry(s) proved"});
-    CHECK(symmetries_of(plane(kepler, "u = \"y\", v = \"x\"")) == Lines{"symmetry(s) refuted"});
-    CHECK(symmetries_of(plane(kepler, "u = 1")) == Lines{"symmetry(s) refuted"});
+    CHECK(symmetries_of(flat_plane(kepler, "u = \"-y\", v = \"x\"")) == Lines{"symmetry(s) proved"});
+    CHECK(symmetries_of(flat_plane(kepler, "u = \"y\", v = \"x\"")) == Lines{"symmetry(s) refuted"});
+    CHECK(symmetries_of(flat_plane(kepler, "u = 1")) == Lines{"symmetry(s) refuted"});
 }
 
 TEST_CASE("a symmetry of H is one of its L")
 {
     const std::string H = "[hamiltonian]\nH = \"(p^2 + q^2)/2 - 1/sqrt(x^2 + y^2)\"\n";
-    CHECK(symmetries_of(plane(H, "u = \"-y\", v = \"x\"")) == Lines{"symmetry(s) proved"});
-    CHECK(symmetries_of(plane(H, "v = 1")) == Lines{"symmetry(s) refuted"});
+    CHECK(symmetries_of(flat_plane(H, "u = \"-y\", v = \"x\"")) == Lines{"symmetry(s) proved"});
+    CHECK(symmetries_of(flat_plane(H, "v = 1")) == Lines{"symmetry(s) refuted"});
 }
 
 TEST_CASE("a heavy top is symmetric about the vertical, whose section depends on the point, and about its own axis")
