@@ -30,6 +30,8 @@ constexpr std::array commands{
     CommandEntry{"run", "generate, compile and integrate a scene of a model", run_run},
     CommandEntry{"sweep", "integrate a scene for many parameters and initial values", run_sweep},
     CommandEntry{"chart", "chart what accuracy costs by every method", run_chart},
+    CommandEntry{"reduce", "prove that a morphism projects the equations of motion; list cyclic coordinates",
+                 run_reduce},
     CommandEntry{"models", "list the example models", run_models},
     CommandEntry{"methods", "list the integrators", run_methods},
 };

@@ -141,28 +141,31 @@ CheckedModel read(const std::string& path, const std::vector<Setting>& settings,
     return checked;
 }
 
+std::vector<std::string> require_unrefuted(const char* noun, const std::string& name, const std::string& file,
+                                           const StructureReport& structure, bool unchecked)
+{
+    if (structure.verdict == Verdict::valid) return {};
+    const bool refuted = structure.verdict == Verdict::invalid;
+    const std::string what = first_with(structure, refuted ? ProofStatus::refuted : ProofStatus::undecided);
+    if (refuted && !unchecked)
+        throw MathematicsError(fmt::format("{} '{}' is refuted: {}", noun, name, what),
+                               fmt::format("see `lagen check {}`; --unchecked goes on all the same", file));
+    if (what.empty()) return {};
+    if (refuted) return {fmt::format("this {} is REFUTED: {}", noun, what)};
+    return {fmt::format("this {} is not proved: {}{}", noun, what, what == structure.note ? "" : " is undecided")};
+}
+
 void prove(CheckedModel& checked)
 {
     const Model& model = checked.model;
-    checked.warnings.clear();
     checked.system = elaborate(model);
     checked.report = verify(checked.system);
     const Report& verified = checked.report;
-    if (verified.structure.verdict == Verdict::invalid) {
-        const std::string what = first_with(verified.structure, ProofStatus::refuted);
-        if (!checked.unchecked && what.empty()) require_maximum(model.name, verified.control.maximum);
-        if (!checked.unchecked) {
-            throw MathematicsError(
-                fmt::format("model '{}' is refuted: {}", model.name, what),
-                fmt::format("see `lagen check {}`; --unchecked goes on all the same", model.file->name));
-        }
-        if (!what.empty()) checked.warnings.push_back(fmt::format("this model is REFUTED: {}", what));
-    } else if (const std::string what = first_with(verified.structure, ProofStatus::undecided);
-               verified.structure.verdict == Verdict::undecided && !what.empty()) {
-        checked.warnings.push_back(what == verified.structure.note
-                                       ? fmt::format("this model is not proved: {}", what)
-                                       : fmt::format("this model is not proved: {} is undecided", what));
-    }
+    const StructureReport& structure = verified.structure;
+    if (structure.verdict == Verdict::invalid && !checked.unchecked &&
+        first_with(structure, ProofStatus::refuted).empty())
+        require_maximum(model.name, verified.control.maximum);
+    checked.warnings = require_unrefuted("model", model.name, model.file->name, structure, checked.unchecked);
     if (verified.control.maximum.kind == ControlMaximum::Kind::stationary)
         checked.warnings.push_back(stationary_controls);
 }

@@ -32,6 +32,12 @@ struct CheckedModel {
 [[nodiscard]] CheckedModel read(const std::string& path, const std::vector<Setting>& settings, bool unchecked);
 void prove(CheckedModel& checked);
 
+/// What is not proved of a model or a morphism (`noun`), as warnings; one that is refuted throws MathematicsError
+/// unless `unchecked`. `file` is for the hint.
+[[nodiscard]] std::vector<std::string> require_unrefuted(const char* noun, const std::string& name,
+                                                         const std::string& file, const StructureReport& structure,
+                                                         bool unchecked);
+
 /// `warnings`, and what holds of this form alone.
 [[nodiscard]] std::vector<std::string> warnings_of(const CheckedModel& checked, const std::string& form);
 

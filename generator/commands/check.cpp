@@ -51,16 +51,6 @@ void require_arrows(const Model& model)
         if (!scene.element.empty()) (void)evaluate_scene(model, scene);
 }
 
-ExitCode code_of(Verdict verdict)
-{
-    switch (verdict) {
-    case Verdict::valid: return ExitCode::done;
-    case Verdict::invalid: return ExitCode::refuted;
-    case Verdict::undecided: return ExitCode::undecided;
-    }
-    return ExitCode::undecided;
-}
-
 /// A report to `text` or, where there is one, to `json`.
 struct Output {
     std::string& text;

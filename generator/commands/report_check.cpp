@@ -272,6 +272,16 @@ void regularity_json(JsonWriter& json, const Regularity& regularity)
 
 } // namespace
 
+ExitCode code_of(Verdict verdict)
+{
+    switch (verdict) {
+    case Verdict::valid: return ExitCode::done;
+    case Verdict::invalid: return ExitCode::refuted;
+    case Verdict::undecided: return ExitCode::undecided;
+    }
+    return ExitCode::undecided;
+}
+
 std::string claims_text(const StructureReport& structure)
 {
     std::string text = summary_text(structure);

@@ -2,6 +2,7 @@
 /// The outcome of `check` for people and for programs.
 #pragma once
 
+#include "diagnostic.hpp"
 #include "emit/json.hpp"
 #include "verify/verify.hpp"
 
@@ -10,6 +11,9 @@ namespace lagen {
 /// Text: verdict, counts in all and a kind of check, regularity, re-evaluation; then what is not proved (the first 20
 /// of each status) with its residual, witness and value, or evidence, and each hint once.
 [[nodiscard]] std::string report_text(const std::string& model, const Report& verified);
+
+/// 0, 1 or 2: valid, invalid, undecided.
+[[nodiscard]] ExitCode code_of(Verdict verdict);
 
 /// Of it, counts in all and a kind of check; and what is not proved.
 [[nodiscard]] std::string claims_text(const StructureReport& structure);

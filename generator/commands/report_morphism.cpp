@@ -2,8 +2,10 @@
 #include "commands/report_morphism.hpp"
 
 #include "advice/advise.hpp"
+#include "commands/machine/write_file.hpp"
 #include "commands/report_check.hpp"
 #include "elaborate/elaborate_morphism.hpp"
+#include "pipeline.hpp"
 
 #include <fmt/format.h>
 
@@ -111,6 +113,18 @@ Verdict verdict_of(const VerifiedMorphism& verified)
                             worse(verified.source.structure.verdict, verified.target.structure.verdict));
     for (const VerifiedMorphism& stage : verified.stages) verdict = worse(verdict, verdict_of(stage));
     return verdict;
+}
+
+void warn_of_morphism(const VerifiedMorphism& verified, const std::string& file, bool unchecked)
+{
+    const auto warn = [&](const char* noun, const std::string& name, const StructureReport& structure) {
+        for (const std::string& warning : require_unrefuted(noun, name, file, structure, unchecked))
+            write_standard_error(fmt::format("warning: {}\n", warning));
+    };
+    for (const VerifiedMorphism& stage : verified.stages) warn("morphism", stage.name, stage.map.structure);
+    for (std::size_t k = 1; k < verified.stages.size(); ++k)
+        warn("model", verified.stages[k].source_name, verified.stages[k].source.structure);
+    warn("morphism", verified.name, verified.map.structure);
 }
 
 std::string morphism_text(const VerifiedMorphism& verified)

@@ -20,6 +20,10 @@ struct VerifiedMorphism {
 /// The worst of the map, of both models and of all stages.
 [[nodiscard]] Verdict verdict_of(const VerifiedMorphism& verified);
 
+/// Warns on standard error of what is not proved of the map and of its stages; a refuted one throws MathematicsError
+/// unless `unchecked`. Both models apart, of which the commands that run or print them say it; `file` is for the hint.
+void warn_of_morphism(const VerifiedMorphism& verified, const std::string& file, bool unchecked);
+
 [[nodiscard]] std::string morphism_text(const VerifiedMorphism& verified);
 /// {"model", "verdict", "trivial", "checks", "rank", "follows", "source": report, "target": report}, and "stages".
 void morphism_json(JsonWriter& json, const VerifiedMorphism& verified);

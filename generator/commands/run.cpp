@@ -5,16 +5,14 @@
 #include "commands/line/options.hpp"
 #include "commands/machine/places.hpp"
 #include "commands/machine/write_file.hpp"
-#include "commands/scene/integrate_scene.hpp"
-#include "commands/scene/largest_step.hpp"
+#include "commands/run_morphism.hpp"
 #include "commands/scene/plot.hpp"
-#include "commands/scene/preparation.hpp"
 #include "commands/scene/scene_options.hpp"
-#include "commands/scene/scene_program.hpp"
+#include "commands/scene/scene_run.hpp"
 #include "elaborate/bind_parameters.hpp"
 #include "elaborate/variational_model.hpp"
+#include "model/read_file.hpp"
 #include "model/scene_form.hpp"
-#include "pipeline.hpp"
 
 #include <fmt/core.h>
 
@@ -29,7 +27,9 @@ const std::string run_form_help = form_list() + "; without it the scene's, else 
 const CommandSyntax run_syntax{
     "run",
     "MODEL",
-    "Generates, compiles and integrates a scene. CSV on standard output unless --output or --format json.",
+    "Generates, compiles and integrates a scene. CSV on standard output unless --output or --format json. Of a "
+    "morphism "
+    "file: a scene of the source, the motion of the target from the image of its start, and how far they are apart.",
     {{"scene", "NAME", "the scene; without it `default`, else the first"},
      {"form", "FORM", run_form_help.c_str()},
      {"method", "METHOD", "see `lagen methods`; without it the scene's, else dop853"},
@@ -48,6 +48,8 @@ const CommandSyntax run_syntax{
      {"initial", "NAME=VALUE", "an initial value of the scene (may be repeated)"},
      {"output,o", "FILE", "the rows as CSV"},
      {"plot", "FILE", "a picture (.svg, .png, .pdf)"},
+     {"reconstruct", nullptr,
+      "of a morphism that is bijective on the fibres: lift the motion of the target to the source too"},
      {"unchecked", nullptr, "go on although the model is refuted"},
      {"format,f", "FORMAT", "text or json", "text"}}};
 
@@ -123,6 +125,10 @@ ExitCode run_run(Arguments arguments)
         if (options.has(file)) require_writable(options.get(file));
 
     const std::string path = model_path(options.positional()[0]);
+    const auto file = std::make_shared<const SourceFile>(SourceFile{path, read_file(path)});
+    if (is_morphism(file)) return run_morphism(options, file);
+    if (options.has("reconstruct"))
+        throw UsageError("lagen run: --reconstruct is of a morphism, and " + quote(path) + " is a model");
     CheckedModel checked = read(path, options.settings(), options.has("unchecked"));
     if (const char* scheme = scheme_of(options, checked.model); *scheme != '\0')
         checked.model = variational_model(std::move(checked.model), scheme);
@@ -135,40 +141,17 @@ ExitCode run_run(Arguments arguments)
     } else if (options.has("bind"))
         bind_in_scene(checked.model, find_scene(model, options.get("scene")));
     const std::optional<AccurateMethod> accurate = accurate_method(options, checked, path);
-    Preparation preparation(options, checked, run_driver, accurate ? accurate->method->name : options.get("method"));
-    for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
-    const Scene scene = scene_of(options, model, options.named("initial"));
-    const std::string form = form_of(model, scene);
+    SceneRun run(options, checked, accurate ? accurate->method->name : options.get("method"));
+    Scene scene = scene_of(options, model, options.named("initial"));
     const MethodEntry& method = accurate ? *accurate->method : method_of(options, scene);
-    const SceneValues values = evaluate_scene(model, scene);
-    const std::vector<long double> parameters = finite_numbers(values.parameters, scene);
-    ProgramInput input;
-    input.events = &scene.events;
-    StartState start([&](bool decided) -> const CheckedModel& { return preparation.checked(parameters, decided); },
-                     form);
-    preparation.finish(scene, form, method, parameters, [&](const RunRecord& found) {
-        input.columns = columns_of(found.names, scene);
-        use_values(input, scene, values, start, options.has("at") && !options.has("t-end"));
-    });
-    const RunRecord& record = preparation.record();
+    run.prepare(std::move(scene), method, options.has("at") && !options.has("t-end"));
 
-    const bool confirmed = !accurate || confirm_accuracy(*accurate, record, input);
+    const bool confirmed = !accurate || confirm_accuracy(*accurate, run.record(), run.input());
 
-    RunOutcome outcome;
-    outcome.model = model.name;
-    outcome.scene = scene.name;
-    outcome.form = form;
-    outcome.method = method.name;
-    outcome.energy_changes = record.energy_changes;
-    outcome.searches = record.searches;
-    outcome.table.columns = {"t"};
-    for (const TableColumn& column : input.columns) outcome.table.columns.push_back(column.name);
-    for (const std::string& lane : record.names.lanes) outcome.state.emplace_back(lane, "");
-    integrate_scene(record.program, input, outcome);
-    if (!options.has("bind")) outcome.largest_step = largest_step(model, scene, record.program, input, start, outcome);
+    const RunOutcome outcome = run.integrate();
     if (options.has("output")) write_file(options.get("output"), to_csv(outcome.table));
     if (options.has("plot"))
-        plot_table(outcome.table, panels_of(input.columns, model, form_named(form).lanes),
+        plot_table(outcome.table, panels_of(run.input().columns, model, form_named(run.form()).lanes),
                    model.title.empty() ? model.name : model.title, options.get("plot"), unit_of(model, "t"));
     tell(options, outcome, as_json);
     return succeeded(outcome.status) && confirmed ? ExitCode::done : ExitCode::refuted;

@@ -90,4 +90,12 @@ SystemMorphism elaborate(const MorphismFile& file)
     return morphism;
 }
 
+SystemMorphism elaborate_whole(const MorphismFile& file)
+{
+    if (file.stages.empty()) return elaborate(file);
+    SystemMorphism whole = elaborate(file.stages.front());
+    for (std::size_t k = 1; k < file.stages.size(); ++k) whole = composition(whole, elaborate(file.stages[k]));
+    return whole;
+}
+
 } // namespace lagen

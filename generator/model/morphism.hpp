@@ -21,6 +21,10 @@ struct MorphismFile {
     std::vector<MorphismFile> stages; ///< of `compose`: the first is done first; then there is nothing else
 };
 
+/// The model where the map, or its first stage, starts; and that where the map, or its last stage, ends.
+[[nodiscard]] const Model& source_of(const MorphismFile& morphism);
+[[nodiscard]] const Model& target_of(const MorphismFile& morphism);
+
 /// Whether the file has a [morphism] block.
 [[nodiscard]] bool is_morphism(const std::shared_ptr<const SourceFile>& file);
 

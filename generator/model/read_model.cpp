@@ -34,7 +34,7 @@ Model read_model_text(const std::string& name, std::string text, const std::vect
     for (const char* key : {"morphism", "compose"})
         if (const TomlEntry* entry = find_entry(document, key))
             throw ModelError("this file is a morphism between models, where a model is wanted", entry->where(),
-                             "`lagen check` reads morphisms");
+                             "`lagen check`, `run` and `reduce` read morphisms");
     const TomlEntry* model_name = top.take("name");
     const TomlEntry* title = top.take("title");
     const TomlEntry* sizes = top.take("sizes");

@@ -261,6 +261,16 @@ std::vector<MorphismFile> read_stages(const MorphismFile& morphism, const TomlEn
 
 } // namespace
 
+const Model& source_of(const MorphismFile& morphism)
+{
+    return morphism.stages.empty() ? morphism.source : morphism.stages.front().source;
+}
+
+const Model& target_of(const MorphismFile& morphism)
+{
+    return morphism.stages.empty() ? morphism.target : morphism.stages.back().target;
+}
+
 bool is_morphism(const std::shared_ptr<const SourceFile>& file)
 {
     const TomlValue document = parse_toml(file);

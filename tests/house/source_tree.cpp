@@ -123,8 +123,9 @@ const Arrows& planned_folder_arrows()
         {"commands/machine", {}},
         {"commands/scene", {"commands/line", "commands/machine"}},
         {"commands/chart", {"commands/scene"}},
+        {"commands/morphism", {"commands/scene"}},
         {"commands/sweep", {"commands/scene"}},
-        {"commands", {"commands/chart", "commands/sweep"}},
+        {"commands", {"commands/chart", "commands/morphism", "commands/sweep"}},
     };
     return arrows;
 }

@@ -74,6 +74,17 @@ void check_positional(const CommandSyntax& syntax, const std::vector<std::string
     }
 }
 
+/// UsageError where one of the files `read` is to be written.
+void require_other_files(const Options& options, const std::vector<std::string>& read)
+{
+    std::error_code ignored; // a file that is not there is no other one
+    for (const char* written : {"output", "plot", "depfile"})
+        for (const std::string& file : read)
+            if (options.has(written) && std::filesystem::equivalent(options.get(written), file, ignored))
+                throw UsageError(fmt::format("lagen {}: '{}' is read, and cannot be --{} as well", options.command(),
+                                             options.get(written), written));
+}
+
 } // namespace
 
 Options::Options(const CommandSyntax& syntax, std::span<const std::string> arguments) : command_(syntax.command)
@@ -218,12 +229,16 @@ void require_apart(const Options& options, const Model& model, std::initializer_
     for (const auto& file : model.included) read.push_back(file->name);
     for (const char* name : also)
         if (options.has(name)) read.push_back(options.get(name));
-    std::error_code ignored; // a file that is not there is no other one
-    for (const char* written : {"output", "plot", "depfile"})
-        for (const std::string& file : read)
-            if (options.has(written) && std::filesystem::equivalent(options.get(written), file, ignored))
-                throw UsageError(fmt::format("lagen {}: '{}' is read, and cannot be --{} as well", options.command(),
-                                             options.get(written), written));
+    require_other_files(options, read);
+}
+
+void require_apart(const Options& options, const MorphismFile& morphism)
+{
+    require_other_files(options, {morphism.file->name});
+    for (const MorphismFile& stage : morphism.stages) require_apart(options, stage);
+    if (!morphism.stages.empty()) return;
+    require_apart(options, morphism.source);
+    require_apart(options, morphism.target);
 }
 
 } // namespace lagen

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "diagnostic.hpp"
-#include "model/read_model.hpp"
+#include "model/morphism.hpp"
 
 #include <initializer_list>
 #include <map>
@@ -74,6 +74,8 @@ class Options {
 /// UsageError where a file that is written (--output, --plot, --depfile) is the model, one that it includes, or one of
 /// the options `also`.
 void require_apart(const Options& options, const Model& model, std::initializer_list<const char*> also = {});
+/// The same of a morphism, its stages and its models.
+void require_apart(const Options& options, const MorphismFile& morphism);
 
 /// What `--bind` is, for the help of a command that has it.
 inline constexpr const char* bind_help =

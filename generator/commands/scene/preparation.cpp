@@ -68,6 +68,21 @@ std::string vectors_of(const Driver& driver)
     return options.empty() ? "" : options.front();
 }
 
+/// Of a record, beside the model.
+std::vector<std::string> rests_on(const Options& options, const Driver& driver, const std::string& method,
+                                  const std::vector<std::string>& kept_as)
+{
+    std::vector<std::string> texts{driver.folder,
+                                   options.get("scene"),
+                                   options.get("form"),
+                                   method,
+                                   options.get("time-scale"),
+                                   options.has("unchecked") ? "unchecked" : "",
+                                   vectors_of(driver)};
+    texts.insert(texts.end(), kept_as.begin(), kept_as.end());
+    return texts;
+}
+
 } // namespace
 
 std::optional<Obstacle> obstacle_of(const MethodEntry& method, const KernelModule& module)
@@ -111,12 +126,10 @@ SceneText scene_text(const CheckedModel& checked, const Scene& scene, const std:
     return {std::move(generated.module), std::move(text)};
 }
 
-Preparation::Preparation(const Options& options, CheckedModel& checked, const Driver& driver, const std::string& method)
+Preparation::Preparation(const Options& options, CheckedModel& checked, const Driver& driver, const std::string& method,
+                         const std::vector<std::string>& kept_as)
     : options_(options), checked_(checked), driver_(driver),
-      file_(record_file(checked.model,
-                        {driver.folder, options.get("scene"), options.get("form"), method, options.get("time-scale"),
-                         options.has("unchecked") ? "unchecked" : "", vectors_of(driver)})),
-      record_(find_record(file_))
+      file_(record_file(checked.model, rests_on(options, driver, method, kept_as))), record_(find_record(file_))
 {
     if (record_) {
         checked.warnings = record_->warnings;

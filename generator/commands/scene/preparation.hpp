@@ -32,8 +32,9 @@ struct SceneText {
 class Preparation {
   public:
     /// `checked` was read; it is proved, or has the warnings of the record. Throws where it is refuted. `method` is the
-    /// name that was asked for, or empty.
-    Preparation(const Options& options, CheckedModel& checked, const Driver& driver, const std::string& method);
+    /// name that was asked for, or empty; `kept_as` tells the record apart from that of the same options alone.
+    Preparation(const Options& options, CheckedModel& checked, const Driver& driver, const std::string& method,
+                const std::vector<std::string>& kept_as = {});
 
     /// Throws where the method asks for other equations. `look` sees the record, its program apart, before anything is
     /// compiled: what it throws costs nobody the compiler's seconds.

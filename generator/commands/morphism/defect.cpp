@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/morphism/defect.hpp"
+
+#include "diagnostic.hpp"
+#include "emit/json.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+namespace lagen {
+
+namespace {
+
+constexpr double large = 1e-3; ///< of the size of a column
+
+/// A row by the names of its columns; what is no number is nan.
+Values row_values(const Table& table, std::string_view line)
+{
+    const std::vector<std::string_view> texts = fields(line);
+    Values values;
+    for (std::size_t k = 0; k < texts.size(); ++k)
+        values[table.columns[k]] = texts[k].empty() ? std::numeric_limits<long double>::quiet_NaN()
+                                                    : std::strtold(std::string(texts[k]).c_str(), nullptr);
+    return values;
+}
+
+void join(ColumnDefect& defect, long double given, long double image, double time)
+{
+    double difference = static_cast<double>(std::fabs(given - image));
+    if (!std::isfinite(difference)) difference = std::numeric_limits<double>::infinity();
+    if (difference <= defect.max) return;
+    defect.max = difference;
+    defect.time = time;
+}
+
+/// When each column first was far off, once their sizes are known.
+void find_moved(RunComparison& comparison)
+{
+    const std::size_t count = comparison.defects.size();
+    for (const std::string_view line : comparison.table.lines()) {
+        const std::vector<std::string_view> texts = fields(line);
+        const auto value = [&](std::size_t k) {
+            return texts[k].empty() ? std::numeric_limits<double>::quiet_NaN()
+                                    : std::strtod(std::string(texts[k]).c_str(), nullptr);
+        };
+        for (std::size_t k = 0; k < count; ++k) {
+            ColumnDefect& defect = comparison.defects[k];
+            if (defect.moved || std::fabs(value(k + 1) - value(count + k + 1)) <= large * defect.size) continue;
+            defect.moved = true;
+            defect.moved_at = value(0);
+        }
+    }
+}
+
+/// The names of the column and of its image.
+std::pair<std::string, std::string> headings(const ComparedColumn& column)
+{
+    switch (column.kind) {
+    case ComparedColumn::Kind::projected: return {column.name, "projected_" + column.name};
+    case ComparedColumn::Kind::pulled: return {column.name, "pulled_" + column.name};
+    case ComparedColumn::Kind::lifted: break;
+    }
+    return {"source_" + column.name, "lifted_" + column.name};
+}
+
+/// The column with the largest defect; null where there are no columns.
+const ColumnDefect* largest_defect(const RunComparison& comparison, bool lifted)
+{
+    const ColumnDefect* largest = nullptr;
+    for (const ColumnDefect& defect : comparison.defects)
+        if (defect.lifted == lifted && (largest == nullptr || defect.max > largest->max)) largest = &defect;
+    return largest;
+}
+
+std::string number_text(double value)
+{
+    return std::isfinite(value) ? fmt::format("{}", value) : "";
+}
+
+} // namespace
+
+RunComparison compare(const Projection& projection, const Table& source, const Table& target)
+{
+    const std::vector<ComparedColumn>& columns = projection.columns();
+    RunComparison found;
+    found.table.columns = {"t"};
+    for (const ComparedColumn& column : columns) {
+        found.table.columns.push_back(headings(column).first);
+        found.defects.push_back({column.name, column.kind == ComparedColumn::Kind::lifted});
+    }
+    for (const ComparedColumn& column : columns) found.table.columns.push_back(headings(column).second);
+    const std::vector<std::string_view> from = source.lines(), to = target.lines();
+    for (std::size_t row = 0; row < std::min(from.size(), to.size()); ++row) {
+        const Values here = row_values(source, from[row]), there = row_values(target, to[row]);
+        if (here.at("t") != there.at("t")) throw InternalError("the rows of the two sides have different times");
+        const std::vector<long double> images = projection(here, there);
+        std::string line = fmt::format("{}", static_cast<double>(here.at("t"))), behind;
+        for (std::size_t k = 0; k < columns.size(); ++k) {
+            const bool of_target = columns[k].kind == ComparedColumn::Kind::projected;
+            const long double given = (of_target ? there : here).at(columns[k].name);
+            ColumnDefect& defect = found.defects[k];
+            join(defect, given, images[k], static_cast<double>(here.at("t")));
+            for (const long double value : {given, images[k]})
+                if (std::isfinite(value)) defect.size = std::fmax(defect.size, std::fabs(static_cast<double>(value)));
+            line += "," + number_text(static_cast<double>(given));
+            behind += "," + number_text(static_cast<double>(images[k]));
+        }
+        found.table.rows += line + behind + "\n";
+        ++found.table.count;
+    }
+    find_moved(found);
+    return found;
+}
+
+std::string defect_json(const RunComparison& comparison, bool lifted)
+{
+    JsonWriter json;
+    const ColumnDefect* largest = largest_defect(comparison, lifted);
+    json.begin_object().key("max").value(largest == nullptr ? 0 : largest->max);
+    json.key("t").value(largest == nullptr ? 0 : largest->time).key("columns").begin_object();
+    for (const ColumnDefect& defect : comparison.defects)
+        if (defect.lifted == lifted) json.key(defect.name).value(defect.max);
+    json.end_object().end_object();
+    return json.text();
+}
+
+std::string defect_text(const RunComparison& comparison)
+{
+    std::string text;
+    for (const bool lifted : {false, true})
+        if (const ColumnDefect* largest = largest_defect(comparison, lifted))
+            text += fmt::format("defect of the {}: at most {:.3g}, of {} at t = {:.6g}, in {} rows\n",
+                                lifted ? "reconstruction" : "projection", largest->max, largest->name, largest->time,
+                                comparison.table.count);
+    for (const ColumnDefect& defect : comparison.defects)
+        if (defect.moved)
+            text +=
+                fmt::format("warning: {}: {} is off by {:.3g}, more than 1e-3 of its size {:.3g} from t = {:.6g} on\n",
+                            defect.lifted ? "what is lifted is not the motion of the source"
+                                          : "the projection of the source is not the motion of the target",
+                            defect.name, defect.max, defect.size, defect.moved_at);
+    return text;
+}
+
+} // namespace lagen

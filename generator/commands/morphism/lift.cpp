@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/morphism/lift.hpp"
+
+#include "commands/scene/table.hpp"
+#include "graph/calculus/determinant.hpp"
+#include "graph/calculus/differentiate.hpp"
+#include "graph/core/lower.hpp"
+#include "mechanics/momentum_balance.hpp"
+
+#include <fmt/core.h>
+
+namespace lagen {
+
+namespace {
+
+/// Phi^-1 v by Cramer's rule, Phi with as many rows as v has entries.
+std::vector<NodeId> solved(Graph& graph, const std::vector<NodeId>& Phi, const std::vector<NodeId>& v)
+{
+    const std::size_t r = v.size();
+    std::vector<std::size_t> all(r);
+    for (std::size_t k = 0; k < r; ++k) all[k] = k;
+    const NodeId determinant = determinant_of(graph, Phi, r, all, all);
+    std::vector<NodeId> out;
+    for (std::size_t b = 0; b < r; ++b) {
+        std::vector<NodeId> replaced = Phi;
+        for (std::size_t a = 0; a < r; ++a) replaced[a * r + b] = v[a];
+        out.push_back(graph.divide(determinant_of(graph, replaced, r, all, all), determinant));
+    }
+    return out;
+}
+
+/// lifted_x, under names that the target does not have.
+std::vector<std::string> names_of_lifts(const SystemMorphism& map)
+{
+    std::vector<std::string> names;
+    for (const NodeId x : map.source.algebroid.x) names.push_back("lifted_" + map.source.graph.input_name(x));
+    names = csv_names(names);
+    for (std::string& name : names)
+        while (map.target.declares(name)) name += "_";
+    return names;
+}
+
+} // namespace
+
+LiftedTarget lifted_target(const Model& target, const SystemMorphism& map, const std::vector<NamedNumber>& parameters)
+{
+    LiftedTarget lifted{target, names_of_lifts(map), ""};
+    Graph graph = map.source.graph;
+    Replacements values;
+    for (const auto& [name, value] : parameters)
+        values.emplace_back(graph.input(name), graph.constant(Rational(static_cast<double>(value))));
+    for (std::size_t i = 0; i < lifted.names.size(); ++i)
+        values.emplace_back(map.source.algebroid.x[i], graph.input(lifted.names[i]));
+    std::vector<NodeId> y; // stand-ins: names of the target may be others in the source
+    for (const NodeId each : map.target.algebroid.y) {
+        const std::string name = map.target.graph.input_name(each);
+        y.push_back(graph.input(name + "'"));
+        values.emplace_back(y.back(), graph.input(name));
+    }
+    const std::vector<NodeId> velocity = solved(graph, fibre_matrix(graph, map), y);
+    const std::vector<NodeId> rates = substitute(graph, base_velocity(graph, map.source.algebroid, velocity), values);
+    for (std::size_t i = 0; i < rates.size(); ++i) {
+        FirstOrderState state;
+        state.symbol.name = lifted.names[i];
+        state.rate = to_tree(graph, rates[i]);
+        lifted.rates += fmt::format("{}' = {}\n", state.symbol.name, to_text(state.rate));
+        lifted.model.states.push_back(std::move(state));
+    }
+    return lifted;
+}
+
+} // namespace lagen

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/morphism/projection.hpp"
+
+#include "commands/morphism/covector.hpp"
+#include "graph/core/evaluate.hpp"
+#include "model/form.hpp"
+
+#include <algorithm>
+
+namespace lagen {
+
+namespace {
+
+std::vector<NamedNumber> named(const Graph& graph, const std::vector<NodeId>& inputs,
+                               const std::vector<long double>& values)
+{
+    std::vector<NamedNumber> list;
+    for (std::size_t k = 0; k < inputs.size(); ++k) list.emplace_back(graph.input_name(inputs[k]), values[k]);
+    return list;
+}
+
+} // namespace
+
+Projection::Projection(SystemMorphism morphism, const std::string& form, const SceneValues& values)
+    : morphism_(std::move(morphism)), graph_(morphism_.source.graph)
+{
+    const System &from = morphism_.source, &to = morphism_.target;
+    const EquationForm& kind = form_named(form);
+    for (const NamedNumber& each : values.parameters) parameters_.insert(each);
+    if (values.own_step) parameters_[graph_.input_name(from.discrete->step)] = *values.step;
+    matrix_ = morphism_.fibre.empty() && morphism_.of_groupoids ? derived_fibre(graph_, morphism_).matrix
+                                                                : fibre_matrix(graph_, morphism_);
+    const auto put = [&](const std::vector<NodeId>& inputs, const std::vector<NodeId>& images) {
+        for (std::size_t k = 0; k < inputs.size(); ++k)
+            columns_.push_back({to.graph.input_name(inputs[k]), ComparedColumn::Kind::projected, images[k]});
+    };
+    put(to.algebroid.x, morphism_.base);
+    if (kind.steps) put(to.groupoid->arrow.W, morphism_.element);
+    if (kind.kind == FormKind::pontryagin) put(to.control->u, morphism_.controls);
+    if (!kind.momenta) {
+        put(to.algebroid.y, morphism_.fibre);
+        return;
+    }
+    std::vector<NodeId> mu;
+    for (const NodeId each : to.mu) mu.push_back(in_target(to.graph.input_name(each)));
+    for (std::size_t b = 0; b < from.r(); ++b) {
+        NodeId pulled = graph_.constant(0);
+        for (std::size_t a = 0; a < to.r(); ++a)
+            pulled = graph_.add(pulled, graph_.multiply(matrix_[a * from.r() + b], mu[a]));
+        columns_.push_back({graph_.input_name(from.mu[b]), ComparedColumn::Kind::pulled, pulled});
+    }
+}
+
+NodeId Projection::in_target(const std::string& name)
+{
+    of_target_.push_back(name);
+    return graph_.input(name + "'");
+}
+
+void Projection::add_lifts(const std::vector<std::string>& names)
+{
+    const std::vector<NodeId>& x = morphism_.source.algebroid.x;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        columns_.push_back({graph_.input_name(x[i]), ComparedColumn::Kind::lifted, in_target(names[i])});
+}
+
+std::vector<long double> Projection::at(const std::vector<NodeId>& nodes, Values values) const
+{
+    values.insert(parameters_.begin(), parameters_.end());
+    return evaluate<long double>(graph_, nodes, values);
+}
+
+std::vector<long double> Projection::operator()(const Values& source, const Values& target) const
+{
+    Values values = source;
+    for (const std::string& name : of_target_) values[name + "'"] = target.at(name);
+    std::vector<NodeId> nodes;
+    for (const ComparedColumn& column : columns_) nodes.push_back(column.image);
+    return at(nodes, std::move(values));
+}
+
+std::vector<NamedNumber> Projection::known_parameters() const
+{
+    std::vector<NamedNumber> known;
+    for (const NodeId parameter : morphism_.target.parameters) {
+        const NodeId value = morphism_.parameters.at(parameter);
+        if (std::ranges::find(morphism_.free_parameters, value) != morphism_.free_parameters.end() &&
+            !parameters_.contains(graph_.input_name(value)))
+            continue;
+        known.emplace_back(morphism_.target.graph.input_name(parameter), at({value}, {})[0]);
+    }
+    return known;
+}
+
+void Projection::set_parameters(const std::vector<NamedNumber>& target)
+{
+    for (const auto& [name, value] : target)
+        for (const NodeId parameter : morphism_.target.parameters) {
+            if (morphism_.target.graph.input_name(parameter) != name) continue;
+            const NodeId image = morphism_.parameters.at(parameter);
+            if (std::ranges::find(morphism_.free_parameters, image) != morphism_.free_parameters.end())
+                parameters_[graph_.input_name(image)] = value;
+        }
+}
+
+std::vector<NamedNumber> Projection::base(const Values& x) const
+{
+    return named(morphism_.target.graph, morphism_.target.algebroid.x, at(morphism_.base, x));
+}
+
+std::vector<NamedNumber> Projection::fibre(const Values& state) const
+{
+    return named(morphism_.target.graph, morphism_.target.algebroid.y, at(morphism_.fibre, state));
+}
+
+std::vector<NamedNumber> Projection::momenta(const Values& x, const std::vector<long double>& mu) const
+{
+    return named(morphism_.target.graph, morphism_.target.mu, pushed_covector(at(matrix_, x), mu));
+}
+
+std::vector<long double> Projection::element(const Values& arrow) const
+{
+    return at(morphism_.element, arrow);
+}
+
+} // namespace lagen

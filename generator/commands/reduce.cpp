@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// `lagen reduce`: of a morphism file the proof that the equations of its source project onto those of its target, with
+/// both; of a model its cyclic coordinates.
+#include "commands/line/command.hpp"
+#include "commands/line/options.hpp"
+#include "commands/machine/places.hpp"
+#include "commands/machine/write_file.hpp"
+#include "commands/report_check.hpp"
+#include "commands/report_morphism.hpp"
+#include "elaborate/elaborate_morphism.hpp"
+#include "emit/print_equations.hpp"
+#include "model/read_file.hpp"
+#include "pipeline.hpp"
+#include "verify/cyclic.hpp"
+#include "verify/verify_reduction.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace lagen {
+
+namespace {
+
+const CommandSyntax reduce_syntax{
+    "reduce",
+    "MORPHISM",
+    "Proves, component by component, that the equations of the source of a morphism project onto those of its target, "
+    "and prints both. Of a model: lists its cyclic coordinates.",
+    {{"output,o", "FILE", "write there instead of to standard output"},
+     {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
+     {"unchecked", nullptr, "go on although the morphism, or a model, is refuted"},
+     {"format,f", "FORMAT", "text or json", "text"}}};
+
+/// Both sides in the forms that were compared.
+struct Sides {
+    std::vector<EquationSet> source, target;
+};
+
+std::vector<std::string> forms_in(const StructureReport& report)
+{
+    std::vector<std::string> forms;
+    for (const Check& check : report.checks)
+        if (std::ranges::find(forms, check.indices[0]) == forms.end()) forms.push_back(check.indices[0]);
+    return forms;
+}
+
+/// "  lagrange        g1, g2, g3, w1: proved", a line a form and a status.
+std::string components_text(const StructureReport& report)
+{
+    std::string text;
+    for (const std::string& form : forms_in(report))
+        for (const ProofStatus status : {ProofStatus::proved, ProofStatus::refuted, ProofStatus::undecided}) {
+            std::vector<std::string> components;
+            for (const Check& check : report.checks)
+                if (check.indices[0] == form && check.decision.status == status) components.push_back(check.indices[1]);
+            if (!components.empty())
+                text += fmt::format("  {:<15} {}: {}\n", form, fmt::join(components, ", "), to_text(status));
+        }
+    return text;
+}
+
+const char* said_of(Verdict verdict)
+{
+    switch (verdict) {
+    case Verdict::valid: return "project onto";
+    case Verdict::invalid: return "do not project onto";
+    case Verdict::undecided: break;
+    }
+    return "are not shown to project onto";
+}
+
+std::string reduction_text(const VerifiedMorphism& verified, const StructureReport& report, const Sides& sides)
+{
+    std::string text = fmt::format("{}: the equations of {} {} those of {}\n", verified.name, verified.source_name,
+                                   said_of(report.verdict), verified.target_name);
+    text += components_text(report);
+    if (!report.note.empty()) text += fmt::format("  note: {}\n", report.note);
+    text += failures_text(report);
+    for (const std::vector<EquationSet>* list : {&sides.source, &sides.target})
+        for (const EquationSet& equations : *list) text += "\n" + print_text(equations);
+    return text;
+}
+
+std::string equations_json(const std::vector<EquationSet>& list)
+{
+    std::string text;
+    for (const EquationSet& equations : list) text += (text.empty() ? "" : ",\n  ") + print_json(equations);
+    return "[" + text + "]";
+}
+
+std::string reduction_json(const VerifiedMorphism& verified, const StructureReport& report, const Sides& sides)
+{
+    JsonWriter json;
+    json.begin_object().key("model").value(verified.name).key("verdict").value(to_text(report.verdict));
+    structure_json(json, report);
+    if (!report.note.empty()) json.key("note").value(report.note);
+    return fmt::format("{},\n \"source\": {},\n \"target\": {}}}", json.text(), equations_json(sides.source),
+                       equations_json(sides.target));
+}
+
+void write_result(const Options& options, const std::string& text)
+{
+    write_file(options.has("output") ? options.get("output") : "-", text.ends_with('\n') ? text : text + "\n");
+}
+
+ExitCode reduce_morphism(const Options& options, const MorphismFile& file)
+{
+    require_apart(options, file);
+    const VerifiedMorphism verified = verify_morphism(file, 0);
+    const bool unchecked = options.has("unchecked");
+    warn_of_morphism(verified, file.file->name, unchecked);
+    const SystemMorphism map = elaborate_whole(file);
+    Sides sides;
+    const auto add = [&](std::vector<EquationSet>& list, const Model& model, const System& system, const Report& known,
+                         const StructureReport& report) {
+        for (const std::string& warning :
+             require_unrefuted("model", model.name, model.file->name, known.structure, unchecked))
+            write_standard_error(fmt::format("warning: {}\n", warning));
+        for (const std::string& form : forms_in(report)) list.push_back(derive(form, model, system, known));
+    };
+    const StructureReport report = verify_reduction(map);
+    add(sides.source, source_of(file), map.source, verified.source, report);
+    add(sides.target, target_of(file), map.target, verified.target, report);
+    write_result(options, options.get("format") == "json" ? reduction_json(verified, report, sides)
+                                                          : reduction_text(verified, report, sides));
+    return code_of(report.verdict);
+}
+
+/// "ph" of each coordinate that is proved to be cyclic.
+std::vector<std::string> cyclic_names(const StructureReport& report)
+{
+    std::vector<std::string> names;
+    for (const Check& check : report.checks)
+        if (check.decision.status == ProofStatus::proved) names.push_back(check.indices[0]);
+    return names;
+}
+
+ExitCode list_cyclic(const Options& options, const std::string& path)
+{
+    const CheckedModel checked = load(path, options.settings(), options.has("unchecked"));
+    require_apart(options, checked.model);
+    for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
+    const System& system = checked.system;
+    if (!system.lagrangian && !system.hamiltonian)
+        throw MathematicsError(
+            fmt::format("model '{}' has neither L nor H that could be free of a coordinate", checked.model.name),
+            "cyclic coordinates are those of [lagrangian] or [hamiltonian]");
+    const StructureReport report = cyclic_coordinates(system);
+    const std::vector<std::string> names = cyclic_names(report);
+    if (options.get("format") == "json") {
+        JsonWriter json;
+        json.begin_object().key("model").value(checked.model.name).key("cyclic").begin_array();
+        for (const std::string& name : names) json.value(name);
+        json.end_array();
+        structure_json(json, report);
+        write_result(options, json.end_object().text());
+    } else {
+        const std::string list = names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
+        write_result(options,
+                     fmt::format("{}: cyclic coordinates: {}\n{}", checked.model.name, list, failures_text(report)));
+    }
+    const bool open = std::ranges::any_of(
+        report.checks, [](const Check& check) { return check.decision.status == ProofStatus::undecided; });
+    return open ? ExitCode::undecided : ExitCode::done;
+}
+
+} // namespace
+
+ExitCode run_reduce(Arguments arguments)
+{
+    const Options options(reduce_syntax, arguments);
+    if (options.help()) return ExitCode::done;
+    (void)options.choice("format", {"text", "json"});
+    if (options.has("output")) require_writable(options.get("output"));
+    const std::string path = model_path(options.positional()[0]);
+    const auto file = std::make_shared<const SourceFile>(SourceFile{path, read_file(path)});
+    if (is_morphism(file)) return reduce_morphism(options, read_morphism(file, options.settings()));
+    return list_cyclic(options, path);
+}
+
+} // namespace lagen

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/run_morphism.hpp"
+
+#include "commands/machine/write_file.hpp"
+#include "commands/morphism/defect.hpp"
+#include "commands/morphism/image_scene.hpp"
+#include "commands/morphism/lift.hpp"
+#include "commands/report_morphism.hpp"
+#include "commands/scene/scene_options.hpp"
+#include "elaborate/elaborate_morphism.hpp"
+#include "model/scene_form.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace lagen {
+
+namespace {
+
+/// What a run of one model has and that of two has not.
+void refuse_options(const Options& options)
+{
+    for (const char* name : {"plot", "accuracy", "bind", "time-scale"})
+        if (options.has(name))
+            throw UsageError(fmt::format("lagen run: --{} is of a model, and {} is a morphism", name,
+                                         quote(options.positional()[0])));
+}
+
+CheckedModel as_read(const Model& model, const Options& options, std::vector<Setting> settings)
+{
+    CheckedModel checked;
+    checked.model = model;
+    checked.settings = std::move(settings);
+    checked.unchecked = options.has("unchecked");
+    return checked;
+}
+
+/// Both runs in one form.
+void require_form_of_target(const std::string& form, const Model& target, const SystemMorphism& map)
+{
+    const std::vector<std::string> forms = forms_of(target);
+    if (std::ranges::find(forms, form) == forms.end())
+        throw MathematicsError(fmt::format("the source is run in the form '{}', and its target {} has {}", form,
+                                           target.name, form_named(form).needs),
+                               forms.empty() ? "" : fmt::format("forms of the target: {}", fmt::join(forms, ", ")));
+    if (form_named(form).steps && !map.of_groupoids)
+        throw MathematicsError("the source is a discrete motion, and the morphism maps no arrows",
+                               "give `element`, the group part of the image of an arrow");
+}
+
+/// A variational method makes a discrete Lagrangian, and a groupoid where there is none.
+void refuse_variational(const Scene& scene)
+{
+    const MethodEntry* method = find_method(scene.method);
+    if (method == nullptr || *method->scheme == '\0') return;
+    throw UsageError(
+        fmt::format("lagen run: {} makes arrows of its own, which the morphism does not map", scene.method));
+}
+
+/// The first `count` columns behind t.
+Table first_columns(const Table& table, std::size_t count)
+{
+    Table part;
+    part.count = table.count;
+    part.columns.assign(table.columns.begin(), table.columns.begin() + static_cast<std::ptrdiff_t>(count + 1));
+    for (const std::string_view line : table.lines()) {
+        std::size_t end = 0;
+        for (std::size_t k = 0; k <= count && end != std::string_view::npos; ++k)
+            end = line.find(',', k == 0 ? 0 : end + 1);
+        part.rows.append(line.substr(0, end)).append("\n");
+    }
+    return part;
+}
+
+/// A run with everything that can be compared, and without what nobody asked for.
+struct WholeRun {
+    RunOutcome outcome;
+    Table whole;
+};
+
+WholeRun run_of(SceneRun& run, std::size_t asked)
+{
+    WholeRun result{run.integrate(), {}};
+    result.whole = result.outcome.table;
+    result.outcome.table = first_columns(result.whole, asked);
+    return result;
+}
+
+void tell(const Options& options, const RunOutcome& source, const RunOutcome& target, const RunComparison& comparison)
+{
+    const std::string csv = to_csv(comparison.table);
+    if (options.has("output")) write_file(options.get("output"), csv);
+    if (options.get("format") == "json") {
+        const std::string lift =
+            options.has("reconstruct") ? fmt::format(",\n \"reconstruction\": {}", defect_json(comparison, true)) : "";
+        write_standard_output(fmt::format("{{\"source\": {},\n \"target\": {},\n \"defect\": {}{}}}\n",
+                                          report_json(source), report_json(target), defect_json(comparison, false),
+                                          lift));
+    } else {
+        if (!options.has("output")) write_standard_output(csv);
+        write_standard_error(report_text(source) + report_text(target) + defect_text(comparison));
+    }
+    write_standard_error(drift_warnings(source) + drift_warnings(target));
+}
+
+/// Theorem 3 is of isomorphisms of fibres, and of motions in continuous time.
+void require_lift(const VerifiedMorphism& verified, const std::string& form)
+{
+    if (form_named(form).steps)
+        throw UsageError("lagen run: --reconstruct is of motions in continuous time, and the scene is a discrete one");
+    const FibreRank& rank = verified.map.rank;
+    if (rank.surjective && rank.injective && rank.where.empty()) return;
+    throw MathematicsError(
+        fmt::format("the morphism '{}' is not shown to be bijective on every fibre, as --reconstruct "
+                    "requires",
+                    verified.name),
+        "`lagen check` says its rank");
+}
+
+/// Starts of the lifts are those of the source.
+void add_lifts(const LiftedTarget& lifted, const SceneRun& source, Scene& image, Projection& projection)
+{
+    projection.add_lifts(lifted.names);
+    for (std::size_t i = 0; i < lifted.names.size(); ++i) {
+        const auto start = static_cast<double>(source.input().initial[i]);
+        image.initial.push_back({lifted.names[i], number(Rational(start)), {}});
+    }
+}
+
+/// Of a source that came to no row there is nothing to compare.
+ExitCode tell_alone(const Options& options, const RunOutcome& source)
+{
+    if (options.get("format") == "json")
+        write_standard_output(
+            fmt::format("{{\"source\": {},\n \"target\": null,\n \"defect\": null}}\n", report_json(source)));
+    else
+        write_standard_error(report_text(source));
+    return ExitCode::refuted;
+}
+
+} // namespace
+
+ExitCode run_morphism(const Options& options, const std::shared_ptr<const SourceFile>& file)
+{
+    refuse_options(options);
+    const MorphismFile morphism = read_morphism(file, options.settings());
+    require_apart(options, morphism);
+    const VerifiedMorphism verified = verify_morphism(morphism, 0);
+    warn_of_morphism(verified, file->name, options.has("unchecked"));
+
+    CheckedModel from = as_read(source_of(morphism), options, options.settings());
+    CheckedModel to = as_read(target_of(morphism), options, {});
+    SystemMorphism map = elaborate_whole(morphism);
+    Scene scene = scene_of(options, from.model, options.named("initial"));
+    require_form_of_target(scene.form, to.model, map);
+    refuse_variational(scene);
+    const bool reconstruct = options.has("reconstruct");
+    if (reconstruct) require_lift(verified, scene.form);
+    const MethodEntry& method = method_of(options, scene);
+    const std::size_t asked = observe_states(from.model, scene);
+
+    SceneRun source(options, from, method.name, {"source of a morphism"});
+    source.prepare(std::move(scene), method, options.has("at") && !options.has("t-end"));
+    const WholeRun here = run_of(source, asked);
+    if (here.whole.count == 0) return tell_alone(options, here.outcome);
+
+    LiftedTarget lifted;
+    if (reconstruct) {
+        lifted = lifted_target(to.model, map, source.values().parameters);
+        to.model = lifted.model;
+    }
+    Projection projection(std::move(map), source.form(), source.values());
+    SceneRun target(options, to, method.name, {"target of a morphism", source.form(), lifted.rates});
+    Scene image = image_scene(source, here.whole, to.model, projection);
+    if (reconstruct) add_lifts(lifted, source, image, projection);
+    const std::size_t states = observe_states(to.model, image);
+    target.prepare(std::move(image), method, false);
+    const WholeRun there = run_of(target, states);
+
+    tell(options, here.outcome, there.outcome, compare(projection, here.whole, there.whole));
+    const bool done = succeeded(here.outcome.status) && succeeded(there.outcome.status);
+    return done ? ExitCode::done : ExitCode::refuted;
+}
+
+} // namespace lagen

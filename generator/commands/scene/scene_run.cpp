@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/scene/scene_run.hpp"
+
+#include "commands/machine/write_file.hpp"
+#include "commands/scene/integrate_scene.hpp"
+#include "commands/scene/largest_step.hpp"
+#include "model/scene_form.hpp"
+
+#include <fmt/core.h>
+
+namespace lagen {
+
+SceneRun::SceneRun(const Options& options, CheckedModel& checked, const std::string& method,
+                   const std::vector<std::string>& kept_as)
+    : options_(options), checked_(checked), preparation_(options, checked, run_driver, method, kept_as)
+{
+    for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
+}
+
+void SceneRun::prepare(Scene scene, const MethodEntry& method, bool stretch)
+{
+    scene_ = std::move(scene);
+    method_ = &method;
+    form_ = form_of(checked_.model, scene_);
+    values_ = evaluate_scene(checked_.model, scene_);
+    parameters_ = finite_numbers(values_.parameters, scene_);
+    input_.events = &scene_.events;
+    const auto decided = [this](bool needed) -> const CheckedModel& {
+        return preparation_.checked(parameters_, needed);
+    };
+    start_.emplace(decided, form_);
+    preparation_.finish(scene_, form_, method, parameters_, [&](const RunRecord& found) {
+        input_.columns = columns_of(found.names, scene_);
+        use_values(input_, scene_, values_, *start_, stretch);
+    });
+}
+
+RunOutcome SceneRun::integrate()
+{
+    RunOutcome outcome;
+    outcome.model = checked_.model.name;
+    outcome.scene = scene_.name;
+    outcome.form = form_;
+    outcome.method = method_->name;
+    outcome.energy_changes = record().energy_changes;
+    outcome.searches = record().searches;
+    outcome.table.columns = {"t"};
+    for (const TableColumn& column : input_.columns) outcome.table.columns.push_back(column.name);
+    for (const std::string& lane : record().names.lanes) outcome.state.emplace_back(lane, "");
+    integrate_scene(record().program, input_, outcome);
+    if (!options_.has("bind"))
+        outcome.largest_step = largest_step(checked_.model, scene_, record().program, input_, *start_, outcome);
+    return outcome;
+}
+
+} // namespace lagen

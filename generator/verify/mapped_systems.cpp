@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "verify/mapped_systems.hpp"
+
+#include "verify/proof_setting.hpp"
+
+namespace lagen {
+
+MappedSystems::MappedSystems(const SystemMorphism& of) : morphism(of), graph(of.source.graph), along(graph, morphism)
+{
+    if (morphism.of_groupoids) derived = derived_fibre(graph, morphism);
+    given = fibre_matrix(graph, morphism);
+    matrix = morphism.fibre.empty() && derived ? derived->matrix : given;
+}
+
+std::vector<NodeId> MappedSystems::pulled(const std::vector<NodeId>& covector)
+{
+    const std::size_t r = from().r();
+    std::vector<NodeId> out(r, graph.constant(0));
+    for (std::size_t a = 0; a < to().r(); ++a)
+        for (std::size_t b = 0; b < r; ++b) out[b] = graph.add(out[b], graph.multiply(matrix[a * r + b], covector[a]));
+    return out;
+}
+
+std::vector<NodeId> MappedSystems::pushed(const std::vector<NodeId>& vector)
+{
+    const std::size_t r = from().r();
+    std::vector<NodeId> out(to().r(), graph.constant(0));
+    for (std::size_t a = 0; a < to().r(); ++a)
+        for (std::size_t b = 0; b < r; ++b) out[a] = graph.add(out[a], graph.multiply(matrix[a * r + b], vector[b]));
+    return out;
+}
+
+const std::vector<NodeId>& MappedSystems::target_momenta()
+{
+    if (momenta_.empty())
+        for (const NodeId mu : to().mu) momenta_.push_back(graph.input(to().graph.input_name(mu) + "'"));
+    return momenta_;
+}
+
+ProofSetting MappedSystems::setting()
+{
+    ProofSetting setting = proof_setting(from());
+    const auto append = [](std::vector<NodeId>& list, const std::vector<NodeId>& more) {
+        list.insert(list.end(), more.begin(), more.end());
+    };
+    append(setting.parameters, morphism.free_parameters);
+    append(setting.domain, along(to().domain));
+    append(setting.defined, morphism.base);
+    append(setting.defined, matrix);
+    if (from().hamiltonian && to().hamiltonian) append(setting.variables, target_momenta());
+    std::erase_if(setting.defined, [&](NodeId node) { return graph.is_constant(node); });
+    std::erase_if(setting.domain, [&](NodeId node) { return graph.is_constant(node); });
+    return setting;
+}
+
+MappedSystems::Arrows MappedSystems::arrows()
+{
+    const Groupoid& groupoid = *from().groupoid;
+    const Arrow& g = groupoid.arrow;
+    return {g, {target(graph, groupoid, g), primed(graph, g.next), primed(graph, g.W)}};
+}
+
+ArrowDecider MappedSystems::arrow_decider(const Arrows& pair, const ProofBudget& budget)
+{
+    std::vector<std::vector<NodeId>> points{pair.g.x};
+    for (const Arrow* arrow : {&pair.g, &pair.h})
+        if (!arrow->next.empty()) points.push_back(arrow->next);
+    ProofSetting setting = arrow_setting(graph, from(), points);
+    setting.parameters.insert(setting.parameters.end(), morphism.free_parameters.begin(),
+                              morphism.free_parameters.end());
+    if (from().discrete) append_step(setting, from());
+    setting.variables.push_back(from().time);
+    std::vector<std::vector<NodeId>> elements;
+    if (!pair.g.W.empty()) elements = {pair.g.W, pair.h.W};
+    return ArrowDecider(graph, std::move(setting), *from().groupoid, std::move(elements), budget);
+}
+
+} // namespace lagen

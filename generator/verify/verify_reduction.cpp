@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "verify/verify_reduction.hpp"
+
+#include "graph/calculus/differentiate.hpp"
+#include "mechanics/discrete.hpp"
+#include "mechanics/hamilton.hpp"
+#include "mechanics/pontryagin.hpp"
+#include "verify/fibre_rank.hpp"
+#include "verify/judge.hpp"
+#include "verify/mapped_systems.hpp"
+#include "verify/proof_setting.hpp"
+
+namespace lagen {
+
+namespace {
+
+/// W ydot = f.
+struct Accelerations {
+    std::vector<NodeId> W, f;
+};
+
+Accelerations accelerations(Graph& graph, const System& system)
+{
+    const LagrangianNodes lagrangian = lagrangian_nodes(graph, system);
+    const std::vector<NodeId> pdot =
+        momentum_rates(graph, system.algebroid, lagrange_balance(graph, system, lagrangian));
+    return {lagrangian.fibre.hessian, acceleration_forces(graph, system, lagrangian, pdot)};
+}
+
+/// A v, A by rows of as many entries as v has.
+std::vector<NodeId> applied(Graph& graph, const std::vector<NodeId>& A, const std::vector<NodeId>& v)
+{
+    std::vector<NodeId> out;
+    for (std::size_t a = 0; a * v.size() < A.size(); ++a) {
+        NodeId sum = graph.constant(0);
+        for (std::size_t b = 0; b < v.size(); ++b) sum = graph.add(sum, graph.multiply(A[a * v.size() + b], v[b]));
+        out.push_back(sum);
+    }
+    return out;
+}
+
+class Reduction {
+  public:
+    Reduction(const SystemMorphism& morphism, const ProofBudget& budget)
+        : both_(morphism), graph_(both_.graph), from_(both_.from()), to_(both_.morphism.target), budget_(budget)
+    {
+        ProofSetting setting = both_.setting();
+        if (from_.control && to_.control)
+            setting.variables.insert(setting.variables.end(), both_.target_momenta().begin(),
+                                     both_.target_momenta().end());
+        judge_ = std::make_unique<Judge>(graph_, std::move(setting), accessory_inputs(from_), 0, budget);
+    }
+
+    StructureReport run()
+    {
+        if (from_.lagrangian && to_.lagrangian) decide_lagrange();
+        if (from_.hamiltonian && to_.hamiltonian) decide_hamilton();
+        if (from_.control && to_.control) decide_pontryagin();
+        if (both_.morphism.of_groupoids && from_.discrete && to_.discrete) decide_discrete();
+        if (report_.checks.empty()) report_.note = "the two models have no form of the equations of motion in common";
+        report_.verdict = verdict_of(report_);
+        return std::move(report_);
+    }
+
+  private:
+    void append(const char* form, std::string component, Decision decision)
+    {
+        report_.checks.push_back({"projects", {form, std::move(component)}, std::move(decision), {}, {}});
+    }
+    void decide(const char* form, std::string component, NodeId residual)
+    {
+        append(form, std::move(component), judge_->decide(residual));
+    }
+    /// What is not compared, by name.
+    void leave_open(const char* form, const char* why)
+    {
+        Decision open;
+        open.evidence = why;
+        append(form, "all", std::move(open));
+    }
+
+    /// xdot'^i of the target at y' against d phi^i along xdot.
+    void decide_base(const char* form, const AlongMap& along, const std::vector<NodeId>& xdot,
+                     const std::vector<NodeId>& target_xdot)
+    {
+        const std::vector<NodeId> rates =
+            directional(graph_, both_.morphism.base, replacements(from_.algebroid.x, xdot));
+        const std::vector<NodeId> wanted = along(target_xdot);
+        for (std::size_t i = 0; i < rates.size(); ++i)
+            decide(form, both_.target_coordinate(i), graph_.subtract(rates[i], wanted[i]));
+    }
+
+    void decide_lagrange()
+    {
+        const char* form = "lagrange";
+        if (carries_states(from_) || carries_states(to_))
+            return leave_open(form, "forces that depend on first-order states are not compared");
+        const std::vector<NodeId>& y = from_.algebroid.y;
+        AlongMap along = both_.along;
+        along.set(to_.algebroid.y, both_.pushed(y));
+        const std::vector<NodeId> xdot = base_velocity(graph_, from_.algebroid, y);
+        decide_base(form, along, xdot, base_velocity(to_.graph, to_.algebroid, to_.algebroid.y));
+
+        const Accelerations here = accelerations(graph_, from_), of_target = accelerations(to_.graph, to_);
+        const Accelerations there{along(of_target.W), along(of_target.f)};
+        const std::vector<NodeId> drift = // d/dt (Phi y) at fixed y
+            directional(graph_, both_.pushed(y), replacements(from_.algebroid.x, xdot));
+        std::vector<NodeId> rest = applied(graph_, there.W, drift);
+        for (std::size_t a = 0; a < rest.size(); ++a) rest[a] = graph_.subtract(rest[a], there.f[a]);
+        if (agree_pulled_back(here, there, rest)) {
+            Decision proved;
+            proved.status = ProofStatus::proved;
+            proved.residual = "0";
+            proved.evidence = "W = Phi^* W' Phi, f = Phi^* (f' - W' dPhi/dt y), and Phi^* is injective";
+            for (std::size_t a = 0; a < to_.r(); ++a) append(form, both_.target_section(a), proved);
+            return;
+        }
+        const std::vector<NodeId> ydot = graph_.solve(here.W, here.f, MatrixStructure::symmetric);
+        const std::vector<NodeId> moved = applied(graph_, there.W, both_.pushed(ydot));
+        for (std::size_t a = 0; a < to_.r(); ++a) decide(form, both_.target_section(a), graph_.add(moved[a], rest[a]));
+    }
+
+    /// Whether Phi^* of the target's equations, W' Phi ydot + rest = 0, are the source's: nothing is divided by.
+    [[nodiscard]] bool agree_pulled_back(const Accelerations& here, const Accelerations& there,
+                                         const std::vector<NodeId>& rest)
+    {
+        const std::size_t r = from_.r();
+        const auto vanishes = [&](NodeId residual) {
+            return graph_.is_zero(residual) || judge_->decider().status(residual) == ProofStatus::proved;
+        };
+        const std::vector<NodeId> back = both_.pulled(rest);
+        for (std::size_t c = 0; c < r; ++c)
+            if (!vanishes(graph_.add(back[c], here.f[c]))) return false;
+        for (std::size_t d = 0; d < r; ++d) {
+            std::vector<NodeId> column; // Phi e_d
+            for (std::size_t a = 0; a < to_.r(); ++a) column.push_back(both_.matrix[a * r + d]);
+            const std::vector<NodeId> moved = both_.pulled(applied(graph_, there.W, column));
+            for (std::size_t c = 0; c < r; ++c)
+                if (!vanishes(graph_.subtract(moved[c], here.W[c * r + d]))) return false;
+        }
+        return fibre_rank(graph_, both_.matrix, to_.r(), r, judge_->decider()).surjective;
+    }
+
+    [[nodiscard]] static bool carries_states(const System& system)
+    {
+        return !system.forces.empty() && !system.states.empty() &&
+               depends_on_any(system.graph, system.forces, system.states);
+    }
+
+    void decide_hamilton()
+    {
+        const char* form = "hamilton";
+        if (carries_states(from_) || carries_states(to_))
+            return leave_open(form, "forces that depend on first-order states are not compared");
+        const PhaseSystem here = hamilton_system(graph_, from_, given_hamiltonian(graph_, from_));
+        const PhaseSystem there = hamilton_system(to_.graph, to_, given_hamiltonian(to_.graph, to_));
+        AlongMap along = both_.along;
+        along.set(to_.mu, both_.target_momenta());
+        decide_momenta(form, along, at_pulled(here.xdot), at_pulled(here.mudot), there, {});
+    }
+
+    /// At mu = Phi^* mu'.
+    [[nodiscard]] std::vector<NodeId> at_pulled(const std::vector<NodeId>& nodes)
+    {
+        return substitute(graph_, nodes, replacements(from_.mu, both_.pulled(both_.target_momenta())));
+    }
+
+    /// `extra`: what vanishes along the motions of the target, one a section; empty: nothing.
+    void decide_momenta(const char* form, const AlongMap& along, const std::vector<NodeId>& xdot,
+                        const std::vector<NodeId>& mudot, const PhaseSystem& there, const std::vector<NodeId>& extra)
+    {
+        decide_base(form, along, xdot, there.xdot);
+        const std::vector<NodeId> drift =
+            directional(graph_, both_.pulled(both_.target_momenta()), replacements(from_.algebroid.x, xdot));
+        const std::vector<NodeId> moved = both_.pulled(along(there.mudot));
+        for (std::size_t b = 0; b < from_.r(); ++b) {
+            NodeId residual = graph_.subtract(graph_.add(drift[b], moved[b]), mudot[b]);
+            if (!extra.empty()) residual = graph_.subtract(residual, extra[b]);
+            decide(form, graph_.input_name(from_.mu[b]), residual);
+        }
+    }
+
+    /// mudot_b has the term -rho_b(psi^B) dH'/du'^B more than the target's: it vanishes where the controls are chosen.
+    void decide_pontryagin()
+    {
+        const char* form = "pontryagin";
+        if (from_.control->bounded() || to_.control->bounded())
+            return leave_open(form, "bounded controls are not compared");
+        const ControlHamiltonian H = control_hamiltonian(graph_, *from_.control, from_.mu);
+        const ControlHamiltonian target_H = control_hamiltonian(to_.graph, *to_.control, to_.mu);
+        const PhaseSystem here = pontryagin_system(graph_, from_, H.value, {});
+        const PhaseSystem there = pontryagin_system(to_.graph, to_, target_H.value, {});
+        AlongMap along = both_.along;
+        along.set(to_.mu, both_.target_momenta());
+        along.set(to_.control->u, both_.morphism.controls);
+        const std::vector<NodeId> slopes = along(target_H.dH_du);
+        BaseGradient partial(graph_, from_.algebroid.x);
+        std::vector<NodeId> extra(from_.r(), graph_.constant(0));
+        for (std::size_t b = 0; b < from_.r(); ++b)
+            for (std::size_t B = 0; B < slopes.size(); ++B) {
+                const NodeId rate = partial.along(from_.algebroid.anchor[b], both_.morphism.controls[B]);
+                extra[b] = graph_.add(extra[b], graph_.multiply(slopes[B], rate));
+            }
+        decide_momenta(form, along, at_pulled(here.xdot), at_pulled(here.mudot), there, extra);
+        const std::vector<NodeId> wanted = at_pulled(H.dH_du);
+        for (std::size_t A = 0; A < wanted.size(); ++A) {
+            const NodeId u = from_.control->u[A];
+            const std::vector<NodeId> rates =
+                directional(graph_, both_.morphism.controls, std::vector{std::pair{u, graph_.constant(1)}});
+            decide(form, graph_.input_name(u), graph_.subtract(wanted[A], contraction(graph_, slopes, rates)));
+        }
+    }
+
+    void decide_discrete()
+    {
+        const char* form = "discrete";
+        const DiscreteSystem &here = *from_.discrete, &there = *to_.discrete;
+        if (!here.lagrangian || !there.lagrangian || !here.inner.empty() || !there.inner.empty())
+            return leave_open(form, "a discrete Lagrangian with unknowns inside of a step, or none, is not compared");
+        if (!here.work.source.empty() || !there.work.source.empty())
+            return leave_open(form, "the work of forces in a step is not compared");
+        const Groupoid &groupoid = *from_.groupoid, &target_groupoid = *to_.groupoid;
+        const MappedSystems::Arrows pair = both_.arrows();
+        const std::vector<NodeId> DEL = discrete_euler_lagrange(
+            graph_, groupoid, discrete_legendre(graph_, groupoid, *here.lagrangian), pair.g, pair.h);
+        const DiscreteLegendre legendre = discrete_legendre(to_.graph, target_groupoid, *there.lagrangian);
+        const std::vector<NodeId> plus = at_image(legendre.plus, pair.g), minus = at_image(legendre.minus, pair.h);
+        const std::vector<NodeId> matrix =
+            substitute(graph_, both_.matrix, replacements(from_.algebroid.x, pair.h.x)); // at t(g) = s(h)
+        ArrowDecider decider = both_.arrow_decider(pair, budget_);
+        const std::size_t r = from_.r();
+        for (std::size_t b = 0; b < r; ++b) {
+            NodeId residual = DEL[b];
+            for (std::size_t c = 0; c < to_.r(); ++c)
+                residual =
+                    graph_.subtract(residual, graph_.multiply(matrix[c * r + b], graph_.subtract(plus[c], minus[c])));
+            append(form, both_.section(b), decider.decide(residual));
+        }
+    }
+
+    /// Functions on the target's arrows at the image of an arrow of the source.
+    [[nodiscard]] std::vector<NodeId> at_image(const std::vector<NodeId>& functions, const Arrow& arrow)
+    {
+        const Arrow image = image_of(graph_, both_.morphism, arrow);
+        AlongMap along = both_.along;
+        along.set(to_.algebroid.x, image.x);
+        along.set(to_.groupoid->arrow.next, image.next);
+        along.set(to_.groupoid->arrow.W, image.W);
+        const NodeId step = to_.discrete->step;
+        if (to_.graph.op(step) == Op::input && !both_.morphism.parameters.contains(step))
+            along.set({&step, 1}, {&from_.discrete->step, 1});
+        return along(functions);
+    }
+
+    MappedSystems both_;
+    Graph& graph_;
+    const System& from_;
+    System& to_; ///< functions of the target are derived on its own graph first
+    ProofBudget budget_;
+    std::unique_ptr<Judge> judge_;
+    StructureReport report_;
+};
+
+} // namespace
+
+StructureReport verify_reduction(const SystemMorphism& morphism, const ProofBudget& budget)
+{
+    return Reduction(morphism, budget).run();
+}
+
+} // namespace lagen
