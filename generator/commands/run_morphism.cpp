@@ -87,6 +87,14 @@ WholeRun run_of(SceneRun& run, std::size_t asked)
     return result;
 }
 
+/// The object alone, without the line's end.
+std::string object_json(const RunOutcome& outcome)
+{
+    std::string text = report_json(outcome);
+    text.erase(text.find_last_not_of('\n') + 1);
+    return text;
+}
+
 void tell(const Options& options, const RunOutcome& source, const RunOutcome& target, const RunComparison& comparison)
 {
     const std::string csv = to_csv(comparison.table);
@@ -95,7 +103,7 @@ void tell(const Options& options, const RunOutcome& source, const RunOutcome& ta
         const std::string lift =
             options.has("reconstruct") ? fmt::format(",\n \"reconstruction\": {}", defect_json(comparison, true)) : "";
         write_standard_output(fmt::format("{{\"source\": {},\n \"target\": {},\n \"defect\": {}{}}}\n",
-                                          report_json(source), report_json(target), defect_json(comparison, false),
+                                          object_json(source), object_json(target), defect_json(comparison, false),
                                           lift));
     } else {
         if (!options.has("output")) write_standard_output(csv);
@@ -133,7 +141,7 @@ ExitCode tell_alone(const Options& options, const RunOutcome& source)
 {
     if (options.get("format") == "json")
         write_standard_output(
-            fmt::format("{{\"source\": {},\n \"target\": null,\n \"defect\": null}}\n", report_json(source)));
+            fmt::format("{{\"source\": {},\n \"target\": null,\n \"defect\": null}}\n", object_json(source)));
     else
         write_standard_error(report_text(source));
     return ExitCode::refuted;

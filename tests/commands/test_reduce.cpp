@@ -13,39 +13,40 @@ namespace json = lagen::json;
 
 namespace {
 
-const std::string examples = std::string(LAGEN_SOURCE_DIR) + "/models/morphisms/";
-const std::string data = std::string(LAGEN_SOURCE_DIR) + "/tests/data/morphisms/";
+const std::string reduced_models = std::string(LAGEN_SOURCE_DIR) + "/models/morphisms/";
+const std::string reduced_data = std::string(LAGEN_SOURCE_DIR) + "/tests/data/morphisms/";
 
 /// What stands before the equations.
-std::string head(const std::string& text)
+std::string head_of(const std::string& text)
 {
     return text.substr(0, text.find("\n\n") + 1);
 }
 
-std::string written(const std::string& folder, const std::string& name, const std::string& text)
+std::string model_written(const std::string& folder, const std::string& name, const std::string& text)
 {
     std::ofstream(folder + "/" + name) << text;
     return folder + "/" + name;
 }
 
 /// A force that the map does not carry over, unless `drag` is there too.
-std::string line_with_drag(const std::string& folder, const std::string& name, const std::string& drag)
+std::string dragged_line(const std::string& folder, const std::string& name, const std::string& drag)
 {
-    return written(folder, name,
-                   "[base]\ncoordinates = [\"x\"]\n[algebroid]\nkind = \"tangent\"\n[lagrangian]\n"
-                   "L = \"v_x^2/2 - x^4\"\n[forces]\nv_x = \"" +
-                       drag + "\"\n");
+    return model_written(folder, name,
+                         "[base]\ncoordinates = [\"x\"]\n[algebroid]\nkind = \"tangent\"\n[lagrangian]\n"
+                         "L = \"v_x^2/2 - x^4\"\n[forces]\nv_x = \"" +
+                             drag + "\"\n");
 }
 
 } // namespace
 
 TEST_CASE("the equations of the heavy top in Euler angles project onto those on the sphere, and both are printed")
 {
-    const Outcome outcome = call({"reduce", examples + "heavy_top_reduction.toml"});
+    const Outcome outcome = call({"reduce", reduced_models + "heavy_top_reduction.toml"});
     CHECK(outcome.code == 0);
     CHECK(outcome.err.empty());
-    CHECK(head(outcome.out) == "heavy_top_reduction: the equations of heavy_top_euler project onto those of heavy_top\n"
-                               "  lagrange        g1, g2, g3, w1, w2, w3: proved\n");
+    CHECK(head_of(outcome.out) ==
+          "heavy_top_reduction: the equations of heavy_top_euler project onto those of heavy_top\n"
+          "  lagrange        g1, g2, g3, w1, w2, w3: proved\n");
     for (const char* model : {"heavy_top_euler.toml", "heavy_top.toml"}) {
         const Outcome derived = call({"derive", std::string(LAGEN_SOURCE_DIR) + "/models/" + model});
         CHECK(derived.out.size() > 500);
@@ -55,7 +56,7 @@ TEST_CASE("the equations of the heavy top in Euler angles project onto those on 
 
 TEST_CASE("reduce --format json has the verdict of each component and the equations of both sides")
 {
-    const Outcome outcome = call({"reduce", examples + "elroys_beanie_reduction.toml", "--format", "json"});
+    const Outcome outcome = call({"reduce", reduced_models + "elroys_beanie_reduction.toml", "--format", "json"});
     CHECK(outcome.code == 0);
     const json::Value value = json::parse(outcome.out);
     CHECK(value.keys == std::vector<std::string>{"model", "verdict", "trivial", "checks", "source", "target"});
@@ -70,11 +71,11 @@ TEST_CASE("reduce --format json has the verdict of each component and the equati
 
 TEST_CASE("a false map is refused; unchecked, each component that does not project has a witness")
 {
-    const Outcome refused = call({"reduce", data + "wrong_row.toml"});
+    const Outcome refused = call({"reduce", reduced_data + "wrong_row.toml"});
     CHECK(refused.code == 1);
     CHECK(refused.out.empty());
     CHECK(refused.err.starts_with("error: morphism 'wrong_row' is refuted: admissible (dth, g1), residual "));
-    const Outcome outcome = call({"reduce", data + "wrong_row.toml", "--unchecked", "--format", "json"});
+    const Outcome outcome = call({"reduce", reduced_data + "wrong_row.toml", "--unchecked", "--format", "json"});
     CHECK(outcome.code == 1);
     const json::Value value = json::parse(outcome.out);
     CHECK(value["verdict"].text == "invalid");
@@ -91,58 +92,61 @@ TEST_CASE("equations project although the Lagrangians do not: twice L, and a tot
 {
     const std::string folder = fresh_folder();
     const auto plane = [&](const std::string& name, const std::string& L) {
-        return written(folder, name,
-                       "[base]\ncoordinates = [\"x\", \"y\"]\n[algebroid]\nkind = \"tangent\"\n[lagrangian]\nL = \"" +
-                           L + "\"\n");
+        return model_written(
+            folder, name,
+            "[base]\ncoordinates = [\"x\", \"y\"]\n[algebroid]\nkind = \"tangent\"\n[lagrangian]\nL = \"" + L + "\"\n");
     };
     plane("twice.toml", "v_x^2 + v_y^2 - 2*x^2*y + y*v_x + x*v_y");
     plane("once.toml", "(v_x^2 + v_y^2)/2 - x^2*y");
     const std::string map =
-        written(folder, "map.toml",
-                "[morphism]\nsource = \"twice.toml\"\ntarget = \"once.toml\"\nbase = { x = \"x\", y "
-                "= \"y\" }\nfibre = { v_x = \"v_x\", v_y = \"v_y\" }\n");
+        model_written(folder, "map.toml",
+                      "[morphism]\nsource = \"twice.toml\"\ntarget = \"once.toml\"\nbase = { x = \"x\", y "
+                      "= \"y\" }\nfibre = { v_x = \"v_x\", v_y = \"v_y\" }\n");
     CHECK(call({"reduce", map}).code == 1); // L is not invariant
     const Outcome outcome = call({"reduce", map, "--unchecked"});
     CHECK(outcome.code == 0);
-    CHECK(head(outcome.out) ==
+    CHECK(head_of(outcome.out) ==
           "map: the equations of twice project onto those of once\n  lagrange        x, y, v_x, v_y: proved\n");
 }
 
 TEST_CASE("forces project with the equations, and one that does not is refuted in its component alone")
 {
     const std::string folder = fresh_folder();
-    line_with_drag(folder, "from.toml", "-v_x^3");
-    line_with_drag(folder, "to.toml", "-v_x^3");
-    line_with_drag(folder, "other.toml", "-v_x");
+    dragged_line(folder, "from.toml", "-v_x^3");
+    dragged_line(folder, "to.toml", "-v_x^3");
+    dragged_line(folder, "other.toml", "-v_x");
     const std::string map = "[morphism]\nsource = \"from.toml\"\nbase = { x = \"-x\" }\nfibre = { v_x = \"-v_x\" }\n";
-    const Outcome good = call({"reduce", written(folder, "good.toml", map + "target = \"to.toml\"\n")});
-    CHECK(head(good.out) == "good: the equations of from project onto those of to\n  lagrange        x, v_x: proved\n");
-    const Outcome bad = call({"reduce", written(folder, "bad.toml", map + "target = \"other.toml\"\n"), "--unchecked"});
+    const Outcome good = call({"reduce", model_written(folder, "good.toml", map + "target = \"to.toml\"\n")});
+    CHECK(head_of(good.out) ==
+          "good: the equations of from project onto those of to\n  lagrange        x, v_x: proved\n");
+    const Outcome bad =
+        call({"reduce", model_written(folder, "bad.toml", map + "target = \"other.toml\"\n"), "--unchecked"});
     CHECK(bad.code == 1);
-    CHECK(head(bad.out) == "bad: the equations of from do not project onto those of other\n"
-                           "  lagrange        x: proved\n  lagrange        v_x: refuted\n");
+    CHECK(head_of(bad.out) == "bad: the equations of from do not project onto those of other\n"
+                              "  lagrange        x: proved\n  lagrange        v_x: refuted\n");
 }
 
 TEST_CASE("discrete equations of arrows are pulled back, on groups, actions and bundles, and for compositions")
 {
-    struct Case {
+    struct DiscreteReduction {
         const char* file;
         const char* components;
     };
-    for (const Case& each : {Case{"se2_reduction", "v_th, v_x, v_y"}, Case{"top_reduction", "v_ph, v_th, v_ps"},
-                             Case{"circle_reduction", "v_x, v_y, v_s"}, Case{"turned", "w1, w2, w3"}}) {
-        const Outcome outcome = call({"reduce", data + each.file + ".toml"});
+    for (const DiscreteReduction& each :
+         {DiscreteReduction{"se2_reduction", "v_th, v_x, v_y"}, DiscreteReduction{"top_reduction", "v_ph, v_th, v_ps"},
+          DiscreteReduction{"circle_reduction", "v_x, v_y, v_s"}, DiscreteReduction{"turned", "w1, w2, w3"}}) {
+        const Outcome outcome = call({"reduce", reduced_data + each.file + ".toml"});
         INFO(each.file << "\n" << outcome.out << outcome.err);
         CHECK(outcome.code == 0);
         CHECK(outcome.out.find(std::string("  discrete        ") + each.components + ": proved\n") !=
               std::string::npos);
     }
     // A fibre map that is twice what the arrows say.
-    const Outcome wrong = call({"reduce", data + "wrong_fibre.toml", "--unchecked"});
+    const Outcome wrong = call({"reduce", reduced_data + "wrong_fibre.toml", "--unchecked"});
     CHECK(wrong.code == 1);
     CHECK(wrong.out.find("  discrete        v_s: refuted\n") != std::string::npos);
     CHECK(wrong.out.find("  discrete        v_x, v_y: proved\n") != std::string::npos);
-    const Outcome nothing = call({"reduce", data + "circle_and_shape.toml"});
+    const Outcome nothing = call({"reduce", reduced_data + "circle_and_shape.toml"});
     CHECK(nothing.code == 2);
     CHECK(nothing.out == "circle_and_shape: the equations of kaluza_klein are not shown to project onto those of "
                          "plane_pair\n  note: the two models have no form of the equations of motion in common\n");
@@ -153,20 +157,22 @@ TEST_CASE("Hamilton's equations of H alone, and Pontryagin's with controls that 
 {
     const std::string folder = fresh_folder();
     const std::string kind = "[algebroid]\nkind = \"tangent\"\n";
-    written(folder, "wide.toml",
-            "[base]\ncoordinates = [\"x\", \"y\"]\n" + kind + "[hamiltonian]\nH = \"(p_v_x^2 + p_v_y^2)/2 + x^4\"\n");
-    written(folder, "narrow.toml",
-            "[base]\ncoordinates = [\"x\"]\n" + kind + "[hamiltonian]\nH = \"p_v_x^2/2 + x^4\"\n");
-    const Outcome hamilton = call({"reduce", written(folder, "forget.toml",
-                                                     "[morphism]\nsource = \"wide.toml\"\ntarget = \"narrow.toml\"\n"
-                                                     "base = { x = \"x\" }\nfibre = { v_x = \"v_x\" }\n")});
-    CHECK(head(hamilton.out) == "forget: the equations of wide project onto those of narrow\n"
-                                "  hamilton        x, p_v_x, p_v_y: proved\n");
+    model_written(folder, "wide.toml",
+                  "[base]\ncoordinates = [\"x\", \"y\"]\n" + kind +
+                      "[hamiltonian]\nH = \"(p_v_x^2 + p_v_y^2)/2 + x^4\"\n");
+    model_written(folder, "narrow.toml",
+                  "[base]\ncoordinates = [\"x\"]\n" + kind + "[hamiltonian]\nH = \"p_v_x^2/2 + x^4\"\n");
+    const Outcome hamilton =
+        call({"reduce", model_written(folder, "forget.toml",
+                                      "[morphism]\nsource = \"wide.toml\"\ntarget = \"narrow.toml\"\n"
+                                      "base = { x = \"x\" }\nfibre = { v_x = \"v_x\" }\n")});
+    CHECK(head_of(hamilton.out) == "forget: the equations of wide project onto those of narrow\n"
+                                   "  hamilton        x, p_v_x, p_v_y: proved\n");
 
     const auto steered = [&](const std::string& name, const std::string& sigma) {
-        written(folder, name,
-                "[base]\ncoordinates = [\"x\", \"y\", \"z\"]\n" + kind + "[control]\ncontrols = [\"u\", \"v\"]\n" +
-                    sigma + "cost = \"(u^2 + v^2)/2\"\n");
+        model_written(folder, name,
+                      "[base]\ncoordinates = [\"x\", \"y\", \"z\"]\n" + kind +
+                          "[control]\ncontrols = [\"u\", \"v\"]\n" + sigma + "cost = \"(u^2 + v^2)/2\"\n");
     };
     steered("fixed.toml", "sigma = { v_x = \"u\", v_y = \"v\", v_z = \"u\" }\n");
     steered(
@@ -175,11 +181,11 @@ TEST_CASE("Hamilton's equations of H alone, and Pontryagin's with controls that 
     const std::string map = "[morphism]\nsource = \"turning.toml\"\ntarget = \"fixed.toml\"\n"
                             "base = { x = \"x\", y = \"y\", z = \"z\" }\n"
                             "fibre = { v_x = \"v_x\", v_y = \"v_y\", v_z = \"v_z\" }\n";
-    const Outcome pontryagin =
-        call({"reduce", written(folder, "steer.toml",
-                                map + "controls = { u = \"cos(z)*u - sin(z)*v\", v = \"sin(z)*u + cos(z)*v\" }\n")});
-    CHECK(head(pontryagin.out) == "steer: the equations of turning project onto those of fixed\n"
-                                  "  pontryagin      x, y, z, p_v_x, p_v_y, p_v_z, u, v: proved\n");
+    const Outcome pontryagin = call(
+        {"reduce", model_written(folder, "steer.toml",
+                                 map + "controls = { u = \"cos(z)*u - sin(z)*v\", v = \"sin(z)*u + cos(z)*v\" }\n")});
+    CHECK(head_of(pontryagin.out) == "steer: the equations of turning project onto those of fixed\n"
+                                     "  pontryagin      x, y, z, p_v_x, p_v_y, p_v_z, u, v: proved\n");
 }
 
 TEST_CASE("without options reduce lists the cyclic coordinates of a model")
@@ -188,7 +194,7 @@ TEST_CASE("without options reduce lists the cyclic coordinates of a model")
     const Outcome top = call({"reduce", models + "heavy_top_euler.toml"});
     CHECK(top.code == 0);
     CHECK(top.out.starts_with("heavy_top_euler: cyclic coordinates: ph\n\nrefuted: cyclic (th, L)\n"));
-    const Outcome beanie = call({"reduce", examples + "elroys_beanie_unreduced.toml", "--format", "json"});
+    const Outcome beanie = call({"reduce", reduced_models + "elroys_beanie_unreduced.toml", "--format", "json"});
     const json::Value value = json::parse(beanie.out);
     CHECK(value.keys == std::vector<std::string>{"model", "cyclic", "trivial", "checks"});
     CHECK(value["cyclic"].texts() == std::vector<std::string>{"th", "x", "y"});

@@ -19,7 +19,7 @@
 namespace lagen::laws {
 namespace {
 
-constexpr std::size_t exact_points = 6;
+constexpr std::size_t exact_points = 4;
 
 std::string fibre_text(const RandomMorphism& morphism, std::size_t a)
 {

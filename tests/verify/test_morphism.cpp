@@ -19,14 +19,6 @@ struct Verified {
     MorphismReport report;
 };
 
-SystemMorphism whole(const MorphismFile& file)
-{
-    if (file.stages.empty()) return elaborate(file);
-    SystemMorphism all = elaborate(file.stages[0]);
-    for (std::size_t k = 1; k < file.stages.size(); ++k) all = composition(all, elaborate(file.stages[k]));
-    return all;
-}
-
 MorphismFile read_case(const std::string& name)
 {
     const std::string folder = name == "heavy_top_reduction" ? "/models/morphisms/" : "/tests/data/morphisms/";
@@ -37,7 +29,7 @@ MorphismFile read_case(const std::string& name)
 Verified verified(const std::string& name)
 {
     Verified out;
-    out.morphism = whole(read_case(name));
+    out.morphism = elaborate_whole(read_case(name));
     out.report = verify(out.morphism, 3);
     return out;
 }
@@ -134,7 +126,7 @@ TEST_CASE("the fibre map of a morphism of groupoids is that of its arrows: its e
     const ResidualList residuals = morphism_equations(graph, reduction.morphism, derived.matrix);
     CHECK(residuals.residuals.size() > 10);
     // The same by Euler's kinematic equations, which the other is given with.
-    const SystemMorphism given = whole(read_case("heavy_top_reduction"));
+    const SystemMorphism given = elaborate_whole(read_case("heavy_top_reduction"));
     Graph other = given.source.graph;
     const std::vector<NodeId> wanted = fibre_matrix(other, given);
     REQUIRE(wanted.size() == derived.matrix.size());
