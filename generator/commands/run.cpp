@@ -7,6 +7,7 @@
 #include "commands/machine/write_file.hpp"
 #include "commands/run_morphism.hpp"
 #include "commands/scene/plot.hpp"
+#include "commands/scene/range.hpp"
 #include "commands/scene/scene_options.hpp"
 #include "commands/scene/scene_run.hpp"
 #include "elaborate/bind_parameters.hpp"
@@ -46,6 +47,9 @@ const CommandSyntax run_syntax{
      {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
      {"bind", "NAMES", bind_help},
      {"initial", "NAME=VALUE", "an initial value of the scene (may be repeated)"},
+     {"branch", "N",
+      "of a discrete motion that starts from momenta: its first arrow is the N-th that has them, by the distance from "
+      "that of short steps; without it that one"},
      {"output,o", "FILE", "the rows as CSV"},
      {"plot", "FILE", "a picture (.svg, .png, .pdf)"},
      {"reconstruct", nullptr,
@@ -100,6 +104,26 @@ const char* scheme_of(const Options& options, const Model& model)
     return method == nullptr ? "" : method->scheme;
 }
 
+/// The number of the first arrow that is asked for, which only a discrete motion from momenta has.
+std::uint64_t branch_of(const Options& options, const Scene& scene, const SceneValues& values)
+{
+    const std::optional<std::uint64_t> branch = read_whole(options.get("branch"));
+    if (!branch || *branch == 0)
+        throw UsageError(fmt::format("lagen run: --branch is '{}', where a whole number from 1 on is required",
+                                     options.get("branch")));
+    if (!values.discrete)
+        throw UsageError(fmt::format(
+            "lagen run: --branch counts the first arrows of a discrete motion, and scene '{}' is run in the form "
+            "'{}'\nhint: --form discrete, or a variational method: --method variational4",
+            scene.name, scene.form));
+    if (starts_from_arrow(values))
+        throw UsageError(fmt::format(
+            "lagen run: --branch counts the arrows that have the momenta of the start, and scene '{}' starts from an "
+            "arrow\nhint: give the momenta in 'initial', or in 'element' and 'next' the arrow of that branch",
+            scene.name));
+    return *branch;
+}
+
 void tell(const Options& options, const RunOutcome& outcome, bool as_json)
 {
     if (as_json) {
@@ -144,6 +168,7 @@ ExitCode run_run(Arguments arguments)
     SceneRun run(options, checked, accurate ? accurate->method->name : options.get("method"));
     Scene scene = scene_of(options, model, options.named("initial"));
     const MethodEntry& method = accurate ? *accurate->method : method_of(options, scene);
+    if (options.has("branch")) run.input().branch = branch_of(options, scene, evaluate_scene(model, scene));
     run.prepare(std::move(scene), method, options.has("at") && !options.has("t-end"));
 
     const bool confirmed = !accurate || confirm_accuracy(*accurate, run.record(), run.input());

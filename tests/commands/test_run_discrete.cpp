@@ -177,6 +177,56 @@ TEST_CASE("the momenta of a discrete step beyond the fold have no arrow, those b
     CHECK(beyond["largest_step"].text == "0.0999"); // 11.011 h <= 1.1
 }
 
+TEST_CASE("--branch takes another arrow with the momenta of the start, and the run stays on its branch", "[run]")
+{
+    const std::string model = written("body", free_body_from("p_w1 = 5.5, p_w2 = 0, p_w3 = 0")); // h Omega = 1/2
+    const json::Value first = steps_of({model}), nearest = steps_of({model, "--branch", "1"});
+    CHECK(first["rows"].texts() == nearest["rows"].texts());
+    const json::Value second = steps_of({model, "--branch", "2"});
+    REQUIRE(second["branches"].size() == 4);
+    CHECK(second["branches"][0].text == "0");
+    CHECK(std::abs(long_number(second["branches"][1]) - std::sqrt(6.0L)) < 1e-14L); // 2 sqrt 2 sin(pi/3)
+    REQUIRE(second["rows"].size() == 51);
+    for (const std::size_t row : {0U, 1U, 50U}) {
+        CHECK(std::abs(long_number(first["rows"][row][5]) - std::cos(std::asin(0.5L))) < 1e-14L);
+        CHECK(std::abs(long_number(second["rows"][row][5]) + std::cos(std::asin(0.5L))) < 1e-14L); // by pi - theta
+        CHECK(std::abs(long_number(second["rows"][row][10]) - 5.5L) < 1e-13L);
+    }
+    const json::Value missing = steps_of({model, "--branch", "5"}, 1);
+    CHECK(missing["status"].text == "no_solution");
+    CHECK(missing["rows"].size() == 0);
+    CHECK(missing["branches"].texts() == second["branches"].texts());
+    CHECK(missing["state"]["p_w1"].text == "5.5");
+    CHECK_THAT(call({"run", model, "--branch", "5"}).err,
+               Catch::Contains("\n  branch 5 is not there: 4 arrows with the momenta of the start are found, at the "
+                               "distances 0, 2.44949, 2.82843 and 2.82843\n"));
+    CHECK_THAT(call({"run", written("beyond", free_body_from("p_w1 = 11.1, p_w2 = 0, p_w3 = 0")), "--branch", "1"}).err,
+               Catch::Contains("branch 1 is not there: no arrow with the momenta of the start is found\n"));
+}
+
+TEST_CASE("a discrete run that does not go on tells of other branches", "[run]")
+{
+    const std::string model = written("body", free_body_from("p_w1 = 0.1, p_w2 = 22.9, p_w3 = 1"));
+    const Outcome lost = call({"run", model, "--branch", "3", "--step", "0.1"});
+    CHECK(lost.code == 1);
+    CHECK_THAT(lost.err, Catch::Contains("\n  no arrow on this branch has these momenta: ") &&
+                             Catch::Contains("\n  4 arrows on other branches are found, at the distances ") &&
+                             Catch::Contains(" from the arrow before\n  from the start 4 branches are found: `--branch "
+                                             "1` to `--branch 4`\n"));
+    const json::Value found = steps_of({model, "--branch", "3"}, 1);
+    CHECK(found["other_branches"].size() == 4);
+}
+
+TEST_CASE("a run from an arrow behind the fold goes on behind it", "[run]")
+{
+    const std::string model =
+        written("body", case_called("moser_veselov_so3").model +
+                            "[scene.default]\nstep = 0.1\nsteps = 100\nelement = \"exp(hat([3, 0.3, 0.1]))\"\n");
+    const json::Value run = steps_of({model});
+    CHECK(run["steps"].text == "100");
+    CHECK(run["invariants"]["energy"]["max_drift"].number() < 1e-11L);
+}
+
 TEST_CASE("a discrete run that fails on its way tells the largest step near its own that goes on", "[run]")
 {
     // sin(q_next - q)/h = p + h, p = k h behind k steps: a fold at h^2 (k + 1) = 1.

@@ -89,6 +89,29 @@ TEST_CASE("the arrow of given momenta is the one on the branch of the guess, up 
     CHECK(start(0, std::nan("")).status() == Status::non_finite);
 }
 
+TEST_CASE("the arrows of given momenta are found on both sides of a fold, the one that a run begins with first",
+          "[discrete]")
+{
+    const Fold model;
+    for (const double mu : {1.0, -1.0}) {
+        const Fold::State s(0, 0, mu);
+        const auto arrows = arrows_of_momenta(model, 0.0, s);
+        REQUIRE(arrows.size() >= 4); // of infinitely many: asin(mu h) + 2 pi k, pi - asin(mu h) + 2 pi k
+        CHECK(arrows[0].state == Integrator(model, s, 0.0, Discrete{}).state());
+        CHECK(arrows[0].distance == 0);
+        for (std::size_t k = 0; k < arrows.size(); ++k) {
+            const double d = arrows[k].state[1];
+            CHECK(std::abs(std::sin(d) / model.h - mu) < 1e-12);
+            CHECK(arrows[k].negative == (std::cos(d) < 0));
+            CHECK(arrows[k].distance == Approx(std::abs(d - arrows[0].state[1])));
+            if (k > 0) CHECK(arrows[k].distance > arrows[k - 1].distance - 1e-9);
+        }
+        CHECK(std::abs(arrows[1].state[1] - mu * (M_PI - std::asin(0.5))) < 1e-12);
+    }
+    CHECK(arrows_of_momenta(model, 0.0, Fold::State(0, 0, 2.01)).empty());
+    CHECK(arrows_of_momenta(model, 0.0, Fold::State(0, 0, std::nan(""))).empty());
+}
+
 TEST_CASE("a discrete run ends before the fold with its last good state, and has no values between its steps",
           "[discrete]")
 {

@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -84,7 +85,79 @@ double change_of_energy(const Body& body, const Body::Vector& mu, int steps)
     return most;
 }
 
+/// Momenta of h Omega = part about axis `axis`.
+Body::State about_axis(const Body& body, int axis, double part)
+{
+    Body::State s = Body::State::Zero();
+    s[9 + axis] = body.I[axis] * part / body.h;
+    return s;
+}
+
+/// The angle of a rotation by its trace.
+double angle_of(const Body::State& s)
+{
+    return std::acos((Body::element(s).trace() - 1) / 2);
+}
+
 } // namespace
+
+TEST_CASE("momenta about a principal axis have the arrows asin(h Omega) and pi - asin(h Omega), and runs follow both",
+          "[discrete]")
+{
+    const Body body{{1.1, 2.3, 3.4}};
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double part : {0.02, 0.5, 0.9}) {
+            INFO("axis " << axis + 1 << ", h Omega = " << part);
+            const auto arrows = arrows_of_momenta(body, 0.0, about_axis(body, axis, part));
+            // Half turns across the axis have h |mu| up to the difference of the other moments.
+            const double others = std::abs(body.I[(axis + 1) % 3] - body.I[(axis + 2) % 3]);
+            REQUIRE(arrows.size() == (body.I[axis] * part < others ? 4 : 2));
+            const double angle = std::asin(part);
+            CHECK(std::abs(angle_of(arrows[0].state) - angle) < 1e-9);
+            CHECK(std::abs(angle_of(arrows[1].state) - (M_PI - angle)) < 1e-9);
+            CHECK(std::abs(Body::element(arrows[1].state)(axis, axis) - 1) < 1e-14);
+            CHECK(arrows[1].distance == Approx(2 * std::sqrt(2.0) * std::sin(M_PI / 2 - angle)).epsilon(1e-12));
+            if (axis == 1) continue; // where the turn by pi - theta is unstable
+            for (const std::size_t branch : {0U, 1U}) {
+                Integrator run(body, arrows[branch].state, 0.0, Discrete{});
+                for (int k = 0; k < 100; ++k) REQUIRE(run.step() == Status::ok);
+                CHECK(std::abs(angle_of(run.state()) - (branch == 0 ? angle : M_PI - angle)) < 1e-9);
+            }
+        }
+}
+
+TEST_CASE("momenta in general have no, two or four arrows with det N of both signs, each followed", "[discrete]")
+{
+    const Body body{{1.1, 2.3, 3.4}};
+    Body::State s = Body::State::Zero();
+    s.tail<3>() << 1, 2, 0.5;
+    const auto arrows = arrows_of_momenta(body, 0.0, s);
+    REQUIRE(arrows.size() == 4);
+    for (const auto& arrow : arrows) {
+        CHECK((body.momentum(0, arrow.state) - s.tail<3>()).norm() < 1e-12 * s.tail<3>().norm());
+        Integrator run(body, arrow.state, 0.0, Discrete{});
+        const double energy = body.energy(run.state());
+        for (int k = 0; k < 100; ++k) REQUIRE(run.step() == Status::ok);
+        CHECK(std::abs(body.energy(run.state()) - energy) < 1e-12 * std::abs(energy));
+    }
+    std::mt19937 bits(3);
+    const auto draw = [&](double from, double to) { return from + (to - from) * double(bits()) / 4294967296.0; };
+    std::array<int, 5> found{};
+    for (int count = 0; count < 60; ++count) {
+        const double a = draw(0.1, 4), b = draw(0.1, 4), c = draw(std::abs(a - b), a + b);
+        Body::Vector mu(draw(-1, 1), draw(-1, 1), draw(-1, 1));
+        s.tail<3>() = mu * (draw(0, 0.9) * (a + b + c) / (3 * 0.1 * mu.norm()));
+        int signs = 0;
+        const auto drawn = arrows_of_momenta(Body{{a, b, c}}, 0.0, s);
+        for (const auto& arrow : drawn) signs += arrow.negative ? -1 : 1;
+        CHECK(signs == 0); // the degree of F^-L is 0: SO(3) is compact
+        REQUIRE(drawn.size() <= 4);
+        ++found[drawn.size()];
+    }
+    CHECK(found[0] > 0);
+    CHECK(found[2] > 5);
+    CHECK(found[4] > 5);
+}
 
 TEST_CASE("a body that turns over near the end of its branch stays on it", "[discrete]")
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/scene/run_report.hpp"
 
+#include "commands/scene/branch_report.hpp"
 #include "emit/json.hpp"
 
 #include <fmt/core.h>
@@ -37,8 +38,9 @@ std::string list_text(const Items& items, Print print)
 std::string reason_text(const RunOutcome& outcome)
 {
     const std::string& status = outcome.status;
+    if (is_branch_missing(outcome)) return missing_branch_text(outcome);
     if (status == "no_solution")
-        return "no arrow has these momenta: they lie behind a fold of F^-L; shorter steps reach further";
+        return "no arrow on this branch has these momenta: they lie behind a fold of F^-L; shorter steps reach further";
     if (status == "branch_lost" && outcome.form != "discrete")
         return "the step turns farther than the chart of the group reaches: take a shorter one";
     if (status == "branch_lost")
@@ -200,7 +202,7 @@ std::string report_json(const RunOutcome& outcome)
         state += fmt::format("{}{}: {}", state.empty() ? "" : ", ", string_text(name), number_text(value));
     return fmt::format(
         "{{\"model\": {}, \"scene\": {}, \"form\": {}, \"method\": {}, \"status\": {}, \"t\": {}, "
-        "\"state\": {{{}}},{}\n \"steps\": {}, "
+        "\"state\": {{{}}},{}{}\n \"steps\": {}, "
         "\"rejected\": {}, \"rhs_calls\": {},{} \"seconds\": {},\n \"columns\": {},\n \"rows\": {},\n \"events\": "
         "{},\n{}}}\n",
         string_text(outcome.model), string_text(outcome.scene), string_text(outcome.form), string_text(outcome.method),
@@ -209,8 +211,8 @@ std::string report_json(const RunOutcome& outcome)
             ? ""
             : fmt::format(" \"failed_at\": {},", number_text(outcome.failed_at)) +
                   (outcome.largest_step.empty() ? "" : fmt::format(" \"largest_step\": {},", outcome.largest_step)),
-        number_text(outcome.steps), number_text(outcome.rejected), number_text(outcome.rhs_calls), implicit,
-        number_text(outcome.seconds),
+        branches_json(outcome), number_text(outcome.steps), number_text(outcome.rejected),
+        number_text(outcome.rhs_calls), implicit, number_text(outcome.seconds),
         list_text(outcome.table.columns, [](const std::string& column) { return string_text(column); }),
         list_text(outcome.table.lines(), row_text), events, figures_json(outcome));
 }
@@ -234,6 +236,7 @@ std::string report_text(const RunOutcome& outcome)
         text += fmt::format("  {}\n{}", reason, last_state(outcome));
     else if (failed && outcome.steps != "0")
         text += last_state(outcome);
+    text += branches_text(outcome);
     if (!outcome.largest_step.empty())
         text += fmt::format("  the largest step near it that goes on there: {}\n", outcome.largest_step);
     if (failed && outcome.steps == "0") return text + start_hint(outcome);

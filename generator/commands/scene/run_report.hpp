@@ -4,6 +4,8 @@
 
 #include "commands/scene/table.hpp"
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,6 +36,11 @@ struct RunOutcome {
     std::vector<std::pair<std::string, std::string>> state; ///< the last good state: lanes by name, base first
     std::string failed_at;    ///< time at which the run met what ended it; `time` where nothing failed
     std::string largest_step; ///< near that of a discrete motion that failed, which would have gone on; or ""
+    /// Distances of the arrows that are found with the momenta of a discrete start, where they were looked for; of
+    /// those with the momenta of the step that failed; and the number of the one that was asked for, 0 where none was.
+    std::optional<std::vector<std::string>> branches;
+    std::vector<std::string> others{};
+    std::uint64_t branch = 0;
     std::string steps, rejected, rhs_calls, seconds; ///< numbers as printed
     std::string newton, decompositions; ///< Newton iterations and factorisations of implicit methods; else empty
     bool searches = false;              ///< controls are searched for, and followed

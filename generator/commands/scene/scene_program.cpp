@@ -65,6 +65,14 @@ Drift drift_of(std::string name, const std::string& value)
     return {std::move(name), part(0), part(1), part(2), part(3), part(4), part(5), part(6)};
 }
 
+std::vector<std::string> numbers_of(const std::string& value)
+{
+    std::vector<std::string> numbers;
+    if (!value.empty())
+        for (const std::string_view each : fields(value)) numbers.emplace_back(each);
+    return numbers;
+}
+
 void read_line(const std::string& key, const std::string& value, RunOutcome& outcome)
 {
     const std::pair<std::string_view, std::vector<Drift>*> followed[] = {
@@ -77,6 +85,8 @@ void read_line(const std::string& key, const std::string& value, RunOutcome& out
         for (std::size_t k = 0; k < lanes.size(); ++k) outcome.state[k].second = lanes[k];
     }
     if (key == "failed_at") outcome.failed_at = value;
+    if (key == "branches") outcome.branches = numbers_of(value);
+    if (key == "others") outcome.others = numbers_of(value);
     if (key == "steps") outcome.steps = value;
     if (key == "rejected") outcome.rejected = value;
     if (key == "rhs_calls") outcome.rhs_calls = value;
@@ -203,6 +213,7 @@ std::vector<std::string> program_arguments(const std::string& program, const Pro
     if (input.relative) give("--relative", text_of(*input.relative));
     if (input.absolute) give("--absolute", text_of(*input.absolute));
     if (input.from_arrow) give("--from", "arrow");
+    if (input.branch) give("--branch", std::to_string(*input.branch));
     if (input.times.every > 0)
         give("--every", std::to_string(input.times.every));
     else

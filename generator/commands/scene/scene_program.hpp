@@ -45,8 +45,9 @@ struct TableNames {
 /// Everything that the program is told.
 struct ProgramInput {
     std::vector<long double> parameters;
-    std::vector<long double> initial; ///< state lanes, base first
-    bool from_arrow = false;          ///< of a discrete motion: its momenta are those of the arrow
+    std::vector<long double> initial;    ///< state lanes, base first
+    bool from_arrow = false;             ///< of a discrete motion: its momenta are those of the arrow
+    std::optional<std::uint64_t> branch; ///< of one that starts from momenta: the number of its first arrow
     SampleTimes times;
     std::optional<long double> step, relative, absolute;
     std::string at_file; ///< path of the file with the times

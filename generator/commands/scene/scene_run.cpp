@@ -2,6 +2,7 @@
 #include "commands/scene/scene_run.hpp"
 
 #include "commands/machine/write_file.hpp"
+#include "commands/scene/branch_report.hpp"
 #include "commands/scene/integrate_scene.hpp"
 #include "commands/scene/largest_step.hpp"
 #include "model/scene_form.hpp"
@@ -44,11 +45,12 @@ RunOutcome SceneRun::integrate()
     outcome.method = method_->name;
     outcome.energy_changes = record().energy_changes;
     outcome.searches = record().searches;
+    outcome.branch = input_.branch.value_or(0);
     outcome.table.columns = {"t"};
     for (const TableColumn& column : input_.columns) outcome.table.columns.push_back(column.name);
     for (const std::string& lane : record().names.lanes) outcome.state.emplace_back(lane, "");
     integrate_scene(record().program, input_, outcome);
-    if (!options_.has("bind"))
+    if (!options_.has("bind") && !is_branch_missing(outcome))
         outcome.largest_step = largest_step(checked_.model, scene_, record().program, input_, *start_, outcome);
     return outcome;
 }

@@ -17,7 +17,7 @@ namespace lagen::detail {
 struct DriveArguments {
     std::vector<double> parameters, initial;
     std::optional<double> start, end, step, relative, absolute, interval;
-    std::optional<std::size_t> max_steps, samples, every;
+    std::optional<std::size_t> max_steps, samples, every, branch;
     bool from_arrow = false;
     std::string at_file, report, events, format = "csv";
     std::optional<std::string> columns;
@@ -89,6 +89,7 @@ inline Complaint read_argument(const std::string& key, const std::string& text, 
     if (key == "--max-steps") return count(into.max_steps);
     if (key == "--samples") return count(into.samples);
     if (key == "--every") return count(into.every);
+    if (key == "--branch") return count(into.branch);
     if (key == "--from" && text == "arrow") return into.from_arrow = true, Complaint{};
     if (key == "--from") return "--from: \"" + text + "\" is not arrow";
     if (key == "--at-file") return into.at_file = text, Complaint{};

@@ -13,6 +13,8 @@
 ///   --relative R --absolute A   adaptive methods; default 1e-9 each
 ///   --max-steps N
 ///   --from arrow          a discrete motion: the momenta are those of the arrow, whatever --initial gives
+///   --branch N            one that starts from momenta: its first arrow is the N-th of those that are found
+///   (branches.hpp)
 ///   --every N             rows at the start and behind every N-th step; the rows of a discrete motion
 ///   --samples N | --interval H | --at-file FILE   rows at N even times, every H from the start on (and the end), or at
 ///   the
@@ -43,6 +45,9 @@
 ///                         figures.hpp and where it first was more than 1e-3 of that ("nan" where there is none).
 ///                         balance: the energy less the work, which is the integral of the power up to the end
 ///   [manifold=DISTANCE,T] the largest distance from where the constraints hold, to first order, and where that was
+///   [branches=d,d,..]     distances of the arrows that are found with the momenta of a discrete start: with --branch,
+///                         and where no step leads on (no_solution, branch_lost, newton_diverged) from momenta
+///   [others=d,d,..]       of those with the momenta of the step that failed, from the arrow before
 ///   state=v,v,..          the last good state
 /// Exit codes: 0 ok or stopped by an event, 1 another status, 4 wrong arguments (one sentence on standard error, no
 /// report), 5 a file could not be read or written, or there is not memory enough, 130 interrupted (SIGINT, SIGTERM:
@@ -51,6 +56,7 @@
 
 #include "lagen/integrate.hpp"
 #include "lagen_run/arguments.hpp"
+#include "lagen_run/branches.hpp"
 #include "lagen_run/record.hpp"
 
 #include <chrono>
@@ -191,6 +197,7 @@ Complaint plan_event(const std::string& text, DrivePlan<M>& plan)
 template <class M, class Method>
 Complaint plan_method(const DriveArguments& given, Method& method)
 {
+    if (given.branch && !DiscreteMotion<M>) return "--branch: the arrows of a discrete motion have branches";
     if constexpr (DiscreteMotion<M>) {
         if (given.step) return "--step: the step is a parameter of this model";
     } else if constexpr (requires { method.step; }) {
@@ -217,7 +224,8 @@ Complaint make_plan(const DriveArguments& given, DrivePlan<M>& plan, Method& met
 }
 
 template <class M>
-std::string report_text(const DrivePlan<M>& plan, const Run<M>& run, const DriveRecord<M>& record, double seconds)
+std::string report_text(const DrivePlan<M>& plan, const Run<M>& run, const DriveRecord<M>& record, double seconds,
+                        const std::string& branches)
 {
     std::string text = std::string("status=") + to_text(run.status()) + '\n';
     text += "t=" + number_text(run.t) + "\nfailed_at=" + number_text(run.failed_at) + '\n';
@@ -229,7 +237,7 @@ std::string report_text(const DrivePlan<M>& plan, const Run<M>& run, const Drive
     text += "seconds=" + number_text(seconds) + '\n';
     for (const auto& found : run.events)
         text += "event=" + plan.event_names[found.request] + '@' + number_text(found.t) + '\n';
-    text += record.report() + "state=";
+    text += record.report() + branches + "state=";
     for (Eigen::Index i = 0; i < run.state.size(); ++i) text += (i == 0 ? "" : ",") + number_text(run.state[i]);
     return text + '\n';
 }
@@ -269,20 +277,22 @@ try {
     std::signal(SIGINT, detail::lagen_drive_interrupt);
     std::signal(SIGTERM, detail::lagen_drive_interrupt);
     detail::DriveRecord<M> record(plan.model, plan.columns, given.format == "binary", stdout, given.every.value_or(0));
-    if constexpr (DiscreteMotion<M>)
-        if (given.from_arrow) plan.initial = at_arrow(plan.model, plan.span.start, plan.initial);
+    detail::Branches<M> branches(plan.model, plan.span.start, given.from_arrow);
+    const bool starts = branches.begin(plan.initial, given.branch);
     Options<M> options{.at = plan.times, .events = plan.events, .signal = &detail::drive_interrupted};
     if (given.max_steps) options.max_steps = *given.max_steps;
 
     const auto begin = std::chrono::steady_clock::now();
-    const auto run = integrate(plan.model, plan.initial, plan.span, method, options, record);
+    const auto run = starts ? integrate(plan.model, plan.initial, plan.span, method, options, record)
+                            : detail::no_run<M>(plan.initial, plan.span.start);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
     const bool ended_early = run.status() != Status::ok && run.steps > 0;
     if (ended_early && given.at_file.empty() && record.last_time() != run.t) record.row(run.t, run.state);
 
     const bool rows_written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
     if (!rows_written) return detail::complain("the rows could not be written to standard output", 5);
-    if (!detail::write_report(given.report, detail::report_text(plan, run, record, seconds.count())))
+    const std::string report = detail::report_text(plan, run, record, seconds.count(), branches.report(run));
+    if (!detail::write_report(given.report, report))
         return detail::complain("the report could not be written to \"" + given.report + "\"", 5);
     if (run.status() == Status::interrupted) return 130;
     return run ? 0 : 1;

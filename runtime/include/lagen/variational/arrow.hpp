@@ -185,32 +185,34 @@ class ArrowSolver {
         bool negative = negative_;
         for (int k = 0; k < most_steps; ++k) {
             if (!evaluate(model, t, z)) return Status::non_finite;
-            if (is_rounding(z)) return settle(k > 0 || follows, negative);
+            const bool found = is_rounding(z), known = k > 0 || follows;
+            if (found && known) return settle(negative);
             Column d = residual_;
             const int sign = solved(d);
+            if (!known) negative = sign < 0;
+            if (found) return settle(negative);
             if (sign == 0) return Status::singular_mass_matrix;
-            if (k == 0 && !follows) negative = sign < 0;
             if ((sign < 0) != negative) return Status::branch_lost;
             const Scalar length = d.cwiseAbs().maxCoeff(), noise = Scalar(Real(4) * epsilon) * largest(z);
             if (!(length - length == Scalar(0))) return Status::newton_diverged;
-            if (k > 0 && length <= noise) return settle(true, negative);
+            if (k > 0 && length <= noise) return settle(negative);
             if (k > 0 && !(length <= Scalar(Real(0.25)) * before)) return Status::newton_diverged;
             if (!detail::move_arrow(model, t, z, d)) return Status::newton_diverged;
             moved_ += d;
             // What the next step would be, by quadratic convergence.
             if (k > 0) {
                 const Scalar rate = length / before;
-                if (length * rate * rate <= Scalar(Real(0.125) * epsilon) * largest(z)) return settle(true, negative);
+                if (length * rate * rate <= Scalar(Real(0.125) * epsilon) * largest(z)) return settle(negative);
             }
             before = length;
         }
         return Status::newton_diverged;
     }
 
-    /// The sign of det N is that of the branch from now on; unknown where N was not looked at.
-    [[nodiscard]] Status settle(bool known, bool negative) noexcept
+    /// The sign of det N is that of the branch from now on.
+    [[nodiscard]] Status settle(bool negative) noexcept
     {
-        if (known) negative_ = negative;
+        negative_ = negative;
         return Status::ok;
     }
 

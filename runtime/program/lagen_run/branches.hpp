@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+/// Which arrow a discrete run begins with, and what else has its momenta: variational/arrows.hpp.
+#pragma once
+
+#include "lagen/integrate.hpp"
+#include "lagen_run/text.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lagen::detail {
+
+/// A run that has no start: the branch that was asked for is not found.
+template <class M>
+Run<M> no_run(const typename M::State& s, double t)
+{
+    Run<M> run;
+    run.t = run.failed_at = t;
+    run.state = s;
+    run.outcome = Status::no_solution;
+    return run;
+}
+
+/// Of a motion that is none from step to step: nothing.
+template <class M>
+class Branches {
+  public:
+    Branches(const M&, double, bool) {}
+    [[nodiscard]] bool begin(typename M::State&, const std::optional<std::size_t>&) { return true; }
+    [[nodiscard]] std::string report(const Run<M>&) const { return {}; }
+};
+
+template <DiscreteMotion M>
+class Branches<M> {
+  public:
+    using State = typename M::State;
+
+    /// `from_arrow`: the momenta are those of the arrow, whatever they are.
+    Branches(const M& model, double t, bool from_arrow) : model_(model), t_(t), from_arrow_(from_arrow) {}
+
+    /// The start of the run into s; false where it is to be that of a branch which is not found.
+    [[nodiscard]] bool begin(State& s, const std::optional<std::size_t>& branch)
+    {
+        if (from_arrow_) s = at_arrow(model_, t_, s);
+        start_ = s;
+        if (!branch) return true;
+        found_ = arrows_of_momenta(model_, t_, s);
+        if (*branch == 0 || *branch > found_->size()) return false;
+        s = (*found_)[*branch - 1].state;
+        return true;
+    }
+
+    /// The lines `branches` and `others` (driver.hpp).
+    [[nodiscard]] std::string report(const Run<M>& run)
+    {
+        const bool lost = run.status() == Status::no_solution || run.status() == Status::branch_lost ||
+                          run.status() == Status::newton_diverged;
+        if (lost && !found_ && !from_arrow_) found_ = arrows_of_momenta(model_, t_, start_);
+        std::string text = found_ ? "branches=" + distances(*found_) + "\n" : "";
+        if (lost && run.failed_at != run.t) text += "others=" + distances(others_behind(run)) + "\n";
+        return text;
+    }
+
+  private:
+    using Arrows = std::vector<FoundArrow<M>>;
+
+    /// The arrows with the momenta behind the last step, as the guess has its base point.
+    [[nodiscard]] Arrows others_behind(const Run<M>& run) const
+    {
+        using Lanes = ArrowLanes<M>;
+        Eigen::Matrix<double, Lanes::n, 1> x;
+        Eigen::Matrix<double, Lanes::rank, 1> mu;
+        model_.forward(run.t, run.state, x, mu);
+        State s = run.state;
+        for (int i = 0; i < Lanes::n; ++i) s[i] = x[i];
+        for (int a = 0; a < Lanes::rank; ++a) s[Lanes::momenta + a] = mu[a];
+        return arrows_of_momenta(model_, run.t + model_.step(), s);
+    }
+
+    [[nodiscard]] static std::string distances(const Arrows& arrows)
+    {
+        std::string text;
+        for (const FoundArrow<M>& arrow : arrows) text += (text.empty() ? "" : ",") + number_text(arrow.distance);
+        return text;
+    }
+
+    const M& model_;
+    double t_;
+    bool from_arrow_;
+    State start_ = State::Zero();
+    std::optional<Arrows> found_;
+};
+
+} // namespace lagen::detail
