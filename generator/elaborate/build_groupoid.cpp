@@ -129,6 +129,17 @@ bool has_cayley_map(const Model& model)
                                [&](NodeId value) { return work.decide(value).status == ProofStatus::proved; });
 }
 
+Exponential closed_exponential(Graph& graph, const System& system, std::vector<NodeId> s)
+{
+    ProofSetting setting;
+    setting.variables = s;
+    setting.parameters = system.parameters;
+    const auto vanishes = [&](NodeId node) { // a decider knows the nodes that there are when it is made
+        return graph.is_zero(node) || ZeroDecider(graph, setting).status(node) == ProofStatus::proved;
+    };
+    return exponential(graph, *system.groupoid, std::move(s), vanishes);
+}
+
 void require_groupoid(const Model& model)
 {
     if (!model.groupoid->group.empty() || model.groupoid->generators.empty()) return;

@@ -3,7 +3,8 @@
 #pragma once
 
 #include "graph/core/lower.hpp"
-#include "groupoid/groupoid.hpp"
+#include "groupoid/exponential.hpp"
+#include "mechanics/system.hpp"
 #include "model/model.hpp"
 
 namespace lagen {
@@ -18,5 +19,8 @@ void require_groupoid(const Model& model);
 
 /// Whether it is shown that the Cayley map leads from the algebra of the model's group into the group.
 [[nodiscard]] bool has_cayley_map(const Model& model);
+
+/// exp over the inputs s, of the group of the system.
+[[nodiscard]] Exponential closed_exponential(Graph& graph, const System& system, std::vector<NodeId> s);
 
 } // namespace lagen

@@ -140,23 +140,43 @@ class Elaboration {
         if (discrete.written) discrete.lagrangian = lower_(model_.discrete->lagrangian);
     }
 
+    /// exp where it is asked for, or where Cayley's map does not lead into the group.
+    [[nodiscard]] std::optional<Exponential> exponential_of_scheme()
+    {
+        const Groupoid& groupoid = *system_.groupoid;
+        const std::string& retraction = model_.discrete->retraction;
+        if (groupoid.generators.empty() || (groupoid.has_cayley_map && retraction != "exp")) return {};
+        std::vector<NodeId> s;
+        for (std::size_t c = 1; c <= groupoid.generators.size(); ++c)
+            s.push_back(graph_.input(fmt::format("xi({})", c)));
+        return closed_exponential(graph_, system_, std::move(s));
+    }
+
     /// The discrete Lagrangian that a scheme makes of L.
     void apply_scheme()
     {
         if (!system_.discrete || system_.discrete->written) return;
         DiscreteSystem& discrete = *system_.discrete;
-        const std::string& scheme = model_.discrete->scheme;
-        if (model_.discrete->retraction == "exp")
-            discrete.obstacle = "this version of lagen makes it by Cayley's map, and the retraction is 'exp'";
-        else if (!system_.groupoid->generators.empty() && !system_.groupoid->has_cayley_map)
-            discrete.obstacle = "Cayley's map does not lead into the group, or is not shown to";
-        else if (depends_on_any(graph_, system_.forces, system_.states))
+        const std::optional<Exponential> exponential = exponential_of_scheme();
+        if (exponential && !exponential->block_without.empty()) {
+            discrete.obstacle = fmt::format("{}exp(A) of its generators has no closed form that is known here: in the "
+                                            "rows {} no A^(k+2), k <= 3, is "
+                                            "a multiple of A^k",
+                                            system_.groupoid->has_cayley_map
+                                                ? ""
+                                                : "Cayley's map does not lead into the group, or is not shown to, and ",
+                                            fmt::join(exponential->block_without, ", "));
+            if (system_.groupoid->has_cayley_map) discrete.hint = "retraction = \"cayley\"";
+        } else if (depends_on_any(graph_, system_.forces, system_.states)) {
             discrete.obstacle = "its forces depend on first-order states, which move in continuous time";
+        }
         if (!discrete.obstacle.empty()) return;
-        SchemeLagrangian made = scheme_lagrangian(graph_, system_, quadrature_rule(scheme), discrete.step);
+        SchemeLagrangian made = scheme_lagrangian(graph_, system_, quadrature_rule(model_.discrete->scheme),
+                                                  discrete.step, exponential ? &*exponential : nullptr);
         discrete.lagrangian = made.lagrangian;
         discrete.inner = std::move(made.inner);
         discrete.work = std::move(made.work);
+        discrete.logarithm = std::move(made.logarithm);
     }
 
     void lower_symmetries()

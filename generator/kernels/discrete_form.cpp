@@ -194,6 +194,9 @@ class DiscreteForm {
         Kernel kernel = table_kernel(form_, "arrow_equation", column("R", over_lanes(residual)));
         kernel.outputs.push_back(matrix(graph_, "N", unknowns, unknowns, over_lanes(equations_.matrix)));
         kernel.documentation.emplace_back("N_ab = <-e_b(F^-L_a) is Newton's matrix. Inner unknowns w add R = -dL/dw.");
+        if (system_.discrete->logarithm)
+            kernel.documentation.emplace_back("The first of them are xi with exp(xi) = W; theirs is R = -f(xi, W), "
+                                              "f^c E_c = cay^-1(exp(-xi) W).");
         form_.kernels.push_back(std::move(kernel));
     }
 
@@ -364,7 +367,8 @@ Formulation discrete_form(Graph& graph, const Model& model, const System& system
     if (!system.discrete->lagrangian)
         throw MathematicsError(fmt::format("the scheme '{}' makes no discrete Lagrangian of model '{}': {}",
                                            model.discrete->scheme, model.name, system.discrete->obstacle),
-                               "write it out: [discrete] L = \"..\"");
+                               system.discrete->hint.empty() ? "write it out: [discrete] L = \"..\""
+                                                             : system.discrete->hint);
     require_regular(system, report.mechanics.discrete);
     return DiscreteForm(graph, model, system, request).build();
 }

@@ -3,6 +3,8 @@
 
 #include "graph/calculus/differentiate.hpp"
 
+#include <utility>
+
 namespace lagen {
 
 namespace {
@@ -14,6 +16,23 @@ NodeId along_field(Graph& graph, const VectorField& field, const std::vector<Nod
     for (const ColumnEntry& entry : field)
         if (!graph.is_zero(slopes[entry.index])) terms.push_back(graph.multiply(entry.value, slopes[entry.index]));
     return graph.sum(terms);
+}
+
+/// D^-T of the slopes along xi to the momenta, and the conditions in their place.
+void bind_logarithm(Graph& graph, const Groupoid& groupoid, const ArrowLogarithm& logarithm, ArrowEquations& equations)
+{
+    const std::size_t m = logarithm.conditions.size(), horizontal = groupoid.horizontal();
+    std::vector<NodeId> turned(m * m), slopes(m);
+    for (std::size_t k = 0; k < m * m; ++k) turned[k] = logarithm.differential[k % m * m + k / m];
+    for (std::size_t c = 0; c < m; ++c) slopes[c] = std::exchange(equations.stationary[c], logarithm.conditions[c]);
+    const std::vector<NodeId> p = graph.solve(turned, slopes, MatrixStructure::general);
+    for (std::size_t c = 0; c < m; ++c) {
+        NodeId& vertical = equations.momenta[horizontal + c];
+        vertical = graph.add(vertical, p[c]);
+        for (std::size_t i = 0; i < horizontal && !groupoid.connection.empty(); ++i)
+            equations.momenta[i] =
+                graph.subtract(equations.momenta[i], graph.multiply(groupoid.connection[i][c], p[c]));
+    }
 }
 
 } // namespace
@@ -65,6 +84,7 @@ ArrowEquations arrow_equations(Graph& graph, const System& system)
         equations.momenta[a] = graph.subtract(equations.momenta[a], work.source[a]);
     for (std::size_t k = 0; k < work.inner.size(); ++k)
         equations.stationary[k] = graph.add(equations.stationary[k], work.inner[k]);
+    if (discrete.logarithm) bind_logarithm(graph, groupoid, *discrete.logarithm, equations);
     std::vector<NodeId> solved = equations.momenta;
     solved.insert(solved.end(), equations.stationary.begin(), equations.stationary.end());
     equations.matrix = newton_matrix(graph, groupoid, solved, discrete.inner);

@@ -32,9 +32,11 @@ struct DiscreteLegendre {
 
 /// What a step solves for the arrow h and the inner unknowns w of a scheme, with the work f of forces:
 ///   F^-L(h)_a - f^-_a = mu_a,      dL/dw + f_w = 0
+/// Of curves exp(xi) with exp(xi) = W the slopes dL/dxi + f_xi = D^T p belong to the momenta: a field that moves W by
+/// z^c E_c W adds z^c p_c, and f(xi, W) = 0 stands in their place.                     [Bou-Rabee, Marsden 2009]
 struct ArrowEquations {
     std::vector<NodeId> momenta;    ///< F^-L_a - f^-_a, shape (r)
-    std::vector<NodeId> stationary; ///< dL/dw + f_w, shape (m)
+    std::vector<NodeId> stationary; ///< dL/dw + f_w, f(xi, W) first where there are xi; shape (m)
     std::vector<NodeId> matrix;     ///< N: the derivatives of both, shape (r + m, r + m)
 
     [[nodiscard]] std::size_t unknowns() const { return momenta.size() + stationary.size(); }

@@ -3,7 +3,7 @@
 
 #include "graph/calculus/differentiate.hpp"
 #include "groupoid/cayley.hpp"
-#include "groupoid/generator_span.hpp"
+#include "groupoid/retraction.hpp"
 
 #include <fmt/format.h>
 
@@ -13,16 +13,21 @@ namespace {
 
 class SchemeBuilder {
   public:
-    SchemeBuilder(Graph& graph, const System& system, const QuadratureRule& rule, NodeId step)
+    SchemeBuilder(Graph& graph, const System& system, const QuadratureRule& rule, NodeId step,
+                  const Exponential* exponential)
         : graph_(graph), system_(system), groupoid_(*system.groupoid), rule_(rule), step_(step),
-          polynomials_(rule.degree), span_(graph, groupoid_)
+          exponential_(exponential), polynomials_(rule.degree), span_(graph, groupoid_),
+          retraction_(graph, groupoid_, exponential)
     {
+        if (exponential != nullptr) inner_ = exponential->s;
         for (std::size_t i = 0; i < groupoid_.horizontal(); ++i)
             chord_.push_back(graph.subtract(groupoid_.arrow.next[i], groupoid_.arrow.x[i]));
         for (const NodeId xi : logarithm()) chord_.push_back(xi);
         for (std::size_t k = 1; k < rule.degree; ++k)
-            for (std::size_t a = 0; a < chord_.size(); ++a)
-                inner_.push_back(graph.input(fmt::format("inner {} {}", k, a + 1)));
+            for (std::size_t a = 0; a < chord_.size(); ++a) {
+                inside_.push_back(graph.input(fmt::format("inner {} {}", k, a + 1)));
+                inner_.push_back(inside_.back());
+            }
     }
 
     SchemeLagrangian build()
@@ -35,16 +40,25 @@ class SchemeBuilder {
                 graph_.multiply(weight, substitute(graph_, std::vector<NodeId>{*system_.lagrangian}, there.places)[0]));
             if (!system_.forces.empty()) add_work(there, graph_.multiply(step_, weight));
         }
-        return {graph_.multiply(step_, graph_.sum(terms)), inner_, std::move(work_)};
+        return {graph_.multiply(step_, graph_.sum(terms)), inner_, std::move(work_), bond()};
     }
 
   private:
-    /// cay^-1(W) over the generators.
+    /// cay^-1(W) over the generators, or the unknowns xi.
     [[nodiscard]] std::vector<NodeId> logarithm()
     {
         const std::size_t n = groupoid_.size;
         if (n == 0) return {};
+        if (exponential_ != nullptr) return exponential_->s;
         return span_.components(cayley_inverse(graph_, less_one(graph_, groupoid_.arrow.W, n), n));
+    }
+
+    [[nodiscard]] std::optional<ArrowLogarithm> bond()
+    {
+        if (exponential_ == nullptr) return {};
+        return ArrowLogarithm{logarithm_conditions(graph_, groupoid_, *exponential_),
+                              right_differential(graph_, groupoid_, *exponential_),
+                              one_and(graph_, 1, exponential_->less_one, groupoid_.size)};
     }
 
     /// Along the sections at c, of the chord and its inner corrections.
@@ -55,34 +69,16 @@ class SchemeBuilder {
             std::vector<NodeId> terms{slope ? chord_[a] : graph_.multiply(graph_.constant(c), chord_[a])};
             for (std::size_t k = 1; k < rule_.degree; ++k) {
                 const Rational factor = slope ? polynomials_.slope(k, c) : polynomials_.value(k, c);
-                terms.push_back(graph_.multiply(graph_.constant(factor), inner_[(k - 1) * chord_.size() + a]));
+                terms.push_back(graph_.multiply(graph_.constant(factor), inside_[(k - 1) * chord_.size() + a]));
             }
             out.push_back(graph_.sum(terms));
         }
         return out;
     }
 
-    /// xi^c E_c of the vertical components.
-    [[nodiscard]] std::vector<NodeId> in_algebra(const std::vector<NodeId>& components)
+    [[nodiscard]] std::span<const NodeId> vertical(const std::vector<NodeId>& along) const
     {
-        return span_.matrix(std::span(components).subspan(groupoid_.horizontal()));
-    }
-
-    [[nodiscard]] std::vector<NodeId> transposed(const std::vector<NodeId>& X) const
-    {
-        const std::size_t n = groupoid_.size;
-        std::vector<NodeId> out(X.size());
-        for (std::size_t k = 0; k < X.size(); ++k) out[k] = X[k % n * n + k / n];
-        return out;
-    }
-
-    /// The components of cay^-1 d cay = (1 + X/2)^-1 X' (1 - X/2)^-1.
-    [[nodiscard]] std::vector<NodeId> body_velocity(const std::vector<NodeId>& X, const std::vector<NodeId>& slope)
-    {
-        const std::size_t n = groupoid_.size;
-        const std::vector<NodeId> left = matrix_quotient(graph_, one_and(graph_, Rational(1, 2), X, n), slope, n);
-        const std::vector<NodeId> right = one_and(graph_, Rational(-1, 2), X, n);
-        return span_.components(transposed(matrix_quotient(graph_, transposed(right), transposed(left), n)));
+        return std::span(along).subspan(groupoid_.horizontal());
     }
 
     /// A point of the curve: x, W, and what stands there for x, y and t.
@@ -95,7 +91,7 @@ class SchemeBuilder {
     {
         if (c == 0) return matrix_one(graph_, groupoid_.size);
         if (c == 1) return groupoid_.arrow.W;
-        return cayley(graph_, in_algebra(along), groupoid_.size);
+        return retraction_.element(vertical(along));
     }
 
     [[nodiscard]] std::vector<NodeId> point(const Rational& c, const std::vector<NodeId>& along,
@@ -118,8 +114,8 @@ class SchemeBuilder {
         std::vector<NodeId> y = slope;
         const std::size_t horizontal = groupoid_.horizontal();
         if (rule_.degree > 1 && groupoid_.size > 0) {
-            const std::vector<NodeId> vertical = body_velocity(in_algebra(along), in_algebra(slope));
-            std::copy(vertical.begin(), vertical.end(), y.begin() + static_cast<std::ptrdiff_t>(horizontal));
+            const std::vector<NodeId> body = retraction_.body_velocity(vertical(along), vertical(slope));
+            std::copy(body.begin(), body.end(), y.begin() + static_cast<std::ptrdiff_t>(horizontal));
         }
         add_connection(x, y);
         std::vector<std::pair<NodeId, NodeId>> places = replacements(groupoid_.arrow.x, x);
@@ -159,7 +155,7 @@ class SchemeBuilder {
         else if (!groupoid_.connection.empty())
             for (std::size_t c = 0; c < groupoid_.generators.size(); ++c)
                 components[groupoid_.horizontal() + c] = graph_.negate(groupoid_.connection[a][c]);
-        return in_algebra(components);
+        return span_.matrix(vertical(components));
     }
 
     /// weight Q(there) . variation, of the starts, the ends and the inner unknowns.
@@ -193,8 +189,8 @@ class SchemeBuilder {
         for (std::size_t i = 0; i < groupoid_.horizontal(); ++i) {
             const std::vector<NodeId> A = substitute(graph_, groupoid_.connection[i], here);
             for (std::size_t c = 0; c < A.size(); ++c) {
-                NodeId& vertical = y[groupoid_.horizontal() + c];
-                vertical = graph_.add(vertical, graph_.multiply(A[c], y[i]));
+                NodeId& component = y[groupoid_.horizontal() + c];
+                component = graph_.add(component, graph_.multiply(A[c], y[i]));
             }
         }
     }
@@ -204,18 +200,22 @@ class SchemeBuilder {
     const Groupoid& groupoid_;
     const QuadratureRule& rule_;
     NodeId step_;
+    const Exponential* exponential_;
     InnerPolynomials polynomials_;
     GeneratorSpan span_;
-    std::vector<NodeId> chord_; ///< x_next - x, then cay^-1(W)
-    std::vector<NodeId> inner_; ///< w of each point inside, along the sections
+    Retraction retraction_;
+    std::vector<NodeId> chord_;  ///< x_next - x, then tau^-1(W)
+    std::vector<NodeId> inside_; ///< w of each point inside, along the sections
+    std::vector<NodeId> inner_;  ///< xi of exp, and w
     DiscreteWork work_;
 };
 
 } // namespace
 
-SchemeLagrangian scheme_lagrangian(Graph& graph, const System& system, const QuadratureRule& rule, NodeId step)
+SchemeLagrangian scheme_lagrangian(Graph& graph, const System& system, const QuadratureRule& rule, NodeId step,
+                                   const Exponential* exponential)
 {
-    return SchemeBuilder(graph, system, rule, step).build();
+    return SchemeBuilder(graph, system, rule, step, exponential).build();
 }
 
 } // namespace lagen

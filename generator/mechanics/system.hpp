@@ -36,14 +36,22 @@ struct DiscreteWork {
     std::vector<NodeId> source, target, inner; ///< f^-_a, f^+_a, shapes (r), (r), (m)
 };
 
+/// Of curves exp(xi): the first inner unknowns are xi with exp(xi) = W. L is a function of xi, and W moves with it.
+struct ArrowLogarithm {
+    std::vector<NodeId> conditions;   ///< f^c(xi, W) = 0, shape (m)
+    std::vector<NodeId> differential; ///< D by rows, shape (m, m): d exp(xi) exp(-xi) = D^a_c dxi^c E_a
+    std::vector<NodeId> element;      ///< exp(xi) by rows
+};
+
 /// A discrete Lagrangian on the system's groupoid.
 struct DiscreteSystem {
     NodeId step = 0;                  ///< h: an input, or the value of a bound parameter
     std::optional<NodeId> lagrangian; ///< L over t, h, the arrow's coordinates, the inner unknowns and parameters
     std::vector<NodeId> inner;        ///< inputs w at which L is stationary, of a scheme; shape (m)
     DiscreteWork work;                ///< of a scheme
-    bool written = false;             ///< else a scheme made L
-    std::string obstacle;             ///< why there is no L
+    std::optional<ArrowLogarithm> logarithm; ///< of a scheme with exp
+    bool written = false;                    ///< else a scheme made L
+    std::string obstacle, hint;              ///< why there is no L, and what to write
 };
 
 /// What of the algebroid stands in the model file as it is here, so that a hint can ask to change it.

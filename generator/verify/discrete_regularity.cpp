@@ -58,7 +58,9 @@ class DiscreteRegularity {
         Regularity result;
         result.of = Regularity::Matrix::newton;
         result.kind = Regularity::Kind::undecided;
-        if (system_.groupoid->size > 0 && !has_chart(*system_.groupoid)) {
+        const auto& logarithm = system_.discrete->logarithm;
+        if (logarithm ? system_.groupoid->size > most_chart_rows
+                      : system_.groupoid->size > 0 && !has_chart(*system_.groupoid)) {
             result.evidence =
                 "arrows are made by Cayley's map, which does not lead into this group or is not shown to, "
                 "or has larger matrices than are computed with";
@@ -122,9 +124,16 @@ class DiscreteRegularity {
     [[nodiscard]] Chart on_arrows()
     {
         GroupChart group;
-        if (system_.groupoid->size > 0) group = group_chart(graph_, *system_.groupoid, system_.groupoid->arrow.W, "s");
+        const std::vector<NodeId>& W = system_.groupoid->arrow.W;
+        if (const auto& logarithm = system_.discrete->logarithm)
+            group = {{}, replacements(W, logarithm->element)}; // over inner unknowns
+        else if (!W.empty())
+            group = group_chart(graph_, *system_.groupoid, W, "s");
         s_ = group.s;
         Chart chart{substitute(graph_, matrices_.N, group.element), setting_over(s_), nullptr};
+        if (const auto& logarithm = system_.discrete->logarithm)
+            s_.assign(system_.discrete->inner.begin(),
+                      system_.discrete->inner.begin() + static_cast<std::ptrdiff_t>(logarithm->conditions.size()));
         chart.setting.constraints = matrices_.setting.constraints;
         chart.setting.domain = substitute(graph_, matrices_.setting.domain, group.element);
         chart.setting.defined = substitute(graph_, matrices_.setting.defined, group.element);
@@ -236,7 +245,9 @@ class DiscreteRegularity {
 
     void name_chart(Regularity& result) const
     {
-        if (!s_.empty()) result.coordinates = "W = cay(s(c) E_c) with the generators E_c of the group";
+        if (!s_.empty())
+            result.coordinates = system_.discrete->logarithm ? "W = exp(xi(c) E_c) with the generators E_c of the group"
+                                                             : "W = cay(s(c) E_c) with the generators E_c of the group";
     }
 
     /// k with N k = 0 for a column j outside of a minor, k^j = 1, N_PQ k^Q = -N_Pj, if it has small fractions as
@@ -339,7 +350,7 @@ class DiscreteRegularity {
     Replacements values_;            ///< of the parameters but the step
     std::vector<Places> blocks_;     ///< classes of coupled directions, each ascending
     std::vector<std::string> names_; ///< of the directions b
-    std::vector<NodeId> s_;          ///< coordinates of the group
+    std::vector<NodeId> s_;          ///< coordinates of the group: of exp the xi among the inner unknowns
     Chart matrices_, arrows_;
     std::vector<long double> numbers_; ///< N at one arrow
 };

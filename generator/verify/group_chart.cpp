@@ -8,8 +8,7 @@ namespace lagen {
 
 bool has_chart(const Groupoid& groupoid)
 {
-    constexpr std::size_t most_rows = 6; // of a matrix whose inverse is written out in a proof
-    return groupoid.has_cayley_map && groupoid.size <= most_rows;
+    return groupoid.has_cayley_map && groupoid.size <= most_chart_rows;
 }
 
 GroupChart group_chart(Graph& graph, const Groupoid& groupoid, const std::vector<NodeId>& W, const std::string& name)

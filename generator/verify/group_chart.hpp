@@ -12,6 +12,9 @@ struct GroupChart {
     Replacements element;  ///< the entries W by those of cay(s^c E_c)
 };
 
+/// Of a matrix whose inverse is written out in a proof.
+inline constexpr std::size_t most_chart_rows = 6;
+
 /// Whether the group has such coordinates, in matrices that are not too large for a proof.
 [[nodiscard]] bool has_chart(const Groupoid& groupoid);
 

@@ -112,6 +112,19 @@ TEST_CASE("the arrows of given momenta are found on both sides of a fold, the on
     CHECK(arrows_of_momenta(model, 0.0, Fold::State(0, 0, std::nan(""))).empty());
 }
 
+TEST_CASE("a run that starts at its arrow stays on the branch of it, whichever sign det N has there", "[discrete]")
+{
+    Fold model;
+    model.push = 0.1;
+    for (const double d : {0.3, 2.5}) {
+        Integrator run(model, Fold::State(0, d, std::sin(d) / model.h), 0.0, Discrete{});
+        CHECK(run.state()[1] == d);
+        REQUIRE(run.step() == Status::ok);
+        const double sine = std::sin(d) + 0.05, there = d < 1 ? std::asin(sine) : M_PI - std::asin(sine);
+        CHECK(std::abs(run.state()[1] - there) < 1e-14);
+    }
+}
+
 TEST_CASE("a discrete run ends before the fold with its last good state, and has no values between its steps",
           "[discrete]")
 {
