@@ -5,8 +5,8 @@
 #include "commands/line/options.hpp"
 #include "commands/machine/places.hpp"
 #include "commands/machine/write_file.hpp"
+#include "commands/plot/draw_scene.hpp"
 #include "commands/run_morphism.hpp"
-#include "commands/scene/plot.hpp"
 #include "commands/scene/range.hpp"
 #include "commands/scene/scene_options.hpp"
 #include "commands/scene/scene_run.hpp"
@@ -28,7 +28,7 @@ const std::string run_form_help = form_list() + "; without it the scene's, else 
 const CommandSyntax run_syntax{
     "run",
     "MODEL",
-    "Generates, compiles and integrates a scene. CSV on standard output unless --output or --format json. Of a "
+    "Generates, compiles and integrates a scene. CSV on standard output unless --output, --plot or --format json. Of a "
     "morphism "
     "file: a scene of the source, the motion of the target from the image of its start, and how far they are apart.",
     {{"scene", "NAME", "the scene; without it `default`, else the first"},
@@ -51,49 +51,15 @@ const CommandSyntax run_syntax{
       "of a discrete motion that starts from momenta: its first arrow is the N-th that has them, by the distance from "
       "that of short steps; without it that one"},
      {"output,o", "FILE", "the rows as CSV"},
-     {"plot", "FILE", "a picture (.svg, .png, .pdf)"},
+     {"plot", "FILE", "a picture (.svg, .png, .pdf): the scene's curves, else its columns over time"},
+     {"curves", "X:Y,..", "what --plot draws: t:x, x:y, x:y:z; curves in brackets share a panel (may be repeated)"},
+     {"equal", nullptr, "curves have one scale on all axes"},
+     {"points", nullptr, "curves are the points at the rows, with nothing between them"},
+     {"sphere", nullptr, "curves in space lie on a sphere around the origin"},
      {"reconstruct", nullptr,
       "of a morphism that is bijective on the fibres: lift the motion of the target to the source too"},
      {"unchecked", nullptr, "go on although the model is refuted"},
      {"format,f", "FORMAT", "text or json", "text"}}};
-
-/// The unit that [about] gives to a name, or "".
-const Symbol* control_called(const Model& model, const std::string& name)
-{
-    if (!model.control) return nullptr;
-    const auto& controls = model.control->controls;
-    const auto found = std::ranges::find(controls, name, &Symbol::name);
-    return found == controls.end() ? nullptr : &*found;
-}
-
-std::string unit_of(const Model& model, const std::string& name)
-{
-    for (const auto* symbols : {&model.base.coordinates, &model.fibre.coordinates, &model.fibre.momenta, &model.notes})
-        for (const Symbol& symbol : *symbols)
-            if (symbol.name == name) return symbol.unit;
-    for (const FirstOrderState& state : model.states)
-        if (state.symbol.name == name) return state.symbol.unit;
-    if (const Symbol* control = control_called(model, name)) return control->unit;
-    return "";
-}
-
-std::vector<Panel> panels_of(const std::vector<TableColumn>& columns, const Model& model, const char* lanes)
-{
-    const std::size_t base_lanes = model.base.coordinates.size();
-    const std::size_t motion_lanes = base_lanes + model.fibre.coordinates.size();
-    std::vector<Panel> panels{
-        {"base coordinates", {}}, {lanes, {}}, {"states", {}}, {"controls", {}}, {"observables", {}}};
-    for (std::size_t k = 0; k < columns.size(); ++k) {
-        const bool control = control_called(model, columns[k].name) != nullptr;
-        const std::size_t index = columns[k].index;
-        const std::size_t of_state = index < base_lanes ? 0 : index < motion_lanes ? 1 : 2;
-        Panel& panel = panels[columns[k].state ? of_state : control ? 3 : 4];
-        panel.columns.push_back(k + 1);
-        panel.units.push_back(unit_of(model, columns[k].name));
-    }
-    std::erase_if(panels, [](const Panel& panel) { return panel.columns.empty(); });
-    return panels;
-}
 
 /// Of the variational method that is asked for; empty where it is another one.
 const char* scheme_of(const Options& options, const Model& model)
@@ -129,8 +95,9 @@ void tell(const Options& options, const RunOutcome& outcome, bool as_json)
     if (as_json) {
         write_standard_output(report_json(outcome));
     } else {
-        if (!options.has("output")) write_standard_output(to_csv(outcome.table));
+        if (!options.has("output") && !options.has("plot")) write_standard_output(to_csv(outcome.table));
         write_standard_error(report_text(outcome));
+        if (options.has("plot")) write_standard_error(fmt::format("  picture in {}\n", options.get("plot")));
     }
     write_standard_error(drift_warnings(outcome));
 }
@@ -145,6 +112,9 @@ ExitCode run_run(Arguments arguments)
     if (options.has("form")) (void)options.choice("form", form_names());
     if (options.has("plot")) require_plot_format(options.get("plot"));
     if (options.has("output")) require_no_picture(options.get("output"));
+    for (const char* word : {"curves", "equal", "points", "sphere"})
+        if (options.has(word) && !options.has("plot"))
+            throw UsageError(fmt::format("lagen run: --{} says what --plot draws: give --plot FILE.svg as well", word));
     for (const char* file : {"output", "plot"})
         if (options.has(file)) require_writable(options.get(file));
 
@@ -176,8 +146,7 @@ ExitCode run_run(Arguments arguments)
     const RunOutcome outcome = run.integrate();
     if (options.has("output")) write_file(options.get("output"), to_csv(outcome.table));
     if (options.has("plot"))
-        plot_table(outcome.table, panels_of(run.input().columns, model, form_named(run.form()).lanes),
-                   model.title.empty() ? model.name : model.title, options.get("plot"), unit_of(model, "t"));
+        draw_scene({model, run.scene(), run.record(), run.input(), outcome.table.count}, options.get("plot"));
     tell(options, outcome, as_json);
     return succeeded(outcome.status) && confirmed ? ExitCode::done : ExitCode::refuted;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "elaborate/require_values.hpp"
 
+#include "model/read_curve.hpp"
 #include "proof/constant_values.hpp"
 
 namespace lagen {
@@ -64,6 +65,7 @@ class ModelValues {
                         scene.time_scale, scene.sampling.interval});
         add(scene.sampling.at);
         if (scene.observe) add(*scene.observe);
+        add(plot_coordinates(scene));
         for (const Event& event : scene.events) add(event.when);
     }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "kernels/named_trees.hpp"
 
+#include "model/read_curve.hpp"
+
 #include <algorithm>
 #include <span>
 
@@ -23,6 +25,7 @@ std::vector<NamedTree> observable_trees(const Model& model, const Scene* scene, 
         observed = *scene->observe;
     else
         for (const std::string& state : states) observed.push_back({state, name(state), {}});
+    for (NamedTree& coordinate : plot_coordinates(*scene)) observed.push_back(std::move(coordinate));
     for (const NamedTree& entry : observed) {
         const auto known = [&](const auto& other) { return other.name == entry.name; };
         if (std::ranges::none_of(trees, known) && std::ranges::none_of(lanes, known)) trees.push_back(entry);

@@ -9,8 +9,8 @@ namespace lagen {
 
 [[nodiscard]] std::vector<NamedTree> constraint_trees(const Model& model);
 
-/// Those of the model, then what `scene` (if it is not null) asks for that is neither one of `lanes` nor one of them;
-/// where it asks for nothing, `states`.
+/// Those of the model, then what `scene` (if it is not null) asks for that is neither one of `lanes` nor one of them:
+/// its columns (where it names none, `states`) and the coordinates of its curves.
 [[nodiscard]] std::vector<NamedTree> observable_trees(const Model& model, const Scene* scene,
                                                       const std::vector<std::string>& states,
                                                       const std::vector<Quantity>& lanes);

@@ -3,6 +3,7 @@
 
 #include "model/families.hpp"
 #include "model/form.hpp"
+#include "model/read_curve.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -18,6 +19,7 @@ std::vector<Tree> evaluated_trees(const Model& model, const Scene& scene)
     for (const ComponentEntry& force : model.forces) trees.push_back(force.value);
     for (const NamedTree& invariant : model.invariants) trees.push_back(invariant.value);
     for (const NamedTree& column : *scene.observe) trees.push_back(column.value);
+    for (const NamedTree& coordinate : plot_coordinates(scene)) trees.push_back(coordinate.value);
     for (const Event& event : scene.events) trees.push_back(event.when);
     if (scene.time_scale != nullptr) trees.push_back(scene.time_scale);
     return trees;

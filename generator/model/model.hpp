@@ -170,6 +170,20 @@ struct StateColumns {
     SourceRange where;
 };
 
+/// A curve of a picture by its coordinates, which are named as they are written: two in the plane, three in space.
+struct PlotCurve {
+    std::vector<NamedTree> coordinates;
+    SourceRange where;
+};
+
+/// [scene.NAME.plot]: what `--plot` draws in the place of time series.
+struct Plot {
+    std::vector<std::vector<PlotCurve>> panels; ///< the curves of each, all in the plane or all in space
+    bool equal = false;                         ///< all axes have one scale
+    bool points = false;                        ///< the rows of the scene as points, and nothing between them
+    std::optional<bool> sphere; ///< around the origin, in space; absent: where the curves of a panel lie on one
+};
+
 /// One set-up to simulate; `like` is resolved already. All values are trees over the parameters.
 struct Scene {
     std::string name;
@@ -195,6 +209,7 @@ struct Scene {
     std::optional<std::vector<NamedTree>> observe; ///< absent: all states
     std::optional<StateColumns> states;            ///< where "state" stands in `observe`
     std::vector<Event> events;
+    std::optional<Plot> plot;
 };
 
 /// Q_section or sigma^section: an entry of [forces] or of [control] sigma.
@@ -336,6 +351,7 @@ struct Model {
     Scope scope;    ///< symbols and definitions: what L may use
     Scope observer; ///< with momenta, controls, first-order states, energy, hamiltonian, lagrangian, observables and
                     ///< invariants: what expressions from the command line may use
+    Scope columns;  ///< the observer's with the coordinates of an arrow: what columns and curves may use
 };
 
 /// What runs follow as constant: the invariants, and the momenta of symmetries where nothing pushes and no control

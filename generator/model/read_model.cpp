@@ -93,6 +93,7 @@ Model read_model_text(const std::string& name, std::string text, const std::vect
     read_about(reader, about);
     read_scenes(reader, scenes, settings);
     reader.model.observer = std::move(reader.observer);
+    reader.model.columns = std::move(reader.arrows);
     return std::move(reader.model);
 }
 

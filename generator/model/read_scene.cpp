@@ -2,8 +2,8 @@
 /// One [scene.NAME] block: its options, numbers, sampling and columns.
 #include "model/scene_reader.hpp"
 
-#include "expression/parse.hpp"
 #include "model/families.hpp"
+#include "model/read_curve.hpp"
 #include "model/read_values.hpp"
 #include "model/scene_form.hpp"
 #include "model/table_reader.hpp"
@@ -18,20 +18,6 @@ namespace {
 // Scenes are copied along 'like', so their sizes are bounded.
 constexpr std::size_t most_times = 100'000;
 constexpr std::size_t most_columns = 4096;
-
-/// The observable "momentum.s" of a symmetry s; null for every other text.
-const NamedTree* momentum_named(const Model& model, const Excerpt& text)
-{
-    constexpr std::string_view prefix = "momentum.";
-    if (!text.text.starts_with(prefix)) return nullptr;
-    std::vector<std::string> known;
-    for (const NamedTree& observable : model.observables) {
-        if (observable.name == text.text) return &observable;
-        if (observable.name.starts_with(prefix)) known.push_back(observable.name);
-    }
-    throw ModelError(fmt::format("there is no symmetry called '{}'", text.text.substr(prefix.size())),
-                     text.range(0, text.text.size()), hint_for(text.text, known, "momenta"));
-}
 
 void read_observe(const ModelReader& reader, Scene& scene, const TomlEntry& entry)
 {
@@ -50,14 +36,7 @@ void read_observe(const ModelReader& reader, Scene& scene, const TomlEntry& entr
             if (!scene.states) scene.states = StateColumns{first, out.size() - first, where};
             continue;
         }
-        const Excerpt inner = trimmed(text, 0, text.text.size());
-        if (const auto* momentum = momentum_named(reader.model, inner)) {
-            add({momentum->name, momentum->value, where});
-            continue;
-        }
-        const ArrayValue value = reader.close_observed_array(parse_expression(text));
-        for (std::size_t k = 0; k < value.entries.size(); ++k)
-            add({value_name(inner.text, value.shape, k), value.entries[k], where});
+        for (NamedTree& column : observed_columns(reader.model, reader.arrows, text)) add(std::move(column));
     }
     if (out.size() > most_columns) {
         throw ModelError(fmt::format("'observe' of scene '{}' asks for {} columns, more than {}", scene.name,
@@ -170,6 +149,7 @@ Scene read_scene(const ModelReader& reader, Scene scene, const TomlEntry& block,
     scene.where = block.where();
     TableReader table(block.value, fmt::format("[scene.{}]", scene.name));
     (void)table.take("like");
+    (void)table.take("plot"); // read_plots
     read_options(reader.model, scene, table);
     read_numbers(reader, scene, table);
     if (const TomlEntry* entry = table.take("initial")) read_initial(reader, scene, *entry);

@@ -49,23 +49,6 @@ std::optional<std::size_t> liked_by(const SceneBlocks& blocks, std::size_t k)
                      hint_for(target, blocks.names, "scenes"));
 }
 
-/// A mistake in any scene keeps the whole model from being read, so that its message says which scene it is.
-Scene read_saying_which(const ModelReader& reader, Scene scene, const TomlEntry& block,
-                        const std::vector<Setting>& settings)
-{
-    try {
-        return read_scene(reader, std::move(scene), block, settings);
-    } catch (const ModelError& error) {
-        Diagnostic diagnostic = error.diagnostic();
-        const std::string& message = diagnostic.message;
-        const bool says = message.find("scene '" + block.name() + "'") != std::string::npos ||
-                          message.find("[scene." + block.name()) != std::string::npos;
-        if (says) throw;
-        diagnostic.message = fmt::format("scene '{}': {}", block.name(), diagnostic.message);
-        throw ModelError(diagnostic);
-    }
-}
-
 /// Scene `first` and everything that it is like, the last of the chain first.
 void read_chain(const ModelReader& reader, SceneBlocks& blocks, std::size_t first, const std::vector<Setting>& settings)
 {
@@ -82,12 +65,28 @@ void read_chain(const ModelReader& reader, SceneBlocks& blocks, std::size_t firs
     Scene scene;
     if (next) scene = *blocks.done[*next];
     for (; !chain.empty(); chain.pop_back()) {
-        scene = read_saying_which(reader, std::move(scene), blocks.entries[chain.back()], settings);
+        const TomlEntry& block = blocks.entries[chain.back()];
+        saying_which(block.name(), [&] { scene = read_scene(reader, std::move(scene), block, settings); });
         blocks.done[chain.back()] = scene;
     }
 }
 
 } // namespace
+
+void saying_which(const std::string& scene, const std::function<void()>& read)
+{
+    try {
+        read();
+    } catch (const ModelError& error) {
+        Diagnostic diagnostic = error.diagnostic();
+        const std::string& message = diagnostic.message;
+        const bool says = message.find("scene '" + scene + "'") != std::string::npos ||
+                          message.find("[scene." + scene) != std::string::npos;
+        if (says) throw;
+        diagnostic.message = fmt::format("scene '{}': {}", scene, diagnostic.message);
+        throw ModelError(diagnostic);
+    }
+}
 
 void read_scenes(ModelReader& reader, const TomlEntry* block, const std::vector<Setting>& settings)
 {
@@ -105,6 +104,7 @@ void read_scenes(ModelReader& reader, const TomlEntry* block, const std::vector<
     blocks.done.resize(blocks.entries.size());
     for (std::size_t k = 0; k < blocks.entries.size(); ++k) read_chain(reader, blocks, k, settings);
     for (std::optional<Scene>& scene : blocks.done) reader.model.scenes.push_back(std::move(*scene));
+    read_plots(reader, blocks.entries);
 }
 
 } // namespace lagen

@@ -2,6 +2,7 @@
 #include "model/scene_form.hpp"
 
 #include "model/families.hpp"
+#include "model/read_curve.hpp"
 #include "model/table_reader.hpp"
 
 #include <algorithm>
@@ -225,6 +226,10 @@ void require_values_in(const Model& model, const Scene& scene, const std::string
     for (const NamedTree& column : scene.observe.value_or(std::vector<NamedTree>{}))
         foreign_in.refuse_in(column.value, fmt::format("the column '{}' of scene '{}'", column.name, scene.name), form,
                              column.where);
+    for (const NamedTree& coordinate : plot_coordinates(scene))
+        foreign_in.refuse_in(coordinate.value,
+                             fmt::format("the curve of '{}' of scene '{}'", coordinate.name, scene.name), form,
+                             coordinate.where);
     for (const Event& event : scene.events)
         foreign_in.refuse_in(event.when, fmt::format("event '{}' of scene '{}'", event.name, scene.name), form,
                              event.where);

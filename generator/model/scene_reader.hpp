@@ -5,12 +5,20 @@
 #include "model/model_reader.hpp"
 #include "model/table_reader.hpp"
 
+#include <functional>
+
 namespace lagen {
 
 /// What `block` says, on top of `scene` (empty, or the scene that it is like). Parameters set on the command line win
 /// over the scene's.
 [[nodiscard]] Scene read_scene(const ModelReader& reader, Scene scene, const TomlEntry& block,
                                const std::vector<Setting>& settings);
+
+/// Runs `read`. A mistake in any scene keeps the whole model from being read, so that its message says which it is.
+void saying_which(const std::string& scene, const std::function<void()>& read);
+
+/// [scene.NAME.plot] of every scene, in the order of the blocks.
+void read_plots(ModelReader& reader, const std::vector<TomlEntry>& blocks);
 
 void read_initial(const ModelReader& reader, Scene& scene, const TomlEntry& block);
 /// `element`, `next` and `steps`.

@@ -122,10 +122,11 @@ const Arrows& planned_folder_arrows()
         {"commands/line", {}},
         {"commands/machine", {}},
         {"commands/scene", {"commands/line", "commands/machine"}},
+        {"commands/plot", {"commands/scene"}},
         {"commands/chart", {"commands/scene"}},
         {"commands/morphism", {"commands/scene"}},
         {"commands/sweep", {"commands/scene"}},
-        {"commands", {"commands/chart", "commands/morphism", "commands/sweep"}},
+        {"commands", {"commands/plot", "commands/chart", "commands/morphism", "commands/sweep"}},
     };
     return arrows;
 }

@@ -68,9 +68,19 @@ std::string vectors_of(const Driver& driver)
     return options.empty() ? "" : options.front();
 }
 
+/// What a picture asks of the program besides the scene's columns.
+std::string plot_of(const Options& options, const Model& model)
+{
+    if (!options.has("plot")) return "";
+    std::string text;
+    for (const std::string& curves : options.all("curves")) text += curves + "\n";
+    const bool given = std::ranges::any_of(model.scenes, [](const Scene& scene) { return scene.plot.has_value(); });
+    return given || !text.empty() ? "plot " + text : "";
+}
+
 /// Of a record, beside the model.
-std::vector<std::string> rests_on(const Options& options, const Driver& driver, const std::string& method,
-                                  const std::vector<std::string>& kept_as)
+std::vector<std::string> rests_on(const Options& options, const Model& model, const Driver& driver,
+                                  const std::string& method, const std::vector<std::string>& kept_as)
 {
     std::vector<std::string> texts{driver.folder,
                                    options.get("scene"),
@@ -78,7 +88,8 @@ std::vector<std::string> rests_on(const Options& options, const Driver& driver, 
                                    method,
                                    options.get("time-scale"),
                                    options.has("unchecked") ? "unchecked" : "",
-                                   vectors_of(driver)};
+                                   vectors_of(driver),
+                                   plot_of(options, model)};
     texts.insert(texts.end(), kept_as.begin(), kept_as.end());
     return texts;
 }
@@ -129,7 +140,8 @@ SceneText scene_text(const CheckedModel& checked, const Scene& scene, const std:
 Preparation::Preparation(const Options& options, CheckedModel& checked, const Driver& driver, const std::string& method,
                          const std::vector<std::string>& kept_as)
     : options_(options), checked_(checked), driver_(driver),
-      file_(record_file(checked.model, rests_on(options, driver, method, kept_as))), record_(find_record(file_))
+      file_(record_file(checked.model, rests_on(options, checked.model, driver, method, kept_as))),
+      record_(find_record(file_))
 {
     if (record_) {
         checked.warnings = record_->warnings;

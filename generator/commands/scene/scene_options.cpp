@@ -5,6 +5,7 @@
 #include "commands/machine/write_file.hpp"
 #include "expression/parse.hpp"
 #include "model/families.hpp"
+#include "model/read_curve.hpp"
 #include "model/scene_form.hpp"
 
 #include <fmt/core.h>
@@ -31,6 +32,39 @@ void replace_times(const Options& options, const Model& model, Scene& scene)
     for (const std::string& time : split_list(options.get("at")))
         scene.sampling.at.push_back(option_tree(model, "at", whole_text("<--at>", time)));
     if (scene.sampling.at.empty()) throw UsageError("lagen run: --at needs at least one time, e.g. --at 0,1/2,1");
+}
+
+/// "x1:y1, [x2:y2, x3:y3]": what stands in brackets is one panel.
+Plot curves_of(const Options& options, const Model& model)
+{
+    Plot plot;
+    for (const std::string& text : options.all("curves"))
+        for (const std::string& panel : split_list(text)) {
+            const bool several = panel.starts_with('[') && panel.ends_with(']');
+            std::vector<PlotCurve> curves;
+            for (const std::string& curve :
+                 several ? split_list(panel.substr(1, panel.size() - 2)) : std::vector{panel})
+                for (PlotCurve& each : read_curve(model, model.columns, whole_text("<--curves>", curve)))
+                    curves.push_back(std::move(each));
+            if (!curves.empty()) add_panel(plot, std::move(curves));
+        }
+    if (plot.panels.empty()) throw UsageError("lagen run: --curves needs at least one curve, e.g. --curves t:energy");
+    return plot;
+}
+
+/// What --plot draws: curves of the command line, or those of the scene. Without --plot it draws nothing.
+void set_plot(const Options& options, const Model& model, Scene& scene)
+{
+    if (!options.has("plot")) scene.plot.reset();
+    if (options.has("curves")) scene.plot = curves_of(options, model);
+    for (const char* word : {"equal", "points", "sphere"})
+        if (options.has(word) && !scene.plot)
+            throw UsageError(fmt::format("lagen run: --{} is for curves, and scene '{}' has no [scene.{}.plot]\nhint: "
+                                         "give them: --curves x:y",
+                                         word, scene.name, scene.name));
+    if (options.has("equal")) scene.plot->equal = true;
+    if (options.has("points")) scene.plot->points = true;
+    if (options.has("sphere")) scene.plot->sphere = true;
 }
 
 /// A step where the step is chosen, or a tolerance where it is fixed.
@@ -142,6 +176,7 @@ Scene scene_of(const Options& options, const Model& model, const std::vector<Set
     }
     replace_times(options, model, scene);
     for (const Setting& setting : initial) set_initial(model, scene, setting);
+    set_plot(options, model, scene);
     return in_form(model, scene, options.has("form") ? options.get("form") : form_of(model, scene));
 }
 

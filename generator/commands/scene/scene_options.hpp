@@ -12,7 +12,8 @@ inline constexpr long double standard_tolerance = 1e-10L;
 inline constexpr const char* standard_method = "dop853";
 
 /// The scene as --scene, --method, --step, --time-scale, --tolerance, --t-end, --at and --set change it, and with
-/// `initial` values of the command line. With --at and without --t-end the run is as long as its rows ask for; with
+/// `initial` values and curves of the command line; without --plot it has no picture. With --at and without --t-end the
+/// run is as long as its rows ask for; with
 /// --accuracy it has no time scale.
 [[nodiscard]] Scene scene_of(const Options& options, const Model& model, const std::vector<Setting>& initial);
 

@@ -159,19 +159,22 @@ TableNames names_of(const Model& model, const KernelModule& module)
     return names;
 }
 
-std::vector<TableColumn> columns_of(const TableNames& names, const Scene& scene)
+std::vector<TableColumn> columns_named(const TableNames& names, const std::vector<std::string>& wanted)
 {
-    std::vector<std::string> wanted = names.states;
-    if (scene.observe) {
-        wanted.clear();
-        for (const NamedTree& column : *scene.observe) wanted.push_back(column.name);
-    }
     std::vector<TableColumn> columns;
     for (const std::string& name : wanted) {
         const std::size_t lane = place_of(names.lanes, name);
         columns.push_back(lane == names.lanes.size() ? observable(names, name) : TableColumn{name, true, lane});
     }
     return columns;
+}
+
+std::vector<TableColumn> columns_of(const TableNames& names, const Scene& scene)
+{
+    if (!scene.observe) return columns_named(names, names.states);
+    std::vector<std::string> wanted;
+    for (const NamedTree& column : *scene.observe) wanted.push_back(column.name);
+    return columns_named(names, wanted);
 }
 
 void use_values(ProgramInput& input, const Scene& scene, const SceneValues& values, StartState& start, bool stretch)

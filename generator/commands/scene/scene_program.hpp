@@ -39,6 +39,9 @@ struct TableNames {
 };
 [[nodiscard]] TableNames names_of(const Model& model, const KernelModule& module);
 
+/// The columns of these names: lanes, else observables.
+[[nodiscard]] std::vector<TableColumn> columns_named(const TableNames& names, const std::vector<std::string>& wanted);
+
 /// `t` apart, what the scene observes: all states, or exactly its `observe` list.
 [[nodiscard]] std::vector<TableColumn> columns_of(const TableNames& names, const Scene& scene);
 

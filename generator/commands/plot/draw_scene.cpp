@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/plot/draw_scene.hpp"
+
+#include "commands/line/options.hpp"
+#include "commands/machine/gnuplot.hpp"
+#include "commands/plot/labels.hpp"
+#include "commands/plot/page.hpp"
+#include "commands/plot/panel.hpp"
+#include "commands/scene/integrate_scene.hpp"
+#include "model/read_curve.hpp"
+#include "model/scene_form.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+#include <map>
+
+namespace lagen {
+
+namespace {
+
+constexpr std::size_t most_times = 20001, most_steps = 10000;
+
+/// The curves of a panel, and what stands at its ordinate; without it the names of the curves do.
+struct PlannedPanel {
+    std::vector<PlotCurve> curves;
+    std::string label;
+};
+
+/// The columns of the table over time: base coordinates, the rest of the state, first-order states, controls, and what
+/// is observed besides.
+std::vector<PlannedPanel> series_of(const SceneRun& run)
+{
+    const Model& model = run.model;
+    const std::size_t base_lanes = model.base.coordinates.size();
+    const std::size_t motion_lanes = base_lanes + model.fibre.coordinates.size();
+    std::vector<PlannedPanel> panels{{{}, "base coordinates"},
+                                     {{}, form_named(run.scene.form).lanes},
+                                     {{}, "states"},
+                                     {{}, "controls"},
+                                     {{}, "observables"}};
+    const NamedTree time{"t", name("t"), {}};
+    for (const TableColumn& column : run.input.columns) {
+        const auto is_column = [&](const Symbol& symbol) { return symbol.name == column.name; };
+        const bool control = model.control && std::ranges::any_of(model.control->controls, is_column);
+        const std::size_t of_state = column.index < base_lanes ? 0 : column.index < motion_lanes ? 1 : 2;
+        panels[column.state ? of_state : control ? 3 : 4].curves.push_back({{time, {column.name, nullptr, {}}}, {}});
+    }
+    std::erase_if(panels, [](const PlannedPanel& panel) { return panel.curves.empty(); });
+    return panels;
+}
+
+std::vector<PlannedPanel> panels_of(const SceneRun& run)
+{
+    if (!run.scene.plot) return series_of(run);
+    std::vector<PlannedPanel> panels;
+    for (const auto& curves : run.scene.plot->panels) panels.push_back({curves, ""});
+    return panels;
+}
+
+/// The values of every coordinate by its name, one a row.
+using Columns = std::map<std::string, std::vector<double>>;
+
+double number_of(std::string_view field)
+{
+    double value = std::numeric_limits<double>::quiet_NaN();
+    std::from_chars(field.data(), field.data() + field.size(), value);
+    return value;
+}
+
+/// The times of the picture.
+void use_times(const SceneRun& run, ProgramInput& input)
+{
+    if (run.scene.plot && run.scene.plot->points) return;
+    SampleTimes& times = input.times;
+    if (times.every > 0) {
+        const std::size_t steps = (std::max<std::size_t>(run.rows, 1) - 1) * times.every;
+        times.every = std::max<std::size_t>(1, (steps + most_steps - 1) / most_steps);
+    } else if (times.start != times.end) {
+        times.kind = Sampling::Kind::count;
+        const auto fits = static_cast<std::size_t>(most_numbers) / (input.columns.size() + 1);
+        times.count = std::max<std::size_t>(2, std::min(most_times, fits));
+    }
+}
+
+Columns columns_of_run(const SceneRun& run, const std::vector<PlannedPanel>& panels)
+{
+    std::vector<std::string> names;
+    for (const PlannedPanel& panel : panels)
+        for (const PlotCurve& curve : panel.curves)
+            for (const NamedTree& coordinate : curve.coordinates)
+                if (coordinate.name != "t" && std::ranges::find(names, coordinate.name) == names.end())
+                    names.push_back(coordinate.name);
+    ProgramInput input = run.input;
+    input.columns = columns_named(run.record.names, names);
+    use_times(run, input);
+    RunOutcome outcome;
+    for (const std::string& lane : run.record.names.lanes) outcome.state.emplace_back(lane, "");
+    integrate_scene(run.record.program, input, outcome);
+    if (outcome.table.count == 0 || panels.empty())
+        throw MachineError("error: there is nothing to plot: the run gave no rows");
+    Columns columns;
+    names.insert(names.begin(), "t");
+    for (const std::string_view line : outcome.table.lines()) {
+        const std::vector<std::string_view> row = fields(line);
+        for (std::size_t k = 0; k < names.size(); ++k) columns[names[k]].push_back(number_of(row[k]));
+    }
+    return columns;
+}
+
+SampledCurve sampled(const PlotCurve& curve, const Columns& columns)
+{
+    SampledCurve points(columns.at("t").size());
+    for (std::size_t i = 0; i < curve.coordinates.size(); ++i) {
+        const std::vector<double>& values = columns.at(curve.coordinates[i].name);
+        for (std::size_t k = 0; k < points.size(); ++k) points[k][i] = values[k];
+    }
+    return points;
+}
+
+Drawing draw_panel(const SceneRun& run, const PlannedPanel& panel, const Columns& columns)
+{
+    const std::optional<Plot>& plot = run.scene.plot;
+    PanelRequest request;
+    request.ordinate = panel.label;
+    request.equal = plot && plot->equal;
+    request.pen = plot && plot->points ? Pen::points : run.input.times.every > 0 ? Pen::steps : Pen::line;
+    if (plot) request.sphere = plot->sphere;
+    for (const PlotCurve& curve : panel.curves) {
+        request.curves.push_back(sampled(curve, columns));
+        std::vector<Symbol>& row = request.symbols.emplace_back();
+        for (const NamedTree& coordinate : curve.coordinates) row.push_back(symbol_of(run.model, coordinate.name));
+    }
+    return is_in_space(panel.curves) ? draw_in_space(request) : draw_in_plane(request);
+}
+
+bool is_picture(const std::string& path)
+{
+    const std::string extension = picture_extension(path);
+    return extension == ".svg" || extension == ".png" || extension == ".pdf";
+}
+
+} // namespace
+
+void require_no_picture(const std::string& path)
+{
+    if (is_picture(path))
+        throw UsageError(fmt::format("lagen run: --output writes the rows as CSV; a picture is `--plot {}`", path));
+}
+
+void require_plot_format(const std::string& path)
+{
+    if (!is_picture(path))
+        throw UsageError(
+            fmt::format("lagen run: --plot needs a file that ends in .svg, .png or .pdf, found '{}'", path));
+    if (find_program("gnuplot").empty())
+        throw MachineError("error: gnuplot was not found\nhint: --plot draws with gnuplot; install gnuplot-nox");
+}
+
+void draw_scene(const SceneRun& run, const std::string& path)
+{
+    const std::vector<PlannedPanel> panels = panels_of(run);
+    const Columns columns = columns_of_run(run, panels);
+    std::vector<Drawing> drawings;
+    for (const PlannedPanel& panel : panels) drawings.push_back(draw_panel(run, panel, columns));
+    draw_page(drawings, run.model.title.empty() ? run.model.name : run.model.title, path);
+}
+
+} // namespace lagen

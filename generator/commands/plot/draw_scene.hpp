@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// The picture of a scene: its [scene.NAME.plot], or else its columns over time.
+#pragma once
+
+#include "commands/scene/run_record.hpp"
+
+namespace lagen {
+
+/// The run that is drawn.
+struct SceneRun {
+    const Model& model;
+    const Scene& scene; ///< with its form and its plot
+    const RunRecord& record;
+    const ProgramInput& input; ///< of the table
+    std::size_t rows;          ///< that the table has
+};
+
+/// Draws `path`. The program runs once more, at times of the picture's own: 20001 even ones, of a discrete motion at
+/// most 10000 of its steps, and the rows of the table where the plot asks for points. Curves keep the points that can
+/// be seen. Throws as integrate_scene, and MachineError where gnuplot is missing or fails, or there are no rows.
+void draw_scene(const SceneRun& run, const std::string& path);
+
+/// Throws UsageError where rows are to be written to a file that is called a picture.
+void require_no_picture(const std::string& path);
+
+/// Throws UsageError unless the extension is one that draw_scene knows: said before a long run, not after it.
+void require_plot_format(const std::string& path);
+
+} // namespace lagen

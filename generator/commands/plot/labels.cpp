@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/plot/labels.hpp"
+
+#include "model/families.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <set>
+#include <utility>
+
+namespace lagen {
+
+namespace {
+
+constexpr std::array<std::pair<const char*, const char*>, 40> latex_characters{{
+    {"alpha", "α"},  {"beta", "β"},    {"gamma", "γ"},   {"delta", "δ"},    {"epsilon", "ε"}, {"varepsilon", "ε"},
+    {"zeta", "ζ"},   {"eta", "η"},     {"theta", "θ"},   {"vartheta", "ϑ"}, {"iota", "ι"},    {"kappa", "κ"},
+    {"lambda", "λ"}, {"mu", "μ"},      {"nu", "ν"},      {"xi", "ξ"},       {"pi", "π"},      {"rho", "ρ"},
+    {"sigma", "σ"},  {"tau", "τ"},     {"upsilon", "υ"}, {"phi", "φ"},      {"varphi", "φ"},  {"chi", "χ"},
+    {"psi", "ψ"},    {"omega", "ω"},   {"Gamma", "Γ"},   {"Delta", "Δ"},    {"Theta", "Θ"},   {"Lambda", "Λ"},
+    {"Xi", "Ξ"},     {"Pi", "Π"},      {"Sigma", "Σ"},   {"Phi", "Φ"},      {"Psi", "Ψ"},     {"Omega", "Ω"},
+    {"ell", "ℓ"},    {"partial", "∂"}, {"cdot", "·"},    {"times", "×"},
+}};
+
+constexpr std::array<const char*, 10> subscripts{"₀", "₁", "₂", "₃", "₄", "₅", "₆", "₇", "₈", "₉"};
+constexpr std::array<const char*, 10> superscripts{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+
+/// The letters of a command behind its backslash.
+std::string command_at(const std::string& text, std::size_t at)
+{
+    std::size_t end = at;
+    while (end < text.size() && std::isalpha(static_cast<unsigned char>(text[end])) != 0) ++end;
+    return text.substr(at, end - at);
+}
+
+/// Digits as subscripts; empty for anything else.
+std::string as_subscript(const std::string& text)
+{
+    std::string out;
+    for (const char c : text) {
+        if (std::isdigit(static_cast<unsigned char>(c)) == 0) return "";
+        out += subscripts[static_cast<std::size_t>(c - '0')];
+    }
+    return out;
+}
+
+/// "kg m^2/s" with its digits raised.
+std::string raised(const std::string& unit)
+{
+    std::string out;
+    for (std::size_t at = 0; at < unit.size(); ++at) {
+        if (unit[at] != '^') {
+            out += unit[at];
+            continue;
+        }
+        if (at + 1 < unit.size() && unit[at + 1] == '-') out += "⁻", ++at;
+        for (; at + 1 < unit.size() && std::isdigit(static_cast<unsigned char>(unit[at + 1])) != 0; ++at)
+            out += superscripts[static_cast<std::size_t>(unit[at + 1] - '0')];
+    }
+    return out;
+}
+
+std::string with_unit(const std::string& text, const std::string& unit)
+{
+    return unit.empty() || unit == "1" ? text : fmt::format("{} [{}]", text, raised(unit));
+}
+
+std::string symbol_text(const Symbol& symbol)
+{
+    const std::string characters = characters_of_latex(symbol.latex);
+    return characters.empty() ? symbol.name : characters;
+}
+
+/// Their unit, where it is one.
+std::string shared_unit(const std::vector<Symbol>& symbols)
+{
+    const bool shared =
+        std::ranges::all_of(symbols, [&](const Symbol& each) { return each.unit == symbols.front().unit; });
+    return shared ? symbols.front().unit : "";
+}
+
+std::vector<Symbol> without_repetition(const std::vector<Symbol>& symbols)
+{
+    std::set<std::string> seen;
+    std::vector<Symbol> out;
+    for (const Symbol& symbol : symbols)
+        if (seen.insert(symbol.name).second) out.push_back(symbol);
+    return out;
+}
+
+std::string list_text(const std::vector<Symbol>& symbols)
+{
+    std::string list;
+    for (const Symbol& symbol : symbols) list += (list.empty() ? "" : ", ") + symbol_text(symbol);
+    return list;
+}
+
+/// Several entries of one family: "x" for x[1], x[2], "Q[·,1]" for Q[1,1], Q[2,1]. Empty where they are of several.
+std::string entries_text(const std::vector<Symbol>& symbols)
+{
+    const std::string first = symbols.front().name, family = family_name(first);
+    std::size_t before = first.size(), behind = first.size();
+    for (const Symbol& symbol : symbols) {
+        const std::string& name = symbol.name;
+        if (family_name(name) != family) return "";
+        const auto front = std::mismatch(name.begin(), name.end(), first.begin(), first.end()).first - name.begin();
+        const auto back = std::mismatch(name.rbegin(), name.rend(), first.rbegin(), first.rend()).first - name.rbegin();
+        before = std::min(before, static_cast<std::size_t>(front));
+        behind = std::min(behind, static_cast<std::size_t>(back));
+    }
+    const std::string text = first.substr(0, before) + "·" + first.substr(first.size() - behind);
+    return text == family + "[·]" || text == family + "[·,·]" ? family : text;
+}
+
+/// The symbols of one coordinate of all curves.
+std::vector<Symbol> along(const std::vector<std::vector<Symbol>>& curves, std::size_t axis)
+{
+    std::vector<Symbol> symbols;
+    for (const auto& curve : curves) symbols.push_back(curve[axis]);
+    return symbols;
+}
+
+} // namespace
+
+int text_width(const std::string& text)
+{
+    double width = 0;
+    for (std::size_t at = 0; at < text.size();) {
+        const CodePoint point = decode_utf8(text, at);
+        width +=
+            point.value >= 0x1100 && point.value < 0x10000 && (point.value < 0x2000 || point.value > 0x2e7f) ? 14 : 7.6;
+        at += std::max<std::size_t>(point.length, 1);
+    }
+    return static_cast<int>(width) + 1;
+}
+
+std::string shortened(const std::string& text, int width)
+{
+    if (text_width(text) <= width) return text;
+    std::string cut;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t length = std::max<std::size_t>(decode_utf8(text, at).length, 1);
+        if (text_width(cut + text.substr(at, length) + "...") > width) break;
+        cut += text.substr(at, length);
+        at += length;
+    }
+    return cut + "...";
+}
+
+std::string characters_of_latex(const std::string& latex)
+{
+    std::string out, accent; // that of the next character
+    const auto add = [&](const std::string& text) { out += text + std::exchange(accent, ""); };
+    for (std::size_t at = 0; at < latex.size(); ++at) {
+        const char c = latex[at];
+        if (c == '\\') {
+            const std::string command = command_at(latex, at + 1);
+            const auto known = std::ranges::find(latex_characters, command,
+                                                 [](const auto& row) { return std::string_view(row.first); });
+            if (command == "dot")
+                accent = "\u0307";
+            else if (known == latex_characters.end())
+                return "";
+            else
+                add(known->second);
+            at += command.size();
+        } else if (c == '_') {
+            const bool braces = at + 1 < latex.size() && latex[at + 1] == '{';
+            const std::size_t begin = at + (braces ? 2 : 1);
+            const std::size_t end = braces ? latex.find('}', begin) : begin + 1;
+            if (end == std::string::npos || end > latex.size()) return "";
+            const std::string subscript = as_subscript(latex.substr(begin, end - begin));
+            if (subscript.empty()) return "";
+            out += subscript;
+            at = braces ? end : begin;
+        } else if (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == ' ') {
+            if (c != ' ') add(std::string(1, c));
+        } else
+            return "";
+    }
+    return out;
+}
+
+Symbol symbol_of(const Model& model, const std::string& name)
+{
+    const std::vector<Symbol> states = state_symbols(model);
+    std::vector<const std::vector<Symbol>*> lists{&model.base.coordinates, &model.fibre.coordinates,
+                                                  &model.fibre.momenta, &model.notes, &states};
+    if (model.control) lists.push_back(&model.control->controls);
+    for (const auto* symbols : lists) {
+        const auto found = std::ranges::find(*symbols, name, &Symbol::name);
+        if (found != symbols->end()) return *found;
+    }
+    return {name, {}, {}, {}, {}};
+}
+
+std::string short_label(const Symbol& symbol)
+{
+    return with_unit(symbol_text(symbol), symbol.unit);
+}
+
+std::string panel_label(const std::string& text, const std::vector<Symbol>& symbols)
+{
+    return with_unit(text, shared_unit(symbols));
+}
+
+std::string axis_label(const std::vector<Symbol>& symbols, int width, bool texts)
+{
+    const std::vector<Symbol> all = without_repetition(symbols);
+    if (all.size() == 1) {
+        const std::string brief = short_label(all[0]);
+        const std::string full = all[0].text.empty() || !texts ? brief : all[0].text + ", " + brief;
+        return text_width(full) <= width ? full : shortened(brief, width);
+    }
+    const std::string together = entries_text(all);
+    const std::string full = with_unit(together.empty() ? list_text(all) : together, shared_unit(all));
+    return text_width(full) <= width ? full : shortened(short_label(all[0]), width - text_width(", ...")) + ", ...";
+}
+
+std::vector<std::string> legends_of(const std::vector<std::vector<Symbol>>& curves)
+{
+    std::vector<std::string> legends(curves.size());
+    if (curves.size() < 2) return legends;
+    std::vector<std::vector<Symbol>> told(curves.size());
+    bool units = false; // of one axis at least
+    for (std::size_t axis = 0; axis < curves[0].size(); ++axis) {
+        const std::vector<Symbol> symbols = along(curves, axis);
+        if (without_repetition(symbols).size() < 2) continue;
+        units = units || shared_unit(symbols).empty();
+        for (std::size_t k = 0; k < curves.size(); ++k) told[k].push_back(symbols[k]);
+    }
+    for (std::size_t k = 0; k < curves.size(); ++k) {
+        const std::string entries = told[k].size() > 1 && !units ? entries_text(told[k]) : "";
+        for (const Symbol& symbol : told[k])
+            legends[k] += (legends[k].empty() ? "" : ", ") + (units ? short_label(symbol) : symbol_text(symbol));
+        if (!entries.empty()) legends[k] = entries;
+    }
+    return legends;
+}
+
+} // namespace lagen

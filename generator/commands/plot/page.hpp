@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Panels below one another on a page, drawn by gnuplot.
+#pragma once
+
+#include "commands/plot/drawing.hpp"
+
+namespace lagen {
+
+/// Draws `path` (.svg, .png or .pdf by its extension). All panels have the same left and right edges; legends stand at
+/// the right of them, cut to their width, and say how many curves they do not name. Throws MachineError where gnuplot
+/// is missing or fails.
+void draw_page(const std::vector<Drawing>& panels, const std::string& title, const std::string& path);
+
+/// Pixels along the axes of a panel, for labels: the longest that fit.
+inline constexpr int longest_x_label = 500, longest_y_label = 240, longest_space_label = 120;
+
+} // namespace lagen
