@@ -122,6 +122,33 @@ TEST_CASE("fifty discrete steps give the reference trajectories of all kinds of 
     }
 }
 
+TEST_CASE("the discrete examples follow their references", "[all]")
+{
+    struct Following {
+        const char *model, *name;
+        std::vector<std::string> momenta;
+    };
+    const std::vector<Following> examples{{"heavy_top_discrete", "heavy_top_del_asymmetric", {"p_w1", "p_w2", "p_w3"}},
+                                          {"moser_veselov", "moser_veselov_so3", {"M1", "M2", "M3"}},
+                                          {"planar_body_discrete", "planar_body_se2_discrete", {"p_w", "p1", "p2"}},
+                                          {"sliding_mass_discrete", "atiyah_sliding_mass", {"l1", "l2", "l3"}}};
+    for (const Following& each : examples) {
+        INFO(each.model);
+        const json::Value file = lagen::read_discrete_case(each.name);
+        const json::Value found = steps_of({std::string(each.model) + ".toml"});
+        REQUIRE(found["rows"].size() > file["steps"].size());
+        for (std::size_t k = 0; k < file["steps"].size(); ++k) {
+            const ReferenceArrow expected = case_called(each.name).arrow(file["steps"][k], file["parameters"]);
+            REQUIRE(expected.momenta.size() == each.momenta.size());
+            for (std::size_t a = 0; a < each.momenta.size(); ++a)
+                for (std::size_t column = 0; column < found["columns"].size(); ++column)
+                    if (found["columns"][column].text == each.momenta[a])
+                        CHECK(std::abs(long_number(found["rows"][k][column]) - expected.momenta[a]) < 1e-12L);
+        }
+        CHECK(std::abs(case_called(each.name).arrow(file["steps"][50], file["parameters"]).momenta[0]) > 0.01L);
+    }
+}
+
 TEST_CASE("a discrete run starts from the momenta of its first arrow as well", "[run]")
 {
     const std::string name = GENERATE(as<std::string>{}, "moser_veselov_so3", "verlet_pendulum");
