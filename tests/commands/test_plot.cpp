@@ -101,6 +101,7 @@ TEST_CASE("labels have LaTeX in characters, texts where there is room, and one u
     const Symbol second{"x[2]", {}, "", "m", ""}, height{"z", {}, "height", "m", ""}, time{"t", {}, "", "s", ""};
     CHECK(lagen::axis_label({angle}, 500, true) == "angle of the rod, θ [rad]");
     CHECK(lagen::axis_label({angle}, 60, true) == "θ [rad]");
+    CHECK(lagen::axis_label({angle}, 30, true) == "θ");
     CHECK(lagen::axis_label({first, second, first}, 500, true) == "x [m]");
     CHECK(lagen::axis_label({first, height}, 500, true) == "x[1], z [m]");
     CHECK(lagen::axis_label({first, angle}, 500, true) == "x[1], θ");

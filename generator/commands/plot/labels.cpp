@@ -213,7 +213,9 @@ std::string axis_label(const std::vector<Symbol>& symbols, int width, bool texts
     if (all.size() == 1) {
         const std::string brief = short_label(all[0]);
         const std::string full = all[0].text.empty() || !texts ? brief : all[0].text + ", " + brief;
-        return text_width(full) <= width ? full : shortened(brief, width);
+        for (const std::string& label : {full, brief})
+            if (text_width(label) <= width) return label;
+        return shortened(symbol_text(all[0]), width);
     }
     const std::string together = entries_text(all);
     const std::string full = with_unit(together.empty() ? list_text(all) : together, shared_unit(all));

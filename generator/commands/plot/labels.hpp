@@ -25,7 +25,8 @@ namespace lagen {
 [[nodiscard]] std::string short_label(const Symbol& symbol);
 
 /// The label of an axis `width` pixels long on which these stand, and the unit if it is that of all: "angle θ [rad]",
-/// "x[1], x[2] [m]", a family by its name. Texts where there is room for one and `texts` asks for them.
+/// "x[1], x[2] [m]", a family by its name. Texts where there is room for one and `texts` asks for them; where there is
+/// too little, no unit.
 [[nodiscard]] std::string axis_label(const std::vector<Symbol>& symbols, int width, bool texts);
 
 /// "base coordinates [m]": with the unit that all have.

@@ -12,6 +12,6 @@ namespace lagen {
 void draw_page(const std::vector<Drawing>& panels, const std::string& title, const std::string& path);
 
 /// Pixels along the axes of a panel, for labels: the longest that fit.
-inline constexpr int longest_x_label = 500, longest_y_label = 240, longest_space_label = 120;
+inline constexpr int longest_x_label = 500, longest_y_label = 260, longest_space_label = 120;
 
 } // namespace lagen

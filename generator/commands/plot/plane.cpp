@@ -41,9 +41,9 @@ void label_axes(Drawing& drawing, const PanelRequest& request, bool changes)
     const std::vector<Symbol> ordinates = symbols_along(request, 1);
     const bool together = !request.ordinate.empty() && request.curves.size() > 1;
     drawing.x_label = axis_label(symbols_along(request, 0), longest_x_label, true);
-    drawing.y_label =
-        together ? panel_label(request.ordinate, ordinates) : axis_label(ordinates, longest_y_label, !changes);
-    if (changes) drawing.y_label = "change of " + drawing.y_label;
+    const std::string before = changes ? "change of " : "";
+    drawing.y_label = before + (together ? panel_label(request.ordinate, ordinates)
+                                         : axis_label(ordinates, longest_y_label - text_width(before), !changes));
 }
 
 } // namespace
