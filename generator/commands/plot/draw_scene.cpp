@@ -31,7 +31,7 @@ struct PlannedPanel {
 
 /// The columns of the table over time: base coordinates, the rest of the state, first-order states, controls, and what
 /// is observed besides.
-std::vector<PlannedPanel> series_of(const SceneRun& run)
+std::vector<PlannedPanel> series_of(const PlottedRun& run)
 {
     const Model& model = run.model;
     const std::size_t base_lanes = model.base.coordinates.size();
@@ -52,7 +52,7 @@ std::vector<PlannedPanel> series_of(const SceneRun& run)
     return panels;
 }
 
-std::vector<PlannedPanel> panels_of(const SceneRun& run)
+std::vector<PlannedPanel> panels_of(const PlottedRun& run)
 {
     if (!run.scene.plot) return series_of(run);
     std::vector<PlannedPanel> panels;
@@ -71,7 +71,7 @@ double number_of(std::string_view field)
 }
 
 /// The times of the picture.
-void use_times(const SceneRun& run, ProgramInput& input)
+void use_times(const PlottedRun& run, ProgramInput& input)
 {
     if (run.scene.plot && run.scene.plot->points) return;
     SampleTimes& times = input.times;
@@ -85,7 +85,7 @@ void use_times(const SceneRun& run, ProgramInput& input)
     }
 }
 
-Columns columns_of_run(const SceneRun& run, const std::vector<PlannedPanel>& panels)
+Columns columns_of_run(const PlottedRun& run, const std::vector<PlannedPanel>& panels)
 {
     std::vector<std::string> names;
     for (const PlannedPanel& panel : panels)
@@ -120,7 +120,7 @@ SampledCurve sampled(const PlotCurve& curve, const Columns& columns)
     return points;
 }
 
-Drawing draw_panel(const SceneRun& run, const PlannedPanel& panel, const Columns& columns)
+Drawing draw_panel(const PlottedRun& run, const PlannedPanel& panel, const Columns& columns)
 {
     const std::optional<Plot>& plot = run.scene.plot;
     PanelRequest request;
@@ -159,7 +159,7 @@ void require_plot_format(const std::string& path)
         throw MachineError("error: gnuplot was not found\nhint: --plot draws with gnuplot; install gnuplot-nox");
 }
 
-void draw_scene(const SceneRun& run, const std::string& path)
+void draw_scene(const PlottedRun& run, const std::string& path)
 {
     const std::vector<PlannedPanel> panels = panels_of(run);
     const Columns columns = columns_of_run(run, panels);

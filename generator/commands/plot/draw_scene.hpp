@@ -7,7 +7,7 @@
 namespace lagen {
 
 /// The run that is drawn.
-struct SceneRun {
+struct PlottedRun {
     const Model& model;
     const Scene& scene; ///< with its form and its plot
     const RunRecord& record;
@@ -18,7 +18,7 @@ struct SceneRun {
 /// Draws `path`. The program runs once more, at times of the picture's own: 20001 even ones, of a discrete motion at
 /// most 10000 of its steps, and the rows of the table where the plot asks for points. Curves keep the points that can
 /// be seen. Throws as integrate_scene, and MachineError where gnuplot is missing or fails, or there are no rows.
-void draw_scene(const SceneRun& run, const std::string& path);
+void draw_scene(const PlottedRun& run, const std::string& path);
 
 /// Throws UsageError where rows are to be written to a file that is called a picture.
 void require_no_picture(const std::string& path);
