@@ -228,6 +228,7 @@ Generated generate(const CheckedModel& checked, const GenerateRequest& request)
     kernels.form = request.form.empty() ? default_form(model) : request.form;
     kernels.only = request.only;
     kernels.with = request.with;
+    kernels.without = request.without;
     kernels.flows = request.flows;
     kernels.time_scale = request.time_scale;
     kernels.scene = request.scene;

@@ -52,14 +52,15 @@ bool set_parameters(System& system, const std::vector<long double>& values);
 void set_parameters(CheckedModel& checked, const std::vector<long double>& values);
 
 struct GenerateRequest {
-    std::string form;              ///< empty: default_form(model)
-    std::vector<std::string> only; ///< kernels; empty: all that are not made on request alone
-    std::vector<std::string> with; ///< and these
-    bool flows = false;            ///< as in KernelRequest
-    Tree time_scale = nullptr;     ///< as in KernelRequest
-    std::string output;            ///< the file that the header is for; empty: one that bears the model's name
-    bool report = false;           ///< what simplification tried
-    const Scene* scene = nullptr;  ///< for `run`: this scene's events and observed expressions, defaults and hash 0
+    std::string form;                 ///< empty: default_form(model)
+    std::vector<std::string> only;    ///< kernels; empty: all that are not made on request alone
+    std::vector<std::string> with;    ///< and these
+    std::vector<std::string> without; ///< but not these
+    bool flows = false;               ///< as in KernelRequest
+    Tree time_scale = nullptr;        ///< as in KernelRequest
+    std::string output;               ///< the file that the header is for; empty: one that bears the model's name
+    bool report = false;              ///< what simplification tried
+    const Scene* scene = nullptr;     ///< for `run`: this scene's events and observed expressions, defaults and hash 0
 };
 
 /// The header text, and the module that it was printed from.

@@ -117,6 +117,16 @@ std::string name_array(const std::string& array, const std::vector<Quantity>& qu
                        joined(literals));
 }
 
+/// The number of the parameter that is the step of a discrete motion.
+std::optional<std::size_t> step_parameter(const KernelModule& module)
+{
+    for (const Kernel& kernel : module.kernels)
+        if (module.step && kernel.name == "step")
+            for (std::size_t k = 0; k < module.parameters.size(); ++k)
+                if (nodes_of(kernel)[0] == module.parameters[k].input) return k;
+    return {};
+}
+
 void print_constants(TextBlock& out, const KernelModule& module)
 {
     const std::vector<Quantity> lanes = lanes_of(module);
@@ -129,6 +139,8 @@ void print_constants(TextBlock& out, const KernelModule& module)
         out.line(fmt::format("static constexpr int horizontal = {};", module.step->horizontal));
         out.line(fmt::format("static constexpr int group_order = {};", module.step->order));
         out.line(fmt::format("static constexpr bool cayley = {};", module.step->cayley));
+        if (const auto k = step_parameter(module))
+            out.line(fmt::format("static constexpr std::size_t step_parameter = {};", *k));
     }
     if (module.second_order.kind != SecondOrder::Kind::no)
         out.line(fmt::format("static constexpr SecondOrder second_order = SecondOrder::{};",

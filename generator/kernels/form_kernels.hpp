@@ -25,12 +25,13 @@ struct KernelReport {
 };
 
 struct KernelRequest {
-    std::string form;              ///< empty: default_form(model)
-    std::vector<std::string> only; ///< kernel names wanted; empty: all that are not made on request alone
-    std::vector<std::string> with; ///< and these
-    bool flows = false;            ///< and `flows` where the right-hand side does not separate and there are any
-    Tree time_scale = nullptr;     ///< not null: and the kernel time_scale, of this observable
-    const Scene* scene = nullptr;  ///< events and observed expressions of this scene only; null: events of every scene
+    std::string form;                 ///< empty: default_form(model)
+    std::vector<std::string> only;    ///< kernel names wanted; empty: all that are not made on request alone
+    std::vector<std::string> with;    ///< and these
+    std::vector<std::string> without; ///< but not these
+    bool flows = false;               ///< and `flows` where the right-hand side does not separate and there are any
+    Tree time_scale = nullptr;        ///< not null: and the kernel time_scale, of this observable
+    const Scene* scene = nullptr; ///< events and observed expressions of this scene only; null: events of every scene
     std::vector<KernelReport>* reports = nullptr; ///< receives one a kernel, in their order
 };
 

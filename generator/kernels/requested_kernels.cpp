@@ -46,6 +46,7 @@ const std::vector<std::string>& kernel_names()
 
 bool is_requested(const KernelRequest& request, const std::string& name)
 {
+    if (is_among(request.without, name)) return false;
     if (is_among(request.with, name)) return true;
     if (!request.only.empty()) return is_among(request.only, name);
     return std::ranges::none_of(kernel_table(),

@@ -106,7 +106,12 @@ Decision decide_on_arrows(Graph& graph, const System& system, NodeId residual, c
     const NodeId step = system.discrete->step;
     if (graph.op(step) == Op::input) setting.domain.push_back(graph.apply(Op::greater, step, graph.constant(0)));
     std::vector<std::vector<NodeId>> elements;
-    if (!groupoid.arrow.W.empty()) elements.push_back(groupoid.arrow.W);
+    if (const auto& logarithm = system.discrete->logarithm) {
+        residual = substitute(graph, {&residual, 1}, replacements(groupoid.arrow.W, logarithm->element))[0];
+        append(setting.variables, system.discrete->inner);
+    } else if (!groupoid.arrow.W.empty()) {
+        elements.push_back(groupoid.arrow.W);
+    }
     return ArrowDecider(graph, setting, groupoid, elements, budget).decide(residual);
 }
 

@@ -39,7 +39,8 @@ class ArrowDecider {
     std::vector<NodeId> chart_variables_;
 };
 
-/// A residual over t, the step h > 0, the parameters and the coordinates of one arrow.
+/// A residual over t, the step h > 0, the parameters and the coordinates of one arrow; of curves exp(xi) over xi, with
+/// W = exp(xi).
 [[nodiscard]] Decision decide_on_arrows(Graph& graph, const System& system, NodeId residual, const ProofBudget& budget);
 
 } // namespace lagen

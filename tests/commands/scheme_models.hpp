@@ -129,6 +129,17 @@ struct SchemeOrder {
     const char *coarse = "0.2", *fine = "0.1"; ///< steps; errors at order 8 are rounding below 0.2
 };
 
+/// The largest difference between the last rows of a curve and of what was found, over the curve's columns.
+inline long double error_against(const lagen::json::Value& exact, const lagen::json::Value& found)
+{
+    long double most = 0;
+    for (std::size_t k = 1; k < exact["columns"].size(); ++k) {
+        const std::string column = exact["columns"][k].text;
+        most = std::max(most, std::abs(entry(found, column) - entry(exact, column)));
+    }
+    return most;
+}
+
 /// The errors at t = 4 of two steps, and the order between them.
 inline void require_orders(const SchemeModel& model, const std::vector<SchemeOrder>& schemes,
                            const std::string& retraction = "")
@@ -138,13 +149,7 @@ inline void require_orders(const SchemeModel& model, const std::vector<SchemeOrd
         INFO(model.name << " by " << scheme);
         const std::string path = scheme_file(model, scheme, retraction);
         const auto error = [&](const char* step) {
-            const lagen::json::Value found = ran({path, "--t-end", "4", "--step", step});
-            long double most = 0;
-            for (std::size_t k = 1; k < exact["columns"].size(); ++k) {
-                const std::string column = exact["columns"][k].text;
-                most = std::max(most, std::abs(entry(found, column) - entry(exact, column)));
-            }
-            return most;
+            return error_against(exact, ran({path, "--t-end", "4", "--step", step}));
         };
         const long double coarse = error(large), fine = error(small);
         CHECK(coarse > 0);

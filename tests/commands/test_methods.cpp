@@ -30,12 +30,12 @@ TEST_CASE("lagen methods names every integrator of the interface")
     const json::Value list = json::parse(call({"methods", "--format", "json"}).out);
     std::vector<std::string> names;
     for (const json::Value& entry : list.entries) names.push_back(entry["name"].text);
-    for (const char* name : {"euler",        "midpoint",    "rk4",         "dopri5",     "tsit5",
-                             "dop853",       "verner65",    "verner76",    "verner87",   "verner98",
-                             "rkn64",        "rkn86",       "rkn1210",     "rkng54",     "gauss12",
-                             "gauss16",      "blanesmoan4", "blanesmoan6", "srkn6",      "kahanli8",
-                             "sofroniou10",  "rkmk4",       "rkmk_dop853", "gauss_lie4", "crouch_grossman3",
-                             "lie_poisson2", "lie_poisson4"})
+    for (const char* name : {"euler",        "midpoint",     "rk4",         "dopri5",     "tsit5",
+                             "dop853",       "verner65",     "verner76",    "verner87",   "verner98",
+                             "rkn64",        "rkn86",        "rkn1210",     "rkng54",     "gauss12",
+                             "gauss16",      "blanesmoan4",  "blanesmoan6", "srkn6",      "kahanli8",
+                             "sofroniou10",  "rkmk4",        "rkmk_dop853", "gauss_lie4", "crouch_grossman3",
+                             "lie_poisson2", "lie_poisson4", "discrete4",   "discrete6",  "discrete8"})
         CHECK(std::count(names.begin(), names.end(), name) == 1);
     CHECK(list.size() == lagen::method_table().size());
     CHECK(list[0].keys ==
@@ -62,6 +62,8 @@ TEST_CASE("lagen methods names every integrator of the interface")
     CHECK(kept["rkmk_dop853"] == "group, orbits, Casimirs");
     CHECK(systems["lie_poisson4"] == "Lie-Poisson systems");
     CHECK(kept["lie_poisson4"] == "Poisson, group, orbits, Casimirs");
+    CHECK(systems["discrete8"] == "discrete Lagrangians of order 2 with L(g, h) = -L(g^-1, -h)");
+    CHECK(kept["discrete8"] == "symplectic or Poisson, momenta, the group");
 }
 
 TEST_CASE("lagen methods --stability tells how long the steps of every method may be")

@@ -16,6 +16,14 @@ namespace lagen {
 
 namespace {
 
+constexpr MethodEntry composition(const char* name, const char* type, const char* order, const char* text)
+{
+    MethodEntry entry{
+        name, type, order, false, MethodKind::discrete, text, "symplectic or Poisson, momenta, the group"};
+    entry.composes = true;
+    return entry;
+}
+
 constexpr MethodEntry variational(const char* name, const char* order, const char* scheme, const char* text)
 {
     MethodEntry entry{
@@ -109,6 +117,9 @@ constexpr std::array entries = [] {
         MethodEntry{"discrete", "Discrete", "of L", false, discrete,
                     "discrete Euler-Lagrange equations on a Lie groupoid (Martinez 2001)",
                     "symplectic or Poisson, momenta, the group"},
+        composition("discrete4", "Discrete4", "4", "five steps of L (Suzuki 1990)"),
+        composition("discrete6", "Discrete6", "6", "nine steps of L (Kahan and Li 1997)"),
+        composition("discrete8", "Discrete8", "8", "17 steps of L (Kahan and Li 1997)"),
         variational("variational2", "2", "gauss:1", "discrete Lagrangian of L by the midpoint, on pairs and groups"),
         variational("variational4", "4", "gauss:2", "Galerkin, two Gauss points (Marsden and West 2001)"),
         variational("variational6", "6", "gauss:3", "Galerkin, three Gauss points (Marsden and West 2001)"),
@@ -202,6 +213,7 @@ bool goes_abreast(const MethodEntry& method)
 std::string system_of(const MethodEntry& method)
 {
     if (*method.scheme != '\0') return "L on a tangent bundle, a Lie algebra, an action or an Atiyah algebroid";
+    if (method.composes) return "discrete Lagrangians of order 2 with L(g, h) = -L(g^-1, -h)";
     if (method.kind == MethodKind::discrete) return "discrete Lagrangians";
     if (method.kind == MethodKind::group) return "states that a group moves linearly";
     if (method.kind == MethodKind::poisson) return "Lie-Poisson systems";

@@ -32,6 +32,7 @@ struct MethodEntry {
     bool affine = false;                              ///< of splittings: xdot has to be affine in y
     bool symmetric = true;                            ///< of splittings: a step back undoes one
     const char* scheme = "";                          ///< of variational methods: what makes the discrete L of L
+    bool composes = false;                            ///< of discrete Lagrangians: steps of one that is symmetric
 };
 
 [[nodiscard]] std::span<const MethodEntry> method_table();

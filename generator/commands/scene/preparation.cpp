@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/scene/preparation.hpp"
 
+#include "mechanics/quadrature.hpp"
 #include "model/form.hpp"
+#include "verify/self_adjoint.hpp"
 
 #include <fmt/core.h>
 
@@ -13,10 +15,22 @@ namespace lagen {
 
 namespace {
 
-/// Throws where the equations are not what the method asks for.
-void require_system(const Options& options, const Scene& scene, const MethodEntry& method, const KernelModule& module)
+std::string point_text(const NamedPoint& point)
 {
-    const std::optional<Obstacle> obstacle = obstacle_of(method, module);
+    std::string text;
+    for (const auto& [name, value] : point)
+        text += fmt::format("{}{} = {:.6g}", text.empty() ? "" : ", ", name, to_double(value));
+    return text;
+}
+
+constexpr ProofBudget composition_budget{.terms = 5000, .products = 2'000'000};
+
+/// Throws where the equations are not what the method asks for.
+void require_system(const Options& options, const Scene& scene, const MethodEntry& method, const CheckedModel& checked,
+                    const KernelModule& module)
+{
+    std::optional<Obstacle> obstacle = obstacle_of(method, module);
+    if (!obstacle) obstacle = obstacle_to_composition(method, checked, scene);
     if (!obstacle) return;
     if (options.has("method"))
         throw UsageError(fmt::format("lagen {}: {}\nhint: {}", options.command(), obstacle->text, obstacle->hint));
@@ -117,6 +131,39 @@ std::optional<Obstacle> obstacle_of(const MethodEntry& method, const KernelModul
                                                 : "dop853 and verner87 integrate every system"};
 }
 
+std::optional<Obstacle> obstacle_to_composition(const MethodEntry& method, const CheckedModel& checked,
+                                                const Scene& scene)
+{
+    if (!method.composes) return std::nullopt;
+    const System& system = checked.system;
+    const std::string& scheme = checked.model.discrete->scheme;
+    for (const char* name : {"energy", "lagrangian"})
+        for (const NamedTree& column : scene.observe.value_or(std::vector<NamedTree>()))
+            if (const auto names = names_in(column.value);
+                column.name == name || std::ranges::find(names, name) != names.end())
+                return Obstacle{fmt::format("{} composes steps, and the column '{}' is of the arrow of one step",
+                                            method.name, column.name),
+                                "observe functions of positions and momenta"};
+    if (system.graph.op(system.discrete->step) != Op::input)
+        return Obstacle{fmt::format("{} makes steps of several lengths, and in model '{}' the step is fixed",
+                                    method.name, system.name),
+                        "let the step be a parameter without a binding, or a symbol of its own"};
+    if (!scheme.empty() && quadrature_rule(scheme).degree > 1)
+        return Obstacle{fmt::format("{} composes steps of order 2, and those of the scheme '{}' have a higher order",
+                                    method.name, scheme),
+                        "discrete makes its steps; midpoint, trapezoidal and gauss:1 have order 2"};
+    Graph graph = system.graph;
+    const Decision decision = decide_self_adjoint(graph, system, composition_budget);
+    if (decision.status == ProofStatus::proved) return std::nullopt;
+    const bool refuted = decision.status == ProofStatus::refuted;
+    return Obstacle{fmt::format("{} composes steps of {}, which the discrete Lagrangian of model '{}' is not{}",
+                                method.name, "a symmetric L, L(g, h) = -L(g^-1, -h) up to a constant", system.name,
+                                refuted ? fmt::format(": at {} they differ by {:.3g}",
+                                                      point_text(decision.witness->point), decision.witness->value)
+                                        : fmt::format(" shown to be: {}", decision.evidence)),
+                    "the schemes trapezoidal and, by exp, midpoint are symmetric; so is (L(g, h) - L(g^-1, -h))/2"};
+}
+
 SceneText scene_text(const CheckedModel& checked, const Scene& scene, const std::string& form,
                      const MethodEntry& method, const Driver& driver)
 {
@@ -125,6 +172,7 @@ SceneText scene_text(const CheckedModel& checked, const Scene& scene, const std:
     request.scene = &scene;
     request.flows = method.kind == MethodKind::splitting;
     if (is_symmetric_splitting(method)) request.time_scale = scene.time_scale;
+    if (method.composes) request.without = {"energy", "lagrangian"}; // of the product of arrows they tell nothing
     const bool takes_series = method.kind == MethodKind::series;
     if (takes_series) request.with = {"taylor"};
     if (takes_series && !scene.events.empty()) request.with.emplace_back("event_series");
@@ -160,7 +208,7 @@ void Preparation::finish(const Scene& scene, const std::string& form, const Meth
     elaborated_ = decided_ = true;
     set_parameters(checked_, parameters);
     const SceneText made = scene_text(checked_, scene, form, method, driver_);
-    require_system(options_, scene, method, made.module);
+    require_system(options_, scene, method, checked_, made.module);
     record_ = record_of(checked_, made.module, form, parameters);
     look(*record_);
     record_->program = compile_programs({made.text})[0];

@@ -20,6 +20,10 @@ struct Obstacle {
 /// Nothing where all is well.
 [[nodiscard]] std::optional<Obstacle> obstacle_of(const MethodEntry& method, const KernelModule& module);
 
+/// What a scene of this system has that a composition of its steps does not take; nothing of other methods.
+[[nodiscard]] std::optional<Obstacle> obstacle_to_composition(const MethodEntry& method, const CheckedModel& checked,
+                                                              const Scene& scene);
+
 /// The program of a scene by one method, not yet compiled.
 struct SceneText {
     KernelModule module;

@@ -23,6 +23,7 @@
 #include "lagen/integrate/verner.hpp"
 #include "lagen/ode.hpp"
 #include "lagen/variational/arrows.hpp"
+#include "lagen/variational/composition.hpp"
 #include "lagen/variational/discrete.hpp"
 
 #include <type_traits>

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Compositions of the steps of symmetric discrete Lagrangians: measured orders, the arrows of whole steps, momenta.
+#include "scheme_models.hpp"
+
+using namespace lagen::testing;
+using namespace lagen::testing::schemes;
+namespace json = lagen::json;
+
+namespace {
+
+/// The orders of a scheme by a composition, between steps at t = 4.
+void require_composed(const SchemeModel& model, const char* scheme, const std::string& retraction,
+                      const std::vector<SchemeOrder>& methods)
+{
+    const std::string path = scheme_file(model, scheme, retraction);
+    const json::Value exact = ran({path, "--scene", "curve", "--at", "4"});
+    for (const auto& [method, order, large, small] : methods) {
+        INFO(model.name << " by " << scheme << " and " << method);
+        const auto error = [&](const char* step) {
+            return error_against(exact, ran({path, "--method", method, "--t-end", "4", "--step", step}));
+        };
+        const long double coarse = error(large), fine = error(small);
+        CHECK(fine > 0);
+        CHECK(std::abs(static_cast<double>(std::log2(coarse / fine)) - order) < 0.35);
+    }
+}
+
+constexpr SchemeModel symmetric_top{"symmetric_top", R"toml(
+[base]
+coordinates = ["G[1..3]"]
+constraints = ["dot(G, G) - 1"]
+[fibre]
+coordinates = ["w1", "w2", "w3"]
+[groupoid]
+kind = "action"
+group = "SO(3)"
+action = { G = "transpose(W)*G" }
+[lagrangian]
+L = "(1.2*w1^2 + 2.1*w2^2 + 2.9*w3^2)/2 - 1.7*(0.48*G[1] + 0.6*G[2] + 0.64*G[3])"
+[symmetries]
+vertical = { w1 = "G[1]", w2 = "G[2]", w3 = "G[3]" }
+)toml",
+                                    "{ G = [0.6, 0, 0.8], w1 = 0.4, w2 = 0.9, w3 = -0.3 }"};
+
+} // namespace
+
+TEST_CASE("a composition on an action groupoid keeps momenta and Casimirs, and its arrows lead from row to row",
+          "[run]")
+{
+    const std::string path = scheme_file(symmetric_top, "midpoint", "exp");
+    const json::Value found = ran({path, "--method", "discrete6", "--step", "0.2", "--t-end", "20"});
+    CHECK(found["method"].text == "discrete6");
+    CHECK(std::abs(std::stold(found["invariants"]["momentum.vertical"]["initial"].text)) > 0.1L);
+    CHECK(std::stold(found["invariants"]["momentum.vertical"]["max_drift"].text) < 1e-13L);
+    CHECK_FALSE(found["invariants"].has("energy"));
+    REQUIRE(found["rows"].size() == 101);
+    const auto number = [&](std::size_t row, std::size_t column) {
+        return std::stold(found["rows"][row][column].text);
+    };
+    for (std::size_t row = 0; row + 1 < 101; ++row) {
+        long double length = 0;
+        for (std::size_t i = 0; i < 3; ++i) { // G_next = W^T G
+            long double there = 0;
+            for (std::size_t j = 0; j < 3; ++j) there += number(row, 4 + 3 * j + i) * number(row, 1 + j);
+            CHECK(std::abs(there - number(row + 1, 1 + i)) < 1e-14L);
+            length += there * there;
+        }
+        CHECK(std::abs(length - 1) < 1e-14L);
+    }
+}
+
+TEST_CASE("compositions have their orders on pairs, on an action groupoid and on an Atiyah groupoid", "[all]")
+{
+    const std::vector<SchemeOrder> all{
+        {"discrete4", 4, "0.1", "0.05"}, {"discrete6", 6, "0.2", "0.1"}, {"discrete8", 8, "0.4", "0.2"}};
+    for (const char* scheme : {"midpoint", "trapezoidal"}) require_composed(pairs, scheme, "", all);
+    require_composed(top, "midpoint", "exp", all);
+    require_composed(top, "trapezoidal", "", all);
+    require_composed(charged, "trapezoidal", "exp", all);
+    require_composed(driven, "trapezoidal", "exp", all);
+}
