@@ -62,6 +62,10 @@ std::string equation_text(const Check& check)
     if (check.name == "algebroid_of_groupoid" && k.size() == 3)
         return fmt::format("component {2} of [{0}, {1}] as it is given less that of the groupoid", k[0], k[1], k[2]);
     if (const std::string of_map = map_equation_text(check); !of_map.empty()) return of_map;
+    if (check.name == "independent") return "the squares of the minors of these rows, or a combination that is zero";
+    if (check.name == "constraint" && k.size() == 2)
+        return k[0] == "drift" ? fmt::format("{} at the drift", k[1])
+                               : fmt::format("the linear part of {} at the section {}", k[1], k[0]);
     if (check.name == "closed" && !k.empty()) return fmt::format("component {} of d({})", component_of(check), k[0]);
     if (check.name == "equals" && !k.empty())
         return fmt::format("component {} of {} less what it is said to equal", component_of(check), k[0]);

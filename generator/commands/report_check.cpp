@@ -2,6 +2,7 @@
 #include "commands/report_check.hpp"
 
 #include "commands/describe_check.hpp"
+#include "commands/report_nonholonomic.hpp"
 
 #include <fmt/format.h>
 
@@ -141,6 +142,7 @@ const char* matrix_text(Regularity::Matrix matrix)
     switch (matrix) {
     case Regularity::Matrix::lagrangian: break;
     case Regularity::Matrix::hamiltonian: return "d2H/dmu2: the model has no Lagrangian";
+    case Regularity::Matrix::constrained: return "d2L/dY2 on the constraint";
     case Regularity::Matrix::newton: return "N_ab = <-e_b(F^-L_a) of the discrete Lagrangian";
     }
     return "";
@@ -256,6 +258,7 @@ void regularity_json(JsonWriter& json, const Regularity& regularity)
     if (!regularity.evidence.empty()) json.key("evidence").value(regularity.evidence);
     if (!regularity.coordinates.empty()) json.key("coordinates").value(regularity.coordinates);
     if (regularity.of == Regularity::Matrix::hamiltonian) json.key("of").value("d2H/dmu2");
+    if (regularity.of == Regularity::Matrix::constrained) json.key("of").value("d2L/dY2 on D");
     if (regularity.of == Regularity::Matrix::newton) json.key("of").value("N");
     if (regularity.kind == Regularity::Kind::degenerate) {
         json.key("kernel").begin_array();
@@ -308,6 +311,7 @@ std::string report_text(const std::string& model, const Report& verified)
         text += fmt::format("  {:<16}{}\n", "solutions", lifts_text(structure.hamilton_jacobi->lifts));
     for (const Regularity* each : {&verified.mechanics.discrete, &verified.mechanics.regularity})
         text += regularity_text(*each);
+    text += nonholonomic_text(verified.mechanics);
     if (const auto& again = structure.reevaluation)
         text += fmt::format("  {:<16}{}\n", "re-evaluated", confirmed_text(structure, *again));
     if (!structure.note.empty()) text += fmt::format("  note: {}\n", structure.note);
@@ -354,6 +358,7 @@ void report_json(JsonWriter& json, const std::string& model, const Report& verif
     regularity_json(json.key("regularity"), is_discrete ? discrete : regularity);
     if (is_discrete && regularity.kind != Regularity::Kind::absent)
         regularity_json(json.key("regularity_of_lagrangian"), regularity);
+    nonholonomic_json(json, verified.mechanics);
     verified_json(json, structure.reevaluation);
     if (!structure.note.empty()) json.key("note").value(structure.note);
     json.end_object();

@@ -139,13 +139,13 @@ BlockParts build_block(BuildWorkspace& work, const AlgebroidBlock& block)
 
 WrittenAlgebroid build_algebroid(const Model& model)
 {
-    AlgebroidBlock block = model.algebroid;
-    block.fibre = model.fibre.coordinates;
+    AlgebroidBlock block = is_nonholonomic(model) ? model.algebroid.of[0] : model.algebroid;
+    block.fibre = ambient_fibre(model);
     BuildWorkspace work(model);
     BlockParts parts = build_block(work, block);
     WrittenAlgebroid algebroid;
     algebroid.base = model.base.coordinates;
-    algebroid.fibre = model.fibre.coordinates;
+    algebroid.fibre = ambient_fibre(model);
     for (const Parameter& parameter : model.parameters)
         if (!parameter.bound) algebroid.parameters.push_back(parameter.symbol.name);
     algebroid.rho = std::move(parts.rho);

@@ -2,9 +2,9 @@
 /// Subbundles of TM: C^c_ab is solved from [rho_a, rho_b]^i = rho^i_c C^c_ab in as many rows i as there are sections.
 /// The rows that are left are the condition that the distribution is involutive; they are checked with all anchors.
 #include "elaborate/build_workspace.hpp"
+#include "graph/calculus/places.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace lagen {
 namespace {
@@ -84,15 +84,14 @@ class SubbundleBuilder {
     /// Of the rows whose determinant is certainly not zero everywhere those with the shortest one.
     std::vector<std::size_t> solvable_rows()
     {
-        std::vector<std::size_t> columns(r_);
-        std::iota(columns.begin(), columns.end(), std::size_t{0});
+        const Places columns = first_places(r_);
         struct Choice {
             std::size_t cost;
             std::vector<std::size_t> rows;
             NodeId determinant;
         };
         std::vector<Choice> choices;
-        std::vector<std::size_t> places = columns; // of block_.base, ascending; walked in lexicographic order
+        Places places = columns; // of block_.base, ascending; walked in lexicographic order
         std::size_t tried = 0;
         do {
             ++tried;
@@ -102,7 +101,7 @@ class SubbundleBuilder {
             if (graph_.is_zero(determinant)) continue;
             const Tree text = work_.readable(determinant);
             if (text != nullptr) choices.push_back({to_text(text).size(), rows, determinant});
-        } while (choices.size() < most_minors && tried < most_choices && next_places(places));
+        } while (choices.size() < most_minors && tried < most_choices && next_places(places, block_.base.size()));
         std::ranges::stable_sort(choices, {}, &Choice::cost);
         bool undecided = false;
         for (const Choice& choice : choices) {
@@ -113,18 +112,6 @@ class SubbundleBuilder {
         if (!undecided && tried < most_choices) refuse_dependent();
         throw ModelError("it could not be shown that the sections of the subbundle are linearly independent somewhere",
                          where(), "give rho and C outright: kind = \"general\"");
-    }
-
-    /// The next r ascending numbers below the size of the base; false after the last.
-    bool next_places(std::vector<std::size_t>& places) const
-    {
-        for (std::size_t k = r_; k-- > 0;) {
-            if (places[k] + (r_ - k) >= block_.base.size()) continue;
-            ++places[k];
-            for (std::size_t l = k + 1; l < r_; ++l) places[l] = places[l - 1] + 1;
-            return true;
-        }
-        return false;
     }
 
     BuildWorkspace& work_;

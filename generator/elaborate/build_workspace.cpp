@@ -48,6 +48,10 @@ BuildWorkspace::BuildWorkspace(const Model& model)
         order_.parameters.push_back(parameter.symbol.name);
     }
     for (const Symbol& symbol : model.base.coordinates) order_.variables.push_back(symbol.name);
+    if (is_nonholonomic(model)) { // constraints may depend on time
+        setting_.variables.push_back(graph_.input("t"));
+        order_.variables.emplace_back("t");
+    }
     for (const Tree& tree : model.base.domain) setting_.domain.push_back(lower_(tree));
     for (const Tree& tree : model.base.constraints) setting_.constraints.push_back(lower_(tree));
     // A Casimir's name stands for a function of the base, and constraints for parts of it.

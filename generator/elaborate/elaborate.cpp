@@ -4,6 +4,7 @@
 #include "algebra/named_algebra.hpp"
 #include "elaborate/bind_parameters.hpp"
 #include "elaborate/build_algebroid.hpp"
+#include "elaborate/build_distribution.hpp"
 #include "elaborate/build_groupoid.hpp"
 #include "elaborate/lower_forms.hpp"
 #include "elaborate/model_trees.hpp"
@@ -60,6 +61,10 @@ class Elaboration {
             result.states.push_back({state.symbol.name, state.rate, state.symbol.where});
         result.phase = phase_trees(model);
         result.all = all_trees(model, result.algebroid);
+        if (!is_nonholonomic(model)) return result;
+        result.distribution = build_distribution(model);
+        for (const auto* list : {&result.distribution->sections, &result.distribution->drift})
+            for (const SectionValue& entry : *list) result.all.push_back(entry.value);
         return result;
     }
 
@@ -76,6 +81,8 @@ class Elaboration {
     void lower_structure()
     {
         system_.algebroid = lower_algebroid(graph_, lower_, system_.written.algebroid);
+        if (const auto& written = system_.written.distribution)
+            system_.distribution = lower_distribution(graph_, lower_, *written);
         for (const Symbol& symbol : model_.fibre.momenta) system_.mu.push_back(graph_.input(symbol.name));
     }
 
@@ -257,13 +264,15 @@ class Elaboration {
     /// Entries that are computed (of a frame, of a named algebra) are no places to mend.
     void describe_algebroid()
     {
-        const AlgebroidBlock& block = model_.algebroid;
+        const bool nonholonomic = is_nonholonomic(model_);
+        const AlgebroidBlock& block = nonholonomic ? model_.algebroid.of[0] : model_.algebroid;
+        system_.is_distribution = block.kind == AlgebroidKind::subbundle;
+        if (nonholonomic) return;
         const bool action = block.kind == AlgebroidKind::action;
         const bool given = block.kind == AlgebroidKind::general || block.kind == AlgebroidKind::lie_algebra || action;
         system_.editable.anchor = (block.kind == AlgebroidKind::general || action) && block.representation.empty();
         system_.editable.bracket = given && block.algebra.empty();
         system_.editable.constant_bracket = block.kind != AlgebroidKind::general;
-        system_.is_distribution = block.kind == AlgebroidKind::subbundle;
     }
 
     void append_parts(std::vector<NodeId>& parts, const Tree& tree)

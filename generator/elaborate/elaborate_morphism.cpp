@@ -75,6 +75,11 @@ void require_linear(SystemMorphism& morphism, const MorphismFile& file)
 
 SystemMorphism elaborate(const MorphismFile& file)
 {
+    for (const Model* model : {&file.source, &file.target})
+        if (is_nonholonomic(*model))
+            throw ModelError(
+                fmt::format("morphisms of nonholonomic models are not there yet, and '{}' is one", model->name),
+                {file.file, 0, 0}, "without the constraint the map is a morphism of the ambient algebroids");
     SystemMorphism morphism;
     morphism.source = elaborate(file.source);
     morphism.target = elaborate(file.target);

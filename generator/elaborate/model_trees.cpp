@@ -44,6 +44,8 @@ void append_block(std::vector<Tree>& trees, const AlgebroidBlock& block)
     for (const BracketEntry& entry : block.bracket) trees.push_back(entry.value);
     for (const ConnectionEntry& entry : block.connection) trees.push_back(entry.value);
     for (const SectionEntry& entry : block.sections) trees.push_back(entry.value);
+    for (const SectionEntry& entry : block.drift) trees.push_back(entry.value);
+    trees.insert(trees.end(), block.constraints.begin(), block.constraints.end());
     for (const ArrayValue& matrix : block.representation)
         trees.insert(trees.end(), matrix.entries.begin(), matrix.entries.end());
     for (const AlgebroidBlock& inner : block.of) append_block(trees, inner);

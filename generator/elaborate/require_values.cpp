@@ -30,6 +30,8 @@ class ModelValues {
         add(block.bracket);
         add(block.connection);
         add(block.sections);
+        add(block.drift);
+        add(block.constraints);
         for (const ArrayValue& matrix : block.representation) add(matrix.entries);
         for (const AlgebroidBlock& inner : block.of) add(inner);
     }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Equations as JSON. Expressions are texts of the expression language:
 ///   {"model", "title", "form", "blocks": [{"title", "formula", "equations":
-///     [{"left": {"kind": "time_derivative" | "symbol" | "zero" | "bracket" | "differential" | "form", "symbol",
+///     [{"left": {"kind": "time_derivative" | "symbol" | "zero" | "bracket" | "differential" | "form" | "section" |
+///     "commutator", "symbol",
 ///     "other", "arguments": [..],
 ///                "mass": [{"symbol", "value"}]},
 ///       "relation": "at_least" | "at_most", "right": "...", "groups": [{"label", "value"}]}]}],
@@ -10,7 +11,8 @@
 /// {symbol, other}; `arguments` are those of kind "component",
 /// symbol(arguments); `relation` is left out of equations, `statements` where there are none. Of kinds "differential",
 /// d symbol, and "form", d e^symbol, the right side is the sum of value e^{basis[0]} ^ e^{basis[1]} .. of the groups,
-/// each {"label", "value", "basis"}.
+/// each {"label", "value", "basis"}; of "section", e_symbol, and "commutator", [e_symbol, e_other], that of value
+/// e_{basis[0]}.
 #include "emit/json.hpp"
 #include "emit/print_equations.hpp"
 #include "emit/print_equations_terms.hpp"
@@ -45,9 +47,12 @@ void write_left(JsonWriter& json, const Equation& equation)
     case LeftSide::differential: json.key("kind").value("differential"); break;
     case LeftSide::form: json.key("kind").value("form"); break;
     case LeftSide::component: json.key("kind").value("component"); break;
+    case LeftSide::section: json.key("kind").value("section"); break;
+    case LeftSide::commutator: json.key("kind").value("commutator"); break;
     }
     if (equation.left != LeftSide::zero) json.key("symbol").value(equation.symbol);
-    if (equation.left == LeftSide::bracket) json.key("other").value(equation.other);
+    if (equation.left == LeftSide::bracket || equation.left == LeftSide::commutator)
+        json.key("other").value(equation.other);
     if (equation.left == LeftSide::component) write_names(json.key("arguments"), equation.arguments);
     if (!equation.mass.empty()) {
         json.key("mass").begin_array();
@@ -66,6 +71,7 @@ void write_equation(JsonWriter& json, const Equation& equation)
         json.key("relation").value(equation.relation == Relation::at_least ? "at_least" : "at_most");
     const bool of_forms =
         equation.left == LeftSide::differential || equation.left == LeftSide::form ||
+        equation.left == LeftSide::section || equation.left == LeftSide::commutator ||
         std::ranges::any_of(equation.groups, [](const TermGroup& group) { return !group.basis.empty(); });
     if (!of_forms) json.key("right").value(right_text(equation));
     json.key("groups").begin_array();

@@ -220,6 +220,9 @@ std::string left_side(const Equation& equation, const LatexNames& names)
     if (equation.left == LeftSide::form) return "de^{" + names.symbol(equation.symbol) + "}";
     if (equation.left == LeftSide::bracket)
         return "\\{" + names.symbol(equation.symbol) + ", " + names.symbol(equation.other) + "\\}";
+    if (equation.left == LeftSide::section) return "e_{" + names.symbol(equation.symbol) + "}";
+    if (equation.left == LeftSide::commutator)
+        return "[e_{" + names.symbol(equation.symbol) + "}, e_{" + names.symbol(equation.other) + "}]";
     std::vector<std::string> symbols;
     for (const std::string& name : equation.arguments) symbols.push_back(names.symbol(name));
     if (equation.left == LeftSide::component) return names.symbol(equation.symbol) + "(" + joined(symbols) + ")";
@@ -239,12 +242,12 @@ const char* relation_latex(Relation relation)
     return relation == Relation::equal ? " &= " : relation == Relation::at_least ? " &\\geq " : " &\\leq ";
 }
 
-std::string latex_of_term(const SignedTree& term, const LatexNames& names)
+std::string latex_of_term(const SignedTree& term, const LatexNames& names, bool of_sections)
 {
     if (term.basis.empty()) return LatexWriter(names).write(term.tree, LatexHold::product);
     std::string wedge;
     for (const std::string& name : term.basis)
-        wedge += (wedge.empty() ? "e^{" : " \\wedge e^{") + names.symbol(name) + "}";
+        wedge += (of_sections ? "e_{" : wedge.empty() ? "e^{" : " \\wedge e^{") + names.symbol(name) + "}";
     return (is_one(term.tree) ? "" : LatexWriter(names).write(term.tree, LatexHold::product) + "\\, ") + wedge;
 }
 
@@ -258,8 +261,9 @@ void print_block(std::string& text, const EquationBlock& block, const LatexNames
     for (std::size_t e = 0; e < block.equations.size(); ++e) {
         const Equation& equation = block.equations[e];
         std::vector<std::pair<bool, std::string>> terms;
+        const bool of_sections = equation.left == LeftSide::section || equation.left == LeftSide::commutator;
         for (const SignedTree& term : right_side_terms(equation))
-            terms.emplace_back(term.negative, latex_of_term(term, names));
+            terms.emplace_back(term.negative, latex_of_term(term, names, of_sections));
         if (terms.empty()) terms.emplace_back(false, "0");
         text += "  " + left_side(equation, names) + relation_latex(equation.relation);
         const std::vector<std::string> lines = wrap_terms(terms, margin, margin + indent, line_width, typeset_width);

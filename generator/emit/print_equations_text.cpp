@@ -177,6 +177,8 @@ std::string left_side(const Equation& equation)
     if (equation.left == LeftSide::differential) return "d" + equation.symbol;
     if (equation.left == LeftSide::form) return "de^" + equation.symbol;
     if (equation.left == LeftSide::bracket) return "{" + equation.symbol + ", " + equation.other + "}";
+    if (equation.left == LeftSide::section) return "e_" + equation.symbol;
+    if (equation.left == LeftSide::commutator) return "[e_" + equation.symbol + ", e_" + equation.other + "]";
     if (equation.left == LeftSide::component) return equation.symbol + "(" + joined(equation.arguments) + ")";
     if (equation.mass.empty()) return dotted(equation.symbol);
     std::string text;
@@ -193,11 +195,16 @@ const char* relation_text(Relation relation)
     return relation == Relation::equal ? " = " : relation == Relation::at_least ? " ≥ " : " ≤ ";
 }
 
-std::string text_of_term(const SignedTree& term)
+bool is_of_sections(const Equation& equation)
+{
+    return equation.left == LeftSide::section || equation.left == LeftSide::commutator;
+}
+
+std::string text_of_term(const SignedTree& term, bool of_sections)
 {
     if (term.basis.empty()) return TextWriter().write(term.tree, TextHold::quotient);
     std::string wedge;
-    for (const std::string& name : term.basis) wedge += (wedge.empty() ? "e^" : "∧e^") + name;
+    for (const std::string& name : term.basis) wedge += (of_sections ? "e_" : wedge.empty() ? "e^" : "∧e^") + name;
     return (is_one(term.tree) ? "" : TextWriter().write(term.tree, TextHold::product) + " ") + wedge;
 }
 
@@ -214,7 +221,8 @@ void print_block(std::string& text, const EquationBlock& block)
         text +=
             "  " + std::string(columns < widest ? widest - columns : 0, ' ') + left + relation_text(equation.relation);
         std::vector<std::pair<bool, std::string>> terms;
-        for (const SignedTree& term : right_side_terms(equation)) terms.emplace_back(term.negative, text_of_term(term));
+        for (const SignedTree& term : right_side_terms(equation))
+            terms.emplace_back(term.negative, text_of_term(term, is_of_sections(equation)));
         if (terms.empty()) terms.emplace_back(false, "0");
         const std::size_t margin = widest + 5;
         const std::vector<std::string> lines =

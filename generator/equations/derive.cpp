@@ -8,6 +8,7 @@
 #include "equations/lagrange.hpp"
 #include "equations/lagrangian_cartan.hpp"
 #include "equations/poisson.hpp"
+#include "equations/nonholonomic.hpp"
 #include "equations/pontryagin.hpp"
 #include "model/form.hpp"
 #include "model/scene_form.hpp"
@@ -17,14 +18,32 @@ namespace lagen {
 std::vector<std::string> derivation_names()
 {
     std::vector<std::string> names = form_names();
-    for (const char* more : {"exterior", "cartan", "poisson"}) names.emplace_back(more);
+    for (const char* more : {"exterior", "cartan", "poisson", "reaction", "projected"}) names.emplace_back(more);
     return names;
 }
+
+namespace {
+
+EquationSet derive_constrained(const std::string& form, const Model& model, const System& system)
+{
+    if (form == "reaction") return derive_reaction(model, system);
+    if (form == "projected") return derive_projected(model, system);
+    if (form == entry_of(FormKind::lagrange).name) return derive_nonholonomic(model, system);
+    if (form == entry_of(FormKind::hamilton).name) return derive_constrained_hamilton(model, system);
+    throw MathematicsError("the form '" + form + "' of a nonholonomic model is not derived yet",
+                           "lagrange, hamilton, reaction and projected are");
+}
+
+} // namespace
 
 EquationSet derive(const std::string& form, const Model& model, const System& system, const Report& report,
                    const std::vector<Tree>& brackets)
 {
     const WrittenAlgebroid& algebroid = system.written.algebroid;
+    if (system.distribution) return derive_constrained(form, model, system);
+    if (form == "reaction" || form == "projected")
+        throw MathematicsError("the form '" + form + "' is of nonholonomic models, and '" + model.name + "' is none",
+                               "[algebroid] kind = \"nonholonomic\"");
     if (form == "exterior") return derive_exterior(model, system);
     if (form == "poisson") return derive_poisson(model, system, report.mechanics.regularity, brackets);
     if (form == "cartan") {

@@ -20,7 +20,7 @@ class LagrangianCartan {
         : system_(system), regularity_(regularity), graph_(system.graph),
           symbolic_(model, system.written.algebroid, {model.lagrangian}), lagrangian_(lagrangian_nodes(graph_, system)),
           forms_(lagrangian_forms(graph_, system, lagrangian_)), partial_(graph_, forms_.prolongation.x),
-          decider_(ZeroDecider::make(graph_, proof_setting(system)))
+          decider_(ZeroDecider::make(graph_, proof_setting(graph_, system)))
     {
         for (std::size_t a = 0; a < system.r(); ++a)
             accelerations_.push_back(graph_.input("f " + graph_.input_name(system.algebroid.y[a])));

@@ -21,7 +21,7 @@ class PoissonDerivation {
                       const std::vector<Tree>& brackets)
         : system_(system), graph_(system.graph), symbolic_(model, system.written.algebroid, {}),
           canonical_(canonical_forms(graph_, system)), partial_(graph_, canonical_.prolongation.x),
-          decider_(ZeroDecider::make(graph_, setting_of(system)))
+          decider_(ZeroDecider::make(graph_, setting_of(graph_, system)))
     {
         Lowering lower(graph_);
         for (const Tree& each : brackets) functions_.push_back({each, lower(each)});
@@ -53,9 +53,9 @@ class PoissonDerivation {
         NodeId node;
     };
 
-    [[nodiscard]] static ProofSetting setting_of(const System& system)
+    [[nodiscard]] static ProofSetting setting_of(Graph& graph, const System& system)
     {
-        ProofSetting setting = proof_setting(system);
+        ProofSetting setting = proof_setting(graph, system);
         for (const NodeId mu : system.mu)
             if (std::ranges::find(setting.variables, mu) == setting.variables.end()) setting.variables.push_back(mu);
         return setting;

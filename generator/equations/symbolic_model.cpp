@@ -44,6 +44,10 @@ SymbolicModel::SymbolicModel(const Model& model, const WrittenAlgebroid& algebro
     }
     for (const Symbol& symbol : algebroid.base) x_.push_back(variable(symbol.name));
     for (const Symbol& symbol : algebroid.fibre) y_.push_back(variable(symbol.name));
+    if (is_nonholonomic(model))
+        for (const Symbol& symbol : model.fibre.coordinates)
+            if (std::ranges::find(algebroid.fibre, symbol.name, &Symbol::name) == algebroid.fibre.end())
+                add_variable(symbol.name);
     for (const Symbol& symbol : model.fibre.momenta) mu_.push_back(variable(symbol.name));
     if (model.control)
         for (const Symbol& symbol : model.control->controls) controls_.push_back(variable(symbol.name));
@@ -264,9 +268,11 @@ EquationSet SymbolicModel::empty_set(const std::string& form) const
         set.symbols.push_back({parameter.symbol.name, parameter.symbol.latex});
     for (const std::vector<Symbol>* list : {&algebroid_.base, &algebroid_.fibre})
         for (const Symbol& symbol : *list) set.symbols.push_back({symbol.name, symbol.latex});
+    if (is_nonholonomic(model_))
+        for (const Symbol& symbol : model_.fibre.coordinates) set.symbols.push_back({symbol.name, symbol.latex});
     for (std::size_t a = 0; a < model_.fibre.momenta.size(); ++a) {
         const Symbol& momentum = model_.fibre.momenta[a];
-        const Symbol& coordinate = algebroid_.fibre[a];
+        const Symbol& coordinate = model_.fibre.coordinates[a];
         const bool follows =
             momentum.latex.empty() && !coordinate.latex.empty() && momentum.name == "p_" + coordinate.name;
         set.symbols.push_back({momentum.name, follows ? "p_{" + coordinate.latex + "}" : momentum.latex});

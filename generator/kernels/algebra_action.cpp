@@ -24,6 +24,7 @@ class ActionBuilder {
     {
         if (form_.form->kind != FormKind::lagrange && form_.form->kind != FormKind::hamilton)
             return refused(fmt::format("the form is '{}'", form_.form->name));
+        if (system_.distribution) return refused("the motions are constrained, and no group moves a distribution");
         for (const Column& column : system_.algebroid.bracket)
             for (const ColumnEntry& C : column)
                 if (const std::optional<NodeId> other = variable_of(C.value))

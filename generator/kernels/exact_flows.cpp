@@ -28,7 +28,7 @@ class FlowBuilder {
     {
         lanes_.insert(lanes_.end(), system.mu.begin(), system.mu.end());
         flows_.length = graph.input("length of a flow");
-        setting_ = proof_setting(system);
+        setting_ = proof_setting(graph, system);
         setting_.variables.push_back(flows_.length);
         for (const NodeId mu : system.mu)
             if (std::ranges::find(setting_.variables, mu) == setting_.variables.end()) setting_.variables.push_back(mu);
@@ -297,6 +297,7 @@ class FlowBuilder {
 
 ExactFlows exact_flows(Graph& graph, const System& system, const HamiltonianNodes& hamiltonian)
 {
+    if (system.distribution) return {0, {}, "its motions are constrained"};
     return FlowBuilder(graph, system, hamiltonian).build();
 }
 

@@ -39,8 +39,8 @@ class ModuleBuilder {
 
     ModuleBuilder(const Model& model, const System& system, const Report& report, const KernelRequest& request,
                   const std::string& form)
-        : model_(model), system_(system), request_(request), states_(carried_states(model, form, request.scene)),
-          graph_(std::make_shared<Graph>(system.graph)),
+        : model_(model), system_(system), report_(report), request_(request),
+          states_(carried_states(model, form, request.scene)), graph_(std::make_shared<Graph>(system.graph)),
           form_(formulation(*graph_, model, system, report, form_named(form).kind,
                             formulation_request(request, states_))),
           lower_(*graph_, form_.binding)
@@ -63,7 +63,7 @@ class ModuleBuilder {
             add_domain_series();
         add_trees("observables",
                   observable_trees(model_, request_.scene, state_names(model_, module_.form), lanes_of(module_)));
-        add_trees("invariants", conserved_trees(model_));
+        add_trees("invariants", conserved_quantities());
         if (has_rates()) add_motion();
         simplify_implicit();
         return std::move(module_);
@@ -72,6 +72,16 @@ class ModuleBuilder {
   private:
     /// Else it goes from step to step.
     [[nodiscard]] bool has_rates() const { return !form_.step; }
+
+    /// Those of the model, and a moving energy where its rate is proved to be zero.
+    [[nodiscard]] std::vector<NamedTree> conserved_quantities() const
+    {
+        std::vector<NamedTree> trees = conserved_trees(model_);
+        const auto& energy = report_.mechanics.conserved;
+        if (energy && energy->name == "moving_energy" && energy->status == ProofStatus::proved)
+            trees.push_back({energy->name, name(energy->name), {}});
+        return trees;
+    }
 
     /// What is made of the rates beside them, and what happens between the steps.
     void add_motion()
@@ -364,6 +374,7 @@ class ModuleBuilder {
 
     const Model& model_;
     const System& system_;
+    const Report& report_;
     const KernelRequest& request_;
     std::vector<std::size_t> states_; ///< numbers of the first-order states that are lanes
     std::shared_ptr<Graph> graph_;

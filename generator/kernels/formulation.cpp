@@ -76,8 +76,9 @@ void require_regular_lagrangian(const System& system, const Regularity& regulari
     if (regularity.kind == Regularity::Kind::degenerate)
         throw MathematicsError(
             fmt::format(
-                "the Lagrangian of model '{}' is degenerate: d2L/dy2 has rank {}, and the {} form needs rank {}",
-                system.name, regularity.rank, form, system.r()),
+                "the Lagrangian of model '{}' is degenerate{}: d2L/dy2 has rank {}, and the {} form needs rank {}",
+                system.name, system.distribution ? " on the constraint" : "", regularity.rank, form,
+                system.velocities().size()),
             "the velocities cannot be solved for; give every fibre coordinate a kinetic term");
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Hamilton's equations (mechanics/hamilton.hpp) as kernels, of H as it is given or by Legendre's transform of L.
 #include "graph/calculus/differentiate.hpp"
+#include "kernels/constrained_kernels.hpp"
 #include "kernels/formulation.hpp"
 #include "mechanics/hamilton.hpp"
 #include "verify/legendre_obstacle.hpp"
@@ -17,7 +18,7 @@ HamiltonianNodes hamiltonian_nodes(Graph& graph, const System& system, const Reg
     require_regular_lagrangian(system, regularity, "Hamiltonian");
     require_legendre_transform(system.name, regularity);
     const LagrangianNodes lagrangian = lagrangian_nodes(graph, system);
-    graph.remember_hessian(lagrangian.fibre.hessian, system.algebroid.y, *system.lagrangian);
+    graph.remember_hessian(lagrangian.fibre.hessian, lagrangian.fibre.y, lagrangian.fibre.lagrangian);
     return legendre_transform(graph, system, lagrangian, mass_structure(regularity), regularity.newton_start);
 }
 
@@ -25,8 +26,10 @@ void add_kernels(Graph& graph, const System& system, const HamiltonianNodes& ham
                  Formulation& form)
 {
     if (!hamiltonian.y.empty()) form.kernels.push_back(table_kernel(form, "velocity", column("y", hamiltonian.y)));
-    form.kernels.push_back(scalar_kernel(form, "energy", hamiltonian.value));
-    if (!graph.is_zero(power)) form.kernels.push_back(scalar_kernel(form, "power", power));
+    const bool has_drift = hamiltonian.constrained && hamiltonian.constrained->hull.has_drift();
+    form.kernels.push_back(scalar_kernel(
+        form, "energy", has_drift ? constrained_energy(graph, *hamiltonian.constrained) : hamiltonian.value));
+    if (!has_drift && !graph.is_zero(power)) form.kernels.push_back(scalar_kernel(form, "power", power));
     form.kernels.push_back(scalar_kernel(form, "hamiltonian", hamiltonian.value));
     if (system.lagrangian) form.kernels.push_back(scalar_kernel(form, "lagrangian", hamiltonian.lagrangian));
     if (!hessians) return;
@@ -58,14 +61,19 @@ Formulation hamilton_form(Graph& graph, const System& system, const Report& repo
     form.implicit = hamiltonian.implicit;
     if (!system.hamiltonian) require_proved_values(graph, report.mechanics.regularity, form);
     set_motion(graph, system, phase, form);
-    if (!hamiltonian.matrix.empty()) form.pivots = single_blocks(graph, hamiltonian.matrix, system.r());
+    if (!hamiltonian.matrix.empty()) form.pivots = single_blocks(graph, hamiltonian.matrix, system.mu.size());
     form.documentation = {"Hamilton's equations, ds = (xdot, mudot): xdot^i = rho^i_a dH/dmu_a and",
                           system.forces.empty() ? "mudot_a = -(rho_a(H) + mu_c C^c_ab dH/dmu_b)."
                                                 : "mudot_a = -(rho_a(H) + mu_c C^c_ab dH/dmu_b) + Q_a.",
                           system.hamiltonian ? "H is given."
                                              : "H is the Legendre transform of L: y = dH/dmu solves mu_a = dL/dy^a.",
                           "s and ds may be the same object."};
+    if (hamiltonian.constrained)
+        form.documentation = {"The almost-Hamiltonian equations on D*, ds = (xdot, mudot): xdot = rho(Y) and",
+                              "mudot_a = -rho(e_a)(h) - P_c [e_a, Y]^c + Q_a, Y = b + (dh/dmu_a) e_a; h is the",
+                              "Legendre transform of L on the constraint. s and ds may be the same object."};
     add_kernels(graph, system, hamiltonian, phase.energy_rate, request.hessians, form);
+    if (hamiltonian.constrained) add_constrained(graph, system, *hamiltonian.constrained, form);
     form.hamiltonian = hamiltonian;
     return form;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Lagrange's equations (mechanics/lagrange.hpp) as kernels: ydot = W^-1 (..), never an inverse by symbols.
 #include "graph/calculus/differentiate.hpp"
+#include "kernels/constrained_kernels.hpp"
 #include "kernels/formulation.hpp"
 #include "mechanics/lagrange.hpp"
 
@@ -10,30 +11,47 @@ namespace lagen {
 
 namespace {
 
-void bind_names(const System& system, const LagrangianNodes& lagrangian, Formulation& form)
+void bind_names(Graph& graph, const System& system, const LagrangianNodes& lagrangian, Formulation& form)
 {
     form.binding["energy"] = form.binding["hamiltonian"] = lagrangian.energy;
-    form.binding["lagrangian"] = *system.lagrangian;
-    for (std::size_t a = 0; a < system.r(); ++a)
+    if (lagrangian.constrained) {
+        form.binding["hamiltonian"] = form.binding["moving_energy"] = moving_energy(graph, *lagrangian.constrained);
+        form.binding.merge(ambient_names(system, lagrangian.constrained->hull.Y));
+    }
+    form.binding["lagrangian"] = lagrangian.fibre.lagrangian;
+    for (std::size_t a = 0; a < system.mu.size(); ++a)
         form.binding[system.graph.input_name(system.mu[a])] = lagrangian.fibre.momenta[a];
     bind_system(system, form);
-    for (const NodeId y : system.algebroid.y) form.binding[system.graph.input_name(y)] = y;
+    for (const NodeId y : system.velocities()) form.binding[system.graph.input_name(y)] = y;
 }
 
-void add_kernels(Graph& graph, const System& system, const LagrangianNodes& lagrangian, NodeId power, bool hessians,
+void add_kernels(Graph& graph, const LagrangianNodes& lagrangian, std::optional<NodeId> power, bool hessians,
                  Formulation& form)
 {
-    const std::size_t r = system.r();
+    const std::size_t r = lagrangian.fibre.y.size();
     if (r > 0) {
         form.kernels.push_back(table_kernel(form, "mass_matrix", matrix(graph, "W", r, r, lagrangian.fibre.hessian)));
         form.kernels.push_back(table_kernel(form, "momentum", column("p", lagrangian.fibre.momenta)));
     }
     form.kernels.push_back(scalar_kernel(form, "energy", lagrangian.energy));
-    if (!graph.is_zero(power)) form.kernels.push_back(scalar_kernel(form, "power", power));
-    form.kernels.push_back(scalar_kernel(form, "lagrangian", *system.lagrangian));
+    if (power && !graph.is_zero(*power)) form.kernels.push_back(scalar_kernel(form, "power", *power));
+    form.kernels.push_back(scalar_kernel(form, "lagrangian", lagrangian.fibre.lagrangian));
     if (!hessians) return;
-    const std::vector<NodeId> first = gradient(graph, *system.lagrangian, state_of(form));
+    const std::vector<NodeId> first = gradient(graph, lagrangian.fibre.lagrangian, state_of(form));
     form.kernels.push_back(hessian_kernel(graph, form, "lagrangian_hessian", first));
+}
+
+std::vector<std::string> documentation_of(const System& system)
+{
+    if (system.distribution)
+        return {"The equations of motion, ds = (xdot, ydot), of a motion Y = b + y^a e_a: xdot = rho(Y) and",
+                "d/dt p_a = rho(e_a)(L) - P_c [e_a, Y]^c + Q_a with p_a = W_ab y^b + .. and P = dL/dY.",
+                "s and ds may be the same object."};
+    return {"The equations of motion, ds = (xdot, ydot): xdot^i = rho^i_a y^a and",
+            system.forces.empty()
+                ? "W_ab ydot^b = rho_a(L) - (d2L/dy^a dx^i) rho^i_b y^b - d2L/dy^a dt - p_c C^c_ab y^b."
+                : "W_ab ydot^b = rho_a(L) + Q_a - (d2L/dy^a dx^i) rho^i_b y^b - d2L/dy^a dt - p_c C^c_ab y^b.",
+            "s and ds may be the same object."};
 }
 
 } // namespace
@@ -43,25 +61,20 @@ Formulation lagrange_form(Graph& graph, const System& system, const Report& repo
     require_regular_lagrangian(system, report.mechanics.regularity, "Lagrangian");
     const LagrangianNodes lagrangian = lagrangian_nodes(graph, system);
     const std::vector<NodeId>& W = lagrangian.fibre.hessian;
-    graph.remember_hessian(W, system.algebroid.y, *system.lagrangian);
+    graph.remember_hessian(W, lagrangian.fibre.y, lagrangian.fibre.lagrangian);
     const MomentumBalance balance = lagrange_balance(graph, system, lagrangian);
-    Formulation form = empty_form(system, FormKind::lagrange, system.algebroid.y, request);
-    form.derivative = base_velocity(graph, system.algebroid, system.algebroid.y);
-    const std::vector<NodeId> right =
-        acceleration_forces(graph, system, lagrangian, momentum_rates(graph, system.algebroid, balance));
-    const std::vector<NodeId> ydot = graph.solve(W, right, mass_structure(report.mechanics.regularity));
+    Formulation form = empty_form(system, FormKind::lagrange, lagrangian.fibre.y, request);
+    const LagrangeRates rates = lagrange_rates(graph, system, lagrangian, balance);
+    form.derivative = rates.xdot;
+    const std::vector<NodeId> ydot = graph.solve(W, rates.force, mass_structure(report.mechanics.regularity));
     form.derivative.insert(form.derivative.end(), ydot.begin(), ydot.end());
-    form.pivots = single_blocks(graph, W, system.r());
-    form.documentation = {
-        "The equations of motion, ds = (xdot, ydot): xdot^i = rho^i_a y^a and",
-        system.forces.empty()
-            ? "W_ab ydot^b = rho_a(L) - (d2L/dy^a dx^i) rho^i_b y^b - d2L/dy^a dt - p_c C^c_ab y^b."
-            : "W_ab ydot^b = rho_a(L) + Q_a - (d2L/dy^a dx^i) rho^i_b y^b - d2L/dy^a dt - p_c C^c_ab y^b.",
-        "s and ds may be the same object."};
+    form.pivots = single_blocks(graph, W, lagrangian.fibre.y.size());
+    form.documentation = documentation_of(system);
     form.failures = "Answers singular_mass_matrix where W has no inverse at this state.";
-    bind_names(system, lagrangian, form);
+    bind_names(graph, system, lagrangian, form);
     append_state_rates(graph, system, form);
-    add_kernels(graph, system, lagrangian, energy_rate(graph, system.algebroid, balance), request.hessians, form);
+    add_kernels(graph, lagrangian, lagrange_power(graph, system, lagrangian, balance), request.hessians, form);
+    if (lagrangian.constrained) add_constrained(graph, system, *lagrangian.constrained, form);
     return form;
 }
 

@@ -25,20 +25,20 @@ HamiltonianNodes given_hamiltonian(Graph& graph, const System& system)
 HamiltonianNodes legendre_transform(Graph& graph, const System& system, const LagrangianNodes& lagrangian,
                                     MatrixStructure structure, std::span<const Rational> start)
 {
-    const std::vector<NodeId>& y = system.algebroid.y;
+    const std::vector<NodeId>& y = lagrangian.fibre.y;
     HamiltonianNodes nodes;
     nodes.mu = system.mu;
     FibreHessian fibre = lagrangian.fibre;
     const auto offset = affine_offset(graph, fibre);
     std::vector<NodeId> at_velocity = lagrangian.dL_dx;
     at_velocity.push_back(lagrangian.dL_dt);
-    at_velocity.push_back(*system.lagrangian);
+    at_velocity.push_back(lagrangian.fibre.lagrangian);
     // Of a momentum that is affine in y the root may lie where L is not defined: what must be positive has cancelled.
-    if (!offset || !positive_operands(graph, *system.lagrangian, y).empty()) {
+    if (!offset || !positive_operands(graph, lagrangian.fibre.lagrangian, y).empty()) {
         std::vector<NodeId> residuals;
         for (std::size_t a = 0; a < y.size(); ++a) residuals.push_back(graph.subtract(fibre.momenta[a], nodes.mu[a]));
         nodes.implicit.push_back(gradient_block(graph, "velocity", "y with dL/dy^a = mu_a (the Legendre transform).", y,
-                                                residuals, *system.lagrangian, start));
+                                                residuals, lagrangian.fibre.lagrangian, start));
         nodes.implicit.back().structure = structure;
         nodes.y = y;
     } else {
@@ -48,6 +48,8 @@ HamiltonianNodes legendre_transform(Graph& graph, const System& system, const La
         nodes.matrix = std::move(fibre.hessian);
         at_velocity = substitute(graph, at_velocity, replacements(y, nodes.y));
     }
+    if (lagrangian.constrained)
+        nodes.constrained = at_velocities(graph, *lagrangian.constrained, replacements(y, nodes.y));
     nodes.lagrangian = at_velocity.back();
     nodes.dH_dt = graph.negate(at_velocity[at_velocity.size() - 2]);
     for (std::size_t i = 0; i < system.n(); ++i) nodes.dH_dx.push_back(graph.negate(at_velocity[i]));
@@ -55,10 +57,37 @@ HamiltonianNodes legendre_transform(Graph& graph, const System& system, const La
     return nodes;
 }
 
+namespace {
+
+/// mudot_alpha = -rho_alpha(h) - P_a [e_alpha, b + (dh/dmu_beta) e_beta]^a + Q_alpha on D*
+PhaseSystem constrained_phase(Graph& graph, const System& system, const HamiltonianNodes& hamiltonian,
+                              std::vector<NodeId> dl_dx)
+{
+    const ConstrainedNodes& nodes = *hamiltonian.constrained;
+    const Algebroid& frame = nodes.hull.frame;
+    const MomentumBalance balance =
+        constrained_balance(graph, nodes, std::move(dl_dx), graph.negate(hamiltonian.dH_dt));
+    PhaseSystem phase;
+    phase.hamiltonian = hamiltonian.value;
+    phase.lagrangian = hamiltonian.lagrangian;
+    phase.mu = hamiltonian.mu;
+    phase.y = hamiltonian.y;
+    phase.xdot = base_velocity(graph, frame, balance.y);
+    phase.mudot = constrained_rates(graph, system, nodes, momentum_rates(graph, frame, balance));
+    phase.energy_rate = moving_energy_rate(graph, system, nodes, balance);
+    phase.more = ambient_names(system, nodes.hull.Y);
+    if (!system.declares("energy")) phase.more.emplace("energy", constrained_energy(graph, nodes));
+    if (!system.declares("moving_energy")) phase.more.emplace("moving_energy", hamiltonian.value);
+    return phase;
+}
+
+} // namespace
+
 PhaseSystem hamilton_system(Graph& graph, const System& system, const HamiltonianNodes& hamiltonian)
 {
     MomentumBalance balance;
     for (const NodeId slope : hamiltonian.dH_dx) balance.df_dx.push_back(graph.negate(slope));
+    if (hamiltonian.constrained) return constrained_phase(graph, system, hamiltonian, std::move(balance.df_dx));
     balance.df_dt = graph.negate(hamiltonian.dH_dt);
     balance.p = hamiltonian.mu;
     balance.y = hamiltonian.y;

@@ -18,8 +18,9 @@ struct HamiltonianNodes {
     std::vector<NodeId> y;     ///< dH/dmu_a, shape (r)
     std::vector<NodeId> dH_dx; ///< at fixed mu, shape (n)
     NodeId dH_dt = 0;
-    std::vector<NodeId> matrix;          ///< that y was solved with, shape (r, r); empty: none
-    std::vector<ImplicitBlock> implicit; ///< where mu is not affine in y
+    std::optional<ConstrainedNodes> constrained; ///< of a nonholonomic system, at y(x, mu); `value` is h on D*
+    std::vector<NodeId> matrix;                  ///< that y was solved with, shape (r, r); empty: none
+    std::vector<ImplicitBlock> implicit;         ///< where mu is not affine in y
 };
 
 /// Of a system that has H.

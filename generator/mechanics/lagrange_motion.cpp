@@ -16,36 +16,58 @@ using Seeds = std::vector<std::pair<NodeId, NodeId>>;
 LagrangeMotion::LagrangeMotion(Graph& graph, const System& system, const LagrangianNodes* lagrangian)
     : graph_(graph), system_(system), lagrangian_(lagrangian)
 {
-    xdot_ = base_velocity(graph, system.algebroid, system.algebroid.y);
-    if (lagrangian == nullptr) return;
+    if (lagrangian == nullptr) {
+        take_kinematics();
+        return;
+    }
     const MomentumBalance balance = lagrange_balance(graph, system, *lagrangian);
-    pdot_ = momentum_rates(graph, system.algebroid, balance);
-    force_ = acceleration_forces(graph, system, *lagrangian, pdot_);
-    for (std::size_t a = 0; a < system.r(); ++a)
+    LagrangeRates rates = lagrange_rates(graph, system, *lagrangian, balance);
+    xdot_ = std::move(rates.xdot);
+    pdot_ = std::move(rates.pdot);
+    force_ = std::move(rates.force);
+    for (std::size_t a = 0; a < pdot_.size(); ++a)
         momentum_names_.push_back(graph.input("momentum " + std::to_string(a)));
-    energy_name_ = graph.input("energy of L");
-    energy_rate_ = energy_rate(graph, system.algebroid, balance);
+    energy_ = {graph.input("energy of L"), lagrangian->energy, lagrange_power(graph, system, *lagrangian, balance)};
+    if (!lagrangian->constrained) return;
+    const ConstrainedNodes& nodes = *lagrangian->constrained;
+    moving_energy_ = {graph.input("moving energy of L"), moving_energy(graph, nodes),
+                      moving_energy_rate(graph, system, nodes, balance)};
+    ambient_ = ambient_names(system, nodes.hull.Y);
+}
+
+void LagrangeMotion::take_kinematics()
+{
+    if (!system_.distribution) {
+        xdot_ = base_velocity(graph_, system_.algebroid, system_.algebroid.y);
+        return;
+    }
+    const ConstraintHull hull = constraint_hull(graph_, system_);
+    xdot_ = base_velocity(graph_, hull.frame, hull.weights);
+    ambient_ = ambient_names(system_, hull.Y);
 }
 
 Binding LagrangeMotion::names() const
 {
-    Binding binding;
+    Binding binding = ambient_;
     if (lagrangian_ == nullptr) return binding;
     const auto bind = [&](const std::string& name, NodeId node) {
         if (!system_.declares(name)) binding.emplace(name, node);
     };
     for (std::size_t a = 0; a < std::min(momentum_names_.size(), system_.mu.size()); ++a)
         bind(system_.graph.input_name(system_.mu[a]), momentum_names_[a]);
-    bind("energy", energy_name_);
-    bind("hamiltonian", energy_name_);
-    bind("lagrangian", *system_.lagrangian);
+    const auto shown = [](const FollowedEnergy& energy) { return energy.rate ? energy.name : energy.value; };
+    bind("energy", shown(energy_));
+    bind("hamiltonian", shown(lagrangian_->constrained ? moving_energy_ : energy_));
+    if (lagrangian_->constrained) bind("moving_energy", shown(moving_energy_));
+    bind("lagrangian", lagrangian_->fibre.lagrangian);
     return binding;
 }
 
 std::vector<NodeId> LagrangeMotion::without_stand_ins(const std::vector<NodeId>& nodes)
 {
     if (lagrangian_ == nullptr) return nodes;
-    Seeds replacements = {{energy_name_, lagrangian_->energy}};
+    Seeds replacements = {{energy_.name, energy_.value}};
+    if (lagrangian_->constrained) replacements.emplace_back(moving_energy_.name, moving_energy_.value);
     for (std::size_t a = 0; a < momentum_names_.size(); ++a)
         replacements.emplace_back(momentum_names_[a], lagrangian_->fibre.momenta[a]);
     return substitute(graph_, nodes, replacements);
@@ -92,10 +114,11 @@ Rate LagrangeMotion::rate(NodeId f)
     Lowering lower(graph_, names());
     for (std::size_t k = 0; k < system_.states.size(); ++k)
         seeds.emplace_back(system_.states[k], lower(system_.written.states[k].value));
-    if (lagrangian_ != nullptr) seeds.emplace_back(energy_name_, energy_rate_);
+    for (const FollowedEnergy& energy : {energy_, moving_energy_})
+        if (energy.rate) seeds.emplace_back(energy.name, *energy.rate);
     const NodeId outputs[] = {f};
     const NodeId known = directional(graph_, outputs, seeds)[0];
-    const std::vector<NodeId> f_y = gradient(graph_, f, system_.algebroid.y);
+    const std::vector<NodeId> f_y = gradient(graph_, f, system_.velocities());
     const bool free = std::all_of(f_y.begin(), f_y.end(), [&](NodeId id) { return graph_.is_zero(id); });
     if (free) return {without_stand_ins({known})[0], {}};
     if (lagrangian_ == nullptr)

@@ -21,9 +21,9 @@ PhaseSystem phase_system(Graph& graph, const System& system, const MomentumBalan
 
 Binding phase_names(const System& system, const PhaseSystem& phase, NodeId energy)
 {
-    Binding binding;
+    Binding binding = phase.more;
     for (std::size_t a = 0; a < phase.mu.size(); ++a) {
-        binding.emplace(system.graph.input_name(system.algebroid.y[a]), phase.y[a]);
+        binding.emplace(system.graph.input_name(system.velocities()[a]), phase.y[a]);
         binding.emplace(system.graph.input_name(phase.mu[a]), phase.mu[a]);
     }
     for (const auto& [control, value] : phase.found) binding.emplace(system.graph.input_name(control), value);

@@ -18,6 +18,7 @@ struct PhaseSystem {
     std::vector<NodeId> y;           ///< shape (r)
     std::vector<NodeId> xdot, mudot; ///< shapes (n), (r)
     NodeId energy_rate = 0;          ///< dH/dt
+    Binding more;                    ///< names of a nonholonomic system, which win over those of H
     Replacements found;              ///< controls with their values on extremals
     std::vector<NamedNode> divisors; ///< determinants that these values divide by
     std::vector<NodeId> open;        ///< controls that are not solved for

@@ -83,9 +83,24 @@ struct SymmetryClaim {
     std::vector<NodeId> s; ///< s^a over x, shape (r)
 };
 
+/// An affine distribution b + D in the algebroid, Y = b + y^alpha e_alpha with e_alpha = A_alpha^a e_a, that motions
+/// are constrained to: mechanics/nonholonomic.hpp. The system's L, forces and algebroid are those of the ambient Y
+/// then.
+struct Distribution {
+    std::vector<NodeId> y;           ///< inputs y^alpha, shape (k); some of the Y where constraints alone are given
+    std::vector<Section> sections;   ///< e_alpha, over x and t
+    Section drift;                   ///< b, over x and t; empty: linear constraints
+    std::vector<NodeId> constraints; ///< as given, over t, x and Y: 0 on b + D; may be empty
+    std::vector<std::string> constraint_texts;
+    std::optional<NodeId> minor; ///< what solving the constraints divides by; nothing where sections are given
+    bool is_solved = false;      ///< sections and drift follow from the constraints
+    bool has_dependent = false;  ///< the constraints are dependent everywhere, and the sections are none of theirs
+};
+
 /// The trees that the nodes were lowered from, for what asks how something is written and where.
 struct Written {
     WrittenAlgebroid algebroid;
+    std::optional<WrittenDistribution> distribution;
     std::vector<NamedTree> invariants;
     std::vector<Tree> phase;       ///< on E* and the controls: H, sigma, cost, bounds
     std::vector<NamedTree> states; ///< first-order states z with z', over what observables may use
@@ -108,8 +123,8 @@ struct System {
     BaseFunctions functions;                             ///< base constraints and Casimirs
     std::vector<BaseFunctionText> constraints, casimirs; ///< of these
     std::vector<NodeId> domain;                          ///< comparisons that hold on M
-    std::vector<NodeId> mu;                              ///< inputs mu_a on E*, shape (r)
-    std::optional<NodeId> lagrangian;                    ///< L(t, x, y)
+    std::vector<NodeId> mu;                              ///< inputs mu_a on E* (on D*), one a velocity
+    std::optional<NodeId> lagrangian;                    ///< L(t, x, y), over the ambient Y of a distribution
     std::optional<NodeId> hamiltonian;                   ///< H(t, x, mu)
     std::vector<NodeId> states;                          ///< inputs z of [states]
     std::vector<NodeId> forces;      ///< Q_a(t, x, y, z) = [forces] - dR/dy^a, shape (r); empty: none
@@ -118,6 +133,7 @@ struct System {
     std::optional<Groupoid> groupoid;
     bool groupoid_is_claim = false; ///< the algebroid is given beside the groupoid, and claimed to be that of it
     std::optional<DiscreteSystem> discrete;
+    std::optional<Distribution> distribution; ///< of a nonholonomic system
     std::vector<SymmetryClaim> symmetries;
     std::vector<FormClaim> forms;
     std::optional<HamiltonJacobiClaim> hamilton_jacobi;
@@ -128,6 +144,8 @@ struct System {
 
     [[nodiscard]] std::size_t n() const { return algebroid.n(); }
     [[nodiscard]] std::size_t r() const { return algebroid.r(); }
+    /// The lanes of a state behind x: y^a, or y^alpha of a distribution.
+    [[nodiscard]] const std::vector<NodeId>& velocities() const { return distribution ? distribution->y : algebroid.y; }
     /// Q_a, zeros where there are none.
     [[nodiscard]] std::vector<NodeId> forces_or_zero(Graph& graph) const;
     /// Whether a parameter, a coordinate of E, a first-order state or a control bears this name.

@@ -39,4 +39,20 @@ struct WrittenAlgebroid {
     [[nodiscard]] std::size_t r() const { return fibre.size(); }
 };
 
+/// A_alpha^a: the component of e_alpha on e_a; of a drift b^a, alpha is 0.
+struct SectionValue {
+    std::size_t alpha, a;
+    Tree value;
+};
+
+/// An affine distribution b + D in an algebroid as a person writes it: mechanics/system.hpp, Distribution.
+struct WrittenDistribution {
+    std::vector<Symbol> y; ///< y^alpha
+    std::vector<SectionValue> sections, drift;
+    std::vector<Tree> constraints; ///< as given
+    Tree minor;                    ///< what solving them divides by; null where sections are given
+    bool is_solved = false;
+    bool has_dependent = false;
+};
+
 } // namespace lagen

@@ -72,6 +72,7 @@ struct RequiredRank {
     std::size_t least;
     bool at_least; ///< more will do
     const char* reason;
+    bool at_most = false; ///< fewer will do
 
     [[nodiscard]] bool fits(std::size_t rank) const;
     [[nodiscard]] std::string text() const; ///< "at least 2"
@@ -86,6 +87,12 @@ void note_fibre_names(ModelReader& reader, const AlgebroidDraft& draft, const Al
 void inherit_definitions(ModelReader& reader);
 /// Their Lagrangians, forces and dissipation, where the model has no mechanics of its own; once the entries are read.
 void inherit_mechanics(ModelReader& reader);
+
+/// Throws ModelError where a nonholonomic table says neither by `sections` nor by `constraints` what D is.
+void require_distribution(const AlgebroidDraft& draft);
+/// `drift` and `constraints` of a nonholonomic block; once its sections are read. Throws ModelError (a constraint that
+/// is not affine, or has no Y, and others).
+void read_distribution(const ModelReader& reader, AlgebroidBlock& block, const AlgebroidDraft& draft);
 
 /// The entries of a table, and of the tables inside it, closed; `block` is their record.
 void read_entries(const ModelReader& reader, AlgebroidBlock& block, const AlgebroidDraft& draft);

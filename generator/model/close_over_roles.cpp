@@ -25,13 +25,22 @@ const TreeNode* first_forbidden(const std::vector<Tree>& trees, const Names& nam
     });
 }
 
+/// Each once, in order.
+std::vector<Role> distinct(std::initializer_list<Role> roles)
+{
+    std::vector<Role> out;
+    for (const Role role : roles)
+        if (std::find(out.begin(), out.end(), role) == out.end()) out.push_back(role);
+    return out;
+}
+
 void require_roles(const std::vector<Tree>& closed, const Names& names, std::initializer_list<Role> roles,
                    const SourceRange& where, const std::string& what)
 {
     const TreeNode* bad = first_forbidden(closed, names, roles);
     if (bad == nullptr) return;
     std::string allowed;
-    for (const Role each : roles) allowed += (allowed.empty() ? "" : ", ") + role_plural(each);
+    for (const Role each : distinct(roles)) allowed += (allowed.empty() ? "" : ", ") + role_plural(each);
     throw ModelError(fmt::format("{} may not depend on {} ('{}')", what,
                                  std::string_view(role_text(role_of(names, bad->name))), bad->name),
                      bad->where.file ? bad->where : where, "allowed here: " + allowed);
@@ -51,7 +60,7 @@ std::vector<std::string> names_over(const ModelReader& reader, const Scope& scop
         const std::vector<std::string> of_role = reader.names.of(role);
         known.insert(known.end(), of_role.begin(), of_role.end());
     };
-    for (const Role role : roles)
+    for (const Role role : distinct(roles))
         if (role != Role::parameter && role != Role::time) append(role);
     for (const Definition& definition : reader.model.definitions) {
         if (!definition.parameters.empty()) continue;
@@ -75,7 +84,7 @@ std::vector<std::string> names_over(const ModelReader& reader, const Scope& scop
     const auto refuse = [&error](const std::string& hint) {
         throw ModelError(error.diagnostic().message, error.diagnostic().where, hint);
     };
-    const bool velocities = admits(roles, Role::fibre);
+    const bool velocities = admits(roles, Role::fibre) || admits(roles, Role::ambient);
     const std::string meant = velocities                      ? hint_for_rate(error.name(), reader.rates)
                               : admits(roles, Role::momentum) ? hint_for_momentum(error.name(), reader.rates)
                                                               : "";

@@ -117,9 +117,16 @@ void declare_fibre(ModelReader& reader, const TomlEntry* block)
         momenta = table.take("momenta");
         table.finish();
     }
+    if (reader.is_probe) return;
     if (coordinates != nullptr) {
-        declare_symbols(reader, read_names(reader, *coordinates, "'coordinates' of [fibre]"), Role::fibre);
+        const std::vector<Symbol> names = read_names(reader, *coordinates, "'coordinates' of [fibre]");
+        if (has_constraints_alone(reader))
+            keep_coordinates(reader, names);
+        else
+            declare_symbols(reader, names, Role::fibre);
         require_rank(reader, coordinates->value.where);
+    } else if (const auto chosen = has_constraints_alone(reader) ? chosen_coordinates(reader) : std::nullopt) {
+        keep_coordinates(reader, *chosen);
     } else if (const auto standard = default_fibre(reader)) {
         declare_symbols(reader, *standard, Role::fibre);
     } else {

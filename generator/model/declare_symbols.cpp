@@ -17,6 +17,7 @@ FamilyRole family_role(Role role)
     case Role::parameter: return FamilyRole::parameter;
     case Role::base: return FamilyRole::base;
     case Role::fibre: return FamilyRole::fibre;
+    case Role::ambient: return FamilyRole::ambient;
     case Role::momentum: return FamilyRole::momentum;
     case Role::control: return FamilyRole::control;
     case Role::state: return FamilyRole::state;
@@ -33,6 +34,7 @@ std::size_t count_of(const Model& model, Role role)
     case Role::parameter: return model.parameters.size();
     case Role::base: return model.base.coordinates.size();
     case Role::fibre: return model.fibre.coordinates.size();
+    case Role::ambient: return 0; // they stand in the block of the inner algebroid
     case Role::control: return model.control ? model.control->controls.size() : 0;
     case Role::state: return model.states.size();
     case Role::element: return model.groupoid->element.size();
@@ -47,6 +49,7 @@ void append_symbol(Model& model, const Symbol& symbol, Role role)
     case Role::parameter: model.parameters.push_back(Parameter{symbol, nullptr}); break;
     case Role::base: model.base.coordinates.push_back(symbol); break;
     case Role::fibre: model.fibre.coordinates.push_back(symbol); break;
+    case Role::ambient: break;
     case Role::control: model.control->controls.push_back(symbol); break;
     case Role::state: model.states.push_back(FirstOrderState{symbol, nullptr, 0}); break;
     case Role::element: model.groupoid->element.push_back(symbol); break;

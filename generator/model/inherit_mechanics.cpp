@@ -41,6 +41,7 @@ Tree sum_or_nothing(const std::vector<Tree>& terms)
 /// Q_a of a block, null where it is zero.
 std::vector<Tree> forces_of(const ModelReader& reader, const AlgebroidDraft& draft, const AlgebroidBlock& block)
 {
+    if (block.kind == AlgebroidKind::nonholonomic) return forces_of(reader, draft.of[0], block.of[0]);
     std::vector<Tree> forces(block.fibre.size());
     if (draft.kind == nullptr) {
         const IncludedModel& included = reader.included[draft.included];

@@ -95,6 +95,8 @@ void define_below(ModelReader& reader, const AlgebroidDraft* draft, const Algebr
         }
         return define_below(reader, inner(0), block.of[0], w, named);
     }
+    case AlgebroidKind::nonholonomic:
+        return define_below(reader, inner(0), block.of[0], names_as_trees(block.of[0].fibre), named);
     case AlgebroidKind::prolongation: {
         const std::vector<Tree> w = names_as_trees(block.of[0].fibre);
         return define_below(reader, inner(0), block.of[0], w, named && !block.dual);

@@ -113,12 +113,12 @@ AlgebroidBlock make_block(const ModelReader& reader, const AlgebroidDraft& draft
 
 bool RequiredRank::fits(std::size_t rank) const
 {
-    return at_least ? rank >= least : rank == least;
+    return at_least ? rank >= least : at_most ? rank <= least : rank == least;
 }
 
 std::string RequiredRank::text() const
 {
-    return at_least ? fmt::format("at least {}", least) : std::to_string(least);
+    return at_least || at_most ? fmt::format("at {} {}", at_least ? "least" : "most", least) : std::to_string(least);
 }
 
 std::optional<RequiredRank> required_rank(const AlgebroidBlock& block)
@@ -130,6 +130,8 @@ std::optional<RequiredRank> required_rank(const AlgebroidBlock& block)
     case AlgebroidKind::frame: return RequiredRank{inner_rank(0), false, "a frame of the inner algebroid"};
     case AlgebroidKind::prolongation: return RequiredRank{2 * inner_rank(0), false, "the prolongation"};
     case AlgebroidKind::groupoid: return RequiredRank{block.rank, false, "the groupoid"};
+    case AlgebroidKind::nonholonomic:
+        return RequiredRank{inner_rank(0) == 0 ? 0 : inner_rank(0) - 1, false, "a nonholonomic constraint", true};
     case AlgebroidKind::product: {
         std::size_t rank = 0;
         for (const AlgebroidBlock& factor : block.of) rank += factor.fibre.size();

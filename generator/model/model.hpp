@@ -23,7 +23,7 @@ struct Size {
     SourceRange where;
 };
 
-enum class FamilyRole { parameter, base, fibre, momentum, control, state, element, next };
+enum class FamilyRole { parameter, base, fibre, ambient, momentum, control, state, element, next };
 
 /// A vector or matrix of declared symbols: entries first, first + 1, .. (by rows) of the list of its role.
 struct Family {
@@ -67,9 +67,10 @@ struct BracketEntry {
     SourceRange where;
 };
 
-/// e'_section = value * e_inner + ..: a row of the matrix A of a frame, e'_a = A_a^b e_b.
+/// e'_section = value * e_inner + ..: a row of the matrix A of a frame, e'_a = A_a^b e_b, or of the sections of a
+/// nonholonomic distribution.
 struct SectionEntry {
-    std::size_t section; ///< a, of this block's fibre
+    std::size_t section; ///< a, of this block's fibre; of a drift 0
     std::size_t inner;   ///< b, of the inner block's fibre
     Tree value;
     SourceRange where;
@@ -93,7 +94,8 @@ enum class AlgebroidKind {
     frame,
     product,
     prolongation,
-    groupoid ///< no [algebroid]: that of the model's groupoid
+    nonholonomic, ///< a distribution in the inner algebroid, which need not be one itself
+    groupoid      ///< no [algebroid]: that of the model's groupoid
 };
 
 /// One [algebroid] or [algebroid.of] table. The outermost block's fibre is the model's; inner blocks have their own.
@@ -110,10 +112,13 @@ struct AlgebroidBlock {
     std::vector<ArrayValue> representation; ///< action: A_a, rho_a = -(A_a x)^i d/dx^i
     SourceRange representation_where;
     std::vector<ConnectionEntry> connection; ///< atiyah
-    std::vector<SectionEntry> sections;      ///< frame
+    std::vector<SectionEntry> sections;      ///< frame, nonholonomic
+    std::vector<SectionEntry> drift;         ///< nonholonomic: b = b^a e_a, by `inner`
+    std::vector<Tree> constraints;           ///< nonholonomic: over t, x, Y and parameters, each is 0 on b + D
+    std::vector<std::size_t> kept;           ///< nonholonomic by constraints alone: the Y that are the fibre
     std::size_t rank = 0;                    ///< groupoid: the number of its sections
     bool dual = false;                       ///< prolongation: bundle = "E*"
-    std::vector<AlgebroidBlock> of;          ///< frame, prolongation: one; product: its factors
+    std::vector<AlgebroidBlock> of;          ///< frame, prolongation, nonholonomic: one; product: its factors
     SourceRange where;
 };
 
@@ -331,7 +336,7 @@ struct Model {
     std::optional<GroupoidBlock> groupoid;
     std::optional<DiscreteBlock> discrete;
     std::vector<Definition> definitions; ///< as written, for documentation
-    Tree lagrangian;                     ///< closed over t, x, y, parameters; null where absent
+    Tree lagrangian;                     ///< closed over t, x, y (Y), parameters; null where absent
     SourceRange lagrangian_where;
     Tree hamiltonian; ///< closed over t, x, momenta, parameters; null where absent
     SourceRange hamiltonian_where;
@@ -360,6 +365,11 @@ struct Model {
 
 /// The scene called `name`; with an empty name `default`, else the first. Throws ModelError where there is none.
 [[nodiscard]] const Scene& find_scene(const Model& model, const std::string& name);
+
+[[nodiscard]] bool is_nonholonomic(const Model& model);
+/// What L, forces and R are written in: y, or Y of a nonholonomic model, the fibre coordinates of its ambient
+/// algebroid.
+[[nodiscard]] const std::vector<Symbol>& ambient_fibre(const Model& model);
 
 /// All parameter names, then base, fibre, controls: the names of symbols that a model declares itself, besides momenta.
 [[nodiscard]] std::vector<std::string> symbol_names(const Model& model);

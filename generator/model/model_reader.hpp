@@ -46,6 +46,8 @@ struct ModelReader {
     Names names;
     const std::vector<Setting>* settings = nullptr;
     IncludeTrail* trail = nullptr;
+    const KeptChooser* chooser = nullptr;   ///< null where there is none
+    bool is_probe = false;                  ///< read as far as its base alone, without a fibre
     const TomlEntry* algebroid = nullptr;   ///< the [algebroid] block
     const TomlEntry* groupoid = nullptr;    ///< the [groupoid] block
     const TomlEntry* discrete = nullptr;    ///< the [discrete] block
@@ -121,6 +123,16 @@ void declare_groupoid(ModelReader& reader);
 /// The kinds of [algebroid] and its inner tables, their fibres and bases; what included files declare joins the model.
 /// Where `block` is null the algebroid is that of the groupoid.
 void read_algebroid_kind(ModelReader& reader, const TomlEntry* block);
+/// The coordinates Y of a nonholonomic model. Throws ModelError for blocks that do not go with it.
+void declare_ambient(ModelReader& reader);
+/// Whether a nonholonomic model has `constraints` and no `sections`: its fibre coordinates are some of the Y then.
+[[nodiscard]] bool has_constraints_alone(const ModelReader& reader);
+/// Those that the chooser finds; nothing where there is none.
+[[nodiscard]] std::optional<std::vector<Symbol>> chosen_coordinates(const ModelReader& reader);
+/// The fibre coordinates are these Y. Throws ModelError.
+void keep_coordinates(ModelReader& reader, const std::vector<Symbol>& names);
+/// Throws ModelError where the model is nonholonomic: it has no such blocks.
+void refuse_nonholonomic(const ModelReader& reader, const TomlEntry& block);
 /// Names of the fibre coordinates where [fibre] leaves them out; nothing where the kind has no default.
 [[nodiscard]] std::optional<std::vector<Symbol>> default_fibre(const ModelReader& reader);
 /// Throws ModelError where the fibre has not as many coordinates as the kind of the algebroid requires.

@@ -18,6 +18,7 @@ const char* role_text(Role role)
     case Role::parameter: return "a parameter";
     case Role::base: return "a base coordinate";
     case Role::fibre: return "a fibre coordinate";
+    case Role::ambient: return "an ambient fibre coordinate";
     case Role::momentum: return "a momentum";
     case Role::control: return "a control";
     case Role::state: return "a first-order state";

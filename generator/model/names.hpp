@@ -17,6 +17,7 @@ enum class Role {
     parameter,
     base,
     fibre,
+    ambient,
     momentum,
     control,
     state,

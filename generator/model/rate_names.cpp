@@ -62,6 +62,7 @@ std::vector<Tree> rates_of(const Model& model, const AlgebroidBlock& block, cons
     case AlgebroidKind::subbundle:
         for (const std::size_t i : block.base) rates[i] = name("v_" + model.base.coordinates[i].name);
         break;
+    case AlgebroidKind::nonholonomic:
     case AlgebroidKind::frame: return rates_of(model, block.of[0], trees_of(block.of[0].fibre));
     case AlgebroidKind::product: {
         auto first = y.begin();

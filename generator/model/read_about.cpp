@@ -71,6 +71,7 @@ void describe(Model& model, const Symbol& about)
     for (Parameter& parameter : model.parameters) apply(parameter.symbol);
     for (auto* list : {&model.base.coordinates, &model.fibre.coordinates, &model.fibre.momenta})
         std::for_each(list->begin(), list->end(), apply);
+    if (is_nonholonomic(model)) std::ranges::for_each(model.algebroid.of[0].fibre, apply);
     if (model.control) std::for_each(model.control->controls.begin(), model.control->controls.end(), apply);
     for (FirstOrderState& state : model.states) apply(state.symbol);
     if (!found) note(model, about);

@@ -36,6 +36,7 @@ void require_tables(const AlgebroidDraft& draft)
     };
     require(AlgebroidKind::subbundle, "spanned_by", "spanned_by = { a = { x = \"..\" } }, a line a section");
     require(AlgebroidKind::frame, "sections", "sections = { a = { b = \"..\" } } for e'_a = .. e_b");
+    require_distribution(draft);
     for (const AlgebroidDraft& inner : draft.of) require_tables(inner);
 }
 
@@ -79,8 +80,11 @@ void require_rank(const ModelReader& reader, const SourceRange& where)
                                      found, rank->text()),
                          where, "fibre coordinates stand in the order of the base coordinates");
     }
+    const bool nonholonomic = is_nonholonomic(reader.model);
     const bool frame = reader.model.algebroid.kind == AlgebroidKind::frame;
-    const char* hint = frame ? "a frame has as many sections as the algebroid that it frames" : "";
+    const char* hint = nonholonomic ? "as many sections as the ambient algebroid has are a frame: kind = \"frame\""
+                       : frame      ? "a frame has as many sections as the algebroid that it frames"
+                                    : "";
     throw ModelError(
         fmt::format("the number of fibre coordinates is {}, where {} needs {}", found, rank->reason, rank->text()),
         where, hint);
@@ -94,6 +98,7 @@ void read_algebroid(ModelReader& reader)
     note_fibre_names(reader, *reader.draft, block, false);
     inherit_definitions(reader);
     read_entries(reader, block, *reader.draft);
+    read_distribution(reader, block, *reader.draft);
     define_inner_velocities(reader);
     inherit_mechanics(reader);
 }

@@ -24,6 +24,7 @@ struct RowTexts {
     const char* entry;    ///< "the anchor entry"
     const char* row_noun; ///< "fibre coordinate": "which is no .."
     const char* entry_noun;
+    bool moving = false; ///< t may stand in the values
 };
 
 /// The shape of the value of an entry.
@@ -48,8 +49,9 @@ void read_rows(const ModelReader& reader, const TomlEntry& block, const RowTexts
         for (const TomlEntry& entry : line.value.entries) {
             const ResolvedKey inner = require_key(entries, entry.key, title, texts.entry_noun);
             const std::string what = fmt::format("{} '{}' of '{}'", texts.entry, inner.name, outer.name);
+            const Role time = texts.moving ? Role::time : Role::base;
             const ArrayValue closed =
-                reader.close_array(read_array_expression(entry.value, what), {Role::parameter, Role::base}, what);
+                reader.close_array(read_array_expression(entry.value, what), {Role::parameter, Role::base, time}, what);
             const std::vector<Tree> values = fit_values(closed, shape_of(outer, inner), what, entry.value.where);
             const bool by_columns = outer.shape.rank != Rank::scalar;
             for (std::size_t k = 0; k < values.size(); ++k) {
@@ -205,7 +207,7 @@ void read_entries(const ModelReader& reader, AlgebroidBlock& block, const Algebr
     if (const TomlEntry* sections = entry("sections"))
         read_sections(reader, block, *sections,
                       {title("sections"), "the section", "the component", "fibre coordinate",
-                       "fibre coordinate of the inner algebroid"});
+                       "fibre coordinate of the inner algebroid", block.kind == AlgebroidKind::nonholonomic});
     for (std::size_t k = 0; k < draft.of.size(); ++k) read_entries(reader, block.of[k], draft.of[k]);
 }
 

@@ -21,11 +21,13 @@ constexpr KindEntry kinds[] = {
     {"frame", AlgebroidKind::frame, {"of", "sections"}},
     {"product", AlgebroidKind::product, {"of"}},
     {"prolongation", AlgebroidKind::prolongation, {"of", "bundle"}},
+    {"nonholonomic", AlgebroidKind::nonholonomic, {"of", "sections", "drift", "constraints"}},
 };
 
 /// Every key of some kind.
-constexpr const char* keys_of_kinds[] = {"over",       "algebra",    "anchor", "bracket",  "representation",
-                                         "spanned_by", "connection", "of",     "sections", "bundle"};
+constexpr const char* keys_of_kinds[] = {"over",           "algebra",    "anchor",     "bracket",
+                                         "representation", "spanned_by", "connection", "of",
+                                         "sections",       "bundle",     "drift",      "constraints"};
 
 constexpr std::size_t deepest_nesting = 16;
 
@@ -107,7 +109,11 @@ AlgebroidDraft draft_file(ModelReader& reader, const TomlValue& of)
 {
     AlgebroidDraft draft;
     draft.included = include_model(reader, of);
-    draft.title = reader.included[draft.included].model.file->name;
+    const Model& model = reader.included[draft.included].model;
+    if (is_nonholonomic(model))
+        throw ModelError(fmt::format("the model '{}' is nonholonomic: its constraint is no Lie algebroid", model.name),
+                         of.where, "give the ambient algebroid of its file");
+    draft.title = model.file->name;
     draft.where = of.where;
     return draft;
 }
@@ -148,6 +154,9 @@ AlgebroidDraft draft_table(ModelReader& reader, const TomlEntry& entry, const st
     draft.outermost = depth == 0;
     TableReader table(value, title);
     draft.kind = &read_kind(table.take("kind"), title);
+    if (depth > 0 && draft.kind->kind == AlgebroidKind::nonholonomic)
+        throw ModelError(fmt::format("{} is nonholonomic: its constraint is no Lie algebroid", title), draft.where,
+                         "give all constraints in [algebroid]");
     require_fitting(value, *draft.kind);
     for (const char* key : draft.kind->keys)
         if (key != nullptr) (void)table.take(key);

@@ -13,11 +13,12 @@ std::vector<ComponentEntry> read_components(const ModelReader& reader, const Tom
                                             const ComponentRules& rules)
 {
     const TableReader table(block.value, rules.title);
-    const std::vector<Symbol>& fibre = reader.model.fibre.coordinates;
+    const std::vector<Symbol>& fibre = ambient_fibre(reader.model);
     std::vector<ComponentEntry> out;
     std::map<std::size_t, std::string> given; // by which key
+    const char* noun = is_nonholonomic(reader.model) ? "ambient fibre coordinate" : "fibre coordinate";
     for (const TomlEntry& entry : block.value.entries) {
-        const ResolvedKey key = require_key(fibre, entry.key, rules.title, "fibre coordinate", &reader.model.scope);
+        const ResolvedKey key = require_key(fibre, entry.key, rules.title, noun, &reader.model.scope);
         const std::string what = fmt::format("{} '{}'", rules.what, key.name);
         const ArrayValue closed =
             reader.close_mechanical_array(read_array_expression(entry.value, what), rules.roles, what, rules.nonsmooth);

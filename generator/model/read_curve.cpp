@@ -27,6 +27,19 @@ const NamedTree* momentum_named(const Model& model, const Excerpt& text)
                      text.range(0, text.text.size()), hint_for(text.text, known, "momenta"));
 }
 
+/// The observable "reaction.Y" of a nonholonomic model; nothing for every other text.
+std::optional<std::string> reaction_named(const Model& model, const Excerpt& text)
+{
+    constexpr std::string_view prefix = "reaction.";
+    if (!is_nonholonomic(model) || !text.text.starts_with(prefix)) return std::nullopt;
+    const std::string coordinate = text.text.substr(prefix.size());
+    const std::vector<Symbol>& ambient = ambient_fibre(model);
+    if (std::ranges::find(ambient, coordinate, &Symbol::name) != ambient.end()) return text.text;
+    throw ModelError(fmt::format("there is no ambient fibre coordinate called '{}'", coordinate),
+                     text.range(0, text.text.size()),
+                     hint_for(coordinate, declared_names(ambient), "ambient fibre coordinates"));
+}
+
 /// The parts between colons.
 std::vector<Excerpt> parts_of(const Excerpt& text)
 {
@@ -46,6 +59,7 @@ std::vector<NamedTree> observed_columns(const Model& model, const Scope& scope, 
     const SourceRange where = text.range(0, text.text.size());
     const Excerpt inner = trimmed(text, 0, text.text.size());
     if (const auto* momentum = momentum_named(model, inner)) return {{momentum->name, momentum->value, where}};
+    if (const auto reaction = reaction_named(model, inner)) return {{*reaction, name(*reaction, where), where}};
     const ArrayValue value = scope.close_array(parse_expression(text), true);
     std::vector<NamedTree> columns;
     for (std::size_t k = 0; k < value.entries.size(); ++k)

@@ -102,6 +102,7 @@ NamedForm read_form(const ModelReader& reader, const TomlEntry& block)
 void declare_forms(ModelReader& reader, const TomlEntry* block)
 {
     if (block == nullptr) return;
+    refuse_nonholonomic(reader, *block);
     const TableReader table(block->value, "[forms]", example);
     for (const TomlEntry& entry : block->value.entries) reader.names.declare(entry.name(), Role::form, entry.where());
 }

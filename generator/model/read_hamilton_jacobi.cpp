@@ -15,6 +15,7 @@ constexpr const char* candidate_example = "S = \"a*x\", or alpha = { v_x = \"a\"
 void read_hamilton_jacobi(ModelReader& reader, const TomlEntry* block)
 {
     if (block == nullptr) return;
+    refuse_nonholonomic(reader, *block);
     Model& model = reader.model;
     if (!model.lagrangian && !model.hamiltonian)
         throw ModelError("[hamilton_jacobi] stands in a model without a Hamiltonian", block->where(),

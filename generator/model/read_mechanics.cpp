@@ -67,8 +67,9 @@ void declare_mechanics(ModelReader& reader)
 void read_mechanics(ModelReader& reader)
 {
     Model& model = reader.model;
-    const auto velocity = {Role::time, Role::parameter, Role::base, Role::fibre};
-    const auto pushing = {Role::time, Role::parameter, Role::base, Role::fibre, Role::state};
+    const Role fibre = is_nonholonomic(model) ? Role::ambient : Role::fibre;
+    const auto velocity = {Role::time, Role::parameter, Role::base, fibre};
+    const auto pushing = {Role::time, Role::parameter, Role::base, fibre, Role::state};
     const auto phase = {Role::time, Role::parameter, Role::base, Role::momentum};
     if (reader.lagrangian) model.lagrangian = reader.close(reader.lagrangian, velocity, "the Lagrangian");
     if (reader.hamiltonian) model.hamiltonian = reader.close_mechanical(reader.hamiltonian, phase, "the Hamiltonian");

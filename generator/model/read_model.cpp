@@ -11,21 +11,52 @@
 
 namespace lagen {
 
-Model read_model(const std::string& path, const std::vector<Setting>& settings)
+namespace {
+
+Model read_with(ModelReader& reader, const std::string& name, std::string text, const std::vector<Setting>& settings,
+                IncludeTrail& trail);
+
+} // namespace
+
+Model read_model(const std::string& path, const std::vector<Setting>& settings, const KeptChooser& chooser)
 {
-    return read_model_text(path, read_file(path), settings);
+    return read_model_text(path, read_file(path), settings, chooser);
 }
 
-Model read_model_text(const std::string& name, std::string text, const std::vector<Setting>& settings)
+Model read_model_text(const std::string& name, std::string text, const std::vector<Setting>& settings,
+                      const KeptChooser& chooser)
 {
     IncludeTrail trail;
-    return read_model_text(name, std::move(text), settings, trail);
+    ModelReader reader;
+    if (chooser) reader.chooser = &chooser;
+    return read_with(reader, name, std::move(text), settings, trail);
 }
 
 Model read_model_text(const std::string& name, std::string text, const std::vector<Setting>& settings,
                       IncludeTrail& trail)
 {
     ModelReader reader;
+    return read_with(reader, name, std::move(text), settings, trail);
+}
+
+std::optional<std::vector<Symbol>> chosen_coordinates(const ModelReader& reader)
+{
+    if (reader.chooser == nullptr) return std::nullopt;
+    IncludeTrail trail = *reader.trail;
+    ModelReader probe;
+    probe.is_probe = true;
+    const SourceFile& file = *reader.model.file;
+    const Model model = read_with(probe, file.name, file.text, *reader.settings, trail);
+    std::vector<Symbol> chosen;
+    for (const std::size_t place : (*reader.chooser)(model)) chosen.push_back(ambient_fibre(reader.model).at(place));
+    return chosen;
+}
+
+namespace {
+
+Model read_with(ModelReader& reader, const std::string& name, std::string text, const std::vector<Setting>& settings,
+                IncludeTrail& trail)
+{
     reader.settings = &settings;
     reader.trail = &trail;
     reader.model.file = std::make_shared<const SourceFile>(SourceFile{name, std::move(text)});
@@ -67,6 +98,7 @@ Model read_model_text(const std::string& name, std::string text, const std::vect
     declare_base(reader, base);
     declare_groupoid(reader);
     read_algebroid_kind(reader, reader.algebroid);
+    declare_ambient(reader);
     declare_fibre(reader, fibre);
     declare_control(reader);
     declare_states(reader);
@@ -80,6 +112,7 @@ Model read_model_text(const std::string& name, std::string text, const std::vect
 
     read_parameters(reader, parameters, settings);
     read_base(reader, base);
+    if (reader.is_probe) return std::move(reader.model);
     read_mechanics(reader);
     read_states(reader);
     read_reconstructions(reader);
@@ -97,6 +130,8 @@ Model read_model_text(const std::string& name, std::string text, const std::vect
     return std::move(reader.model);
 }
 
+} // namespace
+
 const Scene& find_scene(const Model& model, const std::string& name)
 {
     std::vector<std::string> known;
@@ -113,12 +148,26 @@ const Scene& find_scene(const Model& model, const std::string& name)
                      hint_for(name, known, "scenes"));
 }
 
+bool is_nonholonomic(const Model& model)
+{
+    return model.algebroid.kind == AlgebroidKind::nonholonomic;
+}
+
+const std::vector<Symbol>& ambient_fibre(const Model& model)
+{
+    return is_nonholonomic(model) ? model.algebroid.of[0].fibre : model.fibre.coordinates;
+}
+
 std::vector<std::string> symbol_names(const Model& model)
 {
     std::vector<std::string> out;
     for (const Parameter& parameter : model.parameters) out.push_back(parameter.symbol.name);
     for (const Symbol& symbol : model.base.coordinates) out.push_back(symbol.name);
     for (const Symbol& symbol : model.fibre.coordinates) out.push_back(symbol.name);
+    if (is_nonholonomic(model))
+        for (const Symbol& symbol : ambient_fibre(model))
+            if (index_of(model.fibre.coordinates, symbol.name) == model.fibre.coordinates.size())
+                out.push_back(symbol.name);
     if (model.control)
         for (const Symbol& symbol : model.control->controls) out.push_back(symbol.name);
     for (const FirstOrderState& state : model.states) out.push_back(state.symbol.name);

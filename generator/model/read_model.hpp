@@ -4,6 +4,8 @@
 
 #include "model/model.hpp"
 
+#include <functional>
+
 namespace lagen {
 
 /// A parameter changed on the command line, `--set name=value`. It replaces the file's value before anything is derived
@@ -17,12 +19,17 @@ struct Setting {
     [[nodiscard]] bool gives_value() const { return value.file != nullptr; }
 };
 
+/// Chooses the ambient coordinates that a nonholonomic model by constraints keeps as its fibre, as places in
+/// ambient_fibre, where [fibre] leaves that open; of a model that is read as far as its base.
+using KeptChooser = std::function<std::vector<std::size_t>(const Model&)>;
+
 /// Reads and checks a model file. A missing or unreadable file, a folder, invalid UTF-8, a file above 16 MiB, TOML
 /// errors, unknown keys, unknown names, names declared twice and expressions in error throw ModelError.
-[[nodiscard]] Model read_model(const std::string& path, const std::vector<Setting>& settings = {});
+[[nodiscard]] Model read_model(const std::string& path, const std::vector<Setting>& settings = {},
+                               const KeptChooser& chooser = {});
 
 /// The same from a text in memory; `name` stands in messages for the path.
 [[nodiscard]] Model read_model_text(const std::string& name, std::string text,
-                                    const std::vector<Setting>& settings = {});
+                                    const std::vector<Setting>& settings = {}, const KeptChooser& chooser = {});
 
 } // namespace lagen

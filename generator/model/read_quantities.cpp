@@ -170,7 +170,8 @@ void build_scopes(ModelReader& reader)
     list_parameters_last(scope, model);
     add_to_scope(scope, model, parameter_symbols(model), FamilyRole::parameter);
     add_to_scope(scope, model, model.base.coordinates, FamilyRole::base);
-    add_to_scope(scope, model, model.fibre.coordinates, FamilyRole::fibre);
+    if (!has_constraints_alone(reader)) add_to_scope(scope, model, model.fibre.coordinates, FamilyRole::fibre);
+    if (is_nonholonomic(model)) add_to_scope(scope, model, ambient_fibre(model), FamilyRole::ambient);
     for (const Definition& definition : model.definitions) scope.define(definition);
     for (const auto& [key, value] : reader.casimirs) scope.define(Definition{key.text, {}, value, place_of(key)});
     declare_arrows(reader);
@@ -183,8 +184,10 @@ void build_scopes(ModelReader& reader)
     std::set<std::string> used(reader.names.order().begin(), reader.names.order().end());
     std::vector<std::string> extra;
     const auto fresh = [&used](const std::string& name) { return used.insert(name).second; };
-    for (const char* quantity : {"energy", "hamiltonian"})
-        if (fresh(quantity)) extra.emplace_back(quantity);
+    std::vector<std::string> quantities{"energy", "hamiltonian"};
+    if (is_nonholonomic(model)) quantities.emplace_back("moving_energy");
+    for (const std::string& quantity : quantities)
+        if (fresh(quantity)) extra.push_back(quantity);
     const bool lagrangian = fresh("lagrangian");
     if (lagrangian && !reader.lagrangian) extra.push_back("lagrangian");
     reader.mechanical = scope;
@@ -204,7 +207,7 @@ void build_scopes(ModelReader& reader)
         if (fresh(key.text)) reader.observer.define(Definition{key.text, {}, value, place_of(key)});
     }
     build_arrows(reader);
-    require_sound_definitions(reader);
+    if (!reader.is_probe) require_sound_definitions(reader);
 }
 
 void read_quantities(ModelReader& reader)

@@ -16,20 +16,20 @@ namespace lagen {
 
 namespace {
 
-bool has_role(const ModelReader& reader, const std::string& name, Role role)
+bool is_among(const std::vector<Symbol>& symbols, const std::string& name)
 {
-    const Names::Entry* entry = reader.names.find(name);
-    return entry != nullptr && entry->role == role;
+    return index_of(symbols, name) < symbols.size();
 }
 
 [[noreturn]] void refuse_initial(const ModelReader& reader, const Scene& scene, const TomlEntry& entry)
 {
     std::vector<std::string> known = reader.names.of(Role::base);
-    for (const Role role : {Role::fibre, Role::momentum, Role::state}) {
-        const std::vector<std::string> more = reader.names.of(role);
+    const Fibre& fibre = reader.model.fibre;
+    for (const std::vector<std::string>& more :
+         {declared_names(fibre.coordinates), declared_names(fibre.momenta), reader.names.of(Role::state)})
         known.insert(known.end(), more.begin(), more.end());
-    }
-    std::string hint = reader.model.control ? "" : hint_for_rate(entry.name(), reader.rates);
+    std::string hint =
+        reader.model.control || is_nonholonomic(reader.model) ? "" : hint_for_rate(entry.name(), reader.rates);
     if (hint.empty()) hint = hint_for_momentum(entry.name(), reader.rates);
     if (hint.empty()) hint = hint_for(entry.name(), known, "coordinates");
     throw ModelError(fmt::format("scene '{}' gives an initial value to '{}', which is no coordinate of the model",
@@ -57,15 +57,15 @@ void read_initial(const ModelReader& reader, Scene& scene, const TomlEntry& bloc
         if (!found) refuse_initial(reader, scene, entry);
     }
     std::vector<NamedTree> own = std::move(given.list);
-    const auto gives = [&](Role role) {
-        return std::any_of(own.begin(), own.end(),
-                           [&](const NamedTree& each) { return has_role(reader, each.name, role); });
+    const auto gives = [&](const std::vector<Symbol>& lanes) {
+        return std::ranges::any_of(own, [&](const NamedTree& each) { return is_among(lanes, each.name); });
     };
-    for (const auto& [one, other] : {std::pair{Role::momentum, Role::fibre}, {Role::fibre, Role::momentum}}) {
-        if (!gives(one) || gives(other)) continue;
-        std::erase_if(scene.initial,
-                      [&, role = other](const NamedTree& each) { return has_role(reader, each.name, role); });
-    }
+    const auto drop = [&](const std::vector<Symbol>& given, const std::vector<Symbol>& other) {
+        if (!gives(given) || gives(other)) return;
+        std::erase_if(scene.initial, [&](const NamedTree& each) { return is_among(other, each.name); });
+    };
+    drop(model.fibre.momenta, model.fibre.coordinates);
+    drop(model.fibre.coordinates, model.fibre.momenta);
     put_all(scene.initial, std::move(own));
 }
 

@@ -19,7 +19,8 @@ void declare_states(ModelReader& reader)
 void read_states(ModelReader& reader)
 {
     if (reader.states == nullptr) return;
-    const auto roles = {Role::time, Role::parameter, Role::base, Role::fibre, Role::momentum, Role::state};
+    const Role ambient = is_nonholonomic(reader.model) ? Role::ambient : Role::fibre;
+    const auto roles = {Role::time, Role::parameter, Role::base, Role::fibre, ambient, Role::momentum, Role::state};
     std::vector<FirstOrderState>& states = reader.model.states;
     auto next = states.begin();
     for (const TomlEntry& entry : reader.states->value.entries) {

@@ -23,6 +23,7 @@ Tree momentum_of(const Model& model, const std::vector<ComponentEntry>& section)
 void read_symmetries(ModelReader& reader, const TomlEntry* block)
 {
     if (block == nullptr) return;
+    refuse_nonholonomic(reader, *block);
     Model& model = reader.model;
     if (!model.lagrangian && !model.hamiltonian && !(model.discrete && model.discrete->lagrangian))
         throw ModelError("[symmetries] stands in a model without a function that they could leave invariant",

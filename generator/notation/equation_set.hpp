@@ -15,6 +15,8 @@ enum class LeftSide {
     differential,    ///< d of the function symbol
     form,            ///< the basis form e^symbol under d
     component,       ///< symbol(arguments): a form on sections
+    section,         ///< the section e_symbol; the basis of groups is one of sections then
+    commutator,      ///< [e_symbol, e_other], likewise
 };
 
 /// How the left side stands to the right one.
@@ -22,7 +24,7 @@ enum class Relation { equal, at_least, at_most };
 
 /// A group of terms of a right-hand side that belongs together in the formula it came from, for instance
 /// rho_a(L) or -p_c C^c_ab y^b. `label` is a short UTF-8 name of the group; may be empty. With a `basis` the group is
-/// value e^{basis[0]} ^ e^{basis[1]} ^ ..
+/// value e^{basis[0]} ^ e^{basis[1]} ^ .., or value e_{basis[0]} where the left side is a section.
 struct TermGroup {
     std::string label;
     Tree value;

@@ -14,7 +14,7 @@ namespace lagen {
 
 Claims::Claims(const System& system, std::size_t points, const ProofBudget& budget)
     : system_(system), points_(points), graph_(system.graph), partial_(graph_, system.algebroid.x),
-      setting_(proof_setting(system))
+      setting_(proof_setting(graph_, system))
 {
     if (system.lagrangian) lagrangian_ = lagrangian_nodes(graph_, system);
     if (system.hamiltonian) hamiltonian_hessian_ = fibre_hessian(graph_, *system.hamiltonian, system.mu);
@@ -103,7 +103,9 @@ Regularity Claims::decide_regularity()
     const Replacements& values = system_.parameter_values;
     Regularity regularity = lagen::decide_regularity(graph_, hessian, setting_, judge_->decider(), values);
     if (of_hamiltonian) regularity.of = Regularity::Matrix::hamiltonian;
+    if (system_.distribution) regularity.of = Regularity::Matrix::constrained;
     decide_legendre_transform(graph_, hessian, setting_, judge_->decider().budget(), values, regularity);
+    if (system_.distribution) add_singular_minor(regularity);
     return regularity;
 }
 

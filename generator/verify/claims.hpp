@@ -32,6 +32,8 @@ class Claims {
     void decide_symmetries(StructureReport& structure);
     /// closed and hamilton_jacobi of [hamilton_jacobi], and whether its integral curves lift.
     void decide_hamilton_jacobi(StructureReport& structure, const Regularity& regularity);
+    /// Of a nonholonomic system, once its regularity is decided: independent, constraint; integrability; its energy.
+    void decide_distribution(Report& report);
     /// Of a control problem: do the controls maximise H?
     void decide_controls(Report& report);
     void decide_invariants(Report& report, const std::vector<NamedTree>& extra);
@@ -52,6 +54,9 @@ class Claims {
     };
     [[nodiscard]] Vanishing vanishing(const std::string& name, const FormClaim& claim, const ExteriorForm& residual);
     void decide_action(StructureReport& structure);
+    void decide_independence(StructureReport& structure);
+    void decide_constraints(StructureReport& structure);
+    void add_singular_minor(Regularity& regularity);
     void append_equality(StructureReport& structure, const char* name, std::vector<std::string> indices, NodeId value,
                          NodeId wanted);
     [[nodiscard]] Check check_of(const Residual& residual);

@@ -103,8 +103,8 @@ void Claims::say_where(WhereConstant& where, const std::vector<NodeId>& function
 std::optional<NodeId> Claims::momentum_in(NodeId f, const Binding& names)
 {
     const NodeId only[] = {f};
-    if (!lagrangian_ || !depends_on_any(graph_, only, system_.algebroid.y)) return {};
-    for (std::size_t a = 0; a < std::min(system_.mu.size(), system_.r()); ++a) {
+    if (!lagrangian_ || !depends_on_any(graph_, only, lagrangian_->fibre.y)) return {};
+    for (std::size_t a = 0; a < std::min(system_.mu.size(), lagrangian_->fibre.y.size()); ++a) {
         const auto name = names.find(graph_.input_name(system_.mu[a]));
         if (name == names.end() || name->second == f) continue;
         if (judge_->decider().status(graph_.subtract(f, lagrangian_->fibre.momenta[a])) == ProofStatus::proved)

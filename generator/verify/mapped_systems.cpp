@@ -39,7 +39,7 @@ const std::vector<NodeId>& MappedSystems::target_momenta()
 
 ProofSetting MappedSystems::setting()
 {
-    ProofSetting setting = proof_setting(from());
+    ProofSetting setting = proof_setting(graph, from());
     const auto append = [](std::vector<NodeId>& list, const std::vector<NodeId>& more) {
         list.insert(list.end(), more.begin(), more.end());
     };

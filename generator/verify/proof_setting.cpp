@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "verify/proof_setting.hpp"
 
+#include "graph/calculus/differentiate.hpp"
+#include "mechanics/nonholonomic.hpp"
+
 #include <algorithm>
 
 namespace lagen {
@@ -18,6 +21,9 @@ std::vector<NodeId> defined_nodes(const System& system)
     for (const std::optional<NodeId>& function : {system.lagrangian, system.hamiltonian})
         if (function) nodes.push_back(*function);
     append(nodes, system.forces);
+    if (system.distribution)
+        for (const Section& section : system.distribution->sections)
+            for (const ColumnEntry& entry : section) nodes.push_back(entry.value);
     if (system.control) {
         append(nodes, system.control->sigma);
         nodes.push_back(system.control->cost);
@@ -32,11 +38,11 @@ std::vector<NodeId> defined_nodes(const System& system)
 
 } // namespace
 
-ProofSetting proof_setting(const System& system)
+ProofSetting proof_setting(Graph& graph, const System& system)
 {
     ProofSetting setting;
     setting.variables = system.algebroid.x;
-    append(setting.variables, system.algebroid.y);
+    append(setting.variables, system.velocities());
     if (system.hamiltonian || system.control) append(setting.variables, system.mu);
     if (system.control) append(setting.variables, system.control->u);
     append(setting.variables, system.states);
@@ -45,12 +51,16 @@ ProofSetting proof_setting(const System& system)
     setting.constraints = system.functions.constraints;
     setting.domain = system.domain;
     setting.defined = defined_nodes(system);
+    if (!system.distribution) return setting;
+    const std::vector<NodeId> Y = constraint_hull(graph, system).Y;
+    setting.defined = substitute(graph, setting.defined, replacements(system.algebroid.y, Y));
+    std::erase_if(setting.defined, [&](NodeId node) { return graph.is_constant(node); });
     return setting;
 }
 
 std::set<std::string> accessory_inputs(const System& system)
 {
-    std::vector<NodeId> inputs = system.algebroid.y;
+    std::vector<NodeId> inputs = system.velocities();
     append(inputs, system.mu);
     if (system.control) append(inputs, system.control->u);
     append(inputs, system.states);

@@ -10,7 +10,8 @@
 
 namespace lagen {
 
-[[nodiscard]] ProofSetting proof_setting(const System& system);
+/// `graph`: a copy of the system's, in which what a nonholonomic system is made of is put on the constraint.
+[[nodiscard]] ProofSetting proof_setting(Graph& graph, const System& system);
 
 /// Inputs that only some claims are about, which a witness names only where it needs them: y, mu, u and t.
 [[nodiscard]] std::set<std::string> accessory_inputs(const System& system);

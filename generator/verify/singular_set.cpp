@@ -38,13 +38,26 @@ std::optional<NamedPoint> singular_point(Graph& graph, const ProofSetting& setti
 std::vector<NamedPoint> singular_points(Graph& graph, const ProofSetting& setting, const ProofBudget& budget,
                                         const std::vector<NodeId>& determinants)
 {
+    return singular_points(graph, setting, budget, determinants, {graph.constant(0), Rational(0)});
+}
+
+SliceValue quarter_turn(Graph& graph)
+{
+    const char* digits = "1.5707963267948966192313";
+    const Rational lower("15707963267948966/10000000000000000"), upper("15707963267948967/10000000000000000");
+    return {graph.divide(graph.pi(), graph.constant(2)), PointValue(digits, lower, upper)};
+}
+
+std::vector<NamedPoint> singular_points(Graph& graph, const ProofSetting& setting, const ProofBudget& budget,
+                                        const std::vector<NodeId>& determinants, const SliceValue& value)
+{
     std::vector<NamedPoint> points;
     for (std::size_t k = 0; k < setting.variables.size() && points.size() < point_limit; ++k) {
         const NodeId variable = setting.variables[k];
         std::optional<NamedPoint> point =
-            singular_point(graph, setting, budget, {{variable, graph.constant(0)}}, determinants);
+            singular_point(graph, setting, budget, {{variable, value.node}}, determinants);
         if (!point) continue;
-        point->insert(point->begin() + static_cast<std::ptrdiff_t>(k), {graph.input_name(variable), Rational(0)});
+        point->insert(point->begin() + static_cast<std::ptrdiff_t>(k), {graph.input_name(variable), value.shown});
         points.push_back(std::move(*point));
     }
     return points;

@@ -14,10 +14,21 @@ namespace lagen {
                                                         const std::vector<std::pair<NodeId, NodeId>>& defaults,
                                                         const std::vector<NodeId>& determinants);
 
-/// One point on each slice "a variable is zero" on which everything is defined and one of `determinants` is proved to
-/// vanish; eight at most.
+/// What a variable is on a slice: a constant node, and how it is shown.
+struct SliceValue {
+    NodeId node;
+    PointValue shown;
+};
+/// pi/2, where a cosine vanishes.
+[[nodiscard]] SliceValue quarter_turn(Graph& graph);
+
+/// One point on each slice "a variable is zero" (or `value`) on which everything is defined and one of `determinants`
+/// is proved to vanish; eight at most.
 [[nodiscard]] std::vector<NamedPoint> singular_points(Graph& graph, const ProofSetting& setting,
                                                       const ProofBudget& budget,
                                                       const std::vector<NodeId>& determinants);
+[[nodiscard]] std::vector<NamedPoint> singular_points(Graph& graph, const ProofSetting& setting,
+                                                      const ProofBudget& budget,
+                                                      const std::vector<NodeId>& determinants, const SliceValue& value);
 
 } // namespace lagen

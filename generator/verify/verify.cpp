@@ -67,6 +67,7 @@ Report verify(const System& system, const std::vector<NamedTree>& extra_invarian
     claims.decide_forms(report.structure);
     report.mechanics.regularity = claims.decide_regularity();
     report.mechanics.discrete = claims.decide_discrete_regularity();
+    claims.decide_distribution(report);
     claims.decide_legendre(report.structure);
     claims.decide_symmetries(report.structure);
     claims.decide_hamilton_jacobi(report.structure, report.mechanics.regularity);

@@ -11,6 +11,8 @@
 ///   closed        d A = 0, by components (A, a, b, ..)                        of E-forms that claim it
 ///   equals        A - B = 0, by components (A, a, ..)
 ///   legendre      H(t, x, dL/dy) = y^a dL/dy^a - L                            (where both are given)
+///   independent   sections (else constraints) of a nonholonomic system are so at every point
+///   constraint    its sections and drift satisfy the constraints beside them, and there are as many as needed
 ///   symmetry      s^c(L) = 0 (else of H), (<-s - ->s)(L) = 0 of a discrete L    of the sections of [symmetries]
 ///   invariant     df/dt = 0 along the equations of motion of the model's default form
 /// Of tangency, casimir and invariant a proof says that the rate vanishes wherever the function and the motion are
@@ -41,6 +43,7 @@ struct Regularity {
     enum class Matrix {
         lagrangian,  ///< d2L/dy2
         hamiltonian, ///< d2H/dmu2, where the model has H and no L
+        constrained, ///< d2L/dY2 on a distribution: A_alpha^a A_beta^b d2L/dY^a dY^b
         newton,      ///< N_ab = <-e_b (F^-L_a) of the discrete L
     } of = Matrix::lagrangian;
     enum class Kind { regular, generically_regular, degenerate, absent, undecided } kind = Kind::absent;
@@ -114,10 +117,28 @@ struct StructureReport {
         reevaluation; ///< of all residuals that were proved: the least points, the largest bound
 };
 
+/// Whether the brackets of a distribution's sections lie in it, which stands outside the verdict.
+struct Integrability {
+    ProofStatus status = ProofStatus::undecided;
+    // Of the first bracket that does not, where refuted:
+    std::vector<std::string> bracket;                            ///< its two sections
+    std::vector<std::pair<std::string, std::string>> components; ///< on the ambient frame, as text
+    std::string violates;                                        ///< a linear form that vanishes on D and not on it
+    std::optional<Witness> witness;
+};
+
+/// The energy of a nonholonomic system that has no reactions in its rate, and whether that is zero.
+struct ConservedEnergy {
+    std::string name; ///< "energy", or "moving_energy" where there is a drift
+    ProofStatus status = ProofStatus::undecided;
+};
+
 /// Whether the equations of motion are determined.
 struct MechanicsReport {
-    Regularity regularity; ///< of L, else of H
-    Regularity discrete;   ///< of the discrete L
+    Regularity regularity;                    ///< of L, else of H
+    Regularity discrete;                      ///< of the discrete L
+    std::optional<Integrability> integrable;  ///< of a nonholonomic system
+    std::optional<ConservedEnergy> conserved; ///< likewise
 };
 
 /// Whether the equations of motion are those of extremals.

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "lagen/lagen.hpp"
-#include "support/reference_case.hpp"
+#include "support/constrained_case.hpp"
 #include "support/tolerances.hpp"
 
 #include <catch2/catch.hpp>
@@ -18,7 +18,11 @@ namespace lagen::examples {
 
 inline const ReferenceCase& reference(const std::string& name)
 {
-    static const std::vector<ReferenceCase> cases = read_reference_cases();
+    static const std::vector<ReferenceCase> cases = [] {
+        std::vector<ReferenceCase> all = read_reference_cases();
+        for (const ConstrainedCase& each : read_constrained_cases()) all.push_back(each.reference);
+        return all;
+    }();
     const auto found =
         std::find_if(cases.begin(), cases.end(), [&](const ReferenceCase& each) { return each.name == name; });
     REQUIRE(found != cases.end());

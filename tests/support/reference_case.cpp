@@ -31,9 +31,10 @@ std::vector<ReferenceBracket> read_brackets(const json::Value& value)
     return brackets;
 }
 
-ReferenceCase read_case(const json::Value& file)
+} // namespace
+
+ReferenceCase read_reference_case(const json::Value& file, const json::Value& model)
 {
-    const json::Value& model = file["model"];
     ReferenceCase reference;
     reference.name = file["name"].text;
     reference.description = file["description"].text;
@@ -42,7 +43,7 @@ ReferenceCase read_case(const json::Value& file)
     reference.rho = read_rows(model["rho"]);
     reference.brackets = read_brackets(model["C"]);
     reference.lagrangian = model["lagrangian"].text;
-    for (const std::string& name : model["parameters"].texts())
+    for (const std::string& name : file["model"]["parameters"].texts())
         reference.parameters.emplace_back(name, file["parameters"][name].text);
     reference.t0 = file["t0"].text;
     reference.t_end = file["t_end"].text;
@@ -54,6 +55,8 @@ ReferenceCase read_case(const json::Value& file)
                                     point["energy"].text, point["momenta_dot"].texts()});
     return reference;
 }
+
+namespace {
 
 ReferenceCase read_algebroid(const json::Value& entry, const std::string& name)
 {
@@ -171,7 +174,10 @@ std::vector<ReferenceCase> read_reference_cases()
     for (const auto& entry : fs::directory_iterator(data_folder / "continuous")) files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     std::vector<ReferenceCase> cases;
-    for (const fs::path& file : files) cases.push_back(read_case(json::read_file(file.string())));
+    for (const fs::path& file : files) {
+        const json::Value read = json::read_file(file.string());
+        cases.push_back(read_reference_case(read, read["model"]));
+    }
     return cases;
 }
 

@@ -3,6 +3,8 @@
 /// with their verdicts, as records and as model files of kind `general`. See tests/data/README.md.
 #pragma once
 
+#include "support/json.hpp"
+
 #include <string>
 #include <utility>
 #include <vector>
@@ -49,6 +51,9 @@ struct ReferenceCase {
     std::vector<ReferenceSample> samples;
     std::vector<ReferencePoint> points;
 };
+
+/// The case in `file`, whose base, fibre, rho, C and L stand in `model`.
+[[nodiscard]] ReferenceCase read_reference_case(const json::Value& file, const json::Value& model);
 
 /// Every case of tests/data/continuous, sorted by name.
 [[nodiscard]] std::vector<ReferenceCase> read_reference_cases();

@@ -47,9 +47,9 @@ StartState::Conversion StartState::to_velocities(const CheckedModel& checked)
 {
     const System& system = checked.system;
     Graph graph = system.graph;
-    const std::vector<NodeId> momenta = lagrangian_nodes(graph, system).fibre.momenta;
-    return inversion(std::move(graph), checked.report.mechanics.regularity, system.algebroid.y, momenta,
-                     *system.lagrangian, "momenta", "fibre coordinates");
+    const FibreHessian fibre = lagrangian_nodes(graph, system).fibre;
+    return inversion(std::move(graph), checked.report.mechanics.regularity, fibre.y, fibre.momenta, fibre.lagrangian,
+                     "momenta", "fibre coordinates");
 }
 
 /// mu = dL/dy at the given fibre coordinates, or mu with dH/dmu = them.
@@ -65,7 +65,7 @@ StartState::Conversion StartState::to_momenta(const Checked& checked)
     }
     std::vector<NodeId> momenta = lagrangian_nodes(graph, system).fibre.momenta;
     std::vector<std::string> targets;
-    for (const NodeId y : system.algebroid.y) targets.push_back(graph.input_name(y));
+    for (const NodeId y : system.velocities()) targets.push_back(graph.input_name(y));
     return {std::move(graph), std::move(momenta), std::nullopt, std::move(targets), given, wanted};
 }
 

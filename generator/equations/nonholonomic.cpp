@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "equations/nonholonomic.hpp"
+
+#include "equations/constrained_model.hpp"
+#include "model/form.hpp"
+
+namespace lagen {
+
+namespace {
+
+class NonholonomicDerivation : ConstrainedModel {
+  public:
+    using ConstrainedModel::ConstrainedModel;
+
+    EquationSet derive()
+    {
+        EquationSet set = symbolic_.empty_set(entry_of(FormKind::lagrange).name);
+        for (EquationBlock& block : std::vector{constraints(), sections(), brackets(), velocities(), kinematics(),
+                                                symbolic_.casimirs(), momenta(), momentum_form(), acceleration_form(),
+                                                energy(), energy_balance(), moving_energy(), symbolic_.states(Y_)})
+            if (!block.equations.empty()) set.blocks.push_back(std::move(block));
+        return set;
+    }
+
+  private:
+    [[nodiscard]] std::string with_forces(const std::string& formula, const char* forces) const
+    {
+        return symbolic_.has_forces() ? formula + forces : formula;
+    }
+
+    [[nodiscard]] EquationBlock constraints()
+    {
+        EquationBlock block{"constraints", "Ψ^A(t, x, Y) = 0", R"(\Psi^A(t, x, Y) = 0)", {}};
+        for (const Tree& constraint : written_.constraints)
+            block.equations.push_back(symbolic_.equation(LeftSide::zero, "", {symbolic_.lower(constraint)}));
+        return block;
+    }
+
+    [[nodiscard]] EquationBlock brackets()
+    {
+        EquationBlock block{
+            "brackets of sections",
+            "[e_α, e_β]^a = ρ(e_α)(A_β^a) - ρ(e_β)(A_α^a) + A_α^c A_β^d C^a_cd",
+            R"([e_\alpha, e_\beta]^a = \rho(e_\alpha)(A_\beta^a) - \rho(e_\beta)(A_\alpha^a) + A_\alpha^c\, A_\beta^d\, C^a_{cd})",
+            {}};
+        for (std::size_t alpha = 0; alpha < k_; ++alpha)
+            for (std::size_t beta = alpha + 1; beta < k_; ++beta)
+                block.equations.push_back(section_equation(LeftSide::commutator, alpha, beta,
+                                                           bracket(sections_[alpha], sections_[beta]),
+                                                           symbolic_.algebroid().fibre));
+        return block;
+    }
+
+    [[nodiscard]] EquationBlock kinematics() const
+    {
+        return {"kinematics", "ẋ^i = ρ^i_a Y^a", R"(\dot x^i = \rho^i_a\, Y^a)", symbolic_.kinematics(Y_)};
+    }
+
+    [[nodiscard]] EquationBlock momenta() const
+    {
+        EquationBlock block{
+            "momenta",
+            "p_α = ∂l/∂y^α,  l = L on the constraint",
+            R"(p_\alpha = \frac{\partial l}{\partial y^\alpha}, \quad l = L|_{Y = b + y^\alpha e_\alpha})",
+            {}};
+        for (std::size_t alpha = 0; alpha < k_; ++alpha)
+            block.equations.push_back(symbolic_.equation(LeftSide::symbol, momentum_name(alpha), {p_[alpha]}));
+        return block;
+    }
+
+    [[nodiscard]] EquationBlock momentum_form()
+    {
+        EquationBlock block{
+            "equations of motion (momentum form)",
+            with_forces("ṗ_α = ρ(e_α)(l) - P_a [e_α, Y]^a", " + Q_α") + ",  P_a = ∂L/∂Y^a",
+            with_forces(R"(\dot p_\alpha = \rho(e_\alpha)(l) - P_a\, [e_\alpha, Y]^a)", R"( + Q_\alpha)") +
+                R"(, \quad P_a = \frac{\partial L}{\partial Y^a})",
+            {}};
+        for (std::size_t alpha = 0; alpha < k_; ++alpha)
+            block.equations.push_back(
+                {LeftSide::time_derivative, momentum_name(alpha), {}, symbolic_.simplified(balance(alpha))});
+        return block;
+    }
+
+    [[nodiscard]] EquationBlock acceleration_form()
+    {
+        EquationBlock block{
+            "equations of motion (acceleration form)",
+            with_forces("W_αβ ẏ^β = ρ(e_α)(l) - (∂²l/∂y^α∂x^i) ẋ^i - ∂²l/∂y^α∂t - P_a [e_α, Y]^a", " + Q_α"),
+            with_forces(
+                R"(W_{\alpha\beta}\, \dot y^\beta = \rho(e_\alpha)(l) - \frac{\partial^2 l}{\partial y^\alpha \partial x^i}\, \dot x^i - \frac{\partial^2 l}{\partial y^\alpha \partial t} - P_a\, [e_\alpha, Y]^a)",
+                R"( + Q_\alpha)"),
+            {}};
+        for (std::size_t alpha = 0; alpha < k_; ++alpha) {
+            Equation next{LeftSide::time_derivative, written_.y[alpha].name, {}, {}};
+            for (std::size_t beta = 0; beta < k_; ++beta)
+                for (TermGroup& mass : symbolic_.simplified({{written_.y[beta].name, derivative(p_[alpha], y_[beta])}}))
+                    next.mass.push_back(std::move(mass));
+            std::vector<Group> groups = balance(alpha);
+            groups.insert(groups.begin() + 1, {"-∂p_α/∂x^i ẋ^i - ∂p_α/∂t", -at_fixed_velocity(p_[alpha])});
+            next.groups = symbolic_.simplified(std::move(groups));
+            if (next.mass.empty()) next.left = LeftSide::zero;
+            block.equations.push_back(std::move(next));
+        }
+        return block;
+    }
+
+    [[nodiscard]] std::string energy_name() const { return symbolic_.free_name({"E", "E_L"}); }
+    [[nodiscard]] std::string moving_energy_name() const { return symbolic_.free_name({"E_m", "E_moving"}); }
+
+    [[nodiscard]] EquationBlock energy() const
+    {
+        Sum terms = {-l_};
+        for (std::size_t a = 0; a < r_; ++a) terms.push_back(Y_[a] * P_[a]);
+        return {"energy",
+                "E = Y^a P_a - L",
+                "E = Y^a P_a - L",
+                {symbolic_.equation(LeftSide::symbol, energy_name(), terms)}};
+    }
+
+    /// Q_a Y^a - dL/dt; with a drift the reactions do work, and the moving energy tells more.
+    [[nodiscard]] EquationBlock energy_balance()
+    {
+        EquationBlock block{
+            "energy balance", "Ė = Q_a Y^a - ∂L/∂t", R"(\dot E = Q_a\, Y^a - \frac{\partial L}{\partial t})", {}};
+        if (has_drift()) return block;
+        Sum power;
+        for (std::size_t a = 0; a < r_; ++a) power.push_back(forces_[a] * Y_[a]);
+        Equation balance{LeftSide::time_derivative, energy_name(), {}, {}};
+        balance.groups = symbolic_.simplified(
+            {{"Q_a Y^a", total(power)}, {"-∂L/∂t", -on_constraint(symbolic_.time_derivative(lagrangian_))}});
+        block.equations.push_back(std::move(balance));
+        return block;
+    }
+
+    [[nodiscard]] EquationBlock moving_energy()
+    {
+        EquationBlock block{
+            "moving energy",
+            "E_m = E - P_a b^a,  d/dt E_m = Q_a (Y^a - b^a) - ∂L/∂t - P_a ∂b^a/∂t - b^c(L)",
+            R"(E_m = E - P_a\, b^a, \quad \dot E_m = Q_a (Y^a - b^a) - \frac{\partial L}{\partial t} - P_a \frac{\partial b^a}{\partial t} - b^c(L))",
+            {}};
+        if (!has_drift()) return block;
+        Sum terms = {-l_}, work, moving;
+        for (std::size_t alpha = 0; alpha < k_; ++alpha) terms.push_back(y_[alpha] * p_[alpha]);
+        block.equations.push_back(symbolic_.equation(LeftSide::symbol, moving_energy_name(), terms));
+        GiNaC::ex lift = total(along(drift_, l_));
+        const Sum V = bracket(drift_, Y_);
+        for (std::size_t a = 0; a < r_; ++a) {
+            work.push_back(forces_[a] * (Y_[a] - drift_[a]));
+            moving.push_back(-P_[a] * symbolic_.time_derivative(drift_[a]));
+            lift -= P_[a] * V[a];
+        }
+        Equation balance{LeftSide::time_derivative, moving_energy_name(), {}, {}};
+        balance.groups = symbolic_.simplified(
+            {{"Q_a (Y^a - b^a)", total(work)},
+             {"-∂L/∂t - P_a ∂b^a/∂t", total(moving) - on_constraint(symbolic_.time_derivative(lagrangian_))},
+             {"-b^c(L)", -lift}});
+        block.equations.push_back(std::move(balance));
+        return block;
+    }
+};
+
+} // namespace
+
+void require_lagrangian(const Model& model)
+{
+    if (!model.lagrangian)
+        throw MathematicsError("model '" + model.name +
+                               "' has no Lagrangian; nonholonomic equations need [lagrangian] L");
+}
+
+EquationSet derive_nonholonomic(const Model& model, const System& system)
+{
+    require_lagrangian(model);
+    return derived(model, "the nonholonomic equations", [&] { return NonholonomicDerivation(model, system).derive(); });
+}
+
+} // namespace lagen

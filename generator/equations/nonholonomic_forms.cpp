@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Reactions, projected brackets and the form on D* of nonholonomic models.
+#include "equations/constrained_model.hpp"
+#include "equations/nonholonomic.hpp"
+#include "model/form.hpp"
+
+#include <algorithm>
+
+namespace lagen {
+
+namespace {
+
+class NonholonomicForms : ConstrainedModel {
+  public:
+    using ConstrainedModel::ConstrainedModel;
+
+    EquationSet reactions()
+    {
+        EquationSet set = symbolic_.empty_set("reaction");
+        const auto ydot = accelerations();
+        if (!ydot)
+            throw MathematicsError("the accelerations of model '" + symbolic_.model().name +
+                                       "' are too long to be written out, and the reactions with them",
+                                   "`run` observes reaction.Y, and the generated header has the kernel `reaction`");
+        EquationBlock block{"reactions",
+                            "λ_a = d/dt P_a - ρ_a(L) + P_c C^c_ab Y^b - Q_a",
+                            R"(\lambda_a = \frac{d}{dt} P_a - \rho_a(L) + P_c\, C^c_{ab}\, Y^b - Q_a)",
+                            {}};
+        for (std::size_t a = 0; a < r_; ++a) {
+            Sum rate = along_motion(P_[a], *ydot), force, bracket;
+            for (const GiNaC::ex& term : symbolic_.along_anchor(a, lagrangian_)) force.push_back(-on_constraint(term));
+            for (const GiNaC::ex& term : symbolic_.bracket_terms(a, P_, Y_)) bracket.push_back(-term);
+            const GiNaC::ex lambda = total(rate) + total(force) + total(bracket) - forces_[a];
+            block.equations.push_back(
+                symbolic_.equation(LeftSide::symbol, "lambda_" + ambient_name(a), {as_fraction(lambda)}));
+            set.symbols.push_back({"lambda_" + ambient_name(a), {}});
+        }
+        set.blocks = {velocities(), std::move(block)};
+        return set;
+    }
+
+    EquationSet projected()
+    {
+        require_mechanical();
+        EquationSet set = symbolic_.empty_set("projected");
+        EquationBlock block{"projected brackets",
+                            "[e_α, e_β]_D = G^{γδ} G(e_δ, [e_α, e_β]) e_γ",
+                            R"([e_\alpha, e_\beta]_D = G^{\gamma\delta}\, G(e_\delta, [e_\alpha, e_\beta])\, e_\gamma)",
+                            {}};
+        const SquareMatrix G = hessian();
+        for (std::size_t alpha = 0; alpha < k_; ++alpha)
+            for (std::size_t beta = alpha + 1; beta < k_; ++beta) {
+                const Sum V = bracket(sections_[alpha], sections_[beta]);
+                Sum right(k_, 0);
+                for (std::size_t delta = 0; delta < k_; ++delta)
+                    for (std::size_t a = 0; a < r_; ++a)
+                        for (std::size_t b = 0; b < r_; ++b)
+                            right[delta] +=
+                                sections_[delta][a] * derivative(ambient_momenta_[a], symbolic_.y()[b]) * V[b];
+                for (GiNaC::ex& each : right) each = symbolic_.simpler(each);
+                const auto C = solved(G, right);
+                if (!C)
+                    throw MathematicsError("the projected brackets of model '" + symbolic_.model().name +
+                                           "' are too long to be written out");
+                block.equations.push_back(section_equation(LeftSide::commutator, alpha, beta, *C, written_.y));
+            }
+        set.blocks = {sections(), std::move(block)};
+        return set;
+    }
+
+    EquationSet hamilton()
+    {
+        EquationSet set = symbolic_.empty_set(entry_of(FormKind::hamilton).name);
+        take_momenta();
+        // l is quadratic in y: with p = W y + c, h = (p - c) y/2 - l at y = 0.
+        GiNaC::exmap rest;
+        for (const GiNaC::ex& y : y_) rest[y] = 0;
+        Sum terms{-l_.subs(rest, GiNaC::subs_options::no_pattern)};
+        for (std::size_t alpha = 0; alpha < k_; ++alpha)
+            terms.push_back((symbolic_.mu()[alpha] - p_[alpha].subs(rest, GiNaC::subs_options::no_pattern)) *
+                            at_momenta(y_[alpha]) / 2);
+        Sum Y;
+        for (const GiNaC::ex& each : Y_) Y.push_back(at_momenta(each));
+        EquationBlock velocities{
+            "velocities", "y^α = ∂h/∂p_α", R"(y^\alpha = \frac{\partial h}{\partial p_\alpha})", {}};
+        for (std::size_t alpha = 0; alpha < k_; ++alpha)
+            velocities.equations.push_back(
+                symbolic_.equation(LeftSide::symbol, written_.y[alpha].name, {at_momenta(y_[alpha])}));
+        const std::string h = symbolic_.free_name({"h", "h_D"});
+        set.blocks = {
+            {"Hamiltonian",
+             "h = y^α p_α - l",
+             R"(h = y^\alpha p_\alpha - l)",
+             {symbolic_.equation(LeftSide::symbol, h, terms)}},
+            std::move(velocities),
+            {"kinematics", "ẋ^i = ρ^i_a Y^a", R"(\dot x^i = \rho^i_a\, Y^a)", symbolic_.kinematics(Y)},
+            momentum_equations(),
+        };
+        if (has_drift()) return set;
+        set.blocks.push_back(almost_poisson());
+        if (EquationBlock failure = jacobiator(); !failure.equations.empty()) set.blocks.push_back(std::move(failure));
+        return set;
+    }
+
+  private:
+    /// L = G(Y, Y)/2 - V and no drift: only then the projected bracket gives the equations of motion.
+    void require_mechanical() const
+    {
+        const auto refuse = [&](const char* why) {
+            throw MathematicsError("the brackets of model '" + symbolic_.model().name + "' have no projection: " + why,
+                                   "derive without --form shows equations that hold for every L");
+        };
+        if (has_drift()) refuse("the constraint has a drift");
+        GiNaC::exmap rest;
+        for (const GiNaC::ex& Y : symbolic_.y()) rest[Y] = 0;
+        for (const GiNaC::ex& P : ambient_momenta_) {
+            if (!P.subs(rest, GiNaC::subs_options::no_pattern).expand().is_zero())
+                refuse("L has terms that are linear in the velocities, or is not smooth");
+            for (const GiNaC::ex& Y : symbolic_.y())
+                for (const GiNaC::ex& Z : symbolic_.y())
+                    if (!derivative(derivative(P, Y), Z).expand().is_zero())
+                        refuse("L is not quadratic in the velocities");
+        }
+    }
+
+    /// y(x, p), of momenta that are affine in y.
+    void take_momenta()
+    {
+        GiNaC::exmap rest;
+        for (const GiNaC::ex& y : y_) rest[y] = 0;
+        Sum right;
+        bool affine = true;
+        for (std::size_t alpha = 0; alpha < k_; ++alpha) {
+            right.push_back(symbolic_.mu()[alpha] - p_[alpha].subs(rest, GiNaC::subs_options::no_pattern));
+            for (const GiNaC::ex& y : y_)
+                for (const GiNaC::ex& z : y_)
+                    affine = affine && derivative(derivative(p_[alpha], y), z).expand().is_zero();
+        }
+        const auto y = affine ? solved(hessian(), right) : std::nullopt;
+        if (!y)
+            throw MathematicsError("the velocities of model '" + symbolic_.model().name +
+                                       "' as functions of the momenta are too long to be written out",
+                                   "`run --form hamilton` and `generate --form hamilton` solve for them");
+        for (std::size_t alpha = 0; alpha < k_; ++alpha) momenta_[y_[alpha]] = (*y)[alpha];
+    }
+
+    [[nodiscard]] GiNaC::ex at_momenta(const GiNaC::ex& f) const
+    {
+        return f.subs(momenta_, GiNaC::subs_options::no_pattern);
+    }
+
+    [[nodiscard]] EquationBlock momentum_equations()
+    {
+        EquationBlock block{"equations of motion",
+                            "ṗ_α = -ρ(e_α)(h) - P_a [e_α, Y]^a" + std::string(symbolic_.has_forces() ? " + Q_α" : ""),
+                            R"(\dot p_\alpha = -\rho(e_\alpha)(h) - P_a\, [e_\alpha, Y]^a)" +
+                                std::string(symbolic_.has_forces() ? R"( + Q_\alpha)" : ""),
+                            {}};
+        for (std::size_t alpha = 0; alpha < k_; ++alpha) {
+            std::vector<Group> groups = balance(alpha);
+            groups[0].label = "-ρ_α(h)";
+            for (Group& group : groups) group.value = at_momenta(group.value);
+            block.equations.push_back(
+                {LeftSide::time_derivative, momentum_name(alpha), {}, symbolic_.simplified(std::move(groups))});
+        }
+        return block;
+    }
+
+    /// Skew and a derivation in each argument; Jacobi's identity fails where D is not integrable.
+    [[nodiscard]] EquationBlock almost_poisson()
+    {
+        EquationBlock block{
+            "almost Poisson brackets (Jacobi's identity may fail), df/dt = {h, f}",
+            "{p_α, x^i} = ρ(e_α)^i,  {p_α, p_β} = P_a [e_α, e_β]^a",
+            R"(\{p_\alpha, x^i\} = \rho(e_\alpha)^i, \quad \{p_\alpha, p_\beta\} = P_a\, [e_\alpha, e_\beta]^a)",
+            {}};
+        const auto append = [&](const std::string& f, const std::string& g, const GiNaC::ex& value) {
+            Equation next = symbolic_.equation(LeftSide::bracket, f, {at_momenta(value)});
+            next.other = g;
+            if (!next.groups.empty()) block.equations.push_back(std::move(next));
+        };
+        for (std::size_t alpha = 0; alpha < k_; ++alpha) {
+            for (std::size_t i = 0; i < symbolic_.n(); ++i)
+                append(momentum_name(alpha), symbolic_.algebroid().base[i].name,
+                       total(along(sections_[alpha], symbolic_.x()[i])));
+            for (std::size_t beta = alpha + 1; beta < k_; ++beta)
+                append(momentum_name(alpha), momentum_name(beta), bracket_of_momenta(alpha, beta));
+        }
+        return block;
+    }
+
+    /// P_a [e_alpha, e_beta]^a at y(x, p)
+    [[nodiscard]] GiNaC::ex bracket_of_momenta(std::size_t alpha, std::size_t beta) const
+    {
+        const Sum V = bracket(sections_[alpha], sections_[beta]);
+        GiNaC::ex value;
+        for (std::size_t a = 0; a < r_; ++a) value += P_[a] * V[a];
+        return at_momenta(value);
+    }
+
+    /// {f, g} of functions of x and p
+    [[nodiscard]] GiNaC::ex almost_bracket(const GiNaC::ex& f, const GiNaC::ex& g) const
+    {
+        GiNaC::ex value;
+        for (std::size_t alpha = 0; alpha < k_; ++alpha) {
+            const GiNaC::ex f_p = derivative(f, symbolic_.mu()[alpha]), g_p = derivative(g, symbolic_.mu()[alpha]);
+            value += f_p * total(along(sections_[alpha], g)) - g_p * total(along(sections_[alpha], f));
+            for (std::size_t beta = 0; beta < k_; ++beta)
+                value += f_p * derivative(g, symbolic_.mu()[beta]) * bracket_of_momenta(alpha, beta);
+        }
+        return value;
+    }
+
+    /// Of a coordinate of the base or a momentum and two momenta: the first that does not vanish.
+    [[nodiscard]] EquationBlock jacobiator()
+    {
+        EquationBlock block{"Jacobiator, the first that does not vanish",
+                            "J(f, g, h) = {f, {g, h}} + {g, {h, f}} + {h, {f, g}}",
+                            R"(J(f, g, h) = \{f, \{g, h\}\} + \{g, \{h, f\}\} + \{h, \{f, g\}\})",
+                            {}};
+        Sum coordinates = symbolic_.x();
+        std::vector<std::string> names;
+        for (const Symbol& symbol : symbolic_.algebroid().base) names.push_back(symbol.name);
+        for (std::size_t alpha = 0; alpha < k_; ++alpha) {
+            coordinates.push_back(symbolic_.mu()[alpha]);
+            names.push_back(momentum_name(alpha));
+        }
+        const std::size_t n = symbolic_.n();
+        for (std::size_t i = 0; i < coordinates.size(); ++i)
+            for (std::size_t j = std::max(i + 1, n); j < coordinates.size(); ++j)
+                for (std::size_t l = j + 1; l < coordinates.size(); ++l) {
+                    const GiNaC::ex &f = coordinates[i], &g = coordinates[j], &h = coordinates[l];
+                    const GiNaC::ex J = almost_bracket(f, almost_bracket(g, h)) +
+                                        almost_bracket(g, almost_bracket(h, f)) +
+                                        almost_bracket(h, almost_bracket(f, g));
+                    Equation failure = symbolic_.equation(LeftSide::component, "J", {J});
+                    if (failure.groups.empty()) continue;
+                    failure.arguments = {names[i], names[j], names[l]};
+                    block.equations.push_back(std::move(failure));
+                    return block;
+                }
+        return block;
+    }
+
+    GiNaC::exmap momenta_; ///< y(x, p)
+};
+
+EquationSet derived_with(const Model& model, const System& system, EquationSet (NonholonomicForms::*derivation)())
+{
+    require_lagrangian(model);
+    return derived(model, "the nonholonomic equations",
+                   [&] { return (NonholonomicForms(model, system).*derivation)(); });
+}
+
+} // namespace
+
+EquationSet derive_reaction(const Model& model, const System& system)
+{
+    return derived_with(model, system, &NonholonomicForms::reactions);
+}
+
+EquationSet derive_projected(const Model& model, const System& system)
+{
+    return derived_with(model, system, &NonholonomicForms::projected);
+}
+
+EquationSet derive_constrained_hamilton(const Model& model, const System& system)
+{
+    return derived_with(model, system, &NonholonomicForms::hamilton);
+}
+
+} // namespace lagen

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// What `check` says of a nonholonomic system: that its sections are independent and satisfy the constraints beside
+/// them; outside the verdict whether their brackets stay in the distribution, and which energy is conserved.
+#include "graph/calculus/differentiate.hpp"
+#include "verify/claims.hpp"
+#include "verify/distribution_rows.hpp"
+#include "verify/fibre_rank.hpp"
+#include "verify/proof_setting.hpp"
+#include "verify/singular_set.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace lagen {
+
+/// Psi^A(e_alpha) = 0 in the linear part, Psi^A(b) = 0, and as many independent constraints as the sections leave.
+void Claims::decide_constraints(StructureReport& structure)
+{
+    const Distribution& distribution = *system_.distribution;
+    const std::size_t k = distribution.sections.size(), r = system_.r();
+    if (distribution.is_solved || distribution.constraints.empty()) return;
+    const auto append = [&](std::vector<std::string> indices, NodeId residual) {
+        if (graph_.is_zero(residual)) {
+            ++structure.trivial;
+            return;
+        }
+        structure.checks.push_back(
+            {"constraint", std::move(indices), judge_->decide(residual), {}, judge_->reevaluate(residual)});
+    };
+    const std::vector<NodeId> B = constraint_rows(graph_, system_);
+    for (std::size_t A = 0; A < distribution.constraints.size(); ++A) {
+        const std::string& text = distribution.constraint_texts[A];
+        for (std::size_t alpha = 0; alpha < k; ++alpha) {
+            NodeId sum = graph_.constant(0);
+            for (const ColumnEntry& entry : distribution.sections[alpha])
+                sum = graph_.add(sum, graph_.multiply(B[A * r + entry.index], entry.value));
+            append({graph_.input_name(distribution.y[alpha]), text}, sum);
+        }
+        std::vector<NodeId> drift(r, graph_.constant(0));
+        for (const ColumnEntry& entry : distribution.drift) drift[entry.index] = entry.value;
+        const NodeId only[] = {distribution.constraints[A]};
+        append({"drift", text}, substitute(graph_, only, replacements(system_.algebroid.y, drift))[0]);
+    }
+    const FibreRank rank = fibre_rank(graph_, B, distribution.constraints.size(), r, judge_->decider());
+    if (rank.rank && *rank.rank == r - k) return;
+    Check check{"constraint", {"number"}, {}, {}, {}};
+    check.decision.evidence = "the rank of the constraints is not decided";
+    if (rank.rank) {
+        check.decision.status = ProofStatus::refuted;
+        check.decision.evidence =
+            fmt::format("{} independent constraints, where {} sections of {} leave {}", *rank.rank, k, r, r - k);
+        check.hint = "the sections span what the constraints leave, all of it";
+    }
+    structure.checks.push_back(std::move(check));
+}
+
+void Claims::decide_independence(StructureReport& structure)
+{
+    const Distribution& distribution = *system_.distribution;
+    std::vector<std::string> names = distribution.constraint_texts;
+    if (!distribution.has_dependent) {
+        names.clear();
+        for (const NodeId y : distribution.y) names.push_back(graph_.input_name(y));
+    }
+    if (names.empty()) return;
+    const std::vector<NodeId> rows =
+        distribution.has_dependent ? constraint_rows(graph_, system_) : section_rows(graph_, system_);
+    Check check = independence(graph_, rows, std::move(names), setting_, judge_->decider());
+    if (check.decision.status == ProofStatus::refuted)
+        check.hint = distribution.has_dependent
+                         ? "leave out the constraints that the others contain"
+                         : "sections are independent at every point of the domain, as many as D has dimensions";
+    if (check.decision.witness)
+        std::erase_if(check.decision.witness->point,
+                      [unused = accessory_inputs(system_)](const auto& entry) { return unused.contains(entry.first); });
+    structure.checks.push_back(std::move(check));
+}
+
+void Claims::decide_distribution(Report& report)
+{
+    if (!system_.distribution) return;
+    decide_independence(report.structure);
+    decide_constraints(report.structure);
+    const auto is_refuted = [&](const char* name) {
+        return std::ranges::any_of(report.structure.checks, [name](const Check& check) {
+            return check.name == name && check.decision.status == ProofStatus::refuted;
+        });
+    };
+    if (is_refuted("independent")) return;
+    std::vector<NodeId> forms;
+    if (!is_refuted("constraint")) forms = constraint_rows(graph_, system_);
+    report.mechanics.integrable = decide_integrability(graph_, system_, setting_, judge_->decider().budget(), forms);
+    if (!lagrangian_) return;
+    const MomentumBalance balance = lagrange_balance(graph_, system_, *lagrangian_);
+    const NodeId rate = moving_energy_rate(graph_, system_, *lagrangian_->constrained, balance);
+    const bool has_drift = lagrangian_->constrained->hull.has_drift();
+    report.mechanics.conserved = {has_drift ? "moving_energy" : "energy", judge_->decider().status(rate)};
+}
+
+/// Where what the constraints were solved by may vanish: the sections are not defined there.
+void Claims::add_singular_minor(Regularity& regularity)
+{
+    const std::optional<NodeId> minor = system_.distribution->minor;
+    if (!minor || judge_->decider().proves_nonzero(*minor)) return;
+    if (regularity.kind == Regularity::Kind::regular) regularity.kind = Regularity::Kind::generically_regular;
+    regularity.positive_definite = false;
+    ProofSetting setting = setting_;
+    setting.defined.clear();
+    const std::set<std::string> unused = accessory_inputs(system_);
+    for (const SliceValue& value : {SliceValue{graph_.constant(0), Rational(0)}, quarter_turn(graph_)})
+        for (NamedPoint& point : singular_points(graph_, setting, judge_->decider().budget(), {*minor}, value)) {
+            std::erase_if(point, [&](const auto& entry) { return unused.contains(entry.first); });
+            regularity.singular_at.push_back(std::move(point));
+        }
+    const ZeroDecider bare(graph_, setting, judge_->decider().budget());
+    for (std::string& factor : singular_factors(graph_, setting, bare, system_.parameter_values, {*minor}))
+        regularity.singular_where.push_back(std::move(factor));
+}
+
+} // namespace lagen

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// What is decided of nonholonomic models.
+#include "checking.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+
+using namespace lagen;
+
+namespace {
+
+ModelReport constrained_report(const std::string& text)
+{
+    return verified_text(text);
+}
+
+const Check& constrained_check(const ModelReport& report, const std::string& name)
+{
+    const auto found = std::ranges::find(report.structure.checks, name, &Check::name);
+    REQUIRE(found != report.structure.checks.end());
+    return *found;
+}
+
+std::string constrained_plane(const std::string& algebroid, const std::string& more = {})
+{
+    return "[base]\ncoordinates = [\"x\", \"y\", \"th\"]\n[fibre]\ncoordinates = [\"u\", \"w\"]\n[algebroid]\nkind = "
+           "\"nonholonomic\"\n" +
+           algebroid + "\nof = { kind = \"tangent\" }\n" + more;
+}
+
+const char* const blade = R"toml(sections = { u = { v_x = "cos(th)", v_y = "sin(th)" }, w = { v_th = 1 } })toml";
+
+} // namespace
+
+TEST_CASE("dependent sections are refuted with the combination that vanishes")
+{
+    const ModelReport report = constrained_report(
+        constrained_plane(R"(sections = { u = { v_x = "x", v_y = 1 }, w = { v_x = "2*x", v_y = 2 } })"));
+    CHECK(report.structure.verdict == Verdict::invalid);
+    const Check& check = constrained_check(report, "independent");
+    CHECK(check.indices == std::vector<std::string>{"u", "w"});
+    CHECK(check.decision.residual == "-2*x*u + x*w");
+    CHECK(check.decision.witness);
+    CHECK_FALSE(report.mechanics.integrable);
+}
+
+TEST_CASE("sections that are dependent at a point alone are refuted there")
+{
+    const ModelReport report =
+        constrained_report(constrained_plane(R"(sections = { u = { v_x = "x", v_y = "y" }, w = { v_th = 1 } })"));
+    const Check& check = constrained_check(report, "independent");
+    CHECK(check.decision.status == ProofStatus::undecided); // x = y = 0 is no slice on which one variable is zero
+    const ModelReport line =
+        constrained_report(constrained_plane(R"(sections = { u = { v_x = "x" }, w = { v_th = 1 } })"));
+    const Check& refuted = constrained_check(line, "independent");
+    CHECK(refuted.decision.status == ProofStatus::refuted);
+    REQUIRE(refuted.decision.witness);
+    CHECK(refuted.decision.witness->point[0].first == "x");
+    CHECK(to_text(refuted.decision.witness->point[0].second) == "0");
+    CHECK(
+        constrained_report(
+            "[parameters]\nl = 1\n" +
+            constrained_plane(R"toml(sections = { u = { v_x = "sin(th)", v_y = "l*cos(th)" }, w = { v_th = 1 } })toml"))
+            .structure.checks[0]
+            .where == std::vector<std::string>{"l != 0"});
+}
+
+TEST_CASE("constraints beside sections are compared with them, drift and number too")
+{
+    const ModelReport right =
+        constrained_report(constrained_plane(std::string(blade) + "\nconstraints = [\"v_x*sin(th) - v_y*cos(th)\"]"));
+    CHECK(right.structure.verdict == Verdict::valid);
+    const ModelReport wrong =
+        constrained_report(constrained_plane(std::string(blade) + "\nconstraints = [\"v_x*sin(th) + v_y*cos(th)\"]"));
+    const Check& check = constrained_check(wrong, "constraint");
+    CHECK(check.decision.status == ProofStatus::refuted);
+    CHECK(check.indices == std::vector<std::string>{"u", "v_x*sin(th) + v_y*cos(th)"});
+    CHECK(check.decision.residual == "2*sin(th)*cos(th)");
+    const ModelReport drifting = constrained_report(
+        constrained_plane(std::string(blade) + "\ndrift = { v_x = 1 }\nconstraints = [\"v_x*sin(th) - v_y*cos(th)\"]"));
+    CHECK(constrained_check(drifting, "constraint").indices[0] == "drift");
+    const std::string one =
+        "[base]\ncoordinates = [\"x\", \"y\", \"th\"]\n[fibre]\ncoordinates = [\"u\"]\n[algebroid]\nkind = "
+        "\"nonholonomic\"\nof = { kind = \"tangent\" }\nsections = { u = { v_x = 1 } }\n";
+    const ModelReport too_few = constrained_report(one + "constraints = [\"v_y\"]\n");
+    CHECK(constrained_check(too_few, "constraint").indices == std::vector<std::string>{"number"});
+    CHECK(constrained_report(one + "constraints = [\"v_y\", \"v_th\"]\n").structure.verdict == Verdict::valid);
+}
+
+TEST_CASE("a bracket that leaves the distribution is shown, with a form and a point")
+{
+    const ModelReport report = constrained_report(constrained_plane(blade));
+    const Integrability& integrable = *report.mechanics.integrable;
+    CHECK(integrable.status == ProofStatus::refuted);
+    CHECK(integrable.bracket == std::vector<std::string>{"u", "w"});
+    CHECK(integrable.components ==
+          std::vector<std::pair<std::string, std::string>>{{"v_x", "sin(th)"}, {"v_y", "-cos(th)"}});
+    CHECK(integrable.violates == "sin(th)*v_x - cos(th)*v_y");
+    CHECK(integrable.witness->value == 1);
+    CHECK(integrable.witness->point.size() == 3);
+    CHECK(constrained_report(constrained_plane(R"(sections = { u = { v_x = "-y", v_y = "x" }, w = { v_th = 1 } })"))
+              .mechanics.integrable->status == ProofStatus::proved);
+}
+
+TEST_CASE("where the minor that solves the constraints vanishes is listed as singular")
+{
+    const ModelReport report = constrained_report(
+        "[base]\ncoordinates = [\"x\", \"y\", \"th\"]\n[fibre]\ncoordinates = [\"v_x\", \"v_th\"]\n[algebroid]\nkind = "
+        "\"nonholonomic\"\nconstraints = [\"v_x*sin(th) - v_y*cos(th)\"]\nof = { kind = \"tangent\" }\n[lagrangian]\nL "
+        "= "
+        "\"(v_x^2 + v_y^2 + v_th^2)/2\"\n");
+    CHECK(report.structure.verdict == Verdict::valid);
+    const Regularity& regularity = report.mechanics.regularity;
+    CHECK(regularity.kind == Regularity::Kind::generically_regular);
+    CHECK(regularity.singular_where == std::vector<std::string>{"cos(th)"});
+    REQUIRE(regularity.singular_at.size() == 1);
+    const auto th = std::ranges::find(regularity.singular_at[0], "th", &std::pair<std::string, PointValue>::first);
+    CHECK(to_text(th->second) == "1.5707963267948966192313");
+}
+
+TEST_CASE("regularity is that of the Hessian on the distribution, which that of L does not tell")
+{
+    const auto report = [](const std::string& sections, const std::string& L) {
+        return constrained_report(
+            "[base]\ncoordinates = [\"x\", \"y\"]\n[fibre]\ncoordinates = [\"u\"]\n[algebroid]\nkind = "
+            "\"nonholonomic\"\nof = { kind = \"tangent\" }\nsections = { u = " +
+            sections + " }\n[lagrangian]\nL = \"" + L + "\"\n");
+    };
+    CHECK(report("{ v_x = 1 }", "v_x^2/2").mechanics.regularity.kind == Regularity::Kind::regular);
+    const Regularity degenerate = report("{ v_x = 1, v_y = 1 }", "v_x^2/2 - v_y^2/2").mechanics.regularity;
+    CHECK(degenerate.kind == Regularity::Kind::degenerate);
+    CHECK(degenerate.of == Regularity::Matrix::constrained);
+}
+
+TEST_CASE("a moving energy is conserved where its section is a symmetry")
+{
+    const auto conserved = [](const std::string& drift, const std::string& more) {
+        return *constrained_report(constrained_plane(std::string(blade) + "\ndrift = " + drift,
+                                                     "[lagrangian]\nL = \"(v_x^2 + v_y^2 + v_th^2)/2" + more + "\"\n"))
+                    .mechanics.conserved;
+    };
+    CHECK(conserved("{ v_x = 2 }", "").name == "moving_energy");
+    CHECK(conserved("{ v_x = 2 }", "").status == ProofStatus::proved);
+    CHECK(conserved("{ v_x = 2 }", " - x").status == ProofStatus::refuted);
+    CHECK(conserved("{ v_x = \"sin(t)\" }", "").status == ProofStatus::refuted);
+    CHECK(constrained_report(constrained_plane(blade, "[lagrangian]\nL = \"(v_x^2 + v_y^2 + v_th^2)/2 - x*y\"\n"))
+              .mechanics.conserved->status == ProofStatus::proved);
+}
