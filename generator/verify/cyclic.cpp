@@ -5,6 +5,8 @@
 #include "verify/judge.hpp"
 #include "verify/proof_setting.hpp"
 
+#include <fmt/format.h>
+
 namespace lagen {
 
 namespace {
