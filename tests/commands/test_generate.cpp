@@ -225,7 +225,7 @@ TEST_CASE("the help of generate lists the kernels, and one that the form does no
     help.erase(std::unique(help.begin(), help.end(), [](char a, char b) { return a == ' ' && b == ' '; }), help.end());
     CHECK(help.find("these kernels alone, e.g. rhs,energy; there are rhs, jacobian, variational, taylor, event_series, "
                     "domain_series, flows, mass_matrix, momentum, velocity, controls, energy, power, hamiltonian, "
-                    "lagrangian, cost, "
+                    "lagrangian, ambient_velocity, reaction, moving_energy, cost, "
                     "constraints, casimirs, domain, "
                     "observables, invariants, lagrangian_hessian, hamiltonian_hessian, step, forward, "
                     "arrow_equation, explicit_step, cayley_step, cayley_coordinates, algebra_matrix, in_algebra, "

@@ -62,7 +62,7 @@ TEST_CASE("a kernel that does not exist is refused with the list of those that d
     CHECK(message_of(model, verify(model), request) ==
           "error: there is no kernel 'enrgy'; there are rhs, jacobian, variational, taylor, event_series, "
           "domain_series, flows, mass_matrix, momentum, velocity, controls, energy, power, hamiltonian, lagrangian, "
-          "cost, "
+          "ambient_velocity, reaction, moving_energy, cost, "
           "constraints, casimirs, domain, observables, invariants, "
           "lagrangian_hessian, hamiltonian_hessian, step, forward, arrow_equation, explicit_step, cayley_step, "
           "cayley_coordinates, "
