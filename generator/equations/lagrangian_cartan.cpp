@@ -149,9 +149,8 @@ class LagrangianCartan {
     /// with factor W_ab f^b as Lagrange's equations have it.
     [[nodiscard]] std::vector<NamedResidual> along_solutions(const ExteriorForm& form, int factor)
     {
-        const std::vector<NodeId> force = acceleration_forces(
-            graph_, system_, lagrangian_,
-            momentum_rates(graph_, system_.algebroid, lagrange_balance(graph_, system_, lagrangian_)));
+        const std::vector<NodeId> force =
+            lagrange_rates(graph_, system_, lagrangian_, lagrange_balance(graph_, system_, lagrangian_)).force;
         const std::vector<NodeId> zeros(system_.r(), graph_.constant(0));
         std::vector<NamedResidual> residuals;
         const auto scaled = [&](NodeId node) { return graph_.multiply(graph_.constant(factor), node); };

@@ -22,9 +22,8 @@ struct Accelerations {
 Accelerations accelerations(Graph& graph, const System& system)
 {
     const LagrangianNodes lagrangian = lagrangian_nodes(graph, system);
-    const std::vector<NodeId> pdot =
-        momentum_rates(graph, system.algebroid, lagrange_balance(graph, system, lagrangian));
-    return {lagrangian.fibre.hessian, acceleration_forces(graph, system, lagrangian, pdot)};
+    return {lagrangian.fibre.hessian,
+            lagrange_rates(graph, system, lagrangian, lagrange_balance(graph, system, lagrangian)).force};
 }
 
 /// A v, A by rows of as many entries as v has.

@@ -38,7 +38,7 @@ lagen::StabilityChart tiny_chart()
                        {"blown_up", 3, 200, 0},
                        {"bounded", 9, 0.25, 0},
                        {"left_domain", 2, 0, 0},
-                       {"newton_diverged", 0, 0, 0}},
+                       {"newton_diverged", 0, 0, 0, "no_solution"}},
                       {1.0, std::nullopt}}};
     chart.left_out = {{"dop853", "dop853 takes a tolerance, and a stability chart is over steps"}};
     return chart;
@@ -58,6 +58,7 @@ TEST_CASE("stability.json has outcomes by step and column, limits by column, and
     REQUIRE(method["outcome"].size() == 3);
     CHECK(method["outcome"][1].texts() == std::vector<std::string>{"drifting", "left_domain"});
     CHECK(method["outcome"][2].texts() == std::vector<std::string>{"blown_up", "newton_diverged"});
+    CHECK(method["status"][2].texts() == std::vector<std::string>{"ok", "no_solution"});
     CHECK(number_in(method["limit"][0]) == 1);
     CHECK(method["limit"][1].kind == json::Kind::null);
     for (const char* key : {"bounded", "drifting", "newton_diverged", "blown_up", "left_domain", "scale", "followed"})
@@ -68,9 +69,9 @@ TEST_CASE("stability.json has outcomes by step and column, limits by column, and
 TEST_CASE("stability.csv has a line a point, and the text counts outcomes")
 {
     const std::string csv = lagen::stability_csv(tiny_chart());
-    CHECK_THAT(csv, Catch::StartsWith("method,step,initial.x_1,outcome,t,error,drift\r\n"
-                                      "leapfrog_kdk,0.5,2,bounded,9,0.25,0.125\r\n"));
-    CHECK_THAT(csv, Catch::EndsWith("\r\nleapfrog_kdk,1.5,4,newton_diverged,0,0,\r\n"));
+    CHECK_THAT(csv, Catch::StartsWith("method,step,initial.x_1,outcome,t,error,drift,status\r\n"
+                                      "leapfrog_kdk,0.5,2,bounded,9,0.25,0.125,ok\r\n"));
+    CHECK_THAT(csv, Catch::EndsWith("\r\nleapfrog_kdk,1.5,4,newton_diverged,0,0,,no_solution\r\n"));
     const std::string text = lagen::stability_text(tiny_chart());
     CHECK_THAT(text, Catch::Contains("leapfrog_kdk                 2               1               1               1"
                                      "               1             0.5               1\n"));
@@ -132,6 +133,82 @@ method = "dop853"
             if (h_omega > 0.4 && h_omega < 2.8) CHECK(outcome_of("rk4") == "drifting");
             if (h_omega > 2.9) CHECK(outcome_of("rk4") == "blown_up");
         }
+    }
+}
+
+TEST_CASE("a discrete body is bounded up to h Omega = 1, where its momenta reach the fold: the same bytes twice",
+          "[chart]")
+{
+    const std::string folder = fresh_folder();
+    std::string body = read_text(LAGEN_SOURCE_DIR "/docs/stability/moser_veselov.toml");
+    const std::string tilted = "p_w1 = 0.05, p_w2 = 0.05", straight = "p_w1 = 0, p_w2 = 0";
+    REQUIRE(body.find(tilted) != std::string::npos);
+    write_text(folder + "/body.toml", body.replace(body.find(tilted), tilted.size(), straight));
+    const auto chart_in = [&](const char* place) {
+        return call({"chart", "--stability", "body.toml", "--over", "step=0.1:1.2:12,initial.p_w3=3.4:6.8:2", "--t-end",
+                     "20", "-o", place},
+                    {.folder = folder});
+    };
+    const Outcome outcome = chart_in("a");
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    REQUIRE(chart_in("b").code == 0);
+    for (const char* name : {"stability.csv", "stability.json", "stability.png", "stability.svg"})
+        CHECK(read_text(folder + "/a/" + name) == read_text(folder + "/b/" + name));
+    const json::Value chart = json::read_file(folder + "/a/stability.json");
+    REQUIRE(chart["methods"].keys == std::vector<std::string>{"discrete"});
+    const json::Value& method = chart["methods"]["discrete"];
+    for (std::size_t j = 0; j < 2; ++j) {
+        const double speed = 1.0 + static_cast<double>(j); // p_w3 / I3
+        CHECK(number_in(method["limit"][j]) == Approx(1 / speed).epsilon(1e-9));
+        // The momenta turn along by the angle asin(h Omega) = h Omega + .. a step, here with h = 0.01.
+        CHECK(number_in(chart["omega"][j]) == Approx(speed).epsilon(1e-3));
+        for (std::size_t i = 0; i < 12; ++i) {
+            const double turn = number_in(chart["axes"][0]["values"][i]) * speed;
+            INFO("h Omega = " << turn);
+            if (turn < 0.99) CHECK(method["outcome"][i][j].text == "bounded");
+            if (turn < 0.99) CHECK(method["status"][i][j].text == "ok");
+            if (turn > 1.01) CHECK(method["outcome"][i][j].text == "newton_diverged");
+            if (turn > 1.01) CHECK(method["status"][i][j].text == "no_solution");
+        }
+    }
+}
+
+TEST_CASE("variational methods stand beside others, and a scheme blows up in its window of unstable steps", "[chart]")
+{
+    const std::string folder = fresh_folder(), spring = R"([base]
+coordinates = ["x"]
+[lagrangian]
+L = "v_x^2/2 - x^2/2"
+[scene.default]
+initial = { x = 1, v_x = 0 }
+duration = 300
+)";
+    write_text(folder + "/spring.toml", "[algebroid]\nkind = \"tangent\"\n" + spring);
+    const auto chart = [&](const char* model, const char* over, const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"chart", "--stability", model, "--over", over, "--format", "json"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Outcome outcome = call(arguments, {.folder = folder});
+        INFO(outcome.err);
+        REQUIRE(outcome.code == 0);
+        return json::parse(outcome.out);
+    };
+    const json::Value both = chart("spring.toml", "step=0.5:3.7:9", {"--methods", "leapfrog_kdk,variational4"});
+    REQUIRE(both["methods"].keys == std::vector<std::string>{"leapfrog_kdk", "variational4"});
+    CHECK(both["methods"]["variational4"]["limit"][0].kind == json::Kind::null);
+    for (std::size_t i = 0; i < 9; ++i) CHECK(both["methods"]["variational4"]["outcome"][i][0].text == "bounded");
+    CHECK(both["methods"]["leapfrog_kdk"]["outcome"][8][0].text == "blown_up");
+
+    write_text(folder + "/lobatto.toml",
+               "[groupoid]\nkind = \"pair\"\n[discrete]\nstep = \"h\"\nscheme = \"lobatto:3\"\n" + spring);
+    const json::Value window = chart("lobatto.toml", "step=2:4.4:13", {});
+    CHECK(number_in(window["omega"][0]) == Approx(1).epsilon(1e-12)); // of [lagrangian]
+    const json::Value& scheme = window["methods"]["discrete"];
+    CHECK(number_in(scheme["limit"][0]) == Approx(std::sqrt(8.0)).epsilon(1e-12));
+    for (std::size_t i = 0; i < 13; ++i) {
+        const double h = number_in(window["axes"][0]["values"][i]);
+        INFO("h = " << h);
+        CHECK((scheme["outcome"][i][0].text == "bounded") == (h < std::sqrt(8.0) || h > std::sqrt(12.0)));
     }
 }
 

@@ -2,6 +2,8 @@
 /// Where methods fail, by numbers that were computed elsewhere in quadruple precision: windows of Galerkin's
 /// variational integrators, resonances of the step with a motion and with fast forces, damping, and fixed-point
 /// iteration.
+#include "stability/scheme_limits.hpp"
+
 #include "lagen/integrate.hpp"
 
 #include <Eigen/Dense>
@@ -10,6 +12,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <tuple>
 
 namespace {
 
@@ -143,6 +146,14 @@ double stable_amplitude(double step, int steps)
 
 TEST_CASE("Galerkin variational integrators have windows of instability where the quadrature is not Gauss' own")
 {
+    for (const auto& [scheme, degree, rule] :
+         {std::tuple{"trapezoidal", 1, lobatto2}, {"lobatto:3", 2, lobatto3}, {"lobatto:4", 3, lobatto4}})
+        check_changes(degree, rule, {lagen::scheme_limits(scheme).value().imaginary}, 1e-8); // exact
+    for (const char* scheme : {"midpoint", "gauss:1", "gauss:2", "gauss:3", "gauss:4"})
+        CHECK(lagen::scheme_limits(scheme).value().imaginary == lagen::no_limit);
+    CHECK(lagen::scheme_limits("lobatto:3").value().imaginary == Approx(std::sqrt(8.0)).epsilon(1e-15));
+    CHECK(lagen::scheme_limits("left").value().imaginary == 2);
+    CHECK_FALSE(lagen::scheme_limits("gauss:5"));
     check_changes(1, lobatto2, {2}, 1e-8); // Verlet
     check_changes(1, gauss2, {std::sqrt(12.0)}, 1e-8);
     check_changes(2, lobatto3, {std::sqrt(8.0), std::sqrt(12.0), std::sqrt(24.0)}, 1e-8);

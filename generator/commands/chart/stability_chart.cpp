@@ -3,10 +3,12 @@
 
 #include "commands/chart/contestants.hpp"
 #include "commands/chart/problem.hpp"
+#include "commands/chart/stability_discrete.hpp"
 #include "commands/scene/start_state.hpp"
 #include "emit/print_header.hpp"
+#include "model/scene_form.hpp"
 #include "scene/sample_times.hpp"
-#include "stability/linear_limits.hpp"
+#include "stability/scheme_limits.hpp"
 
 #include <fmt/core.h>
 
@@ -15,6 +17,7 @@
 #include <map>
 #include <sstream>
 #include <thread>
+#include <tuple>
 
 namespace lagen {
 
@@ -58,6 +61,7 @@ std::vector<MethodGroup> groups_of(const ChartProblem& problem, const std::vecto
     std::map<MethodKind, MethodGroup> groups;
     for (const MethodEntry& method : method_table()) {
         if (!wanted.empty() && std::ranges::find(wanted, &method) == wanted.end()) continue;
+        if (*method.scheme != '\0') continue; // has equations of its own
         const std::string obstacle =
             method.adaptive ? fmt::format("{} takes a tolerance, and a stability chart is over steps", method.name)
                             : obstacle_to(method, problem);
@@ -70,6 +74,7 @@ std::vector<MethodGroup> groups_of(const ChartProblem& problem, const std::vecto
     }
     std::vector<MethodGroup> list;
     for (auto& [kind, methods] : groups) list.push_back(std::move(methods));
+    if (list.empty()) list.emplace_back(); // the figures of the columns are found all the same
     return list;
 }
 
@@ -125,30 +130,177 @@ void take_answer(const std::string& answer, StabilityChart& chart)
     std::vector<ColumnFigures> columns;
     for (std::string line; std::getline(lines, line);) {
         std::istringstream words(line);
-        std::string word, second, third, fourth;
-        words >> word >> second >> third >> fourth;
+        std::string word, second, third, fourth, fifth;
+        words >> word >> second >> third >> fourth >> fifth;
         const auto number = [](const std::string& text) { return std::strtod(text.c_str(), nullptr); };
         if (word == "column")
             columns.push_back({number(second), number(third), number(fourth)});
         else if (word == "method")
-            chart.methods.push_back({second, {}, {}});
+            chart.methods.push_back({second, {}, {}, {}});
+        else if (word == "fold")
+            chart.methods.back().folds.push_back(number(second));
         else
-            chart.methods.back().cells.push_back({word, number(second), number(third), number(fourth)});
+            chart.methods.back().cells.push_back({word, number(second), number(third), number(fourth), fifth});
     }
     chart.columns = std::move(columns);
 }
 
 /// Of x'' = -omega^2 x; the flows of a sum of flows are others.
-void add_limits(StabilityChart& chart, const ChartProblem& problem)
+double limit_of(const MethodEntry& entry, const std::string& scheme, bool has_flows)
 {
-    for (ChartedMethod& method : chart.methods) {
-        const MethodEntry& entry = *find_method(method.name);
-        const bool composes = entry.kind == MethodKind::splitting && problem.module.flows.count > 0;
-        const double end = composes ? no_limit : oscillation_limit(entry.type);
-        for (const ColumnFigures& column : chart.columns)
-            method.limits.push_back(end != no_limit && column.omega > 0 ? std::optional(end / column.omega)
-                                                                        : std::nullopt);
+    if (entry.kind == MethodKind::discrete) {
+        const std::optional<LinearLimits> limits = scheme_limits(scheme);
+        return limits ? limits->imaginary : no_limit;
     }
+    return entry.kind == MethodKind::splitting && has_flows ? no_limit : oscillation_limit(entry.type);
+}
+
+/// Those of the linear interval, and the folds where they are met before.
+void add_limits(ChartedMethod& method, const std::vector<ColumnFigures>& columns, double end)
+{
+    for (std::size_t j = 0; j < columns.size(); ++j) {
+        std::optional<double>& limit = method.limits.emplace_back();
+        if (end != no_limit && columns[j].omega > 0) limit = end / columns[j].omega;
+        if (j < method.folds.size() && method.folds[j] > 0) limit = std::min(limit.value_or(no_limit), method.folds[j]);
+    }
+}
+
+void require_length(const StabilityChart& chart, const Scene& scene)
+{
+    if (chart.start == chart.end)
+        throw ModelError(fmt::format("scene '{}' has no length: there is nothing to chart", scene.name), scene.where);
+}
+
+std::size_t processors()
+{
+    return std::max(1U, std::thread::hardware_concurrency());
+}
+
+/// The scene in a form of rates: programs by groups of methods, and what each of them is asked.
+class CurvePart {
+  public:
+    CurvePart(CheckedModel& checked, const Scene& scene, StabilityChart& chart)
+        : columns_(column_lines(checked, scene, chart, problem_))
+    {
+        chart.start = problem_.start;
+        chart.end = problem_.end;
+        GenerateRequest kernels;
+        kernels.form = chart.form;
+        kernels.scene = &scene;
+        kernels.flows = true;
+        Generated generated = generate(checked, kernels);
+        problem_.header = std::move(generated.header);
+        problem_.module = std::move(generated.module);
+        std::tie(follow_, chart.followed) = followed_of(problem_.module);
+    }
+
+    [[nodiscard]] const ChartProblem& problem() const { return problem_; }
+    [[nodiscard]] bool has_flows() const { return problem_.module.flows.count > 0; }
+
+    void run(const std::vector<MethodGroup>& groups, StabilityChart& chart) const
+    {
+        std::vector<ProgramText> texts;
+        for (const MethodGroup& methods : groups) texts.push_back(program_of(problem_, methods));
+        const std::string whole = fmt::format("span {:.17g} {:.17g}\nfollow {}\nsteps{}\n{}", chart.start, chart.end,
+                                              follow_, blank_list(chart.axes[0].values), columns_);
+        std::vector<ChartCall> calls;
+        for (const std::string& program : compile_programs(texts)) calls.push_back({program, whole});
+        for (const std::string& answer : answers_of(calls, processors())) take_answer(answer, chart);
+    }
+
+  private:
+    ChartProblem problem_;
+    std::string columns_, follow_;
+};
+
+/// Runs them, with the figures of the columns where they are known.
+void run_contestants(const std::vector<DiscreteContestant>& contestants, StabilityChart& chart)
+{
+    std::string figures;
+    for (const ColumnFigures& column : chart.columns)
+        figures += fmt::format("figures {:.17g} {:.17g} {:.17g}\n", column.omega, column.scale, column.reached);
+    std::vector<ProgramText> texts;
+    for (const DiscreteContestant& contestant : contestants) texts.push_back(contestant.text);
+    const std::vector<std::string> programs = compile_programs(texts);
+    std::vector<ChartCall> calls;
+    for (std::size_t k = 0; k < contestants.size(); ++k)
+        calls.push_back({programs[k], contestants[k].request + figures});
+    const std::vector<std::string> answers = answers_of(calls, processors());
+    for (std::size_t k = 0; k < contestants.size(); ++k) {
+        take_answer(answers[k], chart);
+        add_limits(chart.methods.back(), chart.columns, limit_of(*contestants[k].method, contestants[k].scheme, false));
+    }
+}
+
+/// Of the methods that are wanted, or of all of them.
+std::vector<DiscreteContestant> variational_contestants(const CheckedModel& checked, const ChartRequest& request,
+                                                        const Scene& scene, StabilityChart& chart)
+{
+    std::vector<DiscreteContestant> list;
+    for (const MethodEntry& method : method_table()) {
+        if (*method.scheme == '\0') continue;
+        const bool wanted = std::ranges::find(request.methods, &method) != request.methods.end();
+        if (!wanted && !request.methods.empty()) continue;
+        try {
+            list.push_back(variational_contestant(checked, method, scene, chart));
+        } catch (const MathematicsError& error) {
+            if (wanted) throw;
+            chart.left_out.push_back({method.name, fmt::format("{} does not apply: {}", method.name, error.message())});
+        }
+    }
+    return list;
+}
+
+void chart_curves(CheckedModel& checked, const ChartRequest& request, const Scene& scene, StabilityChart& chart)
+{
+    const CurvePart part(checked, scene, chart);
+    require_length(chart, scene);
+    const std::vector<MethodGroup> groups = groups_of(part.problem(), request.methods, chart.left_out);
+    const std::vector<DiscreteContestant> variational = variational_contestants(checked, request, scene, chart);
+    part.run(groups, chart);
+    for (ChartedMethod& method : chart.methods)
+        add_limits(method, chart.columns, limit_of(*find_method(method.name), "", part.has_flows()));
+    run_contestants(variational, chart);
+}
+
+/// The columns by the motion of [lagrangian], where the model has one that starts there.
+void look_at_curves(const CheckedModel& checked, const Scene& scene, StabilityChart& chart)
+{
+    const std::string form = entry_of(FormKind::lagrange).name;
+    if (!checked.model.lagrangian) return;
+    StabilityChart curves = chart;
+    curves.form = form;
+    try {
+        CheckedModel own = checked;
+        Scene continuous = in_form(checked.model, scene, form);
+        continuous.duration = number(Rational(chart.end - chart.start));
+        CurvePart(own, continuous, curves).run({{}}, curves);
+    } catch (const MathematicsError&) {
+        return; // its velocities do not follow from the momenta
+    }
+    if (curves.followed == chart.followed) chart.columns = std::move(curves.columns);
+}
+
+void chart_steps(CheckedModel& checked, const ChartRequest& request, const Scene& scene, StabilityChart& chart)
+{
+    const MethodEntry& method = *find_method("discrete");
+    std::tie(chart.start, chart.end) = span_of_steps(checked.model, request.scene);
+    require_length(chart, scene);
+    const DiscreteContestant contestant = discrete_contestant(checked, method, scene, chart, std::nullopt);
+    chart.followed = contestant.followed;
+    ChartProblem problem;
+    problem.module = contestant.module;
+    (void)groups_of(problem, request.methods, chart.left_out);
+    for (const MethodEntry& other : method_table()) {
+        if (*other.scheme == '\0') continue;
+        const std::string reason = fmt::format("{} makes the steps of [lagrangian], and scene '{}' those of [discrete]",
+                                               other.name, scene.name);
+        if (std::ranges::find(request.methods, &other) != request.methods.end())
+            throw UsageError(fmt::format("lagen chart: {}\nhint: --form lagrange", reason));
+        if (request.methods.empty()) chart.left_out.push_back({other.name, reason});
+    }
+    look_at_curves(checked, scene, chart);
+    run_contestants({contestant}, chart);
 }
 
 } // namespace
@@ -164,32 +316,10 @@ StabilityChart make_stability_chart(CheckedModel& checked, const ChartRequest& r
     const Scene scene = stepped_scene(request.scene, chart.axes, checked.model);
     const SceneValues given = evaluate_scene(checked.model, request.scene);
     set_parameters(checked, finite_numbers(given.parameters, request.scene));
-    ChartProblem problem;
-    const std::string columns = column_lines(checked, scene, chart, problem);
-    chart.start = problem.start;
-    chart.end = problem.end;
-    if (chart.start == chart.end)
-        throw ModelError(fmt::format("scene '{}' has no length: there is nothing to chart", scene.name), scene.where);
-    GenerateRequest kernels;
-    kernels.form = chart.form;
-    kernels.scene = &scene;
-    kernels.flows = true;
-    Generated generated = generate(checked, kernels);
-    problem.header = std::move(generated.header);
-    problem.module = std::move(generated.module);
-    const auto [follow, name] = followed_of(problem.module);
-    chart.followed = name;
-
-    std::vector<ProgramText> texts;
-    for (const MethodGroup& methods : groups_of(problem, request.methods, chart.left_out))
-        texts.push_back(program_of(problem, methods));
-    const std::string whole = fmt::format("span {:.17g} {:.17g}\nfollow {}\nsteps{}\n{}", chart.start, chart.end,
-                                          follow, blank_list(chart.axes[0].values), columns);
-    std::vector<ChartCall> calls;
-    for (const std::string& program : compile_programs(texts)) calls.push_back({program, whole});
-    for (const std::string& answer : answers_of(calls, std::max(1U, std::thread::hardware_concurrency())))
-        take_answer(answer, chart);
-    add_limits(chart, problem);
+    if (form_named(chart.form).steps)
+        chart_steps(checked, request, scene, chart);
+    else
+        chart_curves(checked, request, scene, chart);
     return chart;
 }
 

@@ -12,6 +12,7 @@ struct StabilityCell {
     std::string outcome; ///< bounded, drifting, newton_diverged, blown_up or left_domain
     double t = 0;        ///< where it ended
     double error = 0, drift = 0;
+    std::string status = "ok"; ///< of the run
 };
 
 struct ChartedMethod {
@@ -19,6 +20,8 @@ struct ChartedMethod {
     std::vector<StabilityCell> cells; ///< those of the first column first
     /// The step at which h omega is the end of the method's interval, a column each; nothing where it has none.
     std::vector<std::optional<double>> limits;
+    /// Of discrete motions: the step from which on the momenta of the start have no arrow, 0 where none is met.
+    std::vector<double> folds = {};
 };
 
 /// Along the motion of a column, as far as the scene goes.
@@ -54,14 +57,18 @@ inline constexpr std::array<OutcomeEntry, 5> outcome_table{{
      "from each third of the time to the next the least or the largest value goes on in one direction, in all by more "
      "than 1e-3 of the scale and half of the width of its swing; or the last third is as far from the first value; or "
      "the value is away from it by more than 10 times the scale"},
-    {"newton_diverged", "#009e73", "Newton's method finds no solution of a step"},
+    {"newton_diverged", "#009e73",
+     "a step of an implicit method or a discrete motion has no solution that is found; `status` tells why: "
+     "newton_diverged, no_solution or branch_lost"},
     {"blown_up", "#d55e00", "a number is not finite, or what is followed moves by more than 100 times the scale"},
     {"left_domain", "#999999",
      "a step ends where the model's equations do: outside the domain, or where they are singular"},
 }};
 
-/// Generates, compiles and runs the grid, one program for each kind of method. Methods that take a tolerance are left
-/// out. Throws UsageError where one of the request takes no step or does not apply.
+/// Generates, compiles and runs the grid, one program for each kind of method and each discrete motion. In a form of
+/// rates variational methods stand beside those that integrate them; in the discrete form the motion of [discrete] is
+/// alone. Methods that take a tolerance are left out. Throws UsageError where one of the request takes no step or does
+/// not apply.
 [[nodiscard]] StabilityChart make_stability_chart(CheckedModel& checked, const ChartRequest& request,
                                                   std::vector<StabilityAxis> axes);
 

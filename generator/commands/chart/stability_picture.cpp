@@ -13,7 +13,7 @@ namespace {
 
 // Pixels.
 constexpr int picture_width = 1240, panel_height = 226, head_height = 64, foot_height = 46, row_height_alone = 26;
-constexpr int panel_columns = 5, panel_gap = 26, left_margin = 70, right_margin = 14, panel_title = 20;
+constexpr int most_columns = 5, panel_gap = 26, left_margin = 70, right_margin = 14, panel_title = 20;
 
 const OutcomeEntry& outcome_named(const std::string& name)
 {
@@ -65,6 +65,16 @@ std::string block(const std::string& name, const std::string& lines)
     return fmt::format("${} << LAGEN_END\n{}LAGEN_END\n", name, lines);
 }
 
+/// What the black line is.
+const char* limit_name(const StabilityChart& chart)
+{
+    const auto meets_fold = [](const ChartedMethod& method) {
+        return std::ranges::any_of(method.folds, [](double fold) { return fold > 0; });
+    };
+    return std::ranges::any_of(chart.methods, meets_fold) ? "end of the linear interval, or a fold"
+                                                          : "end of the linear interval, h omega";
+}
+
 /// A box and a name for each outcome, in a line at the top.
 std::string legend_script(const StabilityChart& chart, int height)
 {
@@ -82,8 +92,8 @@ std::string legend_script(const StabilityChart& chart, int height)
     text += fmt::format("set arrow 1 from screen {0:.4f}, screen {1:.5f} to screen {2:.4f}, screen {1:.5f} nohead "
                         "linecolor rgb 'black' linewidth 1.8 front\n",
                         x, y, x + 0.02);
-    text += fmt::format("set label 9 {} at screen {:.4f}, screen {:.5f} left\n",
-                        gnuplot_text("end of the linear interval, h omega"), x + 0.025, y);
+    text += fmt::format("set label 9 {} at screen {:.4f}, screen {:.5f} left\n", gnuplot_text(limit_name(chart)),
+                        x + 0.025, y);
     text += fmt::format(
         "set label 10 {} at screen 0.5, screen {:.5f} center\n",
         gnuplot_text(fmt::format("{}, scene {}, t = {:.6g} to {:.6g}, {} form; followed: {}",
@@ -120,7 +130,8 @@ constexpr const char* draw_boxes = "using 1:2:3:4:5:6:7 with boxxyerror linecolo
 /// A panel a method, the second axis upwards.
 std::string panels_script(const StabilityChart& chart, const std::string& picture)
 {
-    const int count = static_cast<int>(chart.methods.size()), rows = (count + panel_columns - 1) / panel_columns;
+    const int count = static_cast<int>(chart.methods.size()), panel_columns = std::clamp(count, 2, most_columns);
+    const int rows = (count + panel_columns - 1) / panel_columns;
     const int height = head_height + rows * panel_height + foot_height;
     const double width =
         (picture_width - left_margin - right_margin - (panel_columns - 1.0) * panel_gap) / panel_columns;

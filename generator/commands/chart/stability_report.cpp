@@ -21,8 +21,10 @@ void criteria_json(JsonWriter& json, const StabilityChart& chart)
                                 : "the largest difference along the motion that setting velocities or momenta to 0 "
                                   "makes: of an energy, the kinetic energy");
     for (const OutcomeEntry& outcome : outcome_table) json.key(outcome.name).value(outcome.criterion);
-    json.key("limit").value("the step at which the fastest oscillation along the motion, omega, reaches the end of the "
-                            "method's interval on x'' = -omega^2 x; null where it has no end, or none is known");
+    json.key("limit").value(
+        "the step at which the fastest oscillation along the motion, omega, reaches the end of the "
+        "method's interval on x'' = -omega^2 x, or of a discrete motion that from which on the momenta of "
+        "the start have no arrow; null where there is no such step, or none is known");
     json.end_object();
 }
 
@@ -43,6 +45,12 @@ void methods_json(JsonWriter& json, const StabilityChart& chart)
         for (std::size_t i = 0; i < steps; ++i) {
             json.begin_array();
             for (std::size_t j = 0; j < chart.columns.size(); ++j) json.value(chart.cell(method, i, j).outcome);
+            json.end_array();
+        }
+        json.end_array().key("status").begin_array();
+        for (std::size_t i = 0; i < steps; ++i) {
+            json.begin_array();
+            for (std::size_t j = 0; j < chart.columns.size(); ++j) json.value(chart.cell(method, i, j).status);
             json.end_array();
         }
         json.end_array().key("limit").begin_array();
@@ -104,15 +112,15 @@ std::string stability_csv(const StabilityChart& chart)
         text += "," + (chart.axes[1].name.starts_with("initial.")
                            ? "initial." + csv_names({chart.axes[1].name.substr(8)})[0]
                            : csv_names({chart.axes[1].name})[0]);
-    text += ",outcome,t,error,drift";
+    text += ",outcome,t,error,drift,status";
     for (const ChartedMethod& method : chart.methods)
         for (std::size_t j = 0; j < chart.columns.size(); ++j)
             for (std::size_t i = 0; i < chart.axes[0].values.size(); ++i) {
                 const StabilityCell& cell = chart.cell(method, i, j);
                 text += fmt::format("\r\n{},{}", method.name, chart.axes[0].values[i]);
                 if (two) text += fmt::format(",{}", chart.axes[1].values[j]);
-                text += fmt::format(",{},{},{},{}", cell.outcome, cell.t, cell.error,
-                                    has_drift(cell) ? fmt::format("{}", cell.drift) : "");
+                text += fmt::format(",{},{},{},{},{}", cell.outcome, cell.t, cell.error,
+                                    has_drift(cell) ? fmt::format("{}", cell.drift) : "", cell.status);
             }
     return text + "\r\n";
 }

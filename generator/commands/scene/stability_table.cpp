@@ -3,10 +3,12 @@
 
 #include "commands/scene/methods.hpp"
 #include "emit/json.hpp"
-#include "stability/linear_limits.hpp"
+#include "stability/scheme_limits.hpp"
 
 #include <fmt/core.h>
 
+#include <array>
+#include <utility>
 #include <vector>
 
 namespace lagen {
@@ -18,6 +20,10 @@ struct StabilityRow {
     LinearLimits limits;
 };
 
+/// Those of [discrete] that no variational method is; `trapezoidal` is lobatto:2.
+constexpr std::array<std::pair<const char*, const char*>, 5> other_schemes{
+    {{"left", "1"}, {"trapezoidal", "2"}, {"lobatto:3", "4"}, {"lobatto:4", "6"}, {"lobatto:5", "8"}}};
+
 std::vector<StabilityRow> stability_rows()
 {
     std::vector<StabilityRow> rows;
@@ -25,8 +31,11 @@ std::vector<StabilityRow> stability_rows()
         if (method.kind == MethodKind::series)
             for (const std::size_t order : {4U, 10U, 20U, 30U})
                 rows.push_back({method.name, std::to_string(order), taylor_limits(order)});
+        else if (*method.scheme != '\0')
+            rows.push_back({method.name, method.order, scheme_limits(method.scheme).value()});
         else if (const std::optional<LinearLimits> limits = linear_limits(method.type))
             rows.push_back({method.name, method.order, *limits});
+    for (const auto& [scheme, order] : other_schemes) rows.push_back({scheme, order, scheme_limits(scheme).value()});
     return rows;
 }
 
@@ -54,7 +63,7 @@ std::string stability_table_text()
     std::string text =
         "Steps h for which nothing grows: h omega from 0 to `imaginary` on x'' = -omega^2 x, h |lambda| from 0 to\n"
         "`real` on x' = lambda x, lambda < 0. Calls of the right-hand side a step, and the first figure over "
-        "them.\n\n" +
+        "them.\nVariational methods, and the schemes of [discrete] at the end, are of the first alone.\n\n" +
         fmt::format("{:<14}{:<9}{:>5}{:>12}{:>9}{:>12}\n", "", "order", "calls", "imaginary", "a call", "real");
     for (const auto& [name, order, limits] : stability_rows()) {
         const bool ends = limits.imaginary != no_limit && limits.calls > 0;

@@ -11,7 +11,7 @@
 ///   steps h h ..
 ///   column P.. | S..                       parameters and start of a column, one such line each
 /// It prints `column OMEGA SCALE REACHED` for each column, then for each method `method NAME` and for every column and
-/// every step `OUTCOME T ERROR DRIFT`.
+/// every step `OUTCOME T ERROR DRIFT STATUS`.
 ///
 /// A column is looked at along its motion by Dop853 with tolerance 1e-9 first, up to the time REACHED: OMEGA is the
 /// largest imaginary part of an eigenvalue of the Jacobian along it; SCALE the largest |f(x, y) - f(x, 0)|, which is
@@ -22,6 +22,7 @@
 #pragma once
 
 #include "lagen/integrate.hpp"
+#include "lagen_chart/fate.hpp"
 
 #include <Eigen/Eigenvalues>
 
@@ -38,11 +39,6 @@ namespace lagen {
 
 namespace chart {
 
-inline constexpr double blown_up_from = 100; ///< times the scale
-inline constexpr double swing_window = 10;   ///< times the scale: what swings farther drifts
-inline constexpr double least_drift = 1e-3;  ///< times the scale, from the first third to the last
-inline constexpr double drift_over_width =
-    0.5; ///< a drift moves f by more than this part of its width in the first third
 inline constexpr std::size_t most_spectra = 4000, most_reference_steps = 1'000'000;
 
 template <class M>
@@ -167,53 +163,6 @@ void look_at(const StabilityRequest& request, StabilityColumn<M>& column)
     if (!(column.scale > 0)) column.scale = 1;
 }
 
-/// Least and largest value of a part of a run.
-struct Range {
-    double least = std::numeric_limits<double>::infinity(), largest = -std::numeric_limits<double>::infinity();
-
-    void see(double value)
-    {
-        least = std::min(least, value);
-        largest = std::max(largest, value);
-    }
-    [[nodiscard]] double width() const { return largest - least; }
-};
-
-struct Fate {
-    const char* outcome = "bounded";
-    double t = 0, error = 0, drift = 0;
-};
-
-inline const char* outcome_of(Status status)
-{
-    switch (status) {
-    case Status::ok: return "bounded";
-    case Status::branch_lost:
-    case Status::newton_diverged: return "newton_diverged";
-    case Status::non_finite:
-    case Status::step_too_small:
-    case Status::invalid_input: return "blown_up";
-    default: return "left_domain"; // the equations have no right-hand side there, whatever the reason
-    }
-}
-
-/// Whether f, which began at `from`, drifts; `moved` is how far its least or its largest value went, over the scale.
-inline bool goes_away(const std::array<Range, 3>& parts, double from, double scale, double& moved)
-{
-    const auto& [first, middle, last] = parts;
-    const double low = last.least - first.least, high = last.largest - first.largest;
-    const bool upper = std::abs(high) > std::abs(low);
-    moved = std::abs(upper ? high : low) / scale;
-    const double half_way = upper ? middle.largest - first.largest : middle.least - first.least;
-    const double other_half = (upper ? high : low) - half_way;
-    const bool steadily = half_way * other_half >= 0; // what swings slowly turns back
-    const auto is_drift = [&](double distance, double width) {
-        return distance > least_drift * scale && distance > drift_over_width * width;
-    };
-    const double away = std::max({0.0, last.least - from, from - last.largest}); // f never comes back to its start
-    return (steadily && is_drift(moved * scale, std::min(first.width(), last.width()))) || is_drift(away, last.width());
-}
-
 template <class M, class Method>
 Fate fate_of(const StabilityRequest& request, const StabilityColumn<M>& column, double step)
 {
@@ -221,30 +170,17 @@ Fate fate_of(const StabilityRequest& request, const StabilityColumn<M>& column, 
     const double length = request.span.end - request.span.start;
     const bool conserved = request.follow != "size";
     const double from = conserved ? followed(request, column.model, request.span.start, column.start) : 0;
-    const double third = std::abs(length) / 3;
-    Fate fate;
-    std::array<Range, 3> parts;
-    parts[0].see(from);
+    FateWatch watch(from, column.scale, length, conserved);
     while (integrator.t() != request.span.end) {
         const Status status = integrator.step_towards(request.span.end);
         if (status != Status::ok) {
-            fate.outcome = outcome_of(status);
+            watch.stop(status);
             break;
         }
         const double f = followed(request, integrator.model(), integrator.t(), integrator.state());
-        const double error = std::abs(f - from) / column.scale, passed = std::abs(integrator.t() - request.span.start);
-        if (error > fate.error) fate.error = error;
-        if (!(error <= blown_up_from)) {
-            fate.outcome = "blown_up";
-            break;
-        }
-        parts[std::min<std::size_t>(2, static_cast<std::size_t>(passed / third))].see(f);
+        if (!watch.see(f, std::abs(integrator.t() - request.span.start))) break;
     }
-    fate.t = integrator.t();
-    if (std::string_view(fate.outcome) != "bounded" || !conserved) return fate;
-    if (fate.error > swing_window || goes_away(parts, from, column.scale, fate.drift)) fate.outcome = "drifting";
-    fate.drift /= 2 * third;
-    return fate;
+    return watch.fate(integrator.t());
 }
 
 template <class M, class Method>
@@ -252,10 +188,7 @@ void print_fates(const StabilityRequest& request, const std::vector<StabilityCol
 {
     std::printf("method %s\n", std::string(name).c_str());
     for (const StabilityColumn<M>& column : columns)
-        for (const double step : request.steps) {
-            const Fate fate = fate_of<M, Method>(request, column, step);
-            std::printf("%s %.17g %.6g %.6g\n", fate.outcome, fate.t, fate.error, fate.drift);
-        }
+        for (const double step : request.steps) print_fate(fate_of<M, Method>(request, column, step));
 }
 
 } // namespace chart
@@ -270,7 +203,7 @@ int chart_stability(const std::array<std::string_view, sizeof...(Methods)>& name
         chart::look_at(request, column);
         std::printf("column %.17g %.17g %.17g\n", column.omega, column.scale, column.reached);
     }
-    std::size_t k = 0;
+    [[maybe_unused]] std::size_t k = 0;
     (chart::print_fates<M, Methods>(request, columns, names[k++]), ...);
     return std::fflush(stdout) == 0 ? 0 : 5;
 }

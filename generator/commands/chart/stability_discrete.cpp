@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/chart/stability_discrete.hpp"
+
+#include "commands/scene/start_state.hpp"
+#include "elaborate/variational_model.hpp"
+#include "emit/print_header.hpp"
+#include "graph/core/graph.hpp"
+#include "model/families.hpp"
+#include "model/scene_form.hpp"
+#include "scene/sample_times.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace lagen {
+
+namespace {
+
+/// Whether -dL/dh stays as it is: neither forces nor the time change it.
+bool keeps_energy(const System& system)
+{
+    const DiscreteSystem& discrete = *system.discrete;
+    if (!discrete.lagrangian || !discrete.work.source.empty()) return false;
+    return !depends_on_any(system.graph, std::vector<NodeId>{*discrete.lagrangian}, std::vector<NodeId>{system.time});
+}
+
+/// The line of the request for what is followed, and its name.
+std::pair<std::string, std::string> followed_in_steps(const CheckedModel& checked, const KernelModule& module,
+                                                      const std::optional<std::string>& wanted)
+{
+    const bool energy = has_kernel(module, "energy") && keeps_energy(checked.system);
+    if (energy && (!wanted || *wanted == "energy" || *wanted == "hamiltonian")) return {"energy 0", "energy"};
+    if (wanted && wanted->empty()) return {"size 0", ""};
+    if (has_kernel(module, "invariants")) {
+        const std::vector<std::string>& names = kernel_named(module, "invariants").outputs[0].entry_names;
+        for (std::size_t k = 0; k < names.size(); ++k)
+            if (!wanted || *wanted == "invariant " + names[k])
+                return {fmt::format("invariant {}", k), "invariant " + names[k]};
+    }
+    if (wanted)
+        throw MathematicsError(
+            fmt::format("the discrete form of model '{}' has no {} to follow", module.model, *wanted));
+    return {"size 0", ""};
+}
+
+/// The number of the parameter that is the step; behind those of the model where it is none of them.
+std::size_t step_number(const Model& model)
+{
+    const std::vector<Symbol> symbols = free_parameters(model);
+    const auto place = std::ranges::find(symbols, model.discrete->step.name, &Symbol::name);
+    return static_cast<std::size_t>(place - symbols.begin());
+}
+
+std::vector<double> as_doubles(const std::vector<long double>& values)
+{
+    return {values.begin(), values.end()};
+}
+
+/// A line for every step of every column.
+class CellLines {
+  public:
+    CellLines(CheckedModel& checked, const Scene& scene, const StabilityChart& chart)
+        : model_(checked.model), scene_(scene), chart_(chart),
+          start_([&checked](bool) -> const CheckedModel& { return checked; }, scene.form), evaluate_(model_, scene)
+    {
+    }
+
+    [[nodiscard]] std::string text()
+    {
+        std::string text;
+        const std::vector<double> alone{0};
+        for (const double value : chart_.axes.size() > 1 ? chart_.axes[1].values : alone)
+            for (const double step : chart_.axes[0].values) text += line(step, value);
+        return text;
+    }
+
+  private:
+    [[nodiscard]] std::string line(double step, double value)
+    {
+        Values parameters, initial;
+        if (chart_.axes.size() > 1) {
+            const std::string& name = chart_.axes[1].name;
+            const bool starts = name.starts_with("initial.");
+            (starts ? initial : parameters)[starts ? name.substr(8) : name] = static_cast<long double>(value);
+        }
+        const std::string& step_name = model_.discrete->step.name;
+        const std::size_t place = step_number(model_);
+        const bool own = place == free_parameters(model_).size();
+        if (!own) parameters[step_name] = static_cast<long double>(step);
+        const SceneValues values = evaluate_(parameters, initial);
+        for (const std::vector<NamedNumber>* group : {&values.base, &values.fibre, &values.momenta})
+            (void)finite_numbers(*group, scene_);
+        std::vector<double> numbers = as_doubles(finite_numbers(values.parameters, scene_));
+        if (own) numbers.push_back(step);
+        return fmt::format("cell{} |{}\n", blank_list(numbers), blank_list(as_doubles(start_(values))));
+    }
+
+    const Model& model_;
+    const Scene& scene_;
+    const StabilityChart& chart_;
+    StartState start_;
+    SceneEvaluator evaluate_;
+};
+
+ProgramText stepping_program(const Generated& generated, const char* name)
+{
+    ProgramText text{
+        generated.header,
+        fmt::format("#include \"model.hpp\"\n#include \"lagen_chart/discrete_stability.hpp\"\nint "
+                    "main(int argc, char** argv)\n{{\n    return "
+                    "lagen::chart_discrete_stability<lagen::models::{}<double>>(\"{}\", argc, argv);\n}}\n",
+                    cpp_names({generated.module.name})[0], name)};
+    text.options = rounding_options();
+    return text;
+}
+
+} // namespace
+
+DiscreteContestant discrete_contestant(CheckedModel& checked, const MethodEntry& method, const Scene& scene,
+                                       const StabilityChart& chart, const std::optional<std::string>& followed)
+{
+    const std::string form = entry_of(FormKind::discrete).name;
+    const Scene own = in_form(checked.model, scene, form);
+    if (chart.end < chart.start)
+        throw MathematicsError(
+            fmt::format("{} makes steps forwards alone, and the scene '{}' goes backwards", method.name, scene.name));
+    GenerateRequest kernels;
+    kernels.form = form;
+    kernels.scene = &own;
+    Generated generated = generate(checked, kernels);
+    DiscreteContestant contestant;
+    contestant.method = &method;
+    contestant.scheme = checked.model.discrete->scheme;
+    const auto [follow, name] = followed_in_steps(checked, generated.module, followed);
+    contestant.followed = name;
+    contestant.request =
+        fmt::format("span {:.17g} {:.17g}\nfollow {}\nstep {}\ncolumns {}\n", chart.start, chart.end, follow,
+                    step_number(checked.model), chart.axes.size() > 1 ? chart.axes[1].values.size() : 1) +
+        CellLines(checked, own, chart).text();
+    contestant.text = stepping_program(generated, method.name);
+    contestant.module = std::move(generated.module);
+    return contestant;
+}
+
+DiscreteContestant variational_contestant(const CheckedModel& checked, const MethodEntry& method, const Scene& scene,
+                                          const StabilityChart& chart)
+{
+    CheckedModel own = checked;
+    own.model = variational_model(std::move(own.model), method.scheme);
+    prove(own);
+    Scene steps = scene;
+    steps.form.clear();
+    const SceneValues given = evaluate_scene(checked.model, scene);
+    set_parameters(own, finite_numbers(given.parameters, scene));
+    return discrete_contestant(own, method, steps, chart, chart.followed);
+}
+
+std::pair<double, double> span_of_steps(const Model& model, const Scene& scene)
+{
+    const SceneValues values = evaluate_scene(model, scene);
+    if (starts_from_arrow(values))
+        throw ModelError(
+            fmt::format("scene '{}' starts from an arrow, which belongs to its step, and a stability chart "
+                        "is over steps",
+                        scene.name),
+            scene.where, "give 'initial' the momenta of the start");
+    if (values.duration)
+        return {static_cast<double>(values.start), static_cast<double>(values.start + *values.duration)};
+    const SampleTimes times = sample_times(scene, values, 1, true);
+    return {static_cast<double>(times.start), static_cast<double>(times.end)};
+}
+
+} // namespace lagen

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+/// What becomes of a discrete motion with each step: its program of `lagen chart --stability`. The whole generated main
+/// is
+///   #include "model.hpp"
+///   #include "lagen_chart/discrete_stability.hpp"
+///   int main(int argc, char** argv) { return lagen::chart_discrete_stability<lagen::models::NAME<double>>("name",
+///   argc, argv); }
+/// Its argument is a file of lines of words,
+///   span START END            runs have as many whole steps as there is room for, one at least
+///   follow energy | invariant K | size     the quantity f whose change is looked at
+///   step K                    the number of the parameter that is the step
+///   columns N                 of the chart
+///   figures OMEGA SCALE REACHED    of a column, as lagen_chart/stability.hpp finds them; no such lines, or one each
+///   cell P.. | S..            parameters and start of a step of a column, column by column
+/// It prints what that program prints, and behind it for each column `fold H`: the step from which on the momenta of
+/// the start have no arrow (no_solution), between the first two steps of the column that differ in this; 0 where there
+/// are none, or where the start itself changes with the step.
+///
+/// Where no figures are given a column is looked at along its own motion, with a tenth of its shortest step and at most
+/// 10^6 steps: SCALE is the largest |f - f(1)| with the arrow 1 at the same point, which tends to the kinetic energy
+/// where f is the energy; OMEGA the largest |arg lambda|/h of an eigenvalue lambda of the derivative of a step in (x,
+/// mu), by differences, of the first 400 steps.
+#pragma once
+
+#include "lagen_chart/stability.hpp"
+
+namespace lagen::chart {
+
+inline constexpr int most_turns = 400;
+inline constexpr double short_step = 0.1; ///< of the shortest one
+inline constexpr int fold_halvings = 40;
+
+template <class M>
+struct DiscreteRequest {
+    StabilityRequest common;
+    std::size_t step = 0, columns = 0;
+    std::vector<StabilityColumn<M>> cells; ///< models with their steps
+    std::vector<std::array<double, 3>> figures;
+
+    [[nodiscard]] std::size_t steps() const { return cells.size() / columns; }
+};
+
+template <class M>
+bool read_discrete(const char* path, DiscreteRequest<M>& request)
+{
+    std::ifstream file(path);
+    for (std::string line; std::getline(file, line);) {
+        std::istringstream words(line);
+        std::string key;
+        words >> key;
+        if (key == "span") {
+            words >> request.common.span.start >> request.common.span.end;
+        } else if (key == "follow") {
+            words >> request.common.follow >> request.common.invariant;
+        } else if (key == "step") {
+            words >> request.step;
+        } else if (key == "columns") {
+            words >> request.columns;
+        } else if (key == "figures") {
+            std::array<double, 3>& figures = request.figures.emplace_back();
+            for (double& figure : figures) words >> figure;
+        } else if (key == "cell") {
+            request.cells.emplace_back();
+            if (!read_column(words, request.cells.back())) return false;
+        } else {
+            return false;
+        }
+    }
+    return request.columns > 0 && !request.cells.empty() && request.cells.size() % request.columns == 0;
+}
+
+/// f; of `size` the largest entry of (x, mu).
+template <class M>
+double followed_step(const StabilityRequest& request, const M& model, double t, const typename M::State& s)
+{
+    using Lanes = detail::ArrowLanes<M>;
+    if (request.follow != "size") return followed(request, model, t, s);
+    double most = 0;
+    for (int i = 0; i < Lanes::n; ++i) most = std::max(most, std::abs(s[i]));
+    for (int a = Lanes::momenta; a < M::dimension; ++a) most = std::max(most, std::abs(s[a]));
+    return most;
+}
+
+/// The largest |arg lambda|/h; 0 where a step beside it has no arrow.
+template <class M>
+double fastest_turn(const M& model, double t, const typename M::State& s)
+{
+    using Lanes = detail::ArrowLanes<M>;
+    constexpr int n = Lanes::n, size = n + Lanes::rank;
+    Eigen::Matrix<double, size, size> slopes;
+    ArrowSolver<M> solver;
+    for (int j = 0; j < size; ++j) {
+        const int lane = j < n ? j : Lanes::momenta + j - n;
+        const double away = 1e-5 * std::max(1.0, std::abs(s[lane]));
+        Eigen::Matrix<double, n, 1> x[2];
+        Eigen::Matrix<double, Lanes::rank, 1> mu[2];
+        for (const int side : {0, 1}) {
+            typename M::State z = s;
+            z[lane] += side == 0 ? away : -away;
+            if (solver.solve(model, t, z) != Status::ok) return 0;
+            model.forward(t, z, x[side], mu[side]);
+        }
+        slopes.col(j) << (x[0] - x[1]) / (2 * away), (mu[0] - mu[1]) / (2 * away);
+    }
+    if (!slopes.allFinite()) return 0;
+    const Eigen::EigenSolver<Eigen::MatrixXd> eigen(Eigen::MatrixXd(slopes), false);
+    if (eigen.info() != Eigen::Success) return 0;
+    return eigen.eigenvalues().cwiseArg().cwiseAbs().maxCoeff() / model.step();
+}
+
+/// Of the column that begins with cell `first`.
+template <class M>
+std::array<double, 3> figures_along(const DiscreteRequest<M>& request, std::size_t first)
+{
+    std::size_t shortest = first;
+    for (std::size_t i = first; i < first + request.steps(); ++i)
+        if (request.cells[i].model.step() < request.cells[shortest].model.step()) shortest = i;
+    StabilityColumn<M> column = request.cells[shortest];
+    const double length = request.common.span.end - request.common.span.start;
+    const double step = std::max(short_step * column.model.step(), length / double(most_reference_steps));
+    column.model.parameter(request.step) = step;
+    Integrator run(column.model, column.start, request.common.span.start, Discrete{});
+    double largest = 0;
+    for (int k = 0; run.status() == Status::ok && run.t() + step <= request.common.span.end; ++k) {
+        const double f = followed_step(request.common, column.model, run.t(), run.state());
+        typename M::State unit = run.state();
+        using Lanes = detail::ArrowLanes<M>;
+        for (int lane = Lanes::next; lane < Lanes::momenta; ++lane) unit[lane] = 0;
+        unit = at_arrow(column.model, run.t(), unit);
+        const double difference = std::abs(f - followed_step(request.common, column.model, run.t(), unit));
+        if (std::isfinite(difference)) column.scale = std::max(column.scale, difference);
+        largest = std::max(largest, std::abs(f));
+        if (k < most_turns) column.omega = std::max(column.omega, fastest_turn(column.model, run.t(), run.state()));
+        if (run.step() != Status::ok) break;
+    }
+    if (request.common.follow == "size" || !(column.scale > 0)) column.scale = largest > 0 ? largest : 1;
+    return {column.omega, column.scale, run.t()};
+}
+
+template <class M>
+Fate discrete_fate(const DiscreteRequest<M>& request, const StabilityColumn<M>& cell, double scale)
+{
+    const StabilityRequest& common = request.common;
+    Integrator run(cell.model, cell.start, common.span.start, Discrete{});
+    const bool conserved = common.follow != "size";
+    const double length = common.span.end - common.span.start;
+    const double from = conserved ? followed_step(common, cell.model, common.span.start, run.state()) : 0;
+    FateWatch watch(from, scale, length, conserved);
+    const double count = std::max(1.0, std::floor(length / cell.model.step() * (1 + 1e-9)));
+    if (run.status() != Status::ok) watch.stop(run.status());
+    for (double k = 0; run.status() == Status::ok && k < count; ++k) {
+        if (const Status status = run.step(); status != Status::ok) {
+            watch.stop(status);
+            break;
+        }
+        if (!watch.see(followed_step(common, cell.model, run.t(), run.state()), run.t() - common.span.start)) break;
+    }
+    return watch.fate(run.t());
+}
+
+/// Whether the momenta of the start have no arrow.
+template <class M>
+bool is_behind_fold(const StabilityColumn<M>& cell, double t)
+{
+    return Integrator(cell.model, cell.start, t, Discrete{}).status() == Status::no_solution;
+}
+
+template <class M>
+double first_fold(const DiscreteRequest<M>& request, std::size_t first)
+{
+    const double t = request.common.span.start;
+    for (std::size_t i = first; i + 1 < first + request.steps(); ++i) {
+        StabilityColumn<M> cell = request.cells[i];
+        const StabilityColumn<M>& next = request.cells[i + 1];
+        if (is_behind_fold(cell, t) || !is_behind_fold(next, t)) continue;
+        if (cell.start != next.start) return 0;
+        double good = cell.model.step(), bad = next.model.step();
+        for (int k = 0; k < fold_halvings; ++k) {
+            const double middle = (good + bad) / 2;
+            cell.model.parameter(request.step) = middle;
+            (is_behind_fold(cell, t) ? bad : good) = middle;
+        }
+        return good;
+    }
+    return 0;
+}
+
+} // namespace lagen::chart
+
+namespace lagen {
+
+template <DiscreteMotion M>
+int chart_discrete_stability(const char* name, int argc, char** argv)
+{
+    chart::DiscreteRequest<M> request;
+    if (argc != 2 || !chart::read_discrete(argv[1], request)) return 4;
+    const std::size_t steps = request.steps();
+    if (request.figures.empty())
+        for (std::size_t j = 0; j < request.columns; ++j)
+            request.figures.push_back(chart::figures_along(request, j * steps));
+    if (request.figures.size() != request.columns) return 4;
+    for (const auto& [omega, scale, reached] : request.figures)
+        std::printf("column %.17g %.17g %.17g\n", omega, scale, reached);
+    std::printf("method %s\n", name);
+    for (std::size_t k = 0; k < request.cells.size(); ++k)
+        chart::print_fate(chart::discrete_fate(request, request.cells[k], request.figures[k / steps][1]));
+    for (std::size_t j = 0; j < request.columns; ++j)
+        std::printf("fold %.17g\n", chart::first_fold(request, j * steps));
+    return std::fflush(stdout) == 0 ? 0 : 5;
+}
+
+} // namespace lagen
