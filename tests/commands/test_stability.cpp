@@ -201,14 +201,16 @@ duration = 300
 
     write_text(folder + "/lobatto.toml",
                "[groupoid]\nkind = \"pair\"\n[discrete]\nstep = \"h\"\nscheme = \"lobatto:3\"\n" + spring);
-    const json::Value window = chart("lobatto.toml", "step=2:4.4:13", {});
-    CHECK(number_in(window["omega"][0]) == Approx(1).epsilon(1e-12)); // of [lagrangian]
-    const json::Value& scheme = window["methods"]["discrete"];
+    const json::Value found = chart("lobatto.toml", "step=2:4.4:13", {});
+    CHECK(number_in(found["omega"][0]) == Approx(1).epsilon(1e-12)); // of [lagrangian]
+    const json::Value& scheme = found["methods"]["discrete"];
     CHECK(number_in(scheme["limit"][0]) == Approx(std::sqrt(8.0)).epsilon(1e-12));
     for (std::size_t i = 0; i < 13; ++i) {
-        const double h = number_in(window["axes"][0]["values"][i]);
+        const double h = number_in(found["axes"][0]["values"][i]);
         INFO("h = " << h);
-        CHECK((scheme["outcome"][i][0].text == "bounded") == (h < std::sqrt(8.0) || h > std::sqrt(12.0)));
+        // At 2.8, close to the end, the energy swings by 16 times its scale.
+        const bool window = h > std::sqrt(8.0) && h < std::sqrt(12.0);
+        CHECK(scheme["outcome"][i][0].text == (window ? "blown_up" : i == 4 ? "drifting" : "bounded"));
     }
 }
 
