@@ -27,6 +27,13 @@ Kernel checked_column(const Formulation& form, const char* name, const std::vect
 
 } // namespace
 
+void add_minor(const Graph& graph, const System& system, Formulation& form)
+{
+    if (!system.distribution || !system.distribution->minor) return;
+    const NodeId minor = *system.distribution->minor;
+    if (!graph.is_constant(minor)) form.pivots.push_back(minor);
+}
+
 void add_constrained(Graph& graph, const System& system, const ConstrainedNodes& nodes, Formulation& form)
 {
     const Replacements rates = rates_of(graph, form);

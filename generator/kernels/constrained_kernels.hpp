@@ -10,4 +10,7 @@ namespace lagen {
 /// drift moving_energy and the power of the energy. `nodes`: at the lanes of the form.
 void add_constrained(Graph& graph, const System& system, const ConstrainedNodes& nodes, Formulation& form);
 
+/// Where the sections follow from constraints, what these were solved by is a divisor too.
+void add_minor(const Graph& graph, const System& system, Formulation& form);
+
 } // namespace lagen

@@ -68,6 +68,7 @@ Formulation hamilton_form(Graph& graph, const System& system, const Report& repo
                           system.hamiltonian ? "H is given."
                                              : "H is the Legendre transform of L: y = dH/dmu solves mu_a = dL/dy^a.",
                           "s and ds may be the same object."};
+    add_minor(graph, system, form);
     if (hamiltonian.constrained)
         form.documentation = {"The almost-Hamiltonian equations on D*, ds = (xdot, mudot): xdot = rho(Y) and",
                               "mudot_a = -rho(e_a)(h) - P_c [e_a, Y]^c + Q_a, Y = b + (dh/dmu_a) e_a; h is the",

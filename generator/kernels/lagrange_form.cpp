@@ -69,6 +69,7 @@ Formulation lagrange_form(Graph& graph, const System& system, const Report& repo
     const std::vector<NodeId> ydot = graph.solve(W, rates.force, mass_structure(report.mechanics.regularity));
     form.derivative.insert(form.derivative.end(), ydot.begin(), ydot.end());
     form.pivots = single_blocks(graph, W, lagrangian.fibre.y.size());
+    add_minor(graph, system, form);
     form.documentation = documentation_of(system);
     form.failures = "Answers singular_mass_matrix where W has no inverse at this state.";
     bind_names(graph, system, lagrangian, form);
