@@ -183,7 +183,7 @@ TEST_CASE("legends stay on the page, and say how many curves they do not name")
 
 TEST_CASE("the axes of the usual view point to the left and down, to the right, and up")
 {
-    const lagen::Projection project(lagen::usual_azimuth, lagen::usual_elevation);
+    const lagen::PictureProjection project(lagen::usual_azimuth, lagen::usual_elevation);
     CHECK((project({1, 0, 0}).x < 0 && project({1, 0, 0}).y < 0));
     CHECK((project({0, 1, 0}).x > 0 && project({0, 0, 1}).y > 0));
     const lagen::Vector eye = project.towards();

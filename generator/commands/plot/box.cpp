@@ -65,7 +65,7 @@ Vector corner(const Room& room, bool x, bool y, bool z)
 }
 
 /// All edges but those at the corner next to the eye.
-void add_edges(Drawing& drawing, const Projection& project, const Room& room)
+void add_edges(Drawing& drawing, const PictureProjection& project, const Room& room)
 {
     Stroke stroke{edge_style, {}, false};
     for (unsigned from = 0; from < 8; ++from)
@@ -79,7 +79,8 @@ void add_edges(Drawing& drawing, const Projection& project, const Room& room)
 }
 
 /// The axis i along an edge of the box, its numbers outside.
-void add_axis(Drawing& drawing, const Projection& project, const Room& room, std::size_t i, const std::string& label)
+void add_axis(Drawing& drawing, const PictureProjection& project, const Room& room, std::size_t i,
+              const std::string& label)
 {
     // The first two run along the edges of the floor that are nearer to the eye, the third at the left.
     const auto at = [&](double value) {
@@ -106,7 +107,7 @@ void add_axis(Drawing& drawing, const Projection& project, const Room& room, std
                                    : Mark{{middle.x + away * outward.x, middle.y + away * outward.y}, label, align});
 }
 
-SampledCurve image_of(const SampledCurve& curve, const Room& room, const Projection& project, bool shadow)
+SampledCurve image_of(const SampledCurve& curve, const Room& room, const PictureProjection& project, bool shadow)
 {
     SampledCurve out;
     for (const Vector& point : curve) {
@@ -127,7 +128,7 @@ Drawing draw_in_box(const PanelRequest& request)
     Drawing drawing;
     drawing.frame = false;
     drawing.equal = true;
-    const Projection project(usual_azimuth, usual_elevation);
+    const PictureProjection project(usual_azimuth, usual_elevation);
     const Room room = room_of(request);
     add_edges(drawing, project, room);
     for (const SampledCurve& curve : request.curves)

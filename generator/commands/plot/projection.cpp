@@ -22,7 +22,7 @@ bool is_finite(const Vector& a)
     return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
 }
 
-Projection::Projection(double azimuth, double elevation)
+PictureProjection::PictureProjection(double azimuth, double elevation)
 {
     const double a = azimuth * std::numbers::pi / 180, e = elevation * std::numbers::pi / 180;
     right_ = {-std::sin(a), std::cos(a), 0};

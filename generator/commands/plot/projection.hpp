@@ -16,9 +16,9 @@ using Vector = std::array<double, 3>;
 inline constexpr double usual_azimuth = 35, usual_elevation = 25;
 
 /// The eye is far away in the direction of these angles, in degrees; the third axis points up.
-class Projection {
+class PictureProjection {
   public:
-    Projection(double azimuth, double elevation);
+    PictureProjection(double azimuth, double elevation);
 
     [[nodiscard]] Point operator()(const Vector& r) const { return {dot(right_, r), dot(up_, r)}; }
     [[nodiscard]] double depth(const Vector& r) const { return dot(towards_, r); } ///< larger is nearer

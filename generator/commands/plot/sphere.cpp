@@ -21,25 +21,25 @@ constexpr const char* back_grid = "lines linecolor rgb '#e9e9e9' linewidth 0.6 d
 constexpr const char* outline = "lines linecolor rgb '#9a9a9a' linewidth 0.9 dashtype 1";
 
 /// The octant from which most of the curves is seen; the first one where it will do.
-Projection view_of(const std::vector<SampledCurve>& curves)
+PictureProjection view_of(const std::vector<SampledCurve>& curves)
 {
     Vector mean{0, 0, 0};
     for (const SampledCurve& curve : curves)
         for (const Vector& point : curve)
             if (is_finite(point))
                 for (std::size_t i = 0; i < 3; ++i) mean[i] += point[i];
-    Projection best(usual_azimuth, usual_elevation);
+    PictureProjection best(usual_azimuth, usual_elevation);
     if (best.depth(mean) >= 0) return best;
     for (const double up : {usual_elevation, -usual_elevation})
         for (const double turn : {90.0, 180.0, 270.0, 0.0}) {
-            const Projection other(usual_azimuth + turn, up);
+            const PictureProjection other(usual_azimuth + turn, up);
             if (other.depth(mean) > best.depth(mean)) best = other;
         }
     return best;
 }
 
 /// The pieces of a curve on one side: a segment is where it begins.
-std::vector<Polyline> side_of(const SampledCurve& curve, const Projection& project, bool behind)
+std::vector<Polyline> side_of(const SampledCurve& curve, const PictureProjection& project, bool behind)
 {
     std::vector<Polyline> pieces;
     bool open = false;
@@ -53,7 +53,7 @@ std::vector<Polyline> side_of(const SampledCurve& curve, const Projection& proje
 }
 
 /// The points on one side.
-std::vector<Polyline> points_of(const SampledCurve& curve, const Projection& project, bool behind)
+std::vector<Polyline> points_of(const SampledCurve& curve, const PictureProjection& project, bool behind)
 {
     Polyline points;
     for (const Vector& point : curve)
@@ -74,7 +74,7 @@ SampledCurve circle(double radius, bool meridian, double angle)
     return curve;
 }
 
-void add_grid(Drawing& drawing, const Projection& project, double radius)
+void add_grid(Drawing& drawing, const PictureProjection& project, double radius)
 {
     std::vector<SampledCurve> grid;
     for (const double angle : {0.0, 30.0, 60.0, 90.0, 120.0, 150.0}) grid.push_back(circle(radius, true, angle));
@@ -92,7 +92,7 @@ void add_grid(Drawing& drawing, const Projection& project, double radius)
 }
 
 /// The axes, from the sphere outwards, those that point away up to its edge hidden.
-void add_axes(Drawing& drawing, const PanelRequest& request, const Projection& project, double radius)
+void add_axes(Drawing& drawing, const PanelRequest& request, const PictureProjection& project, double radius)
 {
     for (std::size_t i = 0; i < 3; ++i) {
         const auto at = [&](double times) {
@@ -116,7 +116,7 @@ void add_axes(Drawing& drawing, const PanelRequest& request, const Projection& p
 }
 
 /// What lies on one side.
-void add_curve(Drawing& drawing, const SampledCurve& curve, std::size_t k, Pen pen, const Projection& project,
+void add_curve(Drawing& drawing, const SampledCurve& curve, std::size_t k, Pen pen, const PictureProjection& project,
                bool behind)
 {
     const auto add = [&](std::vector<Stroke> strokes) {
@@ -134,7 +134,7 @@ Drawing draw_on_sphere(const PanelRequest& request, double radius)
     Drawing drawing;
     drawing.frame = false;
     drawing.equal = true;
-    const Projection project = view_of(request.curves);
+    const PictureProjection project = view_of(request.curves);
     add_grid(drawing, project, radius);
     add_axes(drawing, request, project, radius);
     for (const bool behind : {true, false})
