@@ -65,6 +65,7 @@ class charged_particle_discrete_discrete {
     static constexpr int horizontal = 2;
     static constexpr int group_order = 2;
     static constexpr bool cayley = true;
+    static constexpr std::size_t step_parameter = 4;
     using State = Eigen::Matrix<S, 11, 1>;
 
     static constexpr const char* model_name = "charged_particle_discrete";

@@ -100,6 +100,7 @@ class heavy_top_discrete_discrete {
     static constexpr int horizontal = 0;
     static constexpr int group_order = 3;
     static constexpr bool cayley = true;
+    static constexpr std::size_t step_parameter = 7;
     using State = Eigen::Matrix<S, 15, 1>;
 
     static constexpr const char* model_name = "heavy_top_discrete";

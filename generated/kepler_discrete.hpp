@@ -57,6 +57,7 @@ class kepler_discrete_discrete {
     static constexpr int horizontal = 2;
     static constexpr int group_order = 0;
     static constexpr bool cayley = false;
+    static constexpr std::size_t step_parameter = 2;
     using State = Eigen::Matrix<S, 6, 1>;
 
     static constexpr const char* model_name = "kepler_discrete";

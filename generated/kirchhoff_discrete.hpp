@@ -78,6 +78,7 @@ class kirchhoff_discrete_discrete {
     static constexpr int horizontal = 0;
     static constexpr int group_order = 4;
     static constexpr bool cayley = true;
+    static constexpr std::size_t step_parameter = 6;
     using State = Eigen::Matrix<S, 22, 1>;
 
     static constexpr const char* model_name = "kirchhoff_discrete";

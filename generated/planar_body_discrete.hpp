@@ -79,6 +79,7 @@ class planar_body_discrete_discrete {
     static constexpr int horizontal = 0;
     static constexpr int group_order = 3;
     static constexpr bool cayley = true;
+    static constexpr std::size_t step_parameter = 3;
     using State = Eigen::Matrix<S, 12, 1>;
 
     static constexpr const char* model_name = "planar_body_discrete";

@@ -93,6 +93,7 @@ class sliding_mass_discrete_discrete {
     static constexpr int horizontal = 1;
     static constexpr int group_order = 3;
     static constexpr bool cayley = true;
+    static constexpr std::size_t step_parameter = 6;
     using State = Eigen::Matrix<S, 15, 1>;
 
     static constexpr const char* model_name = "sliding_mass_discrete";

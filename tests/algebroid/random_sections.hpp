@@ -47,9 +47,9 @@ inline ExteriorForm difference(Graph& graph, const ExteriorForm& v, const Exteri
 }
 
 /// Whether every component is proved to be zero.
-inline bool vanishes(const Graph& graph, const System& system, const ExteriorForm& w)
+inline bool vanishes(Graph& graph, const System& system, const ExteriorForm& w)
 {
-    const ZeroDecider decider(graph, proof_setting(system));
+    const ZeroDecider decider(graph, proof_setting(graph, system));
     for (const auto& [index, value] : w.components)
         if (!graph.is_zero(value) && decider.decide(value).status != ProofStatus::proved) return false;
     return true;

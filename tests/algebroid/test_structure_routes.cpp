@@ -54,7 +54,7 @@ std::size_t compare_routes(const RandomAlgebroid& random, Dice& dice)
     const auto is_zero = [](const Rational& value) { return sgn(value) == 0; };
     for (int more = 0; more < 3 && std::ranges::all_of(values, is_zero); ++more)
         values = values_at(system.graph, nodes, dice);
-    const ZeroDecider decider(system.graph, proof_setting(system));
+    const ZeroDecider decider(system.graph, proof_setting(system.graph, system));
     const bool rational = !values.empty() && !random.on_sphere;
     std::size_t violated = 0;
     for (std::size_t k = 0; k + 1 < nodes.size(); k += 2) {
