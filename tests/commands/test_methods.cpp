@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstdlib>
 #include <map>
 
@@ -75,14 +76,17 @@ TEST_CASE("lagen methods --stability tells how long the steps of every method ma
               std::vector<std::string>{"name", "order", "calls", "imaginary", "real", "a_stable", "l_stable"});
         by_name[entry["name"].text] = &entry;
     }
-    CHECK(by_name.size() == 38); // those on groups have the limits of the methods that they are made of
+    CHECK(by_name.size() == 47); // those on groups have the limits of the methods that they are made of
     const auto number = [&](const char* method, const char* key) {
         return std::strtod((*by_name.at(method))[key].text.c_str(), nullptr);
     };
     CHECK(number("rk4", "imaginary") == Approx(2.8284271247461903).epsilon(1e-15));
     CHECK(number("rk4", "real") == Approx(2.785293563405282).epsilon(1e-13));
     CHECK(number("leapfrog_kdk", "imaginary") == Approx(2).epsilon(1e-15));
-    CHECK((*by_name.at("gauss4"))["imaginary"].text == "unbounded");
+    CHECK(number("lobatto:3", "imaginary") == Approx(std::sqrt(8.0)).epsilon(1e-15));
+    for (const char* method : {"gauss4", "variational2", "variational8"})
+        CHECK((*by_name.at(method))["imaginary"].text == "unbounded");
+    CHECK((*by_name.at("variational4"))["real"].kind == json::Kind::null);
     CHECK((*by_name.at("kahanli8"))["real"].kind == json::Kind::null);
     CHECK((*by_name.at("radau5"))["calls"].kind == json::Kind::null);
     const std::string text = call({"methods", "--stability"}).out;
