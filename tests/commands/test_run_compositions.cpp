@@ -14,7 +14,9 @@ void require_composed(const SchemeModel& model, const char* scheme, const std::s
 {
     const std::string path = scheme_file(model, scheme, retraction);
     const json::Value exact = ran({path, "--scene", "curve", "--at", "4"});
-    for (const auto& [method, order, large, small] : methods) {
+    for (const SchemeOrder& entry : methods) {
+        const auto& [scheme_or_method, order, large, small] = entry;
+        const char* method = scheme_or_method;
         INFO(model.name << " by " << scheme << " and " << method);
         const auto error = [&](const char* step) {
             return error_against(exact, ran({path, "--method", method, "--t-end", "4", "--step", step}));
