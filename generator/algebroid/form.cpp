@@ -85,6 +85,11 @@ ExteriorForm sum(Graph& graph, const ExteriorForm& v, const ExteriorForm& w)
     return components.form();
 }
 
+ExteriorForm difference(Graph& graph, const ExteriorForm& v, const ExteriorForm& w)
+{
+    return sum(graph, v, product(graph, graph.constant(-1), w));
+}
+
 ExteriorForm product(Graph& graph, NodeId f, const ExteriorForm& w)
 {
     Components components(graph, w.degree);

@@ -21,8 +21,9 @@ struct ExteriorForm {
 [[nodiscard]] ExteriorForm function_form(NodeId f);
 [[nodiscard]] ExteriorForm basis_form(Graph& graph, std::size_t a);
 
-/// v + w of the same degree, f w, -w.
+/// v + w and v - w of the same degree, f w.
 [[nodiscard]] ExteriorForm sum(Graph& graph, const ExteriorForm& v, const ExteriorForm& w);
+[[nodiscard]] ExteriorForm difference(Graph& graph, const ExteriorForm& v, const ExteriorForm& w);
 [[nodiscard]] ExteriorForm product(Graph& graph, NodeId f, const ExteriorForm& w);
 
 /// v ^ w

@@ -58,6 +58,13 @@ NodeId BaseGradient::along(const VectorField& field, NodeId f)
     return graph_.sum(terms);
 }
 
+NodeId pairing(Graph& graph, const std::vector<NodeId>& f, const Section& s)
+{
+    std::vector<NodeId> terms;
+    for (const ColumnEntry& entry : s) terms.push_back(graph.multiply(f[entry.index], entry.value));
+    return graph.sum(terms);
+}
+
 Section basis_section(Graph& graph, std::size_t a)
 {
     return {{a, graph.constant(1)}};

@@ -31,6 +31,9 @@ class BaseGradient {
     std::map<NodeId, Column> known_;
 };
 
+/// f_a s^a
+[[nodiscard]] NodeId pairing(Graph& graph, const std::vector<NodeId>& f, const Section& s);
+
 /// e_a
 [[nodiscard]] Section basis_section(Graph& graph, std::size_t a);
 

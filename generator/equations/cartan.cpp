@@ -77,18 +77,14 @@ class CartanDerivation {
         const ExteriorForm mixed = mixed_derivatives(partial);
         return {
             decided("dL = Θ⁺ - Θ⁻,  Θ⁻(E⁻_a) = -d/ds L(η_a(s)⁻¹ g),  Θ⁺(E⁺_a) = d/ds L(g η_a(s))", differential_latex,
-                    minus(differential(partial, cartan_.prolongation, L), translated_momenta(graph_, system_))),
+                    difference(graph_, differential(partial, cartan_.prolongation, L),
+                               translated_momenta(graph_, system_))),
             decided("→e_a(←e_b(L)) = ←e_b(→e_a(L))",
                     R"(\overrightarrow{e_a}(\overleftarrow{e_b}(L)) = \overleftarrow{e_b}(\overrightarrow{e_a}(L)))",
-                    minus(mixed, cartan_.omega)),
-            decided("-dΘ⁻ = Ω_L", R"(-d\Theta_L^- = \Omega_L)", minus(from_source, cartan_.omega)),
-            decided("-dΘ⁺ = Ω_L", R"(-d\Theta_L^+ = \Omega_L)", minus(from_target, cartan_.omega)),
+                    difference(graph_, mixed, cartan_.omega)),
+            decided("-dΘ⁻ = Ω_L", R"(-d\Theta_L^- = \Omega_L)", difference(graph_, from_source, cartan_.omega)),
+            decided("-dΘ⁺ = Ω_L", R"(-d\Theta_L^+ = \Omega_L)", difference(graph_, from_target, cartan_.omega)),
         };
-    }
-
-    [[nodiscard]] ExteriorForm minus(const ExteriorForm& v, const ExteriorForm& w)
-    {
-        return sum(graph_, v, product(graph_, graph_.constant(-1), w));
     }
 
     /// ->e_a(<-e_b(L)) E-^a ^ E+^b

@@ -113,10 +113,6 @@ class LagrangianCartan {
                                  [&](NodeId residual) { return decision_by(decider_.get(), residual); });
     }
 
-    [[nodiscard]] ExteriorForm minus(const ExteriorForm& v, const ExteriorForm& w)
-    {
-        return sum(graph_, v, product(graph_, graph_.constant(-1), w));
-    }
     [[nodiscard]] ExteriorForm d(const ExteriorForm& form) { return differential(partial_, forms_.prolongation, form); }
 
     [[nodiscard]] DecidedStatement closed()
@@ -174,7 +170,8 @@ class LagrangianCartan {
     [[nodiscard]] DecidedStatement dynamics()
     {
         const ExteriorForm left = contraction(graph_, motion_, forms_.omega);
-        const ExteriorForm residual = sum(graph_, minus(left, d(function_form(lagrangian_.energy))), push());
+        const ExteriorForm residual =
+            sum(graph_, difference(graph_, left, d(function_form(lagrangian_.energy))), push());
         return decided("i_Γ ω_L = dE_L" + push_text(false, true) +
                            "  for Γ = y^a X_a + f^a V_a, W_ab f^b of Lagrange's equations",
                        R"(i_\Gamma \omega_L = dE_L)" + push_text(true, true), along_solutions(residual, -1));
@@ -184,7 +181,8 @@ class LagrangianCartan {
     [[nodiscard]] DecidedStatement action()
     {
         const ExteriorForm left = lie_derivative(partial_, forms_.prolongation, motion_, forms_.theta);
-        const ExteriorForm residual = minus(minus(left, d(function_form(*system_.lagrangian))), push());
+        const ExteriorForm residual =
+            difference(graph_, difference(graph_, left, d(function_form(*system_.lagrangian))), push());
         return decided("d_Γ θ_L = dL" + push_text(false, false), R"(d_\Gamma \theta_L = dL)" + push_text(true, false),
                        along_solutions(residual, 1));
     }

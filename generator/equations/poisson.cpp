@@ -25,7 +25,8 @@ class PoissonDerivation {
     {
         Lowering lower(graph_);
         for (const Tree& each : brackets) functions_.push_back({each, lower(each)});
-        take_hamiltonian(regularity);
+        if (system.hamiltonian || regularity.kind != Regularity::Kind::degenerate)
+            hamiltonian_ = closed_hamiltonian(graph_, system, regularity.newton_start);
     }
 
     EquationSet run()
@@ -59,19 +60,6 @@ class PoissonDerivation {
         for (const NodeId mu : system.mu)
             if (std::ranges::find(setting.variables, mu) == setting.variables.end()) setting.variables.push_back(mu);
         return setting;
-    }
-
-    /// H, or the transform of L where y(x, mu) is a linear solve of proved rank.
-    void take_hamiltonian(const Regularity& regularity)
-    {
-        if (system_.hamiltonian) {
-            hamiltonian_ = given_hamiltonian(graph_, system_);
-            return;
-        }
-        if (!system_.lagrangian || regularity.kind == Regularity::Kind::degenerate) return;
-        HamiltonianNodes nodes = legendre_transform(graph_, system_, lagrangian_nodes(graph_, system_),
-                                                    MatrixStructure::symmetric, regularity.newton_start);
-        if (nodes.implicit.empty()) hamiltonian_ = std::move(nodes);
     }
 
     [[nodiscard]] std::string basis_name(std::size_t a) const { return symbolic_.algebroid().fibre[a].name; }
@@ -188,7 +176,7 @@ class PoissonDerivation {
         const ExteriorForm left = contraction(graph_, X_H, canonical_.omega);
         const ExteriorForm dH = differential(partial_, canonical_.prolongation, function_form(hamiltonian_->value));
         return decided("i_{X_H} Ω = dH  for X_H = y^a X_a + μ̇_a P^a of Hamilton's equations (without forces)",
-                       R"(i_{X_H} \Omega = dH)", named(sum(graph_, left, product(graph_, graph_.constant(-1), dH))));
+                       R"(i_{X_H} \Omega = dH)", named(difference(graph_, left, dH)));
     }
 
     [[nodiscard]] DecidedStatement rates()
@@ -205,11 +193,7 @@ class PoissonDerivation {
 
     [[nodiscard]] PhaseSystem free_motion()
     {
-        MomentumBalance balance;
-        for (const NodeId slope : hamiltonian_->dH_dx) balance.df_dx.push_back(graph_.negate(slope));
-        balance.df_dt = graph_.negate(hamiltonian_->dH_dt);
-        balance.p = hamiltonian_->mu;
-        balance.y = hamiltonian_->y;
+        MomentumBalance balance = hamilton_balance(graph_, system_, *hamiltonian_);
         balance.forces.assign(system_.r(), graph_.constant(0));
         return phase_system(graph_, system_, balance, hamiltonian_->value, hamiltonian_->lagrangian);
     }

@@ -61,12 +61,10 @@ namespace {
 
 /// mudot_alpha = -rho_alpha(h) - P_a [e_alpha, b + (dh/dmu_beta) e_beta]^a + Q_alpha on D*
 PhaseSystem constrained_phase(Graph& graph, const System& system, const HamiltonianNodes& hamiltonian,
-                              std::vector<NodeId> dl_dx)
+                              const MomentumBalance& balance)
 {
     const ConstrainedNodes& nodes = *hamiltonian.constrained;
     const Algebroid& frame = nodes.hull.frame;
-    const MomentumBalance balance =
-        constrained_balance(graph, nodes, std::move(dl_dx), graph.negate(hamiltonian.dH_dt));
     PhaseSystem phase;
     phase.hamiltonian = hamiltonian.value;
     phase.lagrangian = hamiltonian.lagrangian;
@@ -83,15 +81,34 @@ PhaseSystem constrained_phase(Graph& graph, const System& system, const Hamilton
 
 } // namespace
 
-PhaseSystem hamilton_system(Graph& graph, const System& system, const HamiltonianNodes& hamiltonian)
+std::optional<HamiltonianNodes> closed_hamiltonian(Graph& graph, const System& system, std::span<const Rational> start)
+{
+    if (system.hamiltonian) return given_hamiltonian(graph, system);
+    if (!system.lagrangian) return std::nullopt;
+    HamiltonianNodes nodes =
+        legendre_transform(graph, system, lagrangian_nodes(graph, system), MatrixStructure::symmetric, start);
+    if (!nodes.implicit.empty()) return std::nullopt;
+    return nodes;
+}
+
+MomentumBalance hamilton_balance(Graph& graph, const System& system, const HamiltonianNodes& hamiltonian)
 {
     MomentumBalance balance;
     for (const NodeId slope : hamiltonian.dH_dx) balance.df_dx.push_back(graph.negate(slope));
-    if (hamiltonian.constrained) return constrained_phase(graph, system, hamiltonian, std::move(balance.df_dx));
+    if (hamiltonian.constrained)
+        return constrained_balance(graph, *hamiltonian.constrained, std::move(balance.df_dx),
+                                   graph.negate(hamiltonian.dH_dt));
     balance.df_dt = graph.negate(hamiltonian.dH_dt);
     balance.p = hamiltonian.mu;
     balance.y = hamiltonian.y;
     balance.forces = substitute(graph, system.forces_or_zero(graph), replacements(system.algebroid.y, hamiltonian.y));
+    return balance;
+}
+
+PhaseSystem hamilton_system(Graph& graph, const System& system, const HamiltonianNodes& hamiltonian)
+{
+    const MomentumBalance balance = hamilton_balance(graph, system, hamiltonian);
+    if (hamiltonian.constrained) return constrained_phase(graph, system, hamiltonian, balance);
     return phase_system(graph, system, balance, hamiltonian.value, hamiltonian.lagrangian);
 }
 

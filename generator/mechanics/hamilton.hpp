@@ -31,6 +31,15 @@ struct HamiltonianNodes {
 [[nodiscard]] HamiltonianNodes legendre_transform(Graph& graph, const System& system, const LagrangianNodes& lagrangian,
                                                   MatrixStructure structure, std::span<const Rational> start);
 
+/// H, else the transform of L, which is not degenerate; nothing where there is neither, or where velocities are
+/// implicit. `start` as for legendre_transform.
+[[nodiscard]] std::optional<HamiltonianNodes> closed_hamiltonian(Graph& graph, const System& system,
+                                                                 std::span<const Rational> start);
+
+/// What momentum_rates and energy_rate take: f = -H, and the forces of the system at y = dH/dmu; of a nonholonomic
+/// system over its hull.
+[[nodiscard]] MomentumBalance hamilton_balance(Graph& graph, const System& system, const HamiltonianNodes& hamiltonian);
+
 /// Hamilton's equations: f = -H, and the forces of the system at y = dH/dmu.
 [[nodiscard]] PhaseSystem hamilton_system(Graph& graph, const System& system, const HamiltonianNodes& hamiltonian);
 

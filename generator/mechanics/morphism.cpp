@@ -66,6 +66,15 @@ std::vector<NodeId> fibre_matrix(Graph& graph, const SystemMorphism& morphism)
     return matrix;
 }
 
+std::vector<NodeId> pulled_covector(Graph& graph, const std::vector<NodeId>& matrix, std::size_t r,
+                                    const std::vector<NodeId>& f)
+{
+    std::vector<NodeId> out(r, graph.constant(0));
+    for (std::size_t a = 0; a < f.size(); ++a)
+        for (std::size_t b = 0; b < r; ++b) out[b] = graph.add(out[b], graph.multiply(matrix[a * r + b], f[a]));
+    return out;
+}
+
 ResidualList morphism_equations(Graph& graph, const SystemMorphism& morphism, const std::vector<NodeId>& matrix)
 {
     const Algebroid &from = morphism.source.algebroid, &to = morphism.target.algebroid;

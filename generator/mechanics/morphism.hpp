@@ -43,6 +43,10 @@ class AlongMap {
 /// Phi^a_b, shape (r', r), by rows: d y'^a / d y^b.
 [[nodiscard]] std::vector<NodeId> fibre_matrix(Graph& graph, const SystemMorphism& morphism);
 
+/// Phi^* f = Phi^a_b f_a of a covector on the target, shape (r), by this matrix.
+[[nodiscard]] std::vector<NodeId> pulled_covector(Graph& graph, const std::vector<NodeId>& matrix, std::size_t r,
+                                                  const std::vector<NodeId>& f);
+
 /// The residuals `admissible` (b, i) and `morphism` (b, c, a) of a map with this matrix.
 [[nodiscard]] ResidualList morphism_equations(Graph& graph, const SystemMorphism& morphism,
                                               const std::vector<NodeId>& matrix);

@@ -32,21 +32,13 @@ Algebroid frame_of(Graph& graph, const Algebroid& algebroid, const std::vector<S
     return frame;
 }
 
-/// f_a s^a
-NodeId along(Graph& graph, const std::vector<NodeId>& f, const Section& s)
-{
-    NodeId sum = graph.constant(0);
-    for (const ColumnEntry& entry : s) sum = graph.add(sum, graph.multiply(f[entry.index], entry.value));
-    return sum;
-}
-
 /// f_a ds^a/dt at fixed x
 NodeId along_rate(Graph& graph, NodeId time, const std::vector<NodeId>& f, const Section& s)
 {
     Section rate;
     for (const ColumnEntry& entry : s)
         rate.push_back({entry.index, gradient(graph, entry.value, std::vector{time})[0]});
-    return along(graph, f, rate);
+    return pairing(graph, f, rate);
 }
 
 } // namespace
@@ -116,7 +108,7 @@ MomentumBalance constrained_balance(Graph& graph, const ConstrainedNodes& nodes,
                                     NodeId dl_dt)
 {
     MomentumBalance balance{std::move(dl_dx), dl_dt, nodes.P, nodes.hull.weights, {}};
-    for (const Section& section : nodes.hull.sections) balance.forces.push_back(along(graph, nodes.forces, section));
+    for (const Section& section : nodes.hull.sections) balance.forces.push_back(pairing(graph, nodes.forces, section));
     return balance;
 }
 
@@ -134,7 +126,7 @@ NodeId moving_energy(Graph& graph, const ConstrainedNodes& nodes)
 {
     const NodeId energy = constrained_energy(graph, nodes);
     if (!nodes.hull.has_drift()) return energy;
-    return graph.subtract(energy, along(graph, nodes.P, nodes.hull.sections.back()));
+    return graph.subtract(energy, pairing(graph, nodes.P, nodes.hull.sections.back()));
 }
 
 NodeId moving_energy_rate(Graph& graph, const System& system, const ConstrainedNodes& nodes,

@@ -17,15 +17,6 @@ ExteriorForm horizontal_form(const Graph& graph, const std::vector<NodeId>& p)
     return form;
 }
 
-/// p_c C^c_ab
-NodeId along_bracket(Graph& graph, const Algebroid& algebroid, const std::vector<NodeId>& p, std::size_t a,
-                     std::size_t b)
-{
-    std::vector<NodeId> terms;
-    for (const ColumnEntry& entry : algebroid.C(a, b)) terms.push_back(graph.multiply(p[entry.index], entry.value));
-    return graph.sum(terms);
-}
-
 void put(const Graph& graph, ExteriorForm& form, std::size_t a, std::size_t b, NodeId value)
 {
     if (!graph.is_zero(value)) form.components.emplace(FormIndex{a, b}, value);
@@ -60,7 +51,7 @@ SymplecticForms lagrangian_forms(Graph& graph, const System& system, const Lagra
             put(graph, forms.omega, a, b,
                 graph.add(
                     graph.subtract(partial.along(algebroid.anchor[b], p[a]), partial.along(algebroid.anchor[a], p[b])),
-                    along_bracket(graph, algebroid, p, a, b)));
+                    pairing(graph, p, algebroid.C(a, b))));
     }
     return forms;
 }
@@ -72,7 +63,7 @@ SymplecticForms canonical_forms(Graph& graph, const System& system)
     for (std::size_t a = 0; a < r; ++a) {
         put(graph, forms.omega, a, r + a, graph.constant(1));
         for (std::size_t b = a + 1; b < r; ++b)
-            put(graph, forms.omega, a, b, along_bracket(graph, system.algebroid, system.mu, a, b));
+            put(graph, forms.omega, a, b, pairing(graph, system.mu, system.algebroid.C(a, b)));
     }
     return forms;
 }
@@ -84,7 +75,7 @@ NodeId poisson_bracket(Graph& graph, const System& system, NodeId F, NodeId G)
                               graph.negate(contraction(graph, g.along_mu, f.along_anchor))};
     for (std::size_t a = 0; a < system.r(); ++a)
         for (std::size_t b = 0; b < system.r(); ++b)
-            terms.push_back(graph.multiply(along_bracket(graph, system.algebroid, system.mu, a, b),
+            terms.push_back(graph.multiply(pairing(graph, system.mu, system.algebroid.C(a, b)),
                                            graph.multiply(f.along_mu[a], g.along_mu[b])));
     return graph.sum(terms);
 }
@@ -98,8 +89,7 @@ Section hamiltonian_section(Graph& graph, const System& system, NodeId F)
     for (std::size_t a = 0; a < system.r(); ++a) {
         std::vector<NodeId> terms{slopes.along_anchor[a]};
         for (std::size_t b = 0; b < system.r(); ++b)
-            terms.push_back(
-                graph.multiply(along_bracket(graph, system.algebroid, system.mu, a, b), slopes.along_mu[b]));
+            terms.push_back(graph.multiply(pairing(graph, system.mu, system.algebroid.C(a, b)), slopes.along_mu[b]));
         const NodeId value = graph.negate(graph.sum(terms));
         if (!graph.is_zero(value)) section.push_back({system.r() + a, value});
     }

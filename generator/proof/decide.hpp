@@ -35,6 +35,13 @@ enum class ProofStatus { proved, refuted, undecided };
 
 [[nodiscard]] const char* to_text(ProofStatus status);
 
+/// Of a conjunction: refuted where one of the two is, proved where both are.
+[[nodiscard]] constexpr ProofStatus both(ProofStatus a, ProofStatus b)
+{
+    if (a == ProofStatus::refuted || b == ProofStatus::refuted) return ProofStatus::refuted;
+    return a == ProofStatus::proved ? b : a;
+}
+
 /// A point where a residual is certainly not zero; every variable that the setting names is listed.
 struct Witness {
     NamedPoint point;

@@ -32,10 +32,9 @@ void Claims::decide_constraints(StructureReport& structure)
     for (std::size_t A = 0; A < distribution.constraints.size(); ++A) {
         const std::string& text = distribution.constraint_texts[A];
         for (std::size_t alpha = 0; alpha < k; ++alpha) {
-            NodeId sum = graph_.constant(0);
-            for (const ColumnEntry& entry : distribution.sections[alpha])
-                sum = graph_.add(sum, graph_.multiply(B[A * r + entry.index], entry.value));
-            append({graph_.input_name(distribution.y[alpha]), text}, sum);
+            const auto row = B.begin() + static_cast<std::ptrdiff_t>(A * r);
+            append({graph_.input_name(distribution.y[alpha]), text},
+                   pairing(graph_, {row, row + static_cast<std::ptrdiff_t>(r)}, distribution.sections[alpha]));
         }
         std::vector<NodeId> drift(r, graph_.constant(0));
         for (const ColumnEntry& entry : distribution.drift) drift[entry.index] = entry.value;

@@ -30,14 +30,11 @@ std::vector<NodeId> defined_parts(const FormClaim& claim)
     return nodes;
 }
 
-/// Of a conjunction: refuted where one is, proved where all are.
 ProofStatus status_of(const std::vector<Check>& checks)
 {
-    const auto any = [&](ProofStatus status) {
-        return std::ranges::any_of(checks, [&](const Check& check) { return check.decision.status == status; });
-    };
-    if (any(ProofStatus::refuted)) return ProofStatus::refuted;
-    return any(ProofStatus::undecided) ? ProofStatus::undecided : ProofStatus::proved;
+    ProofStatus status = ProofStatus::proved;
+    for (const Check& check : checks) status = both(status, check.decision.status);
+    return status;
 }
 
 } // namespace
@@ -109,8 +106,7 @@ void Claims::decide_forms(StructureReport& structure)
         }
         structure.forms.push_back(std::move(report));
         if (!claim.equals) continue;
-        const ExteriorForm opposite = product(graph_, graph_.constant(-1), *claim.equals);
-        append(vanishing("equals", claim, sum(graph_, claim.form, opposite)));
+        append(vanishing("equals", claim, difference(graph_, claim.form, *claim.equals)));
     }
 }
 

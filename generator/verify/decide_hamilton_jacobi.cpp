@@ -5,31 +5,18 @@
 #include "verify/proof_setting.hpp"
 
 namespace lagen {
-namespace {
-
-/// H, or the transform of an L whose momenta are affine in y; nothing where there is none.
-std::optional<HamiltonianNodes> hamiltonian_of(Graph& graph, const System& system, const Regularity& regularity)
-{
-    if (system.hamiltonian) return given_hamiltonian(graph, system);
-    if (regularity.kind == Regularity::Kind::degenerate) return std::nullopt;
-    HamiltonianNodes nodes = legendre_transform(graph, system, lagrangian_nodes(graph, system),
-                                                MatrixStructure::symmetric, regularity.newton_start);
-    if (!nodes.implicit.empty()) return std::nullopt;
-    return nodes;
-}
-
-} // namespace
 
 void Claims::decide_hamilton_jacobi(StructureReport& structure, const Regularity& regularity)
 {
     if (!system_.hamilton_jacobi) return;
     HamiltonJacobiReport& report = structure.hamilton_jacobi.emplace();
-    const std::optional<HamiltonianNodes> hamiltonian = hamiltonian_of(graph_, system_, regularity);
+    const bool degenerate = !system_.hamiltonian && regularity.kind == Regularity::Kind::degenerate;
+    std::optional<HamiltonianNodes> hamiltonian;
+    if (!degenerate) hamiltonian = closed_hamiltonian(graph_, system_, regularity.newton_start);
     if (!hamiltonian) {
         Decision open;
-        open.evidence = regularity.kind == Regularity::Kind::degenerate
-                            ? "the Lagrangian is degenerate: there is no H on E*"
-                            : "the velocities are no closed function of the momenta; [hamiltonian] H gives one";
+        open.evidence = degenerate ? "the Lagrangian is degenerate: there is no H on E*"
+                                   : "the velocities are no closed function of the momenta; [hamiltonian] H gives one";
         structure.checks.push_back({"hamilton_jacobi", {}, std::move(open), {}, {}});
         return;
     }
@@ -40,17 +27,13 @@ void Claims::decide_hamilton_jacobi(StructureReport& structure, const Regularity
             if (!graph_.is_constant(node)) setting.defined.push_back(node);
     Judge judge(graph_, setting, accessory_inputs(system_), points_, judge_->decider().budget());
     const auto name_of = [&](std::size_t a) { return graph_.input_name(system_.algebroid.y[a]); };
-    // Of a conjunction: what the worst of its parts is.
-    const auto join = [](ProofStatus& status, ProofStatus next) {
-        if (next == ProofStatus::refuted || status == ProofStatus::proved) status = next;
-    };
     const auto append = [&](const char* name, std::vector<std::string> indices, NodeId value, ProofStatus& status) {
         if (graph_.is_zero(value)) {
             ++structure.trivial;
             return;
         }
         Check check{name, std::move(indices), judge.decide(value), {}, judge.reevaluate(value)};
-        join(status, check.decision.status);
+        status = both(status, check.decision.status);
         structure.checks.push_back(std::move(check));
     };
     // Where nothing has terms there may still be no point at which the candidate is defined.
@@ -61,7 +44,7 @@ void Claims::decide_hamilton_jacobi(StructureReport& structure, const Regularity
     for (std::size_t b = 0; b < nodes.equation.size(); ++b)
         append("hamilton_jacobi", {name_of(b)}, nodes.equation[b], report.equation);
     for (const NodeId value : nodes.lift)
-        if (!graph_.is_zero(value)) join(report.lifts, judge.decide(value).status);
+        if (!graph_.is_zero(value)) report.lifts = both(report.lifts, judge.decide(value).status);
     if (defined != ProofStatus::proved)
         structure.checks.push_back({"hamilton_jacobi", {}, judge.decide(graph_.constant(0)), {}, {}});
 }

@@ -287,13 +287,6 @@ std::string text_of(Graph& graph, const std::vector<NodeId>& form, const std::ve
     return to_text(terms.size() == 1 ? terms[0] : add(terms));
 }
 
-NodeId value_of(Graph& graph, const std::vector<NodeId>& form, const Column& section)
-{
-    NodeId sum = graph.constant(0);
-    for (const ColumnEntry& entry : section) sum = graph.add(sum, graph.multiply(form[entry.index], entry.value));
-    return sum;
-}
-
 } // namespace
 
 Integrability decide_integrability(Graph& graph, const System& system, const ProofSetting& setting,
@@ -311,7 +304,7 @@ Integrability decide_integrability(Graph& graph, const System& system, const Pro
         for (std::size_t b = a + 1; b < hull.k; ++b)
             for (const std::vector<NodeId>& form : forms) {
                 const Column& bracket = hull.frame.C(a, b);
-                const NodeId residual = value_of(graph, form, bracket);
+                const NodeId residual = pairing(graph, form, bracket);
                 if (graph.is_zero(residual)) continue;
                 const Decision decision = judge.decide(residual);
                 if (decision.status == ProofStatus::undecided) result.status = ProofStatus::undecided;

@@ -14,11 +14,7 @@ MappedSystems::MappedSystems(const SystemMorphism& of) : morphism(of), graph(of.
 
 std::vector<NodeId> MappedSystems::pulled(const std::vector<NodeId>& covector)
 {
-    const std::size_t r = from().r();
-    std::vector<NodeId> out(r, graph.constant(0));
-    for (std::size_t a = 0; a < to().r(); ++a)
-        for (std::size_t b = 0; b < r; ++b) out[b] = graph.add(out[b], graph.multiply(matrix[a * r + b], covector[a]));
-    return out;
+    return pulled_covector(graph, matrix, from().r(), covector);
 }
 
 std::vector<NodeId> MappedSystems::pushed(const std::vector<NodeId>& vector)

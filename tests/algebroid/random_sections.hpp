@@ -40,12 +40,6 @@ inline ExteriorForm random_form(Graph& graph, const System& system, std::size_t 
     return w;
 }
 
-/// v - w
-inline ExteriorForm difference(Graph& graph, const ExteriorForm& v, const ExteriorForm& w)
-{
-    return sum(graph, v, product(graph, graph.constant(-1), w));
-}
-
 /// Whether every component is proved to be zero.
 inline bool vanishes(Graph& graph, const System& system, const ExteriorForm& w)
 {

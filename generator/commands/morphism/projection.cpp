@@ -43,12 +43,9 @@ Projection::Projection(SystemMorphism morphism, const std::string& form, const S
     }
     std::vector<NodeId> mu;
     for (const NodeId each : to.mu) mu.push_back(in_target(to.graph.input_name(each)));
-    for (std::size_t b = 0; b < from.r(); ++b) {
-        NodeId pulled = graph_.constant(0);
-        for (std::size_t a = 0; a < to.r(); ++a)
-            pulled = graph_.add(pulled, graph_.multiply(matrix_[a * from.r() + b], mu[a]));
-        columns_.push_back({graph_.input_name(from.mu[b]), ComparedColumn::Kind::pulled, pulled});
-    }
+    const std::vector<NodeId> pulled = pulled_covector(graph_, matrix_, from.r(), mu);
+    for (std::size_t b = 0; b < from.r(); ++b)
+        columns_.push_back({graph_.input_name(from.mu[b]), ComparedColumn::Kind::pulled, pulled[b]});
 }
 
 NodeId Projection::in_target(const std::string& name)

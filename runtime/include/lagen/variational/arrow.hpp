@@ -51,6 +51,16 @@ void set_group_part(typename M::State& s, const GroupMatrix<typename M::Scalar, 
         for (int j = 0; j < Lanes::order; ++j) s[Lanes::element + i * Lanes::order + j] = V(i, j);
 }
 
+/// Whether h is the step of the model, up to what times of the size of t are rounded by.
+template <DiscreteMotion M>
+[[nodiscard]] bool is_own_step(const M& model, const step_time_t<M>& t, const step_time_t<M>& h) noexcept
+{
+    using std::abs;
+    using Real = step_time_t<M>;
+    const Real length(model.step()), slack = Real(64) * std::numeric_limits<Real>::epsilon();
+    return abs(h - length) <= slack * (abs(t) + length);
+}
+
 /// The arrow of s moved along its source fibre, h <- h eta(d), and w by the rest of d; false where eta has no value.
 template <DiscreteMotion M>
 [[nodiscard]] bool move_arrow(const M& model, const typename M::Scalar& t, typename M::State& s,

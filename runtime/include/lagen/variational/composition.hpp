@@ -51,7 +51,7 @@ class CompositionStepper {
     Status attempt(const M& model, const Real& t, const State& s, const Real& h, State& s1) noexcept
     {
         const Real length(model.step());
-        if (!is_own_step(model, t, h)) return Status::invalid_input;
+        if (!detail::is_own_step(model, t, h)) return Status::invalid_input;
         if (s != here_.state) { // not where the last step led to
             here_ = Walk();
             const Status status = walk(model, t, length, s, here_);
@@ -103,13 +103,6 @@ class CompositionStepper {
     [[nodiscard]] static Real share(std::size_t k) noexcept
     {
         return Leapfrogs::weights[2 * k + 1].template as<Real>();
-    }
-
-    [[nodiscard]] static bool is_own_step(const M& model, const Real& t, const Real& h) noexcept
-    {
-        using std::abs;
-        const Real length(model.step()), slack = Real(64) * std::numeric_limits<Real>::epsilon();
-        return abs(h - length) <= slack * (abs(t) + length);
     }
 
     /// The steps that begin at the point and the momenta of `from`, of the length h together.

@@ -35,15 +35,13 @@ class DiscreteStepper {
     /// `h` is the model's step: any other is invalid_input.
     Status attempt(const M& model, const Real& t, const State& s, const Real& h, State& s1) noexcept
     {
-        using std::abs;
-        const Real length = Real(model.step()), slack = Real(64) * std::numeric_limits<Real>::epsilon();
-        if (!(abs(h - length) <= slack * (abs(t) + length))) return Status::invalid_input;
+        if (!detail::is_own_step(model, t, h)) return Status::invalid_input;
         if constexpr (has_explicit_step) {
             ++explicit_steps_;
             s1 = model.explicit_step(Scalar(t), s);
             return s1.allFinite() ? Status::ok : Status::non_finite;
         } else {
-            return solve_step(model, t, length, s, s1);
+            return solve_step(model, t, Real(model.step()), s, s1);
         }
     }
 
