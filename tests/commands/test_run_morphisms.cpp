@@ -95,7 +95,7 @@ TEST_CASE("the heavy top in Euler angles projects onto the one on the sphere to 
 }
 
 TEST_CASE("Elroy's beanie on TQ projects onto the one reduced by SE(2), whose motion is lifted to TQ again, to 1e-11",
-          "[run]")
+          "[all]")
 {
     const json::Value value = run_map({morphism_models + "elroys_beanie_reduction.toml", "--tolerance", "1e-13",
                                        "--t-end", "5", "--at", "1,5", "--set", "I2=0.7", "--reconstruct"});
@@ -152,7 +152,7 @@ TEST_CASE("the discrete top in Euler angles projects onto the one of the action 
     CHECK(value_of(run_map({folder + "top_reduction.toml"})["defect"]["max"]) < 1e-11);
 }
 
-TEST_CASE("a charged particle of the circle bundle projects to round-off; by a wrong fibre map it is far off", "[run]")
+TEST_CASE("a charged particle of the circle bundle projects to round-off; by a wrong fibre map it is far off", "[all]")
 {
     const std::string folder = morphisms_with_scene("kaluza_klein.toml", charged_scene);
     const json::Value value = run_map({folder + "circle_reduction.toml"});

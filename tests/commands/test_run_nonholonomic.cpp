@@ -78,7 +78,7 @@ TEST_CASE("a run of a sleigh observes ambient velocities and reactions, which ke
     CHECK(run["invariants"]["energy"]["max_drift"].number() < 1e-13L);
 }
 
-TEST_CASE("every reference trajectory is followed in both forms", "[run][all]")
+TEST_CASE("every reference trajectory is followed in both forms", "[all]")
 {
     for (const ConstrainedCase& constrained : lagen::read_constrained_cases())
         for (const char* form : {"lagrange", "hamilton"}) {

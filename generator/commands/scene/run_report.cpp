@@ -4,7 +4,7 @@
 #include "commands/scene/branch_report.hpp"
 #include "emit/json.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -43,6 +43,9 @@ std::string reason_text(const RunOutcome& outcome)
         return "no arrow on this branch has these momenta: they lie behind a fold of F^-L; shorter steps reach further";
     if (status == "branch_lost" && outcome.form != "discrete")
         return "the step turns farther than the chart of the group reaches: take a shorter one";
+    if (status == "branch_lost" && outcome.steps == "0")
+        return "the momenta of the first arrow are not found: its inner unknowns, of `exp` its logarithm, have no "
+               "value that Newton's method reaches from 0, as a half turn has none";
     if (status == "branch_lost")
         return "no arrow with these momenta is connected with the one before: its branch ends at a fold of F^-L";
     if (status == "not_a_maximum")
@@ -142,6 +145,10 @@ std::string figures_text(const RunOutcome& outcome)
     if (!outcome.manifold.empty())
         text += fmt::format("  distance from the manifold: at most {} at t = {}\n", brief(outcome.manifold, 3),
                             brief(outcome.manifold_time, 6));
+    if (!outcome.unfollowed.empty())
+        text += fmt::format("  {}: not followed, as the form '{}' does not have what {} of; momenta it has\n",
+                            fmt::join(outcome.unfollowed, ", "), outcome.form,
+                            outcome.unfollowed.size() == 1 ? "it is made" : "they are made");
     return text;
 }
 

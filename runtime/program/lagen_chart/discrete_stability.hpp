@@ -87,7 +87,7 @@ double fastest_turn(const M& model, double t, const typename M::State& s)
 {
     using Lanes = detail::ArrowLanes<M>;
     constexpr int n = Lanes::n, size = n + Lanes::rank;
-    Eigen::Matrix<double, size, size> slopes;
+    SquareMatrix slopes(size);
     ArrowSolver<M> solver;
     for (int j = 0; j < size; ++j) {
         const int lane = j < n ? j : Lanes::momenta + j - n;
@@ -100,12 +100,13 @@ double fastest_turn(const M& model, double t, const typename M::State& s)
             if (solver.solve(model, t, z) != Status::ok) return 0;
             model.forward(t, z, x[side], mu[side]);
         }
-        slopes.col(j) << (x[0] - x[1]) / (2 * away), (mu[0] - mu[1]) / (2 * away);
+        for (int i = 0; i < n; ++i) slopes(i, j) = (x[0][i] - x[1][i]) / (2 * away);
+        for (int a = 0; a < Lanes::rank; ++a) slopes(n + a, j) = (mu[0][a] - mu[1][a]) / (2 * away);
     }
-    if (!slopes.allFinite()) return 0;
-    const Eigen::EigenSolver<Eigen::MatrixXd> eigen(Eigen::MatrixXd(slopes), false);
-    if (eigen.info() != Eigen::Success) return 0;
-    return eigen.eigenvalues().cwiseArg().cwiseAbs().maxCoeff() / model.step();
+    double largest = 0;
+    for (const std::complex<double>& value : eigenvalues(slopes))
+        largest = std::max(largest, std::abs(std::arg(value)));
+    return largest / model.step();
 }
 
 /// Of the column that begins with cell `first`.

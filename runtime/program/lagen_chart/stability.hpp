@@ -23,8 +23,7 @@
 
 #include "lagen/integrate.hpp"
 #include "lagen_chart/fate.hpp"
-
-#include <Eigen/Eigenvalues>
+#include "lagen_chart/spectrum.hpp"
 
 #include <array>
 #include <cstdio>
@@ -121,12 +120,12 @@ double fastest_oscillation(const M& model, double t, const typename M::State& s)
     if constexpr (HasJacobian<M>) {
         std::array<double, M::jacobian_rows.size()> values{};
         model.jacobian_values(t, s, values);
-        Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(M::dimension, M::dimension);
+        SquareMatrix jacobian(M::dimension);
         for (std::size_t k = 0; k < values.size(); ++k)
             jacobian(M::jacobian_rows[k], M::jacobian_columns[k]) = values[k];
-        if (!jacobian.allFinite()) return 0;
-        const Eigen::EigenSolver<Eigen::MatrixXd> solver(jacobian, false);
-        if (solver.info() == Eigen::Success) return solver.eigenvalues().imag().maxCoeff();
+        double largest = 0;
+        for (const std::complex<double>& value : eigenvalues(jacobian)) largest = std::max(largest, value.imag());
+        return largest;
     }
     return 0;
 }

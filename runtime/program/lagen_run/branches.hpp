@@ -11,14 +11,14 @@
 
 namespace lagen::detail {
 
-/// A run that has no start: the branch that was asked for is not found.
+/// A run that has no start, for this reason.
 template <class M>
-Run<M> no_run(const typename M::State& s, double t)
+Run<M> no_run(const typename M::State& s, double t, Status reason)
 {
     Run<M> run;
     run.t = run.failed_at = t;
     run.state = s;
-    run.outcome = Status::no_solution;
+    run.outcome = reason;
     return run;
 }
 
@@ -27,7 +27,7 @@ template <class M>
 class Branches {
   public:
     Branches(const M&, double, bool) {}
-    [[nodiscard]] bool begin(typename M::State&, const std::optional<std::size_t>&) { return true; }
+    [[nodiscard]] Status begin(typename M::State&, const std::optional<std::size_t>&) { return Status::ok; }
     [[nodiscard]] std::string report(const Run<M>&) const { return {}; }
 };
 
@@ -39,16 +39,22 @@ class Branches<M> {
     /// `from_arrow`: the momenta are those of the arrow, whatever they are.
     Branches(const M& model, double t, bool from_arrow) : model_(model), t_(t), from_arrow_(from_arrow) {}
 
-    /// The start of the run into s; false where it is to be that of a branch which is not found.
-    [[nodiscard]] bool begin(State& s, const std::optional<std::size_t>& branch)
+    /// The start of the run into s; no_solution where it is to be that of a branch which is not found, branch_lost
+    /// where the inner unknowns of the arrow are not found, as of a half turn by exp.
+    [[nodiscard]] Status begin(State& s, const std::optional<std::size_t>& branch)
     {
+        const State given = s;
         if (from_arrow_) s = at_arrow(model_, t_, s);
+        if (ArrowLanes<M>::inner > 0 && given.allFinite() && !s.allFinite()) {
+            s = given;
+            return Status::branch_lost;
+        }
         start_ = s;
-        if (!branch) return true;
+        if (!branch) return Status::ok;
         found_ = arrows_of_momenta(model_, t_, s);
-        if (*branch == 0 || *branch > found_->size()) return false;
+        if (*branch == 0 || *branch > found_->size()) return Status::no_solution;
         s = (*found_)[*branch - 1].state;
-        return true;
+        return Status::ok;
     }
 
     /// The lines `branches` and `others` (driver.hpp).

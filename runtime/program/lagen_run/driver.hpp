@@ -278,13 +278,13 @@ try {
     std::signal(SIGTERM, detail::lagen_drive_interrupt);
     detail::DriveRecord<M> record(plan.model, plan.columns, given.format == "binary", stdout, given.every.value_or(0));
     detail::Branches<M> branches(plan.model, plan.span.start, given.from_arrow);
-    const bool starts = branches.begin(plan.initial, given.branch);
+    const Status start = branches.begin(plan.initial, given.branch);
     Options<M> options{.at = plan.times, .events = plan.events, .signal = &detail::drive_interrupted};
     if (given.max_steps) options.max_steps = *given.max_steps;
 
     const auto begin = std::chrono::steady_clock::now();
-    const auto run = starts ? integrate(plan.model, plan.initial, plan.span, method, options, record)
-                            : detail::no_run<M>(plan.initial, plan.span.start);
+    const auto run = start == Status::ok ? integrate(plan.model, plan.initial, plan.span, method, options, record)
+                                         : detail::no_run<M>(plan.initial, plan.span.start, start);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
     const bool ended_early = run.status() != Status::ok && run.steps > 0;
     if (ended_early && given.at_file.empty() && record.last_time() != run.t) record.row(run.t, run.state);
