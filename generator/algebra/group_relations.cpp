@@ -12,15 +12,6 @@ namespace {
 constexpr long double negligible = 1e-12L;   ///< of numbers that are 0 but for rounding, relative to the others
 constexpr std::size_t largest_with_all = 12; ///< n of matrices whose forms and envelope are looked for
 
-RealMatrix times(const RealMatrix& a, const RealMatrix& b, std::size_t n)
-{
-    RealMatrix out(n * n, 0);
-    for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t k = 0; k < n; ++k)
-            for (std::size_t j = 0; a[i * n + k] != 0 && j < n; ++j) out[i * n + j] += a[i * n + k] * b[k * n + j];
-    return out;
-}
-
 RealMatrix transposed(const RealMatrix& a, std::size_t n)
 {
     RealMatrix out(n * n);
@@ -217,6 +208,16 @@ GroupDefect group_defect(const std::vector<RealMatrix>& generators, const RealMa
     if (traceless) note(worst, std::abs(det - 1) / std::max(1.0L, std::abs(det)), "det(W) = 1");
     if (!traceless && std::abs(det) <= negligible) note(worst, 1, "det(W) != 0");
     return worst;
+}
+
+GroupDefect logarithm_defect(const std::vector<RealMatrix>& generators, const RealMatrix& W, std::size_t n)
+{
+    const std::optional<RealMatrix> log = principal_logarithm(W, n);
+    if (!log) return {};
+    Span span;
+    for (const RealMatrix& each : generators) span.add(each);
+    const long double size = std::max(largest(*log), negligible);
+    return {"log W in the span of the generators", largest(span.outside(*log)) / size};
 }
 
 } // namespace lagen

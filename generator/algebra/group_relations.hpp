@@ -6,14 +6,11 @@
 /// Of the groups with a name (SO, SE, SU, SL, HEIS, AFF, GL, R^n and their sums) they leave nothing else near 1.
 #pragma once
 
-#include <cstddef>
+#include "algebra/matrix_logarithm.hpp"
+
 #include <string>
-#include <vector>
 
 namespace lagen {
-
-/// A square matrix by rows.
-using RealMatrix = std::vector<long double>;
 
 /// The relation that W misses most, and by how much of its own size.
 struct GroupDefect {
@@ -23,5 +20,11 @@ struct GroupDefect {
 
 /// Of W and generators of n x n numbers. For n > 12 it is J = K = 1 and the determinant alone.
 [[nodiscard]] GroupDefect group_defect(const std::vector<RealMatrix>& generators, const RealMatrix& W, std::size_t n);
+
+/// How far log W is from the span of the generators, relative to its size: what generators without a name leave
+/// besides, as a line on a torus. 0 where W has no principal logarithm. The way to an element may be longer than its
+/// logarithm, whose sheet is another one then.
+[[nodiscard]] GroupDefect logarithm_defect(const std::vector<RealMatrix>& generators, const RealMatrix& W,
+                                           std::size_t n);
 
 } // namespace lagen

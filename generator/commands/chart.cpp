@@ -38,6 +38,7 @@ const CommandSyntax chart_syntax{
      {"peers", nullptr, "odeint, GSL and SUNDIALS too, where they are installed, with the same right-hand side"},
      {"t-end", "T", "end of the runs, backwards where it lies before the start; without it the scene's duration"},
      {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
+     {"initial", "NAME=VALUE", "an initial value of the scene (may be repeated)"},
      {"output,o", "DIR", "the folder of the files, made where it is missing", "."},
      {"unchecked", nullptr, "go on although the model is refuted"},
      {"format,f", "FORMAT", "text or json", "text"}}};

@@ -120,7 +120,10 @@ void require_written_discrete(const System& system)
         throw MathematicsError(system.discrete ? "the discrete Lagrangian of the model is made by a scheme: there is "
                                                  "none that is written out"
                                                : "the model has no [discrete]",
-                               "[discrete] L = \"..\" over x, x_next and the element");
+                               system.discrete
+                                   ? "--form lagrange derives the equations of the L that it is made of; or "
+                                     "write it out, [discrete] L = \"..\" over x, x_next and the element"
+                                   : "[discrete] L = \"..\" over x, x_next and the element");
 }
 
 void add_arrow_names(SymbolicModel& symbolic, const Graph& graph, std::initializer_list<Arrow> arrows)

@@ -73,6 +73,13 @@ std::vector<NodeId> newton_matrix(Graph& graph, const Groupoid& groupoid, const 
     return N;
 }
 
+bool keeps_energy(const System& system)
+{
+    const DiscreteSystem& discrete = *system.discrete;
+    if (!discrete.lagrangian || !discrete.work.source.empty()) return false;
+    return !depends_on_any(system.graph, std::vector<NodeId>{*discrete.lagrangian}, std::vector<NodeId>{system.time});
+}
+
 ArrowEquations arrow_equations(Graph& graph, const System& system)
 {
     const Groupoid& groupoid = *system.groupoid;

@@ -30,6 +30,9 @@ struct DiscreteLegendre {
                                                 const std::vector<NodeId>& functions,
                                                 const std::vector<NodeId>& inner = {});
 
+/// Whether neither forces nor explicit time act on the steps of a system with a discrete Lagrangian.
+[[nodiscard]] bool keeps_energy(const System& system);
+
 /// What a step solves for the arrow h and the inner unknowns w of a scheme, with the work f of forces:
 ///   F^-L(h)_a - f^-_a = mu_a,      dL/dw + f_w = 0
 /// Of curves exp(xi) with exp(xi) = W the slopes dL/dxi + f_xi = D^T p belong to the momenta: a field that moves W by

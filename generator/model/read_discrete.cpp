@@ -70,7 +70,7 @@ void read_retraction(const Model& model, DiscreteBlock& block, const TomlEntry& 
 void declare_step(ModelReader& reader, DiscreteBlock& block, const TomlEntry& discrete, const TomlEntry* entry)
 {
     if (entry == nullptr)
-        throw ModelError("[discrete] has no key 'step'", discrete.where(), "step = \"h\" names the step");
+        throw ModelError("[discrete] needs the key 'step'", discrete.where(), "step = \"h\" names the step");
     const std::string name = text_of(*entry);
     block.step = Symbol{name, entry->value.where, {}, {}, {}};
     const Names::Entry* known = reader.names.find(name);
@@ -89,6 +89,34 @@ void imply_groupoid(ModelReader& reader)
         throw ModelError("[discrete] needs a [groupoid], of which it gives the discrete Lagrangian",
                          reader.discrete->where(), "[groupoid] kind = \"group\", group = \"SO(3)\"");
     model.groupoid.emplace().where = reader.discrete->where();
+}
+
+/// A parameter that is made of the step: derivatives by the step would pass it over.
+void refuse_parameters_of_step(const Model& model)
+{
+    for (const Parameter& parameter : model.parameters) {
+        const std::vector<std::string> names = names_in(parameter.value);
+        if (std::ranges::find(names, model.discrete->step.name) == names.end()) continue;
+        throw ModelError(
+            fmt::format("the parameter '{}' is made of the step '{}', which no derivative by the step knows, "
+                        "the energy -dL/dh least of all",
+                        parameter.symbol.name, model.discrete->step.name),
+            parameter.symbol.where,
+            fmt::format("make it a definition: [definitions] {} = \"..\"", parameter.symbol.name));
+    }
+}
+
+/// The discrete motion of an L that is written out has none: they would be passed over in silence.
+void refuse_forces(const ModelReader& reader)
+{
+    const MechanicsBlocks& blocks = reader.mechanics;
+    for (const TomlEntry* block : {blocks.forces, blocks.dissipation, blocks.control})
+        if (block != nullptr)
+            throw ModelError(fmt::format("[{}] stands beside a discrete Lagrangian that is written out, which has no "
+                                         "place for it",
+                                         block->name()),
+                             block->where(),
+                             "forces act on discrete motions that a scheme makes: [discrete] scheme = \"midpoint\"");
 }
 
 } // namespace
@@ -127,7 +155,9 @@ void read_discrete(ModelReader& reader)
                         "not have",
                         block.scheme),
             block.scheme_where, "give [lagrangian] L, or the discrete Lagrangian itself: L = \"..\"");
+    refuse_parameters_of_step(reader.model);
     if (!reader.discrete_lagrangian) return;
+    refuse_forces(reader);
     const auto arrow = {Role::time, Role::parameter, Role::base, Role::next, Role::element, Role::step};
     const ArrayValue closed = reader.close_arrow(reader.discrete_lagrangian, arrow, "the discrete Lagrangian");
     if (closed.shape.rank != Rank::scalar)

@@ -243,6 +243,18 @@ bool has_value(const Model& model, const Tree& tree, const std::string& form)
     return ForeignSearch(model, form)(tree).first == nullptr;
 }
 
+std::vector<std::string> names_without_values(const Model& model, const std::string& form)
+{
+    std::vector<std::string> names;
+    for (const NamedTree& claim : conserved_trees(model))
+        if (!has_value(model, claim.value, form)) names.push_back(claim.name);
+    if (!form_named(form).steps) return names;
+    for (const Symbol& state : state_symbols(model))
+        if (const std::string name = family_name(state.name); names.empty() || names.back() != name)
+            names.push_back(name);
+    return names;
+}
+
 Scene in_form(const Model& model, Scene scene, const std::string& form)
 {
     if (form == scene.form)

@@ -39,6 +39,9 @@ void require_values_in(const Model& model, const Scene& scene, const std::string
 /// discrete one, which has neither velocities nor a Hamiltonian.
 [[nodiscard]] bool has_value(const Model& model, const Tree& tree, const std::string& form);
 
+/// What is claimed to be conserved and has no value in this form, and the first-order states where it has none.
+[[nodiscard]] std::vector<std::string> names_without_values(const Model& model, const std::string& form);
+
 /// `scene` with another form: "state" in `observe` means the states of that form. Throws MathematicsError where the
 /// model does not have it (ModelError where the scene itself names it; nothing for the default of a model that has
 /// none), and ModelError where the scene cannot do in this form: Pontryagin's equations start from momenta, no other

@@ -18,6 +18,7 @@ namespace lagen {
 namespace {
 
 constexpr long double constraint_tolerance = 1e-10L;
+constexpr long double largest_cayley = 1e7L; ///< of rotations to 4e-7 from a half turn
 constexpr long double group_tolerance = 1e-10L;
 
 /// The whole text of a comparison or constraint as the user wrote it, or printed where its place is unknown.
@@ -197,15 +198,24 @@ void SceneEvaluator::require_in_group(const Values& parameters, const std::vecto
     }
     RealMatrix W;
     for (const NamedNumber& entry : element) W.push_back(entry.second);
-    const GroupDefect defect = group_defect(generators, W, groupoid.generators[0].shape.rows);
-    if (defect.size <= group_tolerance) return;
+    const std::size_t n = groupoid.generators[0].shape.rows;
+    GroupDefect defect = group_defect(generators, W, n);
+    if (defect.size <= group_tolerance && groupoid.group.empty()) defect = logarithm_defect(generators, W, n);
+    if (!(defect.size <= group_tolerance))
+        throw StartError(
+            "off_constraint",
+            fmt::format("the element of scene '{}' is not in the group{}: it misses {} by {:.3g}, where at most "
+                        "{:.3g} is allowed",
+                        scene_.name, groupoid.group.empty() ? "" : " " + groupoid.group, defect.relation,
+                        static_cast<double>(defect.size), static_cast<double>(group_tolerance)),
+            scene_.element_where, "for example element = \"exp(hat([..]))\" or \"cay(hat([..]))\"");
+    if (!model_.discrete || model_.discrete->scheme.empty() || cayley_size(W, n) < largest_cayley) return;
     throw StartError(
-        "off_constraint",
-        fmt::format("the element of scene '{}' is not in the group{}: it misses {} by {:.3g}, where at most "
-                    "{:.3g} is allowed",
-                    scene_.name, groupoid.group.empty() ? "" : " " + groupoid.group, defect.relation,
-                    static_cast<double>(defect.size), static_cast<double>(group_tolerance)),
-        scene_.element_where, "for example element = \"exp(hat([..]))\" or \"cay(hat([..]))\"");
+        "branch_lost",
+        fmt::format("the element of scene '{}' is a half turn, or nearly one: Cayley's map does not reach it, its "
+                    "logarithm is not unique, and the scheme '{}' rests on one of both",
+                    scene_.name, model_.discrete->scheme),
+        scene_.element_where, "start from a shorter step, or from momenta in `initial`");
 }
 
 /// Those that the scene carries, and matrices that start in their groups.

@@ -36,9 +36,13 @@ class Claims {
     void decide_distribution(Report& report);
     /// Of a control problem: do the controls maximise H?
     void decide_controls(Report& report);
+    /// Of `written.invariants` and `extra`, along the motions of L or H, and along the steps of a discrete L that is
+    /// written out.
     void decide_invariants(Report& report, const std::vector<NamedTree>& extra);
 
   private:
+    void decide_along_motions(Report& report, const std::vector<NamedTree>& claims);
+    void decide_along_steps(StructureReport& structure, const std::vector<NamedTree>& claims);
     [[nodiscard]] std::unique_ptr<EquationsOfMotion> equations_of_motion();
     [[nodiscard]] WhereConstant along_anchor();
     [[nodiscard]] WhereConstant along_motions(EquationsOfMotion& motion, const Regularity& regularity);

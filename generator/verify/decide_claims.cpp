@@ -115,12 +115,19 @@ std::optional<NodeId> Claims::momentum_in(NodeId f, const Binding& names)
 
 void Claims::decide_invariants(Report& report, const std::vector<NamedTree>& extra)
 {
+    std::vector<NamedTree> claims = system_.written.invariants;
+    claims.insert(claims.end(), extra.begin(), extra.end());
+    const bool steps = system_.discrete && system_.discrete->written;
+    if (lagrangian_ || system_.hamiltonian || system_.control || !steps) decide_along_motions(report, claims);
+    if (steps) decide_along_steps(report.structure, claims);
+}
+
+void Claims::decide_along_motions(Report& report, const std::vector<NamedTree>& claims)
+{
     const std::unique_ptr<EquationsOfMotion> motion = equations_of_motion();
     WhereConstant where = along_motions(*motion, report.mechanics.regularity);
     const Binding names = motion->names();
     Lowering lower(graph_, names);
-    std::vector<NamedTree> claims = system_.written.invariants;
-    claims.insert(claims.end(), extra.begin(), extra.end());
     for (const NamedTree& claim : claims) {
         Check check{"invariant", {claim.name}, {}, {}, {}};
         const NodeId f = lower(claim.value);

@@ -10,10 +10,6 @@ namespace lagen {
 void Claims::decide_symmetries(StructureReport& structure)
 {
     const auto append = [&](std::vector<std::string> indices, NodeId residual, auto decide) {
-        if (graph_.is_zero(residual)) {
-            ++structure.trivial;
-            return;
-        }
         Check check{"symmetry", std::move(indices), decide(residual), {}, {}};
         if (check.decision.status == ProofStatus::refuted)
             check.hint = "the residual is the rate of the momentum p_a s^a along motions without forces";

@@ -12,15 +12,6 @@ using namespace lagen;
 
 namespace {
 
-RealMatrix times(const RealMatrix& a, const RealMatrix& b, std::size_t n)
-{
-    RealMatrix out(n * n, 0);
-    for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t k = 0; k < n; ++k)
-            for (std::size_t j = 0; j < n; ++j) out[i * n + j] += a[i * n + k] * b[k * n + j];
-    return out;
-}
-
 /// exp(A) by its series.
 RealMatrix exponential(const RealMatrix& A, std::size_t n)
 {
@@ -115,4 +106,29 @@ TEST_CASE("groups bear the names of their algebras in capitals")
     CHECK_FALSE(algebra_of_group("SO3").has_value());
     CHECK_FALSE(algebra_of_group("Heis(3)").has_value());
     for (const std::string& name : named_group_names()) CHECK(algebra_of_group(name).has_value());
+}
+
+TEST_CASE("logarithms of exponentials are what they came from, and half turns have none")
+{
+    const RealMatrix A{0.3L, -1.1L, 0.2L, 0.9L, -0.4L, 0.7L, -0.5L, 0.1L, 0.25L};
+    const auto found = principal_logarithm(exponential(A, 3), 3);
+    REQUIRE(found);
+    for (std::size_t k = 0; k < 9; ++k) CHECK(std::abs((*found)[k] - A[k]) < 1e-17L);
+    CHECK_FALSE(principal_logarithm({-1, 0, 0, 0, -1, 0, 0, 0, 1}, 3));
+    CHECK_FALSE(principal_logarithm({1, 0, 0, 0}, 2));
+    CHECK_FALSE(cayley_size({-1, 0, 0, -1}, 2) < 1e100L);
+    const long double c = std::cos(1.2L), z = std::sin(1.2L);
+    CHECK(std::abs(cayley_size({c, -z, z, c}, 2) - 2 * std::tan(0.6L)) < 1e-18L);
+}
+
+TEST_CASE("a logarithm beside the span of the generators tells what the relations leave")
+{
+    const auto turned = [](long double a, long double b) {
+        return RealMatrix{std::cos(a), -std::sin(a), 0, 0, std::sin(a), std::cos(a), 0, 0, 0, 0,
+                          std::cos(b), -std::sin(b), 0, 0, std::sin(b), std::cos(b)};
+    };
+    const std::vector<RealMatrix> line{{0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 0, -2, 0, 0, 2, 0}};
+    CHECK(group_defect(line, turned(0.1L, 0.5L), 4).size < 1e-15L);
+    CHECK(logarithm_defect(line, turned(0.1L, 0.2L), 4).size < 1e-15L);
+    CHECK(logarithm_defect(line, turned(0.1L, 0.5L), 4).size > 0.1L);
 }

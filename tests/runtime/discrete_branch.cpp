@@ -69,6 +69,38 @@ struct Body {
     }
 };
 
+/// Pairs of numbers with F^-L = f(d), d = x_next - x, and a kick: mu' = f(d) - a x_next.
+struct Line {
+    using Scalar = double;
+    static constexpr int dimension = 3, base_dimension = 1, inner_dimension = 0;
+    static constexpr int fibre_dimension = 1, horizontal = 1, group_order = 0;
+    static constexpr bool cayley = true;
+    using State = Eigen::Matrix<double, 3, 1>;
+    using One = Eigen::Matrix<double, 1, 1>;
+
+    double (*f)(double), (*slope)(double);
+    double a = 0;
+
+    [[nodiscard]] double step() const noexcept { return 1; }
+    [[nodiscard]] One momentum(double, const State& s) const noexcept { return One(f(s[1])); }
+    void forward(double, const State& s, One& x, One& mu) const noexcept
+    {
+        x[0] = s[0] + s[1];
+        mu[0] = f(s[1]) - a * x[0];
+    }
+    void arrow_equation(double t, const State& s, One& R, One& N) const noexcept
+    {
+        R = s.tail<1>() - momentum(t, s);
+        N[0] = slope(s[1]);
+    }
+};
+
+/// Its folds are at odd multiples of pi/2.
+const Line wave{[](double d) { return std::sin(d); }, [](double d) { return std::cos(d); }};
+/// Affine but for a bump below d = 3, whose top is 0.104.
+const Line bump{[](double d) { return d - 3 * d * d * std::exp(-d); },
+                [](double d) { return 1 + (3 * d * d - 6 * d) * std::exp(-d); }};
+
 /// The largest change of the energy, in parts of it; NaN where the motion has no start or does not go on.
 double change_of_energy(const Body& body, const Body::Vector& mu, int steps)
 {
@@ -185,4 +217,46 @@ TEST_CASE("bodies and momenta drawn at random keep their branch", "[discrete]")
         CHECK(change < 1e-9);
     }
     CHECK(moving > 1000);
+}
+
+TEST_CASE("a step beside a fold stays on its branch, where Newton's first step leads over several folds", "[discrete]")
+{
+    for (const auto& [p, a] : {std::pair(0.9975, 1.20), {0.9975, 1.24}, {0.98, 1.10}, {0.98, 1.05}}) {
+        Line line = wave;
+        line.a = a;
+        Integrator run(line, Line::State(0, 0, p), 0.0, Discrete{});
+        REQUIRE(run.status() == Status::ok);
+        const double d = std::asin(p);
+        CHECK(run.state()[1] == Approx(d).epsilon(1e-14));
+        REQUIRE(run.step() == Status::ok);
+        CHECK(run.state()[1] == Approx(std::asin(p - a * d)).epsilon(1e-12));
+    }
+}
+
+TEST_CASE("momenta behind a bump have no arrow that is connected with the arrow 1, however affine the rest is",
+          "[discrete]")
+{
+    for (const double p : {0.01, 0.05, 0.1}) {
+        Integrator run(bump, Line::State(0, 0, p), 0.0, Discrete{});
+        REQUIRE(run.status() == Status::ok);
+        CHECK(run.state()[1] < 0.4);
+    }
+    for (const double p : {0.2, 1.0, 3.0, 8.0, 10.0, 30.0, 100.0, 300.0})
+        CHECK(Integrator(bump, Line::State(0, 0, p), 0.0, Discrete{}).status() == Status::no_solution);
+}
+
+TEST_CASE("a first arrow that is plainly beside its group is refused", "[discrete]")
+{
+    const Body body{{1.1, 2.3, 3.4}};
+    const auto status_of = [&](double turn, double off) {
+        Body::State s = Body::State::Zero();
+        s[4] = s[8] = std::cos(turn) - 1 + off;
+        s[5] = -std::sin(turn);
+        s[7] = std::sin(turn);
+        return Integrator(body, at_arrow(body, 0.0, s), 0.0, Discrete{}).status();
+    };
+    CHECK(status_of(0.1, 0) == Status::ok);
+    CHECK(status_of(0.1, 1e-9) == Status::ok);
+    CHECK(status_of(0.1, 1e-3) == Status::invalid_input);
+    CHECK(status_of(0.1, 1 - std::cos(0.1)) == Status::invalid_input);
 }

@@ -64,7 +64,9 @@ std::vector<MethodGroup> groups_of(const ChartProblem& problem, const std::vecto
         if (*method.scheme != '\0') continue; // has equations of its own
         const std::string obstacle =
             method.adaptive ? fmt::format("{} takes a tolerance, and a stability chart is over steps", method.name)
-                            : obstacle_to(method, problem);
+            : method.composes
+                ? fmt::format("{} composes steps, and a stability chart takes them one by one", method.name)
+                : obstacle_to(method, problem);
         if (obstacle.empty())
             groups[method.kind].push_back(&method);
         else if (!wanted.empty())

@@ -5,6 +5,7 @@
 #include "elaborate/variational_model.hpp"
 #include "emit/print_header.hpp"
 #include "graph/core/graph.hpp"
+#include "mechanics/discrete.hpp"
 #include "model/families.hpp"
 #include "model/scene_form.hpp"
 #include "scene/sample_times.hpp"
@@ -16,14 +17,6 @@
 namespace lagen {
 
 namespace {
-
-/// Whether -dL/dh stays as it is: neither forces nor the time change it.
-bool keeps_energy(const System& system)
-{
-    const DiscreteSystem& discrete = *system.discrete;
-    if (!discrete.lagrangian || !discrete.work.source.empty()) return false;
-    return !depends_on_any(system.graph, std::vector<NodeId>{*discrete.lagrangian}, std::vector<NodeId>{system.time});
-}
 
 /// The line of the request for what is followed, and its name.
 std::pair<std::string, std::string> followed_in_steps(const CheckedModel& checked, const KernelModule& module,

@@ -6,7 +6,9 @@
 #include "commands/machine/places.hpp"
 #include "commands/machine/write_file.hpp"
 #include "graph/core/graph.hpp"
+#include "mechanics/discrete.hpp"
 #include "model/families.hpp"
+#include "model/form.hpp"
 
 #include <fmt/core.h>
 
@@ -100,7 +102,7 @@ RunRecord record_of(const CheckedModel& checked, const KernelModule& module, con
     RunRecord record;
     record.warnings = checked.warnings;
     record.names = names_of(checked.model, module);
-    record.energy_changes = has_kernel(module, "power");
+    record.energy_changes = form_named(form).steps ? !keeps_energy(checked.system) : has_kernel(module, "power");
     record.searches =
         std::ranges::any_of(module.implicit, [](const ImplicitBlock& block) { return block.follows && !block.angles; });
     if (!rests_on_values(checked.report.mechanics.regularity)) return record;

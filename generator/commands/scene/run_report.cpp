@@ -43,11 +43,13 @@ std::string reason_text(const RunOutcome& outcome)
         return "no arrow on this branch has these momenta: they lie behind a fold of F^-L; shorter steps reach further";
     if (status == "branch_lost" && outcome.form != "discrete")
         return "the step turns farther than the chart of the group reaches: take a shorter one";
-    if (status == "branch_lost" && outcome.steps == "0")
+    if (status == "branch_lost" && outcome.table.count == 0)
         return "the momenta of the first arrow are not found: its inner unknowns, of `exp` its logarithm, have no "
                "value that Newton's method reaches from 0, as a half turn has none";
     if (status == "branch_lost")
         return "no arrow with these momenta is connected with the one before: its branch ends at a fold of F^-L";
+    if (status == "newton_diverged" && outcome.form == "discrete")
+        return "Newton's method reaches no arrow with these momenta, and meets no fold on the way to them";
     if (status == "not_a_maximum")
         return "no maximum of H is found from the controls before, or from the guess: d2H/du2 is not negative definite";
     if (status == "singular_control") return "H does not depend on a control: b = c = 0 in a + b cos u + c sin u";
@@ -145,10 +147,10 @@ std::string figures_text(const RunOutcome& outcome)
     if (!outcome.manifold.empty())
         text += fmt::format("  distance from the manifold: at most {} at t = {}\n", brief(outcome.manifold, 3),
                             brief(outcome.manifold_time, 6));
-    if (!outcome.unfollowed.empty())
-        text += fmt::format("  {}: not followed, as the form '{}' does not have what {} of; momenta it has\n",
-                            fmt::join(outcome.unfollowed, ", "), outcome.form,
-                            outcome.unfollowed.size() == 1 ? "it is made" : "they are made");
+    if (!outcome.left_out.empty())
+        text += fmt::format("  {}: left out, as the form '{}' does not have what {} of\n",
+                            fmt::join(outcome.left_out, ", "), outcome.form,
+                            outcome.left_out.size() == 1 ? "it is made" : "they are made");
     return text;
 }
 

@@ -48,9 +48,9 @@ struct RunOutcome {
     std::vector<Drift> invariants, casimirs, constraints; ///< the first of the invariants is the energy
     std::vector<Drift> balance; ///< of the energy less the work, where forces or explicit time change the energy
     std::string work;           ///< of them, over the run
-    std::string manifold, manifold_time;   ///< largest distance from it, where there are constraints
-    std::vector<std::string> unfollowed{}; ///< invariants that have no value in the form
-    bool energy_changes = false;           ///< forces or explicit time: the energy is not conserved
+    std::string manifold, manifold_time; ///< largest distance from it, where there are constraints
+    std::vector<std::string> left_out{}; ///< claims and first-order states that have no value in the form
+    bool energy_changes = false;         ///< forces or explicit time: the energy is not conserved
     Table table;
 };
 

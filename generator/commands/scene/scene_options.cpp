@@ -139,6 +139,7 @@ bool starts_from_momenta(const Model& model, const Scene& scene)
 std::vector<Symbol> initial_symbols(const Model& model, const Scene& scene)
 {
     std::vector<Symbol> symbols = model.base.coordinates;
+    if (!scene.element.empty() || !scene.next.empty()) return symbols; // the arrow says the rest
     const std::vector<Symbol>& rest = starts_from_momenta(model, scene) ? model.fibre.momenta : model.fibre.coordinates;
     symbols.insert(symbols.end(), rest.begin(), rest.end());
     const std::vector<Symbol> states = state_symbols(model);

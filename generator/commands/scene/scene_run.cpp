@@ -49,8 +49,7 @@ RunOutcome SceneRun::integrate()
     outcome.table.columns = {"t"};
     for (const TableColumn& column : input_.columns) outcome.table.columns.push_back(column.name);
     for (const std::string& lane : record().names.lanes) outcome.state.emplace_back(lane, "");
-    for (const NamedTree& claim : conserved_trees(checked_.model))
-        if (!has_value(checked_.model, claim.value, form_)) outcome.unfollowed.push_back(claim.name);
+    outcome.left_out = names_without_values(checked_.model, form_);
     integrate_scene(record().program, input_, outcome);
     if (!options_.has("bind") && !is_branch_missing(outcome))
         outcome.largest_step = largest_step(checked_.model, scene_, record().program, input_, *start_, outcome);

@@ -81,7 +81,7 @@ class Branches<M> {
         State s = run.state;
         for (int i = 0; i < Lanes::n; ++i) s[i] = x[i];
         for (int a = 0; a < Lanes::rank; ++a) s[Lanes::momenta + a] = mu[a];
-        return arrows_of_momenta(model_, run.t + model_.step(), s);
+        return ArrowSearch<M>(model_, run.t + model_.step(), s).found(true);
     }
 
     [[nodiscard]] static std::string distances(const Arrows& arrows)

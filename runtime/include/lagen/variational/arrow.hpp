@@ -4,9 +4,10 @@
 ///
 /// The equation may have several solutions, and folds where det N = 0 behind which there are none. The one that is
 /// taken is connected with the guess: Newton's method is trusted where its steps shrink by a factor of four and det N
-/// keeps its sign; else mu is led from F^-L(guess) to its value, in steps as short as they have to be.
-/// A discrete Lagrangian that a scheme made may have inner unknowns w of a step, at which it is stationary; they are
-/// found with the arrow, by dL/dw = 0.
+/// keeps its sign, and where the first step is no small part of the arrow, N^-1 R changes by less than half of itself
+/// on it and det N keeps its sign at points between; else mu is led from F^-L(guess) to its value, in steps as short as
+/// they have to be. A discrete Lagrangian that a scheme made may have inner unknowns w of a step, at which it is
+/// stationary; they are found with the arrow, by dL/dw = 0.
 #pragma once
 
 #include "lagen/group/eliminate.hpp"
@@ -107,6 +108,32 @@ void renew_group_part(const M& model, const typename M::Scalar& t, typename M::S
     }
 }
 
+/// Whether W is plainly no element of the group: what its coordinates around 1 lead to is another matrix. Where the
+/// chart does not reach W, or hardly, nothing is said.
+template <DiscreteMotion M>
+[[nodiscard]] bool is_off_group(const M& model, const typename M::Scalar& t, const typename M::State& s) noexcept
+{
+    using S = typename M::Scalar;
+    using Lanes = ArrowLanes<M>;
+    if constexpr (Lanes::order > 0) {
+        constexpr double tolerance = 1e-6, far = 1e3;
+        const GroupMatrix<S, Lanes::order> V = group_part<M>(s);
+        GroupMatrix<S, Lanes::order> renewed;
+        if constexpr (M::cayley) {
+            const auto d = model.cayley_coordinates(t, s);
+            if (!d.allFinite() || d.cwiseAbs().maxCoeff() > S(far)) return false;
+            renewed = model.cayley_step(t, s, d);
+        } else {
+            GroupMatrix<S, Lanes::order> A;
+            if (V.cwiseAbs().maxCoeff() > S(1) || !log_of_one_and<S, Lanes::order>(V, A)) return false;
+            renewed = exp_less_one<S, Lanes::order>(model.algebra_matrix(t, s, model.in_algebra(A)));
+        }
+        return (renewed - V).cwiseAbs().maxCoeff() > S(tolerance);
+    } else {
+        return false;
+    }
+}
+
 } // namespace detail
 
 template <DiscreteMotion M>
@@ -128,8 +155,10 @@ class ArrowSolver {
         State z = s;
         moved_ = ahead;
         shift_.setZero();
+        points_ = before != nullptr ? 3 : most_points;
         const Status status = newton(model, t, z, before != nullptr);
         if (status == Status::ok) return s = z, status;
+        points_ = most_points;
         z = s;
         if (before != nullptr)
             for (int k = Lanes::next; k < Lanes::momenta; ++k) z[k] = (*before)[k];
@@ -146,7 +175,7 @@ class ArrowSolver {
   private:
     using Lanes = detail::ArrowLanes<M>;
     using Real = real_t<Scalar>;
-    static constexpr int most_steps = 30;
+    static constexpr int most_steps = 30, most_points = 12;
     static constexpr Real epsilon = std::numeric_limits<Real>::epsilon();
 
     /// What is left of R = (mu - F^-L(h), -dL/dw), and N; false where they are no finite numbers.
@@ -192,9 +221,11 @@ class ArrowSolver {
     [[nodiscard]] Status newton(const M& model, const Scalar& t, State& z, bool follows) noexcept
     {
         Scalar before(0);
-        bool negative = negative_;
+        bool negative = negative_, wide = false;
+        Column first_residual, first_step;
         for (int k = 0; k < most_steps; ++k) {
             if (!evaluate(model, t, z)) return Status::non_finite;
+            if (k == 1 && wide && !is_alike(first_residual, first_step)) return Status::branch_lost;
             const bool found = is_rounding(z), known = k > 0 || follows;
             if (found && known) return settle(negative);
             Column d = residual_;
@@ -207,6 +238,12 @@ class ArrowSolver {
             if (!(length - length == Scalar(0))) return Status::newton_diverged;
             if (k > 0 && length <= noise) return settle(negative);
             if (k > 0 && !(length <= Scalar(Real(0.25)) * before)) return Status::newton_diverged;
+            wide = k == 0 && !(length <= Scalar(Real(0.0625)) * largest(z));
+            if (wide) {
+                first_residual = residual_;
+                first_step = d;
+                if (!keeps_sign(model, t, z, d, negative)) return Status::branch_lost;
+            }
             if (!detail::move_arrow(model, t, z, d)) return Status::newton_diverged;
             moved_ += d;
             // What the next step would be, by quadratic convergence.
@@ -219,6 +256,30 @@ class ArrowSolver {
         return Status::newton_diverged;
     }
 
+    /// Whether N^-1 R of the first residual is, by the N behind the first step, that step up to half of it.
+    [[nodiscard]] bool is_alike(const Column& residual, const Column& step) noexcept
+    {
+        Column again = residual;
+        return solved(again) != 0 &&
+               (again - step).cwiseAbs().maxCoeff() <= Scalar(Real(0.5)) * step.cwiseAbs().maxCoeff();
+    }
+
+    /// Whether det N has the sign of the branch at points on the way along d: at its half, its quarter, and so on.
+    [[nodiscard]] bool keeps_sign(const M& model, const Scalar& t, const State& z, const Column& d,
+                                  bool negative) noexcept
+    {
+        Scalar share(1);
+        for (int k = points_; k > 0; --k) {
+            share *= Scalar(Real(0.5));
+            State between = z;
+            if (!detail::move_arrow(model, t, between, Column(share * d)) || !evaluate(model, t, between)) return false;
+            Column none = residual_;
+            const int sign = solved(none);
+            if (sign == 0 || (sign < 0) != negative) return false;
+        }
+        return true;
+    }
+
     /// The sign of det N is that of the branch from now on.
     [[nodiscard]] Status settle(bool negative) noexcept
     {
@@ -229,7 +290,7 @@ class ArrowSolver {
     /// Leads mu from F^-L of the arrow that stands in z to the one in z.
     [[nodiscard]] Status lead(const M& model, const Scalar& t, State& z, bool follows) noexcept
     {
-        constexpr Real shortest = Real(1e-10), folded = Real(1e3);
+        constexpr Real shortest = Real(1e-10), folded = Real(1e3), least = std::numeric_limits<Real>::min();
         moved_.setZero();
         if (!evaluate(model, t, z)) return Status::non_finite;
         const Column way = residual_;
@@ -255,7 +316,9 @@ class ArrowSolver {
             }
             moved_ = kept;
             part /= Real(2);
-            if (part < shortest) return verdict(model, t, z, way, Scalar(Real(folded)) * first, reason);
+            const bool is_short = part < shortest && Scalar(part) * first <= Scalar(shortest) * largest(z);
+            if (is_short || part < least || !(done + part > done))
+                return verdict(model, t, z, way, Scalar(Real(folded)) * first, reason);
         }
         return Status::ok;
     }
@@ -273,7 +336,8 @@ class ArrowSolver {
     Column residual_, moved_ = Column::Zero(),
                       shift_ = Column::Zero(); ///< shift_: of a way that is not at its end
     Eigen::Matrix<Scalar, rank, rank> N_;
-    bool negative_ = false; ///< the sign of det N on the branch
+    bool negative_ = false;    ///< the sign of det N on the branch
+    int points_ = most_points; ///< on the way of a first step, where det N is looked at
     std::size_t evaluations_ = 0, decompositions_ = 0;
 };
 

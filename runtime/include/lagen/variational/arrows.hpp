@@ -52,11 +52,14 @@ class ArrowSearch {
     {
     }
 
-    [[nodiscard]] std::vector<FoundArrow<M>> found()
+    /// Distances are those from the arrow that the one in s leads to, or from the one in s itself.
+    [[nodiscard]] std::vector<FoundArrow<M>> found(bool from_given = false)
     {
         if (std::optional<FoundArrow<M>> first = arrow_from(start_)) {
-            predictor_ = first->state;
-            first->distance = Scalar(0);
+            if (!from_given) {
+                predictor_ = first->state;
+                first->distance = Scalar(0);
+            }
             add(*first);
         }
         length_ = natural_length();

@@ -25,10 +25,12 @@ class DiscreteStepper {
     {
     }
 
-    /// Solves for the first arrow from the one in s, which stays where it belongs to the momenta.
+    /// Solves for the first arrow from the one in s, which stays where it belongs to the momenta; invalid_input where
+    /// that is plainly no element of the group.
     Status begin(const M& model, const Real& t, State& s) noexcept
     {
         drift_.setZero();
+        if (detail::is_off_group(model, Scalar(t), s)) return Status::invalid_input;
         return solver_.solve(model, Scalar(t), s);
     }
 
