@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// `lagen reduce`: of a morphism file the proof that the equations of its source project onto those of its target, with
-/// both; of a model its cyclic coordinates.
+/// both; of a model its cyclic coordinates, or its Routh reduction by some of them.
 #include "commands/line/command.hpp"
 #include "commands/line/options.hpp"
 #include "commands/machine/places.hpp"
 #include "commands/machine/write_file.hpp"
+#include "commands/reduce/routh_document.hpp"
 #include "commands/report_check.hpp"
 #include "commands/report_morphism.hpp"
 #include "elaborate/elaborate_morphism.hpp"
@@ -13,6 +14,7 @@
 #include "pipeline.hpp"
 #include "verify/cyclic.hpp"
 #include "verify/verify_reduction.hpp"
+#include "verify/verify_routh.hpp"
 
 #include <fmt/format.h>
 
@@ -26,8 +28,9 @@ const CommandSyntax reduce_syntax{
     "reduce",
     "MORPHISM",
     "Proves, component by component, that the equations of the source of a morphism project onto those of its target, "
-    "and prints both. Of a model: lists its cyclic coordinates.",
-    {{"output,o", "FILE", "write there instead of to standard output"},
+    "and prints both. Of a model: lists its cyclic coordinates, or reduces it by some of them.",
+    {{"routh", "X,..", "of a model: Routh's reduction by these cyclic coordinates, proved and written as a model file"},
+     {"output,o", "FILE", "write there instead of to standard output"},
      {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
      {"unchecked", nullptr, "go on although the morphism, or a model, is refuted"},
      {"format,f", "FORMAT", "text or json", "text"}}};
@@ -127,6 +130,66 @@ ExitCode reduce_morphism(const Options& options, const MorphismFile& file)
     return code_of(report.verdict);
 }
 
+std::vector<std::string> names_of_list(const std::string& list)
+{
+    std::vector<std::string> names(1);
+    for (const char c : list)
+        if (c == ',')
+            names.emplace_back();
+        else if (c != ' ')
+            names.back() += c;
+    return names;
+}
+
+/// Throws MathematicsError with the defect of a coordinate that is none.
+void require_cyclic(const CheckedModel& checked, const std::vector<std::size_t>& coordinates)
+{
+    for (const Check& check : cyclic_coordinates(checked.system).checks)
+        for (const std::size_t k : coordinates)
+            if (check.indices[0] == checked.model.base.coordinates[k].name &&
+                check.decision.status == ProofStatus::refuted)
+                throw MathematicsError(
+                    fmt::format(
+                        "model '{}' is not to be reduced by '{}', which is not cyclic: {} depends on it, with the "
+                        "derivative {}",
+                        checked.model.name, check.indices[0], check.indices[1], check.decision.residual),
+                    "lagen reduce without --routh lists the cyclic coordinates");
+}
+
+/// R is what is read back from the file, and proved to have the motions of L.
+ExitCode reduce_by_routh(const Options& options, const std::string& path)
+{
+    const CheckedModel checked = load(path, options.settings(), options.has("unchecked"));
+    for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
+    const Model& model = checked.model;
+    const std::vector<std::size_t> cyclic = coordinates_to_reduce(model, names_of_list(options.get("routh")));
+    require_cyclic(checked, cyclic);
+    Graph graph = checked.system.graph;
+    const Routhian made = routhian(graph, checked.system, cyclic);
+    const RouthianText text = routhian_text(model, checked.system, graph, made);
+    const std::string document = routh_document(model, options.settings(), cyclic, text);
+    const Model reduced = read_model_text(model.name + "_routh.toml", document);
+    const StructureReport report = verify_routh(graph, checked.system, made, elaborate(reduced));
+    const bool writes = report.verdict != Verdict::invalid || options.has("unchecked");
+    std::string said =
+        fmt::format("{}: reduced by {}: {}\n", model.name, options.get("routh"), to_text(report.verdict));
+    for (std::size_t j = 0; j < cyclic.size(); ++j)
+        said += fmt::format("  {} = {}\n", model.fibre.coordinates[cyclic[j]].name, to_text(text.velocities[j]));
+    said += fmt::format("  R = {}\n{}", to_text(text.value), failures_text(report));
+    if (options.get("format") == "json") {
+        JsonWriter json;
+        json.begin_object().key("model").value(model.name).key("verdict").value(to_text(report.verdict));
+        json.key("routhian").value(to_text(text.value)).key("file").value(document);
+        structure_json(json, report);
+        write_file("-", json.end_object().text() + "\n");
+        if (options.has("output") && writes) write_file(options.get("output"), document);
+    } else {
+        write_standard_error(said);
+        if (writes) write_result(options, document);
+    }
+    return code_of(report.verdict);
+}
+
 /// "ph" of each coordinate that is proved to be cyclic.
 std::vector<std::string> cyclic_names(const StructureReport& report)
 {
@@ -175,7 +238,11 @@ ExitCode run_reduce(Arguments arguments)
     if (options.has("output")) require_writable(options.get("output"));
     const std::string path = model_path(options.positional()[0]);
     const auto file = std::make_shared<const SourceFile>(SourceFile{path, read_file(path)});
-    if (is_morphism(file)) return reduce_morphism(options, read_morphism(file, options.settings()));
+    if (is_morphism(file)) {
+        if (options.has("routh")) throw UsageError("lagen reduce: --routh takes a model, and this is a morphism");
+        return reduce_morphism(options, read_morphism(file, options.settings()));
+    }
+    if (options.has("routh")) return reduce_by_routh(options, path);
     return list_cyclic(options, path);
 }
 

@@ -125,8 +125,9 @@ const Arrows& planned_folder_arrows()
         {"commands/plot", {"commands/scene"}},
         {"commands/chart", {"commands/scene"}},
         {"commands/morphism", {"commands/scene"}},
+        {"commands/reduce", {}},
         {"commands/sweep", {"commands/scene"}},
-        {"commands", {"commands/plot", "commands/chart", "commands/morphism", "commands/sweep"}},
+        {"commands", {"commands/plot", "commands/chart", "commands/morphism", "commands/reduce", "commands/sweep"}},
     };
     return arrows;
 }

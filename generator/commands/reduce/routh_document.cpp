@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/reduce/routh_document.hpp"
+
+#include "diagnostic.hpp"
+#include "equations/rewrite_tree.hpp"
+#include "model/print_toml.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace lagen {
+
+namespace {
+
+class RouthDocument {
+  public:
+    RouthDocument(const Model& model, const std::vector<std::size_t>& cyclic, const RouthianText& text)
+        : model_(model), cyclic_(cyclic), text_(text), document_(parse_toml(model.file))
+    {
+    }
+
+    std::string write(const std::vector<Setting>& settings)
+    {
+        TomlValue& parameters = entry_in(document_, "parameters");
+        for (const Setting& setting : settings)
+            if (setting.gives_value()) entry_in(parameters, setting.name) = toml_string(setting.value.text);
+        for (const std::size_t k : cyclic_) // until a scene says otherwise
+            entry_in(parameters, momentum(k)) = toml_string("0");
+        rename();
+        drop_coordinates();
+        add_velocities();
+        entry_in(entry_in(document_, "lagrangian"), "L") = toml_string(to_text(text_.value));
+        drop_claims();
+        for (const Scene& scene : model_.scenes) move_start(scene);
+        return fmt::format(
+                   "# Routh's reduction of {} by {}: R = L - p_k y^k at p_k = dL/dy^k. The velocities of the cyclic\n"
+                   "# coordinates are definitions, their momenta parameters, they themselves states that run\n"
+                   "# where they are observed.\n{}\n",
+                   std::filesystem::path(model_.file->name).filename().string(), comma_list_of_coordinates(),
+                   dropped_.empty() ? "" : fmt::format("# Left out: {}.\n", fmt::join(dropped_, ", "))) +
+               in_order();
+    }
+
+  private:
+    [[nodiscard]] const std::string& coordinate(std::size_t k) const { return model_.base.coordinates[k].name; }
+    [[nodiscard]] const std::string& velocity(std::size_t k) const { return model_.fibre.coordinates[k].name; }
+    [[nodiscard]] const std::string& momentum(std::size_t k) const { return model_.fibre.momenta[k].name; }
+    [[nodiscard]] bool is_cyclic(std::size_t k) const { return std::ranges::find(cyclic_, k) != cyclic_.end(); }
+
+    [[nodiscard]] std::string comma_list_of_coordinates() const
+    {
+        std::vector<std::string> names;
+        for (const std::size_t k : cyclic_) names.push_back(coordinate(k));
+        return fmt::format("{}", fmt::join(names, ", "));
+    }
+
+    void rename()
+    {
+        std::erase_if(document_.entries, [](const TomlEntry& entry) { return entry.name() == "name"; });
+        entry_in(document_, "title") = toml_string((model_.title.empty() ? model_.name : model_.title) +
+                                                   ", reduced by " + comma_list_of_coordinates());
+    }
+
+    /// The texts of a list of names, one for each coordinate, without the cyclic ones.
+    void drop_from(TomlValue& table, const char* key, const std::vector<Symbol>& symbols)
+    {
+        const auto entry = std::ranges::find(table.entries, key, &TomlEntry::name);
+        if (entry == table.entries.end()) return;
+        std::vector<TomlValue>& items = entry->value.items;
+        const bool plain = items.size() == symbols.size() &&
+                           std::ranges::equal(
+                               items, symbols, {}, [](const TomlValue& v) { return v.text.text; }, &Symbol::name);
+        if (!plain)
+            throw MathematicsError(
+                fmt::format("the {} of model '{}' are written as a family, and one of them cannot be taken "
+                            "out",
+                            key, model_.name),
+                "write them one by one");
+        std::vector<TomlValue> left;
+        for (std::size_t k = 0; k < items.size(); ++k)
+            if (!is_cyclic(k)) left.push_back(items[k]);
+        items = std::move(left);
+    }
+
+    void drop_coordinates()
+    {
+        drop_from(entry_in(document_, "base"), "coordinates", model_.base.coordinates);
+        TomlValue& fibre = entry_in(document_, "fibre");
+        drop_from(fibre, "coordinates", model_.fibre.coordinates);
+        drop_from(fibre, "momenta", model_.fibre.momenta);
+        std::vector<Symbol> rest, momenta;
+        for (std::size_t k = 0; k < model_.fibre.coordinates.size(); ++k)
+            if (!is_cyclic(k)) rest.push_back(model_.fibre.coordinates[k]), momenta.push_back(model_.fibre.momenta[k]);
+        for (const auto& [key, names] : {std::pair("coordinates", rest), {"momenta", momenta}}) {
+            TomlValue& list = entry_in(fibre, key);
+            list.kind = TomlKind::array;
+            list.items.clear();
+            for (const Symbol& each : names) list.items.push_back(toml_string(each.name));
+        }
+        for (const char* block : {"forces"})
+            for (const std::size_t k : cyclic_) erase(block, {velocity(k), momentum(k)});
+    }
+
+    void erase(const char* block, const std::vector<std::string>& keys)
+    {
+        const auto entry = std::ranges::find(document_.entries, block, &TomlEntry::name);
+        if (entry == document_.entries.end()) return;
+        std::erase_if(entry->value.entries,
+                      [&](const TomlEntry& each) { return std::ranges::find(keys, each.name()) != keys.end(); });
+    }
+
+    void add_velocities()
+    {
+        TomlValue& definitions = entry_in(document_, "definitions");
+        for (std::size_t j = 0; j < cyclic_.size(); ++j)
+            entry_in(definitions, velocity(cyclic_[j])) = toml_string(to_text(text_.velocities[j]));
+        TomlValue& states = entry_in(document_, "states");
+        for (const std::size_t k : cyclic_) entry_in(states, coordinate(k)) = toml_string(velocity(k));
+    }
+
+    /// What is about the whole model alone, and claims that rest on the coordinates.
+    void drop_claims()
+    {
+        for (const char* block : {"symmetries", "forms", "hamilton_jacobi"})
+            if (std::erase_if(document_.entries, [&](const TomlEntry& entry) { return entry.name() == block; }) > 0)
+                dropped_.push_back(fmt::format("[{}]", block));
+        const auto rests_on = [&](const NamedTree& claim) {
+            const std::vector<std::string> names = names_in(claim.value);
+            return std::ranges::any_of(
+                cyclic_, [&](std::size_t k) { return std::ranges::find(names, coordinate(k)) != names.end(); });
+        };
+        for (const NamedTree& claim : model_.invariants)
+            if (rests_on(claim)) {
+                erase("invariants", {claim.name});
+                dropped_.push_back(fmt::format("the invariant {}", claim.name));
+            }
+    }
+
+    /// The momenta of the start as parameters, in place of velocities or momenta there.
+    void move_start(const Scene& scene)
+    {
+        TomlValue& table = entry_in(entry_in(document_, "scene"), scene.name);
+        const bool first = &scene == &model_.scenes.front() || scene.name == "default";
+        for (std::size_t j = 0; j < cyclic_.size(); ++j) {
+            const std::size_t k = cyclic_[j];
+            const Tree value = start_of(scene, k, text_.momenta[j]);
+            const auto initial = std::ranges::find(table.entries, "initial", &TomlEntry::name);
+            if (initial != table.entries.end())
+                std::erase_if(initial->value.entries, [&](const TomlEntry& each) {
+                    return each.name() == velocity(k) || each.name() == momentum(k);
+                });
+            if (value == nullptr) continue;
+            if (first) entry_in(entry_in(document_, "parameters"), momentum(k)) = toml_string(to_text(value));
+            entry_in(entry_in(table, "parameters"), momentum(k)) = toml_string(to_text(value));
+        }
+    }
+
+    /// p_k at the start, over the parameters; null where the scene does not say.
+    [[nodiscard]] Tree start_of(const Scene& scene, std::size_t k, const Tree& p) const
+    {
+        std::map<std::string, Tree> values;
+        for (const NamedTree& each : scene.initial) values[each.name] = each.value;
+        if (const auto given = values.find(momentum(k)); given != values.end()) return given->second;
+        if (scene.start != nullptr) values["t"] = scene.start;
+        bool known = true;
+        const std::vector<std::string> needed = names_in(p);
+        for (const auto* symbols : {&model_.base.coordinates, &model_.fibre.coordinates})
+            for (const Symbol& each : *symbols) {
+                if (values.contains(each.name)) continue;
+                if (symbols == &model_.fibre.coordinates && scene.rest)
+                    values[each.name] = number(0);
+                else
+                    known = known && std::ranges::find(needed, each.name) == needed.end();
+            }
+        if (!known) return nullptr;
+        return rewrite_tree(p, [&](const Tree& node) -> Tree {
+            if (node->kind != TreeKind::name) return nullptr;
+            const auto found = values.find(node->name);
+            return found == values.end() ? nullptr : found->second;
+        });
+    }
+
+    /// Tables where a person puts them: what was made stands at the end.
+    [[nodiscard]] std::string in_order()
+    {
+        static const std::vector<std::string> order{"parameters",  "sizes",      "base",   "fibre",       "algebroid",
+                                                    "definitions", "lagrangian", "forces", "dissipation", "states"};
+        const auto place = [&](const TomlEntry& entry) {
+            if (entry.value.kind != TomlKind::table) return std::size_t{0};
+            const auto found = std::ranges::find(order, entry.name());
+            return entry.name() == "scene" ? order.size() + 2 : static_cast<std::size_t>(found - order.begin()) + 1;
+        };
+        std::ranges::stable_sort(document_.entries, {}, place);
+        std::erase_if(document_.entries, [](const TomlEntry& entry) {
+            return entry.value.kind == TomlKind::table && entry.value.entries.empty();
+        });
+        return print_toml(document_);
+    }
+
+    const Model& model_;
+    const std::vector<std::size_t>& cyclic_;
+    const RouthianText& text_;
+    TomlValue document_;
+    std::vector<std::string> dropped_;
+};
+
+} // namespace
+
+std::vector<std::size_t> coordinates_to_reduce(const Model& model, const std::vector<std::string>& names)
+{
+    const auto& over = model.algebroid.over;
+    if (!model.lagrangian || model.algebroid.kind != AlgebroidKind::tangent ||
+        over.size() != model.base.coordinates.size() || !std::ranges::is_sorted(over) || model.groupoid ||
+        model.control)
+        throw MathematicsError(
+            fmt::format("Routh's reduction takes a Lagrangian on a tangent bundle, and model '{}' is "
+                        "something else",
+                        model.name),
+            "morphisms of algebroids reduce other models: lagen reduce MORPHISM");
+    std::vector<std::size_t> cyclic;
+    for (const std::string& name : names) {
+        const auto found = std::ranges::find(model.base.coordinates, name, &Symbol::name);
+        if (found == model.base.coordinates.end())
+            throw UsageError(
+                fmt::format("lagen reduce: '{}' of --routh is no coordinate of model '{}'", name, model.name));
+        const auto k = static_cast<std::size_t>(found - model.base.coordinates.begin());
+        if (std::ranges::find(cyclic, k) == cyclic.end()) cyclic.push_back(k);
+    }
+    std::ranges::sort(cyclic);
+    for (const Tree& condition : model.base.domain) {
+        const std::vector<std::string> used = names_in(condition);
+        for (const std::size_t k : cyclic)
+            if (const std::string& name = model.base.coordinates[k].name; std::ranges::find(used, name) != used.end())
+                throw MathematicsError(fmt::format("the domain of model '{}' has the coordinate '{}', which would be "
+                                                   "reduced",
+                                                   model.name, name),
+                                       "a symmetry of the motions is none of the domain: leave the condition out");
+    }
+    if (cyclic.size() == model.base.coordinates.size())
+        throw MathematicsError(
+            fmt::format("every coordinate of model '{}' would be reduced: nothing is left to move", model.name),
+            "leave one out; with all momenta known the coordinates are quadratures of Hamilton's form");
+    return cyclic;
+}
+
+std::string routh_document(const Model& model, const std::vector<Setting>& settings,
+                           const std::vector<std::size_t>& cyclic, const RouthianText& text)
+{
+    return RouthDocument(model, cyclic, text).write(settings);
+}
+
+} // namespace lagen

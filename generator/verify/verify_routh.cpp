@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "verify/verify_routh.hpp"
+
+#include "graph/calculus/differentiate.hpp"
+#include "graph/calculus/transplant.hpp"
+#include "verify/cyclic.hpp"
+#include "verify/judge.hpp"
+#include "verify/proof_setting.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace lagen {
+
+namespace {
+
+/// The Lagrangian of `from` over the inputs of the same names of `graph`.
+NodeId moved_lagrangian(Graph& graph, const System& from)
+{
+    std::map<NodeId, NodeId> inputs;
+    for (const auto* nodes : {&from.parameters, &from.algebroid.x, &from.algebroid.y})
+        for (const NodeId node : *nodes) inputs[node] = graph.input(from.graph.input_name(node));
+    inputs[from.time] = graph.input(from.graph.input_name(from.time));
+    const NodeId only[] = {*from.lagrangian};
+    return transplant(graph, from.graph, only, inputs)[0];
+}
+
+} // namespace
+
+StructureReport verify_routh(Graph& graph, const System& system, const Routhian& routhian, const System& reduced,
+                             const ProofBudget& budget)
+{
+    StructureReport report;
+    const auto name_of = [&](NodeId node) { return graph.input_name(node); };
+    for (const Check& check : cyclic_coordinates(system, budget).checks)
+        for (const std::size_t k : routhian.cyclic)
+            if (check.indices[0] == name_of(system.algebroid.x[k])) report.checks.push_back(check);
+
+    std::vector<NodeId> ydot;
+    std::vector<std::size_t> rest;
+    for (std::size_t a = 0; a < system.r(); ++a) {
+        ydot.push_back(graph.input(fmt::format("rate of {}", name_of(system.algebroid.y[a]))));
+        if (std::ranges::find(routhian.cyclic, a) == routhian.cyclic.end()) rest.push_back(a);
+    }
+    ProofSetting setting = proof_setting(graph, system);
+    std::vector<NodeId> variables = system.mu;
+    variables.insert(variables.end(), ydot.begin(), ydot.end());
+    for (const NodeId node : variables)
+        if (std::ranges::find(setting.variables, node) == setting.variables.end()) setting.variables.push_back(node);
+    setting.defined.insert(setting.defined.end(), routhian.velocities.begin(), routhian.velocities.end());
+    std::set<std::string> accessory = accessory_inputs(system);
+    for (const NodeId node : ydot) accessory.insert(name_of(node));
+    Judge judge(graph, setting, std::move(accessory), 0, budget);
+    const auto append = [&](const char* name, NodeId about, NodeId residual) {
+        report.checks.push_back({name, {name_of(about)}, judge.decide(residual), {}, {}});
+    };
+
+    // On the level set: velocities Theta, and the accelerations that follow from them.
+    std::vector<NodeId> y;
+    for (const std::size_t k : routhian.cyclic) y.push_back(system.algebroid.y[k]);
+    std::vector<std::pair<NodeId, NodeId>> along{{system.time, graph.constant(1)}};
+    const Replacements level = replacements(y, routhian.velocities);
+    for (std::size_t i = 0; i < system.n(); ++i) {
+        const auto k = std::ranges::find(routhian.cyclic, i);
+        along.emplace_back(system.algebroid.x[i],
+                           k == routhian.cyclic.end()
+                               ? system.algebroid.y[i]
+                               : routhian.velocities[static_cast<std::size_t>(k - routhian.cyclic.begin())]);
+    }
+    for (const std::size_t a : rest) along.emplace_back(system.algebroid.y[a], ydot[a]);
+    const std::vector<NodeId> rates = directional(graph, routhian.velocities, along);
+    Replacements on_level = level;
+    for (std::size_t k = 0; k < y.size(); ++k) on_level.emplace_back(ydot[routhian.cyclic[k]], rates[k]);
+
+    const std::vector<NodeId> forces = system.forces_or_zero(graph);
+    const std::vector<NodeId> momenta = substitute(graph, gradient(graph, *system.lagrangian, y), level);
+    for (std::size_t k = 0; k < y.size(); ++k) {
+        const NodeId p = system.mu[routhian.cyclic[k]];
+        append("conserved", p, forces[routhian.cyclic[k]]);
+        append("momentum", p, graph.subtract(momenta[k], p));
+    }
+    const std::vector<NodeId> whole =
+        substitute(graph, euler_lagrange(graph, system, *system.lagrangian, rest, ydot), on_level);
+    const std::vector<NodeId> ours = euler_lagrange(graph, system, moved_lagrangian(graph, reduced), rest, ydot);
+    for (std::size_t j = 0; j < rest.size(); ++j)
+        append("routh", system.algebroid.y[rest[j]], graph.subtract(whole[j], ours[j]));
+    report.verdict = verdict_of(report);
+    return report;
+}
+
+} // namespace lagen

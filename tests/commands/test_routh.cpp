@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// `lagen reduce --routh`: the file that it writes, its motions beside those of the whole model, and what is refused.
+#include "program.hpp"
+
+#include "support/golden.hpp"
+#include "support/json.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+using namespace lagen::testing;
+namespace json = lagen::json;
+
+namespace {
+
+const std::string angles_of_top = R"toml([parameters]
+I1 = 1.5
+I3 = 0.9
+mgl = 2.2
+[base]
+coordinates = ["ph", "th", "ps"]
+domain = ["I1 > 0", "I3 > 0", "sin(th) > 0"]
+[fibre]
+coordinates = ["dph", "w", "dps"]
+[algebroid]
+kind = "tangent"
+[lagrangian]
+L = "I1*(w^2 + sin(th)^2*dph^2)/2 + I3*(dps + cos(th)*dph)^2/2 - mgl*cos(th)"
+[invariants]
+spin = "I3*(dps + cos(th)*dph)"
+[scene.default]
+initial = { ph = 0.2, th = 0.9, ps = 0, w = -0.2, dph = 0.7, dps = 3 }
+duration = 8
+observe = ["th", "ph", "ps", "w"]
+[scene.momenta]
+initial = { th = 0.9, ph = 0, ps = 0, p_w = 0.3, p_dph = 2.1, p_dps = 2.4 }
+duration = 1
+observe = ["th"]
+)toml";
+
+/// The names of the checks of a report, with those that are not proved marked by "!".
+std::vector<std::string> checks_of(const json::Value& report)
+{
+    std::vector<std::string> lines;
+    for (const json::Value& check : report["checks"].entries)
+        lines.push_back((check["status"].text == "proved" ? "" : "!") + check["name"].text + " " +
+                        check["indices"][0].text);
+    return lines;
+}
+
+std::string model_file(const std::string& name, const std::string& text)
+{
+    const std::string path = fresh_folder() + "/" + name;
+    write_text(path, text);
+    return path;
+}
+
+} // namespace
+
+TEST_CASE("the symmetric top is reduced by both of its angles, and every step of it is proved")
+{
+    const std::string whole = model_file("top.toml", angles_of_top), reduced = fresh_folder() + "/reduced.toml";
+    const Outcome outcome = call({"reduce", whole, "--routh", "ph,ps", "--format", "json", "-o", reduced});
+    CHECK(outcome.code == 0);
+    const json::Value report = json::parse(outcome.out);
+    CHECK(report["verdict"].text == "valid");
+    CHECK(checks_of(report) == std::vector<std::string>{"cyclic ph", "cyclic ps", "conserved p_dph", "momentum p_dph",
+                                                        "conserved p_dps", "momentum p_dps", "routh w"});
+    CHECK(report["routhian"].text == "I1*w^2/2 - p_dph^2/(2*I1*sin(th)^2) + p_dph*p_dps*cos(th)/(I1*sin(th)^2) - "
+                                     "p_dps^2*cos(th)^2/(2*I1*sin(th)^2) - p_dps^2/(2*I3) - mgl*cos(th)");
+    CHECK(report["file"].text == read_text(reduced));
+    CHECK(call({"check", reduced}).out.find("reduced: valid\n") == 0);
+    CHECK(call({"reduce", whole, "--routh", "ps, ph"}).out == read_text(reduced));
+}
+
+TEST_CASE("gyroscopic terms of a Routhian are there, and the file is one of a whole model's motions")
+{
+    const std::string coupled = model_file("coupled.toml", R"toml([base]
+coordinates = ["x", "y", "z"]
+[fibre]
+coordinates = ["u", "v", "w"]
+[algebroid]
+kind = "tangent"
+[lagrangian]
+L = "(u^2 + v^2 + (w + y*u - x*v)^2)/2 - (x^2 + 2*y^2)/2"
+[dissipation]
+R = "u^2/10"
+)toml");
+    const Outcome outcome = call({"reduce", coupled, "--routh", "z"});
+    CHECK(outcome.code == 0);
+    CHECK(outcome.out.find("\nL = \"y*u*p_w + u^2/2 + v^2/2 - x^2/2 - x*v*p_w - y^2 - p_w^2/2\"\n") !=
+          std::string::npos);
+    CHECK(outcome.out.find("\n[states]\nz = \"w\"\n") != std::string::npos);
+}
+
+TEST_CASE("a momentum that a force changes is no constant, and nothing is written")
+{
+    const std::string pushed =
+        model_file("pushed.toml", "[base]\ncoordinates = [\"x\", \"y\"]\n[fibre]\ncoordinates = "
+                                  "[\"u\", \"v\"]\n[algebroid]\nkind = \"tangent\"\n[lagrangian]\n"
+                                  "L = \"(u^2 + v^2)/2\"\n[forces]\nu = \"-v\"\n");
+    const Outcome outcome = call({"reduce", pushed, "--routh", "x"});
+    CHECK(outcome.code == 1);
+    CHECK(outcome.out.empty());
+    CHECK(outcome.err.find("refuted: conserved (p_u)") != std::string::npos);
+}
+
+TEST_CASE("reduced runs end where those of the whole model do, angles included", "[run]")
+{
+    for (const auto& [model, angles] : {std::pair(model_file("top.toml", angles_of_top), "ph,ps"),
+                                        {models_folder() + "/spherical_pendulum.toml", "ph"}}) {
+        const std::string reduced = fresh_folder() + "/reduced.toml";
+        REQUIRE(call({"reduce", model, "--routh", angles, "-o", reduced}).code == 0);
+        std::vector<json::Value> ends;
+        for (const std::string& path : {model, reduced}) {
+            const Outcome outcome = call({"run", path, "--tolerance", "1e-13", "--format", "json"});
+            INFO(outcome.err);
+            REQUIRE(outcome.code == 0);
+            ends.push_back(json::parse(outcome.out));
+        }
+        std::size_t compared = 0;
+        for (std::size_t k = 1; k < ends[0]["columns"].size(); ++k)
+            for (std::size_t j = 1; j < ends[1]["columns"].size(); ++j) {
+                if (ends[0]["columns"][k].text != ends[1]["columns"][j].text) continue;
+                const double a = std::stod(ends[0]["rows"].entries.back()[k].text);
+                CHECK(std::abs(a - std::stod(ends[1]["rows"].entries.back()[j].text)) <
+                      1e-11 * std::max(1.0, std::abs(a)));
+                ++compared;
+            }
+        CHECK(compared >= 3);
+    }
+}
+
+TEST_CASE("a scene that starts from momenta gives them to the parameters")
+{
+    const Outcome outcome = call({"reduce", model_file("top.toml", angles_of_top), "--routh", "ph,ps"});
+    CHECK(
+        outcome.out.find("[scene.momenta]\ninitial = { th = 0.9, ph = 0, ps = 0, p_w = 0.3 }\nduration = 1\nobserve = "
+                         "[\"th\"]\nparameters = { p_dph = \"2.1\", p_dps = \"2.4\" }\n") != std::string::npos);
+}
