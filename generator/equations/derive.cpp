@@ -5,6 +5,7 @@
 #include "equations/discrete.hpp"
 #include "equations/exterior.hpp"
 #include "equations/hamilton.hpp"
+#include "equations/invariants.hpp"
 #include "equations/lagrange.hpp"
 #include "equations/lagrangian_cartan.hpp"
 #include "equations/nonholonomic.hpp"
@@ -18,7 +19,7 @@ namespace lagen {
 std::vector<std::string> derivation_names()
 {
     std::vector<std::string> names = form_names();
-    for (const char* more : {"exterior", "cartan", "poisson", "reaction", "projected"}) names.emplace_back(more);
+    for (const char* more : {"exterior", "cartan", "poisson", "invariants", "reaction", "projected"}) names.emplace_back(more);
     return names;
 }
 
@@ -46,6 +47,7 @@ EquationSet derive(const std::string& form, const Model& model, const System& sy
                                "[algebroid] kind = \"nonholonomic\"");
     if (form == "exterior") return derive_exterior(model, system);
     if (form == "poisson") return derive_poisson(model, system, report.mechanics.regularity, brackets);
+    if (form == "invariants") return derive_invariants(model, system, report.mechanics.regularity);
     if (form == "cartan") {
         const bool discrete = system.discrete && (system.discrete->written || !system.lagrangian);
         return discrete ? derive_cartan(model, system)

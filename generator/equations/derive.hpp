@@ -8,7 +8,7 @@
 
 namespace lagen {
 
-/// What `derive` can print: form_names(), "exterior", "cartan", "poisson", and "reaction" and "projected" of
+/// What `derive` can print: form_names(), "exterior", "cartan", "poisson", "invariants", and "reaction" and "projected" of
 /// nonholonomic models.
 [[nodiscard]] std::vector<std::string> derivation_names();
 

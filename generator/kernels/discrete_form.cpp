@@ -11,6 +11,7 @@
 #include "groupoid/generator_span.hpp"
 #include "kernels/formulation.hpp"
 #include "mechanics/discrete.hpp"
+#include "mechanics/hamilton.hpp"
 
 #include <fmt/format.h>
 
@@ -370,7 +371,12 @@ Formulation discrete_form(Graph& graph, const Model& model, const System& system
                                system.discrete->hint.empty() ? "write it out: [discrete] L = \"..\""
                                                              : system.discrete->hint);
     require_regular(system, report.mechanics.discrete);
-    return DiscreteForm(graph, model, system, request).build();
+    Formulation form = DiscreteForm(graph, model, system, request).build();
+    const Regularity& regularity = report.mechanics.regularity;
+    if (system.lagrangian && regularity.kind == Regularity::Kind::regular)
+        if (const auto H = closed_hamiltonian(graph, system, regularity.newton_start))
+            form.kernels.push_back(scalar_kernel(form, "hamiltonian", H->value));
+    return form;
 }
 
 } // namespace lagen

@@ -80,6 +80,7 @@ constexpr std::array kernel_rows{
     KernelRow{"momentum", discrete, column_of_values, "F^-L(g)_a = (->e_a L)(g), shape ({0})."},
     KernelRow{"energy", discrete, number, "E = -dL/dh."},
     KernelRow{"lagrangian", discrete, number, "L(g)."},
+    KernelRow{"hamiltonian", discrete, number, "H(t, x, mu), the Legendre transform of [lagrangian].", true},
     KernelRow{"algebra_element", mechanical, column_of_values_checked,
               "The element xi(t, s) of the Lie algebra by which a group moves lanes of the state, s' = A(xi) s; shape "
               "({0})."},

@@ -33,7 +33,8 @@ void require_scheme(const std::string& text, const SourceRange& where)
     const std::string name = text.substr(0, colon), stages = text.substr(std::min(colon + 1, text.size()));
     std::vector<std::string> known;
     for (const SchemeRow& row : scheme_rows) {
-        known.push_back(row.most == 0 ? row.name : fmt::format("{}:{}", row.name, row.least));
+        if (row.most == 0) known.emplace_back(row.name);
+        for (long s = row.least; row.most > 0 && s <= row.most; ++s) known.push_back(fmt::format("{}:{}", row.name, s));
         if (name != row.name) continue;
         if (row.most == 0 && colon == text.size()) return;
         const bool digit = stages.size() == 1 && stages[0] >= '0' && stages[0] <= '9';

@@ -55,6 +55,9 @@ TEST_CASE("a composition on an action groupoid keeps momenta and Casimirs, and i
     CHECK(std::abs(std::stold(found["invariants"]["momentum.vertical"]["initial"].text)) > 0.1L);
     CHECK(std::stold(found["invariants"]["momentum.vertical"]["max_drift"].text) < 1e-13L);
     CHECK_FALSE(found["invariants"].has("energy"));
+    CHECK(std::stold(found["invariants"]["hamiltonian"]["initial"].text) ==
+          Approx(0.5 * (1.2 * 0.16 + 2.1 * 0.81 + 2.9 * 0.09) + 1.7 * (0.48 * 0.6 + 0.64 * 0.8)).epsilon(1e-12));
+    CHECK(std::stold(found["invariants"]["hamiltonian"]["max_drift"].text) < 1e-5L);
     REQUIRE(found["rows"].size() == 101);
     const auto number = [&](std::size_t row, std::size_t column) {
         return std::stold(found["rows"][row][column].text);
@@ -85,4 +88,28 @@ TEST_CASE("compositions have their orders on pairs, on an action groupoid and on
     require_all(top, "trapezoidal", "", finer);
     require_all(charged, "trapezoidal", "exp", finer);
     require_all(driven, "trapezoidal", "exp", finer);
+}
+
+TEST_CASE("compositions of Verlet's steps keep Kepler's angular momentum to rounding and his energy by their orders",
+          "[all]")
+{
+    constexpr SchemeModel kepler{"kepler", R"toml(
+[base]
+coordinates = ["x", "y"]
+[fibre]
+coordinates = ["u", "v"]
+[algebroid]
+kind = "tangent"
+[lagrangian]
+L = "(u^2 + v^2)/2 + 1/sqrt(x^2 + y^2)"
+[invariants]
+spin = "x*p_v - y*p_u"
+)toml",
+                                 "{ x = 0.4, y = 0, u = 0, v = 2 }"};
+    const std::string path = scheme_file(kepler, "trapezoidal", "");
+    for (const auto& [method, bound] : {std::pair("discrete4", 1e-6L), {"discrete6", 1e-8L}, {"discrete8", 1e-12L}}) {
+        const json::Value found = ran({path, "--method", method, "--step", "0.02", "--t-end", "20"});
+        CHECK(std::stold(found["invariants"]["hamiltonian"]["max_drift"].text) < bound);
+        CHECK(std::stold(found["invariants"]["spin"]["max_drift"].text) < 1e-13L);
+    }
 }

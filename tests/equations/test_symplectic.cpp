@@ -3,6 +3,7 @@
 /// every kind, and what is refuted where the bracket is none.
 #include "emit/print_equations.hpp"
 #include "equations/derive.hpp"
+#include "expression/parse.hpp"
 #include "graph/core/evaluate.hpp"
 #include "mechanics/symplectic.hpp"
 #include "model/read_model.hpp"

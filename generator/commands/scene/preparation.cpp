@@ -172,7 +172,10 @@ SceneText scene_text(const CheckedModel& checked, const Scene& scene, const std:
     request.scene = &scene;
     request.flows = method.kind == MethodKind::splitting;
     if (is_symmetric_splitting(method)) request.time_scale = scene.time_scale;
-    if (method.composes) request.without = {"energy", "lagrangian"}; // of the product of arrows they tell nothing
+    if (method.composes) { // of the product of arrows -dL/dh and L tell nothing
+        request.without = {"energy", "lagrangian"};
+        request.with = {"hamiltonian"};
+    }
     const bool takes_series = method.kind == MethodKind::series;
     if (takes_series) request.with = {"taylor"};
     if (takes_series && !scene.events.empty()) request.with.emplace_back("event_series");

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Invariants that are found without help: of which motions which ones, and that nothing that is none is among them.
+#include "emit/print_equations.hpp"
+#include "equations/derive.hpp"
+#include "model/read_model.hpp"
+#include "support/stages.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <sstream>
+
+using namespace lagen;
+using Lines = std::vector<std::string>;
+
+namespace {
+
+Lines found_in(const Model& model)
+{
+    const System system = elaborate(model);
+    std::istringstream text(print_text(derive("invariants", model, system, verify(model))));
+    Lines lines;
+    for (std::string line; std::getline(text, line);) {
+        const std::size_t first = line.find_first_not_of(' ');
+        if (first == std::string::npos) continue;
+        if (line[first] == 'F' && line.find(" = ") != std::string::npos) lines.push_back(line.substr(first));
+        if (line.find("values of the file") != std::string::npos) lines.push_back("for the file");
+    }
+    return lines;
+}
+
+Lines found(const std::string& model)
+{
+    return found_in(read_model(LAGEN_SOURCE_DIR "/models/" + model + ".toml"));
+}
+
+Lines found_of_text(const std::string& text)
+{
+    return found_in(read_model_text("test.toml", text));
+}
+
+} // namespace
+
+TEST_CASE("momenta, areas and Casimirs of bodies and tops are found, free of parameters")
+{
+    CHECK(found("rigid_body") == Lines{"F1 = Pi1² + Pi2² + Pi3²"});
+    CHECK(found("lagrange_top") == Lines{"F1 = p_w3", "F2 = g1 p_w1 + g2 p_w2 + g3 p_w3"});
+    CHECK(found("heavy_top") == Lines{"F1 = g1 p_w1 + g2 p_w2 + g3 p_w3"});
+    CHECK(found("kirchhoff") == Lines{"F1 = p_w1 p_v1 + p_w2 p_v2 + p_w3 p_v3", "F2 = p_v1² + p_v2² + p_v3²"});
+    CHECK(found("wong") == Lines{"F1 = p_q1² + p_q2² + p_q3²"});
+    CHECK(found("spherical_pendulum") == Lines{"F1 = p_v"});
+}
+
+TEST_CASE("Laplace's vector of Kepler's problem is found beside the angular momentum")
+{
+    CHECK(found("kepler") == Lines{"F1 = x p_v - y p_u", "F2 = k y/√(x² + y²) + x p_u p_v - y p_u²",
+                                   "F3 = x p_v² - k x/√(x² + y²) - y p_u p_v"});
+}
+
+TEST_CASE("a chaotic system has none beside H, and what holds for the values of the file alone says so")
+{
+    CHECK(found("henon_heiles").empty());
+    const auto springs = [](const char* b) {
+        return std::string("[parameters]\na = 2\nb = ") + b +
+               "\n[base]\ncoordinates = [\"x\", \"y\"]\n[fibre]\ncoordinates = [\"u\", \"v\"]\n[algebroid]\nkind = "
+               "\"tangent\"\n[lagrangian]\nL = \"(u^2 + v^2)/2 - (a*x^2 + b*y^2)/2\"\n";
+    };
+    // Two oscillators keep their energies; with one stiffness they keep what turns one into the other besides.
+    CHECK(found_of_text(springs("5")) == Lines{"F1 = 2 x² + p_u²", "for the file"});
+    CHECK(found_of_text(springs("2")) == Lines{"F1 = x p_v - y p_u", "F2 = 2 x² + p_u²", "F3 = 2 x y + p_u p_v",
+                                               "for the file", "for the file", "for the file"});
+}
+
+TEST_CASE("without a Hamiltonian in closed form, with forces or explicit time none are sought")
+{
+    const std::string line =
+        "[base]\ncoordinates = [\"x\"]\n[fibre]\ncoordinates = [\"v\"]\n[algebroid]\nkind = \"tangent\"\n";
+    for (const char* rest : {"[lagrangian]\nL = \"v^2/2\"\n[forces]\nv = \"-v\"\n",
+                             "[lagrangian]\nL = \"v^2/2 - t*x\"\n", "[lagrangian]\nL = \"x*v\"\n"})
+        CHECK_THROWS_AS(found_of_text(line + rest), MathematicsError);
+}
