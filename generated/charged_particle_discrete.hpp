@@ -9,7 +9,7 @@
 /// Operations (with shared terms computed once; "written out" without sharing):
 ///   kernel            + -      *      /  functions  solves  written out
 ///   step                0      0      0          0       0            0
-///   forward            30     50      3          0       0          158
+///   forward            28     48      2          0       0          142
 ///   arrow_equation    117    216      2          0       0        17151
 ///   cayley_step         9     15      1          0       0          211
 ///   cayley_coordinates      3      3      1          0       0            7
@@ -164,22 +164,21 @@ class charged_particle_discrete_discrete {
         const auto [b0, b1, b2, k, h] = parameters;
         const S w2 = S(3) * b0;
         const S w3 = S(2) * b2;
-        const S w4 = S(1) + W_1_1_less_one;
-        const S w5 = W_1_2 * W_2_1;
-        const S w6 = (W_1_2 * W_1_2 + w4 * w4) / (w5 - w4 * (S(1) + W_2_2_less_one));
-        const S w7 = S(2) * x_ + x_next_less_x;
-        const S w8 = b1 * w7;
-        const S w9 = S(2) * y + y_next_less_y;
-        const S w10 = b2 * (w9 * w9);
-        const S w11 = S(2) * b0;
-        const S w12 = S(96) * W_1_2 / ((S(2) + W_1_1_less_one) * (S(2) + W_2_2_less_one) - w5) + x_next_less_x * w9 *
-                (S(6) * b0 + w10) - S(3) * w7 * (w11 + w8) * y_next_less_y;
-        const S w13 = w12 / (h * h);
-        mu[0] = p_u - S(1) / S(6) * p_q * (y * (w2 + w3 * (y * y)) + w1 * (w2 + w3 * (w1 * w1)) * w6) - S(1) / S(48) * h
-                * (S(24) * k * w7 + (b0 + w8) * y_next_less_y * w13);
-        mu[1] = p_v + S(0.5) * p_q * (x_ * (b0 + b1 * x_) + w0 * (b0 + b1 * w0) * w6) + S(1) / S(96) * h *
-                (x_next_less_x * (w11 + w10) * w13 - S(48) * k * w9);
-        mu[2] = -p_q * w6;
+        const S w4 = W_1_2 * W_2_1;
+        const S w5 = (S(1) + W_1_1_less_one) * (S(1) + W_2_2_less_one) - w4;
+        const S w6 = S(2) * x_ + x_next_less_x;
+        const S w7 = b1 * w6;
+        const S w8 = S(2) * y + y_next_less_y;
+        const S w9 = b2 * (w8 * w8);
+        const S w10 = S(2) * b0;
+        const S w11 = S(96) * W_1_2 / ((S(2) + W_1_1_less_one) * (S(2) + W_2_2_less_one) - w4) + x_next_less_x * w8 *
+                (S(6) * b0 + w9) - S(3) * w6 * (w10 + w7) * y_next_less_y;
+        const S w12 = w11 / (h * h);
+        mu[0] = p_u + S(1) / S(6) * p_q * (w1 * (w2 + w3 * (w1 * w1)) * w5 - y * (w2 + w3 * (y * y))) - S(1) / S(48) * h
+                * (S(24) * k * w6 + (b0 + w7) * y_next_less_y * w12);
+        mu[1] = p_v + S(0.5) * p_q * (x_ * (b0 + b1 * x_) - w0 * (b0 + b1 * w0) * w5) + S(1) / S(96) * h *
+                (x_next_less_x * (w10 + w9) * w12 - S(48) * k * w8);
+        mu[2] = p_q * w5;
     }
 
     /// The equation of the arrow g: R_a = mu_a - F^-L(g)_a, shape (3).

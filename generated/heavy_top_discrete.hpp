@@ -36,7 +36,7 @@
 /// Operations (with shared terms computed once; "written out" without sharing):
 ///   kernel            + -      *      /  functions  solves  written out
 ///   step                0      0      0          0       0            0
-///   forward            38     64      1          0       0          271
+///   forward            27     40      0          0       0          217
 ///   arrow_equation     29     31      2          0       0          171
 ///   cayley_step        15     18      1          0       0          186
 ///   cayley_coordinates     15     26      1          0       0           92
@@ -214,25 +214,23 @@ class heavy_top_discrete_discrete {
         x[1] = G_1 * W_1_2 + G_2 * w1 + G_3 * W_3_2;
         const S w2 = S(1) + W_3_3_less_one;
         x[2] = G_1 * W_1_3 + G_2 * W_2_3 + G_3 * w2;
-        const S w3 = w0 * w1 - W_1_2 * W_2_1;
         const auto [I1, I2, I3, mgl, e_1, e_2, e_3, h] = parameters;
-        const S w4 = mgl * h;
-        const S w5 = p_w2 + (e_1 * G_3 - e_3 * G_1) * w4;
-        const S w6 = (e_2 * G_3 - e_3 * G_2) * w4 - p_w1;
-        const S w7 = W_1_2 * w5 + w6 * w1;
-        const S w8 = p_w3 - (e_1 * G_2 - e_2 * G_1) * w4;
-        const S w9 = W_1_2 * W_3_1 - W_3_2 * w0;
-        const S w10 = W_1_3 * W_3_1 - w0 * w2;
-        const S w11 = W_1_3 * w5 + W_2_3 * w6;
-        const S w12 = W_1_3 * W_2_1 - W_2_3 * w0;
-        const S w13 = S(1) / (W_1_2 * (W_2_1 * w2 - W_2_3 * W_3_1) + W_1_3 * (W_3_1 * w1 - W_2_1 * W_3_2) + w0 * (W_2_3
-                * W_3_2 - w1 * w2));
-        mu[0] = (w3 * w7 - w8 * (W_1_2 * w9 + W_1_3 * w10) - w11 * w12) * w13;
-        const S w14 = W_1_2 * w2 - W_1_3 * W_3_2;
-        const S w15 = W_1_3 * w1 - W_1_2 * W_2_3;
-        const S w16 = W_2_1 * w6 + w5 * w0;
-        mu[1] = (w8 * (W_1_3 * w14 + w0 * w9) - w11 * w15 - w16 * w3) * w13;
-        mu[2] = (w8 * (w0 * w10 - W_1_2 * w14) + w15 * w7 + w12 * w16) * w13;
+        const S w3 = mgl * h;
+        const S w4 = e_1 * w3;
+        const S w5 = e_3 * w3;
+        const S w6 = p_w2 + G_3 * w4 - G_1 * w5;
+        const S w7 = e_2 * w3;
+        const S w8 = p_w1 - G_3 * w7 + G_2 * w5;
+        const S w9 = W_1_3 * w6 - W_2_3 * w8;
+        const S w10 = p_w3 - G_2 * w4 + G_1 * w7;
+        const S w11 = W_1_3 * w10;
+        const S w12 = W_1_2 * w10;
+        const S w13 = W_1_2 * w6 - w8 * w1;
+        mu[0] = W_3_2 * w9 - w11 * w1 + (W_2_3 * w12 - w13 * w2);
+        const S w14 = w6 * w0 - W_2_1 * w8;
+        const S w15 = w10 * w0;
+        mu[1] = W_2_1 * w11 - W_3_1 * w9 + (w14 * w2 - W_2_3 * w15);
+        mu[2] = W_3_1 * w13 - W_2_1 * w12 + (w15 * w1 - W_3_2 * w14);
     }
 
     /// The equation of the arrow g: R_a = mu_a - F^-L(g)_a, shape (3).

@@ -27,7 +27,7 @@
 /// Operations (with shared terms computed once; "written out" without sharing):
 ///   kernel            + -      *      /  functions  solves  written out
 ///   step                0      0      0          0       0            0
-///   forward            26     45      1          0       0          163
+///   forward            15     21      0          0       0           55
 ///   arrow_equation     23     21      2          0       0          147
 ///   cayley_step        15     18      1          0       0          186
 ///   cayley_coordinates     15     26      1          0       0           92
@@ -173,23 +173,18 @@ class moser_veselov_discrete {
         const S W_1_1_less_one = s[0], W_1_2 = s[1], W_1_3 = s[2], W_2_1 = s[3], W_2_2_less_one = s[4], W_2_3 = s[5],
                 W_3_1 = s[6], W_3_2 = s[7], W_3_3_less_one = s[8];
         const S M1 = s[9], M2 = s[10], M3 = s[11];
-        const S w0 = M1 * W_2_3 - M2 * W_1_3;
-        const S w1 = S(1) + W_1_1_less_one;
-        const S w2 = W_1_3 * W_2_1 - W_2_3 * w1;
-        const S w3 = W_1_2 * W_3_1 - W_3_2 * w1;
+        const S w0 = M2 * W_1_3 - M1 * W_2_3;
+        const S w1 = S(1) + W_2_2_less_one;
+        const S w2 = M3 * W_1_3;
+        const S w3 = M3 * W_1_2;
         const S w4 = S(1) + W_3_3_less_one;
-        const S w5 = W_1_3 * W_3_1 - w1 * w4;
-        const S w6 = S(1) + W_2_2_less_one;
-        const S w7 = w1 * w6 - W_1_2 * W_2_1;
-        const S w8 = M1 * w6 - M2 * W_1_2;
-        const S w9 = S(1) / (W_1_2 * (W_2_1 * w4 - W_2_3 * W_3_1) + W_1_3 * (W_3_1 * w6 - W_2_1 * W_3_2) + w1 * (W_2_3 *
-                W_3_2 - w6 * w4));
-        mu[0] = (w0 * w2 - M3 * (W_1_2 * w3 + W_1_3 * w5) - w7 * w8) * w9;
-        const S w10 = W_1_2 * w4 - W_1_3 * W_3_2;
-        const S w11 = W_1_3 * w6 - W_1_2 * W_2_3;
-        const S w12 = M1 * W_2_1 - M2 * w1;
-        mu[1] = (M3 * (W_1_3 * w10 + w1 * w3) + w0 * w11 + w12 * w7) * w9;
-        mu[2] = (M3 * (w1 * w5 - W_1_2 * w10) - w11 * w8 - w2 * w12) * w9;
+        const S w5 = M2 * W_1_2 - M1 * w1;
+        mu[0] = w0 * W_3_2 - w2 * w1 + (w3 * W_2_3 - w5 * w4);
+        const S w6 = S(1) + W_1_1_less_one;
+        const S w7 = M2 * w6 - M1 * W_2_1;
+        const S w8 = M3 * w6;
+        mu[1] = w2 * W_2_1 - w0 * W_3_1 + (w7 * w4 - W_2_3 * w8);
+        mu[2] = W_3_1 * w5 - w3 * W_2_1 + (w8 * w1 - W_3_2 * w7);
     }
 
     /// The equation of the arrow g: R_a = mu_a - F^-L(g)_a, shape (3).

@@ -32,7 +32,7 @@
 /// Operations (with shared terms computed once; "written out" without sharing):
 ///   kernel            + -      *      /  functions  solves  written out
 ///   step                0      0      0          0       0            0
-///   forward            31     51      2          0       0          177
+///   forward            20     27      1          0       0           66
 ///   arrow_equation     30     55      1          0       0          229
 ///   cayley_step        15     18      1          0       0          186
 ///   cayley_coordinates     15     26      1          0       0           92
@@ -205,23 +205,15 @@ class sliding_mass_discrete_discrete {
         const S w0 = S(2) * x_ + x_next_less_x;
         const S mu_ = parameters.mu, k = parameters.k, h = parameters.h;
         mu[0] = S(0.5) * k * h * (S(2) - w0) + p - mu_ * w0 * W_3_3_less_one / h;
-        const S w1 = S(1) + W_1_1_less_one;
-        const S w2 = W_3_2 * w1 - W_1_2 * W_3_1;
+        const S w1 = S(1) + W_2_2_less_one;
+        const S w2 = l1 * w1 - l2 * W_1_2;
         const S w3 = S(1) + W_3_3_less_one;
-        const S w4 = W_1_3 * W_3_1 - w1 * w3;
-        const S w5 = S(1) + W_2_2_less_one;
-        const S w6 = l1 * w5 - l2 * W_1_2;
-        const S w7 = W_1_2 * W_2_1 - w1 * w5;
-        const S w8 = l1 * W_2_3 - l2 * W_1_3;
-        const S w9 = W_1_3 * W_2_1 - W_2_3 * w1;
-        const S w10 = S(1) / (W_1_2 * (W_2_1 * w3 - W_2_3 * W_3_1) + W_1_3 * (W_3_1 * w5 - W_2_1 * W_3_2) + w1 * (W_2_3
-                * W_3_2 - w5 * w3));
-        mu[1] = (l3 * (W_1_2 * w2 - W_1_3 * w4) + w6 * w7 + w8 * w9) * w10;
-        const S w11 = W_1_2 * w3 - W_1_3 * W_3_2;
-        const S w12 = l2 * w1 - l1 * W_2_1;
-        const S w13 = W_1_2 * W_2_3 - W_1_3 * w5;
-        mu[2] = (l3 * (W_1_3 * w11 - w1 * w2) + w12 * w7 - w8 * w13) * w10;
-        mu[3] = (l3 * (w1 * w4 - W_1_2 * w11) + w6 * w13 + w12 * w9) * w10;
+        const S w4 = l1 * W_2_3 - l2 * W_1_3;
+        mu[1] = l3 * (W_1_2 * W_2_3 - W_1_3 * w1) + w2 * w3 - w4 * W_3_2;
+        const S w5 = S(1) + W_1_1_less_one;
+        const S w6 = l1 * W_2_1 - l2 * w5;
+        mu[2] = l3 * (W_1_3 * W_2_1 - W_2_3 * w5) + w4 * W_3_1 - w6 * w3;
+        mu[3] = l3 * (w5 * w1 - W_1_2 * W_2_1) + W_3_2 * w6 - W_3_1 * w2;
     }
 
     /// The equation of the arrow g: R_a = mu_a - F^-L(g)_a, shape (4).

@@ -48,7 +48,7 @@ EquationSet derive_invariants(const Model& model, const System& system, const Re
         statement.status = "proved";
         set.statements.push_back(std::move(statement));
     }
-    if (count == 0) block.title += ": none is found";
+    if (count == 0) set.title += set.title.empty() ? "beside H none is found" : ": beside H none is found";
     set.blocks = {std::move(block)};
     return set;
 }

@@ -206,4 +206,18 @@ std::vector<NodeId> matrix_quotient(Graph& graph, const std::vector<NodeId>& a, 
     return out;
 }
 
+std::vector<NodeId> element_quotient(Graph& graph, const GroupoidParts& parts, const std::vector<NodeId>& W,
+                                     const std::vector<NodeId>& b)
+{
+    const std::size_t n = parts.size;
+    for (const std::vector<NodeId>& E : parts.generators)
+        for (std::size_t i = 0; i < n; ++i)
+            for (std::size_t j = 0; j <= i; ++j)
+                if (!graph.is_zero(graph.add(E[i * n + j], E[j * n + i]))) return matrix_quotient(graph, W, b, n);
+    std::vector<NodeId> transposed(n * n);
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j < n; ++j) transposed[j * n + i] = W[i * n + j];
+    return matrix_product(graph, transposed, b, n);
+}
+
 } // namespace lagen

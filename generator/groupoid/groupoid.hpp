@@ -65,6 +65,9 @@ struct Groupoid : GroupoidParts {
 [[nodiscard]] std::vector<NodeId> matrix_product(Graph& graph, const std::vector<NodeId>& a,
                                                  const std::vector<NodeId>& b, std::size_t n);
 [[nodiscard]] std::vector<NodeId> matrix_one(Graph& graph, std::size_t n);
+/// W^-1 b of an element W of the group: by its transpose where all generators are skew, which rounds without a bias.
+[[nodiscard]] std::vector<NodeId> element_quotient(Graph& graph, const GroupoidParts& parts,
+                                                   const std::vector<NodeId>& W, const std::vector<NodeId>& b);
 /// a^-1 b
 [[nodiscard]] std::vector<NodeId> matrix_quotient(Graph& graph, const std::vector<NodeId>& a,
                                                   const std::vector<NodeId>& b, std::size_t n);

@@ -129,7 +129,8 @@ class DiscreteForm {
             for (std::size_t b = 0; b < m; ++b) entry = graph_.add(entry, graph_.multiply(lambda[b], components[b]));
         }
         const std::vector<NodeId>& W = groupoid_.arrow.W;
-        const std::vector<NodeId> moved = matrix_quotient(graph_, W, matrix_product(graph_, functional, W, size), size);
+        const std::vector<NodeId> moved =
+            element_quotient(graph_, groupoid_, W, matrix_product(graph_, functional, W, size));
         std::vector<NodeId> out;
         for (const std::vector<NodeId>& E : groupoid_.generators) {
             NodeId trace = graph_.constant(0);

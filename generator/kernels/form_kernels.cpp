@@ -23,9 +23,9 @@ namespace lagen {
 
 namespace {
 
-FormulationRequest formulation_request(const KernelRequest& request, std::vector<std::size_t> states)
+FormulationRequest formulation_request(const KernelRequest& request, FormKind form, std::vector<std::size_t> states)
 {
-    return {is_requested(request, "lagrangian_hessian") || is_requested(request, "hamiltonian_hessian"),
+    return {is_requested(request, form, "lagrangian_hessian") || is_requested(request, form, "hamiltonian_hessian"),
             std::move(states)};
 }
 
@@ -42,7 +42,7 @@ class ModuleBuilder {
         : model_(model), system_(system), report_(report), request_(request),
           states_(carried_states(model, form, request.scene)), graph_(std::make_shared<Graph>(system.graph)),
           form_(formulation(*graph_, model, system, report, form_named(form).kind,
-                            formulation_request(request, states_))),
+                            formulation_request(request, form_named(form).kind, states_))),
           lower_(*graph_, form_.binding)
     {
     }
@@ -95,7 +95,7 @@ class ModuleBuilder {
         if (form_.hamiltonian && wants_flows()) add_flows(flows_of(*form_.hamiltonian));
     }
 
-    [[nodiscard]] bool wants(const std::string& name) const { return is_requested(request_, name); }
+    [[nodiscard]] bool wants(const std::string& name) const { return is_requested(request_, form_.form->kind, name); }
 
     void add(Kernel kernel) { module_.kernels.push_back(simplified(std::move(kernel))); }
 

@@ -44,13 +44,14 @@ const std::vector<std::string>& kernel_names()
     return names;
 }
 
-bool is_requested(const KernelRequest& request, const std::string& name)
+bool is_requested(const KernelRequest& request, FormKind form, const std::string& name)
 {
     if (is_among(request.without, name)) return false;
     if (is_among(request.with, name)) return true;
     if (!request.only.empty()) return is_among(request.only, name);
-    return std::ranges::none_of(kernel_table(),
-                                [&](const KernelRow& row) { return row.on_request && name == row.name; });
+    return std::ranges::any_of(kernel_table(), [&](const KernelRow& row) {
+        return !row.on_request && name == row.name && has_form(row, form);
+    });
 }
 
 void refuse_unknown(const KernelRequest& request)

@@ -3,14 +3,16 @@
 #pragma once
 
 #include "kernels/form_kernels.hpp"
+#include "model/form.hpp"
 
 namespace lagen {
 
 /// Every kernel that some form of some model has.
 [[nodiscard]] const std::vector<std::string>& kernel_names();
 
-/// Whether the request asks for the kernel `name`: an empty `only` asks for all that are not made on request alone.
-[[nodiscard]] bool is_requested(const KernelRequest& request, const std::string& name);
+/// Whether the request asks for the kernel `name` of this form: an empty `only` asks for all that are not made on
+/// request alone.
+[[nodiscard]] bool is_requested(const KernelRequest& request, FormKind form, const std::string& name);
 
 /// Throws a usage Error where the request has a name that no kernel has.
 void refuse_unknown(const KernelRequest& request);

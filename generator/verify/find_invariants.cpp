@@ -3,6 +3,7 @@
 
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/evaluate.hpp"
+#include "graph/core/operators.hpp"
 #include "verify/proof_setting.hpp"
 
 #include <algorithm>

@@ -125,7 +125,7 @@ const Arrows& planned_folder_arrows()
         {"commands/plot", {"commands/scene"}},
         {"commands/chart", {"commands/scene"}},
         {"commands/morphism", {"commands/scene"}},
-        {"commands/reduce", {}},
+        {"commands/reduce", {"commands/line"}},
         {"commands/sweep", {"commands/scene"}},
         {"commands", {"commands/plot", "commands/chart", "commands/morphism", "commands/reduce", "commands/sweep"}},
     };

@@ -16,7 +16,8 @@ namespace lagen {
 
 namespace {
 
-constexpr double large = 1e-3; ///< of the size of a column
+constexpr double large = 1e-3;  ///< of the size of a column
+constexpr double least = 1e-12; ///< of the largest column: a column that is smaller is 0 but for rounding
 
 /// A row by the names of its columns; what is no number is nan.
 Values row_values(const Table& table, std::string_view line)
@@ -42,6 +43,8 @@ void join(ColumnDefect& defect, long double given, long double image, double tim
 void find_moved(RunComparison& comparison)
 {
     const std::size_t count = comparison.defects.size();
+    double most = 0;
+    for (const ColumnDefect& defect : comparison.defects) most = std::fmax(most, defect.size);
     for (const std::string_view line : comparison.table.lines()) {
         const std::vector<std::string_view> texts = fields(line);
         const auto value = [&](std::size_t k) {
@@ -50,7 +53,8 @@ void find_moved(RunComparison& comparison)
         };
         for (std::size_t k = 0; k < count; ++k) {
             ColumnDefect& defect = comparison.defects[k];
-            if (defect.moved || std::fabs(value(k + 1) - value(count + k + 1)) <= large * defect.size) continue;
+            const double allowed = std::fmax(large * defect.size, least * most);
+            if (defect.moved || std::fabs(value(k + 1) - value(count + k + 1)) <= allowed) continue;
             defect.moved = true;
             defect.moved_at = value(0);
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/reduce/routh_document.hpp"
 
+#include "commands/line/options.hpp"
 #include "diagnostic.hpp"
 #include "equations/rewrite_tree.hpp"
 #include "model/print_toml.hpp"
