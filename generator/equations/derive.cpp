@@ -19,7 +19,8 @@ namespace lagen {
 std::vector<std::string> derivation_names()
 {
     std::vector<std::string> names = form_names();
-    for (const char* more : {"exterior", "cartan", "poisson", "invariants", "reaction", "projected"}) names.emplace_back(more);
+    for (const char* more : {"exterior", "cartan", "poisson", "invariants", "reaction", "projected"})
+        names.emplace_back(more);
     return names;
 }
 
