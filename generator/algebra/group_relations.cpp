@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "algebra/group_relations.hpp"
 
+#include "algebra/orthonormal_span.hpp"
 #include "expression/linear_algebra.hpp"
 
 #include <algorithm>
@@ -27,49 +28,14 @@ long double largest(const std::vector<long double>& a)
     return size;
 }
 
-long double inner(const std::vector<long double>& a, const std::vector<long double>& b)
-{
-    long double sum = 0;
-    for (std::size_t k = 0; k < a.size(); ++k) sum += a[k] * b[k];
-    return sum;
-}
-
-/// An orthonormal basis that grows.
-class Span {
-  public:
-    /// What the span leaves of `a`; twice, since once leaves roundings.
-    [[nodiscard]] std::vector<long double> outside(std::vector<long double> a) const
-    {
-        for (int pass = 0; pass < 2; ++pass)
-            for (const std::vector<long double>& each : basis_) {
-                const long double part = inner(a, each);
-                for (std::size_t k = 0; k < a.size(); ++k) a[k] -= part * each[k];
-            }
-        return a;
-    }
-    void add(const std::vector<long double>& a)
-    {
-        std::vector<long double> rest = outside(a);
-        const long double length = std::sqrt(inner(rest, rest));
-        if (length <= negligible * std::sqrt(inner(a, a))) return;
-        for (long double& each : rest) each /= length;
-        basis_.push_back(std::move(rest));
-    }
-    [[nodiscard]] std::size_t size() const { return basis_.size(); }
-    [[nodiscard]] const std::vector<long double>& operator[](std::size_t k) const { return basis_[k]; }
-
-  private:
-    std::vector<std::vector<long double>> basis_;
-};
-
 /// The associative algebra of the generators, without 1.
-Span envelope(const std::vector<RealMatrix>& generators, std::size_t n)
+OrthonormalSpan envelope(const std::vector<RealMatrix>& generators, std::size_t n)
 {
-    Span span;
-    for (const RealMatrix& each : generators) span.add(each);
+    OrthonormalSpan span(negligible);
+    for (const RealMatrix& each : generators) (void)span.add(each);
     for (std::size_t k = 0; k < span.size(); ++k)
         for (const RealMatrix& each : generators)
-            if (span.size() < n * n) span.add(times(span[k], each, n));
+            if (span.size() < n * n) (void)span.add(times(span[k], each, n));
     return span;
 }
 
@@ -214,8 +180,8 @@ GroupDefect logarithm_defect(const std::vector<RealMatrix>& generators, const Re
 {
     const std::optional<RealMatrix> log = principal_logarithm(W, n);
     if (!log) return {};
-    Span span;
-    for (const RealMatrix& each : generators) span.add(each);
+    OrthonormalSpan span(negligible);
+    for (const RealMatrix& each : generators) (void)span.add(each);
     const long double size = std::max(largest(*log), negligible);
     return {"log W in the span of the generators", largest(span.outside(*log)) / size};
 }

@@ -130,29 +130,17 @@ ExitCode reduce_morphism(const Options& options, const MorphismFile& file)
     return code_of(report.verdict);
 }
 
-std::vector<std::string> names_of_list(const std::string& list)
-{
-    std::vector<std::string> names(1);
-    for (const char c : list)
-        if (c == ',')
-            names.emplace_back();
-        else if (c != ' ')
-            names.back() += c;
-    return names;
-}
-
 /// Throws MathematicsError with the defect of a coordinate that is none.
-void require_cyclic(const CheckedModel& checked, const std::vector<std::size_t>& coordinates)
+void require_cyclic(const Model& model, const StructureReport& report, const std::vector<std::size_t>& coordinates)
 {
-    for (const Check& check : cyclic_coordinates(checked.system).checks)
+    for (const Check& check : report.checks)
         for (const std::size_t k : coordinates)
-            if (check.indices[0] == checked.model.base.coordinates[k].name &&
-                check.decision.status == ProofStatus::refuted)
+            if (check.indices[0] == model.base.coordinates[k].name && check.decision.status == ProofStatus::refuted)
                 throw MathematicsError(
                     fmt::format(
                         "model '{}' is not to be reduced by '{}', which is not cyclic: {} depends on it, with the "
                         "derivative {}",
-                        checked.model.name, check.indices[0], check.indices[1], check.decision.residual),
+                        model.name, check.indices[0], check.indices[1], check.decision.residual),
                     "lagen reduce without --routh lists the cyclic coordinates");
 }
 
@@ -160,16 +148,18 @@ void require_cyclic(const CheckedModel& checked, const std::vector<std::size_t>&
 ExitCode reduce_by_routh(const Options& options, const std::string& path)
 {
     const CheckedModel checked = load(path, options.settings(), options.has("unchecked"));
-    for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
     const Model& model = checked.model;
-    const std::vector<std::size_t> cyclic = coordinates_to_reduce(model, names_of_list(options.get("routh")));
-    require_cyclic(checked, cyclic);
+    require_apart(options, model);
+    for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
+    const std::vector<std::size_t> cyclic = coordinates_to_reduce(model, split_list(options.get("routh")));
+    const StructureReport free_of = cyclic_coordinates(checked.system);
+    require_cyclic(model, free_of, cyclic);
     Graph graph = checked.system.graph;
     const Routhian made = routhian(graph, checked.system, cyclic);
     const RouthianText text = routhian_text(model, checked.system, graph, made);
     const std::string document = routh_document(model, options.settings(), cyclic, text);
     const Model reduced = read_model_text(model.name + "_routh.toml", document);
-    const StructureReport report = verify_routh(graph, checked.system, made, elaborate(reduced));
+    const StructureReport report = verify_routh(graph, checked.system, made, elaborate(reduced), free_of);
     const bool writes = report.verdict != Verdict::invalid || options.has("unchecked");
     std::string said =
         fmt::format("{}: reduced by {}: {}\n", model.name, options.get("routh"), to_text(report.verdict));

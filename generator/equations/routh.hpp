@@ -13,7 +13,7 @@ struct RouthianText {
     std::vector<Tree> velocities; ///< Theta^k
     std::vector<Tree> momenta;    ///< p_k = dL/dy^k over t, x and y
 };
-[[nodiscard]] RouthianText routhian_text(const Model& model, const System& system, Graph& graph,
+[[nodiscard]] RouthianText routhian_text(const Model& model, const System& system, const Graph& graph,
                                          const Routhian& routhian);
 
 } // namespace lagen

@@ -374,7 +374,7 @@ Formulation discrete_form(Graph& graph, const Model& model, const System& system
     require_regular(system, report.mechanics.discrete);
     Formulation form = DiscreteForm(graph, model, system, request).build();
     const Regularity& regularity = report.mechanics.regularity;
-    if (system.lagrangian && regularity.kind == Regularity::Kind::regular)
+    if (request.hamiltonian && system.lagrangian && regularity.kind == Regularity::Kind::regular)
         if (const auto H = closed_hamiltonian(graph, system, regularity.newton_start))
             form.kernels.push_back(scalar_kernel(form, "hamiltonian", H->value));
     return form;

@@ -26,7 +26,7 @@ namespace {
 FormulationRequest formulation_request(const KernelRequest& request, FormKind form, std::vector<std::size_t> states)
 {
     return {is_requested(request, form, "lagrangian_hessian") || is_requested(request, form, "hamiltonian_hessian"),
-            std::move(states)};
+            is_requested(request, form, "hamiltonian"), std::move(states)};
 }
 
 /// Kernels of one module, each simplified on its own and left out where nobody asked for it or it would be empty.

@@ -40,6 +40,7 @@ struct Formulation {
 /// What a form is made with.
 struct FormulationRequest {
     bool hessians = false;           ///< kernels of the second derivatives of L and H
+    bool hamiltonian = false;        ///< of a discrete form: H of [lagrangian] beside it
     std::vector<std::size_t> states; ///< numbers of the first-order states that it carries
 };
 

@@ -3,8 +3,7 @@
 ///   p_k = dL/dy^k,   y^k = Theta^k(t, x, y, p) where p_k is affine in these velocities
 ///   R(t, x, y) = L(t, x, y, Theta) - p_k Theta^k,      for numbers p_k
 /// The equations of R in the other coordinates are those of L on the level set of the momenta, with the gyroscopic
-/// terms that R has where L joins velocities of both sorts.                      [Routh 1877; Marsden, Ratiu, Scheurle
-/// 2000]
+/// terms that R has where L joins velocities of both sorts.           [Routh 1877; Marsden, Ratiu and Scheurle 2000]
 #pragma once
 
 #include "mechanics/system.hpp"
@@ -13,14 +12,15 @@ namespace lagen {
 
 struct Routhian {
     std::vector<std::size_t> cyclic; ///< K: coordinates, and sections of the same numbers
-    std::vector<NodeId> rest;        ///< the other velocities, inputs
-    std::vector<NodeId> velocities;  ///< Theta^k over t, x, y and the inputs mu_k, shape (|K|)
+    std::vector<NodeId> y;           ///< their velocities y^k, inputs, shape (|K|)
+    std::vector<NodeId> momenta;     ///< dL/dy^k over t, x and all velocities, shape (|K|)
+    std::vector<NodeId> velocities;  ///< Theta^k over t, x, the other velocities and the inputs mu_k, shape (|K|)
     NodeId value = 0;                ///< R
-    NodeId determinant = 0;          ///< of d2L/dy^k dy^l, which Theta divides by
 };
 
-/// Of a system with L on TM, where sections are d/dx^i in the order of the coordinates. Throws MathematicsError where a
-/// momentum is not affine in the cyclic velocities, or does not depend on them.
+/// Of a system with L on TM, where sections are d/dx^i in the order of the coordinates; `cyclic` ascends. Throws
+/// MathematicsError where a momentum is not affine in the cyclic velocities, where these do not follow from the
+/// momenta, and where there are more than `determinant_limit`.
 [[nodiscard]] Routhian routhian(Graph& graph, const System& system, std::vector<std::size_t> cyclic);
 
 /// d/dt dF/dy^a - dF/dx^a for the velocities y^a of `sections`, at the accelerations ydot (of all sections).

@@ -78,10 +78,11 @@ std::string print_toml(const TomlValue& document)
             text += fmt::format("{} = {}\n", key_text(entry.name()), inline_text(entry.value));
     for (const TomlEntry& entry : document.entries) {
         if (entry.value.kind != TomlKind::table) continue;
-        const bool nested = entry.name() == "scene" && is_of_tables(entry.value);
-        if (!nested) print_table(entry, key_text(entry.name()), text);
-        for (const TomlEntry& inner : entry.value.entries)
-            if (nested) print_table(inner, key_text(entry.name()) + "." + key_text(inner.name()), text);
+        if (entry.name() == "scene" && is_of_tables(entry.value))
+            for (const TomlEntry& scene : entry.value.entries)
+                print_table(scene, "scene." + key_text(scene.name()), text);
+        else
+            print_table(entry, key_text(entry.name()), text);
     }
     return text;
 }

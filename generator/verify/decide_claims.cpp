@@ -118,7 +118,7 @@ void Claims::decide_invariants(Report& report, const std::vector<NamedTree>& ext
     std::vector<NamedTree> claims = system_.written.invariants;
     claims.insert(claims.end(), extra.begin(), extra.end());
     const bool steps = system_.discrete && system_.discrete->written;
-    if (lagrangian_ || system_.hamiltonian || system_.control || !steps) decide_along_motions(report, claims);
+    if (has_motions() || !steps) decide_along_motions(report, claims);
     if (steps) decide_along_steps(report.structure, claims);
 }
 

@@ -37,13 +37,12 @@ void Claims::decide_along_steps(StructureReport& structure, const std::vector<Na
     for (const auto& moved : replacements(system_.algebroid.x, target(graph_, groupoid, groupoid.arrow)))
         behind.push_back(moved);
     behind.emplace_back(system_.time, graph_.add(system_.time, system_.discrete->step));
-    const bool has_motions = lagrangian_ || system_.hamiltonian || system_.control;
     Lowering lower(graph_);
     for (const NamedTree& claim : claims) {
         Check check{"invariant", {claim.name}, {}, {}, {}};
-        if (has_motions) check.indices.emplace_back("discrete");
+        if (has_motions()) check.indices.emplace_back("discrete");
         if (const std::string name = foreign_name(system_, claim.value); !name.empty()) {
-            if (has_motions) continue; // a claim about those alone
+            if (has_motions()) continue; // a claim about those alone
             check.decision.evidence = fmt::format("'{}' is no function of the points and momenta of a step", name);
         } else {
             const NodeId f = lower(claim.value);
@@ -52,7 +51,7 @@ void Claims::decide_along_steps(StructureReport& structure, const std::vector<Na
                 graph_.subtract(substitute(graph_, only, behind)[0], substitute(graph_, only, before)[0]);
             check.decision = decide_on_arrows(graph_, system_, residual, judge_->decider().budget());
         }
-        if (has_motions && check.decision.status == ProofStatus::refuted)
+        if (has_motions() && check.decision.status == ProofStatus::refuted)
             check.hint =
                 "the steps of the discrete Lagrangian do not keep it, whatever the motions of L or H do; a claim "
                 "that is written with velocities is about those alone";

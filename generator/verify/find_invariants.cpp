@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "verify/find_invariants.hpp"
 
+#include "algebra/orthonormal_span.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/evaluate.hpp"
 #include "graph/core/operators.hpp"
@@ -18,44 +19,6 @@ using Numbers = std::vector<long double>; ///< a function at all points
 
 constexpr long double negligible = 1e-10L; ///< of what is 0 but for rounding
 constexpr std::size_t more_points = 16;    ///< than unknowns
-
-long double length(const Numbers& a)
-{
-    long double sum = 0;
-    for (const long double each : a) sum += each * each;
-    return std::sqrt(sum);
-}
-
-/// Orthonormal directions that grow.
-class SpanAtPoints {
-  public:
-    /// What is left of `a`, relative to its length; it is added where that is not negligible.
-    bool add(const Numbers& a)
-    {
-        const long double size = length(a);
-        Numbers rest = outside(a);
-        const long double left = length(rest);
-        if (!(left > negligible * size)) return false;
-        for (long double& each : rest) each /= left;
-        basis_.push_back(std::move(rest));
-        return true;
-    }
-    [[nodiscard]] bool contains(const Numbers& a) const { return !(length(outside(a)) > negligible * length(a)); }
-
-  private:
-    [[nodiscard]] Numbers outside(Numbers a) const
-    {
-        for (int pass = 0; pass < 2; ++pass)
-            for (const Numbers& each : basis_) {
-                long double part = 0;
-                for (std::size_t k = 0; k < a.size(); ++k) part += a[k] * each[k];
-                for (std::size_t k = 0; k < a.size(); ++k) a[k] -= part * each[k];
-            }
-        return a;
-    }
-
-    std::vector<Numbers> basis_;
-};
 
 /// The fraction with the smallest denominator that is this number to rounding; nothing where that is large.
 std::optional<Rational> rational_near(long double x)
@@ -149,12 +112,12 @@ class InvariantSearch {
     void search()
     {
         const std::vector<Numbers> values = at_points(fixed(monomials_));
-        SpanAtPoints independent;
+        OrthonormalSpan independent(negligible);
         (void)independent.add(Numbers(points_.size(), 1.0L));
         std::vector<NodeId> kept;
         std::vector<long double> sizes;
         for (std::size_t k = 0; k < monomials_.size(); ++k)
-            if (independent.add(values[k])) kept.push_back(monomials_[k]), sizes.push_back(length(values[k]));
+            if (independent.add(values[k])) kept.push_back(monomials_[k]), sizes.push_back(length_of(values[k]));
         for (const Numbers& coefficients : kernel(at_points(fixed(rates(kept))), sizes)) take(kept, coefficients);
     }
 
@@ -249,7 +212,7 @@ class InvariantSearch {
         std::vector<std::size_t> rows;
         for (std::size_t k = 0; k < n; ++k) {
             combination[k][k] = 1;
-            const long double size = std::max(length(columns[k]), sizes[k]);
+            const long double size = std::max(length_of(columns[k]), sizes[k]);
             for (std::size_t j = 0; j < pivots.size(); ++j) {
                 const long double factor = columns[k][rows[j]] / pivots[j][rows[j]];
                 for (std::size_t i = 0; i < columns[k].size(); ++i) columns[k][i] -= factor * pivots[j][i];
@@ -258,7 +221,7 @@ class InvariantSearch {
             std::size_t row = 0;
             for (std::size_t i = 0; i < columns[k].size(); ++i)
                 if (std::abs(columns[k][i]) > std::abs(columns[k][row])) row = i;
-            if (!(length(columns[k]) > negligible * size)) {
+            if (!(length_of(columns[k]) > negligible * size)) {
                 out.push_back(combination[k]);
                 continue;
             }
@@ -294,13 +257,13 @@ class InvariantSearch {
     {
         std::vector<NodeId> z = system_.algebroid.x;
         z.insert(z.end(), system_.mu.begin(), system_.mu.end());
-        const long double size = length(at_points(fixed({f}))[0]);
+        const long double size = length_of(at_points(fixed({f}))[0]);
         return std::ranges::all_of(at_points(fixed(gradient(graph_, f, z))),
-                                   [&](const Numbers& slope) { return length(slope) <= negligible * size; });
+                                   [&](const Numbers& slope) { return length_of(slope) <= negligible * size; });
     }
 
     /// 1, H, the invariants found, the Casimirs of the base, and products of two of them.
-    [[nodiscard]] SpanAtPoints known()
+    [[nodiscard]] OrthonormalSpan known()
     {
         std::vector<NodeId> functions{phase_.hamiltonian};
         for (const NodeId casimir : system_.functions.casimirs) functions.push_back(casimir);
@@ -308,7 +271,7 @@ class InvariantSearch {
         const std::size_t count = functions.size();
         for (std::size_t i = 0; i < count; ++i)
             for (std::size_t j = i; j < count; ++j) functions.push_back(graph_.multiply(functions[i], functions[j]));
-        SpanAtPoints span;
+        OrthonormalSpan span(negligible);
         (void)span.add(Numbers(points_.size(), 1.0L));
         for (const Numbers& values : at_points(fixed(functions))) (void)span.add(values);
         return span;

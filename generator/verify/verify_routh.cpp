@@ -3,7 +3,6 @@
 
 #include "graph/calculus/differentiate.hpp"
 #include "graph/calculus/transplant.hpp"
-#include "verify/cyclic.hpp"
 #include "verify/judge.hpp"
 #include "verify/proof_setting.hpp"
 
@@ -28,11 +27,11 @@ NodeId moved_lagrangian(Graph& graph, const System& from)
 } // namespace
 
 StructureReport verify_routh(Graph& graph, const System& system, const Routhian& routhian, const System& reduced,
-                             const ProofBudget& budget)
+                             const StructureReport& cyclic, const ProofBudget& budget)
 {
     StructureReport report;
     const auto name_of = [&](NodeId node) { return graph.input_name(node); };
-    for (const Check& check : cyclic_coordinates(system, budget).checks)
+    for (const Check& check : cyclic.checks)
         for (const std::size_t k : routhian.cyclic)
             if (check.indices[0] == name_of(system.algebroid.x[k])) report.checks.push_back(check);
 
@@ -56,8 +55,7 @@ StructureReport verify_routh(Graph& graph, const System& system, const Routhian&
     };
 
     // On the level set: velocities Theta, and the accelerations that follow from them.
-    std::vector<NodeId> y;
-    for (const std::size_t k : routhian.cyclic) y.push_back(system.algebroid.y[k]);
+    const std::vector<NodeId>& y = routhian.y;
     std::vector<std::pair<NodeId, NodeId>> along{{system.time, graph.constant(1)}};
     const Replacements level = replacements(y, routhian.velocities);
     for (std::size_t i = 0; i < system.n(); ++i) {
@@ -73,7 +71,7 @@ StructureReport verify_routh(Graph& graph, const System& system, const Routhian&
     for (std::size_t k = 0; k < y.size(); ++k) on_level.emplace_back(ydot[routhian.cyclic[k]], rates[k]);
 
     const std::vector<NodeId> forces = system.forces_or_zero(graph);
-    const std::vector<NodeId> momenta = substitute(graph, gradient(graph, *system.lagrangian, y), level);
+    const std::vector<NodeId> momenta = substitute(graph, routhian.momenta, level);
     for (std::size_t k = 0; k < y.size(); ++k) {
         const NodeId p = system.mu[routhian.cyclic[k]];
         append("conserved", p, forces[routhian.cyclic[k]]);

@@ -132,6 +132,14 @@ TEST_CASE("reduced runs end where those of the whole model do, angles included",
     }
 }
 
+TEST_CASE("the model that is reduced is not written over")
+{
+    const std::string path = model_file("top.toml", angles_of_top);
+    const Outcome outcome = call({"reduce", path, "--routh", "ph", "-o", path});
+    CHECK(outcome.code == 4);
+    CHECK(read_text(path) == angles_of_top);
+}
+
 TEST_CASE("a scene that starts from momenta gives them to the parameters")
 {
     const Outcome outcome = call({"reduce", model_file("top.toml", angles_of_top), "--routh", "ph,ps"});

@@ -63,44 +63,30 @@ class RouthDocument {
                                                    ", reduced by " + comma_list_of_coordinates());
     }
 
-    /// The texts of a list of names, one for each coordinate, without the cyclic ones.
-    void drop_from(TomlValue& table, const char* key, const std::vector<Symbol>& symbols)
+    /// The names that are not cyclic as the list `key`, which must have all of them one by one where it is there.
+    void put_rest(TomlValue& table, const char* key, const std::vector<Symbol>& symbols)
     {
-        const auto entry = std::ranges::find(table.entries, key, &TomlEntry::name);
-        if (entry == table.entries.end()) return;
-        std::vector<TomlValue>& items = entry->value.items;
-        const bool plain = items.size() == symbols.size() &&
-                           std::ranges::equal(
-                               items, symbols, {}, [](const TomlValue& v) { return v.text.text; }, &Symbol::name);
-        if (!plain)
+        TomlValue& list = entry_in(table, key);
+        const auto text = [](const TomlValue& value) -> const std::string& { return value.text.text; };
+        if (list.kind == TomlKind::array && !std::ranges::equal(list.items, symbols, {}, text, &Symbol::name))
             throw MathematicsError(
                 fmt::format("the {} of model '{}' are written as a family, and one of them cannot be taken "
                             "out",
                             key, model_.name),
                 "write them one by one");
-        std::vector<TomlValue> left;
-        for (std::size_t k = 0; k < items.size(); ++k)
-            if (!is_cyclic(k)) left.push_back(items[k]);
-        items = std::move(left);
+        list = {};
+        list.kind = TomlKind::array;
+        for (std::size_t k = 0; k < symbols.size(); ++k)
+            if (!is_cyclic(k)) list.items.push_back(toml_string(symbols[k].name));
     }
 
     void drop_coordinates()
     {
-        drop_from(entry_in(document_, "base"), "coordinates", model_.base.coordinates);
+        put_rest(entry_in(document_, "base"), "coordinates", model_.base.coordinates);
         TomlValue& fibre = entry_in(document_, "fibre");
-        drop_from(fibre, "coordinates", model_.fibre.coordinates);
-        drop_from(fibre, "momenta", model_.fibre.momenta);
-        std::vector<Symbol> rest, momenta;
-        for (std::size_t k = 0; k < model_.fibre.coordinates.size(); ++k)
-            if (!is_cyclic(k)) rest.push_back(model_.fibre.coordinates[k]), momenta.push_back(model_.fibre.momenta[k]);
-        for (const auto& [key, names] : {std::pair("coordinates", rest), {"momenta", momenta}}) {
-            TomlValue& list = entry_in(fibre, key);
-            list.kind = TomlKind::array;
-            list.items.clear();
-            for (const Symbol& each : names) list.items.push_back(toml_string(each.name));
-        }
-        for (const char* block : {"forces"})
-            for (const std::size_t k : cyclic_) erase(block, {velocity(k), momentum(k)});
+        put_rest(fibre, "coordinates", model_.fibre.coordinates);
+        put_rest(fibre, "momenta", model_.fibre.momenta);
+        for (const std::size_t k : cyclic_) erase("forces", {velocity(k), momentum(k)});
     }
 
     void erase(const char* block, const std::vector<std::string>& keys)
@@ -219,6 +205,7 @@ std::vector<std::size_t> coordinates_to_reduce(const Model& model, const std::ve
                         "something else",
                         model.name),
             "morphisms of algebroids reduce other models: lagen reduce MORPHISM");
+    if (names.empty()) throw UsageError("lagen reduce: --routh names no coordinate");
     std::vector<std::size_t> cyclic;
     for (const std::string& name : names) {
         const auto found = std::ranges::find(model.base.coordinates, name, &Symbol::name);

@@ -84,6 +84,23 @@ template <DiscreteMotion M>
     return true;
 }
 
+/// W - 1 of the element of the group that the coordinates of W around 1 lead to; false where they have no value.
+template <DiscreteMotion M>
+[[nodiscard]] bool element_of_coordinates(const M& model, const typename M::Scalar& t, const typename M::State& s,
+                                          GroupMatrix<typename M::Scalar, ArrowLanes<M>::order>& renewed) noexcept
+{
+    using S = typename M::Scalar;
+    using Lanes = ArrowLanes<M>;
+    if constexpr (M::cayley) {
+        renewed = model.cayley_step(t, s, model.cayley_coordinates(t, s));
+    } else {
+        GroupMatrix<S, Lanes::order> A;
+        if (!log_of_one_and<S, Lanes::order>(group_part<M>(s), A)) return false;
+        renewed = exp_less_one<S, Lanes::order>(model.algebra_matrix(t, s, model.in_algebra(A)));
+    }
+    return true;
+}
+
 /// Takes W back to its group, from which products of many steps lead away by their rounding. Where the chart around 1
 /// does not reach W it stays as it is.
 template <DiscreteMotion M>
@@ -92,19 +109,12 @@ void renew_group_part(const M& model, const typename M::Scalar& t, typename M::S
     using S = typename M::Scalar;
     using Lanes = ArrowLanes<M>;
     if constexpr (Lanes::order > 0) {
-        const GroupMatrix<S, Lanes::order> V = group_part<M>(s);
         GroupMatrix<S, Lanes::order> renewed;
-        if constexpr (M::cayley) {
-            renewed = model.cayley_step(t, s, model.cayley_coordinates(t, s));
-        } else {
-            GroupMatrix<S, Lanes::order> A;
-            if (!log_of_one_and<S, Lanes::order>(V, A)) return;
-            renewed = exp_less_one<S, Lanes::order>(model.algebra_matrix(t, s, model.in_algebra(A)));
-        }
+        if (!element_of_coordinates(model, t, s, renewed)) return;
         // Beside the edge of the chart it is worse than what it renews.
         using std::sqrt;
         const S near = S(sqrt(std::numeric_limits<real_t<S>>::epsilon()));
-        if ((renewed - V).cwiseAbs().maxCoeff() <= near) set_group_part<M>(s, renewed);
+        if ((renewed - group_part<M>(s)).cwiseAbs().maxCoeff() <= near) set_group_part<M>(s, renewed);
     }
 }
 
@@ -118,17 +128,14 @@ template <DiscreteMotion M>
     if constexpr (Lanes::order > 0) {
         constexpr double tolerance = 1e-6, far = 1e3;
         const GroupMatrix<S, Lanes::order> V = group_part<M>(s);
-        GroupMatrix<S, Lanes::order> renewed;
         if constexpr (M::cayley) {
             const auto d = model.cayley_coordinates(t, s);
             if (!d.allFinite() || d.cwiseAbs().maxCoeff() > S(far)) return false;
-            renewed = model.cayley_step(t, s, d);
-        } else {
-            GroupMatrix<S, Lanes::order> A;
-            if (V.cwiseAbs().maxCoeff() > S(1) || !log_of_one_and<S, Lanes::order>(V, A)) return false;
-            renewed = exp_less_one<S, Lanes::order>(model.algebra_matrix(t, s, model.in_algebra(A)));
+        } else if (V.cwiseAbs().maxCoeff() > S(1)) {
+            return false;
         }
-        return (renewed - V).cwiseAbs().maxCoeff() > S(tolerance);
+        GroupMatrix<S, Lanes::order> renewed;
+        return element_of_coordinates(model, t, s, renewed) && (renewed - V).cwiseAbs().maxCoeff() > S(tolerance);
     } else {
         return false;
     }
@@ -264,7 +271,8 @@ class ArrowSolver {
                (again - step).cwiseAbs().maxCoeff() <= Scalar(Real(0.5)) * step.cwiseAbs().maxCoeff();
     }
 
-    /// Whether det N has the sign of the branch at points on the way along d: at its half, its quarter, and so on.
+    /// Whether det N has the sign of the branch at points on the way along d: at its half, its quarter, and so on. Folds
+    /// that all lie between two of them are not seen.
     [[nodiscard]] bool keeps_sign(const M& model, const Scalar& t, const State& z, const Column& d,
                                   bool negative) noexcept
     {
