@@ -271,8 +271,8 @@ class ArrowSolver {
                (again - step).cwiseAbs().maxCoeff() <= Scalar(Real(0.5)) * step.cwiseAbs().maxCoeff();
     }
 
-    /// Whether det N has the sign of the branch at points on the way along d: at its half, its quarter, and so on. Folds
-    /// that all lie between two of them are not seen.
+    /// Whether det N has the sign of the branch at points on the way along d: at its half, its quarter, and so on.
+    /// Folds that all lie between two of them are not seen.
     [[nodiscard]] bool keeps_sign(const M& model, const Scalar& t, const State& z, const Column& d,
                                   bool negative) noexcept
     {
