@@ -15,7 +15,7 @@ namespace {
 /// A pair groupoid over R with L(x, y) = (y - x)^2/(2 h) + h g cos((x + y)/2): F^-+L = (y - x)/h +- (h g/2) sin.
 struct Pendulum {
     using Scalar = double;
-    static constexpr int dimension = 3, base_dimension = 1, arrow_dimension = 1, inner_dimension = 0;
+    static constexpr int dimension = 3, base_dimension = 1, inner_dimension = 0;
     static constexpr int fibre_dimension = 1, horizontal = 1, group_order = 0;
     static constexpr bool cayley = true;
     static constexpr std::size_t step_parameter = 0;

@@ -14,7 +14,7 @@ namespace {
 /// A pair groupoid over R with F^-L(x, x + d) = F^+L = sin(d)/h: folds at d = pi/2 + k pi, N = cos(d)/h.
 struct Fold {
     using Scalar = double;
-    static constexpr int dimension = 3, base_dimension = 1, arrow_dimension = 1, inner_dimension = 0;
+    static constexpr int dimension = 3, base_dimension = 1, inner_dimension = 0;
     static constexpr int fibre_dimension = 1, horizontal = 1, group_order = 0;
     static constexpr bool cayley = true;
     using State = Eigen::Vector3d;
