@@ -32,6 +32,7 @@ constexpr std::array commands{
     CommandEntry{"chart", "chart what accuracy costs by every method", run_chart},
     CommandEntry{"reduce", "prove that a morphism projects the equations of motion; list cyclic coordinates",
                  run_reduce},
+    CommandEntry{"solve", "find relative equilibria, with what is proved of their stability", run_solve},
     CommandEntry{"models", "list the example models", run_models},
     CommandEntry{"methods", "list the integrators", run_methods},
 };

@@ -10,7 +10,9 @@
 #include "commands/scene/range.hpp"
 #include "commands/scene/scene_options.hpp"
 #include "commands/scene/scene_run.hpp"
+#include "commands/variations/variation_states.hpp"
 #include "elaborate/bind_parameters.hpp"
+#include "elaborate/elaborate.hpp"
 #include "elaborate/variational_model.hpp"
 #include "model/read_file.hpp"
 #include "model/scene_form.hpp"
@@ -50,6 +52,12 @@ const CommandSyntax run_syntax{
      {"branch", "N",
       "of a discrete motion that starts from momenta: its first arrow is the N-th that has them, by the distance from "
       "that of short steps; without it that one"},
+     {"variations", "N",
+      "the action along the run, with its first and second variations by N random admissible variations with fixed "
+      "ends"},
+     {"seed", "S", "of these variations; without it 0"},
+     {"jacobi-field", "NAME=VALUE",
+      "a Jacobi field along the motion, sigma = 0 and these delta y at the start, as columns (may be repeated)"},
      {"output,o", "FILE", "the rows as CSV"},
      {"plot", "FILE", "a picture (.svg, .png, .pdf): the scene's curves, else its columns over time"},
      {"curves", "X:Y,..", "what --plot draws: t:x, x:y, x:y:z; curves in brackets share a panel (may be repeated)"},
@@ -135,15 +143,22 @@ ExitCode run_run(Arguments arguments)
     } else if (options.has("bind"))
         bind_in_scene(checked.model, find_scene(model, options.get("scene")));
     const std::optional<AccurateMethod> accurate = accurate_method(options, checked, path);
-    SceneRun run(options, checked, accurate ? accurate->method->name : options.get("method"));
     Scene scene = scene_of(options, model, options.named("initial"));
+    const bool stretch = options.has("at") && !options.has("t-end");
+    const VariationRequest variations = variations_of(options);
+    std::vector<std::string> beside;
+    if (variations.any())
+        beside = {add_variation_states(checked.model, elaborate(model), scene, variations,
+                                       sample_times(scene, evaluate_scene(model, scene), 1, stretch))};
+    SceneRun run(options, checked, accurate ? accurate->method->name : options.get("method"), beside);
     const MethodEntry& method = accurate ? *accurate->method : method_of(options, scene);
     if (options.has("branch")) run.input().branch = branch_of(options, scene, evaluate_scene(model, scene));
-    run.prepare(std::move(scene), method, options.has("at") && !options.has("t-end"));
+    run.prepare(std::move(scene), method, stretch);
 
     const bool confirmed = !accurate || confirm_accuracy(*accurate, run.record(), run.input());
 
-    const RunOutcome outcome = run.integrate();
+    RunOutcome outcome = run.integrate();
+    outcome.action = action_report(outcome, variations);
     if (options.has("output")) write_file(options.get("output"), to_csv(outcome.table));
     if (options.has("plot"))
         draw_scene({model, run.scene(), run.record(), run.input(), outcome.table.count}, options.get("plot"));

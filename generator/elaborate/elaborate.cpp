@@ -89,6 +89,11 @@ class Elaboration {
     void lower_mechanics()
     {
         for (const FirstOrderState& state : model_.states) system_.states.push_back(graph_.input(state.symbol.name));
+        if (model_.jacobi_field) {
+            const auto sigma = system_.states.begin() + static_cast<std::ptrdiff_t>(*model_.jacobi_field);
+            const auto delta = sigma + static_cast<std::ptrdiff_t>(system_.r());
+            system_.jacobi_field = {{sigma, delta}, {delta, delta + static_cast<std::ptrdiff_t>(system_.r())}};
+        }
         if (model_.lagrangian) system_.lagrangian = lower_(model_.lagrangian);
         if (model_.hamiltonian) system_.hamiltonian = lower_(model_.hamiltonian);
         if (model_.forces.empty() && !model_.dissipation) return;

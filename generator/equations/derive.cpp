@@ -11,6 +11,7 @@
 #include "equations/nonholonomic.hpp"
 #include "equations/poisson.hpp"
 #include "equations/pontryagin.hpp"
+#include "equations/variations.hpp"
 #include "model/form.hpp"
 #include "model/scene_form.hpp"
 
@@ -19,7 +20,7 @@ namespace lagen {
 std::vector<std::string> derivation_names()
 {
     std::vector<std::string> names = form_names();
-    for (const char* more : {"exterior", "cartan", "poisson", "invariants", "reaction", "projected"})
+    for (const char* more : {"exterior", "cartan", "poisson", "invariants", "variations", "reaction", "projected"})
         names.emplace_back(more);
     return names;
 }
@@ -49,6 +50,7 @@ EquationSet derive(const std::string& form, const Model& model, const System& sy
     if (form == "exterior") return derive_exterior(model, system);
     if (form == "poisson") return derive_poisson(model, system, report.mechanics.regularity, brackets);
     if (form == "invariants") return derive_invariants(model, system, report.mechanics.regularity);
+    if (form == "variations") return derive_variations(model, system);
     if (form == "cartan") {
         const bool discrete = system.discrete && (system.discrete->written || !system.lagrangian);
         return discrete ? derive_cartan(model, system)

@@ -4,6 +4,7 @@
 #include "kernels/constrained_kernels.hpp"
 #include "kernels/formulation.hpp"
 #include "mechanics/lagrange.hpp"
+#include "mechanics/variations.hpp"
 
 #include <fmt/format.h>
 
@@ -23,6 +24,14 @@ void bind_names(Graph& graph, const System& system, const LagrangianNodes& lagra
         form.binding[system.graph.input_name(system.mu[a])] = lagrangian.fibre.momenta[a];
     bind_system(system, form);
     for (const NodeId y : system.velocities()) form.binding[system.graph.input_name(y)] = y;
+}
+
+void bind_jacobi_field(Graph& graph, const System& system, std::span<const NodeId> ydot, Formulation& form)
+{
+    if (!system.jacobi_field) return;
+    const std::vector<NodeId> rates = jacobi_rates(graph, system, ydot);
+    for (std::size_t a = 0; a < rates.size(); ++a)
+        form.binding[jacobi_rate_name(graph.input_name(system.jacobi_field->delta[a]))] = rates[a];
 }
 
 void add_kernels(Graph& graph, const LagrangianNodes& lagrangian, std::optional<NodeId> power, bool hessians,
@@ -73,6 +82,7 @@ Formulation lagrange_form(Graph& graph, const System& system, const Report& repo
     form.documentation = documentation_of(system);
     form.failures = "Answers singular_mass_matrix where W has no inverse at this state.";
     bind_names(graph, system, lagrangian, form);
+    bind_jacobi_field(graph, system, ydot, form);
     append_state_rates(graph, system, form);
     add_kernels(graph, lagrangian, lagrange_power(graph, system, lagrangian, balance), request.hessians, form);
     if (lagrangian.constrained) add_constrained(graph, system, *lagrangian.constrained, form);

@@ -54,6 +54,11 @@ struct DiscreteSystem {
     std::string obstacle, hint;              ///< why there is no L, and what to write
 };
 
+/// A Jacobi field along the motion, by first-order states: delta x = rho(sigma), and delta y^a.
+struct JacobiField {
+    std::vector<NodeId> sigma, delta; ///< shapes (r)
+};
+
 /// What of the algebroid stands in the model file as it is here, so that a hint can ask to change it.
 struct Editable {
     bool anchor = false;
@@ -127,6 +132,7 @@ struct System {
     std::optional<NodeId> lagrangian;                    ///< L(t, x, y), over the ambient Y of a distribution
     std::optional<NodeId> hamiltonian;                   ///< H(t, x, mu)
     std::vector<NodeId> states;                          ///< inputs z of [states]
+    std::optional<JacobiField> jacobi_field;
     std::vector<NodeId> forces;      ///< Q_a(t, x, y, z) = [forces] - dR/dy^a, shape (r); empty: none
     std::vector<NodeId> force_parts; ///< the given forces and R, each as it is written
     std::optional<ControlProblem> control;

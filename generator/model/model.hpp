@@ -345,6 +345,7 @@ struct Model {
     std::optional<Control> control;
     std::vector<FirstOrderState> states; ///< of [states], then the entries of [reconstruct]
     std::vector<Reconstruction> reconstructions;
+    std::optional<std::size_t> jacobi_field; ///< the first of its states, sigma^a, then delta y^a; added by a command
     std::vector<NamedTree> observables;
     std::vector<NamedTree> invariants;
     std::vector<Symmetry> symmetries;

@@ -2,6 +2,7 @@
 #include "verify/find_invariants.hpp"
 
 #include "algebra/orthonormal_span.hpp"
+#include "algebra/rational_near.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/evaluate.hpp"
 #include "graph/core/operators.hpp"
@@ -19,26 +20,6 @@ using Numbers = std::vector<long double>; ///< a function at all points
 
 constexpr long double negligible = 1e-10L; ///< of what is 0 but for rounding
 constexpr std::size_t more_points = 16;    ///< than unknowns
-
-/// The fraction with the smallest denominator that is this number to rounding; nothing where that is large.
-std::optional<Rational> rational_near(long double x)
-{
-    constexpr long most = 100000;
-    long p0 = 0, q0 = 1, p1 = 1, q1 = 0;
-    long double rest = x;
-    for (int k = 0; k < 30; ++k) {
-        const long double whole = std::floor(rest);
-        if (std::abs(whole) > 1e8L) return {};
-        const long a = static_cast<long>(whole), p = a * p1 + p0, q = a * q1 + q0;
-        if (q > most) return {};
-        p0 = p1, q0 = q1, p1 = p, q1 = q;
-        if (std::abs(x - static_cast<long double>(p) / static_cast<long double>(q)) <=
-            1e-9L * std::max(1.0L, std::abs(x)))
-            return Rational(p, q);
-        rest = 1 / (rest - whole);
-    }
-    return {};
-}
 
 class InvariantSearch {
   public:
@@ -239,7 +220,7 @@ class InvariantSearch {
         mpz_class common = 1; // denominator
         for (std::size_t k = 0; k < coefficients.size(); ++k) {
             if (std::abs(coefficients[k]) < negligible) continue;
-            const std::optional<Rational> c = rational_near(coefficients[k]);
+            const std::optional<Rational> c = rational_near(coefficients[k], 1e-9L);
             if (!c) return;
             common = lcm(common, c->get_den());
             terms.emplace_back(*c, monomials[k]);

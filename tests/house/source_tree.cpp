@@ -127,7 +127,10 @@ const Arrows& planned_folder_arrows()
         {"commands/morphism", {"commands/scene"}},
         {"commands/reduce", {"commands/line"}},
         {"commands/sweep", {"commands/scene"}},
-        {"commands", {"commands/plot", "commands/chart", "commands/morphism", "commands/reduce", "commands/sweep"}},
+        {"commands/variations", {"commands/scene"}},
+        {"commands",
+         {"commands/plot", "commands/chart", "commands/morphism", "commands/reduce", "commands/sweep",
+          "commands/variations"}},
     };
     return arrows;
 }

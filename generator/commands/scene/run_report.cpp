@@ -154,6 +154,54 @@ std::string figures_text(const RunOutcome& outcome)
     return text;
 }
 
+double number_of(const std::string& text)
+{
+    return text.empty() ? std::nan("") : std::strtod(text.c_str(), nullptr);
+}
+
+/// The largest first variation, its largest part, and the least and largest second variation.
+struct ActionSizes {
+    double first = 0, part = 0, least = INFINITY, largest = -INFINITY;
+};
+ActionSizes sizes_of(const ActionReport& action)
+{
+    ActionSizes sizes;
+    for (std::size_t k = 0; k < action.base.size(); ++k) {
+        const double base = number_of(action.base[k]), fibre = number_of(action.fibre[k]);
+        sizes.first = std::max(sizes.first, std::fabs(base + fibre));
+        sizes.part = std::max({sizes.part, std::fabs(base), std::fabs(fibre)});
+        sizes.least = std::min(sizes.least, number_of(action.second[k]));
+        sizes.largest = std::max(sizes.largest, number_of(action.second[k]));
+    }
+    return sizes;
+}
+
+std::string action_text(const RunOutcome& outcome)
+{
+    if (!outcome.action) return "";
+    const ActionSizes sizes = sizes_of(*outcome.action);
+    const std::size_t count = outcome.action->base.size();
+    return fmt::format(
+        "  action {}; along {} random variation{} with fixed ends its first variation is at most {:.3g}, "
+        "with parts to {:.3g}\n  second variations from {:.6g} to {:.6g}\n",
+        brief(outcome.action->action, 9), count, count == 1 ? "" : "s", sizes.first, sizes.part, sizes.least,
+        sizes.largest);
+}
+
+std::string action_json(const RunOutcome& outcome)
+{
+    if (!outcome.action) return "";
+    const ActionReport& action = *outcome.action;
+    const ActionSizes sizes = sizes_of(action);
+    const auto numbers = [](const std::vector<std::string>& list) {
+        return list_text(list, [](const std::string& number) { return number_text(number); });
+    };
+    return fmt::format(",\n \"action\": {{\"value\": {}, \"first\": {:.17g}, \"parts\": {:.17g}, \"base\": {}, "
+                       "\"fibre\": {}, \"second\": {}}}",
+                       number_text(action.action), sizes.first, sizes.part, numbers(action.base), numbers(action.fibre),
+                       numbers(action.second));
+}
+
 std::string row_text(std::string_view line)
 {
     return list_text(fields(line), [](std::string_view field) { return number_text(field); });
@@ -223,7 +271,7 @@ std::string report_json(const RunOutcome& outcome)
         branches_json(outcome), number_text(outcome.steps), number_text(outcome.rejected),
         number_text(outcome.rhs_calls), implicit, number_text(outcome.seconds),
         list_text(outcome.table.columns, [](const std::string& column) { return string_text(column); }),
-        list_text(outcome.table.lines(), row_text), events, figures_json(outcome));
+        list_text(outcome.table.lines(), row_text), events, figures_json(outcome) + action_json(outcome));
 }
 
 std::string report_text(const RunOutcome& outcome)
@@ -249,7 +297,7 @@ std::string report_text(const RunOutcome& outcome)
     if (!outcome.largest_step.empty())
         text += fmt::format("  the largest step near it that goes on there: {}\n", outcome.largest_step);
     if (failed && outcome.steps == "0") return text + start_hint(outcome);
-    return text + figures_text(outcome);
+    return text + action_text(outcome) + figures_text(outcome);
 }
 
 std::string drift_warnings(const RunOutcome& outcome)

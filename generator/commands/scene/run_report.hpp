@@ -29,6 +29,12 @@ struct Drift {
     std::string size{}, moved_at{}; ///< of f, and when it first moved by more than 1e-3 of that
 };
 
+/// The action over a run, its first variations as their two parts, and its second variations. Numbers as printed.
+struct ActionReport {
+    std::string action;
+    std::vector<std::string> base, fibre, second; ///< one a variation
+};
+
 struct RunOutcome {
     std::string model, scene, form, method;
     std::string status; ///< "ok", "stopped_by_event", "left_domain", ... (runtime's names)
@@ -49,6 +55,7 @@ struct RunOutcome {
     std::vector<Drift> balance; ///< of the energy less the work, where forces or explicit time change the energy
     std::string work;           ///< of them, over the run
     std::string manifold, manifold_time; ///< largest distance from it, where there are constraints
+    std::optional<ActionReport> action{};
     std::vector<std::string> left_out{}; ///< claims and first-order states that have no value in the form
     bool energy_changes = false;         ///< forces or explicit time: the energy is not conserved
     Table table;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/sweep/sweep_rows.hpp"
 
+#include "commands/machine/philox.hpp"
 #include "commands/scene/scene_options.hpp"
-#include "commands/sweep/philox.hpp"
 #include "emit/print_literal.hpp"
 #include "model/families.hpp"
 

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// `lagen solve`: relative equilibria with what is proved of their stability.
+#include "commands/line/command.hpp"
+#include "commands/line/options.hpp"
+#include "commands/machine/places.hpp"
+#include "commands/machine/write_file.hpp"
+#include "commands/scene/range.hpp"
+#include "commands/scene/scene_options.hpp"
+#include "commands/scene/start_state.hpp"
+#include "emit/json.hpp"
+#include "equations/symbolic_model.hpp"
+#include "graph/calculus/differentiate.hpp"
+#include "graph/core/evaluate.hpp"
+#include "graph/core/lower.hpp"
+#include "pipeline.hpp"
+#include "verify/relative_equilibria.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace lagen {
+
+namespace {
+
+const CommandSyntax solve_syntax{"solve",
+                                 "MODEL",
+                                 "Finds relative equilibria: motions along the flow of momenta and Casimirs, with the "
+                                 "values of these at the start of "
+                                 "a scene. Each is certified, and its stability proved where it can be.",
+                                 {{"relative-equilibria", nullptr, "what is solved for"},
+                                  {"scene", "NAME", "the scene; without it `default`, else the first"},
+                                  {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
+                                  {"initial", "NAME=VALUE", "an initial value of the scene (may be repeated)"},
+                                  {"starts", "N", "from how many random points they are sought", "600"},
+                                  {"output,o", "FILE", "write there instead of to standard output"},
+                                  {"unchecked", nullptr, "go on although the model is refuted"},
+                                  {"format,f", "FORMAT", "text or json", "text"}}};
+
+using NamedValues = std::vector<std::pair<std::string, double>>;
+
+/// What was found, in the model's words.
+struct Solution {
+    const Model& model;
+    std::string scene;
+    RelativeEquilibria equilibria;
+    std::vector<std::string> conserved;  ///< as texts
+    std::vector<NamedValues> velocities; ///< of each, by fibre coordinates
+};
+
+std::string number(double value)
+{
+    return fmt::format("{:.12g}", value == 0 ? 0.0 : value);
+}
+
+const char* reason_of(const RelativeEquilibrium& found)
+{
+    if (!found.certified) return "not certified: it may be none, or one of a family";
+    if (found.definite > 0) return "the second variation is positive definite";
+    if (found.definite < 0) return "the second variation is negative definite";
+    if (found.stability == Stability::spectrally_unstable) return "an eigenvalue has a positive real part";
+    return "the second variation is not definite, and no eigenvalue is certain to have a positive real part";
+}
+
+std::string name_of(const Graph& graph, NodeId input)
+{
+    return graph.input_name(input);
+}
+
+std::string eigenvalues_text(const RelativeEquilibrium& found)
+{
+    std::string text;
+    for (const proof::Eigenvalue& each : found.eigenvalues) {
+        const double real = std::abs(each.real) < 1e-12 ? 0 : each.real;
+        const double imaginary = std::abs(each.imaginary) < 1e-12 ? 0 : each.imaginary;
+        text += text.empty() ? "" : ", ";
+        text += imaginary == 0 ? fmt::format("{:.6g}", real) : fmt::format("{:.6g} {:+.6g}i", real, imaginary);
+    }
+    return text;
+}
+
+std::string solution_text(const Solution& solution, const Graph& graph)
+{
+    const RelativeEquilibria& all = solution.equilibria;
+    std::string text = fmt::format("{}, scene {}: {} relative equilibri{} found\n", solution.model.name, solution.scene,
+                                   all.found.size(), all.found.size() == 1 ? "um" : "a");
+    for (std::size_t i = 0; i < all.conserved.size(); ++i)
+        text += fmt::format("  F{} = {} = {}{}\n", i + 1, solution.conserved[i], number(all.conserved[i].level),
+                            all.conserved[i].casimir ? " (Casimir)" : "");
+    for (std::size_t e = 0; e < all.found.size(); ++e) {
+        const RelativeEquilibrium& found = all.found[e];
+        text += fmt::format("\n{}: {}: {}\n", e + 1, to_text(found.stability), reason_of(found));
+        std::string state;
+        for (std::size_t k = 0; k < all.coordinates.size(); ++k)
+            state += fmt::format("{}{} = {}", state.empty() ? "" : ", ", name_of(graph, all.coordinates[k]),
+                                 found.exact.empty() ? number(found.z[k]) : found.exact[k].get_str());
+        text += fmt::format("  {}{}\n", state, found.exact.empty() ? "" : " (exactly)");
+        std::string velocities;
+        for (const auto& [name, value] : solution.velocities[e])
+            velocities += fmt::format("{}{} = {}", velocities.empty() ? "" : ", ", name, number(value));
+        text += fmt::format("  {}\n", velocities);
+        for (std::size_t k = 0; k < found.cyclic.size(); ++k)
+            text += fmt::format("  {}' = {}\n", name_of(graph, all.cyclic[k]), number(found.cyclic[k]));
+        text += fmt::format("  H = {}", number(found.energy));
+        for (std::size_t i = 0; i < found.multipliers.size(); ++i)
+            text += fmt::format(", lambda{} = {}", i + 1, number(found.multipliers[i]));
+        if (found.certified && found.radius > 0) text += fmt::format("; certified to {:.1g}", found.radius);
+        text +=
+            fmt::format("\n  on ker dF{}, {} dimension{}: eigenvalues {}\n",
+                        found.flows > 0 ? " modulo the flows of F" : "", found.dimension,
+                        found.dimension == 1 ? "" : "s", found.eigenvalues.empty() ? "none" : eigenvalues_text(found));
+    }
+    return text;
+}
+
+void values_json(JsonWriter& json, const char* key, const NamedValues& values)
+{
+    json.key(key).begin_object();
+    for (const auto& [name, value] : values) json.key(name).value(value);
+    json.end_object();
+}
+
+std::string solution_json(const Solution& solution, const Graph& graph)
+{
+    const RelativeEquilibria& all = solution.equilibria;
+    JsonWriter json;
+    json.begin_object().key("model").value(solution.model.name).key("scene").value(solution.scene);
+    json.key("conserved").begin_array();
+    for (std::size_t i = 0; i < all.conserved.size(); ++i) {
+        json.begin_object().key("function").value(solution.conserved[i]).key("value").value(all.conserved[i].level);
+        json.key("casimir").value(all.conserved[i].casimir).end_object();
+    }
+    json.end_array().key("relative_equilibria").begin_array();
+    for (std::size_t e = 0; e < all.found.size(); ++e) {
+        const RelativeEquilibrium& found = all.found[e];
+        NamedValues state, rates;
+        for (std::size_t k = 0; k < all.coordinates.size(); ++k)
+            state.emplace_back(name_of(graph, all.coordinates[k]), found.z[k]);
+        for (std::size_t k = 0; k < found.cyclic.size(); ++k)
+            rates.emplace_back(name_of(graph, all.cyclic[k]), found.cyclic[k]);
+        json.begin_object();
+        values_json(json, "state", state);
+        values_json(json, "velocities", solution.velocities[e]);
+        values_json(json, "rates", rates);
+        if (!found.exact.empty()) {
+            json.key("exact").begin_object();
+            for (std::size_t k = 0; k < all.coordinates.size(); ++k)
+                json.key(name_of(graph, all.coordinates[k])).value(found.exact[k].get_str());
+            json.end_object();
+        }
+        json.key("energy").value(found.energy).key("multipliers").begin_array();
+        for (const double lambda : found.multipliers) json.value(lambda);
+        json.end_array().key("certified").value(found.certified).key("radius").value(found.radius);
+        json.key("flows").value(found.flows).key("dimension").value(found.dimension);
+        json.key("second_variation")
+            .value(found.definite > 0   ? "positive definite"
+                   : found.definite < 0 ? "negative definite"
+                                        : "not shown to be definite");
+        json.key("eigenvalues").begin_array();
+        for (const proof::Eigenvalue& each : found.eigenvalues)
+            json.begin_array().value(each.real).value(each.imaginary).end_array();
+        json.end_array().key("stability").value(to_text(found.stability));
+        json.key("reason").value(reason_of(found)).end_object();
+    }
+    return json.end_array().end_object().text() + "\n";
+}
+
+void require_autonomous(const Model& model, const Graph& graph, const System& system, const HamiltonianNodes& H)
+{
+    const NodeId only[] = {H.value};
+    if (depends_on_any(graph, only, std::vector<NodeId>{system.time}) || !system.forces.empty())
+        throw MathematicsError(fmt::format("relative equilibria are those of motions without forces and explicit time, "
+                                           "and model '{}' has them",
+                                           model.name));
+}
+
+} // namespace
+
+ExitCode run_solve(Arguments arguments)
+{
+    const Options options(solve_syntax, arguments);
+    if (options.help()) return ExitCode::done;
+    const bool as_json = options.choice("format", {"text", "json"}) == "json";
+    if (options.has("output")) require_writable(options.get("output"));
+    if (!options.has("relative-equilibria"))
+        throw UsageError("lagen solve: give --relative-equilibria, which is what it solves for");
+    const std::optional<std::uint64_t> starts = read_whole(options.get("starts"));
+    if (!starts || *starts > 100000)
+        throw UsageError(fmt::format("lagen solve: --starts is '{}', where a whole number to 100000 is required",
+                                     options.get("starts")));
+    CheckedModel checked = load(model_path(options.positional()[0]), options.settings(), options.has("unchecked"));
+    const Model& model = checked.model;
+    require_apart(options, model);
+    for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
+    if (checked.system.distribution || checked.system.control)
+        throw MathematicsError(fmt::format("relative equilibria are those of Hamilton's equations of an L or H, and "
+                                           "model '{}' is something else",
+                                           model.name));
+    Scene scene = find_scene(model, options.get("scene"));
+    for (const Setting& setting : options.named("initial")) set_initial(model, scene, setting);
+    scene = in_form(model, scene, "hamilton");
+    const SceneValues values = evaluate_scene(model, scene);
+    set_parameters(checked, finite_numbers(values.parameters, scene));
+    const System& system = checked.system;
+    Graph graph = system.graph;
+    std::optional<HamiltonianNodes> H;
+    const Regularity& regularity = checked.report.mechanics.regularity;
+    if (system.hamiltonian || (system.lagrangian && regularity.kind != Regularity::Kind::degenerate))
+        H = closed_hamiltonian(graph, system, regularity.newton_start);
+    if (!H)
+        throw MathematicsError(
+            fmt::format("model '{}' has no Hamiltonian in closed form, whose critical points these are", model.name));
+    require_autonomous(model, graph, system, *H);
+
+    StartState to_momenta([&](bool) -> const CheckedModel& { return checked; }, "hamilton");
+    (void)to_momenta.prepare(!values.momenta.empty(), true);
+    const std::vector<long double> state = to_momenta(values);
+    std::map<std::string, double> start;
+    for (std::size_t i = 0; i < system.n(); ++i)
+        start[graph.input_name(system.algebroid.x[i])] = static_cast<double>(state[i]);
+    for (std::size_t a = 0; a < system.r(); ++a)
+        start[graph.input_name(system.mu[a])] = static_cast<double>(state[system.n() + a]);
+    EquilibriumSearch search;
+    search.starts = static_cast<std::size_t>(*starts);
+    Solution solution{model, scene.name, relative_equilibria(graph, system, *H, start, search), {}, {}};
+
+    SymbolicModel symbolic(model, system.written.algebroid, {});
+    for (const ConservedFunction& each : solution.equilibria.conserved)
+        solution.conserved.push_back(to_text(symbolic.shortest(symbolic.lower(to_tree(graph, each.value)))));
+    for (const RelativeEquilibrium& found : solution.equilibria.found) {
+        std::map<std::string, double> inputs = start;
+        for (const auto& [parameter, value] : system.parameter_values)
+            inputs[graph.input_name(parameter)] = graph.value(value).get_d();
+        for (std::size_t k = 0; k < found.z.size(); ++k)
+            inputs[graph.input_name(solution.equilibria.coordinates[k])] = found.z[k];
+        const std::vector<double> y = evaluate<double>(graph, H->y, inputs);
+        NamedValues& velocities = solution.velocities.emplace_back();
+        for (std::size_t a = 0; a < y.size(); ++a) velocities.emplace_back(model.fibre.coordinates[a].name, y[a]);
+    }
+    write_file(options.has("output") ? options.get("output") : "-",
+               as_json ? solution_json(solution, graph) : solution_text(solution, graph));
+    return ExitCode::done;
+}
+
+} // namespace lagen

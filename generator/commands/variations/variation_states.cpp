@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/variations/variation_states.hpp"
+
+#include "commands/line/options.hpp"
+#include "commands/machine/philox.hpp"
+#include "commands/scene/range.hpp"
+#include "commands/scene/scene_options.hpp"
+#include "graph/calculus/differentiate.hpp"
+#include "graph/core/lower.hpp"
+#include "mechanics/variations.hpp"
+#include "model/scene_form.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace lagen {
+
+namespace {
+
+constexpr std::uint64_t most_variations = 100;
+constexpr std::size_t harmonics = 3;
+
+std::string part_name(std::size_t k, const char* part)
+{
+    return fmt::format("action.{}.{}", k, part);
+}
+
+class VariationStates {
+  public:
+    VariationStates(Model& model, const System& system, Scene& scene)
+        : model_(model), system_(system), scene_(scene), graph_(system.graph)
+    {
+    }
+
+    void add_action(const VariationRequest& request, const SampleTimes& times)
+    {
+        add("action", name("lagrangian"));
+        for (std::size_t k = 1; k <= request.count; ++k) {
+            std::vector<NodeId> s, sdot;
+            for (std::size_t a = 0; a < system_.r(); ++a) {
+                s.push_back(wave(request.seed, k, a, times));
+                const std::pair<NodeId, NodeId> seed{system_.time, graph_.constant(1)};
+                sdot.push_back(directional(graph_, {&s.back(), 1}, {&seed, 1})[0]);
+            }
+            const Variation delta = variation(graph_, system_.algebroid, s, sdot);
+            const ActionVariations action = action_variations(graph_, system_, delta, s);
+            add(part_name(k, "base"), to_tree(graph_, action.base));
+            add(part_name(k, "fibre"), to_tree(graph_, action.fibre));
+            add(part_name(k, "second"), to_tree(graph_, action.second));
+        }
+    }
+
+    void add_field(const std::vector<Setting>& start)
+    {
+        model_.jacobi_field = model_.states.size();
+        std::vector<NodeId> sigma, delta;
+        std::vector<std::string> names;
+        for (const char* letter : {"sigma", "delta"})
+            for (const Symbol& symbol : model_.fibre.coordinates) {
+                names.push_back(fmt::format("{}.{}", letter, symbol.name));
+                (letter[0] == 's' ? sigma : delta).push_back(graph_.input(names.back()));
+            }
+        // delta y = sigmadot + C y sigma
+        const std::vector<NodeId> at_rest(system_.r(), graph_.constant(0));
+        const Variation turned = variation(graph_, system_.algebroid, sigma, at_rest);
+        for (std::size_t a = 0; a < system_.r(); ++a)
+            add(names[a], to_tree(graph_, graph_.subtract(delta[a], turned.y[a])));
+        for (std::size_t a = 0; a < system_.r(); ++a)
+            add(names[system_.r() + a], name(jacobi_rate_name(names[system_.r() + a])));
+        for (const Setting& setting : start) place_start(setting);
+    }
+
+    [[nodiscard]] const std::string& text() const { return text_; }
+
+  private:
+    void add(const std::string& state_name, Tree rate)
+    {
+        FirstOrderState state;
+        state.symbol.name = state_name;
+        state.rate = std::move(rate);
+        text_ += fmt::format("{}' = {}\n", state_name, to_text(state.rate));
+        model_.states.push_back(std::move(state));
+        if (scene_.observe) scene_.observe->push_back({state_name, name(state_name), {}});
+    }
+
+    /// sum_j c_j sin(j pi (t - start)/(end - start)); zero at both ends.
+    [[nodiscard]] NodeId wave(std::uint64_t seed, std::size_t k, std::size_t a, const SampleTimes& times)
+    {
+        const auto exact = [&](long double value) { return graph_.constant(Rational(static_cast<double>(value))); };
+        const NodeId part =
+            graph_.divide(graph_.subtract(system_.time, exact(times.start)), exact(times.end - times.start));
+        NodeId sum = graph_.constant(0);
+        for (std::size_t j = 1; j <= harmonics; ++j) {
+            const double c = 2 * uniform_number(seed, k, static_cast<std::uint32_t>(a * harmonics + j)) - 1;
+            const NodeId angle =
+                graph_.multiply(graph_.multiply(graph_.constant(static_cast<long>(j)), graph_.pi()), part);
+            sum = graph_.add(sum, graph_.multiply(graph_.constant(Rational(c)), graph_.apply(Op::sin, angle)));
+        }
+        return sum;
+    }
+
+    void place_start(const Setting& setting)
+    {
+        const auto known = [&](const Symbol& symbol) { return symbol.name == setting.name; };
+        if (std::ranges::none_of(model_.fibre.coordinates, known))
+            throw UsageError(fmt::format("lagen run: '{}' of --jacobi-field is no fibre coordinate of model '{}'",
+                                         setting.name, model_.name));
+        const Tree value = option_tree(model_, "jacobi-field", setting.value);
+        scene_.initial.push_back({"delta." + setting.name, value, setting.value.range(0, 0)});
+    }
+
+    Model& model_;
+    const System& system_;
+    Scene& scene_;
+    Graph graph_;
+    std::string text_;
+};
+
+std::uint64_t whole(const Options& options, const char* option, std::uint64_t least, std::uint64_t most)
+{
+    const std::optional<std::uint64_t> value = read_whole(options.get(option));
+    if (!value || *value < least || *value > most)
+        throw UsageError(fmt::format("lagen run: --{} is '{}', where a whole number from {} to {} is required", option,
+                                     options.get(option), least, most));
+    return *value;
+}
+
+} // namespace
+
+VariationRequest variations_of(const Options& options)
+{
+    VariationRequest request;
+    if (options.has("variations")) request.count = whole(options, "variations", 1, most_variations);
+    if (options.has("seed") && request.count == 0) throw UsageError("lagen run: --seed needs --variations");
+    if (options.has("seed")) request.seed = whole(options, "seed", 0, UINT64_MAX);
+    request.field = options.named("jacobi-field");
+    return request;
+}
+
+std::string add_variation_states(Model& model, const System& system, Scene& scene, const VariationRequest& request,
+                                 const SampleTimes& times)
+{
+    const auto refuse = [&](const char* what, const char* hint) {
+        throw MathematicsError(fmt::format("variations are those of the action of a Lagrangian, and {}", what), hint);
+    };
+    if (!system.lagrangian) refuse("this model has none", "[lagrangian] L");
+    if (system.distribution) refuse("the motions of a nonholonomic model are no critical points of it", "");
+    if (!system.forces.empty())
+        refuse("with forces motions are no critical points of it", "leave out [forces] and [dissipation]");
+    if (!is_form(scene.form, FormKind::lagrange))
+        refuse(fmt::format("the scene is run in the form '{}'", scene.form).c_str(), "--form lagrange");
+    VariationStates states(model, system, scene);
+    if (request.count > 0) states.add_action(request, times);
+    if (!request.field.empty()) states.add_field(request.field);
+    return states.text();
+}
+
+std::optional<ActionReport> action_report(const RunOutcome& outcome, const VariationRequest& request)
+{
+    if (request.count == 0 || outcome.status != "ok") return std::nullopt;
+    const auto value = [&](const std::string& lane) {
+        const auto found = std::ranges::find(outcome.state, lane, &std::pair<std::string, std::string>::first);
+        return found == outcome.state.end() ? std::string() : found->second;
+    };
+    ActionReport report{value("action"), {}, {}, {}};
+    for (std::size_t k = 1; k <= request.count; ++k) {
+        report.base.push_back(value(part_name(k, "base")));
+        report.fibre.push_back(value(part_name(k, "fibre")));
+        report.second.push_back(value(part_name(k, "second")));
+    }
+    return report;
+}
+
+} // namespace lagen

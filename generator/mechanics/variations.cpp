@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "mechanics/variations.hpp"
+
+#include "graph/calculus/differentiate.hpp"
+
+namespace lagen {
+
+Variation variation(Graph& graph, const Algebroid& algebroid, const std::vector<NodeId>& s,
+                    const std::vector<NodeId>& sdot)
+{
+    Variation delta{base_velocity(graph, algebroid, s), sdot};
+    for (std::size_t b = 0; b < algebroid.r(); ++b)
+        for (std::size_t c = 0; c < algebroid.r(); ++c)
+            for (const ColumnEntry& C : algebroid.C(b, c)) {
+                const NodeId factors[] = {C.value, algebroid.y[b], s[c]};
+                delta.y[C.index] = graph.add(delta.y[C.index], graph.product(factors));
+            }
+    return delta;
+}
+
+std::vector<NodeId> varied(Graph& graph, const Algebroid& algebroid, const Variation& delta, std::span<const NodeId> f,
+                           const Replacements& more)
+{
+    Replacements seeds = replacements(algebroid.x, delta.x);
+    const Replacements fibre = replacements(algebroid.y, delta.y);
+    seeds.insert(seeds.end(), fibre.begin(), fibre.end());
+    seeds.insert(seeds.end(), more.begin(), more.end());
+    return directional(graph, f, seeds);
+}
+
+NodeId varied(Graph& graph, const Algebroid& algebroid, const Variation& delta, NodeId f, const Replacements& more)
+{
+    return varied(graph, algebroid, delta, {&f, 1}, more)[0];
+}
+
+ActionVariations action_variations(Graph& graph, const System& system, const Variation& delta,
+                                   const std::vector<NodeId>& s)
+{
+    const Algebroid& algebroid = system.algebroid;
+    const LagrangianNodes lagrangian = lagrangian_nodes(graph, system);
+    const MomentumBalance balance = lagrange_balance(graph, system, lagrangian);
+    ActionVariations out;
+    out.p = lagrangian.fibre.momenta;
+    out.pushes = momentum_rates(graph, algebroid, balance);
+    out.base = contraction(graph, lagrangian.dL_dx, base_velocity(graph, algebroid, s));
+    out.fibre = contraction(graph, out.p, delta.y);
+    out.first = graph.add(out.base, out.fibre);
+    out.second = varied(graph, algebroid, delta, varied(graph, algebroid, delta, *system.lagrangian));
+    return out;
+}
+
+std::string jacobi_rate_name(const std::string& state)
+{
+    return "d/dt " + state;
+}
+
+std::vector<NodeId> jacobi_rates(Graph& graph, const System& system, std::span<const NodeId> ydot)
+{
+    const JacobiField& field = *system.jacobi_field;
+    const Variation delta{base_velocity(graph, system.algebroid, field.sigma), field.delta};
+    return varied(graph, system.algebroid, delta, ydot);
+}
+
+} // namespace lagen

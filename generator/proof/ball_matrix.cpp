@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "proof/ball_matrix.hpp"
+
+#include <acb_mat.h>
+#include <arb_mat.h>
+
+#include <algorithm>
+
+namespace lagen::proof {
+namespace {
+
+/// A matrix of Arb for the length of a call.
+class ArbMatrix {
+  public:
+    ArbMatrix(std::size_t rows, std::size_t columns)
+    {
+        arb_mat_init(matrix_, static_cast<slong>(rows), static_cast<slong>(columns));
+    }
+    explicit ArbMatrix(const BallMatrix& A) : ArbMatrix(A.rows, A.columns)
+    {
+        for (std::size_t i = 0; i < A.rows; ++i)
+            for (std::size_t j = 0; j < A.columns; ++j) arb_set(entry(i, j), A.at(i, j).get());
+    }
+    ArbMatrix(const ArbMatrix&) = delete;
+    ArbMatrix& operator=(const ArbMatrix&) = delete;
+    ~ArbMatrix() { arb_mat_clear(matrix_); }
+
+    [[nodiscard]] arb_ptr entry(std::size_t i, std::size_t j)
+    {
+        return arb_mat_entry(matrix_, static_cast<slong>(i), static_cast<slong>(j));
+    }
+    [[nodiscard]] arb_mat_struct* get() { return matrix_; }
+    [[nodiscard]] BallMatrix balls()
+    {
+        BallMatrix out(static_cast<std::size_t>(arb_mat_nrows(matrix_)),
+                       static_cast<std::size_t>(arb_mat_ncols(matrix_)));
+        for (std::size_t i = 0; i < out.rows; ++i)
+            for (std::size_t j = 0; j < out.columns; ++j) arb_set(out.at(i, j).get(), entry(i, j));
+        return out;
+    }
+
+  private:
+    arb_mat_t matrix_;
+};
+
+} // namespace
+
+BallMatrix BallMatrix::identity(std::size_t n)
+{
+    BallMatrix out(n, n);
+    for (std::size_t k = 0; k < n; ++k) arb_one(out.at(k, k).get());
+    return out;
+}
+
+BallMatrix product(const BallMatrix& A, const BallMatrix& B, slong precision)
+{
+    ArbMatrix a(A), b(B), c(A.rows, B.columns);
+    arb_mat_mul(c.get(), a.get(), b.get(), precision);
+    return c.balls();
+}
+
+BallMatrix sum(const BallMatrix& A, const Ball& factor, const BallMatrix& B, slong precision)
+{
+    BallMatrix out = A;
+    for (std::size_t k = 0; k < out.entries.size(); ++k)
+        arb_addmul(out.entries[k].get(), factor.get(), B.entries[k].get(), precision);
+    return out;
+}
+
+BallMatrix joined_columns(const std::vector<BallMatrix>& columns, std::size_t rows)
+{
+    BallMatrix out(rows, columns.size());
+    for (std::size_t j = 0; j < columns.size(); ++j)
+        for (std::size_t k = 0; k < rows; ++k) out.at(k, j) = columns[j].at(k, 0);
+    return out;
+}
+
+BallMatrix transposed(const BallMatrix& A)
+{
+    BallMatrix out(A.columns, A.rows);
+    for (std::size_t i = 0; i < A.rows; ++i)
+        for (std::size_t j = 0; j < A.columns; ++j) out.at(j, i) = A.at(i, j);
+    return out;
+}
+
+std::optional<BallMatrix> solved(const BallMatrix& A, const BallMatrix& B, slong precision)
+{
+    ArbMatrix a(A), b(B), x(A.columns, B.columns);
+    if (arb_mat_solve(x.get(), a.get(), b.get(), precision) == 0) return std::nullopt;
+    BallMatrix out = x.balls();
+    if (!std::ranges::all_of(out.entries, &Ball::is_finite)) return std::nullopt;
+    return out;
+}
+
+bool is_certainly_definite(const BallMatrix& A, slong precision)
+{
+    ArbMatrix a(A), factor(A.rows, A.rows);
+    return A.rows == 0 || arb_mat_cho(factor.get(), a.get(), precision) != 0;
+}
+
+std::vector<Eigenvalue> eigenvalues(const BallMatrix& A, slong precision)
+{
+    const auto n = static_cast<slong>(A.rows);
+    if (n == 0) return {};
+    ArbMatrix real(A);
+    acb_mat_t matrix, middle, right;
+    acb_mat_init(matrix, n, n);
+    acb_mat_init(middle, n, n);
+    acb_mat_init(right, n, n);
+    acb_mat_set_arb_mat(matrix, real.get());
+    acb_mat_get_mid(middle, matrix);
+    acb_ptr near = _acb_vec_init(n), certain = _acb_vec_init(n);
+    acb_mat_approx_eig_qr(near, nullptr, right, middle, nullptr, 0, precision);
+    const bool enclosed = acb_mat_eig_multiple(certain, matrix, near, right, precision) != 0;
+    std::vector<Eigenvalue> out;
+    for (slong k = 0; k < n; ++k) {
+        acb_srcptr value = enclosed ? certain + k : near + k;
+        Eigenvalue each{arf_get_d(arb_midref(acb_realref(value)), ARF_RND_NEAR),
+                        arf_get_d(arb_midref(acb_imagref(value)), ARF_RND_NEAR), enclosed};
+        arf_t bound;
+        arf_init(bound);
+        arb_get_lbound_arf(bound, acb_realref(value), 53);
+        each.least = arf_get_d(bound, ARF_RND_FLOOR);
+        arb_get_ubound_arf(bound, acb_realref(value), 53);
+        each.most = arf_get_d(bound, ARF_RND_CEIL);
+        arf_clear(bound);
+        out.push_back(each);
+    }
+    _acb_vec_clear(near, n);
+    _acb_vec_clear(certain, n);
+    acb_mat_clear(right);
+    acb_mat_clear(middle);
+    acb_mat_clear(matrix);
+    std::ranges::sort(out, [](const Eigenvalue& a, const Eigenvalue& b) {
+        return a.real != b.real ? a.real < b.real : a.imaginary < b.imaginary;
+    });
+    return out;
+}
+
+} // namespace lagen::proof

@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "verify/relative_equilibria.hpp"
+
+#include "algebra/orthonormal_span.hpp"
+#include "graph/calculus/differentiate.hpp"
+#include "graph/core/evaluate.hpp"
+#include "mechanics/symplectic.hpp"
+#include "verify/augmented_energy.hpp"
+#include "verify/energy_momentum.hpp"
+#include "verify/find_invariants.hpp"
+#include "verify/proof_setting.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace lagen {
+
+using proof::Ball;
+using proof::BallMatrix;
+
+const char* to_text(Stability stability)
+{
+    switch (stability) {
+    case Stability::stable: return "stable";
+    case Stability::spectrally_unstable: return "spectrally_unstable";
+    case Stability::undecided: break;
+    }
+    return "undecided";
+}
+
+namespace {
+
+constexpr slong search_bits = 64;
+constexpr int search_steps = 80;
+constexpr double search_tolerance = 1e-13; ///< of the residual, in units of its terms
+
+class EquilibriumFinder {
+  public:
+    EquilibriumFinder(Graph& graph, const System& system, const HamiltonianNodes& hamiltonian,
+                      const std::map<std::string, double>& start)
+        : graph_(graph), system_(system), start_(start)
+    {
+        const Replacements values = constants();
+        phase_ = hamilton_system(graph, system, hamiltonian);
+        std::vector<NodeId> rates = phase_.xdot;
+        rates.insert(rates.end(), phase_.mudot.begin(), phase_.mudot.end());
+        for (const NodeId x : system.algebroid.x)
+            (depends_on_any(graph, rates, std::vector<NodeId>{x}) ? out_.coordinates : out_.cyclic).push_back(x);
+        out_.coordinates.insert(out_.coordinates.end(), system.mu.begin(), system.mu.end());
+        collect(values, hamiltonian);
+        std::vector<NodeId> F;
+        for (const ConservedFunction& each : out_.conserved) F.push_back(each.value);
+        const NodeId H = fixed(phase_.hamiltonian, values);
+        energy_.emplace(graph, system_at_, H, F, out_.coordinates);
+        for (std::size_t i = 0; i < system.n(); ++i)
+            if (std::ranges::find(out_.cyclic, system.algebroid.x[i]) != out_.cyclic.end())
+                cyclic_rates_.push_back(fixed(phase_.xdot[i], values));
+        commuting_ = commute(F);
+    }
+
+    RelativeEquilibria run(const EquilibriumSearch& search)
+    {
+        const std::size_t n = energy_->n();
+        Doubles z0;
+        for (const NodeId z : out_.coordinates) z0.push_back(start_.at(graph_.input_name(z)));
+        for (std::size_t i = system_.functions.constraints.size(); i < out_.conserved.size(); ++i)
+            out_.conserved[i].level = energy_->at(exact_balls(z0))[i + 1].value.middle();
+        const std::size_t base = n - system_.mu.size();
+        const auto size = [&](std::size_t from, std::size_t to) {
+            double largest = 0;
+            for (std::size_t k = from; k < to; ++k) largest = std::max(largest, std::fabs(z0[k]));
+            return largest > 0 ? largest : 1.0;
+        };
+        const double sizes[] = {std::max(size(0, base), 2.0), size(base, n)}; // whole turns of angles
+        std::mt19937_64 random(search.seed);
+        std::vector<Doubles> points{z0};
+        for (std::size_t k = 0; k < search.starts; ++k) {
+            Doubles& z = points.emplace_back();
+            for (std::size_t i = 0; i < n; ++i) {
+                const double part = static_cast<double>(random() >> 11U) * 0x1p-53;
+                z.push_back(2 * (2 * part - 1) * sizes[i < base ? 0 : 1]);
+            }
+        }
+        for (const Doubles& z : points)
+            for (const double slope : middles(energy_->at(exact_balls(z), search_bits)[0].slope))
+                if (std::isfinite(slope)) slope_ = std::max(slope_, std::fabs(slope));
+        for (const Doubles& z : points) consider(z);
+        std::ranges::stable_sort(out_.found, {}, &RelativeEquilibrium::energy);
+        return std::move(out_);
+    }
+
+  private:
+    [[nodiscard]] Replacements constants()
+    {
+        Replacements values;
+        for (const auto& [parameter, value] : system_.parameter_values) values.emplace_back(parameter, value);
+        return values;
+    }
+    [[nodiscard]] NodeId fixed(NodeId node, const Replacements& values)
+    {
+        return substitute(graph_, {&node, 1}, values)[0];
+    }
+
+    /// Constraints, Casimirs, and what is found: Casimirs of E* and functions linear in the momenta.
+    void collect(const Replacements& values, const HamiltonianNodes& hamiltonian)
+    {
+        system_at_ = system_;
+        for (auto* columns : {&system_at_.algebroid.anchor, &system_at_.algebroid.bracket})
+            for (Column& column : *columns)
+                for (ColumnEntry& entry : column) entry.value = fixed(entry.value, values);
+        std::vector<NodeId> candidates = system_.functions.constraints;
+        for (const NodeId casimir : system_.functions.casimirs) candidates.push_back(casimir);
+        for (const FoundInvariant& each : find_invariants(graph_, system_, hamiltonian))
+            candidates.push_back(each.value);
+        for (const NodeId candidate : candidates) {
+            const NodeId value = fixed(candidate, values);
+            const NodeId only[] = {value};
+            if (depends_on_any(graph_, only, out_.cyclic)) continue;
+            if (!is_independent(value)) continue;
+            const bool casimir = generates_nothing(value);
+            const std::vector<NodeId> by_momenta = gradient(graph_, value, system_.mu);
+            if (casimir || !depends_on_any(graph_, by_momenta, system_.mu))
+                out_.conserved.push_back({value, 0, casimir});
+        }
+    }
+
+    [[nodiscard]] ZeroDecider& decider()
+    {
+        if (!decider_) {
+            ProofSetting setting = proof_setting(graph_, system_);
+            for (const NodeId mu : system_.mu)
+                if (std::ranges::find(setting.variables, mu) == setting.variables.end())
+                    setting.variables.push_back(mu);
+            decider_ = ZeroDecider::make(graph_, setting);
+        }
+        if (!decider_)
+            throw MathematicsError(
+                "relative equilibria are sought where constraints are triangular, and those of model '" + system_.name +
+                "' are not");
+        return *decider_;
+    }
+    [[nodiscard]] bool is_proved_zero(NodeId node)
+    {
+        return graph_.is_zero(node) || decider().status(node) == ProofStatus::proved;
+    }
+    /// Whether df is no combination of the differentials of those before, at points drawn at random.
+    [[nodiscard]] bool is_independent(NodeId f)
+    {
+        std::vector<NodeId> slopes;
+        for (const ConservedFunction& each : out_.conserved)
+            for (const NodeId slope : gradient(graph_, each.value, out_.coordinates)) slopes.push_back(slope);
+        for (const NodeId slope : gradient(graph_, f, out_.coordinates)) slopes.push_back(slope);
+        std::mt19937_64 random(1);
+        const std::size_t n = out_.coordinates.size();
+        for (int point = 0; point < 3; ++point) {
+            std::map<std::string, long double> inputs;
+            for (const NodeId z : out_.coordinates)
+                inputs[graph_.input_name(z)] = static_cast<long double>(random() >> 11U) * 0x1p-53L + 0.5L;
+            const std::vector<long double> values = evaluate<long double>(graph_, slopes, inputs);
+            OrthonormalSpan span(1e-9L);
+            for (std::size_t i = 0; i + 1 < values.size() / n; ++i)
+                (void)span.add({values.begin() + static_cast<std::ptrdiff_t>(i * n),
+                                values.begin() + static_cast<std::ptrdiff_t>((i + 1) * n)});
+            if (span.add({values.end() - static_cast<std::ptrdiff_t>(n), values.end()})) return true;
+        }
+        return false;
+    }
+    [[nodiscard]] bool generates_nothing(NodeId f)
+    {
+        return std::ranges::all_of(out_.coordinates,
+                                   [&](NodeId z) { return is_proved_zero(poisson_bracket(graph_, system_at_, f, z)); });
+    }
+    [[nodiscard]] bool commute(const std::vector<NodeId>& F)
+    {
+        for (std::size_t i = 0; i < F.size(); ++i)
+            for (std::size_t j = 0; j < i; ++j)
+                if (!out_.conserved[i].casimir && !out_.conserved[j].casimir &&
+                    !is_proved_zero(poisson_bracket(graph_, system_at_, F[i], F[j])))
+                    return false;
+        return true;
+    }
+
+    /// dH - lambda_i dF_i, then F_i - c_i, and the derivative of both by z and lambda.
+    struct Residual {
+        Doubles values;
+        Doubles slopes;  ///< by rows
+        double size = 0; ///< of the terms
+    };
+    [[nodiscard]] Residual residual(const Doubles& z, const Doubles& lambda) const
+    {
+        const std::size_t n = energy_->n(), m = energy_->count(), all = n + m;
+        const std::vector<FunctionJet> jets = energy_->at(exact_balls(z), search_bits);
+        Residual out{Doubles(all, 0.0), Doubles(all * all, 0.0), 1e-3 * slope_};
+        for (std::size_t k = 0; k < n; ++k) {
+            const double slope = jets[0].slope.entries[k].middle();
+            out.values[k] = slope;
+            out.size = std::max(out.size, std::fabs(slope));
+            for (std::size_t l = 0; l < n; ++l) out.slopes[k * all + l] = jets[0].curvature.at(k, l).middle();
+        }
+        for (std::size_t i = 0; i < m; ++i) {
+            const FunctionJet& F = jets[i + 1];
+            for (std::size_t k = 0; k < n; ++k) {
+                const double slope = F.slope.entries[k].middle();
+                out.values[k] -= lambda[i] * slope;
+                out.size = std::max(out.size, std::fabs(lambda[i] * slope));
+                out.slopes[k * all + n + i] = -slope;
+                out.slopes[(n + i) * all + k] = slope;
+                for (std::size_t l = 0; l < n; ++l)
+                    out.slopes[k * all + l] -= lambda[i] * F.curvature.at(k, l).middle();
+            }
+            out.values[n + i] = F.value.middle() - out_.conserved[i].level;
+            out.size = std::max({out.size, std::fabs(out_.conserved[i].level), 1.0});
+        }
+        return out;
+    }
+
+    /// (J^T J + damping) step = -J^T residual
+    [[nodiscard]] static std::optional<Doubles> damped_step(const Residual& at, double damping)
+    {
+        const std::size_t n = at.values.size();
+        BallMatrix A(n, n), b(n, 1);
+        for (std::size_t i = 0; i < n; ++i) {
+            double right = 0;
+            for (std::size_t k = 0; k < n; ++k) right -= at.slopes[k * n + i] * at.values[k];
+            b.at(i, 0) = Ball(Rational(right), search_bits);
+            for (std::size_t j = 0; j < n; ++j) {
+                double sum = i == j ? damping : 0;
+                for (std::size_t k = 0; k < n; ++k) sum += at.slopes[k * n + i] * at.slopes[k * n + j];
+                if (!std::isfinite(sum) || !std::isfinite(right)) return std::nullopt;
+                A.at(i, j) = Ball(Rational(sum), search_bits);
+            }
+        }
+        const std::optional<BallMatrix> x = proof::solved(A, b, 2 * search_bits);
+        if (!x) return std::nullopt;
+        return middles(*x);
+    }
+
+    /// Levenberg and Marquardt's steps from z; what they end at is certified, judged and kept if it is new.
+    void consider(Doubles z)
+    {
+        const std::size_t n = energy_->n();
+        Doubles lambda(energy_->count(), 0.0);
+        double damping = 1e-2;
+        Residual now = residual(z, lambda);
+        for (int step = 0; step < search_steps; ++step) {
+            const double length = std::sqrt(dot(now.values, now.values));
+            if (!std::isfinite(length)) return;
+            if (length <= search_tolerance * now.size) break;
+            const std::optional<Doubles> change = damped_step(now, damping * std::min(1.0, length));
+            if (!change) return;
+            Doubles next_z = z, next_lambda = lambda;
+            for (std::size_t k = 0; k < n; ++k) next_z[k] += (*change)[k];
+            for (std::size_t i = 0; i < lambda.size(); ++i) next_lambda[i] += (*change)[n + i];
+            Residual next = residual(next_z, next_lambda);
+            const double then = std::sqrt(dot(next.values, next.values));
+            if (then < length) {
+                z = std::move(next_z), lambda = std::move(next_lambda), now = std::move(next);
+                damping = std::max(damping / 10, 1e-14);
+            } else {
+                damping *= 10;
+                if (damping > 1e8) break;
+            }
+        }
+        if (!(std::sqrt(dot(now.values, now.values)) <= 1e-10 * now.size) || !is_in_domain(z)) return;
+        if (!is_new(z, energy_->at(exact_balls(z), search_bits)[0].value.middle())) return;
+        EquilibriumCertificate certificate(graph_, *energy_, out_.conserved, commuting_,
+                                           [this](NodeId node) { return is_proved_zero(node); });
+        const RelativeEquilibrium found = certificate.judged(z, lambda);
+        if (!is_new(found.z, found.energy)) return; // near a singular level the search ends less near
+        out_.found.push_back(found);
+        std::map<std::string, double> inputs;
+        for (std::size_t k = 0; k < n; ++k) inputs[graph_.input_name(out_.coordinates[k])] = out_.found.back().z[k];
+        if (!cyclic_rates_.empty()) out_.found.back().cyclic = evaluate<double>(graph_, cyclic_rates_, inputs);
+    }
+
+    [[nodiscard]] bool is_in_domain(const Doubles& z) const
+    {
+        std::map<std::string, double> inputs = start_;
+        for (std::size_t k = 0; k < z.size(); ++k) inputs[graph_.input_name(out_.coordinates[k])] = z[k];
+        for (const auto& [parameter, value] : system_.parameter_values)
+            inputs[graph_.input_name(parameter)] = graph_.value(value).get_d();
+        return std::ranges::all_of(evaluate<double>(graph_, system_.domain, inputs),
+                                   [](double holds) { return holds != 0; });
+    }
+
+    /// One of each family: another energy, or other coordinates that no flow moves. What is not certified may be one of
+    /// a family that no flow makes: the first stands for all of its energy.
+    [[nodiscard]] bool is_new(const Doubles& z, double energy) const
+    {
+        const auto differ = [](double a, double b) { return std::fabs(a - b) > 1e-6 * (1 + std::fabs(a)); };
+        // Whole turns of an angle are no other point: it makes the same energy.
+        const auto apart = [&](double a, double b) { return differ(std::remainder(a - b, 2 * std::numbers::pi), 0); };
+        return std::ranges::none_of(out_.found, [&](const RelativeEquilibrium& known) {
+            if (differ(known.energy, energy)) return false;
+            if (!known.certified) return true;
+            for (std::size_t k = 0; k < z.size(); ++k)
+                if (!known.moved[k] && apart(known.z[k], z[k])) return false;
+            return true;
+        });
+    }
+
+    Graph& graph_;
+    const System& system_;
+    const std::map<std::string, double>& start_;
+    System system_at_; ///< with numbers for the parameters
+    PhaseSystem phase_;
+    RelativeEquilibria out_;
+    std::optional<AugmentedEnergy> energy_;
+    std::vector<NodeId> cyclic_rates_;
+    std::unique_ptr<ZeroDecider> decider_;
+    double slope_ = 0;       ///< the largest component of dH at the starts
+    bool commuting_ = false; ///< all {F_i, F_j} are proved to vanish
+};
+
+} // namespace
+
+RelativeEquilibria relative_equilibria(Graph& graph, const System& system, const HamiltonianNodes& hamiltonian,
+                                       const std::map<std::string, double>& start, const EquilibriumSearch& search)
+{
+    return EquilibriumFinder(graph, system, hamiltonian, start).run(search);
+}
+
+} // namespace lagen
