@@ -24,11 +24,6 @@ std::size_t cost_of(const Tree& tree)
     return text.size() + parenthesis_cost * static_cast<std::size_t>(std::count(text.begin(), text.end(), '('));
 }
 
-/// True where a frame stands in the block, or in what its products and prolongations are made of.
-bool contains_frame(const AlgebroidBlock& block)
-{
-    return block.kind == AlgebroidKind::frame || std::any_of(block.of.begin(), block.of.end(), contains_frame);
-}
 
 } // namespace
 
@@ -55,13 +50,10 @@ BuildWorkspace::BuildWorkspace(const Model& model)
     for (const Tree& tree : model.base.domain) setting_.domain.push_back(lower_(tree));
     for (const Tree& tree : model.base.constraints) setting_.constraints.push_back(lower_(tree));
     // A Casimir's name stands for a function of the base, and constraints for parts of it.
-    if (model.base.constraints.empty() && model.base.casimirs.empty() && contains_frame(model.algebroid))
+    if (model.base.constraints.empty() && model.base.casimirs.empty() && contains(model.algebroid, AlgebroidKind::frame))
         construction_.emplace();
-    try {
-        solved_ = proof::triangular_constraints(graph_, setting_);
-    } catch (const TriangularityError&) { // refused where the claims are made, with its place
-        setting_.constraints.clear();
-    }
+    (void)proof::keep_triangular(graph_, setting_); // others are refused where the claims are made, with their place
+    solved_ = proof::triangular_constraints(graph_, setting_);
 }
 
 Algebroid BuildWorkspace::lowered(const AlgebroidBlock& block, const BlockParts& parts)
