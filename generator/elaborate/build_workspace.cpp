@@ -133,7 +133,9 @@ Tree BuildWorkspace::readable(NodeId node)
     for (const Tree& tree : {normal, built}) {
         if (tree == nullptr || cost_of(tree) > rewritten_length) continue;
         try {
-            offer(shortest_form(to_ginac(tree, symbols_), symbols_, order_));
+            const Tree shortest = shortest_form(to_ginac(tree, symbols_), symbols_, order_);
+            if (shortest->kind == TreeKind::number && shortest->number == 0) return best = nullptr;
+            offer(shortest);
         } catch (const MathematicsError&) {
             continue; // the other forms stand
         }

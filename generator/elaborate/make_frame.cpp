@@ -72,6 +72,14 @@ mpz_class whole_factor(const Tree& tree)
     }
 }
 
+/// 2*z without the 2.
+Tree without_number(const Tree& tree)
+{
+    if (tree->kind != TreeKind::multiply || tree->arguments[0]->kind != TreeKind::number) return tree;
+    const std::vector<Tree> others(tree->arguments.begin() + 1, tree->arguments.end());
+    return others.size() == 1 ? others[0] : multiply(others);
+}
+
 class FrameBuilder {
   public:
     FrameBuilder(const Model& model, const LevelSetRequest& request)
@@ -224,7 +232,7 @@ class FrameBuilder {
     {
         const bool is_curve = n_ - m_ == 1;
         std::string hint = choice.first ? fmt::format("[base] domain = [\"{} != 0\"] makes a chart of the first",
-                                                      to_text(*choice.first))
+                                                      to_text(without_number(*choice.first)))
                                         : "keep other coordinates";
         if (is_curve && regular) hint += "; a name of your own in [fibre], \"u\", takes a tangent that needs no chart";
         throw ModelError(

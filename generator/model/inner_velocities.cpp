@@ -64,14 +64,15 @@ std::vector<Tree> ambient_values(const Model& model, const AlgebroidBlock& block
     return sums_of(own);
 }
 
-/// Those that are coordinates of the fibre themselves (the kept ones of a level set) have their names already.
+/// Those that a level set keeps are coordinates of its fibre already.
 void define_ambient(ModelReader& reader, const AlgebroidBlock& block, const std::vector<Tree>& values)
 {
     const std::vector<Symbol> all = velocities_of(coordinates_of(reader.model, block));
     std::vector<Symbol> symbols;
     std::vector<Tree> own;
     for (std::size_t k = 0; k < all.size(); ++k) {
-        if (index_of(block.fibre, all[k].name) != block.fibre.size()) continue;
+        const bool kept = block.kind == AlgebroidKind::level_set && index_of(block.fibre, all[k].name) < block.fibre.size();
+        if (kept) continue;
         symbols.push_back(all[k]);
         own.push_back(values[k]);
     }

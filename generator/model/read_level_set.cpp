@@ -29,16 +29,26 @@ std::vector<Symbol> names_of_fibre(const ModelReader& reader, const AlgebroidDra
     return entry != nullptr ? read_names(reader, *entry, "'coordinates' of [fibre]") : std::vector<Symbol>{};
 }
 
-/// The coordinates whose velocities these are; empty where one of them is the velocity of none.
+/// The coordinates whose velocities these are; empty where all names are others.
 std::vector<std::size_t> kept_by(const std::vector<Symbol>& names, const std::vector<Symbol>& coordinates)
 {
+    const std::vector<Symbol> velocities = kept_velocities(coordinates);
     std::vector<std::size_t> kept;
+    const Symbol* other = nullptr;
     for (const Symbol& name : names) {
-        const auto place = std::ranges::find_if(
-            coordinates, [&](const Symbol& each) { return kept_velocity(each.name) == name.name; });
-        if (place == coordinates.end()) return {};
-        kept.push_back(static_cast<std::size_t>(place - coordinates.begin()));
+        const std::size_t place = index_of(velocities, name.name);
+        if (std::ranges::find(kept, place) != kept.end())
+            throw ModelError(fmt::format("[fibre] names '{}' twice", name.name), name.where);
+        if (place == coordinates.size())
+            other = &name;
+        else
+            kept.push_back(place);
     }
+    if (other != nullptr && !kept.empty())
+        throw ModelError(fmt::format("the fibre of the level set has '{}', the velocity of '{}', beside '{}', which is "
+                                     "the velocity of no base coordinate",
+                                     velocities[kept[0]].name, coordinates[kept[0]].name, other->name),
+                         other->where, "the velocities of the coordinates that are kept, or names of your own alone");
     return kept;
 }
 

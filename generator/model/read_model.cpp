@@ -93,6 +93,7 @@ Model read_with(ModelReader& reader, const std::string& name, std::string text, 
     reader.algebroid = top.take("algebroid");
     reader.groupoid = top.take("groupoid");
     reader.discrete = top.take("discrete");
+    if (reader.is_tangent) reader.groupoid = reader.discrete = nullptr; // they are about its sections
     const TomlEntry* definitions = top.take("definitions");
     reader.mechanics.lagrangian = top.take("lagrangian");
     reader.mechanics.hamiltonian = top.take("hamiltonian");
