@@ -221,6 +221,9 @@ class FrameBuilder {
         std::string text;
         for (const auto& [name, value] : *point)
             text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", name, to_text(value));
+        for (const auto& [parameter, value] : fixed)
+            if (depends_on_any(graph, h_, std::vector{parameter}))
+                text += fmt::format(", {} = {}", graph.input_name(parameter), value.get_str());
         throw ModelError(fmt::format("the level set is singular at {}: the gradient{} of its constraint{} there", text,
                                      m_ == 1 ? "" : "s", m_ == 1 ? " is zero" : "s are linearly dependent"),
                          model_.base.constraint_texts.front(),
@@ -231,19 +234,19 @@ class FrameBuilder {
     [[noreturn]] void refuse_charts(const KeptChoice& choice, bool regular) const
     {
         const bool is_curve = n_ - m_ == 1;
-        std::string hint = choice.first ? fmt::format("[base] domain = [\"{} != 0\"] makes a chart of the first",
-                                                      to_text(without_number(*choice.first)))
-                                        : "keep other coordinates";
+        std::string text = regular ? "the level set is regular, and " : "the level set is not shown to be regular, and ";
+        if (!request_.kept.empty())
+            text += "the coordinates that [fibre] keeps are not proved to parametrise all of it";
+        else if (is_curve)
+            text += "no single coordinate is proved to parametrise all of it";
+        else
+            text += fmt::format("no {} of its coordinates are proved to parametrise all of it", n_ - m_);
+        if (!choice.first) throw ModelError(text, request_.where, "the constraints fix one of them: keep others");
+        std::string hint = fmt::format("[base] domain = [\"{} != 0\"] makes a chart of the first",
+                                       to_text(without_number(*choice.first)));
         if (is_curve && regular) hint += "; a name of your own in [fibre], \"u\", takes a tangent that needs no chart";
-        throw ModelError(
-            fmt::format("the level set {}, and {} {} parametrise all of it{}{}",
-                        regular ? "is regular" : "is not shown to be regular",
-                        request_.kept.empty() ? fmt::format("no {} of its coordinates", n_ - m_)
-                                              : "the coordinates kept by [fibre]",
-                        request_.kept.empty() ? "are proved to" : "are not proved to",
-                        choice.minors.empty() ? "" : ": it needs several charts, where the minors ",
-                        choice.minors.empty() ? "" : choice.minors + " are not 0"),
-            request_.where, hint);
+        throw ModelError(text + fmt::format(": it needs several charts, where the minors {} are not 0", choice.minors),
+                         request_.where, hint);
     }
 
     const Model& model_;
