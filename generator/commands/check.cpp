@@ -7,8 +7,8 @@
 #include "commands/machine/write_file.hpp"
 #include "commands/report_check.hpp"
 #include "commands/report_morphism.hpp"
-#include "elaborate/make_frame.hpp"
 #include "elaborate/elaborate.hpp"
+#include "elaborate/make_frame.hpp"
 #include "elaborate/require_values.hpp"
 #include "expression/parse.hpp"
 #include "model/read_file.hpp"
@@ -96,8 +96,7 @@ ExitCode check_one(const std::string& path, const Options& options, std::string&
         const std::size_t points = options.has("verify") ? reevaluation_points : 0;
         const Output output{text, json};
         if (is_morphism(file)) return check_morphism(read_morphism(file, options.settings()), options, points, output);
-        return check_model(read_model_text(place, file->text, options.settings(), choosers()), options, points,
-                           output);
+        return check_model(read_model_text(place, file->text, options.settings(), choosers()), options, points, output);
     } catch (const Error& error) {
         const std::string said = error.what();
         write_standard_error(said + (said.ends_with('\n') ? "" : "\n"));

@@ -24,7 +24,6 @@ std::size_t cost_of(const Tree& tree)
     return text.size() + parenthesis_cost * static_cast<std::size_t>(std::count(text.begin(), text.end(), '('));
 }
 
-
 } // namespace
 
 BuildWorkspace::BuildWorkspace(const Model& model)
@@ -50,7 +49,8 @@ BuildWorkspace::BuildWorkspace(const Model& model)
     for (const Tree& tree : model.base.domain) setting_.domain.push_back(lower_(tree));
     for (const Tree& tree : model.base.constraints) setting_.constraints.push_back(lower_(tree));
     // A Casimir's name stands for a function of the base, and constraints for parts of it.
-    if (model.base.constraints.empty() && model.base.casimirs.empty() && contains(model.algebroid, AlgebroidKind::frame))
+    if (model.base.constraints.empty() && model.base.casimirs.empty() &&
+        contains(model.algebroid, AlgebroidKind::frame))
         construction_.emplace();
     (void)proof::keep_triangular(graph_, setting_); // others are refused where the claims are made, with their place
     solved_ = proof::triangular_constraints(graph_, setting_);

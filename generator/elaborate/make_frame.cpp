@@ -121,10 +121,11 @@ class FrameBuilder {
                                          "set that something can move on",
                                          determinant_limit));
         if (request_.sections && *request_.sections != n_ - m_)
-            throw ModelError(fmt::format("the number of fibre coordinates is {}, where the level set of {} constraint{} "
-                                         "on {} base coordinates needs {}",
-                                         *request_.sections, m_, m_ == 1 ? "" : "s", n_, n_ - m_),
-                             request_.where, "without [fibre] lagen names them after the coordinates that it keeps");
+            throw ModelError(
+                fmt::format("the number of fibre coordinates is {}, where the level set of {} constraint{} "
+                            "on {} base coordinates needs {}",
+                            *request_.sections, m_, m_ == 1 ? "" : "s", n_, n_ - m_),
+                request_.where, "without [fibre] lagen names them after the coordinates that it keeps");
     }
 
     /// Some minor of the first rows is not zero on M as far as its triangular constraints tell.
@@ -234,7 +235,8 @@ class FrameBuilder {
     [[noreturn]] void refuse_charts(const KeptChoice& choice, bool regular) const
     {
         const bool is_curve = n_ - m_ == 1;
-        std::string text = regular ? "the level set is regular, and " : "the level set is not shown to be regular, and ";
+        std::string text =
+            regular ? "the level set is regular, and " : "the level set is not shown to be regular, and ";
         if (!request_.kept.empty())
             text += "the coordinates that [fibre] keeps are not proved to parametrise all of it";
         else if (is_curve)

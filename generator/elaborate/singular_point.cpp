@@ -44,7 +44,8 @@ class ZeroSearch {
 
     [[nodiscard]] std::optional<NamedPoint> from(std::vector<double> point) const
     {
-        for (int k = 0; k < most_steps && step(point); ++k) {}
+        for (int k = 0; k < most_steps && step(point); ++k) {
+        }
         proof::ExactInputs inputs = fixed_;
         NamedPoint named;
         for (std::size_t i = 0; i < x_.size(); ++i) {

@@ -71,7 +71,8 @@ void define_ambient(ModelReader& reader, const AlgebroidBlock& block, const std:
     std::vector<Symbol> symbols;
     std::vector<Tree> own;
     for (std::size_t k = 0; k < all.size(); ++k) {
-        const bool kept = block.kind == AlgebroidKind::level_set && index_of(block.fibre, all[k].name) < block.fibre.size();
+        const bool kept =
+            block.kind == AlgebroidKind::level_set && index_of(block.fibre, all[k].name) < block.fibre.size();
         if (kept) continue;
         symbols.push_back(all[k]);
         own.push_back(values[k]);

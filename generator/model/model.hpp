@@ -41,11 +41,11 @@ struct Parameter {
 };
 
 struct Base {
-    std::vector<Symbol> coordinates; ///< x^i; empty where M is a point
-    std::vector<Tree> constraints;   ///< closed trees over x and parameters; M is their common zero set
+    std::vector<Symbol> coordinates;           ///< x^i; empty where M is a point
+    std::vector<Tree> constraints;             ///< closed trees over x and parameters; M is their common zero set
     std::vector<SourceRange> constraint_texts; ///< where each stands, or the matrix that it is an entry of
-    std::vector<NamedTree> casimirs; ///< claimed rho_a(f) = 0
-    std::vector<Tree> domain;        ///< strict comparisons (<, >, !=) that hold on M
+    std::vector<NamedTree> casimirs;           ///< claimed rho_a(f) = 0
+    std::vector<Tree> domain;                  ///< strict comparisons (<, >, !=) that hold on M
 };
 
 struct Fibre {

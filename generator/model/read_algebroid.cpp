@@ -48,10 +48,10 @@ void read_algebroid_kind(ModelReader& reader, const TomlEntry* block)
         throw ModelError("the model has no [algebroid] block", SourceRange{reader.model.file, 0, 0},
                          "for an ordinary mechanical system: [algebroid] kind = \"tangent\"");
     }
-    auto draft = std::make_shared<AlgebroidDraft>(
-        block == nullptr    ? draft_of_groupoid(*reader.groupoid, reader.model.groupoid->kind)
-        : reader.is_tangent ? draft_of_tangent(*block)
-                            : draft_algebroid(reader, *block));
+    auto draft = std::make_shared<AlgebroidDraft>(block == nullptr
+                                                      ? draft_of_groupoid(*reader.groupoid, reader.model.groupoid->kind)
+                                                  : reader.is_tangent ? draft_of_tangent(*block)
+                                                                      : draft_algebroid(reader, *block));
     require_tables(*draft);
     make_level_sets(reader, *draft);
     const std::size_t leaf_size = declare_inner_base(reader, *draft);

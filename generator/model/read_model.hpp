@@ -25,7 +25,7 @@ using KeptChooser = std::function<std::vector<std::size_t>(const Model&)>;
 
 /// What a file says of the frame of a level set.
 struct LevelSetRequest {
-    std::vector<std::size_t> kept; ///< base coordinates whose velocities are to be the fibre's; empty: left open
+    std::vector<std::size_t> kept;       ///< base coordinates whose velocities are to be the fibre's; empty: left open
     std::optional<std::size_t> sections; ///< the number of fibre coordinates; nothing: left open
     SourceRange where;
 };

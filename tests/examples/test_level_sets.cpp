@@ -39,7 +39,8 @@ Closed closed_at(double th, const Linkage::Parameters& p)
 double inertia_at(double th, const Linkage::Parameters& p)
 {
     const Closed q = closed_at(th, p);
-    const double middle = p.a * p.a + p.a * p.b * q.ph_rate * std::cos(th - q.ph) + p.b * p.b * q.ph_rate * q.ph_rate / 4;
+    const double middle =
+        p.a * p.a + p.a * p.b * q.ph_rate * std::cos(th - q.ph) + p.b * p.b * q.ph_rate * q.ph_rate / 4;
     return p.m_a * p.a * p.a / 3 + p.m_b * middle + p.m_b * p.b * p.b * q.ph_rate * q.ph_rate / 12 +
            p.m_c * p.c * p.c * q.ps_rate * q.ps_rate / 3;
 }
@@ -64,8 +65,7 @@ TEST_CASE("the pendulum in Cartesian coordinates moves like its angle, swinging 
     for (const auto& [angle, rate] : {std::pair{2.4, 0.3}, {0.0, 6.0}}) {
         const auto start = Pendulum::state({.x = l * std::sin(angle), .y = -l * std::cos(angle)}, {.w = rate});
         const auto run = integrate(model, start, {0.0, 8.0}, Dop853{.tolerance = 1e-13});
-        const auto known =
-            integrate(by_angle, Eigen::Vector2d(angle, rate), {0.0, 8.0}, Dop853{.tolerance = 1e-13});
+        const auto known = integrate(by_angle, Eigen::Vector2d(angle, rate), {0.0, 8.0}, Dop853{.tolerance = 1e-13});
         REQUIRE(run);
         REQUIRE(known);
         CHECK(std::abs(known.state[0] - angle) > 0.5);
@@ -90,8 +90,7 @@ TEST_CASE("the four-bar linkage turns like its crank, whose rate follows from th
     const auto by_crank = ode<1>([&](double, const auto& s, auto& ds) { ds[0] = rate_at(s[0]); });
 
     const auto run = integrate(model, start, {0.0, 4.0}, Dop853{.tolerance = 1e-13});
-    const auto known =
-        integrate(by_crank, Eigen::Matrix<double, 1, 1>(0.0), {0.0, 4.0}, Dop853{.tolerance = 1e-13});
+    const auto known = integrate(by_crank, Eigen::Matrix<double, 1, 1>(0.0), {0.0, 4.0}, Dop853{.tolerance = 1e-13});
     REQUIRE(run);
     REQUIRE(known);
     const double th = known.state[0];

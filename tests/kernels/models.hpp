@@ -77,7 +77,8 @@ inline std::set<std::string> model_files()
     std::set<std::string> files;
     for (const auto& entry : std::filesystem::directory_iterator(std::string(LAGEN_SOURCE_DIR) + "/models")) {
         const bool left_out = LAGEN_SANITIZED && largest.contains(entry.path().stem().string());
-        if (entry.path().extension() == ".toml" && !left_out && !read_model(entry.path().string(), {}, choosers()).discrete)
+        if (entry.path().extension() == ".toml" && !left_out &&
+            !read_model(entry.path().string(), {}, choosers()).discrete)
             files.insert(entry.path().string());
     }
     return files;

@@ -48,9 +48,8 @@ using Lines = std::vector<std::string>;
 
 bool all_proved(const Report& report)
 {
-    return std::ranges::all_of(report.structure.checks, [](const Check& check) {
-        return check.decision.status == ProofStatus::proved;
-    });
+    return std::ranges::all_of(report.structure.checks,
+                               [](const Check& check) { return check.decision.status == ProofStatus::proved; });
 }
 
 /// The crank a, the coupler b and the rocker c of a linkage whose loop equations are not triangular.
@@ -105,9 +104,8 @@ TEST_CASE("of a symmetric matrix the entries count once, and a chart of the rota
     CHECK(all_proved(verified));
     CHECK(verified.mechanics.regularity.kind == Regularity::Kind::regular);
     // The minor of the first choice, when nothing says that it is not 0.
-    CHECK_THROWS_WITH(
-        model_of(base("['R[1..2,1..2]']", "['transpose(R)*R - identity(2)']") + level_set),
-        Catch::Contains("4*R[2,1]*(R[1,2]*R[2,1] - R[1,1]*R[2,2]) (keeping R[1,1])"));
+    CHECK_THROWS_WITH(model_of(base("['R[1..2,1..2]']", "['transpose(R)*R - identity(2)']") + level_set),
+                      Catch::Contains("4*R[2,1]*(R[1,2]*R[2,1] - R[1,1]*R[2,2]) (keeping R[1,1])"));
 }
 
 TEST_CASE("where constraints are not triangular, what holds around the level set is proved, and nothing is refuted")
@@ -131,13 +129,12 @@ TEST_CASE("a level set is an inner algebroid of frames, prolongations and nonhol
     const std::string rotations =
         "[algebroid]\nkind = \"frame\"\nsections = { a = { v_x = \"z\" }, b = { v_y = \"z\" } }\n";
     const std::string lagrangian = "[lagrangian]\nL = \"v_x^2 + v_y^2 + v_z^2\"\n";
-    const ModelReport frame =
-        verified_text(lower_sphere + fibre("['a', 'b']") + rotations + inside + lagrangian);
+    const ModelReport frame = verified_text(lower_sphere + fibre("['a', 'b']") + rotations + inside + lagrangian);
     CHECK(all_proved(frame));
     CHECK(frame.mechanics.regularity.kind == Regularity::Kind::regular);
     CHECK(all_proved(verified_text(lower_sphere + "[algebroid]\nkind = \"prolongation\"\n" + inside)));
-    const std::string blade = base("['x', 'y', 'z', 'th']", "['z - x^2 - y^2']") +
-                              fibre("['v_x', 'v_th']") + "[algebroid]\nkind = \"nonholonomic\"\n" + inside +
+    const std::string blade = base("['x', 'y', 'z', 'th']", "['z - x^2 - y^2']") + fibre("['v_x', 'v_th']") +
+                              "[algebroid]\nkind = \"nonholonomic\"\n" + inside +
                               "constraints = [\"v_x*sin(th) - v_y*cos(th)\"]\n" +
                               "[lagrangian]\nL = \"v_x^2 + v_y^2 + v_z^2 + v_th^2\"\n";
     const ModelReport verified = verified_text(blade);
