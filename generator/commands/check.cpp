@@ -95,7 +95,8 @@ ExitCode check_one(const std::string& path, const Options& options, std::string&
         const auto file = std::make_shared<const SourceFile>(SourceFile{place, read_file(place)});
         const std::size_t points = options.has("verify") ? reevaluation_points : 0;
         const Output output{text, json};
-        if (is_morphism(file)) return check_morphism(read_morphism(file, options.settings()), options, points, output);
+        if (is_morphism(file))
+            return check_morphism(read_morphism(file, options.settings(), choosers()), options, points, output);
         return check_model(read_model_text(place, file->text, options.settings(), choosers()), options, points, output);
     } catch (const Error& error) {
         const std::string said = error.what();

@@ -72,12 +72,15 @@ mpz_class whole_factor(const Tree& tree)
     }
 }
 
-/// 2*z without the 2.
-Tree without_number(const Tree& tree)
+/// "x != 0", "y + 1 != 0" of 2*x*(y + 1): factors one by one, as the signs of a domain are looked for.
+std::string conditions_of(const Tree& minor)
 {
-    if (tree->kind != TreeKind::multiply || tree->arguments[0]->kind != TreeKind::number) return tree;
-    const std::vector<Tree> others(tree->arguments.begin() + 1, tree->arguments.end());
-    return others.size() == 1 ? others[0] : multiply(others);
+    const std::vector<Tree> factors = minor->kind == TreeKind::multiply ? minor->arguments : std::vector{minor};
+    std::string text;
+    for (const Tree& factor : factors)
+        if (factor->kind != TreeKind::number)
+            text += fmt::format("{}\"{} != 0\"", text.empty() ? "" : ", ", to_text(factor));
+    return text;
 }
 
 class FrameBuilder {
@@ -244,8 +247,7 @@ class FrameBuilder {
         else
             text += fmt::format("no {} of its coordinates are proved to parametrise all of it", n_ - m_);
         if (!choice.first) throw ModelError(text, request_.where, "the constraints fix one of them: keep others");
-        std::string hint = fmt::format("[base] domain = [\"{} != 0\"] makes a chart of the first",
-                                       to_text(without_number(*choice.first)));
+        std::string hint = fmt::format("[base] domain = [{}] makes a chart of the first", conditions_of(*choice.first));
         if (is_curve && regular) hint += "; a name of your own in [fibre], \"u\", takes a tangent that needs no chart";
         throw ModelError(text + fmt::format(": it needs several charts, where the minors {} are not 0", choice.minors),
                          request_.where, hint);
