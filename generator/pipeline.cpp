@@ -3,7 +3,7 @@
 
 #include "content_hash.hpp"
 #include "elaborate/bind_parameters.hpp"
-#include "elaborate/choose_kept.hpp"
+#include "elaborate/make_frame.hpp"
 #include "emit/print_equations.hpp"
 #include "emit/print_header.hpp"
 #include "graph/core/evaluate.hpp"
@@ -136,7 +136,7 @@ void forget_values(KernelModule& module)
 CheckedModel read(const std::string& path, const std::vector<Setting>& settings, bool unchecked)
 {
     CheckedModel checked;
-    checked.model = read_model(path, settings, choose_kept);
+    checked.model = read_model(path, settings, choosers());
     checked.settings = settings;
     checked.unchecked = unchecked;
     return checked;

@@ -7,8 +7,8 @@
 #include "commands/machine/write_file.hpp"
 #include "commands/report_check.hpp"
 #include "commands/report_morphism.hpp"
-#include "elaborate/choose_kept.hpp"
 #include "elaborate/elaborate.hpp"
+#include "elaborate/make_frame.hpp"
 #include "elaborate/require_values.hpp"
 #include "expression/parse.hpp"
 #include "model/read_file.hpp"
@@ -95,9 +95,9 @@ ExitCode check_one(const std::string& path, const Options& options, std::string&
         const auto file = std::make_shared<const SourceFile>(SourceFile{place, read_file(place)});
         const std::size_t points = options.has("verify") ? reevaluation_points : 0;
         const Output output{text, json};
-        if (is_morphism(file)) return check_morphism(read_morphism(file, options.settings()), options, points, output);
-        return check_model(read_model_text(place, file->text, options.settings(), choose_kept), options, points,
-                           output);
+        if (is_morphism(file))
+            return check_morphism(read_morphism(file, options.settings(), choosers()), options, points, output);
+        return check_model(read_model_text(place, file->text, options.settings(), choosers()), options, points, output);
     } catch (const Error& error) {
         const std::string said = error.what();
         write_standard_error(said + (said.ends_with('\n') ? "" : "\n"));

@@ -4,7 +4,7 @@
 #include "commands/line/options.hpp"
 #include "commands/machine/places.hpp"
 #include "commands/machine/write_file.hpp"
-#include "elaborate/choose_kept.hpp"
+#include "elaborate/make_frame.hpp"
 #include "emit/json.hpp"
 
 #include <fmt/core.h>
@@ -58,7 +58,7 @@ ExitCode run_models(Arguments arguments)
     std::vector<Model> models;
     std::size_t longest = 0;
     for (const std::string& file : model_files(folder)) {
-        models.push_back(read_model(file, {}, choose_kept));
+        models.push_back(read_model(file, {}, choosers()));
         longest = std::max(longest, models.back().name.size());
         model_json(json, file, models.back());
     }

@@ -9,6 +9,7 @@
 #include "commands/report_check.hpp"
 #include "commands/report_morphism.hpp"
 #include "elaborate/elaborate_morphism.hpp"
+#include "elaborate/make_frame.hpp"
 #include "emit/print_equations.hpp"
 #include "model/read_file.hpp"
 #include "pipeline.hpp"
@@ -230,7 +231,7 @@ ExitCode run_reduce(Arguments arguments)
     const auto file = std::make_shared<const SourceFile>(SourceFile{path, read_file(path)});
     if (is_morphism(file)) {
         if (options.has("routh")) throw UsageError("lagen reduce: --routh takes a model, and this is a morphism");
-        return reduce_morphism(options, read_morphism(file, options.settings()));
+        return reduce_morphism(options, read_morphism(file, options.settings(), choosers()));
     }
     if (options.has("routh")) return reduce_by_routh(options, path);
     return list_cyclic(options, path);

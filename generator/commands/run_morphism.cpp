@@ -8,6 +8,7 @@
 #include "commands/report_morphism.hpp"
 #include "commands/scene/scene_options.hpp"
 #include "elaborate/elaborate_morphism.hpp"
+#include "elaborate/make_frame.hpp"
 #include "model/scene_form.hpp"
 
 #include <fmt/format.h>
@@ -152,7 +153,7 @@ ExitCode tell_alone(const Options& options, const RunOutcome& source)
 ExitCode run_morphism(const Options& options, const std::shared_ptr<const SourceFile>& file)
 {
     refuse_options(options);
-    const MorphismFile morphism = read_morphism(file, options.settings());
+    const MorphismFile morphism = read_morphism(file, options.settings(), choosers());
     require_apart(options, morphism);
     const VerifiedMorphism verified = verify_morphism(morphism, 0);
     warn_of_morphism(verified, file->name, options.has("unchecked"));

@@ -24,12 +24,6 @@ std::size_t cost_of(const Tree& tree)
     return text.size() + parenthesis_cost * static_cast<std::size_t>(std::count(text.begin(), text.end(), '('));
 }
 
-/// True where a frame stands in the block, or in what its products and prolongations are made of.
-bool contains_frame(const AlgebroidBlock& block)
-{
-    return block.kind == AlgebroidKind::frame || std::any_of(block.of.begin(), block.of.end(), contains_frame);
-}
-
 } // namespace
 
 BuildWorkspace::BuildWorkspace(const Model& model)
@@ -55,13 +49,11 @@ BuildWorkspace::BuildWorkspace(const Model& model)
     for (const Tree& tree : model.base.domain) setting_.domain.push_back(lower_(tree));
     for (const Tree& tree : model.base.constraints) setting_.constraints.push_back(lower_(tree));
     // A Casimir's name stands for a function of the base, and constraints for parts of it.
-    if (model.base.constraints.empty() && model.base.casimirs.empty() && contains_frame(model.algebroid))
+    if (model.base.constraints.empty() && model.base.casimirs.empty() &&
+        contains(model.algebroid, AlgebroidKind::frame))
         construction_.emplace();
-    try {
-        solved_ = proof::triangular_constraints(graph_, setting_);
-    } catch (const TriangularityError&) { // refused where the claims are made, with its place
-        setting_.constraints.clear();
-    }
+    (void)proof::keep_triangular(graph_, setting_); // others are refused where the claims are made, with their place
+    solved_ = proof::triangular_constraints(graph_, setting_);
 }
 
 Algebroid BuildWorkspace::lowered(const AlgebroidBlock& block, const BlockParts& parts)
@@ -141,7 +133,9 @@ Tree BuildWorkspace::readable(NodeId node)
     for (const Tree& tree : {normal, built}) {
         if (tree == nullptr || cost_of(tree) > rewritten_length) continue;
         try {
-            offer(shortest_form(to_ginac(tree, symbols_), symbols_, order_));
+            const Tree shortest = shortest_form(to_ginac(tree, symbols_), symbols_, order_);
+            if (shortest->kind == TreeKind::number && shortest->number == 0) return best = nullptr;
+            offer(shortest);
         } catch (const MathematicsError&) {
             continue; // the other forms stand
         }

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "elaborate/choose_kept.hpp"
 
-#include "elaborate/build_workspace.hpp"
 #include "graph/calculus/differentiate.hpp"
-#include "graph/calculus/places.hpp"
 
 #include <fmt/format.h>
 
@@ -17,7 +15,7 @@ constexpr std::size_t most_kept_choices = 5000;
 constexpr std::size_t listed_minors = 3;
 
 /// "v_x, v_th"
-std::string listed_names(const std::vector<Symbol>& symbols, const std::vector<std::size_t>& places)
+std::string listed_names(const std::vector<Symbol>& symbols, const Places& places)
 {
     std::string text;
     for (const std::size_t place : places) text += (text.empty() ? "" : ", ") + symbols[place].name;
@@ -25,6 +23,44 @@ std::string listed_names(const std::vector<Symbol>& symbols, const std::vector<s
 }
 
 } // namespace
+
+Places ConstraintRows::solved(const Places& kept) const
+{
+    Places out;
+    for (std::size_t a = 0; a < r; ++a)
+        if (std::ranges::find(kept, a) == kept.end()) out.push_back(a);
+    return out;
+}
+
+NodeId ConstraintRows::minor(Graph& graph, const Places& kept) const
+{
+    return determinant_of(graph, B, r, first_places(m), solved(kept));
+}
+
+KeptChoice choose_free(BuildWorkspace& work, const ConstraintRows& rows, const std::vector<Symbol>& coordinates,
+                       const Places& wanted)
+{
+    Graph& graph = work.graph();
+    KeptChoice choice;
+    Places kept = wanted.empty() ? first_places(rows.r - rows.m) : wanted;
+    std::size_t tried = 0, listed = 0;
+    do {
+        const NodeId minor = rows.minor(graph, kept);
+        if (graph.is_zero(minor)) continue;
+        if (ZeroDecider(graph, work.setting()).proves_nonzero(minor)) {
+            choice.kept = kept;
+            return choice;
+        }
+        const Tree text = work.readable(minor);
+        if (text == nullptr) continue;
+        if (!choice.first) choice.first = text;
+        if (++listed <= listed_minors)
+            choice.minors += fmt::format("{}{} (keeping {})", listed == 1 ? "" : ", ", to_text(text),
+                                         listed_names(coordinates, kept));
+    } while (wanted.empty() && ++tried < most_kept_choices && next_places(kept, rows.r));
+    if (listed > listed_minors) choice.minors += ", ..";
+    return choice;
+}
 
 std::vector<std::size_t> choose_kept(const Model& model)
 {
@@ -36,31 +72,18 @@ std::vector<std::size_t> choose_kept(const Model& model)
                          model.algebroid.where,
                          fmt::format("at most {}, and fewer than the coordinates, are solved for", determinant_limit));
     BuildWorkspace work(model);
-    Graph& graph = work.graph();
-    std::vector<NodeId> Y, B;
-    for (const Symbol& symbol : ambient) Y.push_back(graph.input(symbol.name));
+    std::vector<NodeId> Y;
+    for (const Symbol& symbol : ambient) Y.push_back(work.graph().input(symbol.name));
+    ConstraintRows rows{{}, m, r};
     for (const Tree& constraint : constraints)
-        for (const NodeId slope : gradient(graph, work.lower(constraint), Y)) B.push_back(slope);
-    Places kept = first_places(r - m);
-    std::string minors;
-    std::size_t tried = 0, listed = 0;
-    do {
-        std::vector<std::size_t> solved;
-        for (std::size_t a = 0; a < r; ++a)
-            if (std::ranges::find(kept, a) == kept.end()) solved.push_back(a);
-        const NodeId minor = determinant_of(graph, B, r, first_places(m), solved);
-        if (graph.is_zero(minor)) continue;
-        if (ZeroDecider(graph, work.setting()).proves_nonzero(minor)) return kept;
-        const Tree text = work.readable(minor);
-        if (text != nullptr && ++listed <= listed_minors)
-            minors += fmt::format("{}{} (keeping {})", minors.empty() ? "" : ", ", to_text(text),
-                                  listed_names(ambient, kept));
-    } while (++tried < most_kept_choices && next_places(kept, r));
-    if (listed == 0) return first_places(r - m);
+        for (const NodeId slope : gradient(work.graph(), work.lower(constraint), Y)) rows.B.push_back(slope);
+    const KeptChoice choice = choose_free(work, rows, ambient);
+    if (choice.kept) return *choice.kept;
+    if (!choice.first) return first_places(r - m);
     throw MathematicsError(
         fmt::format("the constraints of model '{}' are not proved to leave {} of its ambient fibre coordinates free at "
-                    "every point of the domain: the minors are {}{}",
-                    model.name, r - m, minors, listed > listed_minors ? ", .." : ""),
+                    "every point of the domain: the minors are {}",
+                    model.name, r - m, choice.minors),
         "[fibre] coordinates = [..] keeps coordinates where their minor is not 0; [algebroid.sections] need none");
 }
 

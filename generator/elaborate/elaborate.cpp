@@ -272,6 +272,7 @@ class Elaboration {
         const bool nonholonomic = is_nonholonomic(model_);
         const AlgebroidBlock& block = nonholonomic ? model_.algebroid.of[0] : model_.algebroid;
         system_.is_distribution = block.kind == AlgebroidKind::subbundle;
+        system_.is_level_set = contains(block, AlgebroidKind::level_set);
         if (nonholonomic) return;
         const bool action = block.kind == AlgebroidKind::action;
         const bool given = block.kind == AlgebroidKind::general || block.kind == AlgebroidKind::lie_algebra || action;

@@ -3,7 +3,7 @@
 
 #include "elaborate/elaborate.hpp"
 #include "graph/calculus/differentiate.hpp"
-#include "proof/decide.hpp"
+#include "proof/triangular.hpp"
 
 #include <fmt/format.h>
 
@@ -55,6 +55,7 @@ void require_linear(SystemMorphism& morphism, const MorphismFile& file)
     setting.parameters = morphism.source.parameters;
     setting.constraints = morphism.source.functions.constraints;
     setting.domain = morphism.source.domain;
+    (void)proof::keep_triangular(graph, setting);
     for (std::size_t a = 0; a < morphism.fibre.size(); ++a) {
         NodeId& value = morphism.fibre[a];
         const auto row = substitute_where_defined(graph, gradient(graph, value, y), replacements(y, zeros));

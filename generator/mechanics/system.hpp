@@ -145,6 +145,7 @@ struct System {
     std::optional<HamiltonJacobiClaim> hamilton_jacobi;
     std::vector<NodeId> partial_parts; ///< must be defined, though folded away: log(-1 - x^2) of 0*log(-1 - x^2)
     bool is_distribution = false;      ///< a subbundle of TM: the anchor equations say that it is involutive
+    bool is_level_set = false;         ///< its frame is made of the base constraints, which need not be triangular
     Editable editable;
     Written written;
 

@@ -33,6 +33,7 @@ struct AlgebroidDraft {
     std::vector<Symbol> fibre;       ///< empty where left out
     std::vector<Symbol> momenta;     ///< empty where left out
     bool dual = false;
+    LevelSetFrame level_set; ///< where it is one
     std::vector<AlgebroidDraft> of;
 };
 
@@ -45,6 +46,8 @@ struct DraftSpace {
 [[nodiscard]] AlgebroidDraft draft_algebroid(ModelReader& reader, const TomlEntry& block);
 /// That of a groupoid, where the model has no [algebroid]; `kind` is the groupoid's.
 [[nodiscard]] AlgebroidDraft draft_of_groupoid(const TomlEntry& block, GroupoidKind kind);
+/// That of the tangent bundle of the base, in the place of `block`.
+[[nodiscard]] AlgebroidDraft draft_of_tangent(const TomlEntry& block);
 /// The number of sections of its algebroid, over `n` base coordinates.
 [[nodiscard]] std::size_t rank_of(const GroupoidBlock& block, std::size_t n);
 /// "so(n)" and "R^n" with the sizes of the model put in.
@@ -64,6 +67,8 @@ std::size_t declare_inner_base(ModelReader& reader, const AlgebroidDraft& draft)
 [[nodiscard]] std::vector<std::size_t> read_over(const TomlValue& table, const std::string& title,
                                                  const std::vector<Symbol>& base);
 
+/// Has the frames of level sets made, and names the fibre of an inner one that leaves it out. Throws ModelError.
+void make_level_sets(ModelReader& reader, AlgebroidDraft& draft);
 /// The record of the draft and of everything inside it; the leaf's base are the first coordinates of the model.
 [[nodiscard]] AlgebroidBlock make_block(const ModelReader& reader, const AlgebroidDraft& draft, std::size_t leaf_size);
 
@@ -98,8 +103,11 @@ void read_distribution(const ModelReader& reader, AlgebroidBlock& block, const A
 void read_entries(const ModelReader& reader, AlgebroidBlock& block, const AlgebroidDraft& draft);
 /// The matrices of `representation`.
 void read_representation(const ModelReader& reader, AlgebroidBlock& block, const TomlEntry& entry);
+[[nodiscard]] std::vector<Symbol> coordinates_at(const Model& model, const std::vector<std::size_t>& places);
 /// The base coordinates of a block.
 [[nodiscard]] std::vector<Symbol> coordinates_of(const Model& model, const AlgebroidBlock& block);
+/// "v_x" for each coordinate; for x[1,2], whose family need not be whole, "v_x_1_2".
+[[nodiscard]] std::vector<Symbol> kept_velocities(const std::vector<Symbol>& coordinates);
 /// "v_x" for each coordinate.
 [[nodiscard]] std::vector<Symbol> velocities_of(const std::vector<Symbol>& coordinates);
 /// Defines the inner velocities of the model's algebroid, whose entries are read.

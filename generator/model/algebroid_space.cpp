@@ -117,11 +117,16 @@ std::vector<Symbol> velocities_of(const std::vector<Symbol>& coordinates)
     return with_prefix("v_", coordinates);
 }
 
-std::vector<Symbol> coordinates_of(const Model& model, const AlgebroidBlock& block)
+std::vector<Symbol> coordinates_at(const Model& model, const std::vector<std::size_t>& places)
 {
     std::vector<Symbol> out;
-    for (const std::size_t i : block.base) out.push_back(model.base.coordinates[i]);
+    for (const std::size_t i : places) out.push_back(model.base.coordinates[i]);
     return out;
+}
+
+std::vector<Symbol> coordinates_of(const Model& model, const AlgebroidBlock& block)
+{
+    return coordinates_at(model, block.base);
 }
 
 const AlgebroidDraft& leaf_of(const AlgebroidDraft& draft)

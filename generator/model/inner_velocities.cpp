@@ -64,6 +64,22 @@ std::vector<Tree> ambient_values(const Model& model, const AlgebroidBlock& block
     return sums_of(own);
 }
 
+/// Those that a level set keeps are coordinates of its fibre already.
+void define_ambient(ModelReader& reader, const AlgebroidBlock& block, const std::vector<Tree>& values)
+{
+    const std::vector<Symbol> all = velocities_of(coordinates_of(reader.model, block));
+    std::vector<Symbol> symbols;
+    std::vector<Tree> own;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const bool kept =
+            block.kind == AlgebroidKind::level_set && index_of(block.fibre, all[k].name) < block.fibre.size();
+        if (kept) continue;
+        symbols.push_back(all[k]);
+        own.push_back(values[k]);
+    }
+    define_velocities(reader, symbols, own);
+}
+
 /// What a file's fibre coordinates are in this model.
 void note_values(IncludedModel& included, const std::vector<Tree>& y)
 {
@@ -82,10 +98,9 @@ void define_below(ModelReader& reader, const AlgebroidDraft* draft, const Algebr
         return draft != nullptr && k < draft->of.size() ? &draft->of[k] : nullptr;
     };
     switch (block.kind) {
+    case AlgebroidKind::level_set:
     case AlgebroidKind::subbundle:
-        if (named)
-            define_velocities(reader, velocities_of(coordinates_of(reader.model, block)),
-                              ambient_values(reader.model, block, y));
+        if (named) define_ambient(reader, block, ambient_values(reader.model, block, y));
         return;
     case AlgebroidKind::frame: {
         std::vector<Tree> w;
@@ -116,7 +131,7 @@ void define_below(ModelReader& reader, const AlgebroidDraft* draft, const Algebr
 
 void append_velocity_names(std::vector<std::string>& names, const Model& model, const AlgebroidBlock& block)
 {
-    if (block.kind == AlgebroidKind::subbundle)
+    if (block.kind == AlgebroidKind::subbundle || block.kind == AlgebroidKind::level_set)
         for (const std::string& each : declared_names(velocities_of(coordinates_of(model, block))))
             names.push_back(each);
     for (const AlgebroidBlock& inner : block.of) {

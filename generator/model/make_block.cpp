@@ -101,6 +101,7 @@ AlgebroidBlock make_block(const ModelReader& reader, const AlgebroidDraft& draft
     block.where = draft.where;
     for (const AlgebroidDraft& inner : draft.of) block.of.push_back(make_block(reader, inner, leaf_size));
     if (block.kind == AlgebroidKind::tangent) block.over = read_over(*draft.table, draft.title, space.base);
+    block.anchor = draft.level_set.anchor;
     if (block.kind == AlgebroidKind::groupoid) block.rank = rank_of(*reader.model.groupoid, space.base.size());
     if (const TomlEntry* algebra = find_entry(*draft.table, "algebra")) {
         block.algebra =

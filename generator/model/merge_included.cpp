@@ -80,6 +80,7 @@ void merge_base(ModelReader& reader, const IncludedModel& included)
     const Base& from = included.model.base;
     Base& to = reader.model.base;
     for (const Tree& tree : from.constraints) to.constraints.push_back(replace_names(tree, included.renamed));
+    to.constraint_texts.insert(to.constraint_texts.end(), from.constraint_texts.begin(), from.constraint_texts.end());
     for (const Tree& tree : from.domain) to.domain.push_back(replace_names(tree, included.renamed));
     for (const NamedTree& casimir : from.casimirs) {
         const std::string name = fresh_name(reader.names, casimir.name);

@@ -41,10 +41,11 @@ struct Parameter {
 };
 
 struct Base {
-    std::vector<Symbol> coordinates; ///< x^i; empty where M is a point
-    std::vector<Tree> constraints;   ///< closed trees over x and parameters; M is their common zero set
-    std::vector<NamedTree> casimirs; ///< claimed rho_a(f) = 0
-    std::vector<Tree> domain;        ///< strict comparisons (<, >, !=) that hold on M
+    std::vector<Symbol> coordinates;           ///< x^i; empty where M is a point
+    std::vector<Tree> constraints;             ///< closed trees over x and parameters; M is their common zero set
+    std::vector<SourceRange> constraint_texts; ///< where each stands, or the matrix that it is an entry of
+    std::vector<NamedTree> casimirs;           ///< claimed rho_a(f) = 0
+    std::vector<Tree> domain;                  ///< strict comparisons (<, >, !=) that hold on M
 };
 
 struct Fibre {
@@ -94,6 +95,7 @@ enum class AlgebroidKind {
     frame,
     product,
     prolongation,
+    level_set,    ///< TM restricted to the base constraints, in a frame made of them
     nonholonomic, ///< a distribution in the inner algebroid, which need not be one itself
     groupoid      ///< no [algebroid]: that of the model's groupoid
 };
@@ -107,7 +109,7 @@ struct AlgebroidBlock {
     std::string algebra;           ///< a named Lie algebra (lie_algebra, action, atiyah), or empty
     SourceRange algebra_where;
     std::vector<std::size_t> over;          ///< tangent: the base coordinates that move, in order
-    std::vector<AnchorEntry> anchor;        ///< general, action; subbundle: spanned_by
+    std::vector<AnchorEntry> anchor;        ///< general, action; subbundle: spanned_by; level_set: its frame
     std::vector<BracketEntry> bracket;      ///< general, lie_algebra, action; atiyah: of its vertical sections
     std::vector<ArrayValue> representation; ///< action: A_a, rho_a = -(A_a x)^i d/dx^i
     SourceRange representation_where;
@@ -121,6 +123,9 @@ struct AlgebroidBlock {
     std::vector<AlgebroidBlock> of;          ///< frame, prolongation, nonholonomic: one; product: its factors
     SourceRange where;
 };
+
+/// True where the block, or one inside it, is of this kind.
+[[nodiscard]] bool contains(const AlgebroidBlock& block, AlgebroidKind kind);
 
 enum class GroupoidKind { pair, group, action, atiyah };
 

@@ -17,6 +17,7 @@ namespace lagen {
 struct IncludeTrail {
     std::vector<std::string> open; ///< their paths, normalised
     std::size_t read = 0;          ///< how many have been read in all
+    const Choosers* choosers = nullptr;
 };
 
 /// A file that `of` names, read as a model of its own. Its algebroid block is a leaf of the including model's.
@@ -46,14 +47,16 @@ struct ModelReader {
     Names names;
     const std::vector<Setting>* settings = nullptr;
     IncludeTrail* trail = nullptr;
-    const KeptChooser* chooser = nullptr;   ///< null where there is none
     bool is_probe = false;                  ///< read as far as its base alone, without a fibre
+    bool is_tangent = false;                ///< of a probe: the algebroid is read as the tangent bundle of the base
+    const TomlEntry* fibre = nullptr;       ///< the [fibre] block
     const TomlEntry* algebroid = nullptr;   ///< the [algebroid] block
     const TomlEntry* groupoid = nullptr;    ///< the [groupoid] block
     const TomlEntry* discrete = nullptr;    ///< the [discrete] block
     const TomlEntry* states = nullptr;      ///< the [states] block
     const TomlEntry* reconstruct = nullptr; ///< the [reconstruct] block
     std::shared_ptr<const AlgebroidDraft> draft;
+    std::optional<std::vector<std::size_t>> own_constraints; ///< of a level set: those of [base] that are kept
     std::vector<IncludedModel> included;               ///< in the order of the file; the same file may stand here twice
     std::vector<std::string> parameter_names;          ///< what each entry of [parameters] declares: "m" for "m[1..7]"
     std::vector<std::pair<Excerpt, Tree>> casimirs;    ///< as parsed
@@ -129,6 +132,8 @@ void declare_ambient(ModelReader& reader);
 [[nodiscard]] bool has_constraints_alone(const ModelReader& reader);
 /// Those that the chooser finds; nothing where there is none.
 [[nodiscard]] std::optional<std::vector<Symbol>> chosen_coordinates(const ModelReader& reader);
+/// Made by the reading's FrameMaker.
+[[nodiscard]] LevelSetFrame frame_of_level_set(const ModelReader& reader, const LevelSetRequest& request);
 /// The fibre coordinates are these Y. Throws ModelError.
 void keep_coordinates(ModelReader& reader, const std::vector<Symbol>& names);
 /// Throws ModelError where the model is nonholonomic: it has no such blocks.

@@ -30,6 +30,6 @@ struct MorphismFile {
 
 /// Reads a morphism file with its models; `settings` are of the source's parameters. Throws ModelError.
 [[nodiscard]] MorphismFile read_morphism(const std::shared_ptr<const SourceFile>& file,
-                                         const std::vector<Setting>& settings = {});
+                                         const std::vector<Setting>& settings = {}, const Choosers& choosers = {});
 
 } // namespace lagen

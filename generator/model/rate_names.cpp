@@ -59,6 +59,7 @@ std::vector<Tree> rates_of(const Model& model, const AlgebroidBlock& block, cons
     switch (block.kind) {
     case AlgebroidKind::tangent: place_rates(rates, block.over, y); break;
     case AlgebroidKind::atiyah: place_rates(rates, block.base, y); break;
+    case AlgebroidKind::level_set:
     case AlgebroidKind::subbundle:
         for (const std::size_t i : block.base) rates[i] = name("v_" + model.base.coordinates[i].name);
         break;

@@ -48,10 +48,12 @@ void read_algebroid_kind(ModelReader& reader, const TomlEntry* block)
         throw ModelError("the model has no [algebroid] block", SourceRange{reader.model.file, 0, 0},
                          "for an ordinary mechanical system: [algebroid] kind = \"tangent\"");
     }
-    auto draft = std::make_shared<const AlgebroidDraft>(
-        block != nullptr ? draft_algebroid(reader, *block)
-                         : draft_of_groupoid(*reader.groupoid, reader.model.groupoid->kind));
+    auto draft = std::make_shared<AlgebroidDraft>(block == nullptr
+                                                      ? draft_of_groupoid(*reader.groupoid, reader.model.groupoid->kind)
+                                                  : reader.is_tangent ? draft_of_tangent(*block)
+                                                                      : draft_algebroid(reader, *block));
     require_tables(*draft);
+    make_level_sets(reader, *draft);
     const std::size_t leaf_size = declare_inner_base(reader, *draft);
     merge_included(reader);
     reader.model.algebroid = make_block(reader, *draft, leaf_size);
@@ -65,6 +67,9 @@ std::optional<std::vector<Symbol>> default_fibre(const ModelReader& reader)
     case AlgebroidKind::tangent:
     case AlgebroidKind::prolongation:
     case AlgebroidKind::product: return block.fibre;
+    case AlgebroidKind::level_set:
+        if (reader.draft->level_set.kept.empty()) return std::nullopt;
+        return kept_velocities(coordinates_at(reader.model, reader.draft->level_set.kept));
     default: return std::nullopt;
     }
 }

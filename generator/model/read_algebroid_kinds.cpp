@@ -17,6 +17,7 @@ constexpr KindEntry kinds[] = {
     {"lie_algebra", AlgebroidKind::lie_algebra, {"algebra", "bracket"}},
     {"action", AlgebroidKind::action, {"algebra", "bracket", "anchor", "representation"}},
     {"subbundle", AlgebroidKind::subbundle, {"spanned_by"}},
+    {"level_set", AlgebroidKind::level_set, {}},
     {"atiyah", AlgebroidKind::atiyah, {"algebra", "bracket", "connection"}},
     {"frame", AlgebroidKind::frame, {"of", "sections"}},
     {"product", AlgebroidKind::product, {"of"}},
@@ -196,6 +197,18 @@ AlgebroidDraft draft_of_groupoid(const TomlEntry& block, GroupoidKind kind)
     draft.where = block.where();
     draft.kind =
         kind == GroupoidKind::pair ? &*std::ranges::find(kinds, AlgebroidKind::tangent, &KindEntry::kind) : &computed;
+    draft.outermost = true;
+    return draft;
+}
+
+AlgebroidDraft draft_of_tangent(const TomlEntry& block)
+{
+    static const TomlValue empty{};
+    AlgebroidDraft draft;
+    draft.table = &empty;
+    draft.title = "[algebroid]";
+    draft.where = block.where();
+    draft.kind = &*std::ranges::find(kinds, AlgebroidKind::tangent, &KindEntry::kind);
     draft.outermost = true;
     return draft;
 }

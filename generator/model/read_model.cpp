@@ -7,6 +7,7 @@
 #include "model/read_file.hpp"
 #include "model/table_reader.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace lagen {
@@ -18,17 +19,17 @@ Model read_with(ModelReader& reader, const std::string& name, std::string text, 
 
 } // namespace
 
-Model read_model(const std::string& path, const std::vector<Setting>& settings, const KeptChooser& chooser)
+Model read_model(const std::string& path, const std::vector<Setting>& settings, const Choosers& choosers)
 {
-    return read_model_text(path, read_file(path), settings, chooser);
+    return read_model_text(path, read_file(path), settings, choosers);
 }
 
 Model read_model_text(const std::string& name, std::string text, const std::vector<Setting>& settings,
-                      const KeptChooser& chooser)
+                      const Choosers& choosers)
 {
     IncludeTrail trail;
+    trail.choosers = &choosers;
     ModelReader reader;
-    if (chooser) reader.chooser = &chooser;
     return read_with(reader, name, std::move(text), settings, trail);
 }
 
@@ -39,17 +40,34 @@ Model read_model_text(const std::string& name, std::string text, const std::vect
     return read_with(reader, name, std::move(text), settings, trail);
 }
 
-std::optional<std::vector<Symbol>> chosen_coordinates(const ModelReader& reader)
+namespace {
+
+/// The model as far as its base; `as_tangent`: whatever its algebroid is, as TM.
+Model probed(const ModelReader& reader, bool as_tangent)
 {
-    if (reader.chooser == nullptr) return std::nullopt;
     IncludeTrail trail = *reader.trail;
     ModelReader probe;
     probe.is_probe = true;
+    probe.is_tangent = as_tangent;
     const SourceFile& file = *reader.model.file;
-    const Model model = read_with(probe, file.name, file.text, *reader.settings, trail);
+    return read_with(probe, file.name, file.text, *reader.settings, trail);
+}
+
+} // namespace
+
+std::optional<std::vector<Symbol>> chosen_coordinates(const ModelReader& reader)
+{
+    if (!reader.trail->choosers->kept) return std::nullopt;
     std::vector<Symbol> chosen;
-    for (const std::size_t place : (*reader.chooser)(model)) chosen.push_back(ambient_fibre(reader.model).at(place));
+    for (const std::size_t place : reader.trail->choosers->kept(probed(reader, false)))
+        chosen.push_back(ambient_fibre(reader.model).at(place));
     return chosen;
+}
+
+LevelSetFrame frame_of_level_set(const ModelReader& reader, const LevelSetRequest& request)
+{
+    if (!reader.trail->choosers->frame) throw InternalError("a level set is read by nobody who makes its frame");
+    return reader.trail->choosers->frame(probed(reader, true), request);
 }
 
 namespace {
@@ -71,10 +89,11 @@ Model read_with(ModelReader& reader, const std::string& name, std::string text, 
     const TomlEntry* sizes = top.take("sizes");
     const TomlEntry* parameters = top.take("parameters");
     const TomlEntry* base = top.take("base");
-    const TomlEntry* fibre = top.take("fibre");
+    reader.fibre = top.take("fibre");
     reader.algebroid = top.take("algebroid");
     reader.groupoid = top.take("groupoid");
     reader.discrete = top.take("discrete");
+    if (reader.is_tangent) reader.groupoid = reader.discrete = nullptr; // they are about its sections
     const TomlEntry* definitions = top.take("definitions");
     reader.mechanics.lagrangian = top.take("lagrangian");
     reader.mechanics.hamiltonian = top.take("hamiltonian");
@@ -99,7 +118,7 @@ Model read_with(ModelReader& reader, const std::string& name, std::string text, 
     declare_groupoid(reader);
     read_algebroid_kind(reader, reader.algebroid);
     declare_ambient(reader);
-    declare_fibre(reader, fibre);
+    declare_fibre(reader, reader.fibre);
     declare_control(reader);
     declare_states(reader);
     declare_reconstructions(reader);
@@ -146,6 +165,12 @@ const Scene& find_scene(const Model& model, const std::string& name)
     if (name.empty()) return model.scenes.front();
     throw ModelError(fmt::format("the model '{}' has no scene '{}'", model.file->name, name), {},
                      hint_for(name, known, "scenes"));
+}
+
+bool contains(const AlgebroidBlock& block, AlgebroidKind kind)
+{
+    return block.kind == kind ||
+           std::ranges::any_of(block.of, [&](const AlgebroidBlock& inner) { return contains(inner, kind); });
 }
 
 bool is_nonholonomic(const Model& model)

@@ -115,13 +115,13 @@ std::shared_ptr<const SourceFile> file_beside(const MorphismFile& morphism, cons
 }
 
 Model read_end(const MorphismFile& morphism, const TomlEntry* entry, const char* key, const SourceRange& where,
-               const std::vector<Setting>& settings)
+               const std::vector<Setting>& settings, const Choosers& choosers)
 {
     if (entry == nullptr)
         throw ModelError(fmt::format("[morphism] has no key '{}'", key), where,
                          fmt::format("{} = \"model.toml\", or compose = [\"first.toml\", \"second.toml\"]", key));
     const auto file = file_beside(morphism, entry->value, fmt::format("'{}' of [morphism]", key));
-    return read_model_text(file->name, file->text, settings);
+    return read_model_text(file->name, file->text, settings, choosers);
 }
 
 /// Where both have the groupoids: W' by rows.
@@ -147,10 +147,10 @@ std::vector<Tree> read_element(const MapReader& reader, const TomlEntry& entry)
 }
 
 std::vector<MorphismFile> read_stages(const MorphismFile& morphism, const TomlEntry& compose,
-                                      const std::vector<Setting>& settings, int depth);
+                                      const std::vector<Setting>& settings, const Choosers& choosers, int depth);
 
 MorphismFile read_morphism_file(const std::shared_ptr<const SourceFile>& file, const std::vector<Setting>& settings,
-                                int depth)
+                                const Choosers& choosers, int depth)
 {
     MorphismFile morphism;
     morphism.file = file;
@@ -164,13 +164,13 @@ MorphismFile read_morphism_file(const std::shared_ptr<const SourceFile>& file, c
     morphism.name = name != nullptr ? read_text(name->value, "the name") : fs::path(file->name).stem().string();
 
     if (block == nullptr) {
-        morphism.stages = read_stages(morphism, *alone, settings, depth);
+        morphism.stages = read_stages(morphism, *alone, settings, choosers, depth);
         return morphism;
     }
     TableReader table(block->value, "[morphism]");
     if (const TomlEntry* compose = table.take("compose")) {
         table.finish();
-        morphism.stages = read_stages(morphism, *compose, settings, depth);
+        morphism.stages = read_stages(morphism, *compose, settings, choosers, depth);
         return morphism;
     }
     const TomlEntry* source = table.take("source");
@@ -181,8 +181,8 @@ MorphismFile read_morphism_file(const std::shared_ptr<const SourceFile>& file, c
     const TomlEntry* controls = table.take("controls");
     const TomlEntry* element = table.take("element");
     table.finish();
-    morphism.source = read_end(morphism, source, "source", block->where(), settings);
-    morphism.target = read_end(morphism, target, "target", block->where(), {});
+    morphism.source = read_end(morphism, source, "source", block->where(), settings, choosers);
+    morphism.target = read_end(morphism, target, "target", block->where(), {}, choosers);
 
     const MapReader reader{morphism};
     const Model& from = morphism.source;
@@ -238,7 +238,7 @@ void require_joint(const std::vector<MorphismFile>& before, const MorphismFile& 
 }
 
 std::vector<MorphismFile> read_stages(const MorphismFile& morphism, const TomlEntry& compose,
-                                      const std::vector<Setting>& settings, int depth)
+                                      const std::vector<Setting>& settings, const Choosers& choosers, int depth)
 {
     if (depth >= deepest_composition)
         throw ModelError(fmt::format("morphisms are composed of each other more than {} deep", deepest_composition),
@@ -250,7 +250,8 @@ std::vector<MorphismFile> read_stages(const MorphismFile& morphism, const TomlEn
     for (const TomlValue& item : compose.value.items) {
         const auto file = file_beside(morphism, item, "an entry of 'compose'");
         if (!is_morphism(file)) throw ModelError(fmt::format("{} has no [morphism]", quote(file->name)), item.where);
-        MorphismFile stage = read_morphism_file(file, stages.empty() ? settings : std::vector<Setting>{}, depth + 1);
+        MorphismFile stage =
+            read_morphism_file(file, stages.empty() ? settings : std::vector<Setting>{}, choosers, depth + 1);
         std::vector<MorphismFile> parts = std::move(stage.stages);
         if (parts.empty()) parts.push_back(std::move(stage));
         require_joint(stages, parts.front(), item.where);
@@ -277,9 +278,10 @@ bool is_morphism(const std::shared_ptr<const SourceFile>& file)
     return find_entry(document, "morphism") != nullptr || find_entry(document, "compose") != nullptr;
 }
 
-MorphismFile read_morphism(const std::shared_ptr<const SourceFile>& file, const std::vector<Setting>& settings)
+MorphismFile read_morphism(const std::shared_ptr<const SourceFile>& file, const std::vector<Setting>& settings,
+                           const Choosers& choosers)
 {
-    return read_morphism_file(file, settings, 0);
+    return read_morphism_file(file, settings, choosers, 0);
 }
 
 } // namespace lagen

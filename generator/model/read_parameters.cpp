@@ -113,6 +113,18 @@ std::vector<Tree> read_inequalities(const ModelReader& reader, const Excerpt& te
     return inequalities;
 }
 
+/// Those of a level set, without repetitions.
+void keep_constraints(Base& base, const std::vector<std::size_t>& places)
+{
+    Base kept;
+    for (const std::size_t place : places) {
+        kept.constraints.push_back(base.constraints.at(place));
+        kept.constraint_texts.push_back(base.constraint_texts.at(place));
+    }
+    base.constraints = std::move(kept.constraints);
+    base.constraint_texts = std::move(kept.constraint_texts);
+}
+
 } // namespace
 
 void read_parameters(ModelReader& reader, const TomlEntry* block, const std::vector<Setting>& settings)
@@ -142,8 +154,10 @@ void read_base(ModelReader& reader, const TomlEntry* block)
         for (Tree& entry : reader.close_array(parse_expression(text), point, "a constraint").entries) {
             require_coordinate(reader, entry, text);
             base.constraints.push_back(std::move(entry));
+            base.constraint_texts.push_back(text.range(0, text.text.size()));
         }
     }
+    if (reader.own_constraints) keep_constraints(base, *reader.own_constraints);
     for (const auto& [key, value] : reader.casimirs) {
         const ArrayValue closed = reader.close_array(value, point, fmt::format("the Casimir '{}'", key.text));
         append_entries(base.casimirs, key, closed);

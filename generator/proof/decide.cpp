@@ -37,6 +37,11 @@ class ZeroDecider::State {
     }
 
     [[nodiscard]] const ProofBudget& budget() const { return budget_; }
+    /// Whether a sample point where the residual is not 0 says so of M.
+    [[nodiscard]] bool refutes_on_M(NodeId residual) const
+    {
+        return !setting_.is_wider || graph_.is_constant(residual);
+    }
     [[nodiscard]] Decision decide(NodeId residual);
     [[nodiscard]] ProofStatus status(NodeId residual);
     [[nodiscard]] Decision confirm(NodeId residual, const std::string& argument);
@@ -340,12 +345,18 @@ ZeroDecider::~ZeroDecider() = default;
 
 Decision ZeroDecider::decide(NodeId residual) const
 {
-    return state_->decide(residual);
+    Decision decision = state_->decide(residual);
+    if (decision.status != ProofStatus::refuted || state_->refutes_on_M(residual)) return decision;
+    decision.status = ProofStatus::undecided;
+    decision.evidence = "not 0 at a point that need not fulfil the base constraints: not all are triangular";
+    decision.witness.reset();
+    return decision;
 }
 
 ProofStatus ZeroDecider::status(NodeId residual) const
 {
-    return state_->status(residual);
+    const ProofStatus status = state_->status(residual);
+    return status != ProofStatus::refuted || state_->refutes_on_M(residual) ? status : ProofStatus::undecided;
 }
 
 Decision ZeroDecider::confirm(NodeId residual, const std::string& argument) const

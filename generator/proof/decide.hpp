@@ -67,6 +67,7 @@ struct ProofSetting {
     std::vector<NodeId> domain;      ///< comparison nodes that hold (<, >, !=)
     std::vector<NodeId>
         defined; ///< further nodes whose definedness belongs to "everything in the model is defined" (rho, C, L)
+    bool is_wider = false; ///< M is a part of what `constraints` describe: a point of that need not be one of M
 };
 
 struct ProofBudget {

@@ -153,6 +153,23 @@ std::vector<SolvedConstraint> triangular_constraints(const Graph& graph, const P
     return solved;
 }
 
+bool keep_triangular(const Graph& graph, ProofSetting& setting)
+{
+    ProofSetting growing = setting;
+    growing.constraints.clear();
+    for (const NodeId constraint : setting.constraints) {
+        growing.constraints.push_back(constraint);
+        try {
+            (void)triangular_constraints(graph, growing);
+        } catch (const TriangularityError&) {
+            growing.constraints.pop_back();
+        }
+    }
+    const bool complete = growing.constraints.size() == setting.constraints.size();
+    setting.constraints = std::move(growing.constraints);
+    return !complete;
+}
+
 } // namespace lagen::proof
 
 namespace lagen {

@@ -11,4 +11,8 @@ namespace lagen::proof {
 /// under a function or in a divisor of a constraint are not solved for. Throws TriangularityError.
 [[nodiscard]] std::vector<SolvedConstraint> triangular_constraints(const Graph& graph, const ProofSetting& setting);
 
+/// Leaves out each constraint that is not triangular beside those before it: what is proved on the larger set holds on
+/// M. True where some were.
+bool keep_triangular(const Graph& graph, ProofSetting& setting);
+
 } // namespace lagen::proof

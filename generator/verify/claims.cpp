@@ -67,6 +67,7 @@ std::vector<NamedNode> Claims::divisors_of(const Rate& rate, const Regularity& r
 
 void Claims::require_triangular_constraints()
 {
+    if (system_.is_level_set) return; // what is not triangular is left out of the setting
     // One constraint more each time, so that the one that is refused is known by its place.
     ProofSetting growing;
     growing.variables = system_.algebroid.x;

@@ -3,6 +3,7 @@
 
 #include "graph/calculus/differentiate.hpp"
 #include "mechanics/nonholonomic.hpp"
+#include "proof/triangular.hpp"
 
 #include <algorithm>
 
@@ -50,6 +51,7 @@ ProofSetting proof_setting(Graph& graph, const System& system)
     setting.parameters = system.parameters;
     setting.constraints = system.functions.constraints;
     setting.domain = system.domain;
+    if (system.is_level_set) setting.is_wider = proof::keep_triangular(graph, setting);
     setting.defined = defined_nodes(system);
     if (!system.distribution) return setting;
     const std::vector<NodeId> Y = constraint_hull(graph, system).Y;

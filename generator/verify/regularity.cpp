@@ -131,6 +131,11 @@ Regularity decide_case(const Case& one)
     if (!rank) return result;
     result.rank = *rank;
     result.kind = *rank < full ? Kind::degenerate : kind_everywhere(one, result.positive_definite);
+    if (one.setting.is_wider && result.kind != Kind::regular) {
+        result.kind = Kind::undecided;
+        result.evidence = "W is looked at on a larger set: not all base constraints are triangular";
+        return result;
+    }
     if (result.kind == Kind::generically_regular && !is_regular_almost_everywhere(one)) {
         result.kind = Kind::undecided;
         result.evidence = "each block of W is regular at a point; that all are so almost everywhere is not shown";

@@ -52,6 +52,7 @@ std::vector<NamedPoint> singular_points(Graph& graph, const ProofSetting& settin
                                         const std::vector<NodeId>& determinants, const SliceValue& value)
 {
     std::vector<NamedPoint> points;
+    if (setting.is_wider) return points;
     for (std::size_t k = 0; k < setting.variables.size() && points.size() < point_limit; ++k) {
         const NodeId variable = setting.variables[k];
         std::optional<NamedPoint> point =

@@ -2,6 +2,7 @@
 /// Models from text and their kernels at points, through the interpreter.
 #pragma once
 
+#include "elaborate/make_frame.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/evaluate.hpp"
 #include "graph/unknowns/solve_unknowns.hpp"
@@ -26,7 +27,7 @@ inline KernelModule kernels_of(const Model& model, const KernelRequest& request 
 
 inline KernelModule kernels_of_text(const std::string& text)
 {
-    return kernels_of(read_model_text("test.toml", text));
+    return kernels_of(read_model_text("test.toml", text, {}, choosers()));
 }
 
 inline const Kernel& find_kernel(const KernelModule& module, const std::string& name)
@@ -76,7 +77,8 @@ inline std::set<std::string> model_files()
     std::set<std::string> files;
     for (const auto& entry : std::filesystem::directory_iterator(std::string(LAGEN_SOURCE_DIR) + "/models")) {
         const bool left_out = LAGEN_SANITIZED && largest.contains(entry.path().stem().string());
-        if (entry.path().extension() == ".toml" && !left_out && !read_model(entry.path().string()).discrete)
+        if (entry.path().extension() == ".toml" && !left_out &&
+            !read_model(entry.path().string(), {}, choosers()).discrete)
             files.insert(entry.path().string());
     }
     return files;
@@ -88,7 +90,7 @@ inline const std::vector<KernelModule>& kernels_of_file(const std::string& file)
     static std::map<std::string, std::vector<KernelModule>> modules;
     const auto found = modules.find(file);
     if (found != modules.end()) return found->second;
-    const Model model = read_model(file);
+    const Model model = read_model(file, {}, choosers());
     const ModelReport verified = verify(model);
     std::vector<KernelModule> all;
     for (const std::string& form : forms_of(model)) {

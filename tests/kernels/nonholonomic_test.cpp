@@ -3,7 +3,7 @@
 #include "models.hpp"
 
 #include "../support/tolerances.hpp"
-#include "elaborate/choose_kept.hpp"
+#include "elaborate/make_frame.hpp"
 
 #include <cmath>
 
@@ -159,8 +159,8 @@ domain = ["m > 0", "J > 0"]
 L = "m*(v_x^2 + v_y^2)/2 + J*(v_ph^2 + v_th^2)/2 + x*v_th - cos(ph)*x^2"
 )";
     const std::string constraints = "constraints = [\"v_x - R*cos(ph)*v_th\", \"v_y - R*sin(ph)*v_th + x*v_ph\"]\n";
-    const Model solved = read_model_text("c.toml", head + "[algebroid]\nkind = \"nonholonomic\"\n" + constraints + tail,
-                                         {}, choose_kept);
+    const Model solved =
+        read_model_text("c.toml", head + "[algebroid]\nkind = \"nonholonomic\"\n" + constraints + tail, {}, choosers());
     REQUIRE(solved.fibre.coordinates.size() == 2);
     CHECK(solved.fibre.coordinates[0].name == "v_ph");
     CHECK(solved.fibre.coordinates[1].name == "v_th");

@@ -2,7 +2,7 @@
 /// What the tests of `verify` share: a model text in, lines about its checks out.
 #pragma once
 
-#include "model/read_model.hpp"
+#include "elaborate/make_frame.hpp"
 #include "support/stages.hpp"
 
 #include <set>
@@ -11,7 +11,7 @@ namespace lagen {
 
 inline ModelReport verified_text(const std::string& text, const std::vector<NamedTree>& extra = {})
 {
-    return verify(read_model_text("test.toml", "name = \"test\"\n" + text), extra);
+    return verify(read_model_text("test.toml", "name = \"test\"\n" + text, {}, choosers()), extra);
 }
 
 /// "anchor(w1, w2, g3) proved"

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "elaborate/make_frame.hpp"
+
+#include "elaborate/bind_parameters.hpp"
+#include "elaborate/singular_point.hpp"
+#include "graph/calculus/differentiate.hpp"
+#include "proof/enclosure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace lagen {
+
+namespace {
+
+constexpr std::size_t most_minors = 64; ///< of which a common zero is looked for
+
+/// A matrix that is symmetric says most of its entries twice: those that are another one, up to sign, or 0.
+std::vector<std::size_t> without_repetitions(const Model& model)
+{
+    Graph graph;
+    Lowering lower(graph);
+    ProofSetting setting;
+    for (const Symbol& symbol : model.base.coordinates) setting.variables.push_back(graph.input(symbol.name));
+    for (const Parameter& parameter : model.parameters)
+        setting.parameters.push_back(graph.input(parameter.symbol.name));
+    const std::vector<SourceRange>& texts = model.base.constraint_texts;
+    std::vector<NodeId> h;
+    for (const Tree& constraint : model.base.constraints) h.push_back(lower(constraint));
+    const auto same_text = [&](std::size_t j, std::size_t k) { return texts[j].begin == texts[k].begin; };
+    const auto is_zero = [&](NodeId node) {
+        return graph.is_zero(node) || ZeroDecider(graph, setting).status(node) == ProofStatus::proved;
+    };
+    std::vector<std::size_t> kept;
+    for (std::size_t k = 0; k < h.size(); ++k) {
+        const bool repeats = std::ranges::any_of(kept, [&](std::size_t j) {
+            return same_text(j, k) && (is_zero(graph.subtract(h[j], h[k])) || is_zero(graph.add(h[j], h[k])));
+        });
+        const bool alone = (k == 0 || !same_text(k - 1, k)) && (k + 1 == h.size() || !same_text(k, k + 1));
+        if (!repeats && (alone || !is_zero(h[k]))) kept.push_back(k);
+    }
+    return kept;
+}
+
+Model with_constraints(Model model, const std::vector<std::size_t>& places)
+{
+    Base& base = model.base;
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        base.constraints[k] = base.constraints[places[k]];
+        base.constraint_texts[k] = base.constraint_texts[places[k]];
+    }
+    base.constraints.resize(places.size());
+    base.constraint_texts.resize(places.size());
+    return model;
+}
+
+/// The largest whole number that divides all terms of the tree as it is written.
+mpz_class whole_factor(const Tree& tree)
+{
+    switch (tree->kind) {
+    case TreeKind::number: return tree->number.get_den() == 1 ? mpz_class(abs(tree->number.get_num())) : mpz_class(1);
+    case TreeKind::multiply:
+    case TreeKind::divide:
+    case TreeKind::negate: return whole_factor(tree->arguments[0]);
+    case TreeKind::add: {
+        mpz_class common = 0;
+        for (const Tree& term : tree->arguments) common = gcd(common, whole_factor(term));
+        return common;
+    }
+    default: return 1;
+    }
+}
+
+/// "x != 0", "y + 1 != 0" of 2*x*(y + 1): factors one by one, as the signs of a domain are looked for.
+std::string conditions_of(const Tree& minor)
+{
+    const std::vector<Tree> factors = minor->kind == TreeKind::multiply ? minor->arguments : std::vector{minor};
+    std::string text;
+    for (const Tree& factor : factors)
+        if (factor->kind != TreeKind::number)
+            text += fmt::format("{}\"{} != 0\"", text.empty() ? "" : ", ", to_text(factor));
+    return text;
+}
+
+class FrameBuilder {
+  public:
+    FrameBuilder(const Model& model, const LevelSetRequest& request)
+        : model_(model), request_(request), n_(model.base.coordinates.size()), m_(model.base.constraints.size())
+    {
+        require_numbers();
+        work_.emplace(model_);
+        Graph& graph = work_->graph();
+        for (std::size_t i = 0; i < n_; ++i) x_.push_back(work_->coordinate(i));
+        for (const Tree& constraint : model_.base.constraints) {
+            h_.push_back(work_->lower(constraint));
+            for (const NodeId slope : gradient(graph, h_.back(), x_)) rows_.B.push_back(slope);
+        }
+        rows_.m = m_;
+        rows_.r = n_;
+    }
+
+    LevelSetFrame make()
+    {
+        for (std::size_t count = 2; count <= m_; ++count) require_independent(count);
+        const KeptChoice choice = choose_free(*work_, rows_, model_.base.coordinates, request_.kept);
+        if (choice.kept) return graph_frame(*choice.kept);
+        const bool regular = is_regular();
+        if (regular && n_ - m_ == 1 && request_.sections && request_.kept.empty()) return frame_of_minors();
+        if (!regular) refuse_singular();
+        refuse_charts(choice, regular);
+    }
+
+  private:
+    void require_numbers() const
+    {
+        if (m_ == 0)
+            throw ModelError("an algebroid of kind 'level_set' needs 'constraints' in [base]", request_.where,
+                             "[base] constraints = [\"x^2 + y^2 - 1\"]; without any: kind = \"tangent\"");
+        if (m_ >= n_ || m_ > determinant_limit)
+            throw ModelError(fmt::format("the constraints of the level set are {} on {} base coordinates", m_, n_),
+                             model_.base.constraint_texts.back(),
+                             fmt::format("at most {} independent ones, and fewer than the coordinates, make a level "
+                                         "set that something can move on",
+                                         determinant_limit));
+        if (request_.sections && *request_.sections != n_ - m_)
+            throw ModelError(
+                fmt::format("the number of fibre coordinates is {}, where the level set of {} constraint{} "
+                            "on {} base coordinates needs {}",
+                            *request_.sections, m_, m_ == 1 ? "" : "s", n_, n_ - m_),
+                request_.where, "without [fibre] lagen names them after the coordinates that it keeps");
+    }
+
+    /// Some minor of the first rows is not zero on M as far as its triangular constraints tell.
+    void require_independent(std::size_t count)
+    {
+        Places columns = first_places(count);
+        do {
+            const NodeId minor = determinant_of(work_->graph(), rows_.B, n_, first_places(count), columns);
+            if (!work_->graph().is_zero(minor) && work_->readable(minor) != nullptr) return;
+        } while (next_places(columns, n_));
+        throw ModelError(
+            fmt::format("the constraint '{}' depends on those before it: the gradients of all of them are linearly "
+                        "dependent at every point of the level set",
+                        to_text(model_.base.constraints[count - 1])),
+            model_.base.constraint_texts[count - 1], "leave it out, or give one that cuts the level set down");
+    }
+
+    /// det B B^T, the sum of the squares of all minors, vanishes nowhere.
+    bool is_regular()
+    {
+        Graph& graph = work_->graph();
+        std::vector<NodeId> gram;
+        for (std::size_t A = 0; A < m_; ++A)
+            for (std::size_t C = 0; C < m_; ++C) {
+                std::vector<NodeId> terms;
+                for (std::size_t i = 0; i < n_; ++i)
+                    terms.push_back(graph.multiply(rows_.B[A * n_ + i], rows_.B[C * n_ + i]));
+                gram.push_back(graph.sum(terms));
+            }
+        const NodeId determinant = determinant_of(graph, gram, m_, first_places(m_), first_places(m_));
+        return ZeroDecider(graph, work_->setting()).proves_nonzero(determinant);
+    }
+
+    LevelSetFrame graph_frame(const Places& kept)
+    {
+        Graph& graph = work_->graph();
+        const Places solved = rows_.solved(kept);
+        std::vector<NodeId> matrix;
+        std::vector<std::vector<NodeId>> right(kept.size());
+        for (std::size_t A = 0; A < m_; ++A) {
+            for (const std::size_t i : solved) matrix.push_back(rows_.B[A * n_ + i]);
+            for (std::size_t a = 0; a < kept.size(); ++a) right[a].push_back(graph.negate(rows_.B[A * n_ + kept[a]]));
+        }
+        const std::vector<std::vector<NodeId>> z = solve_exactly(graph, matrix, m_, right);
+        LevelSetFrame frame;
+        frame.kept = kept;
+        for (std::size_t a = 0; a < kept.size(); ++a) {
+            frame.anchor.push_back({a, kept[a], number(1, request_.where), request_.where});
+            for (std::size_t j = 0; j < m_; ++j) append(frame, a, solved[j], work_->readable(z[a][j]));
+        }
+        return frame;
+    }
+
+    /// The determinant of B with the row e below it is |e|^2: e turns to the left of the gradient of a single f(x, y).
+    LevelSetFrame frame_of_minors()
+    {
+        Graph& graph = work_->graph();
+        std::vector<NodeId> components;
+        mpz_class common = 0;
+        for (std::size_t i = 0; i < n_; ++i) {
+            const NodeId minor = rows_.minor(graph, {i});
+            components.push_back((n_ - 1 + i) % 2 == 0 ? minor : graph.negate(minor));
+            if (const Tree tree = work_->readable(minor)) common = gcd(common, whole_factor(tree));
+        }
+        LevelSetFrame frame;
+        for (std::size_t i = 0; i < n_; ++i)
+            append(frame, 0, i, work_->readable(graph.divide(components[i], graph.constant(Rational(common)))));
+        return frame;
+    }
+
+    void append(LevelSetFrame& frame, std::size_t a, std::size_t i, Tree value) const
+    {
+        if (value != nullptr) frame.anchor.push_back({a, i, std::move(value), request_.where});
+    }
+
+    /// A point of M where all minors vanish, for the values that the parameters have.
+    void refuse_singular()
+    {
+        Graph& graph = work_->graph();
+        std::vector<NodeId> functions = h_;
+        Places kept = first_places(n_ - m_);
+        do {
+            const NodeId minor = rows_.minor(graph, kept);
+            if (!graph.is_zero(minor)) functions.push_back(minor);
+        } while (functions.size() <= most_minors && next_places(kept, n_));
+        std::map<NodeId, Rational> fixed;
+        for (const auto& [name, value] : parameter_values(graph, model_)) {
+            const auto exact = proof::Evaluation(graph, {value}).exactly({});
+            if (!exact || functions.size() > most_minors) return;
+            fixed[graph.input(name)] = (*exact)[0];
+        }
+        const auto point = common_zero(graph, functions, x_, work_->setting().domain, fixed);
+        if (!point) return;
+        std::string text;
+        for (const auto& [name, value] : *point)
+            text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", name, to_text(value));
+        for (const auto& [parameter, value] : fixed)
+            if (depends_on_any(graph, h_, std::vector{parameter}))
+                text += fmt::format(", {} = {}", graph.input_name(parameter), value.get_str());
+        throw ModelError(fmt::format("the level set is singular at {}: the gradient{} of its constraint{} there", text,
+                                     m_ == 1 ? "" : "s", m_ == 1 ? " is zero" : "s are linearly dependent"),
+                         model_.base.constraint_texts.front(),
+                         "leave the point out by a condition of [base] domain, such as one on the side of it where "
+                         "the motions are");
+    }
+
+    [[noreturn]] void refuse_charts(const KeptChoice& choice, bool regular) const
+    {
+        const bool is_curve = n_ - m_ == 1;
+        std::string text =
+            regular ? "the level set is regular, and " : "the level set is not shown to be regular, and ";
+        if (!request_.kept.empty())
+            text += "the coordinates that [fibre] keeps are not proved to parametrise all of it";
+        else if (is_curve)
+            text += "no single coordinate is proved to parametrise all of it";
+        else
+            text += fmt::format("no {} of its coordinates are proved to parametrise all of it", n_ - m_);
+        if (!choice.first) throw ModelError(text, request_.where, "the constraints fix one of them: keep others");
+        std::string hint = fmt::format("[base] domain = [{}] makes a chart of the first", conditions_of(*choice.first));
+        if (is_curve && regular) hint += "; a name of your own in [fibre], \"u\", takes a tangent that needs no chart";
+        throw ModelError(text + fmt::format(": it needs several charts, where the minors {} are not 0", choice.minors),
+                         request_.where, hint);
+    }
+
+    const Model& model_;
+    const LevelSetRequest& request_;
+    std::size_t n_, m_;
+    std::optional<BuildWorkspace> work_;
+    std::vector<NodeId> x_, h_;
+    ConstraintRows rows_{{}, 0, 0};
+};
+
+} // namespace
+
+LevelSetFrame make_frame(const Model& model, const LevelSetRequest& request)
+{
+    const std::vector<std::size_t> places = without_repetitions(model);
+    const Model own = with_constraints(model, places);
+    LevelSetFrame frame = FrameBuilder(own, request).make();
+    frame.constraints = places;
+    return frame;
+}
+
+Choosers choosers()
+{
+    return {choose_kept, make_frame};
+}
+
+} // namespace lagen
