@@ -67,7 +67,7 @@ TEST_CASE("a form that is none is answered with the nearest one")
     const Outcome outcome = call({"derive", "pendulum.toml", "--form", "hamiltonian"});
     CHECK(outcome.code == 4);
     CHECK(outcome.err == "lagen derive: --form is 'hamiltonian', it must be one of lagrange, hamilton, pontryagin, "
-                         "discrete, exterior, cartan, poisson, invariants, reaction, projected; did "
+                         "discrete, exterior, cartan, poisson, invariants, variations, reaction, projected; did "
                          "you mean 'hamilton'?\n");
 }
 
