@@ -135,10 +135,7 @@ class EquilibriumFinder {
                     setting.variables.push_back(mu);
             decider_ = ZeroDecider::make(graph_, setting);
         }
-        if (!decider_)
-            throw MathematicsError(
-                "relative equilibria are sought where constraints are triangular, and those of model '" + system_.name +
-                "' are not");
+        if (!decider_) throw InternalError("a system whose constraints are not triangular");
         return *decider_;
     }
     [[nodiscard]] bool is_proved_zero(NodeId node)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Bytes as a model file: read; where it reads, its scenes are evaluated, it is verified and its equations are derived.
 /// A model with many sections or large expressions is read only: deciding it may take its time.
+#include "elaborate/make_frame.hpp"
 #include "fuzz/harness.hpp"
 #include "fuzz/small_budget.hpp"
 #include "model/read_model.hpp"
@@ -68,7 +69,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string text(reinterpret_cast<const char*>(data), size);
     if (names_other_files(text)) return 0;
     accepted([&] {
-        const Model model = read_model_text("fuzz.toml", text);
+        const Model model = read_model_text("fuzz.toml", text, {}, choosers());
         for (const Scene& scene : model.scenes) accepted([&] { static_cast<void>(evaluate_scene(model, scene)); });
         if (!is_small(model)) return;
         const ModelReport verified = verify(model, {}, 2, small_budget);
