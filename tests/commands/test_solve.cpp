@@ -59,7 +59,7 @@ TEST_CASE("a free body is stable about its first and last axis, and unstable abo
     }
 }
 
-TEST_CASE("Lagrange's sleeping top is stable above the limit, unstable below it, and left open at it")
+TEST_CASE("Lagrange's sleeping top is stable above the limit, unstable below it, and left open at it", "[run]")
 {
     const auto upright = [](const std::vector<json::Value>& equilibria) {
         for (const json::Value& each : equilibria)
@@ -82,7 +82,7 @@ TEST_CASE("Lagrange's sleeping top is stable above the limit, unstable below it,
     CHECK(sleeping_top("2.01").size() == 1);
 }
 
-TEST_CASE("equilibria of potentials, of coupled pendulums and of a body in a fluid")
+TEST_CASE("equilibria of potentials, of coupled pendulums and of a body in a fluid", "[run]")
 {
     const auto saddles = equilibria_of({"henon_heiles.toml"});
     REQUIRE(counts_of(saddles) == "3 spectrally_unstable, 1 stable");
@@ -101,7 +101,7 @@ TEST_CASE("a circular orbit of Kepler's is one of a family that the rotations ma
     CHECK(circles[0]["multipliers"].entries[0].number() == Approx(0.8 / (0.64 * 0.64)).epsilon(1e-12));
 }
 
-TEST_CASE("a cyclic coordinate moves at a constant rate")
+TEST_CASE("a cyclic coordinate moves at a constant rate", "[run]")
 {
     const auto cones = equilibria_of({"spherical_pendulum.toml"});
     REQUIRE(cones.size() == 1);
