@@ -81,10 +81,7 @@ const char* scheme_of(const Options& options, const Model& model)
 /// The number of the first arrow that is asked for, which only a discrete motion from momenta has.
 std::uint64_t branch_of(const Options& options, const Scene& scene, const SceneValues& values)
 {
-    const std::optional<std::uint64_t> branch = read_whole(options.get("branch"));
-    if (!branch || *branch == 0)
-        throw UsageError(fmt::format("lagen run: --branch is '{}', where a whole number from 1 on is required",
-                                     options.get("branch")));
+    const std::uint64_t branch = whole_option(options, "branch", 1);
     if (!values.discrete)
         throw UsageError(fmt::format(
             "lagen run: --branch counts the first arrows of a discrete motion, and scene '{}' is run in the form "
@@ -95,7 +92,7 @@ std::uint64_t branch_of(const Options& options, const Scene& scene, const SceneV
             "lagen run: --branch counts the arrows that have the momenta of the start, and scene '{}' starts from an "
             "arrow\nhint: give the momenta in 'initial', or in 'element' and 'next' the arrow of that branch",
             scene.name));
-    return *branch;
+    return branch;
 }
 
 void tell(const Options& options, const RunOutcome& outcome, bool as_json)

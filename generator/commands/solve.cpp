@@ -62,11 +62,6 @@ const char* reason_of(const RelativeEquilibrium& found)
     return "the second variation is not definite, and no eigenvalue is certain to have a positive real part";
 }
 
-std::string name_of(const Graph& graph, NodeId input)
-{
-    return graph.input_name(input);
-}
-
 std::string eigenvalues_text(const RelativeEquilibrium& found)
 {
     std::string text;
@@ -92,7 +87,7 @@ std::string solution_text(const Solution& solution, const Graph& graph)
         text += fmt::format("\n{}: {}: {}\n", e + 1, to_text(found.stability), reason_of(found));
         std::string state;
         for (std::size_t k = 0; k < all.coordinates.size(); ++k)
-            state += fmt::format("{}{} = {}", state.empty() ? "" : ", ", name_of(graph, all.coordinates[k]),
+            state += fmt::format("{}{} = {}", state.empty() ? "" : ", ", graph.input_name(all.coordinates[k]),
                                  found.exact.empty() ? number(found.z[k]) : found.exact[k].get_str());
         text += fmt::format("  {}{}\n", state, found.exact.empty() ? "" : " (exactly)");
         std::string velocities;
@@ -100,7 +95,7 @@ std::string solution_text(const Solution& solution, const Graph& graph)
             velocities += fmt::format("{}{} = {}", velocities.empty() ? "" : ", ", name, number(value));
         text += fmt::format("  {}\n", velocities);
         for (std::size_t k = 0; k < found.cyclic.size(); ++k)
-            text += fmt::format("  {}' = {}\n", name_of(graph, all.cyclic[k]), number(found.cyclic[k]));
+            text += fmt::format("  {}' = {}\n", graph.input_name(all.cyclic[k]), number(found.cyclic[k]));
         text += fmt::format("  H = {}", number(found.energy));
         for (std::size_t i = 0; i < found.multipliers.size(); ++i)
             text += fmt::format(", lambda{} = {}", i + 1, number(found.multipliers[i]));
@@ -135,9 +130,9 @@ std::string solution_json(const Solution& solution, const Graph& graph)
         const RelativeEquilibrium& found = all.found[e];
         NamedValues state, rates;
         for (std::size_t k = 0; k < all.coordinates.size(); ++k)
-            state.emplace_back(name_of(graph, all.coordinates[k]), found.z[k]);
+            state.emplace_back(graph.input_name(all.coordinates[k]), found.z[k]);
         for (std::size_t k = 0; k < found.cyclic.size(); ++k)
-            rates.emplace_back(name_of(graph, all.cyclic[k]), found.cyclic[k]);
+            rates.emplace_back(graph.input_name(all.cyclic[k]), found.cyclic[k]);
         json.begin_object();
         values_json(json, "state", state);
         values_json(json, "velocities", solution.velocities[e]);
@@ -145,7 +140,7 @@ std::string solution_json(const Solution& solution, const Graph& graph)
         if (!found.exact.empty()) {
             json.key("exact").begin_object();
             for (std::size_t k = 0; k < all.coordinates.size(); ++k)
-                json.key(name_of(graph, all.coordinates[k])).value(found.exact[k].get_str());
+                json.key(graph.input_name(all.coordinates[k])).value(found.exact[k].get_str());
             json.end_object();
         }
         json.key("energy").value(found.energy).key("multipliers").begin_array();
@@ -184,10 +179,7 @@ ExitCode run_solve(Arguments arguments)
     if (options.has("output")) require_writable(options.get("output"));
     if (!options.has("relative-equilibria"))
         throw UsageError("lagen solve: give --relative-equilibria, which is what it solves for");
-    const std::optional<std::uint64_t> starts = read_whole(options.get("starts"));
-    if (!starts || *starts > 100000)
-        throw UsageError(fmt::format("lagen solve: --starts is '{}', where a whole number to 100000 is required",
-                                     options.get("starts")));
+    const std::uint64_t starts = whole_option(options, "starts", 0, 100000);
     CheckedModel checked = load(model_path(options.positional()[0]), options.settings(), options.has("unchecked"));
     const Model& model = checked.model;
     require_apart(options, model);
@@ -221,7 +213,7 @@ ExitCode run_solve(Arguments arguments)
     for (std::size_t a = 0; a < system.r(); ++a)
         start[graph.input_name(system.mu[a])] = static_cast<double>(state[system.n() + a]);
     EquilibriumSearch search;
-    search.starts = static_cast<std::size_t>(*starts);
+    search.starts = static_cast<std::size_t>(starts);
     Solution solution{model, scene.name, relative_equilibria(graph, system, *H, start, search), {}, {}};
 
     SymbolicModel symbolic(model, system.written.algebroid, {});

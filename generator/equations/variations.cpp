@@ -41,9 +41,9 @@ class VariationsDerivation {
     {
         EquationSet set = symbolic_.empty_set("variations");
         for (std::size_t a = 0; a < system_.r(); ++a) {
-            set.symbols.push_back({symbol_of("σ", a), R"(\sigma^{)" + symbolic_.fibre_latex(a) + "}"});
-            set.symbols.push_back({"δ" + basis_name(a), R"(\delta )" + symbolic_.fibre_latex(a)});
-            set.symbols.push_back({symbol_of("σ̇", a), R"(\dot\sigma^{)" + symbolic_.fibre_latex(a) + "}"});
+            set.symbols.push_back({graph_.input_name(s_.value[a]), R"(\sigma^{)" + symbolic_.fibre_latex(a) + "}"});
+            set.symbols.push_back({graph_.input_name(named_.y[a]), R"(\delta )" + symbolic_.fibre_latex(a)});
+            set.symbols.push_back({graph_.input_name(s_.rate[a]), R"(\dot\sigma^{)" + symbolic_.fibre_latex(a) + "}"});
         }
         set.blocks = {curves(), momenta(), jacobi(), second()};
         set.statements = {tangent(), involutive(), critical(), linearised()};
@@ -56,8 +56,10 @@ class VariationsDerivation {
     {
         return letter + "_" + basis_name(a);
     }
-    [[nodiscard]] NodeId input(const std::string& name)
+    /// Under a name that the model does not have.
+    [[nodiscard]] NodeId input(std::string name)
     {
+        while (system_.declares(name)) name += "'";
         symbolic_.add_variable(name);
         inputs_.push_back(graph_.input(name));
         return inputs_.back();
@@ -114,6 +116,14 @@ class VariationsDerivation {
         return block;
     }
 
+    /// The variations of `functions`, one a momentum, in terms of delta y.
+    void append_varied(EquationBlock& block, LeftSide left, const std::vector<NodeId>& functions)
+    {
+        const std::vector<NodeId> right = varied(graph_, system_.algebroid, named_, functions);
+        for (std::size_t a = 0; a < system_.r(); ++a)
+            block.equations.push_back(shown(left, "δ" + symbolic_.momentum_name(a), right[a]));
+    }
+
     [[nodiscard]] EquationBlock momenta()
     {
         EquationBlock block{
@@ -121,9 +131,7 @@ class VariationsDerivation {
             "δp_a = (∂p_a/∂x^i) ρ^i_b σ^b + W_ab δy^b",
             R"(\delta p_a = \frac{\partial p_a}{\partial x^i}\, \rho^i_b\, \sigma^b + W_{ab}\, \delta y^b)",
             {}};
-        const std::vector<NodeId> varied_p = varied(graph_, system_.algebroid, named_, action_.p);
-        for (std::size_t a = 0; a < system_.r(); ++a)
-            block.equations.push_back(shown(LeftSide::symbol, "δ" + symbolic_.momentum_name(a), varied_p[a]));
+        append_varied(block, LeftSide::symbol, action_.p);
         return block;
     }
 
@@ -133,9 +141,7 @@ class VariationsDerivation {
                             "d/dt δp_a = δ(ρ_a(L) - p_c C^c_ab y^b)",
                             R"(\frac{d}{dt} \delta p_a = \delta(\rho_a(L) - p_c\, C^c_{ab}\, y^b))",
                             {}};
-        const std::vector<NodeId> right = varied(graph_, system_.algebroid, named_, action_.pushes);
-        for (std::size_t a = 0; a < system_.r(); ++a)
-            block.equations.push_back(shown(LeftSide::time_derivative, "δ" + symbolic_.momentum_name(a), right[a]));
+        append_varied(block, LeftSide::time_derivative, action_.pushes);
         return block;
     }
 
@@ -181,13 +187,7 @@ class VariationsDerivation {
     {
         const Algebroid& algebroid = system_.algebroid;
         const Variation other = made_variation(r_);
-        std::vector<NodeId> u(system_.r(), graph_.constant(0));
-        for (std::size_t a = 0; a < system_.r(); ++a)
-            for (std::size_t b = 0; b < system_.r(); ++b)
-                for (const ColumnEntry& C : algebroid.C(a, b)) {
-                    const NodeId factors[] = {C.value, s_.value[a], r_.value[b]};
-                    u[C.index] = graph_.add(u[C.index], graph_.product(factors));
-                }
+        const std::vector<NodeId> u = constant_bracket(graph_, algebroid, s_.value, r_.value);
         const Variation wanted = variation(graph_, algebroid, u, rates(u));
         std::vector<NamedResidual> residuals;
         for (const auto& [symbols, s, r, both] :

@@ -5,16 +5,24 @@
 
 namespace lagen {
 
+std::vector<NodeId> constant_bracket(Graph& graph, const Algebroid& algebroid, const std::vector<NodeId>& s,
+                                     const std::vector<NodeId>& t)
+{
+    std::vector<NodeId> out(algebroid.r(), graph.constant(0));
+    for (std::size_t a = 0; a < algebroid.r(); ++a)
+        for (std::size_t b = 0; b < algebroid.r(); ++b)
+            for (const ColumnEntry& C : algebroid.C(a, b)) {
+                const NodeId factors[] = {C.value, s[a], t[b]};
+                out[C.index] = graph.add(out[C.index], graph.product(factors));
+            }
+    return out;
+}
+
 Variation variation(Graph& graph, const Algebroid& algebroid, const std::vector<NodeId>& s,
                     const std::vector<NodeId>& sdot)
 {
-    Variation delta{base_velocity(graph, algebroid, s), sdot};
-    for (std::size_t b = 0; b < algebroid.r(); ++b)
-        for (std::size_t c = 0; c < algebroid.r(); ++c)
-            for (const ColumnEntry& C : algebroid.C(b, c)) {
-                const NodeId factors[] = {C.value, algebroid.y[b], s[c]};
-                delta.y[C.index] = graph.add(delta.y[C.index], graph.product(factors));
-            }
+    Variation delta{base_velocity(graph, algebroid, s), constant_bracket(graph, algebroid, algebroid.y, s)};
+    for (std::size_t a = 0; a < algebroid.r(); ++a) delta.y[a] = graph.add(sdot[a], delta.y[a]);
     return delta;
 }
 
@@ -44,7 +52,6 @@ ActionVariations action_variations(Graph& graph, const System& system, const Var
     out.pushes = momentum_rates(graph, algebroid, balance);
     out.base = contraction(graph, lagrangian.dL_dx, base_velocity(graph, algebroid, s));
     out.fibre = contraction(graph, out.p, delta.y);
-    out.first = graph.add(out.base, out.fibre);
     out.second = varied(graph, algebroid, delta, varied(graph, algebroid, delta, *system.lagrangian));
     return out;
 }

@@ -16,6 +16,10 @@ struct Variation {
     std::vector<NodeId> y; ///< delta y^a, shape (r)
 };
 
+/// C^c_ab s^a t^b, shape (r): the bracket of sections whose components are free of x.
+[[nodiscard]] std::vector<NodeId> constant_bracket(Graph& graph, const Algebroid& algebroid,
+                                                   const std::vector<NodeId>& s, const std::vector<NodeId>& t);
+
 /// The variation of the curve (x, y) by s with its rate; shapes (r).
 [[nodiscard]] Variation variation(Graph& graph, const Algebroid& algebroid, const std::vector<NodeId>& s,
                                   const std::vector<NodeId>& sdot);
@@ -28,8 +32,7 @@ struct Variation {
 
 /// The variations of the action of a system that has L, neither forces nor a distribution.
 struct ActionVariations {
-    NodeId first = 0;           ///< delta L
-    NodeId base = 0, fibre = 0; ///< its two parts: rho_a(L) s^a and p_a delta y^a
+    NodeId base = 0, fibre = 0; ///< the two parts of delta L: rho_a(L) s^a and p_a delta y^a
     NodeId second = 0;          ///< delta^2 L
     std::vector<NodeId> pushes; ///< rho_a(L) - p_c C^c_ab y^b, shape (r): the rates of p_a
     std::vector<NodeId> p;      ///< p_a, shape (r)

@@ -4,8 +4,6 @@
 #include "graph/calculus/differentiate.hpp"
 #include "mechanics/symplectic.hpp"
 
-#include <cmath>
-
 namespace lagen {
 
 using proof::Ball;
@@ -16,20 +14,6 @@ double dot(const Doubles& a, const Doubles& b)
     double sum = 0;
     for (std::size_t k = 0; k < a.size(); ++k) sum += a[k] * b[k];
     return sum;
-}
-
-std::optional<Doubles> fresh_direction(Doubles v, const std::vector<Doubles>& basis, double least)
-{
-    const double size = std::sqrt(dot(v, v));
-    for (int twice = 0; twice < 2; ++twice)
-        for (const Doubles& each : basis) {
-            const double part = dot(v, each);
-            for (std::size_t k = 0; k < v.size(); ++k) v[k] -= part * each[k];
-        }
-    const double rest = std::sqrt(dot(v, v));
-    if (!(rest > least * size)) return std::nullopt;
-    for (double& entry : v) entry /= rest;
-    return v;
 }
 
 Doubles middles(const BallMatrix& column)

@@ -20,8 +20,6 @@ struct FunctionJet {
 using Doubles = std::vector<double>;
 
 [[nodiscard]] double dot(const Doubles& a, const Doubles& b);
-/// What of v no unit vector in `basis` has, as one; nothing where that is less than a part `least` of v.
-[[nodiscard]] std::optional<Doubles> fresh_direction(Doubles v, const std::vector<Doubles>& basis, double least);
 /// The middles of a column, and exact balls around numbers.
 [[nodiscard]] Doubles middles(const proof::BallMatrix& column);
 [[nodiscard]] proof::Ball exact_ball(double value);

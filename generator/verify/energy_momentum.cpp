@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "verify/energy_momentum.hpp"
 
+#include "algebra/orthonormal_span.hpp"
 #include "algebra/rational_near.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "proof/rational_matrix.hpp"
@@ -28,6 +29,18 @@ Ball middle_of(const Ball& ball, std::optional<long> exponent = {})
     return out;
 }
 
+OrthonormalSpan::Vector vector_of(const Doubles& v)
+{
+    return {v.begin(), v.end()};
+}
+
+Doubles doubles_of(const OrthonormalSpan::Vector& v)
+{
+    Doubles out;
+    for (const long double each : v) out.push_back(static_cast<double>(each));
+    return out;
+}
+
 /// The least eigenvalue of the middle of a symmetric matrix.
 double least_eigenvalue(const BallMatrix& A)
 {
@@ -50,21 +63,15 @@ EquilibriumCertificate::EquilibriumCertificate(Graph& graph, const AugmentedEner
 /// S and the flows, by what is independent at z.
 void EquilibriumCertificate::choose(const std::vector<FunctionJet>& jets)
 {
-    std::vector<Doubles> basis;
+    OrthonormalSpan span(nearly);
     for (std::size_t i = 0; i < conserved_.size(); ++i)
-        if (auto direction = fresh_direction(middles(jets[i + 1].slope), basis, nearly)) {
-            basis.push_back(*direction);
-            chosen_.push_back(i);
-        }
+        if (span.add(vector_of(middles(jets[i + 1].slope)))) chosen_.push_back(i);
     for (std::size_t i = 0; i < conserved_.size(); ++i) {
         if (conserved_[i].casimir) continue;
-        const Doubles flow = middles(jets[i + 1].flow);
-        if (!(std::sqrt(dot(flow, flow)) > nearly)) continue;
-        if (auto direction = fresh_direction(flow, basis, nearly)) {
-            basis.push_back(*direction);
-            directions_.push_back(*direction);
-            flows_.push_back(i);
-        }
+        const OrthonormalSpan::Vector flow = vector_of(middles(jets[i + 1].flow));
+        if (!(length_of(flow) > nearly) || !span.add(flow)) continue;
+        directions_.push_back(doubles_of(span[span.size() - 1]));
+        flows_.push_back(i);
     }
 }
 
@@ -230,23 +237,22 @@ std::vector<Rational> EquilibriumCertificate::rational_point(const Doubles& z) c
 std::optional<BallMatrix> EquilibriumCertificate::complement(const std::vector<FunctionJet>& jets) const
 {
     const std::size_t n = energy_.n();
-    std::vector<Doubles> basis;
+    OrthonormalSpan span(0);
     std::vector<BallMatrix> slopes;
     for (const std::size_t i : chosen_) {
         slopes.push_back(jets[i + 1].slope);
-        if (auto direction = fresh_direction(middles(slopes.back()), basis, 0)) basis.push_back(*direction);
+        span.add(vector_of(middles(slopes.back())));
     }
-    basis.insert(basis.end(), directions_.begin(), directions_.end());
+    for (const Doubles& direction : directions_) span.add(vector_of(direction));
     std::vector<BallMatrix> columns;
     for (std::size_t k = 0; k < n; ++k) {
-        Doubles unit(n, 0.0);
+        OrthonormalSpan::Vector unit(n, 0);
         unit[k] = 1;
-        // Unit vectors that are nearly spanned come last: n of them span everything.
-        const auto direction = fresh_direction(unit, basis, 1e-3);
-        if (!direction) continue;
-        basis.push_back(*direction);
+        // One that is nearly spanned is left to the others, which span the rest.
+        if (!(length_of(span.outside(unit)) > 1e-3L) || !span.add(unit)) continue;
         BallMatrix& column = columns.emplace_back(n, 1);
-        for (std::size_t l = 0; l < n; ++l) column.at(l, 0) = exact_ball((*direction)[l]);
+        const Doubles direction = doubles_of(span[span.size() - 1]);
+        for (std::size_t l = 0; l < n; ++l) column.at(l, 0) = exact_ball(direction[l]);
     }
     if (columns.size() + chosen_.size() + directions_.size() != n) return std::nullopt;
     const BallMatrix V = proof::joined_columns(columns, n), D = proof::joined_columns(slopes, n);

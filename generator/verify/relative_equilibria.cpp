@@ -42,21 +42,20 @@ class EquilibriumFinder {
                       const std::map<std::string, double>& start)
         : graph_(graph), system_(system), start_(start)
     {
-        const Replacements values = constants();
         phase_ = hamilton_system(graph, system, hamiltonian);
         std::vector<NodeId> rates = phase_.xdot;
         rates.insert(rates.end(), phase_.mudot.begin(), phase_.mudot.end());
         for (const NodeId x : system.algebroid.x)
             (depends_on_any(graph, rates, std::vector<NodeId>{x}) ? out_.coordinates : out_.cyclic).push_back(x);
         out_.coordinates.insert(out_.coordinates.end(), system.mu.begin(), system.mu.end());
-        collect(values, hamiltonian);
+        collect(hamiltonian);
         std::vector<NodeId> F;
         for (const ConservedFunction& each : out_.conserved) F.push_back(each.value);
-        const NodeId H = fixed(phase_.hamiltonian, values);
+        const NodeId H = fixed(phase_.hamiltonian);
         energy_.emplace(graph, system_at_, H, F, out_.coordinates);
         for (std::size_t i = 0; i < system.n(); ++i)
             if (std::ranges::find(out_.cyclic, system.algebroid.x[i]) != out_.cyclic.end())
-                cyclic_rates_.push_back(fixed(phase_.xdot[i], values));
+                cyclic_rates_.push_back(fixed(phase_.xdot[i]));
         commuting_ = commute(F);
     }
 
@@ -65,8 +64,9 @@ class EquilibriumFinder {
         const std::size_t n = energy_->n();
         Doubles z0;
         for (const NodeId z : out_.coordinates) z0.push_back(start_.at(graph_.input_name(z)));
-        for (std::size_t i = system_.functions.constraints.size(); i < out_.conserved.size(); ++i)
-            out_.conserved[i].level = energy_->at(exact_balls(z0))[i + 1].value.middle();
+        const std::vector<FunctionJet> jets = energy_->at(exact_balls(z0));
+        for (std::size_t i = constraints_; i < out_.conserved.size(); ++i)
+            out_.conserved[i].level = jets[i + 1].value.middle();
         const std::size_t base = n - system_.mu.size();
         const auto size = [&](std::size_t from, std::size_t to) {
             double largest = 0;
@@ -92,37 +92,29 @@ class EquilibriumFinder {
     }
 
   private:
-    [[nodiscard]] Replacements constants()
-    {
-        Replacements values;
-        for (const auto& [parameter, value] : system_.parameter_values) values.emplace_back(parameter, value);
-        return values;
-    }
-    [[nodiscard]] NodeId fixed(NodeId node, const Replacements& values)
-    {
-        return substitute(graph_, {&node, 1}, values)[0];
-    }
+    [[nodiscard]] NodeId fixed(NodeId node) { return substitute(graph_, {&node, 1}, system_.parameter_values)[0]; }
 
     /// Constraints, Casimirs, and what is found: Casimirs of E* and functions linear in the momenta.
-    void collect(const Replacements& values, const HamiltonianNodes& hamiltonian)
+    void collect(const HamiltonianNodes& hamiltonian)
     {
         system_at_ = system_;
         for (auto* columns : {&system_at_.algebroid.anchor, &system_at_.algebroid.bracket})
             for (Column& column : *columns)
-                for (ColumnEntry& entry : column) entry.value = fixed(entry.value, values);
+                for (ColumnEntry& entry : column) entry.value = fixed(entry.value);
         std::vector<NodeId> candidates = system_.functions.constraints;
         for (const NodeId casimir : system_.functions.casimirs) candidates.push_back(casimir);
         for (const FoundInvariant& each : find_invariants(graph_, system_, hamiltonian))
             candidates.push_back(each.value);
-        for (const NodeId candidate : candidates) {
-            const NodeId value = fixed(candidate, values);
+        for (std::size_t k = 0; k < candidates.size(); ++k) {
+            const NodeId value = fixed(candidates[k]);
             const NodeId only[] = {value};
             if (depends_on_any(graph_, only, out_.cyclic)) continue;
             if (!is_independent(value)) continue;
             const bool casimir = generates_nothing(value);
             const std::vector<NodeId> by_momenta = gradient(graph_, value, system_.mu);
-            if (casimir || !depends_on_any(graph_, by_momenta, system_.mu))
-                out_.conserved.push_back({value, 0, casimir});
+            if (!casimir && depends_on_any(graph_, by_momenta, system_.mu)) continue;
+            out_.conserved.push_back({value, 0, casimir});
+            if (k < system_.functions.constraints.size()) constraints_ = out_.conserved.size();
         }
     }
 
@@ -307,8 +299,9 @@ class EquilibriumFinder {
     std::optional<AugmentedEnergy> energy_;
     std::vector<NodeId> cyclic_rates_;
     std::unique_ptr<ZeroDecider> decider_;
-    double slope_ = 0;       ///< the largest component of dH at the starts
-    bool commuting_ = false; ///< all {F_i, F_j} are proved to vanish
+    std::size_t constraints_ = 0; ///< the first of the F are base constraints, which are 0
+    double slope_ = 0;            ///< the largest component of dH at the starts
+    bool commuting_ = false;      ///< all {F_i, F_j} are proved to vanish
 };
 
 } // namespace

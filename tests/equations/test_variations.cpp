@@ -75,3 +75,12 @@ TEST_CASE("where the structure equations fail variations do not close, and criti
     CHECK(statuses_of(equations) == "refuted refuted proved refuted ");
     CHECK(!equations.statements[1].witness.empty());
 }
+
+TEST_CASE("parameters may have the names of accelerations and variations")
+{
+    const EquationSet equations =
+        variations_of("[parameters]\nf_v_x = 2\n\"σ_v_x\" = 3\n[base]\ncoordinates = [\"x\"]\n[algebroid]\n"
+                      "kind = \"tangent\"\n[lagrangian]\nL = \"f_v_x*v_x^2/2 - σ_v_x*x^4\"\n");
+    CHECK(statuses_of(equations) == all_proved);
+    CHECK(print_text(equations).find("  δx = σ_v_x'\n") != std::string::npos);
+}

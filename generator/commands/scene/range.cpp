@@ -60,4 +60,13 @@ std::optional<std::uint64_t> read_whole(const std::string& text)
     return value;
 }
 
+std::uint64_t whole_option(const Options& options, const std::string& name, std::uint64_t least, std::uint64_t most)
+{
+    const std::optional<std::uint64_t> value = read_whole(options.get(name));
+    if (value && *value >= least && *value <= most) return *value;
+    throw UsageError(fmt::format("lagen {}: --{} is '{}', where a whole number from {} {} is required",
+                                 options.command(), name, options.get(name), least,
+                                 most == UINT64_MAX ? "on" : fmt::format("to {}", most)));
+}
+
 } // namespace lagen

@@ -3,6 +3,7 @@
 /// a + (b - a) k/(n - 1).
 #pragma once
 
+#include "commands/line/options.hpp"
 #include "model/model.hpp"
 
 #include <cstdint>
@@ -28,5 +29,8 @@ struct GridAxis {
 
 /// A whole number without a sign, at most 1e18; nothing where the text is none.
 [[nodiscard]] std::optional<std::uint64_t> read_whole(const std::string& text);
+/// The value of an option as such a number; UsageError where it is none, or outside of these bounds.
+[[nodiscard]] std::uint64_t whole_option(const Options& options, const std::string& name, std::uint64_t least,
+                                         std::uint64_t most = UINT64_MAX);
 
 } // namespace lagen

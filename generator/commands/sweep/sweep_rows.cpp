@@ -106,14 +106,6 @@ SweepRows random_rows(std::vector<SweptName> names, const std::vector<GridAxis>&
     return rows;
 }
 
-std::uint64_t whole_option(const Options& options, const std::string& name, std::uint64_t least)
-{
-    const std::optional<std::uint64_t> value = read_whole(options.get(name));
-    if (value && *value >= least) return *value;
-    throw UsageError(fmt::format("lagen sweep: --{} is '{}', where a whole number from {} on is required", name,
-                                 options.get(name), least));
-}
-
 } // namespace
 
 std::vector<Symbol> swept_symbols(const std::string& option, const Model& model, const Scene& scene)

@@ -61,11 +61,10 @@ class VariationStates {
                 names.push_back(fmt::format("{}.{}", letter, symbol.name));
                 (letter[0] == 's' ? sigma : delta).push_back(graph_.input(names.back()));
             }
-        // delta y = sigmadot + C y sigma
-        const std::vector<NodeId> at_rest(system_.r(), graph_.constant(0));
-        const Variation turned = variation(graph_, system_.algebroid, sigma, at_rest);
+        // delta y = sigmadot + [y, sigma]
+        const std::vector<NodeId> turned = constant_bracket(graph_, system_.algebroid, system_.algebroid.y, sigma);
         for (std::size_t a = 0; a < system_.r(); ++a)
-            add(names[a], to_tree(graph_, graph_.subtract(delta[a], turned.y[a])));
+            add(names[a], to_tree(graph_, graph_.subtract(delta[a], turned[a])));
         for (std::size_t a = 0; a < system_.r(); ++a)
             add(names[system_.r() + a], name(jacobi_rate_name(names[system_.r() + a])));
         for (const Setting& setting : start) place_start(setting);
@@ -117,23 +116,14 @@ class VariationStates {
     std::string text_;
 };
 
-std::uint64_t whole(const Options& options, const char* option, std::uint64_t least, std::uint64_t most)
-{
-    const std::optional<std::uint64_t> value = read_whole(options.get(option));
-    if (!value || *value < least || *value > most)
-        throw UsageError(fmt::format("lagen run: --{} is '{}', where a whole number from {} to {} is required", option,
-                                     options.get(option), least, most));
-    return *value;
-}
-
 } // namespace
 
 VariationRequest variations_of(const Options& options)
 {
     VariationRequest request;
-    if (options.has("variations")) request.count = whole(options, "variations", 1, most_variations);
+    if (options.has("variations")) request.count = whole_option(options, "variations", 1, most_variations);
     if (options.has("seed") && request.count == 0) throw UsageError("lagen run: --seed needs --variations");
-    if (options.has("seed")) request.seed = whole(options, "seed", 0, UINT64_MAX);
+    if (options.has("seed")) request.seed = whole_option(options, "seed", 0);
     request.field = options.named("jacobi-field");
     return request;
 }
