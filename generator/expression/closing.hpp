@@ -3,6 +3,7 @@
 #pragma once
 
 #include "expression/combine.hpp"
+#include "expression/derivative.hpp"
 #include "expression/expansion.hpp"
 
 #include <set>
@@ -74,6 +75,11 @@ class Expansion::Closing {
 
     Value family(const std::string& name, const Shape& shape, const OpenBody& body) const;
     const Definition& function_of(const TreeNode& node, const OpenBody& body) const;
+    /// What an application of diff, grad, jacobian or Dt is; null for a function of the model and all else.
+    const DerivativeEntry* derivative_of(const TreeNode& node) const;
+    static void require_arity(const TreeNode& node, const DerivativeEntry& entry);
+    Value differentiate(const Maker& make, const Tree& tree, std::span<const Value> arguments) const;
+    Value rate_of(const Maker& make, const Tree& tree, Closed& X) const;
     void push(Frame frame, const SourceRange& where);
     void refuse_cycle(const Definition& definition, const SourceRange& use) const;
     void refuse_explained(const TreeNode& node) const;

@@ -110,7 +110,12 @@ Value combine(const Maker& maker, const Tree& tree, std::vector<Value> arguments
     const bool open = std::any_of(arguments.begin(), arguments.end(), [](const Value& value) { return value->open; });
     if (of_scalars(*tree, arguments)) return combine_scalars(maker, tree, arguments, open);
     if (!open) return combine_arrays(maker, tree, arguments);
-    const Tree stand_in = name("?", tree->where); // nothing is said of shapes
+    return open_value(tree->where);
+}
+
+Value open_value(const SourceRange& where)
+{
+    const Tree stand_in = name("?", where); // nothing is said of shapes
     Value result = scalar({stand_in, measure(*stand_in, {}, closing_limits())});
     result->open = true;
     return result;

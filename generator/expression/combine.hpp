@@ -10,6 +10,9 @@ namespace lagen {
 /// Throws ModelError: shapes that do not fit, an index that is no integer or out of range, a bound exceeded.
 [[nodiscard]] Value combine(const Maker& maker, const Tree& tree, std::vector<Value> arguments);
 
+/// A value of unknown shape, in a function's body that is checked on its own.
+[[nodiscard]] Value open_value(const SourceRange& where);
+
 /// "a vector of 3" with its place, for a message about an argument.
 [[noreturn]] void refuse(const Tree& argument, const std::string& message, const std::string& hint);
 

@@ -43,7 +43,10 @@ Expansion::Closing::Result Expansion::Closing::enter(const Tree& tree, const std
     if (tree->arguments.empty() && tree->kind != TreeKind::apply && tree->kind != TreeKind::array) return leaf(tree);
     const auto known = body->done.find(tree.get());
     if (known != body->done.end()) return known->second;
-    if (tree->kind == TreeKind::apply) (void)function_of(*tree, *body); // its mistakes come before its arguments'
+    const DerivativeEntry* derivative = derivative_of(*tree);
+    if (derivative != nullptr) require_arity(*tree, *derivative);
+    if (tree->kind == TreeKind::apply && derivative == nullptr)
+        (void)function_of(*tree, *body); // its mistakes come before its arguments'
     const bool repeats = tree->kind == TreeKind::sum_over || tree->kind == TreeKind::product_over;
     push({.tree = tree, .body = body, .step = repeats ? Step::repetition : Step::operation}, tree->where);
     return nullptr;
@@ -105,7 +108,8 @@ Expansion::Closing::Result Expansion::Closing::advance()
     if (top.step == Step::repetition) return advance_repetition();
     const std::size_t wanted = top.tree->arguments.size();
     if (top.arguments.size() < wanted) return enter(top.tree->arguments[top.arguments.size()], top.body);
-    if (top.tree->kind == TreeKind::apply && top.arguments.size() == wanted) // the expansion itself is one entry more
+    const bool applies = top.tree->kind == TreeKind::apply && derivative_of(*top.tree) == nullptr;
+    if (applies && top.arguments.size() == wanted) // the expansion itself is one entry more
         return expand(function_of(*top.tree, *top.body), top.arguments, top.tree->where);
     return finish_operation();
 }
@@ -125,8 +129,9 @@ Expansion::Closing::Result Expansion::Closing::finish_operation()
     Frame& top = frames_.back();
     const Maker make = maker(*top.body, top.tree->where);
     if (top.body->definition || !top.body->bound.empty()) make.count();
-    Value result = top.tree->kind == TreeKind::apply ? std::move(top.arguments.back())
-                                                     : combine(make, top.tree, std::move(top.arguments));
+    Value result = derivative_of(*top.tree) != nullptr ? differentiate(make, top.tree, top.arguments)
+                   : top.tree->kind == TreeKind::apply ? std::move(top.arguments.back())
+                                                       : combine(make, top.tree, std::move(top.arguments));
     // Only a shared node can be asked for again: one hold is the parent's, one this frame's.
     if (top.tree.use_count() > 2) top.body->done.emplace(top.tree.get(), result);
     frames_.pop_back();

@@ -2,7 +2,7 @@
 /// Hints for unknown names: other languages' spellings, slips of the hand, a short list.
 #include "expression/name_hints.hpp"
 
-#include "expression/tree.hpp"
+#include "expression/derivative.hpp"
 
 #include <fmt/format.h>
 
@@ -87,6 +87,7 @@ std::string hint_for_function(const std::string& name, std::vector<std::string> 
     for (const Foreign& entry : foreign_functions)
         if (entry.name == name) return entry.hint;
     for (const FunctionEntry& entry : function_table()) known.emplace_back(entry.name);
+    for (const DerivativeEntry& entry : derivative_table()) known.emplace_back(entry.name);
     const std::string nearest = nearest_name(name, known);
     if (!nearest.empty()) return fmt::format("did you mean '{}'?", nearest);
     return listing("known functions are ", known);

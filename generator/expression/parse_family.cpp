@@ -8,6 +8,8 @@ namespace lagen {
 
 namespace {
 
+constexpr const char* entry_hint = "an entry is named x[3] or W[1,2]";
+
 SourceRange whole(const Excerpt& text)
 {
     return text.range(0, text.text.size());
@@ -102,16 +104,31 @@ Shape close_shape(const FamilyDeclaration& family, const Scope& scope)
     return shape;
 }
 
-std::string entry_key(const Excerpt& text, const Scope& scope)
+std::vector<std::string> running_indices(const Excerpt& text, const Scope& scope)
+{
+    if (!has_bracket(text.text)) return {};
+    std::vector<std::string> out;
+    for (const Excerpt& index : cut(text, entry_hint).parts) {
+        const std::string& name = index.text;
+        const bool known = scope.has_symbol(name) || scope.has_definition(name) || scope.find_family(name) != nullptr ||
+                           scope.find_size(name).has_value();
+        out.push_back(is_identifier(name) && !known ? name : "");
+    }
+    return out;
+}
+
+std::string entry_key(const Excerpt& text, const Scope& scope, const std::map<std::string, std::size_t>& running)
 {
     if (!has_bracket(text.text)) return text.text;
-    const Bracketed entry = cut(text, "an entry is named x[3] or W[1,2]");
+    const Bracketed entry = cut(text, entry_hint);
     std::vector<std::size_t> indices;
     for (const Excerpt& index : entry.parts) {
         if (index.text.find("..") != std::string::npos)
             throw ModelError(fmt::format("{} is a range, where one index is required", quote(index.text)), whole(index),
                              fmt::format("one entry is {0}[1], all of them are {0} = [..]", entry.name));
-        indices.push_back(positive_integer(parse_expression(index), scope, "the index"));
+        const auto value = running.find(index.text);
+        indices.push_back(value != running.end() ? value->second
+                                                 : positive_integer(parse_expression(index), scope, "the index"));
     }
     return fmt::format("{}[{}]", entry.name, fmt::join(indices, ","));
 }

@@ -24,9 +24,14 @@ struct FamilyDeclaration {
 /// below 1, more than 4096 entries.
 [[nodiscard]] Shape close_shape(const FamilyDeclaration& family, const Scope& scope);
 
+/// The indices of "x[j]" and "W[i,j]" that are names which `scope` does not know, each at its place; others are empty.
+/// Throws ModelError as `entry_key` does.
+[[nodiscard]] std::vector<std::string> running_indices(const Excerpt& text, const Scope& scope);
+
 /// The name of an entry as closing spells it: "x[ 3 ]" is "x[3]", "W[1,n]" is "W[1,3]" where n is 3. A text without
 /// brackets is returned as it is. Throws ModelError: no name, an index that is no positive integer constant, more than
-/// two of them, text behind.
-[[nodiscard]] std::string entry_key(const Excerpt& text, const Scope& scope);
+/// two of them, text behind. `running` has values of indices that the scope does not know.
+[[nodiscard]] std::string entry_key(const Excerpt& text, const Scope& scope,
+                                    const std::map<std::string, std::size_t>& running = {});
 
 } // namespace lagen

@@ -2,6 +2,7 @@
 /// Declaring names, and what a closed tree may contain.
 #include "expression/scope.hpp"
 
+#include "expression/derivative.hpp"
 #include "expression/expansion.hpp"
 #include "expression/parse.hpp"
 
@@ -160,7 +161,7 @@ std::vector<std::string> Scope::value_names() const
 {
     std::vector<std::string> names = order_;
     for (const Definition& definition : definitions_)
-        if (definition.parameters.empty()) names.push_back(definition.name);
+        if (definition.parameters.empty() && !is_rate_name(definition.name)) names.push_back(definition.name);
     std::stable_partition(names.begin(), names.end(),
                           [this](const std::string& name) { return !last_.contains(name); });
     return names;
@@ -231,7 +232,8 @@ void Scope::check_definitions() const
     // What is closed for parameters of unknown shape says nothing of other uses: it is kept apart.
     Expansion functions;
     for (const Definition& definition : definitions_)
-        (definition.parameters.empty() ? *expansion_ : functions).check(*this, definition);
+        if (!is_rate_name(definition.name)) // closed already
+            (definition.parameters.empty() ? *expansion_ : functions).check(*this, definition);
 }
 
 } // namespace lagen

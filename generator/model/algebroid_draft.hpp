@@ -101,6 +101,10 @@ void read_distribution(const ModelReader& reader, AlgebroidBlock& block, const A
 
 /// The entries of a table, and of the tables inside it, closed; `block` is their record.
 void read_entries(const ModelReader& reader, AlgebroidBlock& block, const AlgebroidDraft& draft);
+/// Whether a line of an anchor is by a base coordinate or a family of them, x = "..", and no table of a section.
+[[nodiscard]] bool is_rate_line(const Model& model, const AlgebroidBlock& block, const TomlEntry& line);
+/// Its entries: rho^x_a is the coefficient of y^a. Throws ModelError where the expression is not linear.
+void read_rate_line(const ModelReader& reader, AlgebroidBlock& block, const TomlEntry& line);
 /// The matrices of `representation`.
 void read_representation(const ModelReader& reader, AlgebroidBlock& block, const TomlEntry& entry);
 [[nodiscard]] std::vector<Symbol> coordinates_at(const Model& model, const std::vector<std::size_t>& places);
@@ -110,6 +114,8 @@ void read_representation(const ModelReader& reader, AlgebroidBlock& block, const
 [[nodiscard]] std::vector<Symbol> kept_velocities(const std::vector<Symbol>& coordinates);
 /// "v_x" for each coordinate.
 [[nodiscard]] std::vector<Symbol> velocities_of(const std::vector<Symbol>& coordinates);
+/// The inner fibre coordinates of a frame, w_b = y^a A_a^b.
+[[nodiscard]] std::vector<Tree> inner_fibre_values(const AlgebroidBlock& block, const std::vector<Tree>& y);
 /// Defines the inner velocities of the model's algebroid, whose entries are read.
 void define_inner_velocities(ModelReader& reader);
 /// The names that define_inner_velocities gives: families by their names.

@@ -90,6 +90,14 @@ bool is_whole(const std::vector<Symbol>& symbols, std::size_t first, const Run& 
     return true;
 }
 
+/// `spelled` is the key with numbers for its indices.
+[[noreturn]] void refuse_key(const std::vector<Symbol>& symbols, const Excerpt& key, const std::string& owner,
+                             const char* noun, const std::string& spelled)
+{
+    throw ModelError(fmt::format("{} names '{}', which is no {}", owner, key.text, noun), key.range(0, key.text.size()),
+                     hint_for_key(symbols, spelled, fmt::format("{}s", noun).c_str()));
+}
+
 } // namespace
 
 std::optional<ResolvedKey> resolve_key(const std::vector<Symbol>& symbols, const std::string& key)
@@ -111,8 +119,36 @@ ResolvedKey require_key(const std::vector<Symbol>& symbols, const Excerpt& key, 
 {
     if (auto found = resolve_key(symbols, scope != nullptr ? entry_key(key, *scope) : key.text))
         return *std::move(found);
-    throw ModelError(fmt::format("{} names '{}', which is no {}", owner, key.text, noun), key.range(0, key.text.size()),
-                     hint_for_key(symbols, key.text, fmt::format("{}s", noun).c_str()));
+    refuse_key(symbols, key, owner, noun, key.text);
+}
+
+std::vector<RunningKey> require_keys(const std::vector<Symbol>& symbols, const Excerpt& key, const std::string& owner,
+                                     const char* noun, const Scope& scope)
+{
+    const std::vector<std::string> running = running_indices(key, scope);
+    if (std::ranges::all_of(running, [](const std::string& index) { return index.empty(); }))
+        return {{require_key(symbols, key, owner, noun, &scope), {}}};
+    std::map<std::string, std::size_t> values;
+    for (const std::string& index : running)
+        if (!index.empty()) values.emplace(index, 1);
+    const std::string first = entry_key(key, scope, values);
+    const std::optional<ResolvedKey> family = resolve_key(symbols, family_name(first));
+    std::vector<RunningKey> out;
+    for (std::size_t k = 0; family && k < family->shape.size(); ++k) {
+        const std::size_t columns = family->shape.columns;
+        std::map<std::string, Tree> trees;
+        for (std::size_t place = 0; place < running.size(); ++place) {
+            const std::size_t value = (place == 0 ? k / columns : k % columns) + 1;
+            if (running[place].empty() || trees.contains(running[place])) continue;
+            values[running[place]] = value;
+            trees.emplace(running[place], number(static_cast<unsigned long>(value)));
+        }
+        const std::string entry = entry_key(key, scope, values);
+        const bool met = entry == entry_name(family->name, family->shape, k); // of W[j,j] the diagonal, of W[1,j] a row
+        if (met) out.push_back({*resolve_key(symbols, entry), std::move(trees)});
+    }
+    if (out.empty()) refuse_key(symbols, key, owner, noun, first);
+    return out;
 }
 
 std::string hint_for_key(const std::vector<Symbol>& symbols, const std::string& key, const char* noun)

@@ -23,6 +23,15 @@ struct ResolvedKey {
 [[nodiscard]] ResolvedKey require_key(const std::vector<Symbol>& symbols, const Excerpt& key, const std::string& owner,
                                       const char* noun, const Scope* scope = nullptr);
 
+/// A key, and the values of its running indices as numbers.
+struct RunningKey {
+    ResolvedKey key;
+    std::map<std::string, Tree> indices;
+};
+/// The same, where an index that is a new name runs: "x[j]" is x[1], x[2], .. with j = 1, 2, ..; "W[1,j]" is a row.
+[[nodiscard]] std::vector<RunningKey> require_keys(const std::vector<Symbol>& symbols, const Excerpt& key,
+                                                   const std::string& owner, const char* noun, const Scope& scope);
+
 /// The names of a key "a,b" or "a, b, c". Commas inside W[1,2] do not separate.
 [[nodiscard]] std::vector<Excerpt> sides_of(const Excerpt& key);
 

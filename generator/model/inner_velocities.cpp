@@ -44,15 +44,6 @@ void define_velocities(ModelReader& reader, const std::vector<Symbol>& symbols, 
     }
 }
 
-/// w_b = y^a A_a^b
-std::vector<Tree> inner_fibre_values(const AlgebroidBlock& block, const std::vector<Tree>& y)
-{
-    std::vector<std::vector<Tree>> terms(block.of[0].fibre.size());
-    for (const SectionEntry& entry : block.sections)
-        terms[entry.inner].push_back(product_of(entry.value, y[entry.section]));
-    return sums_of(terms);
-}
-
 /// v_x = rho^x_a y^a for the base coordinates of a subbundle.
 std::vector<Tree> ambient_values(const Model& model, const AlgebroidBlock& block, const std::vector<Tree>& y)
 {
@@ -141,6 +132,14 @@ void append_velocity_names(std::vector<std::string>& names, const Model& model, 
 }
 
 } // namespace
+
+std::vector<Tree> inner_fibre_values(const AlgebroidBlock& block, const std::vector<Tree>& y)
+{
+    std::vector<std::vector<Tree>> terms(block.of[0].fibre.size());
+    for (const SectionEntry& entry : block.sections)
+        terms[entry.inner].push_back(product_of(entry.value, y[entry.section]));
+    return sums_of(terms);
+}
 
 Tree product_of(const Tree& value, const Tree& y)
 {

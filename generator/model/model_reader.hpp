@@ -105,11 +105,13 @@ struct ModelReader {
     [[nodiscard]] Tree close_observed(const Tree& tree) const { return observer.close(tree, true); }
     [[nodiscard]] ArrayValue close_observed_array(const Tree& tree) const { return arrows.close_array(tree, true); }
 
+    /// The same in any scope.
+    [[nodiscard]] ArrayValue close_array_in(const Scope& scope, const Tree& tree, std::initializer_list<Role> roles,
+                                            const std::string& what, bool nonsmooth) const;
+
   private:
     [[nodiscard]] Tree close_in(const Scope& scope, const Tree& tree, std::initializer_list<Role> roles,
                                 const std::string& what) const;
-    [[nodiscard]] ArrayValue close_array_in(const Scope& scope, const Tree& tree, std::initializer_list<Role> roles,
-                                            const std::string& what, bool nonsmooth) const;
 };
 
 /// The model of a text that was reached by `trail`.

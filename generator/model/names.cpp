@@ -43,6 +43,7 @@ std::string role_plural(Role role)
     if (role == Role::element) return "entries of the group element";
     if (role == Role::next) return "coordinates of the target";
     if (role == Role::step) return "the step";
+    if (role == Role::built_in) return "built-in quantities";
     const std::string_view text = role_text(role);
     return std::string(text.substr(text.find(' ') + 1)) + "s";
 }

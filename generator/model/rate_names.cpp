@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "model/rate_names.hpp"
 
+#include "expression/derivative.hpp"
 #include "model/algebroid_draft.hpp"
 #include "model/families.hpp"
 
@@ -28,10 +29,11 @@ bool is_among(const std::vector<std::string>& spellings, const std::string& name
     return std::ranges::find(spellings, name) != spellings.end();
 }
 
+/// Without places: a mistake is where a rate is used, not where its symbols are declared.
 std::vector<Tree> trees_of(const std::vector<Symbol>& symbols)
 {
     std::vector<Tree> out;
-    for (const Symbol& symbol : symbols) out.push_back(name(symbol.name, symbol.where));
+    for (const Symbol& symbol : symbols) out.push_back(name(symbol.name));
     return out;
 }
 
@@ -41,36 +43,60 @@ void place_rates(std::vector<Tree>& rates, const std::vector<std::size_t>& place
     for (std::size_t k = 0; k < std::min(places.size(), y.size()); ++k) rates[places[k]] = y[k];
 }
 
-std::vector<Tree> anchored_rates(const AlgebroidBlock& block, const std::vector<Tree>& y, std::size_t count)
+/// rho^i_a y^a by the anchor's entries, and by a representation -(A_a x)^i y^a.
+std::vector<Tree> anchored_rates(const Model& model, const AlgebroidBlock& block, const std::vector<Tree>& y)
 {
-    std::vector<std::vector<Tree>> terms(count);
+    std::vector<std::vector<Tree>> terms(model.base.coordinates.size());
     for (const AnchorEntry& entry : block.anchor)
         if (entry.section < y.size()) terms[entry.coordinate].push_back(product_of(entry.value, y[entry.section]));
-    std::vector<Tree> rates(count);
-    for (std::size_t i = 0; i < count; ++i)
+    const std::size_t n = block.base.size();
+    for (std::size_t a = 0; a < std::min(block.representation.size(), y.size()); ++a)
+        for (std::size_t k = 0; k < n * n; ++k) {
+            const Tree& entry = block.representation[a].entries[k];
+            if (entry->kind == TreeKind::number && entry->number == 0) continue;
+            const Tree x = name(model.base.coordinates[block.base[k % n]].name);
+            terms[block.base[k / n]].push_back(negate(product_of(product_of(entry, x), y[a])));
+        }
+    std::vector<Tree> rates(terms.size());
+    for (std::size_t i = 0; i < rates.size(); ++i)
         if (!terms[i].empty()) rates[i] = terms[i].size() == 1 ? terms[i][0] : add(terms[i]);
     return rates;
 }
 
-/// rho^i_a y^a, one a coordinate of the model; null where the block does not say it in so many words.
-std::vector<Tree> rates_of(const Model& model, const AlgebroidBlock& block, const std::vector<Tree>& y)
+/// What the rates are told by: names that stand for functions of y, or y alone.
+enum class RateTerms { names, fibre };
+
+/// rho^i_a y^a, one a coordinate of the model; null where it is zero or the block does not say it in so many words.
+std::vector<Tree> rates_of(const Model& model, const AlgebroidBlock& block, const std::vector<Tree>& y, RateTerms in)
 {
     std::vector<Tree> rates(model.base.coordinates.size());
+    const bool by_names = in == RateTerms::names;
     switch (block.kind) {
     case AlgebroidKind::tangent: place_rates(rates, block.over, y); break;
+    case AlgebroidKind::groupoid:
     case AlgebroidKind::atiyah: place_rates(rates, block.base, y); break;
     case AlgebroidKind::level_set:
     case AlgebroidKind::subbundle:
+        if (!by_names) return anchored_rates(model, block, y);
         for (const std::size_t i : block.base) rates[i] = name("v_" + model.base.coordinates[i].name);
         break;
-    case AlgebroidKind::nonholonomic:
-    case AlgebroidKind::frame: return rates_of(model, block.of[0], trees_of(block.of[0].fibre));
+    case AlgebroidKind::nonholonomic: return rates_of(model, block.of[0], trees_of(block.of[0].fibre), in);
+    case AlgebroidKind::frame:
+        return rates_of(model, block.of[0], by_names ? trees_of(block.of[0].fibre) : inner_fibre_values(block, y), in);
+    case AlgebroidKind::prolongation: {
+        const auto rank = static_cast<std::ptrdiff_t>(block.of[0].fibre.size());
+        if (static_cast<std::ptrdiff_t>(y.size()) != 2 * rank) break;
+        rates = rates_of(model, block.of[0], {y.begin(), y.begin() + rank}, in);
+        const auto bundle = block.base.begin() + static_cast<std::ptrdiff_t>(block.of[0].base.size());
+        place_rates(rates, {bundle, block.base.end()}, {y.begin() + rank, y.end()});
+        break;
+    }
     case AlgebroidKind::product: {
         auto first = y.begin();
         for (const AlgebroidBlock& factor : block.of) {
             if (static_cast<std::size_t>(y.end() - first) < factor.fibre.size()) break; // they have no names here
             const auto next = first + static_cast<std::ptrdiff_t>(factor.fibre.size());
-            const std::vector<Tree> more = rates_of(model, factor, {first, next});
+            const std::vector<Tree> more = rates_of(model, factor, {first, next}, in);
             for (std::size_t i = 0; i < rates.size(); ++i)
                 if (more[i]) rates[i] = more[i];
             first = next;
@@ -78,7 +104,7 @@ std::vector<Tree> rates_of(const Model& model, const AlgebroidBlock& block, cons
         break;
     }
     case AlgebroidKind::general:
-    case AlgebroidKind::action: return anchored_rates(block, y, rates.size());
+    case AlgebroidKind::action: return anchored_rates(model, block, y);
     default: break;
     }
     return rates;
@@ -113,7 +139,7 @@ std::string hint_of(const CoordinateRate& rate)
 std::vector<CoordinateRate> coordinate_rates(const Model& model)
 {
     std::vector<CoordinateRate> out;
-    const std::vector<Tree> all = rates_of(model, model.algebroid, trees_of(model.algebroid.fibre));
+    const std::vector<Tree> all = rates_of(model, model.algebroid, trees_of(model.algebroid.fibre), RateTerms::names);
     for (const SymbolGroup& group : group_symbols(model.base.coordinates)) {
         const auto first = all.begin() + static_cast<std::ptrdiff_t>(group.first);
         const std::vector<Tree> rates(first, first + static_cast<std::ptrdiff_t>(group.shape.size()));
@@ -128,6 +154,21 @@ std::vector<CoordinateRate> coordinate_rates(const Model& model)
         if (!rate.rate.empty() && rate.rate.size() <= longest_rate) out.push_back(std::move(rate));
     }
     return out;
+}
+
+void define_rates(ModelReader& reader)
+{
+    const Model& model = reader.model;
+    const AlgebroidBlock& block = model.algebroid;
+    if (reader.is_probe && !is_nonholonomic(model)) return; // it has no fibre
+    if (block.kind == AlgebroidKind::groupoid && model.groupoid->kind == GroupoidKind::action) return;
+    const auto define = [&](const Symbol& symbol, const Tree& rate) {
+        reader.model.scope.define({rate_name(symbol.name), {}, rate, symbol.where});
+    };
+    define(Symbol{"t", {}, {}, {}, {}}, number(1));
+    for (const Parameter& parameter : model.parameters) define(parameter.symbol, number(0));
+    const std::vector<Tree> rates = rates_of(model, block, trees_of(block.fibre), RateTerms::fibre);
+    for (std::size_t i = 0; i < rates.size(); ++i) define(model.base.coordinates[i], rates[i] ? rates[i] : number(0));
 }
 
 std::string hint_for_rate(const std::string& name, const std::vector<CoordinateRate>& rates)

@@ -7,6 +7,8 @@
 
 namespace lagen {
 
+struct ModelReader;
+
 /// xdot^i = rho^i_a y^a of a base coordinate, or of a family of them.
 struct CoordinateRate {
     std::string coordinate;
@@ -14,6 +16,11 @@ struct CoordinateRate {
     bool is_name = false; ///< `rate` is a fibre coordinate, a family of them or a definition
     std::string momentum; ///< of that fibre coordinate; empty where it is none of the model's
 };
+
+/// Defines what Dt(X) needs in the model's scope: the rates of t, of the parameters and of the base coordinates, closed
+/// over the fibre coordinates (of a nonholonomic model over those of its ambient algebroid). Once the entries of the
+/// algebroid are read. The anchor of a groupoid's action is not known here, and then neither are these.
+void define_rates(ModelReader& reader);
 
 /// Those that are short enough to be told. The entries of the model's algebroid must have been read.
 [[nodiscard]] std::vector<CoordinateRate> coordinate_rates(const Model& model);

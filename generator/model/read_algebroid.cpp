@@ -103,6 +103,7 @@ void read_algebroid(ModelReader& reader)
     note_fibre_names(reader, *reader.draft, block, false);
     inherit_definitions(reader);
     read_entries(reader, block, *reader.draft);
+    define_rates(reader);
     read_distribution(reader, block, *reader.draft);
     define_inner_velocities(reader);
     inherit_mechanics(reader);

@@ -71,10 +71,14 @@ void read_rows(const ModelReader& reader, const TomlEntry& block, const RowTexts
 
 void read_anchor(const ModelReader& reader, AlgebroidBlock& block, const TomlEntry& table, const RowTexts& texts)
 {
-    read_rows(reader, table, texts, block.fibre, coordinates_of(reader.model, block),
+    TomlEntry rows = table;
+    std::erase_if(rows.value.entries, [&](const TomlEntry& line) { return is_rate_line(reader.model, block, line); });
+    read_rows(reader, rows, texts, block.fibre, coordinates_of(reader.model, block),
               [&](std::size_t a, std::size_t i, const Tree& value, const SourceRange& where) {
                   block.anchor.push_back(AnchorEntry{a, block.base[i], value, where});
               });
+    for (const TomlEntry& line : table.value.entries)
+        if (is_rate_line(reader.model, block, line)) read_rate_line(reader, block, line);
 }
 
 /// A section that is zero depends on the others: it is named here, before any determinant.

@@ -2,6 +2,7 @@
 /// Scopes, and the blocks that are lists of named expressions: definitions, observables, invariants.
 #include "model/model_reader.hpp"
 
+#include "expression/derivative.hpp"
 #include "model/families.hpp"
 #include "model/read_values.hpp"
 #include "model/table_reader.hpp"
@@ -71,6 +72,8 @@ class BodyNames {
     [[nodiscard]] bool is_call(const TreeNode& node) const
     {
         const std::vector<Definition>& all = reader_.model.definitions;
+        const DerivativeEntry* derivative = find_derivative(node.name);
+        if (derivative != nullptr && derivative->arity == node.arguments.size()) return true;
         return std::any_of(all.begin(), all.end(), [&](const Definition& each) {
             return each.name == node.name && !each.parameters.empty() &&
                    each.parameters.size() == node.arguments.size();
@@ -195,6 +198,7 @@ void build_scopes(ModelReader& reader)
     if (model.control) add_to_scope(reader.mechanical, model, model.control->controls, FamilyRole::control);
     add_to_scope(reader.mechanical, model, state_symbols(model), FamilyRole::state);
     reader.observer = reader.mechanical.with(extra);
+    for (const std::string& quantity : extra) reader.observer.define({rate_name(quantity), {}, nullptr, {}});
     explain_rates(reader.observer, reader.rates);
     if (lagrangian && reader.lagrangian) {
         reader.observer.define(Definition{"lagrangian", {}, reader.lagrangian, model.lagrangian_where});

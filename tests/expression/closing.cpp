@@ -63,9 +63,38 @@ double call_value(Function function, const std::vector<double>& a)
     switch (function) {
     case Function::sin: return std::sin(a[0]);
     case Function::cos: return std::cos(a[0]);
+    case Function::tan: return std::tan(a[0]);
+    case Function::asin: return std::asin(a[0]);
+    case Function::acos: return std::acos(a[0]);
+    case Function::atan: return std::atan(a[0]);
+    case Function::atan2: return std::atan2(a[0], a[1]);
+    case Function::sinh: return std::sinh(a[0]);
+    case Function::cosh: return std::cosh(a[0]);
+    case Function::tanh: return std::tanh(a[0]);
+    case Function::exp: return std::exp(a[0]);
+    case Function::log: return std::log(a[0]);
     case Function::sqrt: return std::sqrt(a[0]);
+    case Function::abs: return std::abs(a[0]);
+    case Function::minimum: return std::min(a[0], a[1]);
+    case Function::maximum: return std::max(a[0], a[1]);
+    case Function::sign: return a[0] < 0 ? -1 : a[0] > 0 ? 1 : 0;
+    case Function::select: return a[0] != 0 ? a[1] : a[2];
+    case Function::erf: return std::erf(a[0]);
     case Function::stumpff: return stumpff(a[0], a[1]);
     default: FAIL("no value for " << entry_of(function).name);
+    }
+    return 0;
+}
+
+double truth_of(Comparison comparison, double a, double b)
+{
+    switch (comparison) {
+    case Comparison::less: return a < b ? 1 : 0;
+    case Comparison::less_equal: return a <= b ? 1 : 0;
+    case Comparison::greater: return a > b ? 1 : 0;
+    case Comparison::greater_equal: return a >= b ? 1 : 0;
+    case Comparison::equal: return a == b ? 1 : 0;
+    case Comparison::not_equal: return a != b ? 1 : 0;
     }
     return 0;
 }
@@ -137,6 +166,8 @@ double value_at(const Tree& tree, const Point& point)
         return result;
     case TreeKind::divide: return a[0] / a[1];
     case TreeKind::power: return std::pow(a[0], a[1]);
+    case TreeKind::pi: return std::acos(-1.0);
+    case TreeKind::compare: return truth_of(tree->comparison, a[0], a[1]);
     case TreeKind::call: return call_value(tree->function, a);
     case TreeKind::solve: return solve_value(*tree, a);
     default: FAIL("not closed: " << to_text(tree));
