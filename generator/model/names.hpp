@@ -21,7 +21,6 @@ enum class Role {
     momentum,
     control,
     state,
-    input,
     definition,
     velocity,
     casimir,
