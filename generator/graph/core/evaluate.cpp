@@ -39,7 +39,7 @@ Scalar rounded(const Graph& graph, NodeId id)
 }
 
 template <class Scalar>
-Value<Scalar> value_of(Op op)
+ValueAt<Scalar> value_of(Op op)
 {
     const ScalarValues& values = operator_of(op).value;
     if constexpr (std::is_same_v<Scalar, float>)

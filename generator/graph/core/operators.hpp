@@ -75,12 +75,12 @@ enum class Sense : std::uint8_t {
 
 /// The value of an operation from the values of its operands; the integer is the payload (exponent of `power`).
 template <class Scalar>
-using Value = Scalar (*)(const Scalar*, std::int32_t);
+using ValueAt = Scalar (*)(const Scalar*, std::int32_t);
 
 struct ScalarValues {
-    Value<float> in_float = nullptr;
-    Value<double> in_double = nullptr;
-    Value<long double> in_long_double = nullptr;
+    ValueAt<float> in_float = nullptr;
+    ValueAt<double> in_double = nullptr;
+    ValueAt<long double> in_long_double = nullptr;
 };
 
 /// The rational value at rational operands; nothing where there is none, or a longer one than `most_bits`.
