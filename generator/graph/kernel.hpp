@@ -167,6 +167,8 @@ struct KernelModule {
     NodeId time = 0; ///< the input t
     std::vector<Quantity> parameters;
     std::vector<NodeId> parameter_defaults; ///< closed nodes without inputs, one a parameter
+    std::vector<Quantity> inputs;           ///< what acts from outside: members beside the parameters
+    std::vector<NodeId> input_defaults;     ///< over the parameters, one an input
     std::vector<std::string> constants;     ///< "m = 2": parameters of the model that are constants here
     /// Conditions on the parameters alone, as text, with a node each that is positive where it holds.
     std::vector<std::pair<std::string, NodeId>> parameter_conditions;

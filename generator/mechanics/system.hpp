@@ -132,8 +132,10 @@ struct System {
     std::optional<NodeId> lagrangian;                    ///< L(t, x, y), over the ambient Y of a distribution
     std::optional<NodeId> hamiltonian;                   ///< H(t, x, mu)
     std::vector<NodeId> states;                          ///< inputs z of [states]
+    std::vector<NodeId> inputs;                          ///< inputs u of [inputs]
+    std::vector<std::pair<NodeId, NodeId>> input_values; ///< with their defaults, over parameters
     std::optional<JacobiField> jacobi_field;
-    std::vector<NodeId> forces;      ///< Q_a(t, x, y, z) = [forces] - dR/dy^a, shape (r); empty: none
+    std::vector<NodeId> forces;      ///< Q_a(t, x, y, z, u) = [forces] - dR/dy^a, shape (r); empty: none
     std::vector<NodeId> force_parts; ///< the given forces and R, each as it is written
     std::optional<ControlProblem> control;
     std::optional<Groupoid> groupoid;

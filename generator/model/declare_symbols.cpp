@@ -21,6 +21,7 @@ FamilyRole family_role(Role role)
     case Role::momentum: return FamilyRole::momentum;
     case Role::control: return FamilyRole::control;
     case Role::state: return FamilyRole::state;
+    case Role::input: return FamilyRole::input;
     case Role::element: return FamilyRole::element;
     case Role::next: return FamilyRole::next;
     default: throw InternalError("a family of a role that has none");
@@ -37,6 +38,7 @@ std::size_t count_of(const Model& model, Role role)
     case Role::ambient: return 0; // they stand in the block of the inner algebroid
     case Role::control: return model.control ? model.control->controls.size() : 0;
     case Role::state: return model.states.size();
+    case Role::input: return model.inputs.size();
     case Role::element: return model.groupoid->element.size();
     case Role::next: return model.groupoid->next.size();
     default: return model.fibre.momenta.size();
@@ -52,6 +54,7 @@ void append_symbol(Model& model, const Symbol& symbol, Role role)
     case Role::ambient: break;
     case Role::control: model.control->controls.push_back(symbol); break;
     case Role::state: model.states.push_back(FirstOrderState{symbol, nullptr, 0}); break;
+    case Role::input: model.inputs.push_back(Input{symbol, nullptr}); break;
     case Role::element: model.groupoid->element.push_back(symbol); break;
     case Role::next: model.groupoid->next.push_back(symbol); break;
     default: model.fibre.momenta.push_back(symbol); break;

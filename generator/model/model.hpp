@@ -23,7 +23,7 @@ struct Size {
     SourceRange where;
 };
 
-enum class FamilyRole { parameter, base, fibre, ambient, momentum, control, state, element, next };
+enum class FamilyRole { parameter, base, fibre, ambient, momentum, control, state, input, element, next };
 
 /// A vector or matrix of declared symbols: entries first, first + 1, .. (by rows) of the list of its role.
 struct Family {
@@ -163,15 +163,19 @@ struct Event {
     Direction direction = Direction::any;
     bool stop = false;
     long count = 1;
+    std::vector<NamedTree> jump; ///< what follows the crossing: values of coordinates, momenta, first-order states
     SourceRange where;
 };
 
-/// Where rows are wanted: every `interval`, `count` even ones, or at these times. None: 201 even ones.
+/// Where rows are wanted: every `interval`, `count` even ones, at these times, or at each crossing of an event. None:
+/// 201 even ones.
 struct Sampling {
-    enum class Kind { standard, interval, count, at } kind = Kind::standard;
+    enum class Kind { standard, interval, count, at, event } kind = Kind::standard;
     Tree interval;
     std::size_t count = 201;
-    std::vector<Tree> at;
+    std::vector<Tree> at = {};
+    std::string event = {}; ///< its name
+    SourceRange event_where = {};
 };
 
 /// Where "state" stands in `observe`: that many columns from `first` on.
@@ -194,6 +198,12 @@ struct Plot {
     std::optional<bool> sphere; ///< around the origin, in space; absent: where the curves of a panel lie on one
 };
 
+/// A CSV file with a column t and others called like inputs, whose values are held between its rows.
+struct InputTable {
+    std::string path; ///< as the scene has it, relative to the model file
+    SourceRange where;
+};
+
 /// One set-up to simulate; `like` is resolved already. All values are trees over the parameters.
 struct Scene {
     std::string name;
@@ -204,7 +214,9 @@ struct Scene {
     Tree start;                     ///< null: 0
     Tree duration;                  ///< null where the scene gives none
     std::vector<NamedTree> parameters;
-    std::string form; ///< empty: the default for the model
+    std::vector<NamedTree> inputs;         ///< u over t, the state and parameters; those left out have their defaults
+    std::optional<InputTable> input_table; ///< in the place of `inputs`
+    std::string form;                      ///< empty: the default for the model
     SourceRange form_where;
     std::string method; ///< empty: the default for the form
     SourceRange method_where;
@@ -256,10 +268,16 @@ struct Control {
     SourceRange where;
 };
 
+/// u of [inputs]: what acts from outside. A header has it as a member of `inputs`, a scene says what it is.
+struct Input {
+    Symbol symbol;
+    Tree value; ///< its default, closed over parameters
+};
+
 /// z of [states] with z' = rate: it stands beside the algebroid, whose coordinates are none of it.
 struct FirstOrderState {
     Symbol symbol;
-    Tree rate;     ///< closed over t, x, y, momenta, parameters and other first-order states
+    Tree rate;     ///< closed over t, x, y, momenta, parameters, inputs and other first-order states
     int start = 0; ///< where a scene does not say
 };
 
@@ -345,9 +363,10 @@ struct Model {
     SourceRange lagrangian_where;
     Tree hamiltonian; ///< closed over t, x, momenta, parameters; null where absent
     SourceRange hamiltonian_where;
-    std::vector<ComponentEntry> forces; ///< Q_a(t, x, y, z): on the right of Lagrange's and of Hamilton's equations
+    std::vector<ComponentEntry> forces; ///< Q_a(t, x, y, z, u): on the right of Lagrange's and of Hamilton's equations
     Tree dissipation;                   ///< Rayleigh's R(t, x, y): Q_a gains -dR/dy^a; null where absent
     std::optional<Control> control;
+    std::vector<Input> inputs;
     std::vector<FirstOrderState> states; ///< of [states], then the entries of [reconstruct]
     std::vector<Reconstruction> reconstructions;
     std::optional<std::size_t> jacobi_field; ///< the first of its states, sigma^a, then delta y^a; added by a command
@@ -360,9 +379,9 @@ struct Model {
     std::vector<Scene> scenes; ///< in the order of the file
 
     Scope scope;    ///< symbols and definitions: what L may use
-    Scope observer; ///< with momenta, controls, first-order states, energy, hamiltonian, lagrangian, observables and
-                    ///< invariants: what expressions from the command line may use
-    Scope columns;  ///< the observer's with the coordinates of an arrow: what columns and curves may use
+    Scope observer; ///< with momenta, controls, inputs, first-order states, energy, hamiltonian, lagrangian,
+                    ///< observables and invariants: what expressions from the command line may use
+    Scope columns; ///< the observer's with the coordinates of an arrow: what columns and curves may use
 };
 
 /// What runs follow as constant: the invariants, and the momenta of symmetries where nothing pushes and no control

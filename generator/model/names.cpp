@@ -22,6 +22,7 @@ const char* role_text(Role role)
     case Role::momentum: return "a momentum";
     case Role::control: return "a control";
     case Role::state: return "a first-order state";
+    case Role::input: return "an input";
     case Role::definition: return "a definition";
     case Role::casimir: return "a Casimir";
     case Role::observable: return "an observable";

@@ -21,6 +21,7 @@ enum class Role {
     momentum,
     control,
     state,
+    input,
     definition,
     velocity,
     casimir,

@@ -100,6 +100,7 @@ std::size_t steps_between(const Scene& scene, const SceneValues& values, std::si
         throw ModelError(
             fmt::format("scene '{}' asks for {} even rows of {} steps", scene.name, scene.sampling.count, steps),
             scene.where, "a discrete motion has points at its steps alone");
+    case Sampling::Kind::event:
     case Sampling::Kind::at:
         throw ModelError(fmt::format("scene '{}' is discrete: its rows are at its steps", scene.name), scene.where,
                          "`sample` = a multiple of the step takes fewer of them");
@@ -134,7 +135,8 @@ SampleTimes sample_times(const Scene& scene, const SceneValues& values, std::siz
     find_end(scene, values, stretch, times);
     long double rows = 201;
     switch (times.kind) {
-    case Sampling::Kind::standard: break;
+    case Sampling::Kind::standard:
+    case Sampling::Kind::event: break;
     case Sampling::Kind::count: rows = static_cast<long double>(times.count = scene.sampling.count); break;
     case Sampling::Kind::interval: rows = std::floor(std::abs(times.end - times.start) / *times.interval) + 1; break;
     case Sampling::Kind::at:

@@ -135,6 +135,7 @@ void give_rows(const ProgramInput& input, const std::function<void(const char*, 
 {
     switch (input.times.kind) {
     case Sampling::Kind::standard:
+    case Sampling::Kind::event:
     case Sampling::Kind::count: give("--samples", std::to_string(input.times.count)); break;
     case Sampling::Kind::interval: give("--interval", text_of(*input.times.interval)); break;
     case Sampling::Kind::at: give("--at-file", input.at_file); break;
