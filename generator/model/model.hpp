@@ -381,7 +381,7 @@ struct Model {
     Scope scope;    ///< symbols and definitions: what L may use
     Scope observer; ///< with momenta, controls, inputs, first-order states, energy, hamiltonian, lagrangian,
                     ///< observables and invariants: what expressions from the command line may use
-    Scope columns; ///< the observer's with the coordinates of an arrow: what columns and curves may use
+    Scope columns;  ///< the observer's with the coordinates of an arrow: what columns and curves may use
 };
 
 /// What runs follow as constant: the invariants, and the momenta of symmetries where nothing pushes and no control
