@@ -5,6 +5,7 @@
 #include "commands/line/options.hpp"
 #include "commands/machine/places.hpp"
 #include "commands/machine/write_file.hpp"
+#include "commands/reduce/by_group.hpp"
 #include "commands/reduce/routh_document.hpp"
 #include "commands/report_check.hpp"
 #include "commands/report_morphism.hpp"
@@ -29,8 +30,12 @@ const CommandSyntax reduce_syntax{
     "reduce",
     "MORPHISM",
     "Proves, component by component, that the equations of the source of a morphism project onto those of its target, "
-    "and prints both. Of a model: lists its cyclic coordinates, or reduces it by some of them.",
+    "and prints both. Of a model: lists its cyclic coordinates, or reduces it by some of them or by a group.",
     {{"routh", "X,..", "of a model: Routh's reduction by these cyclic coordinates, proved and written as a model file"},
+     {"group", "GROUP",
+      "of a model: the quotient by this group, SO(3), SE(2), R^2, .., proved and written as a model file"},
+     {"action", "X=EXPR,..", "its right action x.W on the coordinates, W an element; those left out stay"},
+     {"slice", "X=EXPR,..", "where its orbits are cut (else coordinates at their values in the first scene, or 0)"},
      {"output,o", "FILE", "write there instead of to standard output"},
      {"set", "NAME=VALUE", "a parameter's value (may be repeated)"},
      {"unchecked", nullptr, "go on although the morphism, or a model, is refuted"},
@@ -145,6 +150,26 @@ void require_cyclic(const Model& model, const StructureReport& report, const std
                     "lagen reduce without --routh lists the cyclic coordinates");
 }
 
+/// Writes the file of a reduced model where its function is not refuted, with what is `said` of it.
+ExitCode write_reduced(const Options& options, const std::string& model,
+                       const std::pair<const char*, std::string>& function, const std::string& document,
+                       const std::string& said, const StructureReport& report)
+{
+    const bool writes = !document.empty() && (report.verdict != Verdict::invalid || options.has("unchecked"));
+    if (options.get("format") == "json") {
+        JsonWriter json;
+        json.begin_object().key("model").value(model).key("verdict").value(to_text(report.verdict));
+        if (!document.empty()) json.key(function.first).value(function.second).key("file").value(document);
+        structure_json(json, report);
+        write_file("-", json.end_object().text() + "\n");
+        if (options.has("output") && writes) write_file(options.get("output"), document);
+    } else {
+        write_standard_error(said);
+        if (writes) write_result(options, document);
+    }
+    return code_of(report.verdict);
+}
+
 /// R is what is read back from the file, and proved to have the motions of L.
 ExitCode reduce_by_routh(const Options& options, const std::string& path)
 {
@@ -161,24 +186,28 @@ ExitCode reduce_by_routh(const Options& options, const std::string& path)
     const std::string document = routh_document(model, options.settings(), cyclic, text);
     const Model reduced = read_model_text(model.name + "_routh.toml", document);
     const StructureReport report = verify_routh(graph, checked.system, made, elaborate(reduced), free_of);
-    const bool writes = report.verdict != Verdict::invalid || options.has("unchecked");
     std::string said =
         fmt::format("{}: reduced by {}: {}\n", model.name, options.get("routh"), to_text(report.verdict));
     for (std::size_t j = 0; j < cyclic.size(); ++j)
         said += fmt::format("  {} = {}\n", model.fibre.coordinates[cyclic[j]].name, to_text(text.velocities[j]));
     said += fmt::format("  R = {}\n{}", to_text(text.value), failures_text(report));
-    if (options.get("format") == "json") {
-        JsonWriter json;
-        json.begin_object().key("model").value(model.name).key("verdict").value(to_text(report.verdict));
-        json.key("routhian").value(to_text(text.value)).key("file").value(document);
-        structure_json(json, report);
-        write_file("-", json.end_object().text() + "\n");
-        if (options.has("output") && writes) write_file(options.get("output"), document);
-    } else {
-        write_standard_error(said);
-        if (writes) write_result(options, document);
-    }
-    return code_of(report.verdict);
+    return write_reduced(options, model.name, {"routhian", to_text(text.value)}, document, said, report);
+}
+
+/// L likewise.
+ExitCode reduce_by_group(const Options& options, const std::string& path)
+{
+    if (!options.has("action"))
+        throw UsageError("lagen reduce: --group needs --action, how an element W moves the coordinates");
+    const CheckedModel checked = load(path, options.settings(), options.has("unchecked"));
+    require_apart(options, checked.model);
+    for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
+    const GroupQuotient made = quotient_by_group(checked, options.settings(), options.get("group"),
+                                                 options.get("action"), options.get("slice"));
+    return write_reduced(options, checked.model.name, {"lagrangian", made.lagrangian}, made.document,
+                         fmt::format("{}: reduced by {}: {}\n{}{}", checked.model.name, options.get("group"),
+                                     to_text(made.report.verdict), made.said, failures_text(made.report)),
+                         made.report);
 }
 
 /// "ph" of each coordinate that is proved to be cyclic.
@@ -229,11 +258,19 @@ ExitCode run_reduce(Arguments arguments)
     if (options.has("output")) require_writable(options.get("output"));
     const std::string path = model_path(options.positional()[0]);
     const auto file = std::make_shared<const SourceFile>(SourceFile{path, read_file(path)});
+    for (const char* other : {"action", "slice"})
+        if (options.has(other) && !options.has("group"))
+            throw UsageError(fmt::format("lagen reduce: --{} goes with --group", other));
+    if (options.has("routh") && options.has("group"))
+        throw UsageError("lagen reduce: --routh and --group are two reductions: one after the other");
     if (is_morphism(file)) {
-        if (options.has("routh")) throw UsageError("lagen reduce: --routh takes a model, and this is a morphism");
+        for (const char* of_models : {"routh", "group"})
+            if (options.has(of_models))
+                throw UsageError(fmt::format("lagen reduce: --{} takes a model, and this is a morphism", of_models));
         return reduce_morphism(options, read_morphism(file, options.settings(), choosers()));
     }
     if (options.has("routh")) return reduce_by_routh(options, path);
+    if (options.has("group")) return reduce_by_group(options, path);
     return list_cyclic(options, path);
 }
 

@@ -202,8 +202,9 @@ Setting read_setting(const std::string& command, const std::string& option, cons
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0)
         throw UsageError(fmt::format("lagen {}: --{} needs name=value, found '{}'", command, option, text));
-    const std::string name = text.substr(0, equals);
-    return {name, whole_text(fmt::format("<--{} {}>", option, name), text.substr(equals + 1))};
+    const std::string name = text.substr(0, text.find_last_not_of(' ', equals - 1) + 1);
+    const std::size_t value = std::min(text.find_first_not_of(' ', equals + 1), text.size());
+    return {name, whole_text(fmt::format("<--{} {}>", option, name), text.substr(value))};
 }
 
 std::vector<std::string> split_list(const std::string& text)

@@ -2,9 +2,9 @@
 #include "commands/reduce/routh_document.hpp"
 
 #include "commands/line/options.hpp"
+#include "commands/reduce/reduced_document.hpp"
 #include "diagnostic.hpp"
 #include "equations/rewrite_tree.hpp"
-#include "model/print_toml.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -16,31 +16,27 @@ namespace {
 
 class RouthDocument {
   public:
-    RouthDocument(const Model& model, const std::vector<std::size_t>& cyclic, const RouthianText& text)
-        : model_(model), cyclic_(cyclic), text_(text), document_(parse_toml(model.file))
+    RouthDocument(const Model& model, const std::vector<Setting>& settings, const std::vector<std::size_t>& cyclic,
+                  const RouthianText& text)
+        : model_(model), cyclic_(cyclic), text_(text), document_(model, settings, "by " + comma_list_of_coordinates())
     {
     }
 
-    std::string write(const std::vector<Setting>& settings)
+    std::string write()
     {
-        TomlValue& parameters = entry_in(document_, "parameters");
-        for (const Setting& setting : settings)
-            if (setting.gives_value()) entry_in(parameters, setting.name) = toml_string(setting.value.text);
+        TomlValue& parameters = document_.at("parameters");
         for (const std::size_t k : cyclic_) // until a scene says otherwise
             entry_in(parameters, momentum(k)) = toml_string("0");
-        rename();
         drop_coordinates();
         add_velocities();
-        entry_in(entry_in(document_, "lagrangian"), "L") = toml_string(to_text(text_.value));
+        entry_in(document_.at("lagrangian"), "L") = toml_string(to_text(text_.value));
         drop_claims();
         for (const Scene& scene : model_.scenes) move_start(scene);
-        return fmt::format(
-                   "# Routh's reduction of {} by {}: R = L - p_k y^k at p_k = dL/dy^k. The velocities of the cyclic\n"
-                   "# coordinates are definitions, their momenta parameters, they themselves states that run\n"
-                   "# where they are observed.\n{}\n",
-                   std::filesystem::path(model_.file->name).filename().string(), comma_list_of_coordinates(),
-                   dropped_.empty() ? "" : fmt::format("# Left out: {}.\n", fmt::join(dropped_, ", "))) +
-               in_order();
+        return document_.text(fmt::format(
+            "# Routh's reduction of {} by {}: R = L - p_k y^k at p_k = dL/dy^k. The velocities of the cyclic\n"
+            "# coordinates are definitions, their momenta parameters, they themselves states that run\n"
+            "# where they are observed.\n",
+            std::filesystem::path(model_.file->name).filename().string(), comma_list_of_coordinates()));
     }
 
   private:
@@ -56,13 +52,6 @@ class RouthDocument {
         return fmt::format("{}", fmt::join(names, ", "));
     }
 
-    void rename()
-    {
-        std::erase_if(document_.entries, [](const TomlEntry& entry) { return entry.name() == "name"; });
-        entry_in(document_, "title") = toml_string((model_.title.empty() ? model_.name : model_.title) +
-                                                   ", reduced by " + comma_list_of_coordinates());
-    }
-
     /// The names that are not cyclic as the list `key`, which must have all of them one by one where it is there.
     void put_rest(TomlValue& table, const char* key, const std::vector<Symbol>& symbols)
     {
@@ -74,60 +63,47 @@ class RouthDocument {
                             "out",
                             key, model_.name),
                 "write them one by one");
-        list = {};
-        list.kind = TomlKind::array;
+        std::vector<std::string> rest;
         for (std::size_t k = 0; k < symbols.size(); ++k)
-            if (!is_cyclic(k)) list.items.push_back(toml_string(symbols[k].name));
+            if (!is_cyclic(k)) rest.push_back(symbols[k].name);
+        list = toml_list(rest);
     }
 
     void drop_coordinates()
     {
-        put_rest(entry_in(document_, "base"), "coordinates", model_.base.coordinates);
-        TomlValue& fibre = entry_in(document_, "fibre");
+        put_rest(document_.at("base"), "coordinates", model_.base.coordinates);
+        TomlValue& fibre = document_.at("fibre");
         put_rest(fibre, "coordinates", model_.fibre.coordinates);
         put_rest(fibre, "momenta", model_.fibre.momenta);
-        for (const std::size_t k : cyclic_) erase("forces", {velocity(k), momentum(k)});
-    }
-
-    void erase(const char* block, const std::vector<std::string>& keys)
-    {
-        const auto entry = std::ranges::find(document_.entries, block, &TomlEntry::name);
-        if (entry == document_.entries.end()) return;
-        std::erase_if(entry->value.entries,
-                      [&](const TomlEntry& each) { return std::ranges::find(keys, each.name()) != keys.end(); });
+        for (const std::size_t k : cyclic_) document_.erase("forces", {velocity(k), momentum(k)});
     }
 
     void add_velocities()
     {
-        TomlValue& definitions = entry_in(document_, "definitions");
+        TomlValue& definitions = document_.at("definitions");
         for (std::size_t j = 0; j < cyclic_.size(); ++j)
             entry_in(definitions, velocity(cyclic_[j])) = toml_string(to_text(text_.velocities[j]));
-        TomlValue& states = entry_in(document_, "states");
+        TomlValue& states = document_.at("states");
         for (const std::size_t k : cyclic_) entry_in(states, coordinate(k)) = toml_string(velocity(k));
     }
 
     /// What is about the whole model alone, and claims that rest on the coordinates.
     void drop_claims()
     {
-        for (const char* block : {"symmetries", "forms", "hamilton_jacobi"})
-            if (std::erase_if(document_.entries, [&](const TomlEntry& entry) { return entry.name() == block; }) > 0)
-                dropped_.push_back(fmt::format("[{}]", block));
+        document_.drop({"symmetries", "forms", "hamilton_jacobi"});
         const auto rests_on = [&](const NamedTree& claim) {
             const std::vector<std::string> names = names_in(claim.value);
             return std::ranges::any_of(
                 cyclic_, [&](std::size_t k) { return std::ranges::find(names, coordinate(k)) != names.end(); });
         };
         for (const NamedTree& claim : model_.invariants)
-            if (rests_on(claim)) {
-                erase("invariants", {claim.name});
-                dropped_.push_back(fmt::format("the invariant {}", claim.name));
-            }
+            if (rests_on(claim)) document_.drop("invariants", claim.name, fmt::format("the invariant {}", claim.name));
     }
 
     /// The momenta of the start as parameters, in place of velocities or momenta there.
     void move_start(const Scene& scene)
     {
-        TomlValue& table = entry_in(entry_in(document_, "scene"), scene.name);
+        TomlValue& table = document_.scene(scene.name);
         const bool first = &scene == &model_.scenes.front() || scene.name == "default";
         for (std::size_t j = 0; j < cyclic_.size(); ++j) {
             const std::size_t k = cyclic_[j];
@@ -138,7 +114,7 @@ class RouthDocument {
                     return each.name() == velocity(k) || each.name() == momentum(k);
                 });
             if (value == nullptr) continue;
-            if (first) entry_in(entry_in(document_, "parameters"), momentum(k)) = toml_string(to_text(value));
+            if (first) entry_in(document_.at("parameters"), momentum(k)) = toml_string(to_text(value));
             entry_in(entry_in(table, "parameters"), momentum(k)) = toml_string(to_text(value));
         }
     }
@@ -168,43 +144,17 @@ class RouthDocument {
         });
     }
 
-    /// Tables where a person puts them: what was made stands at the end.
-    [[nodiscard]] std::string in_order()
-    {
-        static const std::vector<std::string> order{"parameters",  "sizes",      "base",   "fibre",       "algebroid",
-                                                    "definitions", "lagrangian", "forces", "dissipation", "states"};
-        const auto place = [&](const TomlEntry& entry) {
-            if (entry.value.kind != TomlKind::table) return std::size_t{0};
-            const auto found = std::ranges::find(order, entry.name());
-            return entry.name() == "scene" ? order.size() + 2 : static_cast<std::size_t>(found - order.begin()) + 1;
-        };
-        std::ranges::stable_sort(document_.entries, {}, place);
-        std::erase_if(document_.entries, [](const TomlEntry& entry) {
-            return entry.value.kind == TomlKind::table && entry.value.entries.empty();
-        });
-        return print_toml(document_);
-    }
-
     const Model& model_;
     const std::vector<std::size_t>& cyclic_;
     const RouthianText& text_;
-    TomlValue document_;
-    std::vector<std::string> dropped_;
+    ReducedDocument document_;
 };
 
 } // namespace
 
 std::vector<std::size_t> coordinates_to_reduce(const Model& model, const std::vector<std::string>& names)
 {
-    const auto& over = model.algebroid.over;
-    if (!model.lagrangian || model.algebroid.kind != AlgebroidKind::tangent ||
-        over.size() != model.base.coordinates.size() || !std::ranges::is_sorted(over) || model.groupoid ||
-        model.control)
-        throw MathematicsError(
-            fmt::format("Routh's reduction takes a Lagrangian on a tangent bundle, and model '{}' is "
-                        "something else",
-                        model.name),
-            "morphisms of algebroids reduce other models: lagen reduce MORPHISM");
+    require_tangent_lagrangian(model, "Routh's reduction");
     if (names.empty()) throw UsageError("lagen reduce: --routh names no coordinate");
     std::vector<std::size_t> cyclic;
     for (const std::string& name : names) {
@@ -235,7 +185,7 @@ std::vector<std::size_t> coordinates_to_reduce(const Model& model, const std::ve
 std::string routh_document(const Model& model, const std::vector<Setting>& settings,
                            const std::vector<std::size_t>& cyclic, const RouthianText& text)
 {
-    return RouthDocument(model, cyclic, text).write(settings);
+    return RouthDocument(model, settings, cyclic, text).write();
 }
 
 } // namespace lagen

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "commands/reduce/quotient_document.hpp"
+
+#include "diagnostic.hpp"
+#include "equations/rewrite_tree.hpp"
+#include "graph/calculus/differentiate.hpp"
+#include "graph/core/lower.hpp"
+#include "model/families.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace lagen {
+
+namespace {
+
+Tree with_values(const Tree& tree, const std::map<std::string, Tree>& values)
+{
+    return rewrite_tree(tree, [&](const Tree& node) -> Tree {
+        if (node->kind != TreeKind::name) return nullptr;
+        const auto found = values.find(node->name);
+        return found == values.end() ? nullptr : found->second;
+    });
+}
+
+/// "x[3]" as "x_3", "R[1,2]" as "R_1_2".
+std::string without_brackets(const std::string& name)
+{
+    std::string out;
+    for (const char c : name)
+        if (c != ']') out += c == '[' || c == ',' ? '_' : c;
+    return out;
+}
+
+/// "x[1..3]"
+std::string declaration_of(const SymbolGroup& group)
+{
+    switch (group.shape.rank) {
+    case Rank::scalar: break;
+    case Rank::vector: return fmt::format("{}[1..{}]", group.name, group.shape.size());
+    case Rank::matrix: return fmt::format("{}[1..{},1..{}]", group.name, group.shape.rows, group.shape.columns);
+    }
+    return group.name;
+}
+
+/// The values of a family as an array.
+std::string array_text(const SymbolGroup& group, const std::vector<std::string>& entries)
+{
+    if (group.shape.rank == Rank::scalar) return entries[0];
+    if (group.shape.rank == Rank::vector) return fmt::format("[{}]", fmt::join(entries, ", "));
+    std::vector<std::string> rows;
+    const auto columns = static_cast<std::ptrdiff_t>(group.shape.columns);
+    for (auto row = entries.begin(); row != entries.end(); row += columns)
+        rows.push_back(fmt::format("[{}]", fmt::join(row, row + columns, ", ")));
+    return fmt::format("[{}]", fmt::join(rows, ", "));
+}
+
+} // namespace
+
+QuotientDocument::QuotientDocument(const GroupReduction& reduction, const std::vector<Setting>& settings)
+    : reduction_(reduction), settings_(settings), taken_(symbol_names(reduction.model))
+{
+    for (const Definition& each : reduction.model.definitions) taken_.push_back(each.name);
+    for (const NodeId each : reduction.quotient.w) w_.push_back(reduction.graph.input_name(each));
+    taken_.insert(taken_.end(), w_.begin(), w_.end());
+    choose_names(reduction.model.base.coordinates, false);
+    choose_names(reduction.model.fibre.coordinates, true);
+    lagrangian_ = shown(reduction.quotient.lagrangian);
+}
+
+std::string QuotientDocument::unused(std::string name)
+{
+    while (std::ranges::find(taken_, name) != taken_.end()) name += '_';
+    taken_.push_back(name);
+    return name;
+}
+
+/// A coordinate or a velocity keeps its name where its value on the slice is itself, and those of its whole family are.
+/// The others are defined, and what a definition needs has a name of its own: x_2 of x[2], u_x where v_x is moved.
+void QuotientDocument::choose_names(const std::vector<Symbol>& symbols, bool fibre)
+{
+    const Quotient& quotient = reduction_.quotient;
+    const Algebroid& tangent = reduction_.system.algebroid;
+    std::vector<NodeId> nodes = fibre ? quotient.velocity : tangent.x;
+    if (!fibre)
+        for (std::size_t k = 0; k < quotient.slice.frozen.size(); ++k)
+            nodes[quotient.slice.frozen[k]] = quotient.slice.values[k];
+    const std::vector<NodeId>& own = fibre ? tangent.y : tangent.x;
+    for (const SymbolGroup& group : group_symbols(symbols)) {
+        const std::size_t end = group.first + group.shape.size();
+        const bool stays = std::equal(nodes.begin() + static_cast<std::ptrdiff_t>(group.first),
+                                      nodes.begin() + static_cast<std::ptrdiff_t>(end),
+                                      own.begin() + static_cast<std::ptrdiff_t>(group.first));
+        if (stays) (fibre ? velocities_ : base_).push_back(declaration_of(group));
+        for (std::size_t i = group.first; i < end; ++i) {
+            if (std::ranges::find(quotient.free, i) == quotient.free.end()) continue;
+            std::string free = symbols[i].name;
+            if (!stays) {
+                const bool moves = nodes[i] != own[i];
+                const std::string& of = (moves ? reduction_.model.base.coordinates : symbols)[i].name;
+                const std::string wanted = (moves ? "u_" : "") + without_brackets(of);
+                free = !moves && group.shape.rank == Rank::scalar ? of : unused(wanted);
+                (fibre ? velocities_ : base_).push_back(free);
+            }
+            (fibre ? u_ : x_).push_back(free);
+            values_[symbols[i].name] = name(free);
+        }
+        if (stays) continue;
+        // The nodes are over inputs of the whole, whose free ones have their new names by now.
+        std::vector<std::string> entries;
+        std::vector<std::pair<std::string, Tree>> defined;
+        for (std::size_t i = group.first; i < end; ++i) {
+            defined.emplace_back(symbols[i].name, shown(nodes[i]));
+            entries.push_back(to_text(defined.back().second));
+        }
+        definitions_.emplace_back(group.name, array_text(group, entries));
+        for (auto& [symbol, value] : defined)
+            if (!fibre) values_[symbol] = value;
+    }
+}
+
+/// A node over the m, u, w.
+Tree QuotientDocument::shown(NodeId node) const
+{
+    return with_values(to_tree(reduction_.graph, node), values_);
+}
+
+/// Whether a function in the names of the whole is one on the quotient.
+bool QuotientDocument::is_kept(const Tree& tree) const
+{
+    const Model& model = reduction_.model;
+    for (const std::string& each : names_in(tree)) {
+        const auto is_it = [&](const std::vector<Symbol>& symbols) {
+            return std::ranges::find(symbols, each, &Symbol::name) != symbols.end();
+        };
+        if (!is_it(model.base.coordinates) && !is_it(model.fibre.coordinates) && !is_it(parameter_symbols(model)) &&
+            each != reduction_.graph.input_name(reduction_.system.time) && each != "energy")
+            return false;
+    }
+    return reduction_.is_invariant(Lowering(reduction_.graph)(tree));
+}
+
+std::vector<std::string> QuotientDocument::domain() const
+{
+    std::vector<std::string> texts;
+    for (const Tree& condition : reduction_.model.base.domain) {
+        const Tree difference = add({condition->arguments[0], negate(condition->arguments[1])});
+        if (!is_kept(difference))
+            throw MathematicsError(fmt::format("the domain of model '{}' is not invariant under {}: {}",
+                                               reduction_.model.name, reduction_.group, to_text(condition)),
+                                   "a symmetry of the motions is one of the domain too: leave the condition out");
+        texts.push_back(to_text(with_values(condition, values_)));
+    }
+    if (const NodeId divisor = reduction_.quotient.determinant; !reduction_.graph.is_constant(divisor)) {
+        const Tree tree = shown(divisor);
+        texts.push_back(to_text(tree->kind == TreeKind::negate ? tree->arguments[0] : tree) + " != 0");
+    }
+    return texts;
+}
+
+void QuotientDocument::put_algebroid(ReducedDocument& document) const
+{
+    TomlValue& base = document.at("base");
+    document.erase("base", {"coordinates", "domain"});
+    if (!base_.empty()) entry_in(base, "coordinates") = toml_list(base_);
+    if (const std::vector<std::string> conditions = domain(); !conditions.empty())
+        entry_in(base, "domain") = toml_list(conditions);
+    std::vector<std::string> sections = velocities_;
+    sections.insert(sections.end(), w_.begin(), w_.end());
+    document.forget("fibre");
+    entry_in(document.at("fibre"), "coordinates") = toml_list(sections);
+    document.forget("algebroid");
+    TomlValue& algebroid = document.at("algebroid");
+    entry_in(algebroid, "kind") = toml_string(base_.empty() ? "lie_algebra" : "atiyah");
+    entry_in(algebroid, "algebra") = toml_string(reduction_.algebra);
+}
+
+void QuotientDocument::drop_claims(ReducedDocument& document) const
+{
+    document.drop({"symmetries", "forms", "hamilton_jacobi", "states", "reconstruct"});
+    for (const NamedTree& each : reduction_.model.invariants)
+        if (!is_kept(each.value)) document.drop("invariants", each.name, fmt::format("the invariant {}", each.name));
+    for (const NamedTree& each : reduction_.model.observables)
+        if (!is_kept(each.value)) document.drop("observables", each.name, fmt::format("the observable {}", each.name));
+}
+
+/// Whether the scene starts on the slice, with the start of the quotient in its table.
+bool QuotientDocument::move_start(const Scene& scene, TomlValue& table) const
+{
+    const Quotient& quotient = reduction_.quotient;
+    const Model& model = reduction_.model;
+    Graph& graph = reduction_.graph;
+    Replacements start;
+    for (const bool fibre : {false, true}) {
+        const std::vector<Symbol>& symbols = fibre ? model.fibre.coordinates : model.base.coordinates;
+        for (std::size_t i = 0; i < symbols.size(); ++i) {
+            const auto given = std::ranges::find(scene.initial, symbols[i].name, &NamedTree::name);
+            if (given == scene.initial.end() && !(fibre && scene.rest)) return false;
+            const NodeId value = given == scene.initial.end() ? graph.constant(0) : Lowering(graph)(given->value);
+            start.emplace_back((fibre ? reduction_.system.algebroid.y : reduction_.system.algebroid.x)[i], value);
+        }
+    }
+    for (std::size_t k = 0; k < quotient.slice.frozen.size(); ++k) {
+        const std::size_t i = quotient.slice.frozen[k];
+        const NodeId here[] = {reduction_.system.algebroid.x[i]};
+        std::vector<NodeId> functions{*reduction_.system.lagrangian};
+        for (const std::vector<NodeId>& field : reduction_.action.fields)
+            functions.insert(functions.end(), field.begin(), field.end());
+        // All values of a cyclic coordinate are one.
+        if (start[i].second != quotient.slice.values[k] && depends_on_any(graph, functions, here)) return false;
+    }
+    try {
+        const std::vector<NodeId> u = substitute(graph, quotient.base, start);
+        const std::vector<NodeId> w = substitute(graph, quotient.group, start);
+        TomlValue initial;
+        const auto put = [&](const std::string& to, NodeId value) {
+            entry_in(initial, to) = toml_string(to_text(to_tree(graph, value)));
+        };
+        for (std::size_t j = 0; j < x_.size(); ++j) put(x_[j], start[quotient.free[j]].second);
+        for (std::size_t j = 0; j < u_.size(); ++j) put(u_[j], u[j]);
+        for (std::size_t b = 0; b < w_.size(); ++b) put(w_[b], w[b]);
+        entry_in(table, "initial") = std::move(initial);
+    } catch (const DivisionByZero&) {
+        return false;
+    }
+    return true;
+}
+
+/// Of what a scene shows the invariant columns are left; one that does not start on the slice is left out.
+void QuotientDocument::move_scenes(ReducedDocument& document) const
+{
+    std::vector<std::string> gone;
+    for (const Scene& scene : reduction_.model.scenes) {
+        TomlValue& table = document.scene(scene.name);
+        const auto like = std::ranges::find(table.entries, "like", &TomlEntry::name);
+        const bool follows =
+            like != table.entries.end() && std::ranges::find(gone, like->value.text.text) != gone.end();
+        if (follows || !move_start(scene, table)) {
+            gone.push_back(scene.name);
+            document.drop("scene", scene.name, fmt::format("the scene {}", scene.name));
+            continue;
+        }
+        for (const char* key : {"rest", "project", "observe", "events", "plot", "time_scale"})
+            std::erase_if(table.entries, [&](const TomlEntry& each) { return each.name() == key; });
+        std::vector<std::string> observed;
+        for (const NamedTree& each : scene.observe.value_or(std::vector<NamedTree>{}))
+            if (is_kept(each.value)) observed.push_back(each.name);
+        if (!observed.empty()) entry_in(table, "observe") = toml_list(observed);
+    }
+}
+
+std::string QuotientDocument::text(const Tree& lagrangian) const
+{
+    ReducedDocument document(reduction_.model, settings_, "by " + reduction_.group);
+    put_algebroid(document);
+    TomlValue& definitions = document.at("definitions");
+    for (const auto& [name, value] : definitions_) entry_in(definitions, name) = toml_string(value);
+    drop_claims(document);
+    entry_in(document.at("lagrangian"), "L") = toml_string(to_text(lagrangian));
+    move_scenes(document);
+    std::vector<std::string> slice;
+    for (std::size_t k = 0; k < reduction_.quotient.slice.frozen.size(); ++k)
+        slice.push_back(fmt::format("{} = {}",
+                                    reduction_.model.base.coordinates[reduction_.quotient.slice.frozen[k]].name,
+                                    to_text(to_tree(reduction_.graph, reduction_.quotient.slice.values[k]))));
+    return document.text(
+        fmt::format("# The quotient of {} by {}, cut by the slice {}. A motion is a point of the slice moved\n"
+                    "# by {}, and {} are the components of g^-1 g'.\n",
+                    std::filesystem::path(reduction_.model.file->name).filename().string(), reduction_.group,
+                    fmt::join(slice, ", "), reduction_.action.is_abelian ? "g" : "g^-1", fmt::join(w_, ", ")));
+}
+
+} // namespace lagen

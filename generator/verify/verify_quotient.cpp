@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "verify/verify_quotient.hpp"
+
+#include "graph/calculus/differentiate.hpp"
+#include "graph/calculus/transplant.hpp"
+#include "mechanics/routh.hpp"
+#include "mechanics/symmetry.hpp"
+#include "verify/judge.hpp"
+#include "verify/proof_setting.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace lagen {
+
+namespace {
+
+/// The derivative of f along the complete lift of a field X on Q: X^i df/dx^i + y^j (dX^i/dx^j) df/dy^i.
+NodeId along_lift(Graph& graph, const System& whole, const std::vector<NodeId>& X, NodeId f)
+{
+    const Algebroid& tangent = whole.algebroid;
+    Replacements along = replacements(tangent.x, X);
+    const std::vector<NodeId> rates = directional(graph, X, replacements(tangent.x, tangent.y));
+    for (std::size_t i = 0; i < rates.size(); ++i) along.emplace_back(tangent.y[i], rates[i]);
+    const NodeId only[] = {f};
+    return directional(graph, only, along)[0];
+}
+
+/// W ydot - f of the reduced system, over inputs of `graph` that have the same names.
+std::vector<NodeId> reduced_residuals(Graph& graph, const System& reduced, const Quotient& quotient,
+                                      const std::vector<NodeId>& x, const std::vector<NodeId>& u,
+                                      const std::vector<NodeId>& rates)
+{
+    Graph own = reduced.graph;
+    const LagrangianNodes lagrangian = lagrangian_nodes(own, reduced);
+    const LagrangeRates motion = lagrange_rates(own, reduced, lagrangian, lagrange_balance(own, reduced, lagrangian));
+    const std::size_t r = reduced.r();
+    std::map<NodeId, NodeId> inputs;
+    for (std::size_t j = 0; j < x.size(); ++j) {
+        inputs[reduced.algebroid.x[j]] = x[j];
+        inputs[reduced.algebroid.y[j]] = u[j];
+    }
+    for (std::size_t b = 0; b < quotient.w.size(); ++b) inputs[reduced.algebroid.y[x.size() + b]] = quotient.w[b];
+    const std::vector<NodeId> W = transplant(graph, own, lagrangian.fibre.hessian, inputs);
+    std::vector<NodeId> out = transplant(graph, own, motion.force, inputs);
+    for (std::size_t a = 0; a < r; ++a) {
+        out[a] = graph.negate(out[a]);
+        for (std::size_t b = 0; b < r; ++b) out[a] = graph.add(out[a], graph.multiply(W[a * r + b], rates[b]));
+    }
+    return out;
+}
+
+} // namespace
+
+bool is_invariant(Graph& graph, const System& whole, const InfinitesimalAction& action, NodeId f,
+                  const ProofBudget& budget)
+{
+    Judge judge(graph, proof_setting(graph, whole), accessory_inputs(whole), 0, budget);
+    return std::ranges::all_of(action.fields, [&](const std::vector<NodeId>& X) {
+        const NodeId rate = along_lift(graph, whole, X, f);
+        return graph.is_zero(rate) || judge.decide(rate).status == ProofStatus::proved;
+    });
+}
+
+StructureReport verify_symmetry(Graph& graph, const System& whole, const InfinitesimalAction& action,
+                                const std::vector<std::string>& names, const ProofBudget& budget)
+{
+    StructureReport report;
+    Judge judge(graph, proof_setting(graph, whole), accessory_inputs(whole), 0, budget);
+    for (std::size_t b = 0; b < action.fields.size(); ++b)
+        report.checks.push_back({"symmetry",
+                                 {names[b]},
+                                 judge.decide(along_lift(graph, whole, action.fields[b], *whole.lagrangian)),
+                                 {},
+                                 {}});
+    report.verdict = verdict_of(report);
+    return report;
+}
+
+StructureReport verify_quotient(Graph& graph, const System& whole, const InfinitesimalAction& action,
+                                const Quotient& quotient, const System& reduced, const ProofBudget& budget)
+{
+    StructureReport report;
+    const auto name_of = [&](std::size_t a) { return reduced.graph.input_name(reduced.algebroid.y[a]); };
+    std::vector<NodeId> x, u, rates;
+    for (const std::size_t i : quotient.free) {
+        x.push_back(whole.algebroid.x[i]);
+        u.push_back(whole.algebroid.y[i]);
+    }
+    for (std::size_t a = 0; a < reduced.r(); ++a) rates.push_back(graph.input(fmt::format("rate of {}", name_of(a))));
+    const auto middle = rates.begin() + static_cast<std::ptrdiff_t>(u.size());
+    const std::vector<NodeId> xddot =
+        accelerations(graph, whole, action, quotient, {rates.begin(), middle}, {middle, rates.end()});
+
+    // Lagrange's expressions of the whole at free accelerations, then on the slice.
+    std::vector<NodeId> free_rates;
+    std::vector<std::size_t> all(whole.n());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    for (const std::size_t i : all) free_rates.push_back(graph.input(fmt::format("rate number {}", i)));
+    std::vector<NodeId> expressions = euler_lagrange(graph, whole, *whole.lagrangian, all, free_rates);
+    Replacements there = quotient.on_slice(whole);
+    for (const std::size_t i : all) {
+        there.emplace_back(whole.algebroid.y[i], quotient.velocity[i]);
+        there.emplace_back(free_rates[i], xddot[i]);
+    }
+    expressions = substitute(graph, expressions, there);
+    const std::vector<NodeId> wanted = reduced_residuals(graph, reduced, quotient, x, u, rates);
+
+    ProofSetting setting = proof_setting(graph, whole);
+    setting.variables.insert(setting.variables.end(), rates.begin(), rates.end());
+    setting.variables.insert(setting.variables.end(), quotient.w.begin(), quotient.w.end());
+    setting.defined.push_back(graph.divide(graph.constant(1), quotient.determinant));
+    std::set<std::string> accessory = accessory_inputs(whole);
+    for (const NodeId node : setting.variables) accessory.insert(graph.input_name(node));
+    Judge judge(graph, setting, std::move(accessory), 0, budget);
+    for (std::size_t a = 0; a < reduced.r(); ++a) {
+        NodeId sum = graph.negate(wanted[a]);
+        if (a < u.size())
+            sum = graph.add(sum, expressions[quotient.free[a]]);
+        else
+            for (const std::size_t i : all)
+                sum = graph.add(sum, graph.multiply(quotient.xi[a - u.size()][i], expressions[i]));
+        report.checks.push_back({"projects", {name_of(a)}, judge.decide(sum), {}, {}});
+    }
+    report.verdict = verdict_of(report);
+    return report;
+}
+
+} // namespace lagen

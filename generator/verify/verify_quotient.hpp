@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// That a reduced model on TQ/G has the motions of an invariant Lagrangian.
+#pragma once
+
+#include "mechanics/quotient.hpp"
+#include "verify/verify.hpp"
+
+namespace lagen {
+
+/// Whether a function f(t, x, y) on TQ is invariant, xi_b^c(f) = 0 for the generator number b; false where a proof is
+/// not found.
+[[nodiscard]] bool is_invariant(Graph& graph, const System& whole, const InfinitesimalAction& action, NodeId f,
+                                const ProofBudget& budget = {});
+
+/// A check `symmetry` (w) a generator: the complete lift of xi_b leaves L.
+[[nodiscard]] StructureReport verify_symmetry(Graph& graph, const System& whole, const InfinitesimalAction& action,
+                                              const std::vector<std::string>& names, const ProofBudget& budget = {});
+
+/// A check `projects` a fibre coordinate of `reduced`, whose base coordinates, horizontal sections and generators stand
+/// in the order of `quotient`: its Lagrange expression is that of the whole along d/dm^i, s xi_b, at the points of the
+/// slice, for all velocities and accelerations. Nothing is taken from the theorem: two derivations are compared.
+[[nodiscard]] StructureReport verify_quotient(Graph& graph, const System& whole, const InfinitesimalAction& action,
+                                              const Quotient& quotient, const System& reduced,
+                                              const ProofBudget& budget = {});
+
+} // namespace lagen

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// `lagen reduce --group`: the file that it writes, its motions beside those of the whole model, and what is refused.
+#include "program.hpp"
+
+#include "support/json.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <map>
+
+using namespace lagen::testing;
+namespace json = lagen::json;
+
+namespace {
+
+const std::string beanie_on_tangent = std::string(LAGEN_SOURCE_DIR) + "/models/morphisms/elroys_beanie_unreduced.toml";
+
+/// Left multiplication of the pose (th, x, y) by W^-1.
+const std::string motions_of_plane = "th = th - atan2(W[2,1], W[1,1]), x = W[1,1]*(x - W[1,3]) + W[2,1]*(y - W[2,3]), "
+                                     "y = W[1,1]*(y - W[2,3]) - W[2,1]*(x - W[1,3])";
+
+/// Two points in space under forces along the sides of the triangle that they make with the origin.
+const std::string two_points = R"toml([parameters]
+m = 2
+k = 0.7
+[base]
+coordinates = ["a[1..3]", "b[1..3]"]
+[algebroid]
+kind = "tangent"
+[lagrangian]
+L = "m*dot(v_a, v_a)/2 + dot(v_b, v_b)/2 - k*dot(a, b)^2/2 - dot(a, a) - 1/sqrt(dot(b, b))"
+[invariants]
+momentum = "m*(a[1]*v_a[2] - a[2]*v_a[1]) + b[1]*v_b[2] - b[2]*v_b[1]"
+square = "dot(m*cross(a, v_a) + cross(b, v_b), m*cross(a, v_a) + cross(b, v_b))"
+[observables]
+distance = "sqrt(dot(a - b, a - b))"
+first = "a[1]"
+[scene.default]
+initial = { a = [0.9, 0, 0], b = [0.2, 1.1, 0], v_a = [0.1, 0.4, 0.3], v_b = [-0.3, 0.2, 0.5] }
+duration = 4
+observe = ["distance", "energy", "first", "a[1]*a[1] + dot(b, b)", "sqrt(dot(a, a))"]
+)toml";
+
+std::string written_model(const std::string& name, const std::string& text)
+{
+    const std::string path = fresh_folder() + "/" + name;
+    write_text(path, text);
+    return path;
+}
+
+/// The names and indices of the checks of a report, with those that are not proved marked by "!".
+std::vector<std::string> named_checks(const json::Value& report)
+{
+    std::vector<std::string> lines;
+    for (const json::Value& check : report["checks"].entries) {
+        std::string line = (check["status"].text == "proved" ? "" : "!") + check["name"].text;
+        for (const json::Value& index : check["indices"].entries) line += " " + index.text;
+        lines.push_back(line);
+    }
+    return lines;
+}
+
+/// The last row of the default scene at tolerance 1e-13, by the names of its columns.
+std::map<std::string, double> last_row(const std::string& model)
+{
+    const Outcome outcome = call({"run", model, "--tolerance", "1e-13", "--format", "json"});
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    const json::Value run = json::parse(outcome.out);
+    std::map<std::string, double> row;
+    for (std::size_t k = 0; k < run["columns"].size(); ++k)
+        row[run["columns"][k].text] = std::stod(run["rows"].entries.back()[k].text);
+    return row;
+}
+
+} // namespace
+
+TEST_CASE("Elroy's beanie is reduced by the motions of the plane to an Atiyah algebroid over its shapes", "[run]")
+{
+    const std::string reduced = fresh_folder() + "/beanie.toml";
+    const Outcome outcome = call({"reduce", beanie_on_tangent, "--group", "SE(2)", "--action", motions_of_plane,
+                                  "--format", "json", "-o", reduced});
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    const json::Value report = json::parse(outcome.out);
+    CHECK(report["verdict"].text == "valid");
+    CHECK(report["lagrangian"].text == "I1*w1^2/2 + I2*(v_ps + w1)^2/2 + M*(w2^2 + w3^2)/2 + k*(cos(ps) - 1)");
+    CHECK(named_checks(report) == std::vector<std::string>{"anchor w1 w2 y", "anchor w1 w3 x", "symmetry w1",
+                                                           "symmetry w2", "symmetry w3", "projects v_ps", "projects w1",
+                                                           "projects w2", "projects w3"});
+    CHECK(read_text(reduced) == report["file"].text);
+    CHECK(
+        read_text(reduced) ==
+        R"toml(# The quotient of elroys_beanie_unreduced.toml by SE(2), cut by the slice th = 0.3, x = 0, y = 0. A motion is a point of the slice moved
+# by g^-1, and w1, w2, w3 are the components of g^-1 g'.
+
+title = "Elroy's beanie on TQ, reduced by SE(2)"
+
+[parameters]
+I1 = 1.3
+I2 = 0.5
+M = 2
+k = 0.9
+
+[base]
+coordinates = ["ps"]
+domain = ["I1 > 0", "I2 > 0", "M > 0"]
+
+[fibre]
+coordinates = ["v_ps", "w1", "w2", "w3"]
+
+[algebroid]
+kind = "atiyah"
+algebra = "se(2)"
+
+[definitions]
+th = "0.3"
+x = "0"
+y = "0"
+v_th = "w1"
+v_x = "w2"
+v_y = "w3"
+
+[lagrangian]
+L = "I1*w1^2/2 + I2*(v_ps + w1)^2/2 + M*(w2^2 + w3^2)/2 + k*(cos(ps) - 1)"
+
+[invariants]
+spin = "I1*v_th + I2*(v_th + v_ps)"
+
+[scene.default]
+initial = { ps = "2/5", v_ps = "6/5", w1 = "0.7", w2 = "1/2", w3 = "-0.3" }
+duration = 10
+)toml");
+    CHECK(call({"check", reduced}).code == 0);
+    std::map<std::string, double> whole = last_row(beanie_on_tangent), part = last_row(reduced);
+    CHECK(std::abs(whole["ps"] - part["ps"]) < 1e-11);
+    CHECK(std::abs(whole["v_th"] - part["w1"]) < 1e-11);
+    // The body sees what the whole model has in fixed axes; its pose was 0.3 at the start, where the slice cuts.
+    const double turned = whole["th"] - 0.3;
+    CHECK(std::abs(std::cos(turned) * whole["v_x"] + std::sin(turned) * whole["v_y"] - part["w2"]) < 1e-11);
+    CHECK(std::abs(std::cos(turned) * whole["v_y"] - std::sin(turned) * whole["v_x"] - part["w3"]) < 1e-11);
+}
+
+TEST_CASE("two points in space are reduced by rotations: what is not invariant is left out, and motions agree", "[run]")
+{
+    const std::string whole = written_model("points.toml", two_points), reduced = fresh_folder() + "/reduced.toml";
+    const Outcome outcome = call(
+        {"reduce", whole, "--group", "SO(3)", "--action", "a = transpose(W)*a, b = transpose(W)*b", "-o", reduced});
+    CHECK(outcome.code == 0);
+    CHECK(outcome.err ==
+          "points: reduced by SO(3): valid\n"
+          "  a = [a_1, 0, 0]\n"
+          "  b = [b_1, b_2, 0]\n"
+          "  v_a = [v_a_1, w3*a_1, -w2*a_1]\n"
+          "  v_b = [u_b_1 - w3*b_2, u_b_2 + w3*b_1, w1*b_2 - w2*b_1]\n"
+          "  L = m*(a_1^2*w2^2 + a_1^2*w3^2 + v_a_1^2)/2 - k*a_1^2*b_1^2/2 - a_1^2 - 1/sqrt(b_1^2 + b_2^2) "
+          "+ (b_1*w2 - b_2*w1)^2/2 + (b_1*w3 + u_b_2)^2/2 + (b_2*w3 - u_b_1)^2/2\n");
+    const std::string text = read_text(reduced);
+    CHECK(text.find("# Left out: the invariant momentum, the observable first.\n") != std::string::npos);
+    CHECK(text.find("domain = [\"b_2*a_1^2 != 0\"]\n") != std::string::npos);
+    CHECK(text.find("observe = [\"distance\", \"energy\", \"sqrt(dot(a, a))\"]\n") != std::string::npos);
+    CHECK(call({"check", reduced}).out.find("reduced: valid\n") == 0);
+    std::map<std::string, double> points = last_row(whole), triangle = last_row(reduced);
+    for (const char* name : {"distance", "energy", "sqrt(dot(a, a))"})
+        CHECK(std::abs(points.at(name) - triangle.at(name)) < 1e-10);
+}
+
+TEST_CASE("where every coordinate is moved the quotient is a Lie algebra, on the slice that one names")
+{
+    const std::string sledge = written_model("sledge.toml", R"toml([parameters]
+m = 2
+J = 0.4
+[base]
+coordinates = ["th", "x", "y"]
+[algebroid]
+kind = "tangent"
+[lagrangian]
+L = "J*v_th^2/2 + m*(v_x^2 + v_y^2)/2 + 0.3*(cos(th)*v_x + sin(th)*v_y)^2"
+)toml");
+    const Outcome outcome =
+        call({"reduce", sledge, "--group", "SE(2)", "--action", motions_of_plane, "--slice", "th = 0, x = 0, y = 0"});
+    CHECK(outcome.code == 0);
+    CHECK(outcome.out.find("[fibre]\ncoordinates = [\"w1\", \"w2\", \"w3\"]\n\n[algebroid]\nkind = \"lie_algebra\"\n"
+                           "algebra = \"se(2)\"\n") != std::string::npos);
+    CHECK(outcome.out.find("L = \"m*w3^2/2 + J*w1^2/2 + (5*m + 3)*w2^2/10\"\n") != std::string::npos);
+}
+
+TEST_CASE("a left action, and one that changes L, are refuted; nothing is written")
+{
+    const std::string whole = written_model("points.toml", two_points);
+    const Outcome left = call({"reduce", whole, "--group", "SO(3)", "--action", "a = W*a, b = W*b"});
+    CHECK(left.code == 1);
+    CHECK(left.out.empty());
+    CHECK(left.err.find("points: reduced by SO(3): invalid\n  x.W is no right action\n") == 0);
+    CHECK(left.err.find("this is a left action") != std::string::npos);
+    const Outcome one = call({"reduce", whole, "--group", "SO(3)", "--action", "a = transpose(W)*a"});
+    CHECK(one.code == 1);
+    CHECK(one.out.empty());
+    CHECK(one.err.find("points: reduced by SO(3): invalid\n  the action does not leave L as it is\n\n"
+                       "refuted: symmetry (w1)\n") == 0);
+}
+
+TEST_CASE("orbits that are smaller than the group have no slice")
+{
+    const std::string point = written_model("point.toml", R"toml([base]
+coordinates = ["a[1..3]"]
+[algebroid]
+kind = "tangent"
+[lagrangian]
+L = "dot(v_a, v_a)/2 - dot(a, a)"
+)toml");
+    const Outcome outcome = call({"reduce", point, "--group", "SO(3)", "--action", "a = transpose(W)*a"});
+    CHECK(outcome.code == 1);
+    CHECK(outcome.err == "error: no slice of its coordinates cuts the orbits of SO(3) on model 'point' in points: the "
+                         "group has dimension 3\n"
+                         "hint: the group acts freely where orbits are as large as it is; --slice 'x=1, y=0' names "
+                         "coordinates and values\n");
+}
+
+TEST_CASE("what a reduction by a group does not take is said")
+{
+    const std::string whole = written_model("points.toml", two_points);
+    CHECK(call({"reduce", whole, "--group", "SO(3)"}).err ==
+          "lagen reduce: --group needs --action, how an element W moves the coordinates\n");
+    CHECK(call({"reduce", whole, "--action", "a = a"}).err == "lagen reduce: --action goes with --group\n");
+    CHECK(call({"reduce", whole, "--slice", "a = 0"}).err == "lagen reduce: --slice goes with --group\n");
+    CHECK(call({"reduce", whole, "--group", "SO(3)", "--action", "a = transpose(W)*a, b = transpose(W)*b", "--slice",
+                "c = 0"})
+              .err == "lagen reduce: 'c' of --slice is no coordinate of model 'points'\n");
+    CHECK(
+        call({"reduce", models_folder() + "/rigid_body.toml", "--group", "SO(3)", "--action", "x = x"})
+            .err.find("error: a reduction by a group takes a Lagrangian on a tangent bundle, and model 'rigid_body' is "
+                      "something else\n") == 0);
+    const std::string slid = written_model("slid.toml", R"toml([base]
+coordinates = ["x", "y"]
+domain = ["x > 0"]
+[algebroid]
+kind = "tangent"
+[lagrangian]
+L = "(v_x^2 + v_y^2)/2 - y^2"
+)toml");
+    const Outcome outcome = call({"reduce", slid, "--group", "R", "--action", "x = x + W[1,2]"});
+    CHECK(outcome.code == 1);
+    CHECK(outcome.err.find("error: the domain of model 'slid' is not invariant under R: x > 0\n") == 0);
+}
