@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The record of a model file: names in the order of the file, exact numbers, closed trees, positions.
 /// It knows no geometry: the bracket of a `tangent` algebroid is simply absent here.
-/// Families are flattened: the entries x[1], x[2], .. of a family are symbols of the lists below, in order; `families`
-/// remembers which belong together.
+/// Families are flattened: their entries are symbols of the lists below, in order; `families` joins them.
 #pragma once
 
 #include "expression/scope.hpp"
@@ -167,14 +166,13 @@ struct Event {
     SourceRange where;
 };
 
-/// Where rows are wanted: every `interval`, `count` even ones, at these times, or at each crossing of an event. None:
-/// 201 even ones.
+/// Where rows are wanted: every `interval`, `count` even ones, at these times, or at each crossing of an event.
 struct Sampling {
-    enum class Kind { standard, interval, count, at, event } kind = Kind::standard;
+    enum class Kind { standard, interval, count, at, event } kind = Kind::standard; ///< standard: 201 even ones
     Tree interval;
     std::size_t count = 201;
     std::vector<Tree> at = {};
-    std::string event = {}; ///< its name
+    std::string event = {};
     SourceRange event_where = {};
 };
 
@@ -200,7 +198,7 @@ struct Plot {
 
 /// A CSV file with a column t and others called like inputs, whose values are held between its rows.
 struct InputTable {
-    std::string path; ///< as the scene has it, relative to the model file
+    std::string path; ///< relative to the model file
     SourceRange where;
 };
 
