@@ -83,11 +83,22 @@ void body_json(JsonWriter& json, const VerifiedMorphism& verified)
     json.end_array();
 }
 
+void decide_equal(VerifiedMorphism& verified, const MorphismFile& file, const SystemMorphism& map)
+{
+    for (const MorphismFile& other : file.equals)
+        append_equality(verified.map.structure, map, elaborate_whole(other));
+}
+
 } // namespace
 
 VerifiedMorphism verify_morphism(const MorphismFile& file, std::size_t points)
 {
-    if (file.stages.empty()) return verify_one(file, elaborate(file), nullptr, points);
+    if (file.stages.empty()) {
+        const SystemMorphism map = elaborate(file);
+        VerifiedMorphism verified = verify_one(file, map, nullptr, points);
+        decide_equal(verified, file, map);
+        return verified;
+    }
     std::vector<VerifiedMorphism> stages;
     std::optional<SystemMorphism> whole;
     for (const MorphismFile& stage : file.stages) {
@@ -101,6 +112,7 @@ VerifiedMorphism verify_morphism(const MorphismFile& file, std::size_t points)
     verified.source_name = stages.front().source_name;
     verified.target_name = stages.back().target_name;
     verified.map = verify(*whole, points);
+    decide_equal(verified, file, *whole);
     verified.source = stages.front().source;
     verified.target = stages.back().target;
     verified.stages = std::move(stages);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The record of a morphism file: two models and the map between them, or morphisms that follow each other.
-///   [morphism]  source, target, base, fibre, parameters, controls, element;  or  compose
+///   [morphism]  source, target, base, fibre, parameters, controls, element;  or  compose;  and  equals
 #pragma once
 
 #include "model/model.hpp"
@@ -18,7 +18,8 @@ struct MorphismFile {
     std::vector<Tree> element;  ///< W' by rows, over the coordinates of an arrow of the source; empty where left out
     std::vector<Tree> parameters; ///< one a free parameter of the target, over those of the source; null: the source's
                                   ///< of the same name, or none that the source knows
-    std::vector<MorphismFile> stages; ///< of `compose`: the first is done first; then there is nothing else
+    std::vector<MorphismFile> stages; ///< of `compose`: the first is done first; then there is no map beside
+    std::vector<MorphismFile> equals; ///< one that is claimed to be the same map, or none
 };
 
 /// The model where the map, or its first stage, starts; and that where the map, or its last stage, ends.

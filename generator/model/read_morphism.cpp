@@ -148,6 +148,8 @@ std::vector<Tree> read_element(const MapReader& reader, const TomlEntry& entry)
 
 std::vector<MorphismFile> read_stages(const MorphismFile& morphism, const TomlEntry& compose,
                                       const std::vector<Setting>& settings, const Choosers& choosers, int depth);
+MorphismFile read_equal(const MorphismFile& morphism, const TomlEntry& entry, const std::vector<Setting>& settings,
+                        const Choosers& choosers, int depth);
 
 MorphismFile read_morphism_file(const std::shared_ptr<const SourceFile>& file, const std::vector<Setting>& settings,
                                 const Choosers& choosers, int depth)
@@ -168,9 +170,11 @@ MorphismFile read_morphism_file(const std::shared_ptr<const SourceFile>& file, c
         return morphism;
     }
     TableReader table(block->value, "[morphism]");
+    const TomlEntry* equals = table.take("equals");
     if (const TomlEntry* compose = table.take("compose")) {
         table.finish();
         morphism.stages = read_stages(morphism, *compose, settings, choosers, depth);
+        if (equals != nullptr) morphism.equals = {read_equal(morphism, *equals, settings, choosers, depth)};
         return morphism;
     }
     const TomlEntry* source = table.take("source");
@@ -183,6 +187,7 @@ MorphismFile read_morphism_file(const std::shared_ptr<const SourceFile>& file, c
     table.finish();
     morphism.source = read_end(morphism, source, "source", block->where(), settings, choosers);
     morphism.target = read_end(morphism, target, "target", block->where(), {}, choosers);
+    if (equals != nullptr) morphism.equals = {read_equal(morphism, *equals, settings, choosers, depth)};
 
     const MapReader reader{morphism};
     const Model& from = morphism.source;
@@ -258,6 +263,26 @@ std::vector<MorphismFile> read_stages(const MorphismFile& morphism, const TomlEn
         std::ranges::move(parts, std::back_inserter(stages));
     }
     return stages;
+}
+
+/// A morphism between the same two models.
+MorphismFile read_equal(const MorphismFile& morphism, const TomlEntry& entry, const std::vector<Setting>& settings,
+                        const Choosers& choosers, int depth)
+{
+    if (depth >= deepest_composition)
+        throw ModelError(fmt::format("morphisms are made of each other more than {} deep", deepest_composition),
+                         entry.where(), "a file may not be part of itself");
+    const auto file = file_beside(morphism, entry.value, "'equals' of [morphism]");
+    if (!is_morphism(file)) throw ModelError(fmt::format("{} has no [morphism]", quote(file->name)), entry.value.where);
+    MorphismFile other = read_morphism_file(file, settings, choosers, depth + 1);
+    const auto ends = [](const MorphismFile& each) {
+        return fmt::format("from {} to {}", quote(source_of(each).file->name), quote(target_of(each).file->name));
+    };
+    if (ends(other) != ends(morphism))
+        throw ModelError(fmt::format("{} leads {}, and this morphism leads {}", quote(file->name), ends(other),
+                                     ends(morphism)),
+                         entry.value.where, "maps are equal where they have the same two ends");
+    return other;
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include "verify/verify_morphism.hpp"
 
 #include "graph/calculus/differentiate.hpp"
+#include "graph/calculus/transplant.hpp"
 #include "verify/judge.hpp"
 #include "verify/mapped_systems.hpp"
 #include "verify/proof_setting.hpp"
@@ -189,6 +190,33 @@ Verdict worse(Verdict a, Verdict b)
 MorphismReport verify(const SystemMorphism& morphism, std::size_t points, const ProofBudget& budget)
 {
     return MorphismClaims(morphism, points, budget).run();
+}
+
+void append_equality(StructureReport& structure, const SystemMorphism& morphism, const SystemMorphism& other,
+                     const ProofBudget& budget)
+{
+    MappedSystems both(morphism);
+    Judge judge(both.graph, both.setting(), accessory_inputs(both.from()), 0, budget);
+    const auto compare = [&](const std::vector<NodeId>& mine, const std::vector<NodeId>& theirs, const auto& name_of) {
+        if (mine.size() != theirs.size()) return;
+        const std::vector<NodeId> moved = transplant(both.graph, other.source.graph, theirs, {});
+        for (std::size_t k = 0; k < mine.size(); ++k) {
+            const NodeId residual = both.graph.subtract(mine[k], moved[k]);
+            if (both.graph.is_zero(residual))
+                ++structure.trivial;
+            else
+                structure.checks.push_back({"equals", {name_of(k)}, judge.decide(residual), {}, {}});
+        }
+    };
+    const System& to = both.to();
+    const auto names_of = [&](const std::vector<NodeId>& inputs) {
+        return [&](std::size_t k) { return to.graph.input_name(inputs[k]); };
+    };
+    compare(morphism.base, other.base, names_of(to.algebroid.x));
+    compare(morphism.fibre, other.fibre, names_of(to.algebroid.y));
+    if (to.control) compare(morphism.controls, other.controls, names_of(to.control->u));
+    if (to.groupoid) compare(morphism.element, other.element, names_of(to.groupoid->arrow.W));
+    structure.verdict = verdict_of(structure);
 }
 
 } // namespace lagen

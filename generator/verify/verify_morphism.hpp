@@ -10,6 +10,7 @@
 ///   unit         W' = 1 at the arrows 1                                               (row, column)
 ///   element      dW' is in the algebra of the target's group there, and W' in the group then
 ///   fibre        the fibre map that is given is that of the arrows                    (a, b)
+///   equals       Phi is another map that it is claimed to be                           (coordinate)
 /// The rank of Phi^a_b stands outside of the verdict.                                          [Martinez 2001]
 #pragma once
 
@@ -35,6 +36,10 @@ struct MorphismReport {
 /// Of the map alone; the models are verified by `verify` of each. `points` as there.
 [[nodiscard]] MorphismReport verify(const SystemMorphism& morphism, std::size_t points = 0,
                                     const ProofBudget& budget = {});
+
+/// Decides that `morphism` is the map `other` between the same systems: phi^i, y'^a, u' and W' where both give them.
+void append_equality(StructureReport& structure, const SystemMorphism& morphism, const SystemMorphism& other,
+                     const ProofBudget& budget = {});
 
 /// The worse of two: invalid, undecided, valid.
 [[nodiscard]] Verdict worse(Verdict a, Verdict b);
