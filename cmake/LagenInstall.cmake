@@ -1,5 +1,6 @@
 # What `cmake --install` leaves: bin/lagen, include/lagen, lib/cmake/lagen, share/lagen/models, share/lagen/program (what
-# `lagen run` compiles around a header), the licences.
+# `lagen run` compiles around a header), the manual page, completion for bash and zsh, and README, docs and licences in
+# share/doc/lagen.
 include(CMakePackageConfigHelpers)
 
 set(LAGEN_INSTALL_CMAKE "${CMAKE_INSTALL_LIBDIR}/cmake/lagen")
@@ -22,5 +23,11 @@ install(DIRECTORY runtime/include/lagen DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} 
 if(TARGET lagen)
   install(DIRECTORY runtime/program/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lagen/program FILES_MATCHING PATTERN "*.hpp")
 endif()
+if(TARGET lagen AND NOT CMAKE_CROSSCOMPILING) # scripts/command-pages asks the program
+  install(FILES ${PROJECT_BINARY_DIR}/pages/lagen.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+  install(FILES ${PROJECT_BINARY_DIR}/pages/lagen DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+  install(FILES ${PROJECT_BINARY_DIR}/pages/_lagen DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+endif()
 install(DIRECTORY models/ DESTINATION ${LAGEN_INSTALL_MODELS} FILES_MATCHING PATTERN "*.toml")
-install(FILES LICENSE.md LICENSES/GPL-2.0-or-later.txt LICENSES/MIT.txt DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES README.md CHANGELOG.md LICENSE.md LICENSES/GPL-2.0-or-later.txt LICENSES/MIT.txt DESTINATION ${CMAKE_INSTALL_DOCDIR})

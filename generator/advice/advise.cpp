@@ -8,6 +8,16 @@
 
 namespace lagen {
 
+namespace {
+
+/// To a Casimir for which no repair was found: it may be no Casimir at all, but a joint.
+constexpr const char* casimir_hint =
+    "a Casimir is constant along all motions of the algebroid, whatever L is: rho(e) of it is 0 for each section e. "
+    "What "
+    "holds on M alone, as a joint of a linkage does, is one of [base] constraints; kind = \"level_set\" takes any";
+
+} // namespace
+
 void advise(const System& system, Report& report, const ProofBudget& budget)
 {
     if (system.written.algebroid.r() != system.r()) return;
@@ -25,7 +35,11 @@ void advise(const System& system, Report& report, const ProofBudget& budget)
     RepairSearch search(graph, partial, judge, system.written.algebroid, system.algebroid, system.functions,
                         system.editable);
     const std::vector<std::string> hints = search.hints(list);
-    for (std::size_t k = 0; k < hints.size(); ++k) report.structure.checks[k].hint = hints[k];
+    for (std::size_t k = 0; k < hints.size(); ++k) {
+        Check& check = report.structure.checks[k];
+        const bool casimir = check.name == "casimir" && check.decision.status == ProofStatus::refuted;
+        check.hint = hints[k].empty() && casimir ? casimir_hint : hints[k];
+    }
 }
 
 } // namespace lagen

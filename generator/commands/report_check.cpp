@@ -3,10 +3,12 @@
 
 #include "commands/describe_check.hpp"
 #include "commands/report_nonholonomic.hpp"
+#include "model/families.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
+#include <map>
 #include <set>
 
 namespace lagen {
@@ -35,7 +37,7 @@ std::string values_text(const Values& values, const char* prefix)
     return text;
 }
 
-std::string point_text(const NamedPoint& point)
+std::string witness_text(const NamedPoint& point)
 {
     return point.empty() ? "every point" : values_text(point, "");
 }
@@ -96,22 +98,37 @@ std::string failure_text(const Check& check, bool with_hint)
     if (const std::string equation = equation_text(check); !equation.empty()) text += fmt::format("  {}\n", equation);
     if (!decision.residual.empty()) text += fmt::format("  residual {}\n", decision.residual);
     if (decision.witness)
-        text += fmt::format("  at {}: {:.17g}\n", point_text(decision.witness->point), decision.witness->value);
+        text += fmt::format("  at {}: {:.17g}\n", witness_text(decision.witness->point), decision.witness->value);
     if (!decision.evidence.empty()) text += fmt::format("  known: {}\n", decision.evidence);
     if (with_hint) text += fmt::format("  hint: {}\n", check.hint);
     return text;
 }
 
-/// Checks with a status, a hint only where it first occurs.
+/// "casimir f" of what one line of the model claims, an entry f[1,2] too; empty of every other check.
+std::string claim_of(const Check& check)
+{
+    if (check.name != "casimir" && check.name != "invariant") return "";
+    return check.name + " " + family_name(check.indices.back());
+}
+
+/// Checks with a status, a hint only where it first occurs; of one claim the first three.
 std::string failures_text(const StructureReport& structure, ProofStatus status)
 {
-    constexpr std::size_t most = 20;
+    constexpr std::size_t most = 20, most_of_claim = 3;
     std::string text;
     std::set<std::string> hints = {""};
+    std::map<std::string, std::size_t> of_claim;
     std::size_t count = 0;
-    for (const Check& check : structure.checks)
-        if (check.decision.status == status && ++count <= most)
-            text += failure_text(check, hints.insert(check.hint).second);
+    for (const Check& check : structure.checks) {
+        if (check.decision.status != status) continue;
+        const std::string claim = claim_of(check);
+        if (!claim.empty() && ++of_claim[claim] > most_of_claim) continue;
+        if (++count <= most) text += failure_text(check, hints.insert(check.hint).second);
+    }
+    for (const auto& [claim, entries] : of_claim)
+        if (entries > most_of_claim)
+            text += fmt::format("\nand {} more of {} {} {}; --format json lists them all\n", entries - most_of_claim,
+                                claim, entries == most_of_claim + 1 ? "is" : "are", to_text(status));
     if (count > most)
         text += fmt::format("\n{} more are {}; --format json lists them all\n", count - most, to_text(status));
     return text;
@@ -171,7 +188,7 @@ std::string regularity_text(const Regularity& regularity)
     if (regularity.singular_everywhere)
         text += fmt::format("  {:<16}singular everywhere for the parameter values of the file\n", "");
     for (const NamedPoint& point : regularity.singular_at)
-        text += fmt::format("  {:<16}singular at {}\n", "", point_text(point));
+        text += fmt::format("  {:<16}singular at {}\n", "", witness_text(point));
     if (!regularity.coordinates.empty()) text += fmt::format("  {:<16}{}\n", "", regularity.coordinates);
     return text;
 }

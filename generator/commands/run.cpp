@@ -5,7 +5,7 @@
 #include "commands/line/options.hpp"
 #include "commands/machine/places.hpp"
 #include "commands/machine/write_file.hpp"
-#include "commands/plot/draw_scene.hpp"
+#include "commands/plot/overlay.hpp"
 #include "commands/run_morphism.hpp"
 #include "commands/scene/range.hpp"
 #include "commands/scene/scene_options.hpp"
@@ -20,6 +20,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <list>
+#include <unistd.h>
 
 namespace lagen {
 
@@ -30,9 +32,11 @@ const std::string run_form_help = form_list() + "; without it the scene's, else 
 const CommandSyntax run_syntax{
     "run",
     "MODEL",
-    "Generates, compiles and integrates a scene. CSV on standard output unless --output, --plot or --format json. Of a "
-    "morphism "
-    "file: a scene of the source, the motion of the target from the image of its start, and how far they are apart.",
+    "Generates, compiles and integrates a scene. CSV on standard output unless --output or --format json, or --plot on "
+    "a "
+    "terminal. Of a morphism file: a scene of the source, the motion of the target from the image of its start, and "
+    "how "
+    "far they are apart.",
     {{"scene", "NAME", "the scene; without it `default`, else the first"},
      {"form", "FORM", run_form_help.c_str()},
      {"method", "METHOD", "see `lagen methods`; without it the scene's, else dop853"},
@@ -64,6 +68,8 @@ const CommandSyntax run_syntax{
      {"equal", nullptr, "curves have one scale on all axes"},
      {"points", nullptr, "curves are the points at the rows, with nothing between them"},
      {"sphere", nullptr, "curves in space lie on a sphere around the origin"},
+     {"like", "NAME", "--plot draws what [scene.NAME.plot] says"},
+     {"overlay", "NAME,..", "scenes that --plot draws as well, in the same panels (may be repeated)"},
      {"reconstruct", nullptr,
       "of a morphism that is bijective on the fibres: lift the motion of the target to the source too"},
      {"unchecked", nullptr, "go on although the model is refuted"},
@@ -95,16 +101,36 @@ std::uint64_t branch_of(const Options& options, const Scene& scene, const SceneV
     return branch;
 }
 
-void tell(const Options& options, const RunOutcome& outcome, bool as_json)
+/// `picture`: what was drawn, or "". Where there is one a terminal is spared the rows.
+void tell(const Options& options, const RunOutcome& outcome, const std::string& picture, bool as_json)
 {
     if (as_json) {
         write_standard_output(report_json(outcome));
     } else {
-        if (!options.has("output") && !options.has("plot")) write_standard_output(to_csv(outcome.table));
+        const bool spared = !picture.empty() && !options.has("output") && ::isatty(STDOUT_FILENO) == 1;
+        if (!options.has("output") && !spared) write_standard_output(to_csv(outcome.table));
         write_standard_error(report_text(outcome));
-        if (options.has("plot")) write_standard_error(fmt::format("  picture in {}\n", options.get("plot")));
+        if (!picture.empty())
+            write_standard_error(fmt::format("  picture in {}: {}{}\n", options.get("plot"), picture,
+                                             spared ? "; the rows as CSV: -o FILE.csv, or into a pipe" : ""));
     }
     write_standard_error(drift_warnings(outcome));
+}
+
+/// What --plot draws, told; `whole` becomes false where one of the runs drawn beside did not come to its end.
+std::string draw(const Options& options, const SceneRun& run, const RunOutcome& outcome,
+                 const std::vector<std::string>& overlaid, bool& whole)
+{
+    if (!options.has("plot")) return "";
+    std::vector<PlottedRun> runs{{run.checked().model, run.scene(), run.record(), run.input(), outcome.table.count}};
+    std::list<OverlaidRun> others;
+    for (const std::string& name : overlaid) {
+        const OverlaidRun& other = others.emplace_back(options, run.checked(), run.scene(), name);
+        runs.push_back(other.plotted());
+        whole = whole && succeeded(other.outcome().status);
+        write_standard_error(report_text(other.outcome()) + drift_warnings(other.outcome()));
+    }
+    return draw_scene(runs, options.get("plot"));
 }
 
 } // namespace
@@ -117,7 +143,7 @@ ExitCode run_run(Arguments arguments)
     if (options.has("form")) (void)options.choice("form", form_names());
     if (options.has("plot")) require_plot_format(options.get("plot"));
     if (options.has("output")) require_no_picture(options.get("output"));
-    for (const char* word : {"curves", "equal", "points", "sphere"})
+    for (const char* word : {"curves", "equal", "points", "sphere", "like", "overlay"})
         if (options.has(word) && !options.has("plot"))
             throw UsageError(fmt::format("lagen run: --{} says what --plot draws: give --plot FILE.svg as well", word));
     for (const char* file : {"output", "plot"})
@@ -141,6 +167,7 @@ ExitCode run_run(Arguments arguments)
         bind_in_scene(checked.model, find_scene(model, options.get("scene")));
     const std::optional<AccurateMethod> accurate = accurate_method(options, checked, path);
     Scene scene = scene_of(options, model, options.named("initial"));
+    const std::vector<std::string> overlaid = overlaid_scenes(options, model, scene);
     const bool stretch = options.has("at") && !options.has("t-end");
     const VariationRequest variations = variations_of(options);
     std::vector<std::string> beside;
@@ -152,15 +179,14 @@ ExitCode run_run(Arguments arguments)
     if (options.has("branch")) run.input().branch = branch_of(options, scene, evaluate_scene(model, scene));
     run.prepare(std::move(scene), method, stretch);
 
-    const bool confirmed = !accurate || confirm_accuracy(*accurate, run.record(), run.input());
+    bool whole = !accurate || confirm_accuracy(*accurate, run.record(), run.input());
 
     RunOutcome outcome = run.integrate();
     outcome.action = action_report(outcome, variations);
     if (options.has("output")) write_file(options.get("output"), to_csv(outcome.table));
-    if (options.has("plot"))
-        draw_scene({model, run.scene(), run.record(), run.input(), outcome.table.count}, options.get("plot"));
-    tell(options, outcome, as_json);
-    return succeeded(outcome.status) && confirmed ? ExitCode::done : ExitCode::refuted;
+    const std::string picture = draw(options, run, outcome, overlaid, whole);
+    tell(options, outcome, picture, as_json);
+    return succeeded(outcome.status) && whole ? ExitCode::done : ExitCode::refuted;
 }
 
 } // namespace lagen

@@ -2,6 +2,7 @@
 #include "equations/symbolic_model.hpp"
 
 #include "equations/rewrite_tree.hpp"
+#include "model/total_cost.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -190,9 +191,10 @@ EquationBlock SymbolicModel::states(const Sum& y)
 {
     EquationBlock block{"first-order states", "ż = f(t, x, y, z)", R"(\dot z = f(t, x, y, z))", {}};
     const std::map<std::string, Tree> inserted = velocities(y);
-    for (const FirstOrderState& state : model_.states)
-        block.equations.push_back(
-            equation(LeftSide::time_derivative, state.symbol.name, {lower_at(state.rate, inserted)}));
+    for (std::size_t k = 0; k < model_.states.size(); ++k)
+        if (const FirstOrderState& state = model_.states[k]; !is_total_cost(model_, k))
+            block.equations.push_back(
+                equation(LeftSide::time_derivative, state.symbol.name, {lower_at(state.rate, inserted)}));
     return block;
 }
 
@@ -279,7 +281,9 @@ EquationSet SymbolicModel::empty_set(const std::string& form) const
     }
     if (model_.control)
         for (const Symbol& symbol : model_.control->controls) set.symbols.push_back({symbol.name, symbol.latex});
-    for (const FirstOrderState& state : model_.states) set.symbols.push_back({state.symbol.name, state.symbol.latex});
+    for (std::size_t k = 0; k < model_.states.size(); ++k)
+        if (const Symbol& symbol = model_.states[k].symbol; !is_total_cost(model_, k))
+            set.symbols.push_back({symbol.name, symbol.latex});
     return set;
 }
 

@@ -79,7 +79,10 @@ void require_regular_lagrangian(const System& system, const Regularity& regulari
                 "the Lagrangian of model '{}' is degenerate{}: d2L/dy2 has rank {}, and the {} form needs rank {}",
                 system.name, system.distribution ? " on the constraint" : "", regularity.rank, form,
                 system.velocities().size()),
-            "the velocities cannot be solved for; give every fibre coordinate a kinetic term");
+            regularity.rank == 0 && !system.distribution
+                ? "L is linear in the velocities, so its equations are of first order: solve them for x' = X(t, x) and "
+                  "run [hamiltonian] H = \"p.X\" in the place of L (docs/mechanics.md, Any first-order system)"
+                : "the velocities cannot be solved for; give every fibre coordinate a kinetic term");
 }
 
 std::vector<NodeId> single_blocks(const Graph& graph, const std::vector<NodeId>& W, std::size_t r)

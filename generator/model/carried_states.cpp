@@ -4,24 +4,32 @@
 #include "model/families.hpp"
 #include "model/form.hpp"
 #include "model/read_curve.hpp"
+#include "model/total_cost.hpp"
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 
 namespace lagen {
 
 namespace {
 
-/// What is evaluated along every motion of the scene.
-std::vector<Tree> evaluated_trees(const Model& model, const Scene& scene)
+/// What is evaluated along every motion of the scene; without one what a header has.
+std::vector<Tree> evaluated_trees(const Model& model, const Scene* scene)
 {
     std::vector<Tree> trees;
     for (const ComponentEntry& force : model.forces) trees.push_back(force.value);
     for (const NamedTree& invariant : model.invariants) trees.push_back(invariant.value);
-    for (const NamedTree& column : *scene.observe) trees.push_back(column.value);
-    for (const NamedTree& coordinate : plot_coordinates(scene)) trees.push_back(coordinate.value);
-    for (const Event& event : scene.events) trees.push_back(event.when);
-    if (scene.time_scale != nullptr) trees.push_back(scene.time_scale);
+    for (const Scene& each : scene != nullptr ? std::span(scene, 1) : std::span<const Scene>(model.scenes))
+        for (const Event& event : each.events) trees.push_back(event.when);
+    if (scene == nullptr) {
+        for (const NamedTree& observable : model.observables) trees.push_back(observable.value);
+        return trees;
+    }
+    if (scene->observe)
+        for (const NamedTree& column : *scene->observe) trees.push_back(column.value);
+    for (const NamedTree& coordinate : plot_coordinates(*scene)) trees.push_back(coordinate.value);
+    if (scene->time_scale != nullptr) trees.push_back(scene->time_scale);
     return trees;
 }
 
@@ -43,20 +51,19 @@ std::vector<std::size_t> carried_states(const Model& model, const std::string& f
 {
     std::vector<std::size_t> carried;
     if (form_named(form).steps) return carried;
-    if (scene == nullptr || !scene->observe) {
-        carried.resize(model.states.size());
-        std::iota(carried.begin(), carried.end(), std::size_t{0});
-        return carried;
-    }
-    if (model.states.empty()) return carried;
+    const bool chosen = scene != nullptr && scene->observe;
+    for (std::size_t k = 0; k < model.states.size() && !chosen; ++k)
+        if (!is_total_cost(model, k)) carried.push_back(k);
+    if (carried.size() == model.states.size()) return carried;
     const std::vector<Symbol> symbols = state_symbols(model);
-    std::vector<Tree> open = evaluated_trees(model, *scene);
+    std::vector<Tree> open = evaluated_trees(model, scene);
     while (!open.empty()) {
         const Tree tree = std::move(open.back());
         open.pop_back();
         for (const std::string& name : names_in(tree)) {
             const std::size_t used = index_of(symbols, name);
             if (used == symbols.size() || std::ranges::find(carried, used) != carried.end()) continue;
+            if (is_total_cost(model, used) && !is_form(form, FormKind::pontryagin)) continue;
             for (const std::size_t k : together(model, used)) {
                 carried.push_back(k);
                 open.push_back(model.states[k].rate);

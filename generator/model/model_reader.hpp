@@ -147,6 +147,10 @@ void require_rank(const ModelReader& reader, const SourceRange& where);
 void declare_fibre(ModelReader& reader, const TomlEntry* block);
 void declare_definitions(ModelReader& reader, const TomlEntry* block);
 void declare_control(ModelReader& reader);
+/// `total_cost`, the last first-order state of a control problem, and `cost` in what observes; each where the model
+/// does not have the name.
+void declare_total_cost(ModelReader& reader);
+void define_cost(ModelReader& reader);
 /// The group of `entry`, a name, and its generators; `what` calls the entry in messages.
 void read_named_group(const ModelReader& reader, GroupoidBlock& block, const TomlEntry& entry, const std::string& what);
 /// The names of [states] and of [reconstruct].

@@ -43,6 +43,14 @@ void place_rates(std::vector<Tree>& rates, const std::vector<std::size_t>& place
     for (std::size_t k = 0; k < std::min(places.size(), y.size()); ++k) rates[places[k]] = y[k];
 }
 
+/// Whether a minus stands before `tree`, and what is behind it.
+std::pair<bool, Tree> sign_and_size(const Tree& tree)
+{
+    if (tree->kind == TreeKind::negate) return {true, tree->arguments[0]};
+    if (tree->kind == TreeKind::number && tree->number < 0) return {true, number(-tree->number)};
+    return {false, tree};
+}
+
 /// rho^i_a y^a by the anchor's entries, and by a representation -(A_a x)^i y^a.
 std::vector<Tree> anchored_rates(const Model& model, const AlgebroidBlock& block, const std::vector<Tree>& y)
 {
@@ -55,7 +63,9 @@ std::vector<Tree> anchored_rates(const Model& model, const AlgebroidBlock& block
             const Tree& entry = block.representation[a].entries[k];
             if (entry->kind == TreeKind::number && entry->number == 0) continue;
             const Tree x = name(model.base.coordinates[block.base[k % n]].name);
-            terms[block.base[k / n]].push_back(negate(product_of(product_of(entry, x), y[a])));
+            const auto [negative, size] = sign_and_size(entry);
+            const Tree term = product_of(product_of(size, x), y[a]);
+            terms[block.base[k / n]].push_back(negative ? term : negate(term));
         }
     std::vector<Tree> rates(terms.size());
     for (std::size_t i = 0; i < rates.size(); ++i)

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The [control] block: controls, the section sigma, the running cost, bounds, guesses.
+#include "model/algebroid_draft.hpp"
 #include "model/components.hpp"
+#include "model/families.hpp"
 #include "model/read_values.hpp"
 #include "model/table_reader.hpp"
+#include "model/total_cost.hpp"
 
 #include <fmt/format.h>
 
@@ -117,6 +120,20 @@ void declare_control(ModelReader& reader)
                          "controls = [\"u1\", \"u2\"]");
 }
 
+void declare_total_cost(ModelReader& reader)
+{
+    if (reader.model.control && reader.names.find(total_cost_name) == nullptr)
+        declare_symbols(reader, {Symbol{total_cost_name, {}, {}, {}, {}}}, Role::state);
+}
+
+void define_cost(ModelReader& reader)
+{
+    const TomlEntry* block = reader.mechanics.control;
+    const TomlEntry* cost = block == nullptr ? nullptr : find_entry(block->value, "cost");
+    if (cost == nullptr || reader.names.find("cost") != nullptr) return;
+    reader.observer.define(Definition{"cost", {}, read_expression(cost->value, "the cost"), cost->where()});
+}
+
 void read_control(ModelReader& reader)
 {
     const TomlEntry* block = reader.mechanics.control;
@@ -127,6 +144,8 @@ void read_control(ModelReader& reader)
     control.sigma = read_components(reader, sigma, {"'sigma' of [control]", "sigma along", roles, false});
     const TomlEntry& cost = require_entry(*block, "cost", "cost = \"u^2/2\"; cost = 1 asks for the least time");
     control.cost = reader.close_mechanical(read_expression(cost.value, "the cost"), roles, "the cost");
+    for (std::size_t k = 0; k < reader.model.states.size(); ++k)
+        if (is_total_cost(reader.model, k)) reader.model.states[k].rate = control.cost;
     TableReader table(block->value, "[control]");
     if (const TomlEntry* bounds = table.take("bounds")) control.bounds = read_bounds(reader, *bounds);
     if (const TomlEntry* guess = table.take("guess")) control.guess = read_guess(reader, *guess);

@@ -127,6 +127,7 @@ Model read_with(ModelReader& reader, const std::string& name, std::string text, 
     declare_mechanics(reader);
     declare_discrete(reader);
     declare_forms(reader, forms);
+    declare_total_cost(reader);
     build_scopes(reader);
 
     read_parameters(reader, parameters, settings);

@@ -203,6 +203,7 @@ void build_scopes(ModelReader& reader)
     if (lagrangian && reader.lagrangian) {
         reader.observer.define(Definition{"lagrangian", {}, reader.lagrangian, model.lagrangian_where});
     }
+    define_cost(reader);
     for (const auto& [key, value] : reader.observables) {
         const Names::Entry* entry = reader.names.find(key.text);
         if (entry->role == Role::observable) reader.observer.define(Definition{key.text, {}, value, place_of(key)});

@@ -104,9 +104,14 @@ void require_complete(const ModelReader& reader, const Scene& scene)
     if (!scene.rest || momenta) missing.add(rest);
     if (missing.count == 0) return;
     const bool fibre_left_out = rest.count > 0 && !momenta && !scene.rest;
+    const bool costate_sought = momenta && reader.model.control && reader.model.control->boundary;
     throw ModelError(fmt::format("scene '{}' leaves out the initial value{} of {}", scene.name,
                                  missing.count > 1 ? "s" : "", missing.text()),
-                     scene.where, fibre_left_out ? "rest = true sets the fibre coordinates left out to zero" : "");
+                     scene.where,
+                     fibre_left_out ? "rest = true sets the fibre coordinates left out to zero"
+                     : costate_sought
+                         ? "nothing solves [control.boundary] yet: a run starts from all coordinates and momenta"
+                         : "");
 }
 
 void require_acyclic_scene(const ModelReader& reader, const Scene& scene)

@@ -4,6 +4,7 @@
 #include "model/families.hpp"
 #include "model/read_curve.hpp"
 #include "model/table_reader.hpp"
+#include "model/total_cost.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -45,6 +46,9 @@ std::vector<ForeignNames> foreign_names(const Model& model, const std::string& f
         out.push_back({"the control", names(model.control->controls),
                        fmt::format("controls are there in Pontryagin's form: form = \"{}\"",
                                    entry_of(FormKind::pontryagin).name)});
+    for (std::size_t k = 0; k < model.states.size(); ++k)
+        if (is_total_cost(model, k) && !is_form(form, FormKind::pontryagin))
+            out.push_back({"the integral", {total_cost_name}, out.back().hint});
     if (is_form(form, FormKind::discrete)) {
         const char* hint = "a discrete motion has points, arrows and momenta";
         out.push_back({"the velocity", names(model.fibre.coordinates), hint});
@@ -215,7 +219,8 @@ std::vector<std::string> state_names(const Model& model, const std::string& form
     };
     if (is_form(form, FormKind::discrete) && model.groupoid) append(model.groupoid->element);
     append(form_named(form).momenta ? model.fibre.momenta : model.fibre.coordinates);
-    if (!form_named(form).steps) append(state_symbols(model));
+    for (std::size_t k = 0; k < model.states.size() && !form_named(form).steps; ++k)
+        if (!is_total_cost(model, k)) names.push_back(model.states[k].symbol.name);
     if (is_form(form, FormKind::pontryagin) && model.control) append(model.control->controls);
     return names;
 }
@@ -249,8 +254,9 @@ std::vector<std::string> names_without_values(const Model& model, const std::str
     for (const NamedTree& claim : conserved_trees(model))
         if (!has_value(model, claim.value, form)) names.push_back(claim.name);
     if (!form_named(form).steps) return names;
-    for (const Symbol& state : state_symbols(model))
-        if (const std::string name = family_name(state.name); names.empty() || names.back() != name)
+    for (std::size_t k = 0; k < model.states.size(); ++k)
+        if (const std::string name = family_name(model.states[k].symbol.name);
+            !is_total_cost(model, k) && (names.empty() || names.back() != name))
             names.push_back(name);
     return names;
 }

@@ -158,7 +158,13 @@ void Claims::decide_along_motions(Report& report, const std::vector<NamedTree>& 
 void Claims::decide_controls(Report& report)
 {
     if (!system_.control) return;
-    report.control.maximum = decide_maximum(graph_, *system_.control, system_.mu, setting_, judge_->decider().budget());
+    // H has no first-order states: no proof of its maximum is to rest on what becomes of them.
+    ProofSetting setting = setting_;
+    std::erase_if(setting.variables, [&](NodeId variable) {
+        return std::ranges::find(system_.states, variable) != system_.states.end() &&
+               !depends_on_any(graph_, setting.defined, std::vector{variable});
+    });
+    report.control.maximum = decide_maximum(graph_, *system_.control, system_.mu, setting, judge_->decider().budget());
     const ControlMaximum& maximum = report.control.maximum;
     Check check{"maximum", {}, {}, {}, {}};
     check.decision.status = maximum.kind == ControlMaximum::Kind::maximal   ? ProofStatus::proved

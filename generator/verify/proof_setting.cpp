@@ -37,6 +37,24 @@ std::vector<NodeId> defined_nodes(const System& system)
     return nodes;
 }
 
+/// The first-order states of the model file, and of those that lagen adds itself what the file names: the others occur
+/// in nothing that is decided.
+std::vector<NodeId> named_states(const System& system)
+{
+    std::vector<NodeId> states;
+    for (std::size_t k = 0; k < system.states.size(); ++k) {
+        const NamedTree& written = system.written.states[k];
+        const auto has_name = [&](const Tree& tree) {
+            const std::vector<std::string> names = names_in(tree);
+            return std::ranges::find(names, written.name) != names.end();
+        };
+        if (written.where.file != nullptr || std::ranges::any_of(system.written.all, has_name) ||
+            std::ranges::any_of(system.written.invariants, has_name, &NamedTree::value))
+            states.push_back(system.states[k]);
+    }
+    return states;
+}
+
 } // namespace
 
 ProofSetting proof_setting(Graph& graph, const System& system)
@@ -46,7 +64,7 @@ ProofSetting proof_setting(Graph& graph, const System& system)
     append(setting.variables, system.velocities());
     if (system.hamiltonian || system.control) append(setting.variables, system.mu);
     if (system.control) append(setting.variables, system.control->u);
-    append(setting.variables, system.states);
+    append(setting.variables, named_states(system));
     setting.variables.push_back(system.time);
     setting.parameters = system.parameters;
     setting.constraints = system.functions.constraints;

@@ -11,6 +11,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <fmt/core.h>
+
 #include <cmath>
 #include <numbers>
 #include <regex>
@@ -160,25 +162,44 @@ TEST_CASE("a curve that keeps its distance from the origin stands on a sphere, i
     CHECK(lagen::draw_in_space(helix).x_label.empty());
 }
 
-TEST_CASE("legends stay on the page, and say how many curves they do not name")
+TEST_CASE("legends name every curve, beside the panel or below it in columns, and stay on the page")
 {
-    PanelRequest request;
-    for (int k = 0; k < 40; ++k) {
-        request.curves.push_back({{0, 0, 0}, {1, 0.1 * k, 0}});
-        request.symbols.push_back({Symbol{"t", {}, "", "", ""}, Symbol{}});
-        request.symbols.back()[1].name =
-            "coordinate_" + std::string(static_cast<std::size_t>(2 * k), 'm') + "_of_a_body";
+    // Right edges of all texts of a legend, with the height of the page behind them.
+    const auto right_edges = [](const std::vector<std::string>& names, std::size_t& entries) {
+        PanelRequest request;
+        for (std::size_t k = 0; k < names.size(); ++k) {
+            request.curves.push_back({{0, 0, 0}, {1, 0.1 * static_cast<double>(k), 0}});
+            request.symbols.push_back({Symbol{"t", {}, "", "", ""}, Symbol{names[k], {}, "", "", ""}});
+        }
+        const std::string path = fresh_folder() + "/legend.svg";
+        lagen::draw_page({lagen::draw_in_plane(request)}, std::string(300, 'T'), path);
+        const std::string svg = read_text(path);
+        CHECK_THAT(svg, Catch::Contains("TTT...<"));
+        std::smatch size;
+        REQUIRE(std::regex_search(svg, size, std::regex("viewBox=\"0 0 900 ([0-9]+)\"")));
+        static const std::regex legend(
+            "translate\\(([0-9.]+),([0-9.]+)\\)[^>]*start[^>]*>\\s*<text>(?:<[^>]*>)*(curve[^<]*)<");
+        std::vector<double> edges;
+        for (std::sregex_iterator at(svg.begin(), svg.end(), legend), end; at != end; ++at) {
+            edges.push_back(std::stod((*at)[1]) + lagen::text_width((*at)[3]));
+            CHECK(std::stod((*at)[2]) < std::stod(size[1]));
+        }
+        entries = edges.size();
+        return edges;
+    };
+    std::size_t entries = 0;
+    const std::vector<std::string> few{"curve 1", "curve 2", "curve 3"};
+    for (const double edge : right_edges(few, entries)) CHECK((edge > 800 && edge <= 900));
+    CHECK(entries == 3);
+    std::vector<std::string> many, broad; // more than one column holds; names up to the breadth of the page and beyond
+    for (int k = 1; k <= 40; ++k) {
+        many.push_back("curve " + std::to_string(k));
+        broad.push_back("curve_" + std::string(static_cast<std::size_t>(2 * k), 'm') + std::to_string(k));
     }
-    const std::string path = fresh_folder() + "/legend.svg";
-    lagen::draw_page({lagen::draw_in_plane(request)}, std::string(300, 'T'), path);
-    const std::string svg = read_text(path);
-    // 244 pixels hold twelve lines of 20, the last of which tells of the rest.
-    CHECK_THAT(svg, Catch::Contains(">and 29 more<") && Catch::Contains("TTT...<"));
-    static const std::regex legend("translate\\(([0-9.]+),[0-9.]+\\)[^>]*start[^>]*>\\s*<text>(coordinate_m*[^<]*)<");
-    std::size_t count = 0;
-    for (std::sregex_iterator at(svg.begin(), svg.end(), legend), end; at != end; ++at, ++count)
-        CHECK(std::stod((*at)[1]) + lagen::text_width((*at)[2]) <= 900);
-    CHECK(count == 11);
+    for (const auto& names : {many, broad}) {
+        for (const double edge : right_edges(names, entries)) CHECK(edge <= 900);
+        CHECK(entries == 40);
+    }
 }
 
 TEST_CASE("the axes of the usual view point to the left and down, to the right, and up")
@@ -192,16 +213,55 @@ TEST_CASE("the axes of the usual view point to the left and down, to the right, 
     CHECK(project.depth(eye) == Approx(1));
 }
 
-TEST_CASE("a picture leaves the terminal alone, is dense whatever the rows are, and the same twice", "[run]")
+TEST_CASE("the rows of a picture go into a pipe, and a terminal is told how to have them", "[run]")
+{
+    const std::string folder = fresh_folder(), picture = folder + "/a.svg";
+    const std::string told = "  picture in " + picture + ": 2 panels, 4 curves";
+    const Outcome piped = call({"run", "rotor.toml", "--plot", picture});
+    CHECK(piped.out == call({"run", "rotor.toml"}).out);
+    CHECK_THAT(piped.err, Catch::EndsWith(told + "\n"));
+    // script(1) gives the program a terminal.
+    const std::string command = fmt::format("'{}' run rotor.toml --plot '{}'", LAGEN_PROGRAM, picture);
+    const Outcome seen = call({"-qec", command, "/dev/null"}, {.program = "/usr/bin/script"});
+    CHECK(seen.code == 0);
+    CHECK_THAT(seen.out, Catch::Contains(told + "; the rows as CSV: -o FILE.csv, or into a pipe") &&
+                             !Catch::Contains("t,x_1") && Catch::StartsWith("rotor, scene default: ok"));
+}
+
+TEST_CASE("columns over time have a panel a unit, and runs of other scenes stand in the same panels", "[run]")
+{
+    const std::string folder = fresh_folder();
+    write_text(folder + "/swing.toml",
+               "[base]\ncoordinates = ['r', 'th', 's']\n[algebroid]\nkind = 'tangent'\n[lagrangian]\n"
+               "L = '(v_r^2 + r^2*v_th^2 + v_s^2)/2 - r^2/2'\n"
+               "[about]\nr = { unit = 'm' }\nth = { unit = 'rad' }\ns = { unit = 'm' }\n"
+               "[scene.default]\ninitial = { r = 1, th = 0, s = 0, v_r = 0, v_th = 0.5, v_s = 0.1 }\nduration = 2\n"
+               "observe = ['r', 'th', 's']\n[scene.fast]\nlike = 'default'\nobserve = ['th']\n"
+               "initial = { r = 1, th = 0, s = 0, v_r = 0, v_th = 1.5, v_s = 0.1 }\n[scene.fast.plot]\n"
+               "curves = ['r*cos(th):r*sin(th)']\n");
+    const auto draw = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), {"run", "swing.toml", "--plot", "a.svg"});
+        const Outcome outcome = call(options, {.folder = folder});
+        CHECK(outcome.code == 0);
+        return std::pair(outcome.err, read_text(folder + "/a.svg"));
+    };
+    const auto [series, lines] = draw({});
+    CHECK_THAT(series, Catch::EndsWith(": 2 panels, 3 curves\n"));
+    CHECK_THAT(lines, Catch::Contains(">base coordinates [m]<") && Catch::Contains(">th [rad]<"));
+    const auto [both, runs] = draw({"--like", "fast", "--overlay", "fast", "--equal"});
+    CHECK_THAT(both, Catch::Contains("swing, scene fast: ok") && Catch::EndsWith(": 1 panel, 2 curves\n"));
+    CHECK_THAT(runs, Catch::Contains(">default<") && Catch::Contains(">fast<"));
+}
+
+TEST_CASE("a picture is dense whatever the rows are, and the same twice", "[run]")
 {
     const std::string folder = fresh_folder();
     const auto draw = [&](const std::string& name) {
         const Outcome outcome =
             call({"run", "rotor.toml", "--plot", folder + "/" + name, "--curves", "x[1]:x[2],[t:x, t:v_x]"});
         CHECK(outcome.code == 0);
-        CHECK(outcome.out.empty());
-        CHECK_THAT(outcome.err,
-                   Catch::Contains("2 rows\n") && Catch::EndsWith("  picture in " + folder + "/" + name + "\n"));
+        CHECK_THAT(outcome.err, Catch::Contains("2 rows\n") &&
+                                    Catch::EndsWith("  picture in " + folder + "/" + name + ": 2 panels, 5 curves\n"));
         return read_text(folder + "/" + name);
     };
     const std::string svg = draw("a.svg");

@@ -3,6 +3,7 @@
 /// H.
 #include "program.hpp"
 
+#include "support/golden.hpp"
 #include "support/json.hpp"
 
 #include <catch2/catch.hpp>
@@ -40,6 +41,51 @@ ControlRun run_of(const std::string& model, const std::vector<std::string>& more
 }
 
 } // namespace
+
+TEST_CASE("the cost of a control problem is an observable, and its integral a state where somebody names it", "[run]")
+{
+    const ControlRun run = run_of("regulator.toml");
+    REQUIRE(run.value["rows"].size() == 5);
+    for (std::size_t row = 0; row < 5; ++row) {
+        const double x = 2 * std::exp(-2 * run.entry(row, 0));
+        CHECK(run.entry(row, 1) == Approx(x).epsilon(1e-11));
+        CHECK(run.entry(row, 2) == Approx(-x).epsilon(1e-11));
+        CHECK(run.entry(row, 3) == Approx(2 * x * x).epsilon(1e-11));
+        CHECK(run.entry(row, 4) == Approx((4 - x * x) / 2).epsilon(1e-11).margin(1e-12));
+        CHECK(run.entry(row, 5) == Approx(2).epsilon(1e-11)); // paid and still to pay
+    }
+    const Outcome states = call({"run", "regulator.toml", "--scene", "state", "--at", "0"});
+    CHECK(states.out == "t,x,p_v_x,u\n0,2,-2,-2\n");
+    // (4 - x^2)/2 = 3/2 where x = 1.
+    const ControlRun paid = run_of("regulator.toml", {"--scene", "paid"});
+    CHECK(paid.status() == "stopped_by_event");
+    CHECK(paid.t() == Approx(std::log(2.0) / 2).epsilon(1e-11));
+}
+
+TEST_CASE("the maximum of H is proved whatever states observe the cost")
+{
+    const std::string proved = "  maximum         1 proved\n";
+    const std::string models = lagen::testing::models_folder() + "/";
+    CHECK_THAT(call({"check", models + "regulator.toml"}).out, Catch::Contains(proved));
+    const std::string folder = fresh_folder();
+    for (const char* model : {"zermelo.toml", "double_integrator.toml", "regulator.toml"}) {
+        std::string text = read_text(models + model);
+        const std::size_t control = text.find("[control]");
+        REQUIRE(control != std::string::npos);
+        text.insert(control, "[states]\nJ = \"t\"\n[observables]\nprice = \"total_cost + cost + J\"\n");
+        write_text(folder + "/model.toml", text);
+        const Outcome outcome = call({"check", folder + "/model.toml"});
+        CHECK(outcome.code == 0);
+        CHECK_THAT(outcome.out, Catch::Contains(proved));
+    }
+}
+
+TEST_CASE("a header carries the total cost where the model names it, and no other one does")
+{
+    CHECK_THAT(call({"generate", "double_integrator.toml"}).out, !Catch::Contains("total_cost"));
+    CHECK_THAT(call({"generate", "regulator.toml"}).out, Catch::Contains("s[2] total_cost")); // by its event
+    CHECK_THAT(call({"derive", "regulator.toml"}).out, !Catch::Contains("total_cost"));
+}
 
 TEST_CASE("Zermelo's boat reaches the origin, its heading counted from either direction", "[all]")
 {

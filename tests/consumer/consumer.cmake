@@ -18,8 +18,11 @@ macro(must)
 endmacro()
 
 must(${CMAKE_COMMAND} --install "${build}" --prefix "${work}/prefix")
-foreach(file bin/lagen include/lagen/kernel.hpp share/lagen/models/heavy_top.toml
-             share/lagen/program/lagen_run/driver.hpp)
+set(man share/man/man1/lagen.1)
+set(completions share/bash-completion/completions/lagen share/zsh/site-functions/_lagen)
+foreach(file bin/lagen include/lagen/kernel.hpp share/lagen/models/heavy_top.toml share/lagen/models/new/tangent.toml
+             share/lagen/program/lagen_run/driver.hpp share/doc/lagen/README.md share/doc/lagen/docs/mechanics.md
+             ${man} ${completions})
   if(NOT EXISTS "${work}/prefix/${file}")
     message(FATAL_ERROR "consumer: the installation lacks ${file}")
   endif()
@@ -28,6 +31,39 @@ if(EXISTS "${work}/prefix/include/lagen/driver.hpp" OR EXISTS "${work}/prefix/in
   message(FATAL_ERROR "consumer: the program of `lagen run` is among the public headers")
 endif()
 must("${work}/prefix/bin/lagen" --version)
+
+# The manual page and the completions know each command and each option that `--help` shows.
+set(program "${work}/prefix/bin/lagen")
+must(bash -n "${work}/prefix/share/bash-completion/completions/lagen")
+must("${program}" --help)
+string(REGEX MATCHALL "\n  [a-z]+" commands "${output}")
+list(LENGTH commands count)
+if(count LESS 10)
+  message(FATAL_ERROR "consumer: ${count} commands in lagen --help")
+endif()
+foreach(command IN LISTS commands)
+  string(STRIP "${command}" command)
+  must("${program}" ${command} --help)
+  string(REGEX MATCHALL "--[a-z][a-z-]+" options "${output}")
+  foreach(page ${man} ${completions})
+    file(READ "${work}/prefix/${page}" text)
+    string(REPLACE "\\-" "-" text "${text}") # hyphens of the manual page
+    foreach(word ${command} ${options})
+      string(FIND "${text}" "${word}" found)
+      if(found EQUAL -1)
+        message(FATAL_ERROR "consumer: ${page} lacks ${word}, which `lagen ${command} --help` shows")
+      endif()
+    endforeach()
+  endforeach()
+endforeach()
+find_program(zsh zsh)
+if(zsh)
+  must(${zsh} -n "${work}/prefix/share/zsh/site-functions/_lagen")
+endif()
+
+# A model of one's own, to start from.
+execute_process(COMMAND "${program}" new swing WORKING_DIRECTORY "${work}" COMMAND_ERROR_IS_FATAL ANY OUTPUT_QUIET ERROR_QUIET)
+must("${program}" check "${work}/swing.toml")
 
 set(common -G Ninja -D CMAKE_CXX_COMPILER=${compiler} -D CMAKE_BUILD_TYPE=Debug)
 must(${CMAKE_COMMAND} -S "${work}/project" -B "${work}/found" ${common} -D CMAKE_PREFIX_PATH=${work}/prefix)

@@ -72,7 +72,7 @@ TEST_CASE("Dt follows the anchor of whatever kind the algebroid has")
     const std::string by_matrices =
         "[base]\ncoordinates = [\"x\", \"y\"]\n[fibre]\ncoordinates = [\"w\"]\n[algebroid]\nkind = \"action\"\n"
         "algebra = \"R^1\"\nrepresentation = [[[0, -1], [1, 0]]]";
-    CHECK(lagrangian_of(by_matrices, "Dt(x)") == "--1*y*w"); // -(A x) as it is put in
+    CHECK(lagrangian_of(by_matrices, "Dt(x)") == "y*w"); // -(A x), the sign of an entry folded
     CHECK(lagrangian_of(by_matrices, "Dt(y)") == "-x*w");
     const std::string atiyah = "[base]\ncoordinates = [\"r\"]\n[fibre]\ncoordinates = [\"u\", \"w\"]\n[algebroid]\n"
                                "kind = \"atiyah\"\nalgebra = \"R^1\"";

@@ -124,6 +124,25 @@ struct Cubic {
     }
 };
 
+/// x'' = x.
+struct Hill {
+    using Scalar = double;
+    using State = Eigen::Vector2d;
+    static constexpr int dimension = 2;
+    static constexpr std::array<int, 2> jacobian_rows{0, 1}, jacobian_columns{1, 0};
+
+    lagen::Status rhs(double, const State& s, State& ds) const noexcept
+    {
+        ds = {s[1], s[0]};
+        return lagen::Status::ok;
+    }
+    lagen::Status jacobian_values(double, const State&, std::array<double, 2>& values) const noexcept
+    {
+        values = {1, 1};
+        return lagen::Status::ok;
+    }
+};
+
 template <class Method>
 bool stays(double step, double amplitude, int steps)
 {
@@ -243,4 +262,27 @@ TEST_CASE("fixed-point iteration of Gauss' methods converges for h omega below t
     CHECK(least.operator()<4>() == Approx(6.04653).margin(1e-5));
     CHECK(least.operator()<6>() == Approx(8.672054).margin(1e-6));
     CHECK(least.operator()<8>() == Approx(11.309682).margin(1e-6));
+}
+
+TEST_CASE("gauss2 multiplies e^t by (1 + h/2)/(1 - h/2) on both sides of its pole, and says where it cannot")
+{
+    int found = 0, refused = 0;
+    for (int digits = 1; digits <= 16; ++digits)
+        for (const double sign : {-1.0, 1.0, 0.0}) {
+            const double h = 2 + sign * std::pow(10, -digits), distance = std::abs(1 - h / 2);
+            const auto run = lagen::integrate(Hill(), Eigen::Vector2d(1, 0), {0.0, h}, lagen::Gauss2{.step = h});
+            INFO("h - 2 = " << h - 2);
+            if (run) {
+                const double up = (1 + h / 2) / (1 - h / 2), down = 1 / up, epsilon = 2.2e-16;
+                for (const double value : {run.state[0] / ((up + down) / 2), run.state[1] / ((up - down) / 2)})
+                    CHECK(std::abs(value - 1) < 8 * epsilon / distance);
+                ++found;
+            } else {
+                CHECK(run.status() == lagen::Status::newton_diverged);
+                CHECK(distance < 1e-5);
+                CHECK((run.t == 0 && run.state == Eigen::Vector2d(1, 0)));
+                ++refused;
+            }
+        }
+    CHECK((found >= 10 && refused >= 16)); // at the pole itself always
 }

@@ -38,9 +38,10 @@ std::string gnuplot_terminal(const std::string& extension, int width, int height
     if (extension == ".svg")
         return fmt::format("set terminal svg size {},{} noenhanced font 'sans,13' background rgb 'white'\n", width,
                            height);
+    // The same 13 pixels in points, of which there are 72 an inch.
     if (extension == ".png")
-        return fmt::format("set terminal pngcairo size {},{} noenhanced font 'sans,11'\n", width, height);
-    return fmt::format("set terminal pdfcairo size {:.2f},{:.2f} noenhanced font 'sans,11'\n", width / 100.0,
+        return fmt::format("set terminal pngcairo size {},{} noenhanced font 'sans,9.75'\n", width, height);
+    return fmt::format("set terminal pdfcairo size {:.2f},{:.2f} noenhanced font 'sans,9.36'\n", width / 100.0,
                        height / 100.0);
 }
 

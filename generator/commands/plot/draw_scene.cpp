@@ -29,8 +29,28 @@ struct PlannedPanel {
     std::string label;
 };
 
+/// The panels, each with the curves of one unit.
+std::vector<PlannedPanel> by_unit(const Model& model, const std::vector<PlannedPanel>& panels)
+{
+    std::vector<PlannedPanel> parts;
+    for (const PlannedPanel& panel : panels) {
+        std::vector<std::string> units;
+        const std::size_t first = parts.size();
+        for (const PlotCurve& curve : panel.curves) {
+            const std::string unit = symbol_of(model, curve.coordinates[1].name).unit;
+            const auto place = static_cast<std::size_t>(std::ranges::find(units, unit) - units.begin());
+            if (place == units.size()) {
+                units.push_back(unit);
+                parts.push_back({{}, panel.label});
+            }
+            parts[first + place].curves.push_back(curve);
+        }
+    }
+    return parts;
+}
+
 /// The columns of the table over time: base coordinates, the rest of the state, first-order states, controls, and what
-/// is observed besides.
+/// is observed besides, in a panel a unit.
 std::vector<PlannedPanel> series_of(const PlottedRun& run)
 {
     const Model& model = run.model;
@@ -48,8 +68,7 @@ std::vector<PlannedPanel> series_of(const PlottedRun& run)
         const std::size_t of_state = column.index < base_lanes ? 0 : column.index < motion_lanes ? 1 : 2;
         panels[column.state ? of_state : control ? 3 : 4].curves.push_back({{time, {column.name, nullptr, {}}}, {}});
     }
-    std::erase_if(panels, [](const PlannedPanel& panel) { return panel.curves.empty(); });
-    return panels;
+    return by_unit(model, panels);
 }
 
 std::vector<PlannedPanel> panels_of(const PlottedRun& run)
@@ -70,10 +89,16 @@ double number_of(std::string_view field)
     return value;
 }
 
+/// Points at the rows: the plot asks for them, or the rows are those of an event.
+bool has_points(const PlottedRun& run)
+{
+    return (run.scene.plot && run.scene.plot->points) || run.scene.sampling.kind == Sampling::Kind::event;
+}
+
 /// The times of the picture.
 void use_times(const PlottedRun& run, ProgramInput& input)
 {
-    if (run.scene.plot && run.scene.plot->points) return;
+    if (has_points(run)) return;
     SampleTimes& times = input.times;
     if (times.every > 0) {
         const std::size_t steps = (std::max<std::size_t>(run.rows, 1) - 1) * times.every;
@@ -120,18 +145,23 @@ SampledCurve sampled(const PlotCurve& curve, const Columns& columns)
     return points;
 }
 
-Drawing draw_panel(const PlottedRun& run, const PlannedPanel& panel, const Columns& columns)
+Drawing draw_panel(const std::vector<PlottedRun>& runs, const PlannedPanel& panel, const std::vector<Columns>& columns)
 {
-    const std::optional<Plot>& plot = run.scene.plot;
+    const PlottedRun& first = runs.front();
+    const std::optional<Plot>& plot = first.scene.plot;
     PanelRequest request;
     request.ordinate = panel.label;
     request.equal = plot && plot->equal;
-    request.pen = plot && plot->points ? Pen::points : run.input.times.every > 0 ? Pen::steps : Pen::line;
+    request.pen = has_points(first) ? Pen::points : first.input.times.every > 0 ? Pen::steps : Pen::line;
     if (plot) request.sphere = plot->sphere;
-    for (const PlotCurve& curve : panel.curves) {
-        request.curves.push_back(sampled(curve, columns));
-        std::vector<Symbol>& row = request.symbols.emplace_back();
-        for (const NamedTree& coordinate : curve.coordinates) row.push_back(symbol_of(run.model, coordinate.name));
+    for (std::size_t k = 0; k < runs.size(); ++k) {
+        if (runs.size() > 1) request.runs.push_back(runs[k].scene.name);
+        for (const PlotCurve& curve : panel.curves) {
+            request.curves.push_back(sampled(curve, columns[k]));
+            std::vector<Symbol>& row = request.symbols.emplace_back();
+            for (const NamedTree& coordinate : curve.coordinates)
+                row.push_back(symbol_of(first.model, coordinate.name));
+        }
     }
     return is_in_space(panel.curves) ? draw_in_space(request) : draw_in_plane(request);
 }
@@ -159,13 +189,21 @@ void require_plot_format(const std::string& path)
         throw MachineError("error: gnuplot was not found\nhint: --plot draws with gnuplot; install gnuplot-nox");
 }
 
-void draw_scene(const PlottedRun& run, const std::string& path)
+std::string draw_scene(const std::vector<PlottedRun>& runs, const std::string& path)
 {
-    const std::vector<PlannedPanel> panels = panels_of(run);
-    const Columns columns = columns_of_run(run, panels);
+    const PlottedRun& first = runs.front();
+    const std::vector<PlannedPanel> panels = panels_of(first);
+    std::vector<Columns> columns;
+    for (const PlottedRun& run : runs) columns.push_back(columns_of_run(run, panels));
     std::vector<Drawing> drawings;
-    for (const PlannedPanel& panel : panels) drawings.push_back(draw_panel(run, panel, columns));
-    draw_page(drawings, run.model.title.empty() ? run.model.name : run.model.title, path);
+    std::size_t curves = 0;
+    for (const PlannedPanel& panel : panels) {
+        drawings.push_back(draw_panel(runs, panel, columns));
+        curves += panel.curves.size() * runs.size();
+    }
+    draw_page(drawings, first.model.title.empty() ? first.model.name : first.model.title, path);
+    return fmt::format("{} panel{}, {} curve{}", panels.size(), panels.size() == 1 ? "" : "s", curves,
+                       curves == 1 ? "" : "s");
 }
 
 } // namespace lagen

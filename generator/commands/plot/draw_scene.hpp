@@ -15,10 +15,12 @@ struct PlottedRun {
     std::size_t rows;          ///< that the table has
 };
 
-/// Draws `path`. The program runs once more, at times of the picture's own: 20001 even ones, of a discrete motion at
-/// most 10000 of its steps, and the rows of the table where the plot asks for points. Curves keep the points that can
-/// be seen. Throws as integrate_scene, and MachineError where gnuplot is missing or fails, or there are no rows.
-void draw_scene(const PlottedRun& run, const std::string& path);
+/// Draws `path`: what the plot of the first of `runs` says, and in the same panels the curves of the others, which have
+/// its form and its columns. Returns how much that is, "2 panels, 3 curves". The programs run once more, at times of
+/// the picture's own: 20001 even ones, of a discrete motion at most 10000 of its steps, and the rows of the table where
+/// the plot asks for points. Curves keep the points that can be seen; columns over time have a panel a unit. Throws as
+/// integrate_scene, and MachineError where gnuplot is missing or fails, or there are no rows.
+std::string draw_scene(const std::vector<PlottedRun>& runs, const std::string& path);
 
 /// Throws UsageError where rows are to be written to a file that is called a picture.
 void require_no_picture(const std::string& path);

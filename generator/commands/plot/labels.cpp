@@ -9,6 +9,7 @@
 #include <array>
 #include <cctype>
 #include <set>
+#include <string_view>
 #include <utility>
 
 namespace lagen {
@@ -123,6 +124,17 @@ std::vector<Symbol> along(const std::vector<std::vector<Symbol>>& curves, std::s
     return symbols;
 }
 
+/// Pixels in DejaVu Sans at 13 pixels, the broadest of the usual fonts without serifs.
+double character_width(char32_t c)
+{
+    const auto one_of = [c](std::string_view set) { return c < 0x80 && set.find(static_cast<char>(c)) != set.npos; };
+    if (c >= 0x300 && c < 0x370) return 0; // accents
+    if (one_of(" !'(),-./:;I[]fijlrt|\\") || c == 0xb7 || (c >= 0x2070 && c < 0x20a0)) return 5.4;
+    if (one_of("%@MWm") || (c >= 0x1100 && (c < 0x2000 || c > 0x2e7f) && c < 0x10000)) return c < 0x80 ? 13 : 14;
+    if (one_of("#+<=>^w~") || c == 0x3c9 || (c >= 0x2190 && c < 0x2300)) return 10.9;
+    return c < 0x80 && std::isupper(static_cast<unsigned char>(c)) != 0 ? 10.3 : 8.7;
+}
+
 } // namespace
 
 int text_width(const std::string& text)
@@ -130,8 +142,7 @@ int text_width(const std::string& text)
     double width = 0;
     for (std::size_t at = 0; at < text.size();) {
         const CodePoint point = decode_utf8(text, at);
-        width +=
-            point.value >= 0x1100 && point.value < 0x10000 && (point.value < 0x2000 || point.value > 0x2e7f) ? 14 : 7.6;
+        width += character_width(point.value);
         at += std::max<std::size_t>(point.length, 1);
     }
     return static_cast<int>(width) + 1;

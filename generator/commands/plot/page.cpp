@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace lagen {
 
@@ -22,12 +23,21 @@ constexpr int series_height = 244, plane_height = 440,
 constexpr int least_equal = 200, most_equal = 620;
 constexpr int gap = 26, gap_with_axis = 70, gap_of_space = 40;
 constexpr int label_middle = 18; ///< of labels of ordinates, from the left
-constexpr int legend_line = 20, legend_key = 56, longest_legend = 300;
+constexpr int legend_line = 20, legend_sample = 34, legend_key = 56, longest_legend = 300;
+
+/// Where the legend of a panel stands: beside it in one column where that has room, else below it in as many columns as
+/// have.
+struct LegendPlace {
+    bool beside = true;
+    int left = 0, top = 0;  ///< of the first entry
+    int rows = 0, text = 0; ///< entries below one another, and the pixels that a text has
+};
 
 /// A panel with its place on the page.
 struct Place {
     int top = 0, height = 0, below = 0;
     bool abscissa = true; ///< numbers and a label below it
+    LegendPlace legend;
 };
 
 struct Page {
@@ -67,14 +77,42 @@ int height_of(const Drawing& drawing, int width)
     return static_cast<int>(std::clamp(width * y / x, double{least_equal}, most));
 }
 
-/// Pixels for the broadest legend, beside the panels.
+/// The smallest that `height_of` may be.
+int least_height(const Drawing& drawing)
+{
+    return drawing.over_time ? series_height : drawing.equal ? least_equal : plane_height;
+}
+
+int widest_legend(const Drawing& drawing)
+{
+    int widest = 0;
+    for (const auto& [style, text] : drawing.legend) widest = std::max(widest, text_width(text));
+    return widest;
+}
+
+bool has_legend_beside(const Drawing& drawing)
+{
+    return widest_legend(drawing) <= longest_legend &&
+           static_cast<int>(drawing.legend.size()) * legend_line <= least_height(drawing);
+}
+
+/// Pixels for the broadest legend beside the panels.
 int legend_width(const std::vector<Drawing>& panels)
 {
     int widest = 0;
     for (const Drawing& drawing : panels)
-        for (const auto& [style, text] : drawing.legend)
-            widest = std::max(widest, std::min(text_width(text), longest_legend));
+        if (has_legend_beside(drawing)) widest = std::max(widest, widest_legend(drawing));
     return widest == 0 ? right_margin : widest + legend_key;
+}
+
+/// Of a panel from `top` to `bottom`, its axis included.
+LegendPlace legend_place(const Drawing& drawing, int top, int bottom, int panel_width)
+{
+    const int count = static_cast<int>(drawing.legend.size());
+    if (has_legend_beside(drawing)) return {true, left_margin + panel_width + 12, top, count, longest_legend};
+    const int text = std::min(widest_legend(drawing), panel_width - legend_key);
+    const int columns = panel_width / (text + legend_key);
+    return {false, left_margin, bottom, (count + columns - 1) / columns, text};
 }
 
 Page page_of(const std::vector<Drawing>& panels)
@@ -88,9 +126,12 @@ Page page_of(const std::vector<Drawing>& panels)
     for (std::size_t k = 0; k < panels.size(); ++k) {
         const bool shared = k + 1 < panels.size() && panels[k].over_time && panels[k + 1].over_time;
         const bool bare = !panels[k].frame && panels[k].x_label.empty();
-        const int below = shared || bare ? gap : panels[k].frame ? gap_with_axis : gap_of_space;
-        page.places.push_back({top, height_of(panels[k], page.panel_width), below, !shared});
-        top += page.places.back().height + below;
+        const int height = height_of(panels[k], page.panel_width);
+        int below = shared || bare ? gap : panels[k].frame ? gap_with_axis : gap_of_space;
+        const LegendPlace place = legend_place(panels[k], top, top + height + below, page.panel_width);
+        if (!place.beside) below += place.rows * legend_line + gap / 2;
+        page.places.push_back({top, height, below, !shared, place});
+        top += height + below;
     }
     page.height = top;
     return page;
@@ -172,16 +213,26 @@ std::string strokes_text(const Drawing& drawing, const Scale& scale, std::vector
     return text;
 }
 
-/// The legend, with a line that says how many curves it leaves out.
-void add_legend(const Drawing& drawing, int height, std::vector<std::string>& plots)
+/// A sample of each curve with its name, of which the end is cut where it is broader than the page.
+std::string legend_text(const Drawing& drawing, const LegendPlace& place, const Page& page)
 {
-    const auto fits = static_cast<std::size_t>(height / legend_line);
-    const std::size_t count = drawing.legend.size(), named = count <= fits ? count : fits - 1;
-    const auto add = [&](const std::string& style, const std::string& text) {
-        plots.push_back(fmt::format("NaN with {} title {}", style, gnuplot_text(shortened(text, longest_legend))));
+    const auto screen = [&](int x, int y) {
+        return fmt::format("screen {:.5f},{:.5f}", static_cast<double>(x) / page.width,
+                           1 - static_cast<double>(y) / page.height);
     };
-    for (std::size_t k = 0; k < named; ++k) add(drawing.legend[k].first, drawing.legend[k].second);
-    if (named < count) add("lines linecolor rgb '#ffffff'", fmt::format("and {} more", count - named));
+    std::string text = "unset arrow\n";
+    for (int k = 0; k < static_cast<int>(drawing.legend.size()); ++k) {
+        const auto& [style, name] = drawing.legend[static_cast<std::size_t>(k)];
+        const int x = place.left + k / place.rows * (place.text + legend_key);
+        const int y = place.top + legend_line / 2 + k % place.rows * legend_line;
+        const auto [kind, look] = std::pair(style.substr(0, style.find(' ')), style.substr(style.find(' ')));
+        text += kind == "points" ? fmt::format("set label '' at {} point{}\n", screen(x + legend_sample / 2, y), look)
+                                 : fmt::format("set arrow from {} to {} nohead{}\n", screen(x, y),
+                                               screen(x + legend_sample, y), look);
+        text += fmt::format("set label {} at {} left\n", gnuplot_text(shortened(name, place.text)),
+                            screen(x + legend_sample + 8, y));
+    }
+    return text;
 }
 
 std::string panel_text(const Drawing& drawing, const Place& place, const Page& page)
@@ -191,9 +242,9 @@ std::string panel_text(const Drawing& drawing, const Place& place, const Page& p
                                    from_top(place.top + place.height));
     Scale scale;
     text += frame_text(drawing, place, page.width) + ranges_of(drawing, page.panel_width, place.height, scale);
+    text += legend_text(drawing, place.legend, page);
     std::vector<std::string> plots;
     text += strokes_text(drawing, scale, plots);
-    add_legend(drawing, place.height, plots);
     if (plots.empty()) plots.emplace_back("NaN notitle");
     std::string list;
     for (const std::string& plot : plots) list += (list.empty() ? "plot " : ", \\\n     ") + plot;
@@ -204,13 +255,12 @@ std::string script_of(const std::vector<Drawing>& panels, const std::string& tit
                       const std::string& picture)
 {
     const Page page = page_of(panels);
-    const double right = static_cast<double>(left_margin + page.panel_width) / page.width;
     std::string script = gnuplot_terminal(extension, page.width, page.height);
     script += fmt::format("set output {}\nset multiplot title {}\n", gnuplot_text(picture),
                           gnuplot_text(shortened(title, page.width - 40)));
     script += fmt::format("set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\n",
-                          static_cast<double>(left_margin) / page.width, right);
-    script += fmt::format("set key at screen {:.5f}, graph 1 left top Left reverse samplen 2 width -1\n", right + 0.01);
+                          static_cast<double>(left_margin) / page.width,
+                          static_cast<double>(left_margin + page.panel_width) / page.width);
     for (std::size_t k = 0; k < panels.size(); ++k) script += panel_text(panels[k], page.places[k], page);
     return script + "unset multiplot\nunset output\n";
 }

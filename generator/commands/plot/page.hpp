@@ -6,9 +6,9 @@
 
 namespace lagen {
 
-/// Draws `path` (.svg, .png or .pdf by its extension). All panels have the same left and right edges; legends stand at
-/// the right of them, cut to their width, and say how many curves they do not name. Throws MachineError where gnuplot
-/// is missing or fails.
+/// Draws `path` (.svg, .png or .pdf by its extension). All panels have the same left and right edges. Legends stand at
+/// the right of them, or below in columns where they are too long or too broad for that, and name every curve; a name
+/// alone that is broader than the page is cut. Throws MachineError where gnuplot is missing or fails.
 void draw_page(const std::vector<Drawing>& panels, const std::string& title, const std::string& path);
 
 /// Pixels along the axes of a panel, for labels: the longest that fit.

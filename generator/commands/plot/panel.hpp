@@ -12,6 +12,7 @@ namespace lagen {
 struct PanelRequest {
     std::vector<SampledCurve> curves;
     std::vector<std::vector<Symbol>> symbols; ///< of the coordinates of each
+    std::vector<std::string> runs{};          ///< of several, whose curves stand behind one another: their names
     std::string ordinate;                     ///< what several curves have in common; empty: their names say it
     Pen pen = Pen::line;
     bool equal = false;         ///< one scale on all axes
@@ -28,7 +29,7 @@ struct PanelRequest {
 /// floor.
 [[nodiscard]] Drawing draw_in_space(const PanelRequest& request);
 
-/// The legend: nothing for a curve alone.
+/// The legend: nothing for a curve alone. Curves of several runs have the names of their runs.
 void add_legend(Drawing& drawing, const PanelRequest& request);
 
 /// The symbols of one coordinate, a curve each.

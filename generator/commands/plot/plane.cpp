@@ -33,13 +33,14 @@ Pen pen_of(const SampledCurve& curve, Pen pen, bool over_time)
 {
     constexpr std::size_t many = 1000;
     if (curve.size() == 1) return Pen::points;
-    return over_time && curve.size() > many ? Pen::line : pen;
+    return pen == Pen::steps && over_time && curve.size() > many ? Pen::line : pen;
 }
 
 void label_axes(Drawing& drawing, const PanelRequest& request, bool changes)
 {
     const std::vector<Symbol> ordinates = symbols_along(request, 1);
-    const bool together = !request.ordinate.empty() && request.curves.size() > 1;
+    const bool together =
+        !request.ordinate.empty() && request.curves.size() > std::max<std::size_t>(request.runs.size(), 1);
     drawing.x_label = axis_label(symbols_along(request, 0), longest_x_label, true);
     const std::string before = changes ? "change of " : "";
     drawing.y_label = before + (together ? panel_label(request.ordinate, ordinates)
@@ -57,9 +58,14 @@ std::vector<Symbol> symbols_along(const PanelRequest& request, std::size_t axis)
 
 void add_legend(Drawing& drawing, const PanelRequest& request)
 {
-    const std::vector<std::string> legends = legends_of(request.symbols);
-    for (std::size_t k = 0; k < legends.size() && legends.size() > 1; ++k)
-        drawing.legend.emplace_back(request.pen == Pen::line ? line_style(k, 1.6) : point_style(k, 0.6), legends[k]);
+    const std::size_t count = request.curves.size(), each = count / std::max<std::size_t>(request.runs.size(), 1);
+    const auto first = request.symbols.begin();
+    const std::vector<std::string> legends = legends_of({first, first + static_cast<std::ptrdiff_t>(each)});
+    for (std::size_t k = 0; k < count && count > 1; ++k) {
+        std::string text = legends[k % each];
+        if (!request.runs.empty()) text += (text.empty() ? "" : ", ") + request.runs[k / each];
+        drawing.legend.emplace_back(request.pen == Pen::line ? line_style(k, 1.6) : point_style(k, 0.6), text);
+    }
 }
 
 Drawing draw_in_plane(const PanelRequest& request)

@@ -86,7 +86,7 @@ std::string vectors_of(const Driver& driver)
 std::string plot_of(const Options& options, const Model& model)
 {
     if (!options.has("plot")) return "";
-    std::string text;
+    std::string text = options.get("like");
     for (const std::string& curves : options.all("curves")) text += curves + "\n";
     const bool given = std::ranges::any_of(model.scenes, [](const Scene& scene) { return scene.plot.has_value(); });
     return given || !text.empty() ? "plot " + text : "";

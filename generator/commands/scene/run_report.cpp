@@ -2,6 +2,7 @@
 #include "commands/scene/run_report.hpp"
 
 #include "commands/scene/branch_report.hpp"
+#include "commands/scene/methods.hpp"
 #include "emit/json.hpp"
 
 #include <fmt/format.h>
@@ -38,6 +39,7 @@ std::string list_text(const Items& items, Print print)
 std::string reason_text(const RunOutcome& outcome)
 {
     const std::string& status = outcome.status;
+    const MethodEntry* method = find_method(outcome.method);
     if (is_branch_missing(outcome)) return missing_branch_text(outcome);
     if (status == "no_solution")
         return "no arrow on this branch has these momenta: they lie behind a fold of F^-L; shorter steps reach further";
@@ -50,6 +52,10 @@ std::string reason_text(const RunOutcome& outcome)
         return "no arrow with these momenta is connected with the one before: its branch ends at a fold of F^-L";
     if (status == "newton_diverged" && outcome.form == "discrete")
         return "Newton's method reaches no arrow with these momenta, and meets no fold on the way to them";
+    if (status == "newton_diverged" && !outcome.searches && method != nullptr &&
+        method->kind == MethodKind::implicit_stages)
+        return "Newton's method finds no stages: the equations of a step of this length are singular, or nearly so, or "
+               "their solution is far off; take another step";
     if (status == "not_a_maximum")
         return "no maximum of H is found from the controls before, or from the guess: d2H/du2 is not negative definite";
     if (status == "singular_control") return "H does not depend on a control: b = c = 0 in a + b cos u + c sin u";

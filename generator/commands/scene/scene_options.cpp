@@ -52,10 +52,17 @@ Plot curves_of(const Options& options, const Model& model)
     return plot;
 }
 
-/// What --plot draws: curves of the command line, or those of the scene. Without --plot it draws nothing.
+/// What --plot draws: curves of the command line, or those of --like, or those of the scene. Without --plot it draws
+/// nothing.
 void set_plot(const Options& options, const Model& model, Scene& scene)
 {
     if (!options.has("plot")) scene.plot.reset();
+    if (options.has("like")) {
+        scene.plot = find_scene(model, options.get("like")).plot;
+        if (!scene.plot)
+            throw UsageError(
+                fmt::format("lagen run: --like takes the picture of scene '{}', which has none", options.get("like")));
+    }
     if (options.has("curves")) scene.plot = curves_of(options, model);
     for (const char* word : {"equal", "points", "sphere"})
         if (options.has(word) && !scene.plot)
@@ -164,9 +171,10 @@ void set_initial(const Model& model, Scene& scene, const Setting& setting)
         *place = given;
 }
 
-Scene scene_of(const Options& options, const Model& model, const std::vector<Setting>& initial)
+Scene scene_of(const Options& options, const Model& model, const std::vector<Setting>& initial,
+               const std::optional<std::string>& name)
 {
-    Scene scene = find_scene(model, options.get("scene"));
+    Scene scene = find_scene(model, name.value_or(options.get("scene")));
     if (options.has("method")) scene.method = options.get("method");
     if (options.has("step")) scene.step = tree_of(options, model, "step");
     if (const Tree scale = time_scale_of(options, model); scale != nullptr || options.has("accuracy"))

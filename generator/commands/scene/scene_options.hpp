@@ -11,11 +11,12 @@ namespace lagen {
 inline constexpr long double standard_tolerance = 1e-10L;
 inline constexpr const char* standard_method = "dop853";
 
-/// The scene as --scene, --method, --step, --time-scale, --tolerance, --t-end, --at and --set change it, and with
-/// `initial` values and curves of the command line; without --plot it has no picture. With --at and without --t-end the
-/// run is as long as its rows ask for; with
+/// The scene `name`, without it that of --scene, as --method, --step, --time-scale, --tolerance, --t-end, --at and
+/// --set change it, and with `initial` values and curves of the command line; without --plot it has no picture. With
+/// --at and without --t-end the run is as long as its rows ask for; with
 /// --accuracy it has no time scale.
-[[nodiscard]] Scene scene_of(const Options& options, const Model& model, const std::vector<Setting>& initial);
+[[nodiscard]] Scene scene_of(const Options& options, const Model& model, const std::vector<Setting>& initial,
+                             const std::optional<std::string>& name = {});
 
 /// Whether `initial` of the scene has momenta; else it has fibre coordinates, if any.
 [[nodiscard]] bool starts_from_momenta(const Model& model, const Scene& scene);
