@@ -20,7 +20,10 @@ std::vector<Tree> evaluated_trees(const Model& model, const Scene& scene)
     for (const NamedTree& invariant : model.invariants) trees.push_back(invariant.value);
     for (const NamedTree& column : *scene.observe) trees.push_back(column.value);
     for (const NamedTree& coordinate : plot_coordinates(scene)) trees.push_back(coordinate.value);
-    for (const Event& event : scene.events) trees.push_back(event.when);
+    for (const Event& event : scene.events) {
+        trees.push_back(event.when);
+        for (const NamedTree& each : event.jump) trees.push_back(each.value);
+    }
     if (scene.time_scale != nullptr) trees.push_back(scene.time_scale);
     return trees;
 }
