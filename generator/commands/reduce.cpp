@@ -9,6 +9,7 @@
 #include "commands/reduce/routh_document.hpp"
 #include "commands/report_check.hpp"
 #include "commands/report_morphism.hpp"
+#include "commands/scene/scene_options.hpp"
 #include "elaborate/elaborate_morphism.hpp"
 #include "elaborate/make_frame.hpp"
 #include "emit/print_equations.hpp"
@@ -177,6 +178,7 @@ ExitCode reduce_by_routh(const Options& options, const std::string& path)
     const Model& model = checked.model;
     require_apart(options, model);
     for (const std::string& warning : checked.warnings) write_standard_error(fmt::format("warning: {}\n", warning));
+    for (const Scene& scene : model.scenes) require_no_jumps(options, scene, "Routh's reductions are made");
     const std::vector<std::size_t> cyclic = coordinates_to_reduce(model, split_list(options.get("routh")));
     const StructureReport free_of = cyclic_coordinates(checked.system);
     require_cyclic(model, free_of, cyclic);

@@ -88,7 +88,10 @@ std::vector<Tree> all_trees(const Model& model, const WrittenAlgebroid& algebroi
         for (const NamedTree& entry : *list)
             if (has_value(model, entry.value, entry_of(FormKind::pontryagin).name)) trees.push_back(entry.value);
     for (const Scene& scene : model.scenes) {
-        for (const Event& event : scene.events) trees.push_back(event.when);
+        for (const Event& event : scene.events) {
+            trees.push_back(event.when);
+            for (const NamedTree& each : event.jump) trees.push_back(each.value);
+        }
         if (scene.time_scale != nullptr) trees.push_back(scene.time_scale);
     }
     return trees;

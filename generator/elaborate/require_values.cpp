@@ -68,7 +68,10 @@ class ModelValues {
         add(scene.sampling.at);
         if (scene.observe) add(*scene.observe);
         add(plot_coordinates(scene));
-        for (const Event& event : scene.events) add(event.when);
+        for (const Event& event : scene.events) {
+            add(event.when);
+            add(event.jump);
+        }
     }
 
   private:

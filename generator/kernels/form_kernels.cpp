@@ -7,6 +7,7 @@
 #include "kernels/describe_module.hpp"
 #include "kernels/exact_flows.hpp"
 #include "kernels/formulation.hpp"
+#include "kernels/jumps.hpp"
 #include "kernels/kernel_table.hpp"
 #include "kernels/named_trees.hpp"
 #include "kernels/requested_kernels.hpp"
@@ -88,6 +89,8 @@ class ModuleBuilder {
     {
         if (wants("events")) add_trees("events", event_trees(model_, request_.scene));
         if (wants("event_series") && has_kernel(module_, "events")) add_series("event_series", "events");
+        if (wants("jumps") && has_jumps(model_, request_.scene, *form_.form))
+            add(jumps_kernel(*graph_, model_, system_, form_, request_.scene));
         if (wants("jacobian")) add_jacobian();
         if (wants("variational")) add_variational();
         if (request_.time_scale != nullptr) add_time_scale();

@@ -6,6 +6,7 @@
 ///   of hamilton, on request: flows, the exact flows of parts of H (kernels/exact_flows.hpp), as flow_0, flow_1, ..
 ///   taylor        the Taylor coefficients of the motion, order by order, on request
 ///   constraints, domain, observables, invariants, events: vectors in the order of the model
+///   jumps         the states behind events that jump, a column each (kernels/jumps.hpp)
 ///   of lagrange: mass_matrix, momentum, energy, power, lagrangian; lagrangian_hessian on request
 ///   of hamilton: velocity, energy, power, hamiltonian, lagrangian; hamiltonian_hessian on request
 ///   of pontryagin: controls, hamiltonian, power, cost

@@ -89,6 +89,8 @@ constexpr std::array kernel_rows{
     KernelRow{"algebra_bracket", mechanical, column_of_values,
               "[xi, eta], shape ({0}): A([xi, eta]) = A(eta) A(xi) - A(xi) A(eta)."},
     KernelRow{"events", flow, column_of_values, "Events: each happens where its value crosses 0."},
+    KernelRow{"jumps", mechanical, dense_matrix,
+              "The states behind jumps at s, shape ({0}, {1}): column k is that behind the event jumps_names[k]."},
 };
 
 } // namespace

@@ -21,7 +21,10 @@ std::vector<Tree> evaluated_trees(const Model& model, const Scene* scene)
     for (const ComponentEntry& force : model.forces) trees.push_back(force.value);
     for (const NamedTree& invariant : model.invariants) trees.push_back(invariant.value);
     for (const Scene& each : scene != nullptr ? std::span(scene, 1) : std::span<const Scene>(model.scenes))
-        for (const Event& event : each.events) trees.push_back(event.when);
+        for (const Event& event : each.events) {
+            trees.push_back(event.when);
+            for (const NamedTree& value : event.jump) trees.push_back(value.value);
+        }
     if (scene == nullptr) {
         for (const NamedTree& observable : model.observables) trees.push_back(observable.value);
         return trees;

@@ -2,6 +2,7 @@
 /// The [scene.NAME.events] block.
 #include "model/model_reader.hpp"
 
+#include "model/read_jump.hpp"
 #include "model/read_values.hpp"
 #include "model/table_reader.hpp"
 
@@ -38,6 +39,7 @@ Event read_event(const ModelReader& reader, const TomlEntry& entry)
     if (const TomlEntry* field = table.take("count")) {
         event.count = read_count(field->value, "'count' of " + title, 1, 1'000'000'000);
     }
+    if (const TomlEntry* field = table.take("jump")) event.jump = read_jump(reader, *field, title);
     table.finish();
     if (when == nullptr) {
         throw ModelError(title + " has no key 'when'", event.where, "when = \"an expression that crosses zero\"");

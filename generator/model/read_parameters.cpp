@@ -56,11 +56,16 @@ void apply(ModelReader& reader, const std::vector<Symbol>& symbols, const Settin
                          : fmt::format("the model has no parameter{} '{}' to {}", sizes.empty() ? "" : " or size",
                                        setting.name, setting.binds ? "bind" : "set");
     const std::string size = nearest_name(setting.name, sizes);
-    const std::string hint = !size.empty() && nearest_name(setting.name, known) == size
-                                 ? fmt::format("did you mean the size '{}'?", size)
-                             : resolve_key(symbols, family_name(setting.name))
-                                 ? hint_for_key(symbols, setting.name, "parameters")
-                                 : hint_for(setting.name, known, sizes.empty() ? "parameters" : "parameters and sizes");
+    const bool starts = entry != nullptr && setting.gives_value() && !setting.binds &&
+                        (entry->role == Role::base || entry->role == Role::fibre || entry->role == Role::momentum ||
+                         entry->role == Role::state);
+    const std::string hint =
+        starts ? fmt::format("where a scene starts is set by --initial {}={}, of `run` and `sweep`", setting.name,
+                             setting.value.text)
+        : !size.empty() && nearest_name(setting.name, known) == size ? fmt::format("did you mean the size '{}'?", size)
+        : resolve_key(symbols, family_name(setting.name))
+            ? hint_for_key(symbols, setting.name, "parameters")
+            : hint_for(setting.name, known, sizes.empty() ? "parameters" : "parameters and sizes");
     const std::string given = setting.gives_value() ? setting.name + "=" + setting.value.text : setting.name;
     throw ModelError(what, whole_text(option_of(setting), given).range(0, setting.name.size()), hint);
 }

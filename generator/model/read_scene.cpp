@@ -2,12 +2,15 @@
 /// One [scene.NAME] block: its options, numbers, sampling and columns.
 #include "model/scene_reader.hpp"
 
+#include "expression/functions.hpp"
+#include "expression/parse.hpp"
 #include "model/families.hpp"
 #include "model/read_curve.hpp"
 #include "model/read_values.hpp"
 #include "model/scene_form.hpp"
 #include "model/table_reader.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <set>
 
@@ -46,6 +49,30 @@ void read_observe(const ModelReader& reader, Scene& scene, const TomlEntry& entr
     scene.observe = std::move(out);
 }
 
+/// The event of the scene that `sample` names, if it names one.
+const Event* sampled_event(const ModelReader& reader, const Scene& scene, const TomlValue& value)
+{
+    const std::string& text = value.text.text;
+    if (value.kind != TomlKind::string || !is_identifier(text)) return nullptr;
+    const auto event = std::ranges::find(scene.events, text, &Event::name);
+    const Scope& scope = reader.model.scope;
+    const bool stands = scope.has_symbol(text) || scope.has_definition(text) || scope.find_size(text);
+    if (event != scene.events.end()) {
+        if (!stands) return &*event;
+        throw ModelError(
+            fmt::format("'sample' of scene '{}' is '{}', which is an event and a name of the model", scene.name, text),
+            value.where, "rename the event");
+    }
+    if (stands || is_reserved_name(text)) return nullptr;
+    std::vector<std::string> known;
+    for (const Event& each : scene.events) known.push_back(each.name);
+    for (const std::string& parameter : reader.names.of(Role::parameter)) known.push_back(parameter);
+    throw ModelError(fmt::format("'sample' of scene '{}' is '{}', which is neither an event of the scene nor a "
+                                 "parameter",
+                                 scene.name, text),
+                     value.where, hint_for(text, known, "events and parameters"));
+}
+
 void read_sampling(const ModelReader& reader, Scene& scene, TableReader& table)
 {
     const std::string of = fmt::format(" of scene '{}'", scene.name);
@@ -62,7 +89,11 @@ void read_sampling(const ModelReader& reader, Scene& scene, TableReader& table)
     }
     if (given == nullptr) return;
     scene.sampling = Sampling{};
-    if (given->name() == "sample") {
+    if (const Event* event = given->name() == "sample" ? sampled_event(reader, scene, given->value) : nullptr) {
+        scene.sampling.kind = Sampling::Kind::event;
+        scene.sampling.event = event->name;
+        scene.sampling.event_where = given->value.where;
+    } else if (given->name() == "sample") {
         scene.sampling.kind = Sampling::Kind::interval;
         scene.sampling.interval = over_parameters(reader, given->value, "'sample'" + of);
     } else if (given->name() == "samples") {
@@ -156,8 +187,8 @@ Scene read_scene(const ModelReader& reader, Scene scene, const TomlEntry& block,
     read_first_arrow(reader, scene, table);
     if (const TomlEntry* entry = table.take("parameters")) read_scene_parameters(reader, scene, *entry);
     if (const TomlEntry* entry = table.take("observe")) read_observe(reader, scene, *entry);
-    read_sampling(reader, scene, table);
     if (const TomlEntry* entry = table.take("events")) read_scene_events(reader, scene, *entry);
+    read_sampling(reader, scene, table);
     table.finish();
     for (const Setting& setting : settings) {
         if (!setting.gives_value()) continue;

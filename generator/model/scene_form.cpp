@@ -121,6 +121,14 @@ void require_no_events(const Scene& scene)
                      scene.events.front().where, "observe its function, and look for the change of sign in the rows");
 }
 
+/// A name of the jump that is among `symbols`, or "".
+std::string first_of(const std::vector<NamedTree>& jump, const std::vector<Symbol>& symbols)
+{
+    for (const NamedTree& each : jump)
+        if (index_of(symbols, each.name) < symbols.size()) return each.name;
+    return "";
+}
+
 /// A costate follows from no velocity: sigma gives y for each (x, u), and u is what is sought.
 void require_momenta(const Model& model, const Scene& scene)
 {
@@ -225,6 +233,21 @@ std::vector<std::string> state_names(const Model& model, const std::string& form
     return names;
 }
 
+std::optional<JumpObstacle> obstacle_to_jump(const Model& model, const Event& event, const std::string& form)
+{
+    const std::string momentum = first_of(event.jump, model.fibre.momenta);
+    const std::string velocity = first_of(event.jump, model.fibre.coordinates);
+    if (!momentum.empty() && !form_named(form).momenta)
+        return JumpObstacle{fmt::format("the momentum '{}', and the form '{}' has fibre coordinates", momentum, form),
+                            "set those, or run another form: form = \"hamilton\""};
+    if (!velocity.empty() && form_named(form).momenta && !model.lagrangian)
+        return JumpObstacle{fmt::format("the fibre coordinate '{}', and the form '{}' of a model without [lagrangian] "
+                                        "has momenta alone",
+                                        velocity, form),
+                            "set momenta"};
+    return std::nullopt;
+}
+
 void require_values_in(const Model& model, const Scene& scene, const std::string& form)
 {
     ForeignSearch foreign_in(model, form);
@@ -235,9 +258,14 @@ void require_values_in(const Model& model, const Scene& scene, const std::string
         foreign_in.refuse_in(coordinate.value,
                              fmt::format("the curve of '{}' of scene '{}'", coordinate.name, scene.name), form,
                              coordinate.where);
-    for (const Event& event : scene.events)
-        foreign_in.refuse_in(event.when, fmt::format("event '{}' of scene '{}'", event.name, scene.name), form,
-                             event.where);
+    for (const Event& event : scene.events) {
+        const std::string title = fmt::format("event '{}' of scene '{}'", event.name, scene.name);
+        foreign_in.refuse_in(event.when, title, form, event.where);
+        for (const NamedTree& each : event.jump)
+            foreign_in.refuse_in(each.value, fmt::format("'{}' in the jump of {}", each.name, title), form, each.where);
+        if (const std::optional<JumpObstacle> obstacle = obstacle_to_jump(model, event, form))
+            throw ModelError(fmt::format("the jump of {} sets {}", title, obstacle->text), event.where, obstacle->hint);
+    }
     if (scene.time_scale != nullptr)
         foreign_in.refuse_in(scene.time_scale, fmt::format("the time scale of scene '{}'", scene.name), form,
                              scene.time_scale_where);

@@ -31,9 +31,17 @@ void require_form(const Model& model, const std::string& form, const std::string
 /// controls (pontryagin), or entries of the group element and momenta (discrete).
 [[nodiscard]] std::vector<std::string> state_names(const Model& model, const std::string& form);
 
-/// Throws ModelError where a column, a curve, an event or the time scale of the scene has no value in this form: none
-/// has everything to observe that another has.
+/// Throws ModelError where a column, a curve, an event, its jump or the time scale of the scene has no value in this
+/// form: none has everything to observe that another has.
 void require_values_in(const Model& model, const Scene& scene, const std::string& form);
+
+/// Why a jump cannot be made in this form: what it sets, behind "sets ", and the hint.
+struct JumpObstacle {
+    std::string text, hint;
+};
+/// Fibre coordinates are none of Lagrange's momenta; of those Hamilton's follow by Legendre's transform of L.
+[[nodiscard]] std::optional<JumpObstacle> obstacle_to_jump(const Model& model, const Event& event,
+                                                           const std::string& form);
 
 /// Whether `tree` has a value in this form: controls have one in Pontryagin's alone, coordinates of an arrow in the
 /// discrete one, which has neither velocities nor a Hamiltonian.

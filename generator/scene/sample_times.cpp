@@ -132,6 +132,7 @@ SampleTimes sample_times(const Scene& scene, const SceneValues& values, std::siz
     SampleTimes times;
     times.kind = scene.sampling.kind;
     times.interval = values.interval;
+    times.event = scene.sampling.event;
     find_end(scene, values, stretch, times);
     long double rows = 201;
     switch (times.kind) {
@@ -144,7 +145,8 @@ SampleTimes sample_times(const Scene& scene, const SceneValues& values, std::siz
         rows = static_cast<long double>(times.at.size());
         break;
     }
-    if (times.start == times.end && times.kind != Sampling::Kind::at) {
+    const bool given = times.kind == Sampling::Kind::at || times.kind == Sampling::Kind::event;
+    if (times.start == times.end && !given) {
         times.kind = Sampling::Kind::count;
         times.count = 1;
         rows = 1;

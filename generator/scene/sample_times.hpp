@@ -15,6 +15,7 @@ struct SampleTimes {
     std::size_t count = 201;             ///< of `standard` and `count`
     std::optional<long double> interval; ///< of `interval`
     std::vector<long double> at;         ///< of `at`, sorted in the direction of time
+    std::string event;                   ///< of `event`: at each of its crossings
     std::size_t every = 0;               ///< of a discrete motion: the steps between two rows
 };
 

@@ -98,7 +98,8 @@ TEST_CASE("what the command line says about a model is checked like the model")
     refused({"run", "pendulum.toml", "--set", "l=zz"}, 3,
             "<--set l>:1:1: error: unknown symbol 'zz'\n  zz\n  ^~\nhint: known names are m, l, g\n");
     refused({"run", "heavy_top.toml", "--set", "g1=3"}, 3,
-            "<--set>:1:1: error: 'g1' is a base coordinate, not a parameter\n  g1=3\n  ^~\nhint: did you mean 'I1'?\n");
+            "<--set>:1:1: error: 'g1' is a base coordinate, not a parameter\n  g1=3\n  ^~\n"
+            "hint: where a scene starts is set by --initial g1=3, of `run` and `sweep`\n");
     refused({"run", "pendulum.toml", "--scene", "deflt"}, 3,
             "error: the model 'pendulum.toml' has no scene 'deflt'\n"
             "hint: known scenes: default, small, rotation, first_turn\n");

@@ -140,7 +140,8 @@ TEST_CASE("a setting must name a parameter and have a value over parameters")
         return "";
     };
     CHECK(error("mas", "2") == "the model has no parameter 'mas' to set | did you mean 'mass'?");
-    CHECK(error("q", "2") == "'q' is a base coordinate, not a parameter | known parameters: mass");
+    CHECK(error("q", "2") == "'q' is a base coordinate, not a parameter | where a scene starts is set by "
+                             "--initial q=2, of `run` and `sweep`");
     CHECK(error("mass", "q") ==
           "the value set for parameter 'mass' may not depend on a base coordinate ('q') | allowed here: parameters");
     CHECK(error("mass", "2*mass") ==

@@ -89,16 +89,16 @@ double number_of(std::string_view field)
     return value;
 }
 
-/// Points at the rows: the plot asks for them, or the rows are those of an event.
-bool has_points(const PlottedRun& run)
+/// Points at the rows of the scene, and nothing between them.
+bool draws_points(const PlottedRun& run)
 {
-    return (run.scene.plot && run.scene.plot->points) || run.scene.sampling.kind == Sampling::Kind::event;
+    return run.scene.sampling.kind == Sampling::Kind::event || (run.scene.plot && run.scene.plot->points);
 }
 
 /// The times of the picture.
 void use_times(const PlottedRun& run, ProgramInput& input)
 {
-    if (has_points(run)) return;
+    if (draws_points(run)) return;
     SampleTimes& times = input.times;
     if (times.every > 0) {
         const std::size_t steps = (std::max<std::size_t>(run.rows, 1) - 1) * times.every;
@@ -108,6 +108,16 @@ void use_times(const PlottedRun& run, ProgramInput& input)
         const auto fits = static_cast<std::size_t>(most_numbers) / (input.columns.size() + 1);
         times.count = std::max<std::size_t>(2, std::min(most_times, fits));
     }
+}
+
+/// The times of jumps, the last one first. Curves are broken there.
+std::vector<double> jumps_of(const RunOutcome& outcome)
+{
+    std::vector<double> times;
+    for (const EventReport& event : outcome.events)
+        if (!event.after.empty()) times.push_back(number_of(event.time));
+    std::ranges::reverse(times);
+    return times;
 }
 
 Columns columns_of_run(const PlottedRun& run, const std::vector<PlannedPanel>& panels)
@@ -128,8 +138,16 @@ Columns columns_of_run(const PlottedRun& run, const std::vector<PlannedPanel>& p
         throw MachineError("error: there is nothing to plot: the run gave no rows");
     Columns columns;
     names.insert(names.begin(), "t");
+    std::vector<double> jumps = jumps_of(outcome); // those that no row is behind yet, the next one last
     for (const std::string_view line : outcome.table.lines()) {
         const std::vector<std::string_view> row = fields(line);
+        const double time = number_of(row[0]);
+        const auto is_behind = [&](double jump) {
+            return input.times.end < input.times.start ? time < jump : time > jump;
+        };
+        if (!jumps.empty() && is_behind(jumps.back()))
+            for (const std::string& name : names) columns[name].push_back(std::numeric_limits<double>::quiet_NaN());
+        while (!jumps.empty() && is_behind(jumps.back())) jumps.pop_back();
         for (std::size_t k = 0; k < names.size(); ++k) columns[names[k]].push_back(number_of(row[k]));
     }
     return columns;
@@ -152,7 +170,7 @@ Drawing draw_panel(const std::vector<PlottedRun>& runs, const PlannedPanel& pane
     PanelRequest request;
     request.ordinate = panel.label;
     request.equal = plot && plot->equal;
-    request.pen = has_points(first) ? Pen::points : first.input.times.every > 0 ? Pen::steps : Pen::line;
+    request.pen = draws_points(first) ? Pen::points : first.input.times.every > 0 ? Pen::steps : Pen::line;
     if (plot) request.sphere = plot->sphere;
     for (std::size_t k = 0; k < runs.size(); ++k) {
         if (runs.size() > 1) request.runs.push_back(runs[k].scene.name);

@@ -35,7 +35,7 @@ std::string list_text(const Items& items, Print print)
     return text + "]";
 }
 
-/// What ended a run whose controls could not be followed, a discrete one, or one on a group.
+/// What ended a run whose controls could not be followed, a discrete one, one on a group, or one of jumps.
 std::string reason_text(const RunOutcome& outcome)
 {
     const std::string& status = outcome.status;
@@ -58,6 +58,11 @@ std::string reason_text(const RunOutcome& outcome)
                "their solution is far off; take another step";
     if (status == "not_a_maximum")
         return "no maximum of H is found from the controls before, or from the guess: d2H/du2 is not negative definite";
+    if (status == "zeno")
+        return fmt::format(
+            "infinitely many jumps of event {} lead up to here, ever faster; the model does not say what "
+            "follows them",
+            outcome.events.empty() ? "" : outcome.events.back().name);
     if (status == "singular_control") return "H does not depend on a control: b = c = 0 in a + b cos u + c sin u";
     return {};
 }
@@ -213,10 +218,53 @@ std::string row_text(std::string_view line)
     return list_text(fields(line), [](std::string_view field) { return number_text(field); });
 }
 
+constexpr std::size_t most_lanes = 12; ///< of a state in a line
+
+std::string lanes_json(const RunOutcome& outcome, const std::vector<std::string>& values)
+{
+    std::string text;
+    for (std::size_t k = 0; k < values.size(); ++k)
+        text +=
+            fmt::format("{}{}: {}", k == 0 ? "" : ", ", string_text(outcome.state.at(k).first), number_text(values[k]));
+    return "{" + text + "}";
+}
+
+/// "x = 0, v = -1", but for lanes that are as `before`.
+std::string lanes_text(const RunOutcome& outcome, const std::vector<std::string>& values,
+                       const std::vector<std::string>& before)
+{
+    std::string text;
+    for (std::size_t k = 0; k < values.size(); ++k)
+        if (before.empty() || before[k] != values[k])
+            text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", outcome.state.at(k).first, brief(values[k], 9));
+    return text;
+}
+
+/// A line an event, with its state where that has few lanes; of many events the first ones and the last ones.
+std::string events_text(const RunOutcome& outcome)
+{
+    constexpr std::size_t most = 20, shown = 10;
+    const std::vector<EventReport>& events = outcome.events;
+    std::string text;
+    for (std::size_t k = 0; k < events.size(); ++k) {
+        if (events.size() > most && k == shown) {
+            text += fmt::format("  and {} events more, all of them in `--format json`\n", events.size() - 2 * shown);
+            k = events.size() - shown;
+        }
+        const EventReport& event = events[k];
+        text += fmt::format("  event {} at t = {}", event.name, brief(event.time, 15));
+        if (!event.state.empty() && event.state.size() <= most_lanes) {
+            const std::string after = lanes_text(outcome, event.after, event.state);
+            text += ": " + lanes_text(outcome, event.state, {}) + (after.empty() ? "" : ", then " + after);
+        }
+        text += "\n";
+    }
+    return text;
+}
+
 /// The last good state of a run that failed, where it has few lanes.
 std::string last_state(const RunOutcome& outcome)
 {
-    constexpr std::size_t most_lanes = 12;
     std::string lanes;
     for (const auto& [name, value] : outcome.state)
         lanes += fmt::format("{}{} = {:.9g}", lanes.empty() ? ": " : ", ", name, std::strtod(value.c_str(), nullptr));
@@ -253,23 +301,24 @@ bool succeeded(const std::string& status)
 
 std::string report_json(const RunOutcome& outcome)
 {
-    const std::string events = list_text(outcome.events, [](const EventReport& event) {
-        return fmt::format("{{\"name\": {}, \"t\": {}}}", string_text(event.name), number_text(event.time));
+    const std::string events = list_text(outcome.events, [&](const EventReport& event) {
+        return fmt::format("{{\"name\": {}, \"t\": {}, \"state\": {}{}}}", string_text(event.name),
+                           number_text(event.time), lanes_json(outcome, event.state),
+                           event.after.empty() ? "" : ", \"after\": " + lanes_json(outcome, event.after));
     });
     const std::string implicit = outcome.newton.empty()
                                      ? ""
                                      : fmt::format(" \"newton_iterations\": {}, \"decompositions\": {},",
                                                    number_text(outcome.newton), number_text(outcome.decompositions));
-    std::string state;
-    for (const auto& [name, value] : outcome.state)
-        state += fmt::format("{}{}: {}", state.empty() ? "" : ", ", string_text(name), number_text(value));
+    std::vector<std::string> state;
+    for (const auto& lane : outcome.state) state.push_back(lane.second);
     return fmt::format(
         "{{\"model\": {}, \"scene\": {}, \"form\": {}, \"method\": {}, \"status\": {}, \"t\": {}, "
-        "\"state\": {{{}}},{}{}\n \"steps\": {}, "
+        "\"state\": {},{}{}\n \"steps\": {}, "
         "\"rejected\": {}, \"rhs_calls\": {},{} \"seconds\": {},\n \"columns\": {},\n \"rows\": {},\n \"events\": "
         "{},\n{}}}\n",
         string_text(outcome.model), string_text(outcome.scene), string_text(outcome.form), string_text(outcome.method),
-        string_text(outcome.status), number_text(outcome.time), state,
+        string_text(outcome.status), number_text(outcome.time), lanes_json(outcome, state),
         succeeded(outcome.status)
             ? ""
             : fmt::format(" \"failed_at\": {},", number_text(outcome.failed_at)) +
@@ -292,8 +341,7 @@ std::string report_text(const RunOutcome& outcome)
     if (!outcome.newton.empty())
         text += fmt::format("  {}, {}\n", counted(outcome.newton, "Newton iteration"),
                             counted(outcome.decompositions, "factorisation"));
-    for (const EventReport& event : outcome.events)
-        text += fmt::format("  event {} at t = {}\n", event.name, brief(event.time, 15));
+    text += events_text(outcome);
     const bool failed = !succeeded(outcome.status);
     if (const std::string reason = reason_text(outcome); !reason.empty())
         text += fmt::format("  {}\n{}", reason, last_state(outcome));

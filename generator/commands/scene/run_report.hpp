@@ -12,10 +12,13 @@
 
 namespace lagen {
 
-/// An event that was found, with its time as printed by the scene's program.
+/// An event that was found, with its time, the lanes of the state and those behind its jump, as printed by the scene's
+/// program.
 struct EventReport {
     std::string name;
     std::string time;
+    std::vector<std::string> state;
+    std::vector<std::string> after; ///< empty where it does not jump
 };
 
 /// How a function moved over the steps that should be constant, or 0 where it is a constraint. Numbers as printed;

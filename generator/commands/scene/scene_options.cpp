@@ -158,17 +158,19 @@ void set_initial(const Model& model, Scene& scene, const Setting& setting)
 {
     const std::vector<Symbol> symbols = initial_symbols(model, scene);
     const std::optional<ResolvedKey> key = resolve_key(symbols, setting.name);
+    const std::string given = setting.name + "=" + setting.value.text;
     if (!key || key->shape.rank != Rank::scalar)
-        throw ModelError(
-            fmt::format("scene '{}' has no initial value '{}' to change", scene.name, setting.name),
-            whole_text("<--initial>", setting.name + "=" + setting.value.text).range(0, setting.name.size()),
-            hint_for_key(symbols, setting.name, "initial values"));
-    const NamedTree given{key->name, option_tree(model, "initial", setting.value), setting.value.range(0, 0)};
+        throw ModelError(fmt::format("scene '{}' has no initial value '{}' to change", scene.name, setting.name),
+                         whole_text("<--initial>", given).range(0, setting.name.size()),
+                         resolve_key(parameter_symbols(model), setting.name)
+                             ? fmt::format("--set {} changes a parameter", given)
+                             : hint_for_key(symbols, setting.name, "initial values"));
+    const NamedTree value{key->name, option_tree(model, "initial", setting.value), setting.value.range(0, 0)};
     const auto place = std::ranges::find(scene.initial, key->name, &NamedTree::name);
     if (place == scene.initial.end())
-        scene.initial.push_back(given);
+        scene.initial.push_back(value);
     else
-        *place = given;
+        *place = value;
 }
 
 Scene scene_of(const Options& options, const Model& model, const std::vector<Setting>& initial,
@@ -195,6 +197,17 @@ void require_curve(const Options& options, const Scene& scene, const char* what)
     throw UsageError(fmt::format("lagen {}: {} of curves, and scene '{}' is a discrete motion\nhint: --form lagrange, "
                                  "where the model has [lagrangian]",
                                  options.command(), what, scene.name));
+}
+
+void require_no_jumps(const Options& options, const Scene& scene, const char* what)
+{
+    const auto jumps = [](const Event& event) { return !event.jump.empty(); };
+    const auto event = std::ranges::find_if(scene.events, jumps);
+    if (event == scene.events.end()) return;
+    throw UsageError(
+        fmt::format("lagen {}: {} of motions without jumps, and the event '{}' of scene '{}' has one\nhint: "
+                    "another scene, or the same without its events",
+                    options.command(), what, event->name, scene.name));
 }
 
 const MethodEntry& method_of(const Options& options, const Scene& scene)

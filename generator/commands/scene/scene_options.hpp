@@ -37,6 +37,8 @@ void set_initial(const Model& model, Scene& scene, const Setting& setting);
 /// takes no time scale. Warns on standard error of what it does not use.
 /// Throws where the form of the scene is a motion from step to step: `what` is made of curves.
 void require_curve(const Options& options, const Scene& scene, const char* what);
+/// The same where an event of the scene jumps.
+void require_no_jumps(const Options& options, const Scene& scene, const char* what);
 [[nodiscard]] const MethodEntry& method_of(const Options& options, const Scene& scene);
 
 } // namespace lagen

@@ -73,6 +73,19 @@ std::vector<std::string> numbers_of(const std::string& value)
     return numbers;
 }
 
+/// "NAME@T@STATE", and "@STATE" behind its jump.
+EventReport event_of(const std::string& value)
+{
+    std::vector<std::string> parts;
+    for (std::size_t begin = 0; begin <= value.size();) {
+        const std::size_t end = std::min(value.find('@', begin), value.size());
+        parts.push_back(value.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    if (parts.size() < 3) throw InternalError("the program of a scene gave another event");
+    return {parts[0], parts[1], numbers_of(parts[2]), numbers_of(parts.size() > 3 ? parts[3] : "")};
+}
+
 void read_line(const std::string& key, const std::string& value, RunOutcome& outcome)
 {
     const std::pair<std::string_view, std::vector<Drift>*> followed[] = {
@@ -93,10 +106,7 @@ void read_line(const std::string& key, const std::string& value, RunOutcome& out
     if (key == "newton") outcome.newton = value;
     if (key == "decompositions") outcome.decompositions = value;
     if (key == "seconds") outcome.seconds = value;
-    if (key == "event") {
-        const std::size_t at = value.rfind('@');
-        outcome.events.push_back({value.substr(0, at), at == std::string::npos ? "" : value.substr(at + 1)});
-    }
+    if (key == "event") outcome.events.push_back(event_of(value));
     if (key == "balance") outcome.balance.push_back(drift_of("energy less work", value));
     if (key == "work") outcome.work = value;
     if (key == "energy" || key == "hamiltonian") outcome.invariants.push_back(drift_of(key, value));
@@ -134,8 +144,8 @@ std::vector<std::string> entries_of(const KernelModule& module, const char* kern
 void give_rows(const ProgramInput& input, const std::function<void(const char*, std::string)>& give)
 {
     switch (input.times.kind) {
+    case Sampling::Kind::event: give("--at-event", input.times.event); break;
     case Sampling::Kind::standard:
-    case Sampling::Kind::event:
     case Sampling::Kind::count: give("--samples", std::to_string(input.times.count)); break;
     case Sampling::Kind::interval: give("--interval", text_of(*input.times.interval)); break;
     case Sampling::Kind::at: give("--at-file", input.at_file); break;

@@ -76,8 +76,8 @@ std::vector<std::string> SweepRun::arguments() const
     std::vector<std::string> list{setting_.record.program, "--threads", std::to_string(setting_.threads)};
     const Sampling& sampling = setting_.scene.sampling;
     switch (sampling.kind) {
-    case Sampling::Kind::standard:
-    case Sampling::Kind::event: break;
+    case Sampling::Kind::standard: break;
+    case Sampling::Kind::event: list.insert(list.end(), {"--at-event", sampling.event}); break;
     case Sampling::Kind::count: list.insert(list.end(), {"--samples", std::to_string(sampling.count)}); break;
     case Sampling::Kind::interval: list.insert(list.end(), {"--rows", "interval"}); break;
     case Sampling::Kind::at:

@@ -176,6 +176,14 @@ concept HasEvents = requires(const M& model, typename M::Scalar t, const typenam
     model.events(t, s);
 };
 
+/// Column k of jumps(t, s) is the state behind a jump at (t, s), that of the event jumps_names[k].
+template <class M>
+concept HasJumps = HasEvents<M> && requires(const M& model, typename M::Scalar t, const typename M::State& s)
+{
+    M::jumps_names;
+    model.jumps(t, s);
+};
+
 template <class M>
 concept HasInvariants = requires(const M& model, typename M::Scalar t, const typename M::State& s)
 {

@@ -23,6 +23,7 @@ enum class Status : std::uint8_t {
     singular_control, ///< H does not depend on a control: it has no maximum to be found at
     no_solution,      ///< the equation of a discrete step has none: its momenta lie behind a fold
     branch_lost,      ///< no way leads from a discrete step to the next one on its branch of solutions
+    zeno,             ///< jumps follow each other ever faster: infinitely many of them up to a time
 };
 
 /// True where the computation may go on or ended as asked.
@@ -49,6 +50,7 @@ enum class Status : std::uint8_t {
     case Status::singular_control: return "singular_control";
     case Status::no_solution: return "no_solution";
     case Status::branch_lost: return "branch_lost";
+    case Status::zeno: return "zeno";
     }
     return "unknown";
 }

@@ -19,7 +19,7 @@ struct DriveArguments {
     std::optional<double> start, end, step, relative, absolute, interval;
     std::optional<std::size_t> max_steps, samples, every, branch;
     bool from_arrow = false;
-    std::string at_file, report, events, format = "csv";
+    std::string at_file, at_event, report, events, format = "csv";
     std::optional<std::string> columns;
 };
 
@@ -93,6 +93,7 @@ inline Complaint read_argument(const std::string& key, const std::string& text, 
     if (key == "--from" && text == "arrow") return into.from_arrow = true, Complaint{};
     if (key == "--from") return "--from: \"" + text + "\" is not arrow";
     if (key == "--at-file") return into.at_file = text, Complaint{};
+    if (key == "--at-event") return into.at_event = text, Complaint{};
     if (key == "--report") return into.report = text, Complaint{};
     if (key == "--events") return into.events = text, Complaint{};
     if (key == "--columns") return into.columns = text, Complaint{};

@@ -16,12 +16,12 @@
 ///   --branch N            one that starts from momenta: its first arrow is the N-th of those that are found
 ///   (branches.hpp)
 ///   --every N             rows at the start and behind every N-th step; the rows of a discrete motion
-///   --samples N | --interval H | --at-file FILE   rows at N even times, every H from the start on (and the end), or at
-///   the
-///                         numbers of FILE (separated by space or comma, in the direction of time). Default: --samples
-///                         201
+///   --samples N | --interval H | --at-file FILE | --at-event NAME   rows at N even times, every H from the start on
+///   (and
+///                         the end), at the numbers of FILE (separated by space or comma, in the direction of time), or
+///                         at each crossing of one of --events. Default: --samples 201
 ///   --events name:direction:stop:count,..   direction rising, falling or any; stop 0 or 1; count from 1; names of the
-///   header
+///                         header. Behind one that stands in its jumps_names the state jumps
 ///   --columns c,c,..      s0, s1, .. state lanes; o0, o1, .. entries of observables(); left out: every state lane;
 ///   "-": none
 ///   --format csv|binary   rows on standard output: CSV of shortest decimals (an empty field for what is no finite
@@ -30,14 +30,16 @@
 ///
 /// A row is t, then the columns. Rows appear while the run goes on, at exactly the times asked for; where an event or a
 /// failure ends the run after its start, one more row stands at the end, the last good state at its time (unless that
-/// was asked for anyway; times of --at-file are exactly what is written). The report, at the end of every run, has
-/// lines KEY=VALUE in this order, numbers as shortest decimals, those in brackets only where the model has the part:
+/// was asked for anyway; rows of --at-file and --at-event are exactly what is written). The report, at the end of every
+/// run, has lines KEY=VALUE in this order, numbers as shortest decimals, those in brackets only where the model has the
+/// part:
 ///   status=ok             as to_text(Status)
 ///   t=10                  time of the last good state
 ///   failed_at=10          time at which the run met what ended it; the same as t where nothing failed
 ///   steps=  rejected=  rhs_calls=  [newton=  decompositions=]  rows=  seconds=      those in brackets of implicit
 ///   methods
-///   event=NAME@T          one line an event found, in the order of the run
+///   event=NAME@T@v,v,..   one line an event found, in the order of the run, with the state there; with @v,v,.. more
+///                         where it jumps: the state behind all jumps of that instant
 ///   [energy= or hamiltonian=]  [balance=, work=]  [invariant:NAME=]  [constraint:NAME=]  [casimir:NAME=]
 ///                         INITIAL,MOST,T,SLOPE,ERROR,SIZE,MOVED_AT, over the steps that figures.hpp names: the first
 ///                         value; the largest distance from it (from 0, of constraints) and where that was; slope and
@@ -124,6 +126,7 @@ Complaint plan_times(const DriveArguments& given, DrivePlan<M>& plan)
     plan.span = {given.start.value_or(0.0), *given.end};
     if (given.every) return *given.every > 0 ? Complaint{} : "--every: a positive number of steps is required";
     if (DiscreteMotion<M>) return "--every: the rows of a discrete motion are at its steps";
+    if (!given.at_event.empty()) return plan.times.clear(), Complaint{};
     if (!given.at_file.empty()) {
         Complaint complaint = read_times(given.at_file, plan.times);
         return complaint.empty() ? check_order(plan.times, plan.span.end < plan.span.start) : complaint;
@@ -194,6 +197,25 @@ Complaint plan_event(const std::string& text, DrivePlan<M>& plan)
     return {};
 }
 
+/// Rows at the crossings of an event, and the jumps of events, which are those of the plan's own model: it stays where
+/// it is while they are used.
+template <class M>
+Complaint plan_crossings(const DriveArguments& given, DrivePlan<M>& plan)
+{
+    bool known = given.at_event.empty();
+    for (std::size_t k = 0; k < plan.events.size(); ++k) {
+        plan.events[k].row = plan.event_names[k] == given.at_event;
+        known = known || plan.events[k].row;
+        if constexpr (HasJumps<M>)
+            for (std::size_t j = 0; j < M::jumps_names.size(); ++j)
+                if (plan.event_names[k] == M::jumps_names[j])
+                    plan.events[k].jump = [&model = plan.model, j](double t, const typename M::State& s) {
+                        return typename M::State(model.jumps(t, s).col(static_cast<Eigen::Index>(j)));
+                    };
+    }
+    return known ? Complaint{} : "--at-event: \"" + given.at_event + "\" is none of --events";
+}
+
 template <class M, class Method>
 Complaint plan_method(const DriveArguments& given, Method& method)
 {
@@ -220,7 +242,7 @@ Complaint make_plan(const DriveArguments& given, DrivePlan<M>& plan, Method& met
     if (complaint.empty()) complaint = plan_method<M>(given, method);
     for (const std::string& event : split(given.events, ','))
         if (complaint.empty()) complaint = plan_event(event, plan);
-    return complaint;
+    return complaint.empty() ? plan_crossings(given, plan) : complaint;
 }
 
 template <class M>
@@ -235,10 +257,17 @@ std::string report_text(const DrivePlan<M>& plan, const Run<M>& run, const Drive
     if (run.decompositions != 0) text += "decompositions=" + std::to_string(run.decompositions) + '\n';
     text += "rows=" + std::to_string(record.rows()) + '\n';
     text += "seconds=" + number_text(seconds) + '\n';
-    for (const auto& found : run.events)
-        text += "event=" + plan.event_names[found.request] + '@' + number_text(found.t) + '\n';
+    const auto put = [&](const typename M::State& s) {
+        for (Eigen::Index i = 0; i < s.size(); ++i) text += (i == 0 ? "" : ",") + number_text(s[i]);
+    };
+    for (const auto& found : run.events) {
+        text += "event=" + plan.event_names[found.request] + '@' + number_text(found.t) + '@';
+        put(found.state);
+        if (plan.events[found.request].jump) text += '@', put(found.after);
+        text += '\n';
+    }
     text += record.report() + branches + "state=";
-    for (Eigen::Index i = 0; i < run.state.size(); ++i) text += (i == 0 ? "" : ",") + number_text(run.state[i]);
+    put(run.state);
     return text + '\n';
 }
 
@@ -287,7 +316,8 @@ try {
                                          : detail::no_run<M>(plan.initial, plan.span.start, start);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
     const bool ended_early = run.status() != Status::ok && run.steps > 0;
-    if (ended_early && given.at_file.empty() && record.last_time() != run.t) record.row(run.t, run.state);
+    const bool fixed = !given.at_file.empty() || !given.at_event.empty();
+    if (ended_early && !fixed && record.last_time() != run.t) record.row(run.t, run.state);
 
     const bool rows_written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
     if (!rows_written) return detail::complain("the rows could not be written to standard output", 5);

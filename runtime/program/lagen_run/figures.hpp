@@ -2,7 +2,8 @@
 /// What is followed along a run because the equations keep it, or because it tells of the motion. At every accepted
 /// step: how far energy (or Pontryagin's Hamiltonian), the energy less the work of its power, invariants and base
 /// constraints (whose values should be 0) moved. At the steps that slope.hpp takes, which are so few of a long run that
-/// they cost nothing: Casimirs, slopes, and the distance from where the constraints hold.
+/// they cost nothing: Casimirs, slopes, and the distance from where the constraints hold. What a function gains in a
+/// jump is no part of how far it moved.
 ///
 /// The size of a function f is sum_i |s_i df/ds_i| at the start, or |f| where that is larger; where both are 0, it is
 /// |s| |df/ds|. It is computed only where f moved by more than 1e-3 of |f|.
@@ -48,6 +49,14 @@ class Figures {
             work_ += h * rule.second[i] * static_cast<double>(model.power(t0 + x * h, inside(x)));
         }
         sums_ = true;
+    }
+
+    /// A jump at t from a state to another one.
+    void jump(const M& model, double t, const State& from, const State& to)
+    {
+        const Values before = all_values(model, t, from), after = all_values(model, t, to);
+        for (std::size_t k = 0; k < count; ++k)
+            if (k + constraints < watched || k >= watched) reference_[k] += after[k] - before[k];
     }
 
     /// The lines of the report that driver.hpp describes.

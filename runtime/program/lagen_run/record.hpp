@@ -56,6 +56,8 @@ class DriveRecord {
         figures_.see(model_, t, s);
     }
 
+    void jump(double t, const State& from, const State& to) { figures_.jump(model_, t, from, to); }
+
     /// The motion over a time h from t0 on, inside(x) its state at t0 + x h.
     template <int nodes, class Inside>
     void sum(double t0, double h, const Inside& inside) requires(HasPower<M>)

@@ -5,8 +5,8 @@
 ///   #include "lagen_sweep/driver.hpp"
 ///   int main(int argc, char** argv) { return lagen::sweep<lagen::models::NAME<double>, lagen::METHOD>(argc, argv); }
 ///
-/// Arguments, each followed by its value; --columns, --events and --samples mean what they mean to the program of
-/// `lagen run` (lagen_run/driver.hpp):
+/// Arguments, each followed by its value; --columns, --events, --at-event and --samples mean what they mean to the
+/// program of `lagen run` (lagen_run/driver.hpp):
 ///   --threads N           0: as many as the machine gives this process
 ///   --rows count|interval|at   where the rows of a trajectory are: --samples of them, an interval of its own apart, or
 ///                         at --times K times of its own
@@ -154,6 +154,7 @@ class Sweep {
                     continue;
                 }
                 const bool usable = sweep_.use(from, given_, row.plan, row.method);
+                (void)plan_crossings(given_, row.plan);
                 row.options = {.at = row.plan.times, .events = row.plan.events};
                 row.record.emplace(row.plan.model, row.plan.columns);
                 if (usable) return true;
@@ -289,6 +290,7 @@ try {
     if (complaint.empty()) complaint = detail::plan_columns(given.run, plan);
     for (const std::string& event : detail::split(given.run.events, ','))
         if (complaint.empty()) complaint = detail::plan_event(event, plan);
+    if (complaint.empty()) complaint = detail::plan_crossings(given.run, plan);
     if (!complaint.empty()) return detail::complain(complaint, 4);
     return detail::Sweep<M, Method>(given, plan).run();
 } catch (const std::exception& error) {

@@ -125,7 +125,7 @@ class Abreast {
         method.lane = lane;
         std::optional<March>& march = marches_[at(lane)];
         march.emplace(*given.model, *given.start, given.span, method, *given.options, *given.observer);
-        if (!march->steps_.stepper_.suits()) {
+        if (!march->steps_.stepper_.suits() || March::jumps(*given.options)) {
             march.reset();
             detail::March<M, Method, Observer> alone(*given.model, *given.start, given.span, *given.method,
                                                      *given.options, *given.observer);

@@ -17,7 +17,7 @@
 
 #include <algorithm>
 #include <limits>
-#include <tuple>
+#include <memory>
 #include <utility>
 
 namespace lagen {
@@ -59,7 +59,6 @@ class Integrator {
     }
 
     static constexpr std::size_t most_steps = 100'000'000; ///< of one advance_to; beyond them it is too_many_steps
-
     /// Steps until t() == end, the last one shortened. A failure leaves the state after the last step that was made.
     Status advance_to(const Real& end)
     {
@@ -71,9 +70,24 @@ class Integrator {
         return status;
     }
 
-    /// The state at a time inside the last step, both ends included: from the method's dense output, or by a shorter
-    /// step of the same method; the sequence of steps does not depend on it. Elsewhere, and behind a step that failed,
-    /// NaN.
+    /// Goes on from the state s at time t as a new integrator does; what was counted stays. Answers the new status().
+    Status restart(const State& s, const Real& t)
+    {
+        work_ = work_.with(stepper_);
+        std::destroy_at(&stepper_);
+        std::construct_at(&stepper_, method_);
+        s_ = from_ = s;
+        t_ = t_from_ = failed_at_ = t;
+        h_ = lost_ = failed_length_ = Real(0);
+        fresh_ = retry_ = imprecise_ = false;
+        status_ = begin();
+        if (way_.bounded) prepare(Real(way_.end - t));
+        if (adaptive && h_ > Real(0)) h_ = std::max<Real>(h_, way_.shortest(t)); // jumps may follow each other as fast
+        return status_;
+    }
+
+    /// The state inside the last step, both ends included, by the method's dense output or a shorter step of it; the
+    /// sequence of steps does not depend on it. Elsewhere, and behind a step that failed, NaN.
     [[nodiscard]] State at(const Real& t)
     {
         const Real h = t_ - t_from_, slack = Real(4) * epsilon() * std::max<Real>(size(t_from_), size(t_));
@@ -86,29 +100,17 @@ class Integrator {
 
     [[nodiscard]] const Real& t() const noexcept { return t_; }
     [[nodiscard]] const State& state() const noexcept { return s_; }
-    /// Where the last step began; t() where it failed.
-    [[nodiscard]] const Real& t_before() const noexcept { return t_from_; }
-    /// Of the start.
-    [[nodiscard]] Status status() const noexcept { return status_; }
-    /// Of each lane of a pack so far.
-    [[nodiscard]] const status_t<Scalar>& lanes() const noexcept { return lanes_; }
+    [[nodiscard]] const Real& t_before() const noexcept { return t_from_; } ///< the last step's start; t() if it failed
+    [[nodiscard]] Status status() const noexcept { return status_; }        ///< of the start
+    [[nodiscard]] const status_t<Scalar>& lanes() const noexcept { return lanes_; } ///< of each lane of a pack so far
     /// Where the last step that failed would have ended, or what ended it was met.
     [[nodiscard]] const Real& failed_at() const noexcept { return failed_at_; }
     [[nodiscard]] const M& model() const noexcept { return model_; }
-
     [[nodiscard]] std::size_t steps() const noexcept { return steps_; }
     [[nodiscard]] std::size_t rejected() const noexcept { return rejected_; }
-    [[nodiscard]] std::size_t rhs_calls() const noexcept { return stepper_.calls(); }
-    [[nodiscard]] std::size_t newton_iterations() const noexcept
-    {
-        if constexpr (requires { stepper_.newton_iterations(); }) return stepper_.newton_iterations();
-        return 0;
-    }
-    [[nodiscard]] std::size_t decompositions() const noexcept
-    {
-        if constexpr (requires { stepper_.decompositions(); }) return stepper_.decompositions();
-        return 0;
-    }
+    [[nodiscard]] std::size_t rhs_calls() const noexcept { return work_.with(stepper_).calls; }
+    [[nodiscard]] std::size_t newton_iterations() const noexcept { return work_.with(stepper_).newton_iterations; }
+    [[nodiscard]] std::size_t decompositions() const noexcept { return work_.with(stepper_).decompositions; }
 
   private:
     template <class, class, class>
@@ -171,8 +173,7 @@ class Integrator {
         }
     }
 
-    /// Or `most` of them.
-    Status one_step(std::size_t most = 1)
+    Status one_step(std::size_t most = 1) ///< or `most` of them
     {
         if (status_ != Status::ok) return status_;
         Status status = Status::ok;
@@ -206,7 +207,7 @@ class Integrator {
     [[gnu::always_inline]] Status propose(Attempt& next)
     {
         open();
-        std::tie(next.h, next.last) = next_length();
+        next = next_length();
         if constexpr (adaptive)
             if (!next.last && way_.is_lost(h_, t_)) return fail(Status::step_too_small, t_);
         if (!way_.bounded && !detail::is_finite_number(Real(t_ + next.h))) [[unlikely]]
@@ -292,7 +293,7 @@ class Integrator {
     }
 
     /// The last step goes from the time that is kept, rounding error and all.
-    [[gnu::always_inline]] std::pair<Real, bool> next_length() const noexcept
+    [[gnu::always_inline]] Attempt next_length() const noexcept
     {
         std::pair<Real, bool> next;
         if constexpr (adaptive)
@@ -301,7 +302,7 @@ class Integrator {
             next = way_.next_of(h_, t_);
         if (next.second) [[unlikely]]
             next.first += lost_;
-        return next;
+        return {next.first, next.second};
     }
 
     /// Accepts or rejects a step of an adaptive method and proposes the next length; not ok where there is none.
@@ -390,6 +391,7 @@ class Integrator {
     std::size_t steps_ = 0, rejected_ = 0;
     status_t<Scalar> lanes_ = StatusOf<Scalar>::good();
     Status status_ = Status::ok;
+    detail::Work work_;      ///< before the last restart
     bool fresh_ = false;     ///< the stepper has not been told yet that the last step was accepted
     bool retry_ = false;     ///< the last attempt was rejected
     bool imprecise_ = false; ///< since the last accepted step, one was rejected by its error

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace lagen::detail {
 
@@ -75,6 +76,35 @@ Bracket<Real> locate_crossing(Real a, Real ga, Real b, Real gb, Real width, cons
         }
     }
     return {a, b};
+}
+
+/// Between a and b, where `value` has one sign (values ga and gb), a place where it has the other: beyond the turning
+/// point of a function that comes nearer to zero at a and leaves it at b. Nothing where a convex one does not reach
+/// zero, whose tangents at two places meet below it.
+template <class Real, class Function>
+std::optional<Real> locate_turn(Real a, Real ga, Real b, Real gb, Real width, const Function& value) noexcept
+{
+    const Real side = ga > Real(0) ? Real(1) : Real(-1), part = Real(1) / Real(1024);
+    if (!(side * ga > Real(0) && side * gb > Real(0))) return std::nullopt;
+    const auto slope = [&](Real x, Real gx, Real dx) { return side * (value(x + dx) - gx) / dx; };
+    Real rise = slope(b, gb, part * (a - b));
+    if (!(rise > Real(0))) return std::nullopt;
+    Real fall = slope(a, ga, part * (b - a));
+    for (int trial = 0; trial < 100 && fall < Real(0) && b - a > width; ++trial) {
+        const Real behind = (side * (gb - ga) - rise * (b - a)) / (fall - rise); // a + behind: there the tangents meet
+        if (side * ga + fall * behind > Real(0)) return std::nullopt;
+        const Real least = (b - a) / Real(16);
+        const Real middle = a + std::clamp<Real>(behind, least, Real(15) * least), gm = value(middle);
+        if (!is_number(gm)) return std::nullopt;
+        if (side * gm < Real(0)) return middle;
+        const Real there = slope(middle, gm, part * (b - middle));
+        if (there < Real(0)) {
+            a = middle, ga = gm, fall = there;
+        } else {
+            b = middle, gb = gm, rise = there;
+        }
+    }
+    return std::nullopt;
 }
 
 } // namespace lagen::detail

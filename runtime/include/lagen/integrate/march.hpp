@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <limits>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -26,6 +27,7 @@ class March {
     /// Adaptive steps are long and their interpolants cheap: events are looked for in so many pieces of each.
     static constexpr int pieces = Stepper::adaptive ? 4 : 1;
     static constexpr int nodes = (Stepper::dense_order + 3) / 2;
+    static constexpr bool can_jump = RightHandSide<M> && !is_pack<Scalar> && std::is_copy_assignable_v<Stepper>;
     static constexpr bool sums = requires(Observer observer, Real t, const State& (*inside)(const Real&))
     {
         observer.template sum<nodes>(t, t, inside);
@@ -34,10 +36,17 @@ class March {
     March(const M& model, const State& s, Interval<Real> span, const Method& method, const Options<M>& options,
           Observer& observer)
         : steps_(model, s, span.start, method), span_(span), options_(options), observer_(observer),
-          watch_(steps_.model(), options.events), forward_(!(span.end - span.start < Real(0))),
+          watch_(steps_.model(), options.events), last_jumps_(options.events.size()),
+          forward_(!(span.end - span.start < Real(0))),
           looks_(!options.at.empty() || !options.events.empty() || options.dense),
           limit_(options.cancel == nullptr && options.signal == nullptr && !options.progress ? options.max_steps : 0)
     {
+    }
+
+    /// Whether some event asks for a jump.
+    static bool jumps(const Options<M>& options)
+    {
+        return std::any_of(options.events.begin(), options.events.end(), [](const auto& each) { return !!each.jump; });
     }
 
     Run<M> run()
@@ -84,9 +93,10 @@ class March {
         const Real length = span_.end - span_.start;
         if (length - length != Real(0) || !watch_.is_valid() || !rows_are_in_order()) return Status::invalid_input;
         if (is_pack<Scalar> && !watch_.empty()) return Status::invalid_input;
+        if (!can_jump && jumps(options_)) return Status::invalid_input;
         if (!moves_by_sums<M> && options_.dense) return Status::invalid_input;
         if (steps_.status() != Status::ok) return steps_.status();
-        if (!watch_.empty()) watch_.begin(steps_.t(), steps_.state()), parts_.reserve(16);
+        if (!watch_.empty()) watch_.begin(steps_.t(), steps_.state(), length), parts_.reserve(16);
         steps_.aim(span_.end);
         if constexpr (moves_by_sums<M>)
             if (options_.dense) run_.solution.begin(steps_.t(), steps_.state(), Stepper::dense_order);
@@ -157,7 +167,7 @@ class March {
 
     // ---- what an accepted step brings ----
 
-    /// Boundary, events, rows; then the state moves to where the run ends, if that is inside the step.
+    /// Boundary, events, rows; then the state moves to where the run ends or jumps, if that is inside the step.
     Status commit(Status ending)
     {
         Real theta = Real(1);
@@ -174,16 +184,80 @@ class March {
             }
         }
         if (ending != Status::ok) ++steps_.steps_;
-        if (!watch_.empty())
-            for (const auto& crossed : watch_.look(parts(theta, h), theta_width(t0, h), at)) {
-                const auto [t, s] = at(crossed.theta);
-                run_.events.push_back({crossed.request, t, *s});
-                if (!crossed.stop) continue;
-                theta = crossed.theta;
-                ending = Status::stopped_by_event;
+        bool jumps = false, stops = false;
+        const Real width = theta_width(t0, h);
+        if (!watch_.empty()) {
+            const bool known = find_parts(theta, h);
+            refined_.theta = Real(-1);
+            for (const auto& crossed : watch_.look(parts_, width, Stepper::adaptive && !known, at)) {
+                jumps = jumps || options_.events[crossed.request].jump;
+                stops = stops || crossed.stop;
             }
+            if (stops || jumps) theta = watch_.crossed().back().theta;
+            if constexpr (can_jump)
+                if (jumps && !stops) refine(theta, t0, h);
+            for (const auto& crossed : watch_.crossed()) {
+                const auto [t, s] = at(crossed.theta);
+                run_.events.push_back({crossed.request, t, *s, *s});
+            }
+        }
         move(theta, t0, h);
+        if (stops) return Status::stopped_by_event;
+        if constexpr (can_jump)
+            if (jumps) return jump(theta, h, width);
         return ending;
+    }
+
+    /// A run goes on from the state at a jump, and values inside a step are less precise than steps, times less than
+    /// their lengths: a step is made that ends where the function of the event is zero by it.
+    void refine(const Real& theta, const Real& t0, const Real& h)
+    {
+        Stepper stepper = steps_.stepper_;
+        const std::size_t r = watch_.crossed().back().request;
+        Real length = theta * h;
+        State s = steps_.from_;
+        for (int round = 0; round < 2; ++round) {
+            if (stepper.attempt(steps_.model_, t0, steps_.from_, length, s) != Status::ok) return;
+            if constexpr (StaysOnGroups<M>) steps_.model_.stay_on_groups(steps_.from_, s);
+            refined_.t = t0 + length;
+            refined_.s = s;
+            const Real missing = watch_.time_to_zero(r, refined_.t, s, h);
+            if (!(size(missing) < size(length) / Real(2))) return;
+            length += missing;
+        }
+        steps_.work_.calls += stepper.calls() - steps_.stepper_.calls();
+        refined_.theta = theta;
+    }
+
+    /// Behind all jumps of this instant, in the order of the requests, the run goes on as from a start.
+    Status jump(const Real& theta, const Real& h, const Real& width)
+    {
+        const Real t = steps_.t_;
+        const State from = steps_.s_;
+        State to = from;
+        steps_.failed_at_ = t;
+        for (const auto& crossed : watch_.crossed()) {
+            const auto& request = options_.events[crossed.request];
+            if (!request.jump) continue;
+            auto& [count, last] = last_jumps_[crossed.request];
+            if (crossed.at_once || (count++ > 0 && size(t - last) <= Real(8) * epsilon() * size(t)))
+                return Status::zeno;
+            last = t;
+            to = request.jump(t, to);
+        }
+        if (++jumps_ > options_.max_jumps) return Status::too_many_steps;
+        show();
+        for (auto found = run_.events.rbegin(); found != run_.events.rend() && found->t == t; ++found)
+            found->after = to;
+        if constexpr (requires { observer_.jump(t, from, to); }) observer_.jump(t, from, to);
+        if constexpr (moves_by_sums<M>)
+            if (options_.dense) run_.solution.jump(to);
+        const Status status = steps_.restart(to, t);
+        if (status == Status::ok)
+            watch_.restart(t, from, to, h, theta, width);
+        else
+            steps_.s_ = from;
+        return status;
     }
 
     /// For an observer that integrates along the motion: the part of the step that counts, from t0 on and theta h long,
@@ -203,8 +277,8 @@ class March {
     }
 
     /// The ends of the parts of (0, theta] in which events are looked for: where the stepper knows between which times
-    /// they change their signs, those; else equal ones.
-    std::span<const Real> parts(const Real& theta, const Real& h)
+    /// they change their signs, those, and true; else equal ones.
+    bool find_parts(const Real& theta, const Real& h)
     {
         parts_.clear();
         bool known = false;
@@ -214,7 +288,7 @@ class March {
         for (int piece = 1; piece < pieces && !known; ++piece) parts_.push_back(theta * Real(piece) / Real(pieces));
         if (known) std::sort(parts_.begin(), parts_.end());
         if (parts_.empty() || parts_.back() != theta) parts_.push_back(theta);
-        return parts_;
+        return known;
     }
 
     Real theta_width(const Real& t0, const Real& h) const noexcept
@@ -222,23 +296,36 @@ class March {
         return std::max<Real>(Real(2) * epsilon(), epsilon() * std::max<Real>(size(t0), size(t0 + h)) / size(h));
     }
 
+    Real time_at(const Real& theta, const Real& t0, const Real& h) const noexcept
+    {
+        return theta == Real(1) ? steps_.t_ : theta == refined_.theta ? refined_.t : Real(t0 + theta * h);
+    }
+
     std::pair<Real, const State*> inside(const Real& theta, const Real& t0, const Real& h) noexcept
     {
-        if (theta == Real(1)) return {steps_.t_, &steps_.s_};
-        if (theta == Real(0)) return {t0, &steps_.from_};
-        return {t0 + theta * h, &steps_.inside(theta)};
+        const Real t = time_at(theta, t0, h);
+        if (theta == Real(1)) return {t, &steps_.s_};
+        if (theta == Real(0)) return {t, &steps_.from_};
+        return {t, theta == refined_.theta ? &refined_.s : &steps_.inside(theta)};
     }
 
     void move(const Real& theta, const Real& t0, const Real& h)
     {
-        const Real end = theta == Real(1) ? steps_.t_ : Real(t0 + theta * h);
+        const Real end = time_at(theta, t0, h);
         sum(theta, t0, h);
-        rows_until(end, [&](const Real& time) {
+        const auto at = [&](const Real& time) {
             // A row within rounding of the step's end is the step's end.
             Real x = (time - t0) / h;
             if (x > theta || size(time - end) <= Real(4) * epsilon() * steps_.way_.reach) x = theta;
             return inside(x, t0, h).second;
-        });
+        };
+        for (const auto& crossed : watch_.crossed()) {
+            if (!options_.events[crossed.request].row) continue;
+            const Real time = time_at(crossed.theta, t0, h);
+            rows_until(time, at);
+            put_row(time, *inside(crossed.theta, t0, h).second);
+        }
+        rows_until(end, at);
         if constexpr (moves_by_sums<M>)
             if (options_.dense && theta > Real(0))
                 run_.solution.add(end, [&](const Real& x) { return *inside(Real(x * theta), t0, h).second; });
@@ -272,14 +359,18 @@ class March {
             const Real time = options_.at[row_];
             if (is_after(time, end) && size(time - end) > slack) return;
             if (is_after(time, span_.end)) return;
-            const State* state = at(time);
-            if constexpr (requires { observer_.row(time, *state); }) {
-                observer_.row(time, *state);
-            } else {
-                run_.times.push_back(time);
-                run_.states.push_back(*state);
-            }
+            put_row(time, *at(time));
             ++row_;
+        }
+    }
+
+    void put_row(const Real& time, const State& state)
+    {
+        if constexpr (requires { observer_.row(time, state); }) {
+            observer_.row(time, state);
+        } else {
+            run_.times.push_back(time);
+            run_.states.push_back(state);
         }
     }
 
@@ -290,7 +381,13 @@ class March {
     EventWatch<M> watch_;
     Run<M> run_;
     std::vector<Real> parts_; ///< of a step
+    struct {
+        Real theta = Real(-1), t;
+        State s;
+    } refined_; ///< of the last step, at a jump
     std::size_t row_ = 0;
+    std::size_t jumps_ = 0;
+    std::vector<std::pair<std::size_t, Real>> last_jumps_; ///< of each request: how many there were, and when
     bool forward_;
     bool looks_;        ///< into every step: there are integrals, rows, events or a solution
     std::size_t limit_; ///< tries up to which nothing has to be looked at

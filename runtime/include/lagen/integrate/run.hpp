@@ -19,10 +19,16 @@ enum class Crossing { rising, falling, any };
 
 /// An event to look for: entry `index` of the model's `events`, or `when` where that is given.
 /// A crossing is a change of sign, or the arrival at exactly zero, between two looks; a value of exactly zero at the
-/// start of the run is none. Fixed-step methods look at the end of every step, adaptive ones (whose steps are long)
-/// four times a step: an even number of crossings between two looks, and a touch that does not change the sign, are not
-/// seen; a smaller step or a cap `max_step` finds them. Crossings of one instant are reported in the order of the
-/// requests, all of them, also where one stops the run.
+/// start of the run is none. Fixed-step methods look at the end of every step: an even number of crossings in one is
+/// not seen; a smaller step finds them. Adaptive ones, whose steps are long, look four times a step, and between two
+/// looks at the turning point of a function that comes nearer to zero and leaves it again. A touch that does not change
+/// the sign is no crossing. Crossings of one instant are reported in the order of the requests, all of them, also where
+/// one stops the run.
+/// At a crossing the motion may jump: it goes on from the state that `jump` answers, as a new run does, and a function
+/// whose zero it then leaves is on the side to which it goes. Jumps of one instant are made in the order of the
+/// requests, each from the state behind the one before. A request that stops the run stops it before its jump. Where
+/// the jumps of one request follow each other within the rounding of time, or the motion behind one is at once beyond
+/// the zero again, the run ends with `zeno`, at the state before the last one.
 template <class Real, class State>
 struct EventRequest {
     std::size_t index = 0;
@@ -30,14 +36,18 @@ struct EventRequest {
     bool stop = false; ///< the run ends at the count-th crossing
     std::size_t count = 1;
     std::function<Real(Real t, const State& s)> when{};
+    std::function<State(Real t, const State& s)> jump{}; ///< the state behind the event, made of that before it
+    bool row = false;                                    ///< a row at each crossing, of the state before a jump
 };
 
-/// An event found; `request` is its place in the list of requests.
+/// An event found; `request` is its place in the list of requests. `after` is the state behind all jumps of the
+/// instant, or the same.
 template <class Real, class State>
 struct EventFound {
     std::size_t request = 0;
     Real t = Real(0);
     State state;
+    State after;
 };
 
 /// Everything optional of a run. Rows at `at`: sorted in the direction of the run (invalid_input otherwise), equal ones
@@ -50,6 +60,7 @@ struct Options {
     std::span<const Real> at{};
     std::span<const EventRequest<Real, State>> events{};
     std::size_t max_steps = 100'000'000; ///< accepted and rejected together; rows do not count
+    std::size_t max_jumps = 1'000'000;   ///< more of them end the run with too_many_steps
     bool dense = false;                  ///< keep every step for Run::solution
     const std::atomic<bool>* cancel = nullptr;
     const volatile std::sig_atomic_t* signal = nullptr; ///< as cancel, for a signal handler: not zero ends the run

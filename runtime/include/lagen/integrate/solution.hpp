@@ -13,7 +13,7 @@ namespace lagen {
 /// A polynomial a step, of the degree of the method's dense output or, where that is a shorter step, of the method's
 /// order: through d + 1 states at Chebyshev's points (1 - cos(pi k / d)) / 2 of the step, its two ends among them. So
 /// it is the method's interpolant up to rounding where that is a polynomial, continuous, and exact at the ends of
-/// steps.
+/// steps. Where a motion jumps it is the state before the jump.
 template <class Real, class State>
 class Solution {
   public:
@@ -25,7 +25,7 @@ class Solution {
         std::size_t first = 0, last = ends_.size() - 1;
         while (last - first > 1) {
             const std::size_t middle = first + (last - first) / 2;
-            (before_or_at(ends_[middle], t) ? first : last) = middle;
+            (before_or_at(t, ends_[middle]) ? last : first) = middle;
         }
         return interpolated(first * degree(), (t - ends_[first]) / (ends_[first + 1] - ends_[first]));
     }
@@ -56,6 +56,13 @@ class Solution {
     {
         for (std::size_t k = 1; k < nodes_.size(); ++k) values_.push_back(inside(nodes_[k]));
         ends_.push_back(t1);
+    }
+
+    /// The next step begins at s: a step of no length, within which nothing is asked for.
+    void jump(const State& s)
+    {
+        values_.insert(values_.end(), degree(), s);
+        ends_.push_back(ends_.back());
     }
 
   private:

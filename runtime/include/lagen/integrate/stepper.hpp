@@ -17,6 +17,8 @@
 
 #include "lagen/kernel.hpp"
 
+#include <cstddef>
+
 namespace lagen::detail {
 
 /// A step that is attempted: its signed length, and whether it ends at the end.
@@ -24,6 +26,21 @@ template <class Real>
 struct Attempt {
     Real h;
     bool last;
+};
+
+/// What steppers have counted, one after another.
+struct Work {
+    std::size_t calls = 0, newton_iterations = 0, decompositions = 0;
+
+    template <class Stepper>
+    [[nodiscard]] Work with(const Stepper& stepper) const noexcept
+    {
+        Work all = *this;
+        all.calls += stepper.calls();
+        if constexpr (requires { stepper.newton_iterations(); }) all.newton_iterations += stepper.newton_iterations();
+        if constexpr (requires { stepper.decompositions(); }) all.decompositions += stepper.decompositions();
+        return all;
+    }
 };
 
 /// Of a method of fixed steps; a discrete motion has its own.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "lagen/integrate/locate.hpp"
+#include "lagen/integrate/retract.hpp"
 #include "lagen/integrate/run.hpp"
 
 #include <algorithm>
@@ -23,12 +24,15 @@ class EventWatch {
     struct Crossed {
         Real theta;
         std::size_t request;
-        bool stop;
+        Real side;            ///< of the function before: 1 or -1
+        bool at_once = false; ///< the motion leaves a jump to the wrong side
+        bool stop = false;
     };
 
     EventWatch(const M& model, std::span<const Request> requests)
         : model_(model), requests_(requests), before_(requests.size()), after_(requests.size()),
-          seen_(requests.size(), 0)
+          rate_before_(requests.size()), rate_(requests.size()), back_(requests.size()), ahead_(requests.size()),
+          noise_(requests.size()), from_(requests.size()), sides_(requests.size()), seen_(requests.size(), 0)
     {
         crossed_.reserve(2 * requests.size());
     }
@@ -50,40 +54,169 @@ class EventWatch {
         });
     }
 
-    void begin(Real t, const State& s) { evaluate(t, s, before_); }
+    /// At the start of a run of this signed length.
+    void begin(Real t, const State& s, Real length)
+    {
+        using std::sqrt;
+        evaluate(t, s, before_);
+        if (std::find(before_.begin(), before_.end(), Real(0)) == before_.end()) return;
+        find_rates(t, s, sqrt(std::numeric_limits<Real>::epsilon()) * length, rate_);
+        for (std::size_t r = 0; r < requests_.size(); ++r)
+            if (before_[r] == Real(0)) sides_[r] = {sign(rate_[r])};
+    }
 
-    /// Crossings in (0, last] of a step, in order; those after a stop are left out. `at(theta)` answers the time and
-    /// the state inside the step; its parts, which end at `ends`, are looked at one by one, so that two crossings in
-    /// one step can be told. Where a function is not a number its last value stands, so that no gap hides a crossing.
+    /// Behind the jumps at theta of the last step, of the signed length h, where theta is known to `width`: they led at
+    /// time t from a state to another one. Functions that are zero to rounding there are on the side to which they go.
+    void restart(Real t, const State& from, const State& to, Real h, Real theta, Real width)
+    {
+        evaluate(t, from, after_);
+        find_rates(t, from, h, rate_before_);
+        evaluate(t, to, before_);
+        find_rates(t, to, h, rate_);
+        for (std::size_t r = 0; r < requests_.size(); ++r) {
+            const auto same = [&](const Crossed& each) { return each.request == r && each.theta == theta; };
+            const auto crossed = std::find_if(crossed_.begin(), crossed_.end(), same);
+            const bool here = crossed != crossed_.end(), jumps = !!requests_[r].jump;
+            const Real rate = std::max<Real>(size_of(rate_[r]), size_of(rate_before_[r])), size = size_of(before_[r]);
+            const Real near = std::max<Real>(Real(8) * width * size_of(h) * rate, Real(4) * size_of(after_[r]));
+            const Real level = std::max<Real>(here ? near : Real(0), noise_[r]);
+            const Real side = size_of(rate_[r]) > Real(1e-8) * rate ? sign(rate_[r])
+                              : here                                ? crossed->side
+                              : jumps                               ? side_before(requests_[r].direction)
+                                                                    : Real(0);
+            after_[r] = side;
+            const bool soon = size <= std::max<Real>(level, Real(1e-6) * size_of(h) * size_of(rate_[r]));
+            if (!here && soon && side != Real(0) && crosses(r))
+                sides_[r] = {side, level, true, false};
+            else
+                sides_[r] = size <= level ? Side{side, level, false, jumps} : Side{};
+        }
+    }
+
+    /// Crossings in (0, last] of a step, in order; those after a stop or a jump are left out. `at(theta)` answers the
+    /// time and the state inside the step; its parts, which end at `ends`, are looked at one by one, so that two
+    /// crossings in one step can be told; where it `turns`, turning points are looked for inside them. Where a function
+    /// is not a number its last value stands, so that no gap hides a crossing.
     template <class At>
-    const std::vector<Crossed>& look(std::span<const Real> ends, Real width, const At& at)
+    const std::vector<Crossed>& look(std::span<const Real> ends, Real width, bool turns, const At& at)
     {
         crossed_.clear();
+        std::fill(from_.begin(), from_.end(), Real(0));
+        for (std::size_t r = 0; r < requests_.size(); ++r)
+            if (const Side& side = sides_[r]; side.side != Real(0))
+                find_side(r, side.crosses ? ends.front() : ends.back(), width, value_of(r, at));
         Real begin = Real(0);
-        bool stopped = false;
+        std::size_t found = 0;
+        bool cut = false;
         for (const Real& end : ends) {
-            if (stopped) break;
+            if (cut) break;
             const auto [t, s] = at(end);
             evaluate(t, *s, after_);
-            const std::size_t found = crossed_.size();
-            for (std::size_t r = 0; r < requests_.size(); ++r) {
-                const auto value = [&](Real theta) {
-                    const auto [time, state] = at(theta);
-                    return evaluate_one(r, time, *state);
-                };
-                const Real known = is_number(after_[r]) ? end : last_defined(r, begin, end, width, value);
-                if (!crosses(r)) continue;
-                crossed_.push_back(
-                    {locate_crossing(begin, before_[r], known, after_[r], width, value).after, r, false});
-            }
-            stopped = order_and_count(found);
+            for (std::size_t r = 0; r < requests_.size(); ++r) look_at(r, begin, end, width, turns, value_of(r, at));
+            cut = order_and_count(found, at);
+            found = crossed_.size();
             before_.swap(after_);
             begin = end;
         }
         return crossed_;
     }
 
+    /// From (t, s), where function r is nearly zero, along the motion in the direction of h, to where it is.
+    [[nodiscard]] Real time_to_zero(std::size_t r, Real t, const State& s, Real h)
+    {
+        find_rates(t, s, h, rate_);
+        const Real time = evaluate_one(r, t, s) / rate_[r];
+        return h < Real(0) ? time : Real(-time);
+    }
+
+    /// Those of the last step.
+    [[nodiscard]] const std::vector<Crossed>& crossed() const noexcept { return crossed_; }
+
   private:
+    /// Of a function that is zero, or zero to rounding: where it goes. 0: it is what its value says.
+    struct Side {
+        Real side = Real(0);
+        Real level = Real(0); ///< what its values there are rounding errors of
+        bool crosses = false; ///< it may have that much of the other side before it
+        bool at_once = false; ///< one that goes to the other side has crossed again
+    };
+
+    static Real side_before(Crossing direction) noexcept
+    {
+        return direction == Crossing::falling ? Real(1) : direction == Crossing::rising ? Real(-1) : Real(0);
+    }
+    static Real sign(const Real& x) noexcept { return x > Real(0) ? Real(1) : x < Real(0) ? Real(-1) : Real(0); }
+    static Real size_of(const Real& x) noexcept { return detail::size_of(x); }
+
+    template <class At>
+    auto value_of(std::size_t r, const At& at)
+    {
+        return [this, r, &at](Real theta) {
+            const auto [time, state] = at(theta);
+            return evaluate_one(r, time, *state);
+        };
+    }
+
+    /// A place of (0, last] where function r is on its side: the other crossings of the step are behind it.
+    template <class Function>
+    void find_side(std::size_t r, Real last, Real width, const Function& value)
+    {
+        const Side side = sides_[r];
+        const Real first = std::min<Real>(Real(4) * width, last);
+        for (Real x = first;; x = std::min<Real>(Real(2) * x, last)) {
+            after_[r] = value(x);
+            if (after_[r] * side.side > Real(0)) {
+                if (side.crosses && crosses(r)) add(r, Real(0), x, width, value);
+                before_[r] = after_[r];
+                from_[r] = x;
+                sides_[r] = {};
+                return;
+            }
+            if (!(x < last)) break;
+        }
+        if (side.crosses) {
+            sides_[r] = {};
+            return;
+        }
+        from_[r] = last;
+        if (!(-after_[r] * side.side > side.level)) return; // it has not left its zero yet
+        before_[r] = side.side;
+        if (side.at_once && crosses(r)) crossed_.push_back({first, r, side.side, true});
+        before_[r] = after_[r];
+        sides_[r] = {};
+    }
+
+    /// In the piece from begin to end, where the function has the values before_ and after_.
+    template <class Function>
+    void look_at(std::size_t r, Real begin, Real end, Real width, bool turns, const Function& value)
+    {
+        if (!(from_[r] < end)) {
+            after_[r] = before_[r];
+            return;
+        }
+        begin = std::max<Real>(begin, from_[r]);
+        const Real known = is_number(after_[r]) ? end : last_defined(r, begin, end, width, value);
+        if (crosses(r)) return add(r, begin, known, width, value);
+        if (!turns) return;
+        const auto turn = locate_turn(begin, before_[r], known, after_[r], width, value);
+        if (!turn) return;
+        const Real first = before_[r], last = after_[r], middle = value(*turn);
+        after_[r] = middle;
+        if (crosses(r)) add(r, begin, *turn, width, value);
+        before_[r] = middle;
+        after_[r] = last;
+        if (crosses(r)) add(r, *turn, known, width, value);
+        before_[r] = first;
+    }
+
+    /// The crossing between two places where the function has the values before_ and after_.
+    template <class Function>
+    void add(std::size_t r, Real begin, Real end, Real width, const Function& value)
+    {
+        const auto bracket = locate_crossing(begin, before_[r], end, after_[r], width, value);
+        crossed_.push_back({bracket.after, r, sign(before_[r])});
+    }
+
     /// Of a piece that ends in a gap: the last theta where the function is a number, whose value is taken for the end.
     template <class Function>
     Real last_defined(std::size_t r, Real begin, Real end, Real width, const Function& value)
@@ -107,27 +240,94 @@ class EventWatch {
     }
 
     /// Sorts the crossings of one piece by time (requests in their order where times agree), counts, and cuts after the
-    /// instant of a stop.
-    bool order_and_count(std::size_t first)
+    /// instant of a stop or of a jump. A function that is beyond its zero at a jump has crossed there, not behind it.
+    template <class At>
+    bool order_and_count(std::size_t first, const At& at)
     {
         const auto begin = crossed_.begin() + static_cast<std::ptrdiff_t>(first);
-        std::sort(begin, crossed_.end(), [](const Crossed& a, const Crossed& b) {
-            return a.theta < b.theta || (a.theta == b.theta && a.request < b.request);
-        });
-        bool stopped = false;
+        const auto sort = [&] {
+            std::sort(begin, crossed_.end(), [](const Crossed& a, const Crossed& b) {
+                return a.theta < b.theta || (a.theta == b.theta && a.request < b.request);
+            });
+        };
+        sort();
+        const auto jumps = [&](const Crossed& each) { return !!requests_[each.request].jump; };
+        const auto jump = std::find_if(begin, crossed_.end(), jumps);
+        if (jump != crossed_.end()) {
+            const Real theta = jump->theta;
+            const auto [t, s] = at(theta);
+            evaluate(t, *s, back_);
+            for (auto each = jump; each != crossed_.end(); ++each)
+                if (each->request != jump->request && back_[each->request] * each->side <= Real(0)) each->theta = theta;
+            sort();
+        }
+        bool cut = false;
         Real instant = Real(0);
         for (std::size_t i = first; i < crossed_.size(); ++i) {
-            if (stopped && crossed_[i].theta > instant) {
+            if (cut && crossed_[i].theta > instant) {
                 crossed_.resize(i);
                 break;
             }
             const Request& request = requests_[crossed_[i].request];
-            if (++seen_[crossed_[i].request] < request.count || !request.stop) continue;
-            crossed_[i].stop = true;
+            const bool last = ++seen_[crossed_[i].request] >= request.count;
+            crossed_[i].stop = request.stop && last;
+            if (!crossed_[i].stop && !request.jump) continue;
             instant = crossed_[i].theta;
-            stopped = true;
+            cut = true;
         }
-        return stopped;
+        return cut;
+    }
+
+    /// The rates of the functions along the motion through s at t, in the direction of h, by differences over a part of
+    /// h, or of the time in which the state changes where these are rounding errors; 0 where those are, too.
+    void find_rates(Real t, const State& s, Real h, std::vector<Real>& rates)
+    {
+        std::fill(rates.begin(), rates.end(), Real(0));
+        if constexpr (RightHandSide<M> && !is_pack<Scalar>) {
+            using std::sqrt;
+            const Real half = sqrt(std::numeric_limits<Real>::epsilon()), quarter = sqrt(half);
+            tangent_t<M> slope;
+            if constexpr (std::is_same_v<State, tangent_t<M>>) slope = s;
+            if (model_.rhs(Scalar(t), s, slope) != Status::ok) return;
+            find_noise(t, s);
+            find_differences(t, s, slope, quarter * h, rates);
+            if constexpr (moves_by_sums<M>) {
+                Real place = Real(0), speed = Real(0);
+                for (Eigen::Index i = 0; i < s.size(); ++i) place += s[i] * s[i], speed += slope[i] * slope[i];
+                if (speed > Real(0)) find_differences(t, s, slope, quarter * sqrt(place / speed) * sign(h), rates);
+            }
+        }
+    }
+
+    /// Of those that are not known yet.
+    void find_differences(Real t, const State& s, const tangent_t<M>& slope, Real part, std::vector<Real>& rates)
+    {
+        evaluate(t - part, retracted(model_, s, tangent_t<M>(Scalar(-part) * slope)), back_);
+        evaluate(t + part, retracted(model_, s, tangent_t<M>(Scalar(part) * slope)), ahead_);
+        for (std::size_t r = 0; r < rates.size(); ++r) {
+            const Real difference = ahead_[r] - back_[r];
+            if (rates[r] == Real(0) && size_of(difference) > noise_[r])
+                rates[r] = difference / (Real(2) * size_of(part));
+        }
+    }
+
+    /// What the functions change by where the lanes of s change by four units of their last places.
+    void find_noise(Real t, const State& s)
+    {
+        std::fill(noise_.begin(), noise_.end(), Real(0));
+        if constexpr (moves_by_sums<M> && !is_pack<Scalar>) {
+            evaluate(t, s, ahead_);
+            for (const int pattern : {0, 1}) {
+                State near = s;
+                for (Eigen::Index i = 0; i < s.size(); ++i) {
+                    const Real change = Real(4) * std::numeric_limits<Real>::epsilon();
+                    near[i] *= Scalar(Real(1) + (i % 2 < pattern ? -change : change));
+                }
+                evaluate(t, near, back_);
+                for (std::size_t r = 0; r < noise_.size(); ++r)
+                    noise_[r] = std::max<Real>(noise_[r], size_of(Real(back_[r] - ahead_[r])));
+            }
+        }
     }
 
     void evaluate(Real t, const State& s, std::vector<Real>& values)
@@ -152,6 +352,10 @@ class EventWatch {
     const M& model_;
     std::span<const Request> requests_;
     std::vector<Real> before_, after_;
+    std::vector<Real> rate_before_, rate_; ///< along the motion, by time
+    std::vector<Real> back_, ahead_, noise_;
+    std::vector<Real> from_; ///< theta in the step behind which each is looked at
+    std::vector<Side> sides_;
     std::vector<std::size_t> seen_;
     std::vector<Crossed> crossed_;
 };

@@ -68,6 +68,13 @@ struct Way {
         return !(Real(0.1) * h > epsilon * std::max<Real>(size_of(t), epsilon * length));
     }
 
+    /// A step from t that is not.
+    [[nodiscard]] Real shortest(const Real& t) const noexcept
+    {
+        const Real epsilon = std::numeric_limits<Real>::epsilon();
+        return Real(32) * epsilon * std::max<Real>(size_of(t), epsilon * length);
+    }
+
     /// How many steps of fixed length h from t, one at least and `most` at most, surely end before the last one would
     /// begin: up to two steps short of the end, whatever the rounding of times.
     [[nodiscard]] std::size_t steps_inside(const Real& h, const Real& t, std::size_t most) const noexcept
