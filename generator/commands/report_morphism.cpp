@@ -85,8 +85,7 @@ void body_json(JsonWriter& json, const VerifiedMorphism& verified)
 
 void decide_equal(VerifiedMorphism& verified, const MorphismFile& file, const SystemMorphism& map)
 {
-    for (const MorphismFile& other : file.equals)
-        append_equality(verified.map.structure, map, elaborate_whole(other));
+    for (const MorphismFile& other : file.equals) append_equality(verified.map.structure, map, elaborate_whole(other));
 }
 
 } // namespace

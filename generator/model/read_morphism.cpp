@@ -279,9 +279,9 @@ MorphismFile read_equal(const MorphismFile& morphism, const TomlEntry& entry, co
         return fmt::format("from {} to {}", quote(source_of(each).file->name), quote(target_of(each).file->name));
     };
     if (ends(other) != ends(morphism))
-        throw ModelError(fmt::format("{} leads {}, and this morphism leads {}", quote(file->name), ends(other),
-                                     ends(morphism)),
-                         entry.value.where, "maps are equal where they have the same two ends");
+        throw ModelError(
+            fmt::format("{} leads {}, and this morphism leads {}", quote(file->name), ends(other), ends(morphism)),
+            entry.value.where, "maps are equal where they have the same two ends");
     return other;
 }
 

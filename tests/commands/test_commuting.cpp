@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Morphisms that are claimed to be equal: a Lagrangian in space is constrained to cylinders and reduced by translations
-/// along them, in either order and at once.
+/// Morphisms that are claimed to be equal: a Lagrangian in space is constrained to cylinders and reduced by
+/// translations along them, in either order and at once.
 #include "program.hpp"
 
 #include "support/json.hpp"
