@@ -19,7 +19,7 @@ endmacro()
 
 must(${CMAKE_COMMAND} --install "${build}" --prefix "${work}/prefix")
 foreach(file bin/lagen include/lagen/kernel.hpp share/lagen/models/heavy_top.toml
-             share/lagen/program/lagen_run/driver.hpp)
+             share/lagen/program/lagen_run/driver.hpp lib/python3/dist-packages/lagen/__init__.py)
   if(NOT EXISTS "${work}/prefix/${file}")
     message(FATAL_ERROR "consumer: the installation lacks ${file}")
   endif()
