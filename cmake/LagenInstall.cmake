@@ -1,10 +1,12 @@
-# What `cmake --install` leaves: bin/lagen, include/lagen, lib/cmake/lagen, share/lagen/models, share/lagen/program (what
-# `lagen run` compiles around a header), the manual page, completion for bash and zsh, and README, docs and licences in
-# share/doc/lagen.
+# What `cmake --install` leaves: bin/lagen, include/lagen, lib/cmake/lagen, lib/python3/dist-packages/lagen, share/lagen/models,
+# share/lagen/program (what `lagen run` compiles around a header), the manual page, completion for bash and zsh, and README,
+# docs and licences in share/doc/lagen.
 include(CMakePackageConfigHelpers)
 
 set(LAGEN_INSTALL_CMAKE "${CMAKE_INSTALL_LIBDIR}/cmake/lagen")
 set(LAGEN_INSTALL_MODELS "${CMAKE_INSTALL_DATADIR}/lagen/models")
+
+set(LAGEN_INSTALL_PYTHON lib/python3/dist-packages CACHE STRING "Where the Python package goes, below the prefix")
 
 set(lagen_exported lagen_runtime)
 if(TARGET lagen)
@@ -22,6 +24,7 @@ install(FILES ${PROJECT_BINARY_DIR}/lagenConfig.cmake ${PROJECT_BINARY_DIR}/lage
 install(DIRECTORY runtime/include/lagen DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
 if(TARGET lagen)
   install(DIRECTORY runtime/program/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lagen/program FILES_MATCHING PATTERN "*.hpp")
+  install(DIRECTORY python/lagen DESTINATION ${LAGEN_INSTALL_PYTHON} FILES_MATCHING PATTERN "*.py" PATTERN __pycache__ EXCLUDE)
 endif()
 if(TARGET lagen AND NOT CMAKE_CROSSCOMPILING) # scripts/command-pages asks the program
   install(FILES ${PROJECT_BINARY_DIR}/pages/lagen.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)

@@ -21,7 +21,7 @@ must(${CMAKE_COMMAND} --install "${build}" --prefix "${work}/prefix")
 set(man share/man/man1/lagen.1)
 set(completions share/bash-completion/completions/lagen share/zsh/site-functions/_lagen)
 foreach(file bin/lagen include/lagen/kernel.hpp share/lagen/models/heavy_top.toml share/lagen/models/new/tangent.toml
-             share/lagen/program/lagen_run/driver.hpp share/doc/lagen/README.md share/doc/lagen/docs/mechanics.md
+             share/lagen/program/lagen_run/driver.hpp lib/python3/dist-packages/lagen/__init__.py share/doc/lagen/README.md share/doc/lagen/docs/mechanics.md
              ${man} ${completions})
   if(NOT EXISTS "${work}/prefix/${file}")
     message(FATAL_ERROR "consumer: the installation lacks ${file}")
