@@ -89,6 +89,7 @@ std::vector<Tree> all_trees(const Model& model, const WrittenAlgebroid& algebroi
             if (has_value(model, entry.value, entry_of(FormKind::pontryagin).name)) trees.push_back(entry.value);
     for (const Scene& scene : model.scenes) {
         for (const Event& event : scene.events) trees.push_back(event.when);
+        for (const NamedTree& input : scene.inputs) trees.push_back(input.value);
         if (scene.time_scale != nullptr) trees.push_back(scene.time_scale);
     }
     return trees;

@@ -51,6 +51,7 @@ SymbolicModel::SymbolicModel(const Model& model, const WrittenAlgebroid& algebro
     for (const Symbol& symbol : model.fibre.momenta) mu_.push_back(variable(symbol.name));
     if (model.control)
         for (const Symbol& symbol : model.control->controls) controls_.push_back(variable(symbol.name));
+    for (const Input& input : model.inputs) add_variable(input.symbol.name);
     for (const FirstOrderState& state : model.states) add_variable(state.symbol.name);
     lower_structure();
     take_labels(functions);
@@ -279,6 +280,7 @@ EquationSet SymbolicModel::empty_set(const std::string& form) const
     }
     if (model_.control)
         for (const Symbol& symbol : model_.control->controls) set.symbols.push_back({symbol.name, symbol.latex});
+    for (const Input& input : model_.inputs) set.symbols.push_back({input.symbol.name, input.symbol.latex});
     for (const FirstOrderState& state : model_.states) set.symbols.push_back({state.symbol.name, state.symbol.latex});
     return set;
 }

@@ -21,6 +21,7 @@ std::vector<Tree> evaluated_trees(const Model& model, const Scene& scene)
     for (const NamedTree& column : *scene.observe) trees.push_back(column.value);
     for (const NamedTree& coordinate : plot_coordinates(scene)) trees.push_back(coordinate.value);
     for (const Event& event : scene.events) trees.push_back(event.when);
+    for (const NamedTree& input : scene.inputs) trees.push_back(input.value);
     if (scene.time_scale != nullptr) trees.push_back(scene.time_scale);
     return trees;
 }

@@ -36,6 +36,11 @@ void assign(ModelReader& reader, const ResolvedKey& key, const Tree& value, cons
     for (std::size_t k = 0; k < entries.size(); ++k) reader.model.parameters[key.indices[k]].value = entries[k];
 }
 
+std::string input_hint(const std::string& name)
+{
+    return fmt::format("a scene says what an input is: inputs = {{ {} = \"..\" }}", name);
+}
+
 void apply(ModelReader& reader, const std::vector<Symbol>& symbols, const Setting& setting)
 {
     if (const std::optional<ResolvedKey> key = resolve_key(symbols, key_of(reader, setting))) {
@@ -56,7 +61,8 @@ void apply(ModelReader& reader, const std::vector<Symbol>& symbols, const Settin
                          : fmt::format("the model has no parameter{} '{}' to {}", sizes.empty() ? "" : " or size",
                                        setting.name, setting.binds ? "bind" : "set");
     const std::string size = nearest_name(setting.name, sizes);
-    const std::string hint = !size.empty() && nearest_name(setting.name, known) == size
+    const std::string hint = entry != nullptr && entry->role == Role::input ? input_hint(setting.name)
+                             : !size.empty() && nearest_name(setting.name, known) == size
                                  ? fmt::format("did you mean the size '{}'?", size)
                              : resolve_key(symbols, family_name(setting.name))
                                  ? hint_for_key(symbols, setting.name, "parameters")

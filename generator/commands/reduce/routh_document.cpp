@@ -171,8 +171,9 @@ class RouthDocument {
     /// Tables where a person puts them: what was made stands at the end.
     [[nodiscard]] std::string in_order()
     {
-        static const std::vector<std::string> order{"parameters",  "sizes",      "base",   "fibre",       "algebroid",
-                                                    "definitions", "lagrangian", "forces", "dissipation", "states"};
+        static const std::vector<std::string> order{"parameters", "sizes",       "base",       "fibre",
+                                                    "algebroid",  "definitions", "lagrangian", "inputs",
+                                                    "forces",     "dissipation", "states"};
         const auto place = [&](const TomlEntry& entry) {
             if (entry.value.kind != TomlKind::table) return std::size_t{0};
             const auto found = std::ranges::find(order, entry.name());
