@@ -127,6 +127,7 @@ std::string regenerate_command(const CheckedModel& checked, const GenerateReques
 /// of a number.
 void forget_values(KernelModule& module)
 {
+    for (NodeId& value : module.input_defaults) value = module.graph->constant(0);
     for (NodeId& value : module.parameter_defaults) value = module.graph->constant(0);
     module.hash = std::string(16, '0');
 }

@@ -11,6 +11,7 @@
 #include "elaborate/make_frame.hpp"
 #include "elaborate/require_values.hpp"
 #include "expression/parse.hpp"
+#include "model/families.hpp"
 #include "model/read_file.hpp"
 #include "scene/evaluate_scene.hpp"
 
@@ -63,6 +64,7 @@ ExitCode check_model(const Model& model, const Options& options, std::size_t poi
     require_arrows(model);
     const std::vector<NamedTree> claims = extra_invariants(options, model);
     require_values(claims);
+    refuse_inputs_in(model, claims);
     const System system = elaborate(model);
     Report verified = verify(system, claims, points);
     advise(system, verified);

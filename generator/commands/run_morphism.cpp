@@ -28,6 +28,16 @@ void refuse_options(const Options& options)
                                          quote(options.positional()[0])));
 }
 
+/// What acts on the source from outside is not known as a function of the target.
+void refuse_inputs(const MorphismFile& morphism)
+{
+    for (const Model* model : {&source_of(morphism), &target_of(morphism)})
+        if (!model->inputs.empty())
+            throw MathematicsError(
+                fmt::format("model '{}' has inputs, which a run of a morphism does not carry over", model->name),
+                "`lagen check` compares the forces, whatever the inputs are");
+}
+
 CheckedModel as_read(const Model& model, const Options& options, std::vector<Setting> settings)
 {
     CheckedModel checked;
@@ -155,6 +165,7 @@ ExitCode run_morphism(const Options& options, const std::shared_ptr<const Source
     refuse_options(options);
     const MorphismFile morphism = read_morphism(file, options.settings(), choosers());
     require_apart(options, morphism);
+    refuse_inputs(morphism);
     const VerifiedMorphism verified = verify_morphism(morphism, 0);
     warn_of_morphism(verified, file->name, options.has("unchecked"));
 

@@ -88,6 +88,11 @@ class Elaboration {
 
     void lower_mechanics()
     {
+        for (const Input& input : model_.inputs) {
+            system_.inputs.push_back(graph_.input(input.symbol.name));
+            if (input.value) // a probe has none
+                system_.input_values.emplace_back(system_.inputs.back(), lower_(input.value));
+        }
         for (const FirstOrderState& state : model_.states) system_.states.push_back(graph_.input(state.symbol.name));
         if (model_.jacobi_field) {
             const auto sigma = system_.states.begin() + static_cast<std::ptrdiff_t>(*model_.jacobi_field);
@@ -179,6 +184,8 @@ class Elaboration {
                                                 : "Cayley's map does not lead into the group, or is not shown to, and ",
                                             fmt::join(exponential->block_without, ", "));
             if (system_.groupoid->has_cayley_map) discrete.hint = "retraction = \"cayley\"";
+        } else if (depends_on_any(graph_, system_.forces, system_.inputs)) {
+            discrete.obstacle = "its forces depend on inputs, which act in continuous time";
         } else if (depends_on_any(graph_, system_.forces, system_.states)) {
             discrete.obstacle = "its forces depend on first-order states, which move in continuous time";
         }

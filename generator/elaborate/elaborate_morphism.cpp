@@ -20,26 +20,29 @@ std::vector<NodeId> lowered(Lowering& lower, const std::vector<Tree>& trees)
     return nodes;
 }
 
-/// A parameter that the source does not know is an input of its own, under a name that is free there.
-void match_parameters(SystemMorphism& morphism, Lowering& lower, const std::vector<Tree>& values)
+/// What the source calls so among `known`; else a symbol of its own, under a name that is free there.
+NodeId namesake(SystemMorphism& morphism, NodeId symbol, const std::vector<NodeId>& known)
 {
     System& source = morphism.source;
-    const System& target = morphism.target;
-    for (std::size_t k = 0; k < target.parameters.size(); ++k) {
-        const NodeId parameter = target.parameters[k];
-        NodeId& value = morphism.parameters[parameter];
-        if (values[k]) {
-            value = lower(values[k]);
-            continue;
-        }
-        std::string name = target.graph.input_name(parameter);
-        value = source.graph.input(name);
-        if (std::ranges::find(source.parameters, value) != source.parameters.end() ||
-            source.graph.op(value) != Op::input) // a parameter of the source that is bound
-            continue;
-        if (source.declares(name)) value = source.graph.input(name + "'");
-        morphism.free_parameters.push_back(value);
+    const std::string name = morphism.target.graph.input_name(symbol);
+    NodeId value = source.graph.input(name);
+    if (std::ranges::find(known, value) != known.end() ||
+        source.graph.op(value) != Op::input) // a parameter of the source that is bound
+        return value;
+    if (source.declares(name)) value = source.graph.input(name + "'");
+    morphism.free_parameters.push_back(value);
+    return value;
+}
+
+void match_parameters(SystemMorphism& morphism, Lowering& lower, const std::vector<Tree>& values)
+{
+    const std::vector<NodeId>& known = morphism.source.parameters;
+    for (std::size_t k = 0; k < morphism.target.parameters.size(); ++k) {
+        const NodeId parameter = morphism.target.parameters[k];
+        morphism.parameters[parameter] = values[k] ? lower(values[k]) : namesake(morphism, parameter, known);
     }
+    for (const NodeId input : morphism.target.inputs)
+        morphism.parameters[input] = namesake(morphism, input, morphism.source.inputs);
 }
 
 /// Phi^a_b(x) y^b in place of what is linear in y and does not look it. Throws ModelError for what is not linear, or

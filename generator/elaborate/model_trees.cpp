@@ -92,6 +92,7 @@ std::vector<Tree> all_trees(const Model& model, const WrittenAlgebroid& algebroi
             trees.push_back(event.when);
             for (const NamedTree& each : event.jump) trees.push_back(each.value);
         }
+        for (const NamedTree& input : scene.inputs) trees.push_back(input.value);
         if (scene.time_scale != nullptr) trees.push_back(scene.time_scale);
     }
     return trees;

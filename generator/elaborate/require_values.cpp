@@ -61,6 +61,7 @@ class ModelValues {
     {
         add(scene.parameters);
         add(scene.initial);
+        add(scene.inputs);
         add(scene.element);
         add(scene.next);
         add(std::vector{scene.start, scene.duration, scene.step, scene.tolerance, scene.relative, scene.absolute,
@@ -96,6 +97,7 @@ void require_values(const Model& model)
     values.add(model.algebroid);
     values.add(std::vector{model.lagrangian, model.hamiltonian, model.dissipation});
     values.add(model.forces);
+    values.add(model.inputs);
     if (model.control) values.add(*model.control);
     if (model.groupoid) values.add(*model.groupoid);
     if (model.discrete) values.add(model.discrete->lagrangian);

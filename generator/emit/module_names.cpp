@@ -59,6 +59,7 @@ std::set<std::string> class_scope_names(const KernelModule& module, const std::s
         if (returns_value(kernel)) continue;
         for (const KernelOutput& output : kernel.outputs) names.insert(output.name);
     }
+    if (!module.inputs.empty()) names.insert({"inputs", "input", "input_names", "Inputs"});
     for (const LaneGroup& group : module.groups) names.insert(group.role + "_dimension");
     if (module.second_order.kind != SecondOrder::Kind::no) names.insert("second_order");
     if (!module.motion.moved.empty()) names.insert({"algebra_dimension", "moved_by_group"});
@@ -124,7 +125,7 @@ void name_arguments(const KernelModule& module, LocalNames& locals)
 
 ModuleNames name_module(const KernelModule& module)
 {
-    std::vector<const std::vector<Quantity>*> lists = {&module.parameters};
+    std::vector<const std::vector<Quantity>*> lists = {&module.parameters, &module.inputs};
     for (const LaneGroup& group : module.groups) lists.push_back(&group.lanes);
     std::vector<std::string> all;
     for (const auto* list : lists)
@@ -138,7 +139,10 @@ ModuleNames name_module(const KernelModule& module)
     for (const auto* list : lists) {
         const auto first = next;
         next += static_cast<std::ptrdiff_t>(list->size());
-        (list == &module.parameters ? names.parameters : names.groups.emplace_back()).assign(first, next);
+        auto& spelled_names = list == &module.parameters ? names.parameters
+                              : list == &module.inputs   ? names.inputs
+                                                         : names.groups.emplace_back();
+        spelled_names.assign(first, next);
         for (std::size_t k = 0; k < list->size(); ++k)
             name_local((*list)[k].input, first[static_cast<std::ptrdiff_t>(k)], names.locals);
     }
@@ -161,6 +165,7 @@ std::vector<std::vector<NodeId>> families_of(const KernelModule& module)
         for (const Quantity& each : quantities) family.push_back(each.input);
     };
     add(module.parameters);
+    if (!module.inputs.empty()) add(module.inputs);
     for (const LaneGroup& group : module.groups) add(group.lanes);
     return families;
 }

@@ -10,6 +10,7 @@ namespace lagen {
 struct ModuleNames {
     std::string class_name;
     std::vector<std::string> parameters;          ///< members of Parameters
+    std::vector<std::string> inputs;              ///< members of Inputs
     std::vector<std::vector<std::string>> groups; ///< members of the structs of lanes
     std::map<NodeId, std::string> guess;          ///< members of Guess, by the unknown that is followed
     LocalNames locals;

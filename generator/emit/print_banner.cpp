@@ -115,6 +115,7 @@ void print_banner(TextBlock& out, const KernelModule& module)
     if (!module.constants.empty()) out.comment("");
     for (const std::string& constant : module.constants) out.comment("Constant: " + constant);
     print_quantities(out, "Parameters:", module.parameters, false);
+    print_quantities(out, "Inputs:", module.inputs, false);
     print_quantities(out, "State:", lanes_of(module), true);
 }
 

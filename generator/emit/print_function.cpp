@@ -103,33 +103,45 @@ bool solve_blocks(TextBlock& out, const Body& body, const FunctionRequest& reque
     return declared;
 }
 
+/// Of the class: its parameters, or its inputs.
+struct Members {
+    const char* object; ///< "parameters"
+    const std::vector<Quantity>& quantities;
+    const std::vector<std::string>& names;
+
+    [[nodiscard]] bool holds(NodeId id) const
+    {
+        return std::ranges::any_of(quantities, [id](const Quantity& each) { return each.input == id; });
+    }
+};
+
 /// All that the part reads at once: a compiler that finds loads between stores, which might overlap, packs neither. By
 /// the names of all members where it reads most of them.
-void load_parameters(TextBlock& out, const BodyPart& part, const FunctionRequest& request)
+void load_members(TextBlock& out, const BodyPart& part, const FunctionRequest& request, const Members& of)
 {
     std::vector<std::string> members;
     std::vector<std::string> items;
-    for (std::size_t k = 0; k < request.module.parameters.size(); ++k) {
-        const NodeId input = request.module.parameters[k].input;
+    for (std::size_t k = 0; k < of.quantities.size(); ++k) {
+        const NodeId input = of.quantities[k].input;
         members.push_back(request.names.locals.inputs.at(input));
-        if (loads(part, input))
-            items.push_back(fmt::format("{} = parameters.{}", members.back(), request.names.parameters[k]));
+        if (loads(part, input)) items.push_back(fmt::format("{} = {}.{}", members.back(), of.object, of.names[k]));
     }
     if (items.size() > 1 && 2 * items.size() >= members.size())
-        out.list("const auto [", members, "] = parameters;");
+        out.list("const auto [", members, fmt::format("] = {};", of.object));
     else
         out.list("const S ", items, ";");
 }
 
 void print_statements(TextBlock& out, const BodyPart& part, const FunctionRequest& request)
 {
-    const auto is_parameter = [&](NodeId id) {
-        return std::ranges::any_of(request.module.parameters, [&](const Quantity& q) { return q.input == id; });
-    };
-    bool loaded = false; // not before the first use: they need no register until then
+    const Members all[] = {{"parameters", request.module.parameters, request.names.parameters},
+                           {"inputs", request.module.inputs, request.names.inputs}};
+    bool loaded[] = {false, false}; // not before the first use: they need no register until then
     for (const Statement& statement : part) {
         if (statement.kind == Statement::Kind::load) {
-            if (!loaded && is_parameter(statement.node)) loaded = (load_parameters(out, part, request), true);
+            for (std::size_t k = 0; k < 2; ++k)
+                if (!loaded[k] && all[k].holds(statement.node))
+                    loaded[k] = (load_members(out, part, request, all[k]), true);
         } else if (statement.kind == Statement::Kind::store) {
             out.line(request.store(statement.index, spell(statement.expressions[0]).text));
         } else {

@@ -5,6 +5,7 @@
 #include "emit/print_function.hpp"
 #include "emit/print_kernel.hpp"
 #include "emit/spell.hpp"
+#include "graph/calculus/differentiate.hpp"
 
 #include <fmt/format.h>
 
@@ -80,6 +81,24 @@ void print_parameters(TextBlock& out, const KernelModule& module, const ModuleNa
     out.line("} parameters;");
 }
 
+/// Inputs with their defaults at those of the parameters.
+void print_inputs(TextBlock& out, const KernelModule& module, const ModuleNames& names, Includes& includes)
+{
+    if (module.inputs.empty()) return;
+    std::vector<std::pair<NodeId, NodeId>> known;
+    for (std::size_t k = 0; k < module.parameter_defaults.size(); ++k)
+        known.emplace_back(module.parameters[k].input, module.parameter_defaults[k]);
+    std::vector<std::string> values;
+    for (const NodeId value : substitute(*module.graph, module.input_defaults, known))
+        values.push_back(default_value(module, value, includes));
+    out.blank();
+    out.comment(
+        "What acts from outside, with the defaults of the model: set them before each step, and they are held.");
+    out.line("struct Inputs {");
+    print_members(out, names.inputs, values, module.inputs);
+    out.line("} inputs;");
+}
+
 void print_group(TextBlock& out, const LaneGroup& group, const std::vector<std::string>& members)
 {
     if (group.lanes.empty()) return;
@@ -151,6 +170,7 @@ void print_constants(TextBlock& out, const KernelModule& module)
     out.line(fmt::format("static constexpr const char* model_hash = {};", string_literal(module.hash)));
     out.line(name_array("state_names", lanes));
     out.line(name_array("parameter_names", module.parameters));
+    if (!module.inputs.empty()) out.line(name_array("input_names", module.inputs));
 }
 
 void print_flows(TextBlock& out, const KernelModule& module)
@@ -208,20 +228,19 @@ void print_matrices(TextBlock& out, const KernelModule& module, Includes& includ
     close_block(out);
 }
 
-/// Parameters by number, for programs that know them by parameter_names only.
-void print_parameter_access(TextBlock& out, const ModuleNames& names)
+/// Parameters or inputs by number, for programs that know them by their names only. `what`: "parameter".
+void print_access(TextBlock& out, const std::string& what, const char* type, const std::vector<std::string>& names)
 {
-    if (names.parameters.empty()) return;
+    if (names.empty()) return;
     std::vector<std::string> members;
-    for (const std::string& name : names.parameters) members.push_back("&Parameters::" + name);
+    for (const std::string& name : names) members.push_back(fmt::format("&{}::{}", type, name));
     out.blank();
-    out.comment("The parameter parameter_names[k], k < parameter_names.size().");
-    out.line("[[nodiscard]] S& parameter(std::size_t k) noexcept");
+    out.comment(fmt::format("The {0} {0}_names[k], k < {0}_names.size().", what));
+    out.line(fmt::format("[[nodiscard]] S& {}(std::size_t k) noexcept", what));
     out.line("{");
     out.indent(1);
-    out.line(
-        fmt::format("constexpr std::array<S Parameters::*, {}> members = {{{}}};", members.size(), joined(members)));
-    out.line("return parameters.*members[k];");
+    out.line(fmt::format("constexpr std::array<S {}::*, {}> members = {{{}}};", type, members.size(), joined(members)));
+    out.line(fmt::format("return {}s.*members[k];", what));
     out.indent(-1);
     out.line("}");
 }
@@ -236,7 +255,9 @@ std::string print_header(const KernelModule& module)
     kernels.indent(1);
     print_constants(kernels, module);
     print_parameters(kernels, module, names, includes);
-    print_parameter_access(kernels, names);
+    print_access(kernels, "parameter", "Parameters", names.parameters);
+    print_inputs(kernels, module, names, includes);
+    print_access(kernels, "input", "Inputs", names.inputs);
     print_guess(kernels, module, names);
     for (std::size_t k = 0; k < module.groups.size(); ++k) print_group(kernels, module.groups[k], names.groups[k]);
     print_state(kernels, module, names);

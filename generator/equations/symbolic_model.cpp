@@ -52,6 +52,7 @@ SymbolicModel::SymbolicModel(const Model& model, const WrittenAlgebroid& algebro
     for (const Symbol& symbol : model.fibre.momenta) mu_.push_back(variable(symbol.name));
     if (model.control)
         for (const Symbol& symbol : model.control->controls) controls_.push_back(variable(symbol.name));
+    for (const Input& input : model.inputs) add_variable(input.symbol.name);
     for (const FirstOrderState& state : model.states) add_variable(state.symbol.name);
     lower_structure();
     take_labels(functions);
@@ -281,6 +282,7 @@ EquationSet SymbolicModel::empty_set(const std::string& form) const
     }
     if (model_.control)
         for (const Symbol& symbol : model_.control->controls) set.symbols.push_back({symbol.name, symbol.latex});
+    for (const Input& input : model_.inputs) set.symbols.push_back({input.symbol.name, input.symbol.latex});
     for (std::size_t k = 0; k < model_.states.size(); ++k)
         if (const Symbol& symbol = model_.states[k].symbol; !is_total_cost(model_, k))
             set.symbols.push_back({symbol.name, symbol.latex});

@@ -126,8 +126,8 @@ Value Expansion::Closing::rate_of(const Maker& make, const Tree& tree, Closed& X
                 fmt::format("Dt is taken of an expression with '{}', whose rate is not known here", node.name),
                 node.where.file ? node.where : tree->where,
                 scope_.has_definition(rate_name("t"))
-                    ? "Dt(X) is for X over t, parameters and base coordinates: other rates follow from "
-                      "the equations of motion"
+                    ? "Dt(X) is for X over t, parameters and base coordinates: other rates are known along "
+                      "a motion alone"
                     : "the anchor is not known where this stands");
         return rate->body->kind != TreeKind::number || rate->body->number != 0;
     });

@@ -17,7 +17,8 @@ Quantity quantity(const Symbol& symbol, NodeId input)
     return {symbol.name, symbol.text, symbol.unit, input};
 }
 
-/// Parameters of the model; the step of a discrete motion is one too where it is a symbol of its own.
+/// Parameters of the model, and its inputs; the step of a discrete motion is a parameter too where it is a symbol of
+/// its own.
 void describe_parameters(KernelModule& module, const Model& model, const System& system, const Formulation& form)
 {
     Graph& graph = *module.graph;
@@ -30,7 +31,13 @@ void describe_parameters(KernelModule& module, const Model& model, const System&
             module.parameters.push_back(quantity(parameter.symbol, node));
     }
     for (const auto& [parameter, value] : system.parameter_values) module.parameter_defaults.push_back(value);
-    if (!form.step || !has_own_step(model)) return;
+    if (!form.step) {
+        for (std::size_t k = 0; k < form.inputs.size(); ++k)
+            module.inputs.push_back(quantity(model.inputs[k].symbol, form.inputs[k]));
+        for (const auto& [input, value] : system.input_values) module.input_defaults.push_back(value);
+        return;
+    }
+    if (!has_own_step(model)) return;
     module.parameters.push_back(quantity(model.discrete->step, system.discrete->step));
     module.parameter_defaults.push_back(graph.constant(0));
 }

@@ -315,7 +315,7 @@ class DiscreteForm {
     void bind_names()
     {
         form_.binding[model_.discrete->step.name] = system_.discrete->step;
-        bind_system(system_, form_);
+        bind_system(graph_, system_, form_);
         for (const auto* nodes : {&groupoid_.arrow.next, &groupoid_.arrow.W})
             for (const NodeId node : *nodes) form_.binding[graph_.input_name(node)] = over_lanes({node})[0];
         for (const NodeId mu : system_.mu) form_.binding[graph_.input_name(mu)] = mu;

@@ -7,6 +7,7 @@
 #include "kernels/describe_module.hpp"
 #include "kernels/exact_flows.hpp"
 #include "kernels/formulation.hpp"
+#include "kernels/insert_inputs.hpp"
 #include "kernels/jumps.hpp"
 #include "kernels/kernel_table.hpp"
 #include "kernels/named_trees.hpp"
@@ -24,10 +25,12 @@ namespace lagen {
 
 namespace {
 
-FormulationRequest formulation_request(const KernelRequest& request, FormKind form, std::vector<std::size_t> states)
+FormulationRequest formulation_request(const Model& model, const KernelRequest& request, FormKind form,
+                                       std::vector<std::size_t> states)
 {
     return {is_requested(request, form, "lagrangian_hessian") || is_requested(request, form, "hamiltonian_hessian"),
-            is_requested(request, form, "hamiltonian"), std::move(states)};
+            request.scene == nullptr && is_requested(request, form, "inverse_dynamics"),
+            is_requested(request, form, "hamiltonian"), std::move(states), given_inputs(model, request.scene)};
 }
 
 /// Kernels of one module, each simplified on its own and left out where nobody asked for it or it would be empty.
@@ -43,7 +46,7 @@ class ModuleBuilder {
         : model_(model), system_(system), report_(report), request_(request),
           states_(carried_states(model, form, request.scene)), graph_(std::make_shared<Graph>(system.graph)),
           form_(formulation(*graph_, model, system, report, form_named(form).kind,
-                            formulation_request(request, form_named(form).kind, states_))),
+                            formulation_request(model, request, form_named(form).kind, states_))),
           lower_(*graph_, form_.binding)
     {
     }
@@ -66,7 +69,7 @@ class ModuleBuilder {
                   observable_trees(model_, request_.scene, state_names(model_, module_.form), lanes_of(module_)));
         add_trees("invariants", conserved_quantities());
         if (has_rates()) add_motion();
-        simplify_implicit();
+        simplify_blocks(*graph_, module_.implicit);
         return std::move(module_);
     }
 
@@ -92,6 +95,7 @@ class ModuleBuilder {
         if (wants("jumps") && has_jumps(model_, request_.scene, *form_.form))
             add(jumps_kernel(*graph_, model_, system_, form_, request_.scene));
         if (wants("jacobian")) add_jacobian();
+        if (!form_.inputs.empty() && wants("input_jacobian")) add_derivative("input_jacobian", form_.inputs);
         if (wants("variational")) add_variational();
         if (request_.time_scale != nullptr) add_time_scale();
         add_group_motion();
@@ -269,9 +273,15 @@ class ModuleBuilder {
             kernel.directions = std::move(directions);
             return module_.kernels.push_back(std::move(kernel));
         }
+        add_derivative("jacobian", lanes);
+    }
+
+    /// Of the rates, with respect to these inputs of the graph.
+    void add_derivative(const char* name, const std::vector<NodeId>& inputs)
+    {
         const std::vector<NodeId> values =
-            joined_rows(jacobian_through(*graph_, form_.derivative, lanes, form_.implicit));
-        add(table_kernel(form_, "jacobian", matrix(*graph_, "values", lanes.size(), lanes.size(), values)));
+            joined_rows(jacobian_through(*graph_, form_.derivative, inputs, form_.implicit));
+        add(table_kernel(form_, name, matrix(*graph_, "values", form_.derivative.size(), inputs.size(), values)));
     }
 
     /// True where the right-hand side has no factorisation left of those that it was written with.
@@ -359,22 +369,6 @@ class ModuleBuilder {
         }
     }
 
-    /// Residuals, Jacobian and guess of each block, simplified together.
-    void simplify_implicit()
-    {
-        for (ImplicitBlock& block : module_.implicit) {
-            simplify_at(*graph_, {&block.guess});
-            if (block.bracket)
-                for (auto* ends : {&block.bracket->lower, &block.bracket->upper})
-                    for (std::optional<NodeId>& end : *ends)
-                        if (end) simplify_at(*graph_, std::vector<NodeId*>{&*end});
-            if (block.angles)
-                for (auto* parts : {&block.angles->b, &block.angles->c}) simplify_at(*graph_, {parts});
-            simplify_at(*graph_, {&block.residuals, &block.jacobian, &block.inside});
-            block.sizes = rounding_sizes(*graph_, block.residuals);
-        }
-    }
-
     const Model& model_;
     const System& system_;
     const Report& report_;
@@ -392,7 +386,10 @@ class ModuleBuilder {
 KernelModule form_kernels(const Model& model, const System& system, const Report& report, const KernelRequest& request)
 {
     refuse_unknown(request);
-    KernelModule module = ModuleBuilder(model, system, report, request).build();
+    const std::vector<NamedTree> inputs = given_inputs(model, request.scene);
+    std::optional<System> own;
+    if (!inputs.empty()) own = insert_inputs(system, inputs);
+    KernelModule module = ModuleBuilder(model, own ? *own : system, report, request).build();
     require_requested(module, model, system, report, request);
     return module;
 }

@@ -3,11 +3,13 @@
 /// State lanes: x^i (n), then y^a or mu_a (r).
 ///   rhs           the equations of motion (kernels/formulation.hpp)
 ///   jacobian      d rhs / d state, sparse, by columns where entries would be long;  variational: d rhs / d state * v
+///   input_jacobian  d rhs / d inputs, sparse, where the model has inputs and no scene gives them
 ///   of hamilton, on request: flows, the exact flows of parts of H (kernels/exact_flows.hpp), as flow_0, flow_1, ..
 ///   taylor        the Taylor coefficients of the motion, order by order, on request
 ///   constraints, domain, observables, invariants, events: vectors in the order of the model
 ///   jumps         the states behind events that jump, a column each (kernels/jumps.hpp)
-///   of lagrange: mass_matrix, momentum, energy, power, lagrangian; lagrangian_hessian on request
+///   of lagrange: mass_matrix, momentum, energy, power, lagrangian; lagrangian_hessian on request; inverse_dynamics,
+///                where accelerations determine the inputs (kernels/inverse_dynamics.hpp)
 ///   of hamilton: velocity, energy, power, hamiltonian, lagrangian; hamiltonian_hessian on request
 ///   of pontryagin: controls, hamiltonian, power, cost
 #pragma once

@@ -32,6 +32,8 @@ Formulation empty_form(const System& system, FormKind form, std::vector<NodeId> 
     result.parameters = system.parameters;
     result.x = system.algebroid.x;
     result.lanes = std::move(lanes);
+    result.inputs = system.inputs;
+    result.given_inputs = request.inputs;
     for (const std::size_t k : request.states) result.states.push_back(system.states[k]);
     return result;
 }
@@ -41,7 +43,7 @@ void set_motion(Graph& graph, const System& system, const PhaseSystem& phase, Fo
     form.derivative = phase.xdot;
     form.derivative.insert(form.derivative.end(), phase.mudot.begin(), phase.mudot.end());
     form.binding = phase_names(system, phase, phase.hamiltonian);
-    bind_system(system, form);
+    bind_system(graph, system, form);
     append_state_rates(graph, system, form);
 }
 
@@ -54,11 +56,13 @@ void append_state_rates(Graph& graph, const System& system, Formulation& form)
     }
 }
 
-void bind_system(const System& system, Formulation& form)
+void bind_system(Graph& graph, const System& system, Formulation& form)
 {
     form.binding["t"] = system.time;
-    for (const std::vector<NodeId>* inputs : {&system.parameters, &system.algebroid.x, &system.states})
+    for (const std::vector<NodeId>* inputs : {&system.parameters, &system.algebroid.x, &system.states, &system.inputs})
         for (const NodeId input : *inputs) form.binding[system.graph.input_name(input)] = input;
+    Lowering lower(graph, form.binding);
+    for (const NamedTree& input : form.given_inputs) form.binding[input.name] = lower(input.value);
 }
 
 MatrixStructure mass_structure(const Regularity& regularity)

@@ -22,6 +22,8 @@ struct Formulation {
     std::vector<NodeId> x;                  ///< x^i, shape (n)
     std::vector<NodeId> lanes;              ///< the other lanes of the state, shape (r)
     std::vector<NodeId> states;             ///< first-order states, the last lanes
+    std::vector<NodeId> inputs;             ///< of the system
+    std::vector<NamedTree> given_inputs;    ///< of a scene, with their values
     std::vector<NodeId> derivative;         ///< of x, then of the lanes, then of the states
     std::vector<NodeId> pivots;             ///< 1 x 1 blocks of what is solved for the derivative
     std::vector<std::string> documentation; ///< of the right-hand side
@@ -40,8 +42,10 @@ struct Formulation {
 /// What a form is made with.
 struct FormulationRequest {
     bool hessians = false;           ///< kernels of the second derivatives of L and H
+    bool inverse_dynamics = false;   ///< its kernel, where accelerations determine the inputs
     bool hamiltonian = false;        ///< of a discrete form: H of [lagrangian] beside it
     std::vector<std::size_t> states; ///< numbers of the first-order states that it carries
+    std::vector<NamedTree> inputs;   ///< those that a scene gives, over t, x, y, first-order states and parameters
 };
 
 /// Throw MathematicsError where the system has no such form: no L, no H, no control problem, no discrete Lagrangian; a
@@ -67,8 +71,8 @@ struct FormulationRequest {
 void set_motion(Graph& graph, const System& system, const PhaseSystem& phase, Formulation& form);
 /// Appends the rates of the states that the form carries, once its names are bound.
 void append_state_rates(Graph& graph, const System& system, Formulation& form);
-/// Binds t, parameters and base coordinates, which win over what is bound already.
-void bind_system(const System& system, Formulation& form);
+/// Binds t, parameters and base coordinates, which win over what is bound already; inputs at last.
+void bind_system(Graph& graph, const System& system, Formulation& form);
 
 /// What is known of W for every value of the parameters. (What holds for the file's values alone says nothing of a
 /// header whose parameters may be changed.)

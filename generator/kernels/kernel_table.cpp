@@ -27,6 +27,9 @@ constexpr std::array kernel_rows{
     KernelRow{"rhs", flow, rate, "The equations of motion."},
     KernelRow{"jacobian", flow, sparse_matrix,
               "Derivative of ds with respect to s: the entries that are not zero by structure."},
+    KernelRow{
+        "input_jacobian", flow, sparse_matrix,
+        "Derivative of ds with respect to the inputs, a column each: the entries that are not zero by structure."},
     KernelRow{"variational", flow, rate,
               "The variational equations at s: dv = (d rhs / d s) v. v and dv may be the same object.", true},
     KernelRow{"taylor", flow, rate, "Taylor coefficients of the motion through s at t.", true},
@@ -37,6 +40,8 @@ constexpr std::array kernel_rows{
     KernelRow{"flows", hamilton, rate, "The flow of a part of H: s + ds is where it takes s in the time h.", true},
     KernelRow{"mass_matrix", lagrange, dense_matrix, "W_ab = d2L/dy^a dy^b, shape ({0}, {1}), symmetric."},
     KernelRow{"momentum", lagrange, column_of_values, "p_a = dL/dy^a, shape ({0})."},
+    KernelRow{"inverse_dynamics", lagrange, column_of_values_checked,
+              "The inputs that give the accelerations ydot, in the order of input_names, shape ({0})."},
     KernelRow{"velocity", hamilton, column_of_values, "y^a = dH/dmu_a, shape ({0})."},
     KernelRow{"controls", pontryagin, column_of_values, "The controls that maximise H."},
     KernelRow{"energy", lagrange, number, "E = y^a p_a - L."},

@@ -2,7 +2,7 @@
 /// Lagrange's equations (mechanics/lagrange.hpp) as kernels: ydot = W^-1 (..), never an inverse by symbols.
 #include "graph/calculus/differentiate.hpp"
 #include "kernels/constrained_kernels.hpp"
-#include "kernels/formulation.hpp"
+#include "kernels/inverse_dynamics.hpp"
 #include "mechanics/lagrange.hpp"
 #include "mechanics/variations.hpp"
 
@@ -22,7 +22,7 @@ void bind_names(Graph& graph, const System& system, const LagrangianNodes& lagra
     form.binding["lagrangian"] = lagrangian.fibre.lagrangian;
     for (std::size_t a = 0; a < system.mu.size(); ++a)
         form.binding[system.graph.input_name(system.mu[a])] = lagrangian.fibre.momenta[a];
-    bind_system(system, form);
+    bind_system(graph, system, form);
     for (const NodeId y : system.velocities()) form.binding[system.graph.input_name(y)] = y;
 }
 
@@ -85,6 +85,7 @@ Formulation lagrange_form(Graph& graph, const System& system, const Report& repo
     bind_jacobi_field(graph, system, ydot, form);
     append_state_rates(graph, system, form);
     add_kernels(graph, lagrangian, lagrange_power(graph, system, lagrangian, balance), request.hessians, form);
+    if (request.inverse_dynamics) add_inverse_dynamics(graph, system, W, rates.force, form);
     if (lagrangian.constrained) add_constrained(graph, system, *lagrangian.constrained, form);
     return form;
 }

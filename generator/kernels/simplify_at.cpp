@@ -20,4 +20,19 @@ void simplify_at(Graph& graph, std::initializer_list<std::vector<NodeId>*> lists
     simplify_at(graph, places);
 }
 
+void simplify_blocks(Graph& graph, std::vector<ImplicitBlock>& blocks)
+{
+    for (ImplicitBlock& block : blocks) {
+        simplify_at(graph, {&block.guess});
+        if (block.bracket)
+            for (auto* ends : {&block.bracket->lower, &block.bracket->upper})
+                for (std::optional<NodeId>& end : *ends)
+                    if (end) simplify_at(graph, std::vector<NodeId*>{&*end});
+        if (block.angles)
+            for (auto* parts : {&block.angles->b, &block.angles->c}) simplify_at(graph, {parts});
+        simplify_at(graph, {&block.residuals, &block.jacobian, &block.inside});
+        block.sizes = rounding_sizes(graph, block.residuals);
+    }
+}
+
 } // namespace lagen

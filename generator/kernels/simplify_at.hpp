@@ -3,6 +3,7 @@
 #pragma once
 
 #include "graph/simplify/simplify.hpp"
+#include "graph/unknowns/implicit.hpp"
 
 #include <initializer_list>
 #include <vector>
@@ -14,5 +15,8 @@ std::vector<NodeId> simplify_at(Graph& graph, const std::vector<NodeId*>& places
 
 /// The same for all nodes of these lists.
 void simplify_at(Graph& graph, std::initializer_list<std::vector<NodeId>*> lists);
+
+/// Residuals, Jacobian and guess of each block, simplified together.
+void simplify_blocks(Graph& graph, std::vector<ImplicitBlock>& blocks);
 
 } // namespace lagen

@@ -175,6 +175,8 @@ SystemMorphism composition(const SystemMorphism& first, const SystemMorphism& se
     set({start.time}, {both.source.time});
     for (std::size_t k = 0; k < start.parameters.size(); ++k)
         inputs[start.parameters[k]] = first.parameters.at(middle.parameters[k]);
+    for (std::size_t k = 0; k < start.inputs.size(); ++k)
+        inputs[start.inputs[k]] = first.parameters.at(middle.inputs[k]);
     set(start.algebroid.x, first.base);
     set(start.algebroid.y, first.fibre);
     if (start.control && !first.controls.empty()) set(start.control->u, first.controls);

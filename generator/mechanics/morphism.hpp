@@ -19,9 +19,9 @@ struct SystemMorphism {
     std::vector<NodeId> fibre;           ///< y'^a over x and y, shape (r'); empty: what the map of arrows says
     std::vector<NodeId> controls;        ///< u' over x, u, t; may be empty
     std::vector<NodeId> element;         ///< W' by rows over an arrow; empty where there is none
-    std::map<NodeId, NodeId> parameters; ///< of the target's parameters, by its own graph; one that the source does
-                                         ///< not know is an input of its own
-    std::vector<NodeId> free_parameters; ///< those inputs
+    std::map<NodeId, NodeId> parameters; ///< of the target's parameters and inputs, by its own graph; one that the
+                                         ///< source does not know is a symbol of its own
+    std::vector<NodeId> free_parameters; ///< those symbols
     bool of_groupoids = false;
 };
 

@@ -21,8 +21,8 @@ bool System::declares(const std::string& wanted) const
     const auto among = [&](const std::vector<NodeId>& inputs) {
         return std::ranges::any_of(inputs, [&](NodeId input) { return graph.input_name(input) == wanted; });
     };
-    return among(parameters) || among(algebroid.x) || among(algebroid.y) || among(velocities()) || among(states) ||
-           (control && among(control->u));
+    return among(parameters) || among(algebroid.x) || among(algebroid.y) || among(velocities()) || among(inputs) ||
+           among(states) || (control && among(control->u));
 }
 
 Replacements replacements(const std::vector<NodeId>& inputs, const std::vector<NodeId>& nodes)

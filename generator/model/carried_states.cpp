@@ -32,6 +32,7 @@ std::vector<Tree> evaluated_trees(const Model& model, const Scene* scene)
     if (scene->observe)
         for (const NamedTree& column : *scene->observe) trees.push_back(column.value);
     for (const NamedTree& coordinate : plot_coordinates(*scene)) trees.push_back(coordinate.value);
+    for (const NamedTree& input : scene->inputs) trees.push_back(input.value);
     if (scene->time_scale != nullptr) trees.push_back(scene->time_scale);
     return trees;
 }

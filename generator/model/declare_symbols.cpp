@@ -98,6 +98,13 @@ std::vector<Symbol> state_symbols(const Model& model)
     return out;
 }
 
+std::vector<Symbol> input_symbols(const Model& model)
+{
+    std::vector<Symbol> out;
+    for (const Input& input : model.inputs) out.push_back(input.symbol);
+    return out;
+}
+
 std::vector<Symbol> free_parameters(const Model& model)
 {
     std::vector<Symbol> out;

@@ -85,6 +85,9 @@ void declare_symbols(ModelReader& reader, const std::vector<Symbol>& symbols, Ro
 [[nodiscard]] std::vector<Symbol> parameter_symbols(const Model& model);
 /// Of [states].
 [[nodiscard]] std::vector<Symbol> state_symbols(const Model& model);
+[[nodiscard]] std::vector<Symbol> input_symbols(const Model& model);
+/// Throws ModelError where an invariant depends on an input: nothing is known of the rates of those.
+void refuse_inputs_in(const Model& model, const std::vector<NamedTree>& invariants);
 /// Those that are not bound.
 [[nodiscard]] std::vector<Symbol> free_parameters(const Model& model);
 /// Whether the step of [discrete] is a symbol of its own, none of the parameters.

@@ -61,6 +61,19 @@ std::vector<Tree> forces_of(const ModelReader& reader, const AlgebroidDraft& dra
     return forces;
 }
 
+/// Forces do not come without the inputs in them.
+void refuse_lost_inputs(const IncludedModel& file)
+{
+    const std::vector<Symbol> inputs = input_symbols(file.model);
+    for (const ComponentEntry& force : file.model.forces)
+        for (const std::string& name : names_in(force.value))
+            if (index_of(inputs, name) < inputs.size())
+                throw ModelError(fmt::format("the forces of '{}' depend on its input '{}', and [inputs] do not come "
+                                             "with the forces of a file",
+                                             file.model.file->name, name),
+                                 file.of->where, "give this model [inputs] and [forces] of its own");
+}
+
 /// Forces do not come without what they follow from.
 void refuse_lost_states(const IncludedModel& file)
 {
@@ -95,7 +108,10 @@ void inherit_mechanics(ModelReader& reader)
     reader.model.lagrangian_where = where;
     if (own.dissipation == nullptr) reader.dissipation = sum_or_nothing(dissipations);
     if (own.forces != nullptr) return;
-    for (const IncludedModel* file : files) refuse_lost_states(*file);
+    for (const IncludedModel* file : files) {
+        refuse_lost_states(*file);
+        refuse_lost_inputs(*file);
+    }
     const std::vector<Tree> forces = forces_of(reader, *reader.draft, reader.model.algebroid);
     for (std::size_t a = 0; a < forces.size(); ++a)
         if (forces[a]) reader.inherited_forces.push_back({a, forces[a], where});

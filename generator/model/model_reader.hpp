@@ -53,6 +53,7 @@ struct ModelReader {
     const TomlEntry* algebroid = nullptr;   ///< the [algebroid] block
     const TomlEntry* groupoid = nullptr;    ///< the [groupoid] block
     const TomlEntry* discrete = nullptr;    ///< the [discrete] block
+    const TomlEntry* inputs = nullptr;      ///< the [inputs] block
     const TomlEntry* states = nullptr;      ///< the [states] block
     const TomlEntry* reconstruct = nullptr; ///< the [reconstruct] block
     std::shared_ptr<const AlgebroidDraft> draft;
@@ -67,9 +68,9 @@ struct ModelReader {
     Tree discrete_lagrangian;                     ///< likewise
     std::vector<ComponentEntry> inherited_forces; ///< of included files, over the model's names
     std::vector<CoordinateRate> rates;            ///< once the entries of the algebroid are read
-    Scope mechanical;                             ///< the model's scope with momenta, controls and first-order states
-    Scope observer; ///< the model's scope with momenta, observables, invariants and built-in quantities
-    Scope arrows;   ///< the observer's with the coordinates of an arrow of the groupoid and the step
+    Scope mechanical; ///< the model's scope with momenta, controls, inputs and first-order states
+    Scope observer;   ///< the model's scope with momenta, observables, invariants and built-in quantities
+    Scope arrows;     ///< the observer's with the coordinates of an arrow of the groupoid and the step
 
     /// The closed form of `tree`, in which only names of the given roles may occur (others: ModelError). `what` is the
     /// subject of the message: "the value of parameter 'm'".
@@ -153,6 +154,8 @@ void declare_total_cost(ModelReader& reader);
 void define_cost(ModelReader& reader);
 /// The group of `entry`, a name, and its generators; `what` calls the entry in messages.
 void read_named_group(const ModelReader& reader, GroupoidBlock& block, const TomlEntry& entry, const std::string& what);
+/// The names of [inputs].
+void declare_inputs(ModelReader& reader);
 /// The names of [states] and of [reconstruct].
 void declare_states(ModelReader& reader);
 void declare_reconstructions(ModelReader& reader);
@@ -176,6 +179,7 @@ void read_parameters(ModelReader& reader, const TomlEntry* block, const std::vec
 void read_base(ModelReader& reader, const TomlEntry* block);
 void read_mechanics(ModelReader& reader);
 void read_control(ModelReader& reader);
+void read_inputs(ModelReader& reader);
 void read_states(ModelReader& reader);
 /// The rates of the entries, once the connection is read.
 void read_reconstructions(ModelReader& reader);

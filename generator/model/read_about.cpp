@@ -74,6 +74,7 @@ void describe(Model& model, const Symbol& about)
     if (is_nonholonomic(model)) std::ranges::for_each(model.algebroid.of[0].fibre, apply);
     if (model.control) std::for_each(model.control->controls.begin(), model.control->controls.end(), apply);
     for (FirstOrderState& state : model.states) apply(state.symbol);
+    for (Input& input : model.inputs) apply(input.symbol);
     if (!found) note(model, about);
 }
 
@@ -81,11 +82,11 @@ void describe(Model& model, const Symbol& about)
 bool is_entry(const Model& model, const std::string& name)
 {
     const auto is_named = [&](const auto& each) { return names_entry(name, each.name); };
-    const auto is_parameter = [&](const Parameter& each) { return is_named(each.symbol); };
-    bool found = std::any_of(model.parameters.begin(), model.parameters.end(), is_parameter);
+    const auto has_name = [&](const auto& each) { return is_named(each.symbol); };
+    bool found = std::ranges::any_of(model.parameters, has_name) || std::ranges::any_of(model.states, has_name) ||
+                 std::ranges::any_of(model.inputs, has_name);
     for (const auto* list : {&model.base.coordinates, &model.fibre.coordinates, &model.fibre.momenta})
         found = found || std::any_of(list->begin(), list->end(), is_named);
-    found = found || std::ranges::any_of(model.states, [&](const auto& each) { return is_named(each.symbol); });
     if (model.control) found = found || std::ranges::any_of(model.control->controls, is_named);
     for (const auto* list : {&model.observables, &model.invariants, &model.base.casimirs})
         found = found || std::any_of(list->begin(), list->end(), is_named);

@@ -140,8 +140,9 @@ void read_control(ModelReader& reader)
     if (block == nullptr) return;
     Control& control = *reader.model.control;
     const auto roles = {Role::time, Role::parameter, Role::base, Role::control};
+    const auto moving = {Role::time, Role::parameter, Role::base, Role::control, Role::input};
     const TomlEntry& sigma = require_entry(*block, "sigma", "sigma = { a = \"..\" } for sigma = sigma^a e_a");
-    control.sigma = read_components(reader, sigma, {"'sigma' of [control]", "sigma along", roles, false});
+    control.sigma = read_components(reader, sigma, {"'sigma' of [control]", "sigma along", moving, false});
     const TomlEntry& cost = require_entry(*block, "cost", "cost = \"u^2/2\"; cost = 1 asks for the least time");
     control.cost = reader.close_mechanical(read_expression(cost.value, "the cost"), roles, "the cost");
     for (std::size_t k = 0; k < reader.model.states.size(); ++k)

@@ -69,7 +69,7 @@ void read_mechanics(ModelReader& reader)
     Model& model = reader.model;
     const Role fibre = is_nonholonomic(model) ? Role::ambient : Role::fibre;
     const auto velocity = {Role::time, Role::parameter, Role::base, fibre};
-    const auto pushing = {Role::time, Role::parameter, Role::base, fibre, Role::state};
+    const auto pushing = {Role::time, Role::parameter, Role::base, fibre, Role::state, Role::input};
     const auto phase = {Role::time, Role::parameter, Role::base, Role::momentum};
     if (reader.lagrangian) model.lagrangian = reader.close(reader.lagrangian, velocity, "the Lagrangian");
     if (reader.hamiltonian) model.hamiltonian = reader.close_mechanical(reader.hamiltonian, phase, "the Hamiltonian");

@@ -100,6 +100,7 @@ Model read_with(ModelReader& reader, const std::string& name, std::string text, 
     reader.mechanics.forces = top.take("forces");
     reader.mechanics.dissipation = top.take("dissipation");
     reader.mechanics.control = top.take("control");
+    reader.inputs = top.take("inputs");
     reader.states = top.take("states");
     reader.reconstruct = top.take("reconstruct");
     const TomlEntry* observables = top.take("observables");
@@ -120,6 +121,7 @@ Model read_with(ModelReader& reader, const std::string& name, std::string text, 
     declare_ambient(reader);
     declare_fibre(reader, reader.fibre);
     declare_control(reader);
+    declare_inputs(reader);
     declare_states(reader);
     declare_reconstructions(reader);
     declare_definitions(reader, definitions);
@@ -133,6 +135,7 @@ Model read_with(ModelReader& reader, const std::string& name, std::string text, 
     read_parameters(reader, parameters, settings);
     read_base(reader, base);
     if (reader.is_probe) return std::move(reader.model);
+    read_inputs(reader);
     read_mechanics(reader);
     read_states(reader);
     read_reconstructions(reader);
@@ -196,6 +199,7 @@ std::vector<std::string> symbol_names(const Model& model)
                 out.push_back(symbol.name);
     if (model.control)
         for (const Symbol& symbol : model.control->controls) out.push_back(symbol.name);
+    for (const Input& input : model.inputs) out.push_back(input.symbol.name);
     for (const FirstOrderState& state : model.states) out.push_back(state.symbol.name);
     return out;
 }

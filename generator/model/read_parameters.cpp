@@ -36,6 +36,11 @@ void assign(ModelReader& reader, const ResolvedKey& key, const Tree& value, cons
     for (std::size_t k = 0; k < entries.size(); ++k) reader.model.parameters[key.indices[k]].value = entries[k];
 }
 
+std::string input_hint(const std::string& name)
+{
+    return fmt::format("a scene says what an input is: inputs = {{ {} = \"..\" }}", name);
+}
+
 void apply(ModelReader& reader, const std::vector<Symbol>& symbols, const Setting& setting)
 {
     if (const std::optional<ResolvedKey> key = resolve_key(symbols, key_of(reader, setting))) {
@@ -60,8 +65,9 @@ void apply(ModelReader& reader, const std::vector<Symbol>& symbols, const Settin
                         (entry->role == Role::base || entry->role == Role::fibre || entry->role == Role::momentum ||
                          entry->role == Role::state);
     const std::string hint =
-        starts ? fmt::format("where a scene starts is set by --initial {}={}, of `run` and `sweep`", setting.name,
-                             setting.value.text)
+        entry != nullptr && entry->role == Role::input ? input_hint(setting.name)
+        : starts ? fmt::format("where a scene starts is set by --initial {}={}, of `run` and `sweep`", setting.name,
+                               setting.value.text)
         : !size.empty() && nearest_name(setting.name, known) == size ? fmt::format("did you mean the size '{}'?", size)
         : resolve_key(symbols, family_name(setting.name))
             ? hint_for_key(symbols, setting.name, "parameters")

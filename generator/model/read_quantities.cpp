@@ -104,6 +104,8 @@ void explain_observed(Scope& scope, const Model& model)
     if (model.control)
         for (const std::string& control : declared_names(model.control->controls))
             scope.explain(control, "controls stand in sigma, cost, observables, invariants and events only");
+    for (const std::string& input : declared_names(input_symbols(model)))
+        scope.explain(input, "inputs stand in forces, sigma, [states], observables and events only");
     for (const std::string& state : declared_names(state_symbols(model)))
         scope.explain(state, "first-order states stand in forces, [states], observables, invariants and events only");
     scope.explain("energy", "the energy stands in observables, invariants and events only");
@@ -158,6 +160,18 @@ void explain_prolongation(Scope& scope, const AlgebroidBlock& block)
 
 } // namespace
 
+void refuse_inputs_in(const Model& model, const std::vector<NamedTree>& invariants)
+{
+    const std::vector<Symbol> inputs = input_symbols(model);
+    for (const NamedTree& invariant : invariants)
+        for (const std::string& used : names_in(invariant.value))
+            if (index_of(inputs, used) < inputs.size())
+                throw ModelError(fmt::format("the invariant '{}' depends on the input '{}', which may change as it "
+                                             "likes along a motion",
+                                             invariant.name, used),
+                                 invariant.where, "an observable may use it");
+}
+
 void declare_quantities(ModelReader& reader, const TomlEntry* observables, const TomlEntry* invariants)
 {
     reader.observables = read_named(observables, "[observables]", "observable");
@@ -196,6 +210,7 @@ void build_scopes(ModelReader& reader)
     reader.mechanical = scope;
     add_to_scope(reader.mechanical, model, model.fibre.momenta, FamilyRole::momentum);
     if (model.control) add_to_scope(reader.mechanical, model, model.control->controls, FamilyRole::control);
+    add_to_scope(reader.mechanical, model, input_symbols(model), FamilyRole::input);
     add_to_scope(reader.mechanical, model, state_symbols(model), FamilyRole::state);
     reader.observer = reader.mechanical.with(extra);
     for (const std::string& quantity : extra) reader.observer.define({rate_name(quantity), {}, nullptr, {}});
@@ -222,6 +237,7 @@ void read_quantities(ModelReader& reader)
         append_entries(model.observables, key, reader.close_observed_array(value));
     for (const auto& [key, value] : reader.invariants)
         append_entries(model.invariants, key, reader.observer.close_array(value));
+    refuse_inputs_in(model, model.invariants);
 }
 
 } // namespace lagen

@@ -186,6 +186,7 @@ Scene read_scene(const ModelReader& reader, Scene scene, const TomlEntry& block,
     if (const TomlEntry* entry = table.take("initial")) read_initial(reader, scene, *entry);
     read_first_arrow(reader, scene, table);
     if (const TomlEntry* entry = table.take("parameters")) read_scene_parameters(reader, scene, *entry);
+    if (const TomlEntry* entry = table.take("inputs")) read_scene_inputs(reader, scene, *entry);
     if (const TomlEntry* entry = table.take("observe")) read_observe(reader, scene, *entry);
     if (const TomlEntry* entry = table.take("events")) read_scene_events(reader, scene, *entry);
     read_sampling(reader, scene, table);

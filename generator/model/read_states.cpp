@@ -20,7 +20,8 @@ void read_states(ModelReader& reader)
 {
     if (reader.states == nullptr) return;
     const Role ambient = is_nonholonomic(reader.model) ? Role::ambient : Role::fibre;
-    const auto roles = {Role::time, Role::parameter, Role::base, Role::fibre, ambient, Role::momentum, Role::state};
+    const auto roles = {Role::time, Role::parameter, Role::base,  Role::fibre,
+                        ambient,    Role::momentum,  Role::state, Role::input};
     std::vector<FirstOrderState>& states = reader.model.states;
     auto next = states.begin();
     for (const TomlEntry& entry : reader.states->value.entries) {

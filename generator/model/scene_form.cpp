@@ -61,6 +61,9 @@ std::vector<ForeignNames> foreign_names(const Model& model, const std::string& f
     if (form_named(form).steps && !model.states.empty())
         out.push_back({"the first-order state", names(state_symbols(model)),
                        "first-order states move in continuous time: give the scene another form"});
+    if (form_named(form).steps && !model.inputs.empty())
+        out.push_back(
+            {"the input", names(input_symbols(model)), "inputs act in continuous time: give the scene another form"});
     return out;
 }
 
@@ -127,6 +130,30 @@ std::string first_of(const std::vector<NamedTree>& jump, const std::vector<Symbo
     for (const NamedTree& each : jump)
         if (index_of(symbols, each.name) < symbols.size()) return each.name;
     return "";
+}
+
+/// Inputs act in continuous time; those of Pontryagin's equations are functions of time, which no costate answers.
+void require_inputs_in(const Model& model, const Scene& scene, const std::string& form)
+{
+    if (scene.inputs.empty() && !scene.input_table) return;
+    const SourceRange& where = scene.input_table ? scene.input_table->where : scene.inputs.front().where;
+    if (form_named(form).steps)
+        throw ModelError(
+            fmt::format("scene '{}' is discrete and gives inputs, which act in continuous time", scene.name), where,
+            "give the scene another form");
+    if (!is_form(form, FormKind::pontryagin)) return;
+    if (scene.input_table)
+        throw ModelError(fmt::format("scene '{}' gives a table of inputs, and in the form '{}' they are functions of t",
+                                     scene.name, form),
+                         where, "inputs = { u = \"..\" }");
+    const std::vector<Symbol> parameters = parameter_symbols(model);
+    for (const NamedTree& input : scene.inputs)
+        for (const std::string& used : names_in(input.value))
+            if (used != "t" && index_of(parameters, used) == parameters.size())
+                throw ModelError(fmt::format("the input '{}' of scene '{}' depends on '{}', and in the form '{}' "
+                                             "inputs are functions of t and parameters",
+                                             input.name, scene.name, used, form),
+                                 input.where, "what answers the state there is a control");
 }
 
 /// A costate follows from no velocity: sigma gives y for each (x, u), and u is what is sought.
@@ -304,6 +331,7 @@ Scene in_form(const Model& model, Scene scene, const std::string& form)
         require_no_events(scene);
     else
         require_start_of_motion(scene, form);
+    require_inputs_in(model, scene, form);
     if (is_form(form, FormKind::pontryagin)) require_momenta(model, scene);
     require_values_in(model, scene, form);
     return scene;

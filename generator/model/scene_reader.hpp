@@ -25,6 +25,9 @@ void read_initial(const ModelReader& reader, Scene& scene, const TomlEntry& bloc
 void read_first_arrow(const ModelReader& reader, Scene& scene, TableReader& table);
 void read_scene_parameters(const ModelReader& reader, Scene& scene, const TomlEntry& block);
 
+/// `inputs`: values over the state, or the path of a table.
+void read_scene_inputs(const ModelReader& reader, Scene& scene, const TomlEntry& entry);
+
 /// Throws ModelError unless `initial` has every base coordinate, and every fibre coordinate or every momentum.
 void require_complete(const ModelReader& reader, const Scene& scene);
 

@@ -288,6 +288,10 @@ SceneValues SceneEvaluator::operator()(const Values& given, const Values& initia
     out.parameters = pick(free_parameters(model_), parameters);
     read_times(parameters, out);
     read_step(parameters, out);
+    if (scene_.input_table)
+        for (const Input& input : model_.inputs)
+            out.inputs.emplace_back(input.symbol.name, finite(input.value, parameters, "the default of the input '{}'",
+                                                              input.symbol.name, input.symbol.where));
     Values values = parameters;
     bool has_momenta = false;
     for (const NamedTree& entry : scene_.initial) {

@@ -26,6 +26,7 @@ struct SceneValues {
     std::vector<NamedNumber> casimirs; ///< the declared Casimirs at the start
     std::vector<NamedNumber> element;  ///< of a discrete scene the group part of the first arrow, by rows; or empty
     std::vector<NamedNumber> next;     ///< and its target, by base coordinates; or empty
+    std::vector<NamedNumber> inputs;   ///< defaults of all inputs, where the scene gives a table
     long double start = 0;
     std::optional<long double> duration, step;
     bool discrete = false;     ///< a discrete motion, by `step`

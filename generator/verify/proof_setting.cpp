@@ -64,6 +64,7 @@ ProofSetting proof_setting(Graph& graph, const System& system)
     append(setting.variables, system.velocities());
     if (system.hamiltonian || system.control) append(setting.variables, system.mu);
     if (system.control) append(setting.variables, system.control->u);
+    append(setting.variables, system.inputs);
     append(setting.variables, named_states(system));
     setting.variables.push_back(system.time);
     setting.parameters = system.parameters;
@@ -83,6 +84,7 @@ std::set<std::string> accessory_inputs(const System& system)
     std::vector<NodeId> inputs = system.velocities();
     append(inputs, system.mu);
     if (system.control) append(inputs, system.control->u);
+    append(inputs, system.inputs);
     append(inputs, system.states);
     inputs.push_back(system.time);
     std::set<std::string> names;

@@ -223,16 +223,18 @@ TEST_CASE("the help of generate lists the kernels, and one that the form does no
     help.erase(std::unique(help.begin(), help.end(), [](char a, char b) { return a == ' ' && b == ' '; }), help.end());
     std::ranges::replace(help, '\n', ' ');
     help.erase(std::unique(help.begin(), help.end(), [](char a, char b) { return a == ' ' && b == ' '; }), help.end());
-    CHECK(help.find("these kernels alone, e.g. rhs,energy; there are rhs, jacobian, variational, taylor, event_series, "
-                    "domain_series, flows, mass_matrix, momentum, velocity, controls, energy, power, hamiltonian, "
-                    "lagrangian, ambient_velocity, reaction, moving_energy, cost, "
-                    "constraints, casimirs, domain, "
-                    "observables, invariants, lagrangian_hessian, hamiltonian_hessian, step, forward, "
-                    "arrow_equation, explicit_step, cayley_step, cayley_coordinates, algebra_matrix, in_algebra, "
-                    "element, algebra_element, "
-                    "algebra_action, algebra_bracket, events (a "
-                    "model has some of "
-                    "them)") != std::string::npos);
+    CHECK(
+        help.find("these kernels alone, e.g. rhs,energy; there are rhs, jacobian, input_jacobian, variational, taylor, "
+                  "event_series, domain_series, flows, mass_matrix, momentum, inverse_dynamics, velocity, controls, "
+                  "energy, power, hamiltonian, "
+                  "lagrangian, ambient_velocity, reaction, moving_energy, cost, "
+                  "constraints, casimirs, domain, "
+                  "observables, invariants, lagrangian_hessian, hamiltonian_hessian, step, forward, "
+                  "arrow_equation, explicit_step, cayley_step, cayley_coordinates, algebra_matrix, in_algebra, "
+                  "element, algebra_element, "
+                  "algebra_action, algebra_bracket, events (a "
+                  "model has some of "
+                  "them)") != std::string::npos);
     const Outcome outcome = call({"generate", "pendulum.toml", "--only", "rhs,controls"});
     CHECK(outcome.code == 4);
     CHECK(outcome.out.empty());

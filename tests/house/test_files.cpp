@@ -16,8 +16,8 @@ constexpr std::size_t largest_allowed = 400;
 
 const std::vector<std::string>& hand_written()
 {
-    static const std::vector<std::string> folders{"",        "generator", "runtime", "models", "tests",
-                                                  "python",  "scripts",   "cmake",   "docs",   ".ci"};
+    static const std::vector<std::string> folders{"",       "generator", "runtime", "models", "tests",
+                                                  "python", "scripts",   "cmake",   "docs",   ".ci"};
     return folders;
 }
 

@@ -60,8 +60,10 @@ TEST_CASE("a kernel that does not exist is refused with the list of those that d
     KernelRequest request;
     request.only = {"enrgy"};
     CHECK(message_of(model, verify(model), request) ==
-          "error: there is no kernel 'enrgy'; there are rhs, jacobian, variational, taylor, event_series, "
-          "domain_series, flows, mass_matrix, momentum, velocity, controls, energy, power, hamiltonian, lagrangian, "
+          "error: there is no kernel 'enrgy'; there are rhs, jacobian, input_jacobian, variational, taylor, "
+          "event_series, "
+          "domain_series, flows, mass_matrix, momentum, inverse_dynamics, velocity, controls, energy, power, "
+          "hamiltonian, lagrangian, "
           "ambient_velocity, reaction, moving_energy, cost, "
           "constraints, casimirs, domain, observables, invariants, "
           "lagrangian_hessian, hamiltonian_hessian, step, forward, arrow_equation, explicit_step, cayley_step, "

@@ -126,10 +126,10 @@ TEST_CASE("what has no rate in the model is refused by name, and so is what is p
     CHECK(
         diagnostic_of(pole + "[lagrangian]\nL = \"Dt(v_x)\"\n") ==
         "Dt is taken of an expression with 'v_x', whose rate is not known here; Dt(X) is for X over t, parameters and "
-        "base coordinates: other rates follow from the equations of motion");
+        "base coordinates: other rates are known along a motion alone");
     CHECK(diagnostic_of(pole + "[observables]\npower = \"Dt(energy)\"\n") ==
           "Dt is taken of an expression with 'energy', whose rate is not known here; Dt(X) is for X over t, parameters "
-          "and base coordinates: other rates follow from the equations of motion");
+          "and base coordinates: other rates are known along a motion alone");
     CHECK(diagnostic_of(pole + "[observables]\nslope = \"diff(energy, x)\"\n") ==
           "diff is taken of an expression with 'energy'; what 'energy' depends on is put in later; definitions have "
           "derivatives, and 'lagrangian' where the model has L");

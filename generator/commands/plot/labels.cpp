@@ -197,9 +197,9 @@ std::string characters_of_latex(const std::string& latex)
 
 Symbol symbol_of(const Model& model, const std::string& name)
 {
-    const std::vector<Symbol> states = state_symbols(model);
-    std::vector<const std::vector<Symbol>*> lists{&model.base.coordinates, &model.fibre.coordinates,
-                                                  &model.fibre.momenta, &model.notes, &states};
+    const std::vector<Symbol> states = state_symbols(model), inputs = input_symbols(model);
+    std::vector<const std::vector<Symbol>*> lists{
+        &model.base.coordinates, &model.fibre.coordinates, &model.fibre.momenta, &model.notes, &states, &inputs};
     if (model.control) lists.push_back(&model.control->controls);
     for (const auto* symbols : lists) {
         const auto found = std::ranges::find(*symbols, name, &Symbol::name);

@@ -57,8 +57,9 @@ void ReducedDocument::drop(const std::string& block, const std::string& key, con
 
 std::string ReducedDocument::text(const std::string& head)
 {
-    static const std::vector<std::string> order{"parameters",  "sizes",      "base",   "fibre",       "algebroid",
-                                                "definitions", "lagrangian", "forces", "dissipation", "states"};
+    static const std::vector<std::string> order{"parameters", "sizes",       "base",       "fibre",
+                                                "algebroid",  "definitions", "lagrangian", "inputs",
+                                                "forces",     "dissipation", "states"};
     const auto place = [&](const TomlEntry& entry) {
         if (entry.value.kind != TomlKind::table) return std::size_t{0};
         const auto found = std::ranges::find(order, entry.name());

@@ -7,17 +7,27 @@
 #include "commands/machine/write_file.hpp"
 #include "diagnostic.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 namespace lagen {
 
 namespace {
 
-/// Times and report go through files: an argument list has a limit.
+/// As driver.hpp reads them.
+std::string rows_text(const std::vector<std::vector<double>>& rows)
+{
+    std::string text;
+    for (const std::vector<double>& row : rows) text += fmt::format("{}\n", fmt::join(row, " "));
+    return text;
+}
+
+/// Times, inputs and report go through files: an argument list has a limit.
 void use_folder(const TemporaryFolder& folder, ProgramInput& input)
 {
     input.at_file = folder.file("times");
     input.report_file = folder.file("report");
+    input.inputs_file = folder.file("inputs");
+    if (!input.held_inputs.empty()) write_file(input.inputs_file, rows_text(input.held_inputs));
     if (input.times.kind != Sampling::Kind::at) return;
     std::string times;
     for (const long double time : input.times.at) times += fmt::format("{}\n", static_cast<double>(time));

@@ -101,6 +101,15 @@ void require_splitting(const Options& options, const Scene& scene, const MethodE
     throw ModelError(text, scene.time_scale_where, hint);
 }
 
+/// Only the program behind `lagen run` steps from row to row.
+void refuse_input_table(const Options& options, const Scene& scene)
+{
+    if (!scene.input_table || (options.command() == "run" && !options.has("accuracy"))) return;
+    throw ModelError(fmt::format("scene '{}' takes its inputs from a table, which `lagen {}{}` does not", scene.name,
+                                 options.command(), options.command() == "run" ? " --accuracy" : ""),
+                     scene.input_table->where, "inputs = { u = \"..\" }");
+}
+
 /// The discrete form is stepped by its own equations, and no other one is.
 void require_form_of(const Options& options, const Scene& scene, const MethodEntry& method)
 {
@@ -177,6 +186,7 @@ Scene scene_of(const Options& options, const Model& model, const std::vector<Set
                const std::optional<std::string>& name)
 {
     Scene scene = find_scene(model, name.value_or(options.get("scene")));
+    refuse_input_table(options, scene);
     if (options.has("method")) scene.method = options.get("method");
     if (options.has("step")) scene.step = tree_of(options, model, "step");
     if (const Tree scale = time_scale_of(options, model); scale != nullptr || options.has("accuracy"))

@@ -226,6 +226,7 @@ std::vector<std::string> program_arguments(const std::string& program, const Pro
     if (input.step) give("--step", text_of(*input.step));
     if (input.relative) give("--relative", text_of(*input.relative));
     if (input.absolute) give("--absolute", text_of(*input.absolute));
+    if (!input.held_inputs.empty()) give("--inputs", input.inputs_file);
     if (input.from_arrow) give("--from", "arrow");
     if (input.branch) give("--branch", std::to_string(*input.branch));
     if (input.times.every > 0)

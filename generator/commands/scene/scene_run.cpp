@@ -6,6 +6,7 @@
 #include "commands/scene/integrate_scene.hpp"
 #include "commands/scene/largest_step.hpp"
 #include "model/scene_form.hpp"
+#include "scene/read_input_table.hpp"
 
 #include <fmt/core.h>
 
@@ -33,6 +34,8 @@ void SceneRun::prepare(Scene scene, const MethodEntry& method, bool stretch)
     preparation_.finish(scene_, form_, method, parameters_, [&](const RunRecord& found) {
         input_.columns = columns_of(found.names, scene_);
         use_values(input_, scene_, values_, *start_, stretch);
+        if (scene_.input_table)
+            input_.held_inputs = read_input_table(checked_.model, scene_, values_, input_.times.end);
     });
 }
 

@@ -19,7 +19,7 @@ struct DriveArguments {
     std::optional<double> start, end, step, relative, absolute, interval;
     std::optional<std::size_t> max_steps, samples, every, branch;
     bool from_arrow = false;
-    std::string at_file, at_event, report, events, format = "csv";
+    std::string at_file, at_event, inputs, report, events, format = "csv";
     std::optional<std::string> columns;
 };
 
@@ -94,6 +94,7 @@ inline Complaint read_argument(const std::string& key, const std::string& text, 
     if (key == "--from") return "--from: \"" + text + "\" is not arrow";
     if (key == "--at-file") return into.at_file = text, Complaint{};
     if (key == "--at-event") return into.at_event = text, Complaint{};
+    if (key == "--inputs") return into.inputs = text, Complaint{};
     if (key == "--report") return into.report = text, Complaint{};
     if (key == "--events") return into.events = text, Complaint{};
     if (key == "--columns") return into.columns = text, Complaint{};
@@ -142,10 +143,10 @@ inline std::vector<double> spaced_times(double start, double end, double interva
 }
 
 /// The numbers of a file, separated by white space or commas.
-inline Complaint read_times(const std::string& path, std::vector<double>& times)
+inline Complaint read_times(const std::string& path, std::vector<double>& times, const std::string& key = "--at-file")
 {
     std::FILE* file = std::fopen(path.c_str(), "r");
-    if (file == nullptr) return "--at-file: \"" + path + "\" could not be opened";
+    if (file == nullptr) return key + ": \"" + path + "\" could not be opened";
     std::string text;
     char buffer[4096];
     for (std::size_t got = 0; (got = std::fread(buffer, 1, sizeof buffer, file)) > 0;) text.append(buffer, got);
@@ -154,7 +155,7 @@ inline Complaint read_times(const std::string& path, std::vector<double>& times)
     for (std::size_t at = text.find_first_not_of(separators); at != std::string::npos;) {
         const std::size_t end = text.find_first_of(separators, at);
         const auto value = read_number(text.substr(at, end == std::string::npos ? end : end - at));
-        if (!value) return "--at-file: \"" + path + "\" holds something that is not a finite number";
+        if (!value) return key + ": \"" + path + "\" holds something that is not a finite number";
         times.push_back(*value);
         at = end == std::string::npos ? end : text.find_first_not_of(separators, end);
     }

@@ -15,6 +15,8 @@
 ///   --from arrow          a discrete motion: the momenta are those of the arrow, whatever --initial gives
 ///   --branch N            one that starts from momenta: its first arrow is the N-th of those that are found
 ///   (branches.hpp)
+///   --inputs FILE         rows t u u ..: inputs, in the order of the header, that are held until the next row
+///   (held_inputs.hpp)
 ///   --every N             rows at the start and behind every N-th step; the rows of a discrete motion
 ///   --samples N | --interval H | --at-file FILE | --at-event NAME   rows at N even times, every H from the start on
 ///   (and
@@ -59,6 +61,7 @@
 #include "lagen/integrate.hpp"
 #include "lagen_run/arguments.hpp"
 #include "lagen_run/branches.hpp"
+#include "lagen_run/held_inputs.hpp"
 #include "lagen_run/record.hpp"
 
 #include <chrono>
@@ -95,6 +98,7 @@ struct DrivePlan {
     typename M::State initial;
     Interval<double> span{0, 0};
     std::vector<double> times;
+    HeldInputs inputs;
     std::vector<EventRequest<double, typename M::State>> events;
     std::vector<std::string> event_names;
     std::vector<Column> columns;
@@ -238,6 +242,7 @@ Complaint make_plan(const DriveArguments& given, DrivePlan<M>& plan, Method& met
 {
     Complaint complaint = plan_values(given, plan);
     if (complaint.empty()) complaint = plan_times(given, plan);
+    if (complaint.empty()) complaint = plan_inputs<M>(given.inputs, plan.span, plan.inputs);
     if (complaint.empty()) complaint = plan_columns(given, plan);
     if (complaint.empty()) complaint = plan_method<M>(given, method);
     for (const std::string& event : split(given.events, ','))
@@ -300,8 +305,7 @@ try {
     Method method{};
     detail::Complaint complaint = detail::read_arguments(argc, argv, given);
     if (complaint.empty()) complaint = detail::make_plan(given, plan, method);
-    if (!complaint.empty())
-        return detail::complain(complaint, complaint.starts_with("--at-file") && complaint.ends_with("opened") ? 5 : 4);
+    if (!complaint.empty()) return detail::complain(complaint, complaint.ends_with("opened") ? 5 : 4);
 
     std::signal(SIGINT, detail::lagen_drive_interrupt);
     std::signal(SIGTERM, detail::lagen_drive_interrupt);
@@ -312,7 +316,8 @@ try {
     if (given.max_steps) options.max_steps = *given.max_steps;
 
     const auto begin = std::chrono::steady_clock::now();
-    const auto run = start == Status::ok ? integrate(plan.model, plan.initial, plan.span, method, options, record)
+    const auto run = start == Status::ok ? detail::integrate_held(plan.inputs, plan.model, plan.initial, plan.span,
+                                                                  method, options, record)
                                          : detail::no_run<M>(plan.initial, plan.span.start, start);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
     const bool ended_early = run.status() != Status::ok && run.steps > 0;

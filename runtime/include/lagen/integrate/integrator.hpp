@@ -3,6 +3,7 @@
 ///   integrator.step()              a step of the method, as long as it likes
 ///   integrator.advance_to(t)       steps to exactly t
 ///   integrator.at(t)               the state inside the last step
+///   integrator.hold({.u = 2})      the inputs of the model from here on
 /// A stepper does the work: integrate/stepper.hpp.
 #pragma once
 
@@ -56,6 +57,16 @@ class Integrator {
     {
         if (!aim(end)) return Status::invalid_input;
         return status_ == Status::ok && t_ == way_.end ? Status::ok : one_step();
+    }
+
+    /// From t() on the inputs of the model are these, held until the next call. The right-hand side jumps here: what
+    /// the method knows of the last step is dropped, and at() knows the state at t() alone.
+    template <class Model = M>
+    Status hold(const typename Model::Inputs& inputs)
+    {
+        open();
+        model_.inputs = inputs;
+        return status_ = begin();
     }
 
     static constexpr std::size_t most_steps = 100'000'000; ///< of one advance_to; beyond them it is too_many_steps
