@@ -13,6 +13,6 @@ raised as `Error`, with its message and its exit code.
 from .command import Error, call
 from .options import spell_options
 from .results import Check, Run, Table
-from .tasks import chart, check, run, sweep
+from .tasks import chart, check, equations, run, sweep
 
-__all__ = ["Check", "Error", "Run", "Table", "call", "chart", "check", "run", "spell_options", "sweep"]
+__all__ = ["Check", "Error", "Run", "Table", "call", "chart", "check", "equations", "run", "spell_options", "sweep"]

@@ -5,6 +5,7 @@ import csv
 import json
 import os
 import tempfile
+import types
 
 from .command import call
 from .results import Check, Run, Table
@@ -71,3 +72,17 @@ def check(*models, **options):
     text, _ = call("check", *models, format="json", **options)
     report = json.loads(text)
     return [Check(each) for each in report] if isinstance(report, list) else Check(report)
+
+
+def equations(model, **options):
+    """The equations of the model in SymPy: the module that `lagen derive --format sympy` writes.
+
+    >>> top = lagen.equations("heavy_top.toml")
+    >>> top.rhs(0, [0.6, 0, 0.8, 0.9, -0.4, 1.6], {"mgl": 2})
+
+    Raises Error as `run`, and ImportError where SymPy is not installed.
+    """
+    text, _ = call("derive", model, format="sympy", **options)
+    module = types.ModuleType("lagen_equations")
+    exec(compile(text, f"<lagen derive {os.fspath(model)}>", "exec"), module.__dict__)  # lagen wrote it
+    return module

@@ -4,7 +4,10 @@
 import atexit
 import os
 import pathlib
+import subprocess
 import tempfile
+
+import lagen
 
 _cache = tempfile.TemporaryDirectory()
 atexit.register(_cache.cleanup)
@@ -17,8 +20,20 @@ models = source / "models"
 all_tests = os.environ.get("LAGEN_ALL_TESTS") == "ON"
 
 
+def derive(path, **options):
+    """The text of the module of a model."""
+    return lagen.call("derive", path, format="sympy", **options)[0]
+
+
 def written(folder, name, text):
     """A file of the folder with this text."""
     path = pathlib.Path(folder) / name
     path.write_text(text, encoding="utf-8")
     return path
+
+
+def output_of(*words, **options):
+    """What a program prints; AssertionError with its standard error where it fails."""
+    done = subprocess.run(words, capture_output=True, encoding="utf-8", check=False, **options)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
