@@ -13,8 +13,7 @@ namespace {
 /// To a Casimir for which no repair was found: it may be no Casimir at all, but a joint.
 constexpr const char* casimir_hint =
     "a Casimir is constant along all motions of the algebroid, whatever L is: rho(e) of it is 0 for each section e. "
-    "What "
-    "holds on M alone, as a joint of a linkage does, is one of [base] constraints; kind = \"level_set\" takes any";
+    "What holds on M alone, as a joint of a linkage does, is one of [base] constraints; kind = \"level_set\" takes any";
 
 } // namespace
 

@@ -33,10 +33,8 @@ const CommandSyntax run_syntax{
     "run",
     "MODEL",
     "Generates, compiles and integrates a scene. CSV on standard output unless --output or --format json, or --plot on "
-    "a "
-    "terminal. Of a morphism file: a scene of the source, the motion of the target from the image of its start, and "
-    "how "
-    "far they are apart.",
+    "a terminal. Of a morphism file: a scene of the source, the motion of the target from the image of its start, and "
+    "how far they are apart.",
     {{"scene", "NAME", "the scene; without it `default`, else the first"},
      {"form", "FORM", run_form_help.c_str()},
      {"method", "METHOD", "see `lagen methods`; without it the scene's, else dop853"},
