@@ -33,6 +33,8 @@ constexpr std::array commands{
     CommandEntry{"reduce", "prove that a morphism projects the equations of motion; list cyclic coordinates",
                  run_reduce},
     CommandEntry{"solve", "find relative equilibria, with what is proved of their stability", run_solve},
+    CommandEntry{"linearize", "linearise at an equilibrium: eigenvalues, controllability, the gain of least cost",
+                 run_linearize},
     CommandEntry{"new", "write a commented model of some kind to start from", run_new},
     CommandEntry{"models", "list the example models", run_models},
     CommandEntry{"methods", "list the integrators", run_methods},

@@ -9,13 +9,6 @@ namespace lagen {
 using proof::Ball;
 using proof::BallMatrix;
 
-double dot(const Doubles& a, const Doubles& b)
-{
-    double sum = 0;
-    for (std::size_t k = 0; k < a.size(); ++k) sum += a[k] * b[k];
-    return sum;
-}
-
 Doubles middles(const BallMatrix& column)
 {
     Doubles out;

@@ -19,7 +19,6 @@ struct FunctionJet {
 
 using Doubles = std::vector<double>;
 
-[[nodiscard]] double dot(const Doubles& a, const Doubles& b);
 /// The middles of a column, and exact balls around numbers.
 [[nodiscard]] Doubles middles(const proof::BallMatrix& column);
 [[nodiscard]] proof::Ball exact_ball(double value);

@@ -19,16 +19,6 @@ namespace {
 constexpr slong full_bits = AugmentedEnergy::precision;
 constexpr double nearly = 1e-5; ///< of what may be 0, of differentials that may be dependent: judged, then certified
 
-/// The same ball around its middle alone, or with a radius of 2^-`exponent`.
-Ball middle_of(const Ball& ball, std::optional<long> exponent = {})
-{
-    Ball out = ball;
-    mag_zero(arb_radref(out.get()));
-    if (!exponent) return out;
-    mag_set_ui_2exp_si(arb_radref(out.get()), 1, -*exponent);
-    return out;
-}
-
 OrthonormalSpan::Vector vector_of(const Doubles& v)
 {
     return {v.begin(), v.end()};
@@ -118,11 +108,11 @@ std::vector<Ball> EquilibriumCertificate::point(const std::vector<Ball>& u) cons
     return z;
 }
 
-EquilibriumCertificate::Newton EquilibriumCertificate::equations(const std::vector<Ball>& u) const
+proof::NewtonEquations EquilibriumCertificate::equations(const std::vector<Ball>& u) const
 {
     const std::size_t f = free_.size(), s = chosen_.size(), g = gauge_.size(), all = f + s + g;
     const std::vector<FunctionJet> jets = energy_.at(point(u));
-    Newton out{BallMatrix(all, 1), BallMatrix(all, all)};
+    proof::NewtonEquations out{BallMatrix(all, 1), BallMatrix(all, all)};
     const auto add = [](Ball& to, const Ball& a, const Ball& b) { arb_addmul(to.get(), a.get(), b.get(), full_bits); };
     const auto subtract = [](Ball& to, const Ball& a, const Ball& b) {
         arb_submul(to.get(), a.get(), b.get(), full_bits);
@@ -156,44 +146,17 @@ EquilibriumCertificate::Newton EquilibriumCertificate::equations(const std::vect
     return out;
 }
 
-/// Newton steps at full precision, then one of intervals. False where no box is mapped into itself.
+/// False where no box is mapped into itself.
 bool EquilibriumCertificate::certify(const Doubles& lambda)
 {
-    std::vector<Ball> u;
-    for (const std::size_t k : free_) u.push_back(exact_ball(near_[k]));
-    for (const std::size_t i : chosen_) u.push_back(exact_ball(lambda[i]));
-    for (std::size_t j = 0; j < gauge_.size(); ++j) u.push_back(exact_ball(0));
-    solution_ = u;
-    for (int step = 0; step < 12; ++step) {
-        const Newton at = equations(u);
-        const auto change = proof::solved(at.slope, at.value, full_bits);
-        if (!change) return false;
-        for (std::size_t k = 0; k < u.size(); ++k) {
-            arb_sub(u[k].get(), u[k].get(), change->at(k, 0).get(), full_bits);
-            u[k] = middle_of(u[k]);
-        }
-    }
-    for (std::size_t k = 0; k < u.size(); ++k)
-        if (!(std::fabs(u[k].middle() - solution_[k].middle()) < 1e-3 * (1 + std::fabs(u[k].middle()))) &&
-            k < free_.size())
-            return false; // that is another one
-    solution_ = u;
-    for (const long exponent : {160L, 120L, 80L, 40L}) {
-        std::vector<Ball> box;
-        for (const Ball& each : u) box.push_back(middle_of(each, exponent));
-        const auto change = proof::solved(equations(box).slope, equations(u).value, full_bits);
-        if (!change) continue;
-        std::vector<Ball> inside = u;
-        bool contained = true;
-        for (std::size_t k = 0; k < u.size(); ++k) {
-            arb_sub(inside[k].get(), u[k].get(), change->at(k, 0).get(), full_bits);
-            contained = contained && arb_contains_interior(box[k].get(), inside[k].get()) != 0;
-        }
-        if (!contained) continue;
-        solution_ = inside;
-        return gauge_.empty() || (commuting_ && is_regular_gauge());
-    }
-    return false;
+    std::vector<Ball> start;
+    for (const std::size_t k : free_) start.push_back(exact_ball(near_[k]));
+    for (const std::size_t i : chosen_) start.push_back(exact_ball(lambda[i]));
+    for (std::size_t j = 0; j < gauge_.size(); ++j) start.push_back(exact_ball(0));
+    proof::RefinedRoot root = proof::refined_root([this](const std::vector<Ball>& u) { return equations(u); }, start,
+                                                  free_.size(), full_bits);
+    solution_ = std::move(root.z);
+    return root.certified && (gauge_.empty() || (commuting_ && is_regular_gauge()));
 }
 
 /// w_k.X_j: then the gauge multipliers are 0.
@@ -366,12 +329,7 @@ RelativeEquilibrium EquilibriumCertificate::judged(const Doubles& z, const Doubl
     const std::vector<Ball> exact_z = point(solution_);
     for (std::size_t k = 0; k < z.size(); ++k) {
         out.z.push_back(exact_z[k].middle());
-        Ball radius = exact_z[k];
-        mag_t bound;
-        mag_init(bound);
-        mag_set(bound, arb_radref(radius.get()));
-        out.radius = std::max(out.radius, mag_get_d(bound));
-        mag_clear(bound);
+        out.radius = std::max(out.radius, proof::radius_of(exact_z[k]));
     }
     out.multipliers.assign(conserved_.size(), 0.0);
     for (std::size_t i = 0; i < chosen_.size(); ++i) out.multipliers[chosen_[i]] = solution_[free_.size() + i].middle();

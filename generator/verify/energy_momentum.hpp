@@ -9,6 +9,7 @@
 /// in ker dF, lambda being free up to dependent differentials: dF_t = c_ti dF_i leaves H_lambda critical.
 #pragma once
 
+#include "proof/interval_newton.hpp"
 #include "verify/augmented_energy.hpp"
 #include "verify/relative_equilibria.hpp"
 
@@ -29,10 +30,7 @@ class EquilibriumCertificate {
     void choose(const std::vector<FunctionJet>& jets);
     void take_out_zeros(const std::vector<double>& z);
     [[nodiscard]] bool certify(const std::vector<double>& lambda);
-    struct Newton {
-        proof::BallMatrix value, slope;
-    };
-    [[nodiscard]] Newton equations(const std::vector<proof::Ball>& u) const;
+    [[nodiscard]] proof::NewtonEquations equations(const std::vector<proof::Ball>& u) const;
     [[nodiscard]] std::vector<proof::Ball> point(const std::vector<proof::Ball>& u) const;
     [[nodiscard]] bool is_regular_gauge() const;
     [[nodiscard]] std::vector<Rational> rational_point(const std::vector<double>& z) const;

@@ -5,6 +5,7 @@
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/evaluate.hpp"
 #include "mechanics/symplectic.hpp"
+#include "proof/least_squares.hpp"
 #include "verify/augmented_energy.hpp"
 #include "verify/energy_momentum.hpp"
 #include "verify/find_invariants.hpp"
@@ -33,8 +34,6 @@ const char* to_text(Stability stability)
 namespace {
 
 constexpr slong search_bits = 64;
-constexpr int search_steps = 80;
-constexpr double search_tolerance = 1e-13; ///< of the residual, in units of its terms
 
 class EquilibriumFinder {
   public:
@@ -172,16 +171,13 @@ class EquilibriumFinder {
     }
 
     /// dH - lambda_i dF_i, then F_i - c_i, and the derivative of both by z and lambda.
-    struct Residual {
-        Doubles values;
-        Doubles slopes;  ///< by rows
-        double size = 0; ///< of the terms
-    };
-    [[nodiscard]] Residual residual(const Doubles& z, const Doubles& lambda) const
+    [[nodiscard]] proof::Residual residual(const Doubles& point) const
     {
         const std::size_t n = energy_->n(), m = energy_->count(), all = n + m;
-        const std::vector<FunctionJet> jets = energy_->at(exact_balls(z), search_bits);
-        Residual out{Doubles(all, 0.0), Doubles(all * all, 0.0), 1e-3 * slope_};
+        const auto split = point.begin() + static_cast<std::ptrdiff_t>(n);
+        const Doubles lambda(split, point.end());
+        const std::vector<FunctionJet> jets = energy_->at(exact_balls({point.begin(), split}), search_bits);
+        proof::Residual out{Doubles(all, 0.0), Doubles(all * all, 0.0), 1e-3 * slope_};
         for (std::size_t k = 0; k < n; ++k) {
             const double slope = jets[0].slope.entries[k].middle();
             out.values[k] = slope;
@@ -205,54 +201,18 @@ class EquilibriumFinder {
         return out;
     }
 
-    /// (J^T J + damping) step = -J^T residual
-    [[nodiscard]] static std::optional<Doubles> damped_step(const Residual& at, double damping)
-    {
-        const std::size_t n = at.values.size();
-        BallMatrix A(n, n), b(n, 1);
-        for (std::size_t i = 0; i < n; ++i) {
-            double right = 0;
-            for (std::size_t k = 0; k < n; ++k) right -= at.slopes[k * n + i] * at.values[k];
-            b.at(i, 0) = Ball(Rational(right), search_bits);
-            for (std::size_t j = 0; j < n; ++j) {
-                double sum = i == j ? damping : 0;
-                for (std::size_t k = 0; k < n; ++k) sum += at.slopes[k * n + i] * at.slopes[k * n + j];
-                if (!std::isfinite(sum) || !std::isfinite(right)) return std::nullopt;
-                A.at(i, j) = Ball(Rational(sum), search_bits);
-            }
-        }
-        const std::optional<BallMatrix> x = proof::solved(A, b, 2 * search_bits);
-        if (!x) return std::nullopt;
-        return middles(*x);
-    }
-
-    /// Levenberg and Marquardt's steps from z; what they end at is certified, judged and kept if it is new.
+    /// What the steps from z end at is certified, judged and kept if it is new.
     void consider(Doubles z)
     {
         const std::size_t n = energy_->n();
-        Doubles lambda(energy_->count(), 0.0);
-        double damping = 1e-2;
-        Residual now = residual(z, lambda);
-        for (int step = 0; step < search_steps; ++step) {
-            const double length = std::sqrt(dot(now.values, now.values));
-            if (!std::isfinite(length)) return;
-            if (length <= search_tolerance * now.size) break;
-            const std::optional<Doubles> change = damped_step(now, damping * std::min(1.0, length));
-            if (!change) return;
-            Doubles next_z = z, next_lambda = lambda;
-            for (std::size_t k = 0; k < n; ++k) next_z[k] += (*change)[k];
-            for (std::size_t i = 0; i < lambda.size(); ++i) next_lambda[i] += (*change)[n + i];
-            Residual next = residual(next_z, next_lambda);
-            const double then = std::sqrt(dot(next.values, next.values));
-            if (then < length) {
-                z = std::move(next_z), lambda = std::move(next_lambda), now = std::move(next);
-                damping = std::max(damping / 10, 1e-14);
-            } else {
-                damping *= 10;
-                if (damping > 1e8) break;
-            }
-        }
-        if (!(std::sqrt(dot(now.values, now.values)) <= 1e-10 * now.size) || !is_in_domain(z)) return;
+        z.resize(n + energy_->count(), 0.0);
+        const auto found_root =
+            proof::least_squares(std::move(z), [this](const Doubles& point) { return residual(point); });
+        if (!found_root || !(found_root->at.length() <= 1e-10 * found_root->at.size)) return;
+        const auto split = found_root->z.begin() + static_cast<std::ptrdiff_t>(n);
+        z.assign(found_root->z.begin(), split);
+        const Doubles lambda(split, found_root->z.end());
+        if (!is_in_domain(z)) return;
         if (!is_new(z, energy_->at(exact_balls(z), search_bits)[0].value.middle())) return;
         EquilibriumCertificate certificate(graph_, *energy_, out_.conserved, commuting_,
                                            [this](NodeId node) { return is_proved_zero(node); });

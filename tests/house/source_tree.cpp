@@ -101,7 +101,8 @@ const Arrows& planned_arrows()
         {"scene", {"model", "graph"}},
         {"pipeline", {"elaborate", "equations", "kernels", "advice", "scene", "emit"}},
         {"stability", {"diagnostic", "runtime"}},
-        {"commands", {"pipeline", "stability"}},
+        {"linear", {}},
+        {"commands", {"pipeline", "stability", "linear"}},
         {"runtime", {}},
         {"program", {"runtime"}},
     };
@@ -125,12 +126,13 @@ const Arrows& planned_folder_arrows()
         {"commands/plot", {"commands/scene"}},
         {"commands/chart", {"commands/scene"}},
         {"commands/morphism", {"commands/scene"}},
+        {"commands/linearize", {"commands/scene"}},
         {"commands/reduce", {"commands/line"}},
         {"commands/sweep", {"commands/scene"}},
         {"commands/variations", {"commands/scene"}},
         {"commands",
          {"commands/plot", "commands/chart", "commands/morphism", "commands/reduce", "commands/sweep",
-          "commands/variations"}},
+          "commands/variations", "commands/linearize"}},
     };
     return arrows;
 }

@@ -68,7 +68,7 @@ const std::vector<Library>& libraries()
         {"arb.*\\.h|arf\\.h|acb.*\\.h|mag\\.h|flint/.*|fmpq.*\\.h|fmpz.*\\.h", {"proof"}},
         {"mpfr\\.h", {"expression", "graph", "proof", "emit"}}, // rounds literals, functions and enclosures
         {"boost/program_options.*", {"commands"}},
-        {"Eigen/.*", {"runtime", "program"}},
+        {"Eigen/.*", {"runtime", "program", "linear"}},
     };
     return known;
 }

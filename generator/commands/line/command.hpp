@@ -20,6 +20,7 @@ using Arguments = std::span<const std::string>;
 [[nodiscard]] ExitCode run_chart(Arguments arguments);
 [[nodiscard]] ExitCode run_reduce(Arguments arguments);
 [[nodiscard]] ExitCode run_solve(Arguments arguments);
+[[nodiscard]] ExitCode run_linearize(Arguments arguments);
 [[nodiscard]] ExitCode run_new(Arguments arguments);
 [[nodiscard]] ExitCode run_models(Arguments arguments);
 [[nodiscard]] ExitCode run_methods(Arguments arguments);

@@ -74,6 +74,16 @@ void set_plot(const Options& options, const Model& model, Scene& scene)
     if (options.has("sphere")) scene.plot->sphere = true;
 }
 
+void require_parameters(const Model& model, const std::string& name, const Excerpt& text,
+                        const std::vector<Tree>& trees)
+{
+    for (const Tree& tree : trees)
+        for (const std::string& used : names_in(tree))
+            if (std::ranges::none_of(model.parameters, [&](const Parameter& each) { return each.symbol.name == used; }))
+                throw ModelError(fmt::format("--{} depends on '{}', which is no parameter", name, used),
+                                 text.range(0, text.text.size()), "give numbers, or expressions of parameters");
+}
+
 /// A step where the step is chosen, or a tolerance where it is fixed.
 void warn_of_unused(const Options& options, const MethodEntry& method)
 {
@@ -128,13 +138,17 @@ void require_form_of(const Options& options, const Scene& scene, const MethodEnt
 
 } // namespace
 
+ArrayValue option_array(const Model& model, const std::string& name, const Excerpt& text)
+{
+    ArrayValue value = model.scope.close_array(parse_expression(text));
+    require_parameters(model, name, text, value.entries);
+    return value;
+}
+
 Tree option_tree(const Model& model, const std::string& name, const Excerpt& text)
 {
     const Tree tree = model.scope.close(parse_expression(text));
-    for (const std::string& used : names_in(tree))
-        if (std::ranges::none_of(model.parameters, [&](const Parameter& each) { return each.symbol.name == used; }))
-            throw ModelError(fmt::format("--{} depends on '{}', which is no parameter", name, used),
-                             text.range(0, text.text.size()), "give numbers, or expressions of parameters");
+    require_parameters(model, name, text, {tree});
     return tree;
 }
 

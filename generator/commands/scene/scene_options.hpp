@@ -29,6 +29,8 @@ void set_initial(const Model& model, Scene& scene, const Setting& setting);
 
 /// What is given to --NAME, closed over parameters; ModelError where it depends on anything else.
 [[nodiscard]] Tree option_tree(const Model& model, const std::string& name, const Excerpt& text);
+/// The same of a number, a vector or a matrix.
+[[nodiscard]] ArrayValue option_array(const Model& model, const std::string& name, const Excerpt& text);
 
 /// What --time-scale gives, closed over the model's names; null where it is not given.
 [[nodiscard]] Tree time_scale_of(const Options& options, const Model& model);

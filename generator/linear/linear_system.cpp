@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "linear/linear_system.hpp"
+
+#include <algorithm>
+
+namespace lagen::linear {
+
+namespace {
+
+using Complex = Eigen::MatrixXcd;
+
+constexpr double rank_tolerance = 1e-9;
+
+/// Whether the rank of M is the smaller of its dimensions.
+bool has_full_rank(const Complex& M)
+{
+    if (M.size() == 0) return true;
+    const Eigen::VectorXd values = Eigen::JacobiSVD<Complex>(M).singularValues();
+    return values.minCoeff() > rank_tolerance * values.maxCoeff();
+}
+
+/// Columns as long as `length`, but those that are 0.
+Matrix with_length(Matrix M, double length)
+{
+    for (Eigen::Index k = 0; k < M.cols(); ++k)
+        if (const double norm = M.col(k).norm(); norm > 0) M.col(k) *= length / norm;
+    return M;
+}
+
+Complex shifted(const LinearSystem& system, Eigenvalue lambda)
+{
+    Complex M = system.A.cast<Eigenvalue>();
+    M.diagonal().array() -= lambda;
+    return M;
+}
+
+/// The first of the entries that are largest becomes 1; what is nothing beside it becomes 0.
+Eigen::VectorXcd normalised(Eigen::VectorXcd v)
+{
+    const double largest = v.cwiseAbs().maxCoeff();
+    Eigen::Index first = 0;
+    while (std::abs(v[first]) < (1 - 1e-9) * largest) ++first;
+    v /= Eigenvalue(v[first]);
+    for (Eigenvalue& entry : v) {
+        const auto clean = [](double x) { return std::abs(x) < 1e-12 ? 0.0 : x; };
+        entry = {clean(entry.real()), clean(entry.imag())};
+    }
+    return v;
+}
+
+std::vector<Eigen::VectorXcd> eigenvectors(const LinearSystem& system, Eigenvalue lambda)
+{
+    Eigen::FullPivLU<Complex> lu(shifted(system, lambda));
+    for (double threshold = rank_tolerance; threshold < 1; threshold *= 10) {
+        lu.setThreshold(threshold);
+        if (lu.dimensionOfKernel() > 0) break;
+    }
+    const Complex kernel = lu.kernel();
+    std::vector<Eigen::VectorXcd> out;
+    for (Eigen::Index k = 0; k < kernel.cols(); ++k) out.push_back(normalised(kernel.col(k)));
+    return out;
+}
+
+} // namespace
+
+LinearSystem linear_system(Matrix A, Matrix B, const Matrix& slopes)
+{
+    const Eigen::Index n = A.rows();
+    LinearSystem system{std::move(A), std::move(B), Matrix::Identity(n, n), Matrix(n, 0)};
+    if (slopes.rows() == 0) return system;
+    Eigen::JacobiSVD<Matrix> svd(slopes, Eigen::ComputeFullV);
+    svd.setThreshold(rank_tolerance);
+    system.normal = svd.matrixV().leftCols(svd.rank());
+    system.leaf = svd.matrixV().rightCols(n - svd.rank());
+    return system;
+}
+
+double LinearSystem::size() const
+{
+    const double norm = A.norm();
+    return norm > 0 ? norm : 1;
+}
+
+bool LinearSystem::is_reached(Eigenvalue lambda) const
+{
+    const Eigen::Index n = A.rows(), k = leaf.cols(), m = B.cols();
+    Complex M(n, k + m + normal.cols());
+    M << shifted(*this, lambda) * leaf, with_length(B, size()).cast<Eigenvalue>(),
+        with_length(normal, size()).cast<Eigenvalue>();
+    return has_full_rank(M);
+}
+
+bool LinearSystem::is_seen(Eigenvalue lambda, const Matrix& Q) const
+{
+    const double weight = Q.norm();
+    Complex M(2 * A.rows(), leaf.cols());
+    M << shifted(*this, lambda) * leaf, ((weight > 0 ? size() / weight : 1) * Q * leaf).cast<Eigenvalue>();
+    return has_full_rank(M);
+}
+
+std::vector<Mode> modes_of(const LinearSystem& system, const std::vector<Eigenvalue>& eigenvalues)
+{
+    double largest = 0;
+    for (const Eigenvalue& lambda : eigenvalues) largest = std::max(largest, std::abs(lambda));
+    std::vector<Mode> modes;
+    for (const Eigenvalue& lambda : eigenvalues) {
+        auto mode = std::ranges::find_if(
+            modes, [&](const Mode& each) { return std::abs(each.eigenvalue - lambda) <= rank_tolerance * largest; });
+        if (mode == modes.end()) {
+            modes.push_back({lambda, 0, eigenvectors(system, lambda), system.is_reached(lambda)});
+            mode = modes.end() - 1;
+        }
+        ++mode->multiplicity;
+    }
+    return modes;
+}
+
+} // namespace lagen::linear

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// `lagen linearize`: equilibria, slopes, modes and gains against formulas and against finite differences.
+#include "program.hpp"
+
+#include "graph/core/evaluate.hpp"
+#include "pipeline.hpp"
+#include "support/json.hpp"
+#include "support/tolerances.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace lagen::testing;
+namespace json = lagen::json;
+
+namespace {
+
+json::Value linearised(std::vector<std::string> arguments)
+{
+    arguments.insert(arguments.begin(), "linearize");
+    arguments.insert(arguments.end(), {"--format", "json"});
+    const Outcome outcome = call(arguments);
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    return json::parse(outcome.out);
+}
+
+double matrix_entry(const json::Value& matrix, std::size_t row, std::size_t column)
+{
+    return static_cast<double>(matrix[row][column].number());
+}
+
+std::vector<std::string> texts(const json::Value& list)
+{
+    std::vector<std::string> out;
+    for (const json::Value& each : list.entries) out.push_back(each.text);
+    return out;
+}
+
+/// A and B against central differences of the kernel `rhs` that `lagen generate` prints.
+void compare_with_differences(const std::string& model, const std::vector<std::string>& more = {})
+{
+    std::vector<std::string> arguments{model};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const json::Value found = linearised(arguments);
+    const lagen::CheckedModel checked = lagen::load(models_folder() + "/" + model, {}, false);
+    lagen::KernelRequest request;
+    request.form = found["form"].text;
+    request.only = {"rhs"};
+    const lagen::KernelModule module = lagen::form_kernels(checked.model, checked.system, checked.report, request);
+    std::map<std::string, double> at{{"t", 0.0}};
+    for (std::size_t k = 0; k < module.parameters.size(); ++k) {
+        const lagen::NodeId value[] = {module.parameter_defaults[k]};
+        at[module.parameters[k].name] = lagen::evaluate<double>(*module.graph, value, {})[0];
+    }
+    for (std::size_t k = 0; k < found["equilibrium"].size(); ++k)
+        at[found["equilibrium"].keys[k]] = static_cast<double>(found["equilibrium"][k].number());
+    const std::vector<lagen::NodeId> rhs = nodes_of(lagen::kernel_named(module, "rhs"));
+    for (const double rate : lagen::evaluate<double>(*module.graph, rhs, at)) CHECK(std::abs(rate) < 1e-12);
+    for (const auto& [matrix, names] : {std::pair("A", "states"), std::pair("B", "inputs")}) {
+        const std::vector<std::string> columns = texts(found[names]);
+        for (std::size_t j = 0; j < columns.size(); ++j) {
+            const double h = 1e-5;
+            std::map<std::string, double> less = at, more_of_it = at;
+            less[columns[j]] -= h;
+            more_of_it[columns[j]] += h;
+            const std::vector<double> before = lagen::evaluate<double>(*module.graph, rhs, less);
+            const std::vector<double> behind = lagen::evaluate<double>(*module.graph, rhs, more_of_it);
+            REQUIRE(found[matrix].size() == before.size());
+            for (std::size_t i = 0; i < before.size(); ++i) {
+                CAPTURE(model, matrix, i, columns[j]);
+                CHECK(matrix_entry(found[matrix], i, j) ==
+                      Approx((behind[i] - before[i]) / (2 * h)).epsilon(1e-8).margin(1e-8));
+            }
+        }
+    }
+}
+
+} // namespace
+
+TEST_CASE("a cart and pole without friction has the eigenvalues of its formula, up and down")
+{
+    const double M = 1, m = 0.3, l = 0.5, g = 9.81, root = std::sqrt((M + m) * g / (M * l));
+    for (const bool up : {true, false}) {
+        const json::Value found =
+            linearised({"cart_pole.toml", "--set", "c=0", "--initial", up ? "th=2.8" : "th=0.4", "--initial", "x=0.7"});
+        CHECK(found["certified"].text == "true");
+        CHECK(found["equilibrium"]["th"].number() == (up ? std::acos(-1.0) : 0));
+        CHECK(found["equilibrium"]["u"].text == "0");
+        CHECK(found["residual"].number() < 1e-14);
+        std::vector<double> real, imaginary;
+        for (const json::Value& each : found["eigenvalues"].entries) {
+            real.push_back(static_cast<double>(each[0].number()));
+            imaginary.push_back(static_cast<double>(each[1].number()));
+        }
+        CHECK(std::ranges::is_sorted(real));
+        const std::vector<double>& moving = up ? real : imaginary;
+        const std::vector<double>& still = up ? imaginary : real;
+        CHECK(std::ranges::all_of(still, [](double each) { return each == 0; }));
+        CHECK(*std::ranges::max_element(moving) == Approx(root).epsilon(1e-15));
+        CHECK(*std::ranges::min_element(moving) == Approx(-root).epsilon(1e-15));
+        CHECK(std::ranges::count(moving, 0.0) == static_cast<std::ptrdiff_t>(moving.size()) - 2);
+    }
+}
+
+TEST_CASE("A and B are the finite differences of the right-hand side that is generated")
+{
+    for (const char* model : {"cart_pole.toml", "double_pendulum.toml", "held_top.toml", "chaplygin_sleigh.toml",
+                              "cartesian_pendulum.toml", "kirchhoff.toml"})
+        compare_with_differences(model);
+    compare_with_differences("held_top.toml", {"--scene", "momenta"});
+    compare_with_differences("double_pendulum.toml", {"--form", "hamilton"});
+}
+
+TEST_CASE("the double integrator is controllable, with the gain [1, sqrt(3)]")
+{
+    const json::Value found = linearised({"integrator.toml", "--lqr", "Q=1;R=1"});
+    CHECK(texts(found["equilibrium"]) == std::vector<std::string>{"0.2", "0", "0"}); // x stays
+    CHECK(texts(found["A"][0]) == std::vector<std::string>{"0", "1"});
+    CHECK(texts(found["A"][1]) == std::vector<std::string>{"0", "0"});
+    CHECK(texts(found["B"][1]) == std::vector<std::string>{"1"});
+    CHECK(found["controllable"].text == "true");
+    CHECK(found["modes"].size() == 1);
+    CHECK(found["modes"][0]["multiplicity"].text == "2");
+    CHECK(matrix_entry(found["gain"], 0, 0) == Approx(1).epsilon(1e-14));
+    CHECK(matrix_entry(found["gain"], 0, 1) == Approx(std::sqrt(3.0)).epsilon(1e-14));
+    CHECK(found["riccati_residual"].number() < 1e-15);
+    const json::Value weighed = linearised({"integrator.toml", "--lqr", "R=[[4]]; Q = [4, 2*2*2/2]"});
+    CHECK(matrix_entry(weighed["gain"], 0, 1) == Approx(std::sqrt(3.0)).epsilon(1e-14));
+    CHECK(linearised({"integrator.toml"})["gain"].kind == json::Kind::null);
+}
+
+TEST_CASE("inputs are held at what the scene gives at its start")
+{
+    const json::Value found = linearised({"integrator.toml", "--scene", "drawn"});
+    CHECK(found["equilibrium"]["u"].text == "3");
+    CHECK(found["equilibrium"]["x"].text == "1.5");
+    CHECK(found["inputs_moved"].text == "false");
+    CHECK(matrix_entry(found["A"], 1, 0) == -2);
+    CHECK(found["eigenvalues"][1][1].number() == Approx(std::sqrt(2.0)).epsilon(1e-15));
+}
+
+TEST_CASE("where they have no equilibrium they move as little as possible, and the text says so")
+{
+    const json::Value found = linearised({"loaded.toml"});
+    CHECK(found["inputs_moved"].text == "true");
+    CHECK(found["certified"].text == "true");
+    CHECK(texts(found["equilibrium"]) == std::vector<std::string>{"1", "0", "2", "4"}); // 10 (1, 2)/5
+    CHECK(call({"linearize", "loaded.toml"}).out.find("none was found with the inputs that the scene gives") !=
+          std::string::npos);
+}
+
+TEST_CASE("one force does not reach the difference of equal oscillators")
+{
+    const json::Value found = linearised({"two_masses.toml"});
+    CHECK(found["controllable"].text == "false");
+    REQUIRE(found["uncontrollable"].size() == 2);
+    CHECK(matrix_entry(found["uncontrollable"], 1, 1) == Approx(1).epsilon(1e-15));
+    CHECK(linearised({"two_masses.toml", "--set", "apart=1/2"})["controllable"].text == "true");
+}
+
+TEST_CASE("on the sphere a top is controllable, though not off it, and its gain holds it")
+{
+    for (const char* scene : {"default", "momenta"}) {
+        const json::Value found = linearised({"held_top.toml", "--scene", scene, "--lqr", "Q=1;R=1"});
+        CHECK(found["certified"].text == "true");
+        CHECK(found["equilibrium"]["g3"].text == "1");
+        CHECK(found["controllable"].text == "true");
+        CHECK(found["eigenvalues"].size() == 6);
+        CHECK(found["closed_loop"].size() == 5);
+        for (const json::Value& each : found["closed_loop"].entries) CHECK(each[0].number() < -0.1L);
+        // Each of two axes is g' = w, w' = 4 g + T up to signs: P has the closed form of two equations.
+        const double k = 4 + std::sqrt(17.0), kw = std::sqrt(1 + 2 * k);
+        CHECK(std::abs(matrix_entry(found["gain"], 0, 1)) == Approx(k).epsilon(1e-12));
+        CHECK(matrix_entry(found["gain"], 0, 3) == Approx(kw).epsilon(1e-12));
+        CHECK(std::abs(matrix_entry(found["gain"], 0, 2)) < 1e-12);
+    }
+}
+
+TEST_CASE("what is linearised is written for a reader")
+{
+    const Outcome outcome = call({"linearize", "integrator.toml", "--lqr", "Q=1;R=1"});
+    CHECK(outcome.code == 0);
+    CHECK(outcome.out == R"()");
+}

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Modes, and which of them inputs reach.
+#include "linear/linear_system.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace lagen::linear;
+
+namespace {
+
+LinearSystem with_input(const Matrix& A, const Matrix& B)
+{
+    return linear_system(A, B, Matrix(0, A.rows()));
+}
+
+} // namespace
+
+TEST_CASE("an oscillator has its natural frequency and its damping")
+{
+    Matrix A(2, 2), B(2, 1);
+    A << 0, 1, -4, -0.4; // omega = 2, 2 zeta omega = 0.4
+    B << 0, 1;
+    const double wd = 2 * std::sqrt(1 - 0.01);
+    const std::vector<Mode> modes = modes_of(with_input(A, B), {{-0.2, -wd}, {-0.2, wd}});
+    REQUIRE(modes.size() == 2);
+    for (const Mode& mode : modes) {
+        CHECK(mode.frequency() == Approx(2).epsilon(1e-15));
+        CHECK(mode.damping() == Approx(0.1).epsilon(1e-15));
+        CHECK(mode.multiplicity == 1);
+        CHECK(mode.reached);
+        REQUIRE(mode.eigenvectors.size() == 1);
+        const Eigen::VectorXcd& v = mode.eigenvectors[0];
+        CHECK(v[1] == Eigenvalue(1));
+        CHECK((A.cast<Eigenvalue>() * v - mode.eigenvalue * v).norm() < 1e-14);
+    }
+}
+
+TEST_CASE("equal eigenvalues are one mode with all of its eigenvectors")
+{
+    const std::vector<Mode> chain =
+        modes_of(with_input((Matrix(2, 2) << 0, 1, 0, 0).finished(), Matrix::Zero(2, 1)), {0, 0});
+    REQUIRE(chain.size() == 1);
+    CHECK(chain[0].multiplicity == 2);
+    REQUIRE(chain[0].eigenvectors.size() == 1);
+    CHECK(chain[0].eigenvectors[0] == Eigen::Vector2cd(1, 0));
+    CHECK_FALSE(chain[0].reached);
+    const std::vector<Mode> apart = modes_of(with_input(-Matrix::Identity(2, 2), Matrix::Ones(2, 1)), {-1, -1});
+    REQUIRE(apart.size() == 1);
+    CHECK(apart[0].eigenvectors.size() == 2);
+    CHECK_FALSE(apart[0].reached); // one input for two equal modes
+}
+
+TEST_CASE("two equal oscillators that one force pushes alike are not reached in their difference")
+{
+    Matrix A = Matrix::Zero(4, 4), B(4, 1); // x1, x2, v1, v2, stiffnesses 1 + e and 1
+    for (const double e : {0.0, 0.5}) {
+        A << 0, 0, 1, 0, 0, 0, 0, 1, -1 - e, 0, 0, 0, 0, -1, 0, 0;
+        B << 0, 0, 1, 1;
+        // Kalman's test by another route: the rank of [B, AB, A^2 B, A^3 B].
+        Matrix kalman(4, 4);
+        kalman << B, A * B, A * A * B, A * A * A * B;
+        const bool all = kalman.fullPivLu().rank() == 4;
+        CHECK(all == (e > 0));
+        CHECK(with_input(A, B).is_reached({0, 1}) == all);
+        CHECK(with_input(A, 1e-12 * B).is_reached({0, 1}) == all); // units of the input are nothing
+    }
+}
+
+TEST_CASE("on a leaf what points off it need not be reached")
+{
+    Matrix A = Matrix::Zero(3, 3), B(3, 1), slope(2, 3);
+    A(0, 1) = 1; // s1' = s2, s2' = u, s3' = 0 on s3 = const
+    B << 0, 1, 0;
+    slope << 0, 0, 2, 0, 0, 5; // said twice
+    CHECK_FALSE(with_input(A, B).is_reached(0));
+    const LinearSystem leaf = linear_system(A, B, slope);
+    CHECK(leaf.leaf.cols() == 2);
+    CHECK(leaf.normal.cols() == 1);
+    CHECK(leaf.is_reached(0));
+    Matrix Q = Matrix::Zero(3, 3);
+    CHECK_FALSE(leaf.is_seen(0, Q));
+    Q(0, 0) = 1;
+    CHECK(leaf.is_seen(0, Q));
+    CHECK_FALSE(with_input(A, B).is_seen(0, Q));
+}
