@@ -232,7 +232,7 @@ TEST_CASE("the help of generate lists the kernels, and one that the form does no
                   "observables, invariants, lagrangian_hessian, hamiltonian_hessian, step, forward, "
                   "arrow_equation, explicit_step, cayley_step, cayley_coordinates, algebra_matrix, in_algebra, "
                   "element, algebra_element, "
-                  "algebra_action, algebra_bracket, events (a "
+                  "algebra_action, algebra_bracket, events, jumps (a "
                   "model has some of "
                   "them)") != std::string::npos);
     const Outcome outcome = call({"generate", "pendulum.toml", "--only", "rhs,controls"});

@@ -72,7 +72,7 @@ Vector cross(const Vector& a, const Vector& b)
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-double dot(const Vector& a, const Vector& b)
+double inner(const Vector& a, const Vector& b)
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
@@ -80,13 +80,13 @@ double dot(const Vector& a, const Vector& b)
 double distance(const Vector& a, const Vector& b)
 {
     const Vector d = a + -1.0 * b;
-    return std::sqrt(dot(d, d));
+    return std::sqrt(inner(d, d));
 }
 
 /// mu = dexp^-T(xi) I xi/h
 Vector momentum(const Vector& xi, double h)
 {
-    const double a = std::sqrt(dot(xi, xi)), f = 1 / (a * a) - (1 + std::cos(a)) / (2 * a * std::sin(a));
+    const double a = std::sqrt(inner(xi, xi)), f = 1 / (a * a) - (1 + std::cos(a)) / (2 * a * std::sin(a));
     const Vector p{1.2 * xi[0] / h, 2.1 * xi[1] / h, 2.9 * xi[2] / h};
     return p + 0.5 * cross(xi, p) + f * cross(xi, cross(xi, p));
 }
@@ -103,8 +103,8 @@ Vector solved(const Vector& mu, double h)
             c[b] = 5e5 * (momentum(xi + step, h) + -1.0 * momentum(xi + -1.0 * step, h));
         }
         const Vector off = momentum(xi, h) + -1.0 * mu;
-        const double det = dot(c[0], cross(c[1], c[2]));
-        for (std::size_t b = 0; b < 3; ++b) xi[b] -= dot(off, cross(c[(b + 1) % 3], c[(b + 2) % 3])) / det;
+        const double det = inner(c[0], cross(c[1], c[2]));
+        for (std::size_t b = 0; b < 3; ++b) xi[b] -= inner(off, cross(c[(b + 1) % 3], c[(b + 2) % 3])) / det;
     }
     return xi;
 }
@@ -112,7 +112,7 @@ Vector solved(const Vector& mu, double h)
 /// exp(-xi^) v
 Vector turned_back(const Vector& xi, const Vector& v)
 {
-    const double a = std::sqrt(dot(xi, xi)), s = std::sin(a / 2) / a;
+    const double a = std::sqrt(inner(xi, xi)), s = std::sin(a / 2) / a;
     const Vector once = cross(xi, v);
     return v + -std::sin(a) / a * once + 2 * s * s * cross(xi, once);
 }
@@ -136,7 +136,7 @@ TEST_CASE("the midpoint with exp on SO(3) makes the steps of dexp^-1 by hand, an
     const std::string path = scheme_file(body, "midpoint", "exp");
     const json::Value found = ran({path, "--step", "0.6", "--t-end", "6"});
     Vector mu{0.48, 1.89, -0.87};
-    const double size = std::sqrt(dot(mu, mu));
+    const double size = std::sqrt(inner(mu, mu));
     REQUIRE(found["rows"].size() == 11);
     for (const json::Value& row : found["rows"].entries) {
         const Vector xi = solved(mu, h);
@@ -149,7 +149,7 @@ TEST_CASE("the midpoint with exp on SO(3) makes the steps of dexp^-1 by hand, an
         Vector there;
         for (std::size_t a = 0; a < 3; ++a) there[a] = std::stod(row[10 + a].text);
         CHECK(distance(there, mu) < 1e-13);
-        CHECK(std::abs(std::sqrt(dot(there, there)) - size) < 1e-14);
+        CHECK(std::abs(std::sqrt(inner(there, there)) - size) < 1e-14);
         mu = turned_back(xi, mu);
     }
 }

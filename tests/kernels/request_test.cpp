@@ -68,7 +68,8 @@ TEST_CASE("a kernel that does not exist is refused with the list of those that d
           "constraints, casimirs, domain, observables, invariants, "
           "lagrangian_hessian, hamiltonian_hessian, step, forward, arrow_equation, explicit_step, cayley_step, "
           "cayley_coordinates, "
-          "algebra_matrix, in_algebra, element, algebra_element, algebra_action, algebra_bracket, events\nhint: did "
+          "algebra_matrix, in_algebra, element, algebra_element, algebra_action, algebra_bracket, events, jumps\nhint: "
+          "did "
           "you mean 'energy'?");
 }
 
