@@ -335,7 +335,7 @@ class cart_pole {
     static constexpr std::array<int, 2> input_jacobian_rows = {2, 3};
     static constexpr std::array<int, 2> input_jacobian_columns = {0, 0};
 
-    /// Derivative of ds with respect to the inputs, held: the entries that are not zero by structure, shape (5, 1), a column an input in the order of input_names.
+    /// Derivative of ds with respect to the inputs, a column each: the entries that are not zero by structure.
     void input_jacobian_values([[maybe_unused]] S t, const State& s, std::array<S, 2>& values) const noexcept
     {
         using std::cos;

@@ -93,6 +93,23 @@ TEST_CASE("an event is counted over all rows of a table")
     CHECK(run.t == Approx(1.5).epsilon(1e-14));
 }
 
+TEST_CASE("behind a jump a motion goes on by the row of its time")
+{
+    HeldMass model;
+    HeldRows rows{model, {}};
+    std::vector<EventRequest<double, HeldMass::State>> events(1);
+    events[0].direction = Crossing::rising;
+    events[0].when = [](double, const HeldMass::State& s) { return s[0] - 0.32; };
+    events[0].jump = [](double, const HeldMass::State& s) { return HeldMass::State(s[0], -s[1]); };
+    const Options<HeldMass> options{.events = events};
+    const auto run = detail::integrate_held(steps, model, {0, 0}, {0, 2}, Dop853{.tolerance = 1e-12}, options, rows);
+    REQUIRE(run);
+    REQUIRE(run.events.size() == 1); // pushed to 0.32 at t = 0.8, and thrown back
+    CHECK(run.events[0].t == Approx(0.8).epsilon(1e-13));
+    CHECK(run.state[1] == Approx(-0.8 + 0.2 - 1).epsilon(1e-13));
+    CHECK(run.state[0] == Approx(0.32 - 0.8 * 0.2 + 0.02 - 0.6 - 0.5).epsilon(1e-13));
+}
+
 TEST_CASE("a table of inputs that does not fit the model or the run is refused with a sentence")
 {
     detail::HeldInputs inputs;
