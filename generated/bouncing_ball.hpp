@@ -190,7 +190,7 @@ class bouncing_ball {
     }
 
     static constexpr std::array<const char*, 1> jumps_names = {"bounce"};
-    /// The states behind jumps at s, shape (2, 1): column k behind that of the event jumps_names[k].
+    /// The states behind jumps at s, shape (2, 1): column k is that behind the event jumps_names[k].
     [[nodiscard]] Eigen::Matrix<S, 2, 1> jumps([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 2, 1> result;

@@ -207,7 +207,7 @@ class rimless_wheel {
     }
 
     static constexpr std::array<const char*, 2> jumps_names = {"step", "back"};
-    /// The states behind jumps at s, shape (2, 2): column k behind that of the event jumps_names[k].
+    /// The states behind jumps at s, shape (2, 2): column k is that behind the event jumps_names[k].
     [[nodiscard]] Eigen::Matrix<S, 2, 2> jumps([[maybe_unused]] S t, const State& s) const noexcept
     {
         Eigen::Matrix<S, 2, 2> result;

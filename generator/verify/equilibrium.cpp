@@ -173,7 +173,7 @@ class RestSearch {
             if (std::fabs(zeros[k]) < perhaps_zero && zeros[k] != values_[k]) zeros[k] = 0;
         const bool has_zeros = is_root(residual(zeros), zeros);
         if (!has_zeros && !is_root(found->at, found->z))
-            return fmt::format("no equilibrium was found: Newton's method ends where rates of {:.3g} are left",
+            return fmt::format("no equilibrium was found: Newton's method ends where the equations are off by {:.3g}",
                                found->at.length());
         std::ranges::copy(has_zeros ? zeros : found->z, first);
         return {};

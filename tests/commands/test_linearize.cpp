@@ -183,5 +183,32 @@ TEST_CASE("what is linearised is written for a reader")
 {
     const Outcome outcome = call({"linearize", "integrator.toml", "--lqr", "Q=1;R=1"});
     CHECK(outcome.code == 0);
-    CHECK(outcome.out == R"()");
+    CHECK(outcome.out.starts_with(
+        R"(integrator, scene default, lagrange form: an equilibrium, certified: at exactly these numbers
+  x = 0.2, v = 0
+  u = 0: as the scene gives at its start
+  0.1 from the start
+
+A, rows and columns x, v
+  0  1
+  0  0
+
+B, rows x, v, columns u
+  0
+  1
+
+  eigenvalue  times  frequency  damping  reached  mode
+           0      2          0               yes  x 1
+  controllable: the inputs reach every mode
+
+K of u = u0 - K (s - s0), rows u, columns x, v
+  1  1.73205
+  eigenvalues of A - B K: -0.866025 +- 0.5i
+)"));
+}
+
+TEST_CASE("the gain in docs/linearize.md and tests/examples/test_balance.cpp is the one that is printed")
+{
+    const Outcome outcome = call({"linearize", "cart_pole.toml", "--lqr", "Q=1;R=1/10"});
+    CHECK(outcome.out.find("  -7.9648  55.4051  -8.54931  12.22  -3.16228\n") != std::string::npos);
 }

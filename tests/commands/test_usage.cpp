@@ -35,7 +35,8 @@ TEST_CASE("lagen --help names every command and every exit code, and each comman
     const Outcome whole = call({"--help"});
     CHECK(whole.code == 0);
     CHECK(call({"help"}).out == whole.out);
-    for (const std::string command : {"check", "derive", "generate", "run", "sweep", "linearize", "models", "methods"}) {
+    for (const std::string command :
+         {"check", "derive", "generate", "run", "sweep", "linearize", "models", "methods"}) {
         CHECK(whole.out.find("  " + command + " ") != std::string::npos);
         const Outcome own = call({command, "--help"});
         CHECK(own.code == 0);

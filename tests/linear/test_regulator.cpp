@@ -39,8 +39,9 @@ TEST_CASE("the gain of one equation is the root of a quadratic")
         for (const double q : {1e-6, 1.0, 1e6}) {
             const double b = 0.5, r = 2;
             const auto found = std::get<Regulator>(gain_of(one(a), one(b), one(q), one(r)));
-            CHECK(found.K(0, 0) == Approx((a + std::sqrt(a * a + q * b * b / r)) / b).epsilon(1e-10));
-            CHECK(found.closed_loop[0].real() == Approx(-std::sqrt(a * a + q * b * b / r)).epsilon(1e-10));
+            const double root = std::sqrt(a * a + q * b * b / r);
+            CHECK(found.K(0, 0) == Approx(a < 0 ? q * b / r / (root - a) : (root + a) / b).epsilon(1e-13));
+            CHECK(found.closed_loop[0].real() == Approx(-root).epsilon(1e-13));
         }
 }
 

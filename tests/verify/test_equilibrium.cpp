@@ -126,7 +126,7 @@ TEST_CASE("rates without a zero, and a zero outside the domain, are no equilibri
     SmallMotion none({"x", "v"}, {}, {"v", "1 + x^2"});
     CHECK_THROWS_WITH(none.near({1, 0}), Catch::Contains("no equilibrium was found"));
     SmallMotion outside({"x"}, {}, {"1 + x"});
-    outside.equations.domain = {outside.node("x > 0")};
+    outside.equations.domain = {outside.graph.apply(Op::greater, outside.node("x"), outside.graph.constant(0))};
     CHECK_THROWS_WITH(outside.near({1}), Catch::Contains("the equilibrium x = -1 is not certain to be in the domain"));
 }
 
