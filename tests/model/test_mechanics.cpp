@@ -203,7 +203,7 @@ TEST_CASE("what expressions from outside may use has momenta, controls and the t
         return to_text(model.observer.close(lagen::parse_expression(lagen::whole_text("<test>", text))));
     };
     CHECK(close("power + energy + lagrangian") == "u*p_v_x - hamiltonian + energy + (v_x^2 + v_y^2)/2");
-    CHECK(lagen::symbol_names(model) == Strings{"x", "y", "v_x", "v_y", "u"});
+    CHECK(lagen::symbol_names(model) == Strings{"x", "y", "v_x", "v_y", "u", "total_cost"});
 }
 
 TEST_CASE("a frame of a file takes over its Lagrangian with forces and dissipation, pulled back")

@@ -149,7 +149,7 @@ void check_same(const Run<M>& one, const Run<M>& other)
     }
 }
 
-/// An observer that asks for nothing between rows: lanes are quiet without it.
+/// Asks for nothing between rows.
 struct Nobody {
     double sum = 0;
     std::size_t calls = 0;
@@ -190,9 +190,7 @@ constexpr bool all_tests = true;
 #else
 constexpr bool all_tests = false;
 #endif
-
-/// Every task by N lanes and alone: the same in every bit, and the same observed. A pair of lanes, and lanes that
-/// nobody watches, are for scripts/test --all: each is compiled for seconds.
+/// Every task by N lanes and alone: the same bits. Each is compiled for seconds: some are for scripts/test --all.
 template <int N, class M, class Method>
 void check_abreast(const std::vector<Task<M>>& tasks, const std::vector<Method>& methods, const Options<M>& options)
 {
@@ -241,7 +239,6 @@ std::vector<Task<Top>> tops()
 
 } // namespace
 
-// Each is compiled for half a minute.
 #ifdef LAGEN_ALL_TESTS
 using Adaptive = std::tuple<Dopri5, Tsit5, Dop853, Verner65, Verner76, Verner87, Verner98>;
 using FixedStep = std::tuple<Euler, Kutta3, Rk4>;
@@ -265,7 +262,6 @@ TEMPLATE_LIST_TEST_CASE("A trajectory on a lane has the bits of one alone, by me
     check_abreast<2>(orbits(), methods, {});
     check_abreast<4>(tops(), methods, {});
     check_abreast<4>(tops(), std::vector<TestType>{TestType{.step = 0.01, .compensated = true}}, {});
-    // Not all can be on one pack: some are integrated alone.
     check_abreast<4>(tops(), std::vector<TestType>{TestType{.step = 0.01, .compensated = true}, TestType{.step = 0.01}},
                      {});
 }

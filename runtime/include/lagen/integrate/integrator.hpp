@@ -59,8 +59,7 @@ class Integrator {
         return status_ == Status::ok && t_ == way_.end ? Status::ok : one_step();
     }
 
-    /// From t() on the inputs of the model are these, held until the next call. The right-hand side jumps here: what
-    /// the method knows of the last step is dropped, and at() knows the state at t() alone.
+    /// From t() on the inputs of the model are these. What the method and at() know of the last step is dropped.
     template <class Model = M>
     Status hold(const typename Model::Inputs& inputs)
     {
@@ -97,8 +96,7 @@ class Integrator {
         return status_;
     }
 
-    /// The state inside the last step, both ends included, by the method's dense output or a shorter step of it; the
-    /// sequence of steps does not depend on it. Elsewhere, and behind a step that failed, NaN.
+    /// The state inside the last step by dense output or a shorter step; elsewhere, and behind a failed one, NaN.
     [[nodiscard]] State at(const Real& t)
     {
         const Real h = t_ - t_from_, slack = Real(4) * epsilon() * std::max<Real>(size(t_from_), size(t_));
@@ -129,6 +127,7 @@ class Integrator {
     template <class, class, int, class>
     friend class detail::Abreast;
 
+    using Attempt = detail::Attempt<Real>;
     static constexpr bool adaptive = Stepper::adaptive;
     static constexpr bool chooses_lengths = requires(Stepper stepper, Real h) { stepper.after_failure(h); };
     static Real epsilon() noexcept { return std::numeric_limits<Real>::epsilon(); }
@@ -212,13 +211,17 @@ class Integrator {
         }
     }
 
-    using Attempt = detail::Attempt<Real>;
-
     /// What the stepper is to attempt next, from (t_from_, from_); not ok where there is no next step.
     [[gnu::always_inline]] Status propose(Attempt& next)
     {
         open();
-        next = next_length();
+        std::pair<Real, bool> length;
+        if constexpr (adaptive)
+            length = way_.next_of(h_, t_, static_cast<Real>(method_.control().max_step));
+        else
+            length = way_.next_of(h_, t_);
+        // The last step goes from the time that is kept, rounding error and all.
+        next = {length.second ? Real(length.first + lost_) : length.first, length.second};
         if constexpr (adaptive)
             if (!next.last && way_.is_lost(h_, t_)) return fail(Status::step_too_small, t_);
         if (!way_.bounded && !detail::is_finite_number(Real(t_ + next.h))) [[unlikely]]
@@ -303,19 +306,6 @@ class Integrator {
         if constexpr (requires { stepper_.forget(); }) stepper_.forget();
     }
 
-    /// The last step goes from the time that is kept, rounding error and all.
-    [[gnu::always_inline]] Attempt next_length() const noexcept
-    {
-        std::pair<Real, bool> next;
-        if constexpr (adaptive)
-            next = way_.next_of(h_, t_, static_cast<Real>(method_.control().max_step));
-        else
-            next = way_.next_of(h_, t_);
-        if (next.second) [[unlikely]]
-            next.first += lost_;
-        return {next.first, next.second};
-    }
-
     /// Accepts or rejects a step of an adaptive method and proposes the next length; not ok where there is none.
     Status judge(Status status, const Real& h, const Real& t1) noexcept requires(adaptive)
     {
@@ -391,8 +381,7 @@ class Integrator {
     Method method_;
     Stepper stepper_;
     State s_, from_, inner_; ///< at the end and at the beginning of the last step; a value inside it
-    Real t_, t_from_;
-    Real failed_at_;
+    Real t_, t_from_, failed_at_;
     detail::Way<Real> way_;
     Real lost_ = Real(0);          ///< the rounding error of t_
     Real h_ = Real(0);             ///< positive: the length that the method or the controller asks for
