@@ -39,7 +39,8 @@ void require_values_in(const Model& model, const Scene& scene, const std::string
 struct JumpObstacle {
     std::string text, hint;
 };
-/// Fibre coordinates are none of Lagrange's momenta; of those Hamilton's follow by Legendre's transform of L.
+/// Lagrange's form has no momenta to set; Hamilton's takes fibre coordinates where there is an L, which makes momenta
+/// of them.
 [[nodiscard]] std::optional<JumpObstacle> obstacle_to_jump(const Model& model, const Event& event,
                                                            const std::string& form);
 

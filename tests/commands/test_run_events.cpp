@@ -161,7 +161,7 @@ TEST_CASE("a Poincare section is a scene whose rows are at an event", "[run]")
         CHECK(value["rows"][k][0].text == event["t"].text);
         CHECK(value["rows"][k][1].text == event["state"]["y"].text);
         CHECK(event.keys == std::vector<std::string>{"name", "t", "state"});
-        CHECK_THAT(event_number(event["state"]["x"]), WithinAbs(0, 1e-13));
+        CHECK_THAT(event_number(event["state"]["x"]), WithinAbs(0, 1e-11));
         CHECK(event_number(event["state"]["u"]) > 0);
     }
 }

@@ -19,9 +19,8 @@
 ///   (held_inputs.hpp)
 ///   --every N             rows at the start and behind every N-th step; the rows of a discrete motion
 ///   --samples N | --interval H | --at-file FILE | --at-event NAME   rows at N even times, every H from the start on
-///   (and
-///                         the end), at the numbers of FILE (separated by space or comma, in the direction of time), or
-///                         at each crossing of one of --events. Default: --samples 201
+///                         (and the end), at the numbers of FILE (separated by space or comma, in the direction of
+///                         time), or at each crossing of one of --events. Default: --samples 201
 ///   --events name:direction:stop:count,..   direction rising, falling or any; stop 0 or 1; count from 1; names of the
 ///                         header. Behind one that stands in its jumps_names the state jumps
 ///   --columns c,c,..      s0, s1, .. state lanes; o0, o1, .. entries of observables(); left out: every state lane;

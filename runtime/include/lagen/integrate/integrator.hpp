@@ -89,11 +89,8 @@ class Integrator {
         s_ = from_ = s;
         t_ = t_from_ = failed_at_ = t;
         h_ = lost_ = failed_length_ = Real(0);
-        fresh_ = retry_ = imprecise_ = false;
-        status_ = begin();
-        if (way_.bounded) prepare(Real(way_.end - t));
-        if (adaptive && h_ > Real(0)) h_ = std::max<Real>(h_, way_.shortest(t)); // jumps may follow each other as fast
-        return status_;
+        fresh_ = retry_ = imprecise_ = way_.bounded = false;
+        return status_ = begin();
     }
 
     /// The state inside the last step by dense output or a shorter step; elsewhere, and behind a failed one, NaN.

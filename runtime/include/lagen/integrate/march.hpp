@@ -199,6 +199,7 @@ class March {
             for (const auto& crossed : watch_.crossed()) {
                 const auto [t, s] = at(crossed.theta);
                 run_.events.push_back({crossed.request, t, *s, *s});
+                stops = stops || crossed.stop;
             }
         }
         move(theta, t0, h);
@@ -214,19 +215,22 @@ class March {
     {
         Stepper stepper = steps_.stepper_;
         const std::size_t r = watch_.crossed().back().request;
-        Real length = theta * h;
-        State s = steps_.from_;
-        for (int round = 0; round < 2; ++round) {
-            if (stepper.attempt(steps_.model_, t0, steps_.from_, length, s) != Status::ok) return;
-            if constexpr (StaysOnGroups<M>) steps_.model_.stay_on_groups(steps_.from_, s);
+        Real length = theta * h, most = size(length) / Real(2);
+        bool finer = true;
+        for (int round = 0; round < 2 && finer; ++round) {
+            refined_.s = steps_.from_;
+            finer = stepper.attempt(steps_.model_, t0, steps_.from_, length, refined_.s) == Status::ok;
+            if constexpr (StaysOnGroups<M>) steps_.model_.stay_on_groups(steps_.from_, refined_.s);
             refined_.t = t0 + length;
-            refined_.s = s;
-            const Real missing = watch_.time_to_zero(r, refined_.t, s, h);
-            if (!(size(missing) < size(length) / Real(2))) return;
-            length += missing;
+            const Real missing = finer ? watch_.time_to_zero(r, refined_.t, refined_.s, h) : h;
+            finer = size(missing) <= most;
+            most = std::max<Real>(size(missing) / Real(16), Real(8) * epsilon() * size(length));
+            if (round == 0) length += missing;
         }
         steps_.work_.calls += stepper.calls() - steps_.stepper_.calls();
-        refined_.theta = theta;
+        if (finer) refined_.theta = theta;
+        const auto [t, s] = inside(theta, t0, h);
+        watch_.settle(t, *s, theta);
     }
 
     /// Behind all jumps of this instant, in the order of the requests, the run goes on as from a start.
@@ -240,8 +244,8 @@ class March {
             const auto& request = options_.events[crossed.request];
             if (!request.jump) continue;
             auto& [count, last] = last_jumps_[crossed.request];
-            if (crossed.at_once || (count++ > 0 && size(t - last) <= Real(8) * epsilon() * size(t)))
-                return Status::zeno;
+            const bool fast = size(t - last) <= Real(8) * epsilon() * size(t) || watch_.returns(crossed, t, from, h);
+            if (crossed.at_once || (count++ > 0 && fast)) return Status::zeno;
             last = t;
             to = request.jump(t, to);
         }
@@ -253,10 +257,10 @@ class March {
         if constexpr (moves_by_sums<M>)
             if (options_.dense) run_.solution.jump(to);
         const Status status = steps_.restart(to, t);
-        if (status == Status::ok)
-            watch_.restart(t, from, to, h, theta, width);
-        else
-            steps_.s_ = from;
+        if (status != Status::ok) return steps_.s_ = from, status;
+        steps_.aim(span_.end);
+        if (Stepper::adaptive && steps_.h_ > Real(0)) steps_.h_ = std::max<Real>(steps_.h_, steps_.way_.shortest(t));
+        watch_.restart(t, from, to, h, theta, width);
         return status;
     }
 

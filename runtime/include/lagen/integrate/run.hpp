@@ -28,7 +28,8 @@ enum class Crossing { rising, falling, any };
 /// whose zero it then leaves is on the side to which it goes. Jumps of one instant are made in the order of the
 /// requests, each from the state behind the one before. A request that stops the run stops it before its jump. Where
 /// the jumps of one request follow each other within the rounding of time, or the motion behind one is at once beyond
-/// the zero again, the run ends with `zeno`, at the state before the last one.
+/// the zero again, or is there by the errors of steps alone, the run ends with `zeno`, at the state before the last
+/// one.
 template <class Real, class State>
 struct EventRequest {
     std::size_t index = 0;

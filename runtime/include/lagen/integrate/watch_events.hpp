@@ -113,7 +113,8 @@ class EventWatch {
             const auto [t, s] = at(end);
             evaluate(t, *s, after_);
             for (std::size_t r = 0; r < requests_.size(); ++r) look_at(r, begin, end, width, turns, value_of(r, at));
-            cut = order_and_count(found, at);
+            cut = order_and_count(found);
+            piece_ = found;
             found = crossed_.size();
             before_.swap(after_);
             begin = end;
@@ -127,6 +128,30 @@ class EventWatch {
         find_rates(t, s, h, rate_);
         const Real time = evaluate_one(r, t, s) / rate_[r];
         return h < Real(0) ? time : Real(-time);
+    }
+
+    /// Whether a function that has crossed its zero at (t, s) comes from there, against the direction of h: the motion
+    /// is within the errors of its steps.
+    [[nodiscard]] bool returns(const Crossed& crossed, Real t, const State& s, Real h)
+    {
+        find_rates(t, s, h, rate_);
+        return rate_[crossed.request] * crossed.side > Real(0);
+    }
+
+    /// The run jumps at (t, s), which is theta of the last step to rounding: functions that are beyond their zeros
+    /// there have crossed them, too.
+    void settle(Real t, const State& s, Real theta)
+    {
+        evaluate(t, s, back_);
+        for (std::size_t r = 0; r < requests_.size(); ++r) {
+            const auto own = [r](const Crossed& each) { return each.request == r; };
+            const auto piece = crossed_.begin() + static_cast<std::ptrdiff_t>(piece_);
+            if (!(from_[r] < theta) || !crosses(r, after_[r], back_[r]) || std::any_of(piece, crossed_.end(), own))
+                continue;
+            crossed_.push_back({theta, r, sign(after_[r])});
+            count(crossed_.back());
+        }
+        std::sort(crossed_.begin() + static_cast<std::ptrdiff_t>(piece_), crossed_.end(), is_before);
     }
 
     /// Those of the last step.
@@ -227,10 +252,11 @@ class EventWatch {
         return last;
     }
 
-    [[nodiscard]] bool crosses(std::size_t r) const noexcept
+    [[nodiscard]] bool crosses(std::size_t r) const noexcept { return crosses(r, before_[r], after_[r]); }
+    [[nodiscard]] bool crosses(std::size_t r, const Real& before, const Real& after) const noexcept
     {
-        const bool rising = before_[r] < Real(0) && after_[r] >= Real(0);
-        const bool falling = before_[r] > Real(0) && after_[r] <= Real(0);
+        const bool rising = before < Real(0) && after >= Real(0);
+        const bool falling = before > Real(0) && after <= Real(0);
         switch (requests_[r].direction) {
         case Crossing::rising: return rising;
         case Crossing::falling: return falling;
@@ -239,28 +265,23 @@ class EventWatch {
         return false;
     }
 
+    static bool is_before(const Crossed& a, const Crossed& b) noexcept
+    {
+        return a.theta < b.theta || (a.theta == b.theta && a.request < b.request);
+    }
+
+    void count(Crossed& crossed)
+    {
+        const Request& request = requests_[crossed.request];
+        crossed.stop = ++seen_[crossed.request] >= request.count && request.stop;
+    }
+
     /// Sorts the crossings of one piece by time (requests in their order where times agree), counts, and cuts after the
-    /// instant of a stop or of a jump. A function that is beyond its zero at a jump has crossed there, not behind it.
-    template <class At>
-    bool order_and_count(std::size_t first, const At& at)
+    /// instant of a stop or of a jump.
+    bool order_and_count(std::size_t first)
     {
         const auto begin = crossed_.begin() + static_cast<std::ptrdiff_t>(first);
-        const auto sort = [&] {
-            std::sort(begin, crossed_.end(), [](const Crossed& a, const Crossed& b) {
-                return a.theta < b.theta || (a.theta == b.theta && a.request < b.request);
-            });
-        };
-        sort();
-        const auto jumps = [&](const Crossed& each) { return !!requests_[each.request].jump; };
-        const auto jump = std::find_if(begin, crossed_.end(), jumps);
-        if (jump != crossed_.end()) {
-            const Real theta = jump->theta;
-            const auto [t, s] = at(theta);
-            evaluate(t, *s, back_);
-            for (auto each = jump; each != crossed_.end(); ++each)
-                if (each->request != jump->request && back_[each->request] * each->side <= Real(0)) each->theta = theta;
-            sort();
-        }
+        std::sort(begin, crossed_.end(), is_before);
         bool cut = false;
         Real instant = Real(0);
         for (std::size_t i = first; i < crossed_.size(); ++i) {
@@ -268,10 +289,8 @@ class EventWatch {
                 crossed_.resize(i);
                 break;
             }
-            const Request& request = requests_[crossed_[i].request];
-            const bool last = ++seen_[crossed_[i].request] >= request.count;
-            crossed_[i].stop = request.stop && last;
-            if (!crossed_[i].stop && !request.jump) continue;
+            count(crossed_[i]);
+            if (!crossed_[i].stop && !requests_[crossed_[i].request].jump) continue;
             instant = crossed_[i].theta;
             cut = true;
         }
@@ -358,6 +377,8 @@ class EventWatch {
     std::vector<Side> sides_;
     std::vector<std::size_t> seen_;
     std::vector<Crossed> crossed_;
+    std::size_t piece_ =
+        0; ///< from which on they are of the last piece that was looked at, at whose beginning after_ is
 };
 
 } // namespace lagen::detail

@@ -68,7 +68,7 @@ struct Way {
         return !(Real(0.1) * h > epsilon * std::max<Real>(size_of(t), epsilon * length));
     }
 
-    /// A step from t that is not.
+    /// A step from t that is not: the first one behind a jump, since jumps may follow each other as fast as steps can.
     [[nodiscard]] Real shortest(const Real& t) const noexcept
     {
         const Real epsilon = std::numeric_limits<Real>::epsilon();
