@@ -204,9 +204,12 @@ TEST_CASE("a degenerate Lagrangian is refused in Lagrange form")
         const Outcome outcome = call({command, "degenerate.toml"});
         CHECK(outcome.code == 1);
         CHECK(outcome.out.empty());
-        CHECK(outcome.err == "error: the Lagrangian of model 'degenerate' is degenerate: d2L/dy2 has rank 0, and the "
-                             "Lagrangian form needs rank 1\n"
-                             "hint: the velocities cannot be solved for; give every fibre coordinate a kinetic term\n");
+        CHECK(outcome.err ==
+              "error: the Lagrangian of model 'degenerate' is degenerate: d2L/dy2 has rank 0, and the "
+              "Lagrangian form needs rank 1\n"
+              "hint: L is linear in the velocities, so its equations are of first order: solve them for x' = "
+              "X(t, x) and run [hamiltonian] H = \"p.X\" in the place of L (docs/mechanics.md, Any "
+              "first-order system)\n");
     }
 }
 
