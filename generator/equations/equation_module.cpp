@@ -100,8 +100,12 @@ class Motion {
   public:
     explicit Motion(EquationModule& module) : module_(module), blocks_(module.equations.blocks) {}
 
-    void find(const std::vector<std::string>& lanes, const std::vector<std::string>& velocities)
+    /// First-order states that the equations do not have are no part of the motion: a cost that is only watched.
+    void find(std::vector<std::string> lanes, const std::vector<std::string>& velocities,
+              const std::vector<FirstOrderState>& states)
     {
+        for (const FirstOrderState& state : states)
+            if (block_of(LeftSide::time_derivative, state.symbol.name)) lanes.push_back(state.symbol.name);
         for (std::size_t k = 0; k < blocks_.size(); ++k)
             if (std::ranges::any_of(blocks_[k].equations, [](const Equation& each) { return !each.mass.empty(); })) {
                 module_.accelerations = k;
@@ -194,8 +198,7 @@ EquationModule equation_module(const Model& model, const System& system, Equatio
     std::vector<std::string> lanes = module.groups[0].symbols;
     const std::vector<std::string> fibre = form_named(form).momenta ? names_of_symbols(model.fibre.momenta) : y;
     lanes.insert(lanes.end(), fibre.begin(), fibre.end());
-    for (const FirstOrderState& state : model.states) lanes.push_back(state.symbol.name);
-    Motion(module).find(lanes, y);
+    Motion(module).find(std::move(lanes), y, model.states);
     return module;
 }
 
