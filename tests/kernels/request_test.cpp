@@ -96,7 +96,7 @@ TEST_CASE("a kernel that a form of the model does not have is refused with the l
     CHECK(message_of(model, verified, request) == "nothing thrown");
     request.only.clear();
     request.with = {"tailor"};
-    CHECK(message_of(model, verified, request).ends_with("events\nhint: did you mean 'taylor'?"));
+    CHECK(message_of(model, verified, request).ends_with("events, jumps\nhint: did you mean 'taylor'?"));
     request.with = {"taylor"};
     const KernelModule module = kernels_of(model, request);
     CHECK(has_kernel(module, "taylor"));
@@ -169,10 +169,12 @@ TEST_CASE("a model without a Lagrangian or with a degenerate one has no kernels"
     ModelReport verified = verify(model);
     verified.mechanics.regularity.kind = Regularity::Kind::degenerate;
     verified.mechanics.regularity.rank = 0;
-    CHECK(message_of(model, verified, {}) ==
-          "error: the Lagrangian of model 'oscillator' is degenerate: d2L/dy2 has rank 0, and the Lagrangian form "
-          "needs rank 1\n"
-          "hint: the velocities cannot be solved for; give every fibre coordinate a kinetic term");
+    CHECK(
+        message_of(model, verified, {}) ==
+        "error: the Lagrangian of model 'oscillator' is degenerate: d2L/dy2 has rank 0, and the Lagrangian form "
+        "needs rank 1\n"
+        "hint: L is linear in the velocities, so its equations are of first order: solve them for x' = X(t, x) and run "
+        "[hamiltonian] H = \"p.X\" in the place of L (docs/mechanics.md, Any first-order system)");
     model.lagrangian = nullptr;
     CHECK(message_of(model, verified, {}) ==
           "error: model 'oscillator' has no Lagrangian; the Lagrangian form needs [lagrangian] L");
