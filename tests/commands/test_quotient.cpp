@@ -2,6 +2,7 @@
 /// `lagen reduce --group`: the file that it writes, its motions beside those of the whole model, and what is refused.
 #include "program.hpp"
 
+#include "support/golden.hpp"
 #include "support/json.hpp"
 
 #include <catch2/catch.hpp>
