@@ -55,7 +55,7 @@ TEST_CASE("the cost of a control problem is an observable, and its integral a st
         CHECK(run.entry(row, 5) == Approx(2).epsilon(1e-11)); // paid and still to pay
     }
     const Outcome states = call({"run", "regulator.toml", "--scene", "state", "--at", "0"});
-    CHECK(states.out == "t,x,p_v_x,u\n0,2,-2,-2\n");
+    CHECK(states.out == "t,x,p_v_x,u\r\n0,2,-2,-2\r\n");
     // (4 - x^2)/2 = 3/2 where x = 1.
     const ControlRun paid = run_of("regulator.toml", {"--scene", "paid"});
     CHECK(paid.status() == "stopped_by_event");
