@@ -33,6 +33,12 @@ NodeId along_base(Graph& graph, const System& system, const std::vector<NodeId>&
 
 } // namespace
 
+NodeId lift_of_function(Graph& graph, const System& system, NodeId f, const std::vector<NodeId>& s)
+{
+    const std::vector<NodeId>& y = system.algebroid.y;
+    return graph.add(along_base(graph, system, s, f), along_fibre(graph, system, gradient(graph, f, y), y, s));
+}
+
 NodeId lift_of_lagrangian(Graph& graph, const System& system, const LagrangianNodes& lagrangian,
                           const std::vector<NodeId>& s)
 {

@@ -9,6 +9,9 @@
 
 namespace lagen {
 
+/// s^c(f) = s^a rho_a(f) + (y^b rho_b(s^a) + C^a_bd y^b s^d) df/dy^a of a function f(t, x, y).
+[[nodiscard]] NodeId lift_of_function(Graph& graph, const System& system, NodeId f, const std::vector<NodeId>& s);
+
 /// s^c(L) = s^a rho_a(L) + (y^b rho_b(s^a) + C^a_bd y^b s^d) p_a
 [[nodiscard]] NodeId lift_of_lagrangian(Graph& graph, const System& system, const LagrangianNodes& lagrangian,
                                         const std::vector<NodeId>& s);

@@ -242,6 +242,15 @@ void require_joint(const std::vector<MorphismFile>& before, const MorphismFile& 
                      where);
 }
 
+/// The morphism that a value of this one names; `what` is how messages call the value.
+MorphismFile read_part(const MorphismFile& morphism, const TomlValue& value, const char* what,
+                       const std::vector<Setting>& settings, const Choosers& choosers, int depth)
+{
+    const auto file = file_beside(morphism, value, what);
+    if (!is_morphism(file)) throw ModelError(fmt::format("{} has no [morphism]", quote(file->name)), value.where);
+    return read_morphism_file(file, settings, choosers, depth + 1);
+}
+
 std::vector<MorphismFile> read_stages(const MorphismFile& morphism, const TomlEntry& compose,
                                       const std::vector<Setting>& settings, const Choosers& choosers, int depth)
 {
@@ -253,10 +262,8 @@ std::vector<MorphismFile> read_stages(const MorphismFile& morphism, const TomlEn
                          "compose = [\"first.toml\", \"second.toml\"]");
     std::vector<MorphismFile> stages;
     for (const TomlValue& item : compose.value.items) {
-        const auto file = file_beside(morphism, item, "an entry of 'compose'");
-        if (!is_morphism(file)) throw ModelError(fmt::format("{} has no [morphism]", quote(file->name)), item.where);
-        MorphismFile stage =
-            read_morphism_file(file, stages.empty() ? settings : std::vector<Setting>{}, choosers, depth + 1);
+        MorphismFile stage = read_part(morphism, item, "an entry of 'compose'",
+                                       stages.empty() ? settings : std::vector<Setting>{}, choosers, depth);
         std::vector<MorphismFile> parts = std::move(stage.stages);
         if (parts.empty()) parts.push_back(std::move(stage));
         require_joint(stages, parts.front(), item.where);
@@ -272,16 +279,14 @@ MorphismFile read_equal(const MorphismFile& morphism, const TomlEntry& entry, co
     if (depth >= deepest_composition)
         throw ModelError(fmt::format("morphisms are made of each other more than {} deep", deepest_composition),
                          entry.where(), "a file may not be part of itself");
-    const auto file = file_beside(morphism, entry.value, "'equals' of [morphism]");
-    if (!is_morphism(file)) throw ModelError(fmt::format("{} has no [morphism]", quote(file->name)), entry.value.where);
-    MorphismFile other = read_morphism_file(file, settings, choosers, depth + 1);
+    MorphismFile other = read_part(morphism, entry.value, "'equals' of [morphism]", settings, choosers, depth);
     const auto ends = [](const MorphismFile& each) {
         return fmt::format("from {} to {}", quote(source_of(each).file->name), quote(target_of(each).file->name));
     };
     if (ends(other) != ends(morphism))
-        throw ModelError(
-            fmt::format("{} leads {}, and this morphism leads {}", quote(file->name), ends(other), ends(morphism)),
-            entry.value.where, "maps are equal where they have the same two ends");
+        throw ModelError(fmt::format("{} leads {}, and this morphism leads {}", quote(other.file->name), ends(other),
+                                     ends(morphism)),
+                         entry.value.where, "maps are equal where they have the same two ends");
     return other;
 }
 

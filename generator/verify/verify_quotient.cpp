@@ -17,17 +17,6 @@ namespace lagen {
 
 namespace {
 
-/// The derivative of f along the complete lift of a field X on Q: X^i df/dx^i + y^j (dX^i/dx^j) df/dy^i.
-NodeId along_lift(Graph& graph, const System& whole, const std::vector<NodeId>& X, NodeId f)
-{
-    const Algebroid& tangent = whole.algebroid;
-    Replacements along = replacements(tangent.x, X);
-    const std::vector<NodeId> rates = directional(graph, X, replacements(tangent.x, tangent.y));
-    for (std::size_t i = 0; i < rates.size(); ++i) along.emplace_back(tangent.y[i], rates[i]);
-    const NodeId only[] = {f};
-    return directional(graph, only, along)[0];
-}
-
 /// W ydot - f of the reduced system, over inputs of `graph` that have the same names.
 std::vector<NodeId> reduced_residuals(Graph& graph, const System& reduced, const Quotient& quotient,
                                       const std::vector<NodeId>& x, const std::vector<NodeId>& u,
@@ -59,7 +48,7 @@ bool is_invariant(Graph& graph, const System& whole, const InfinitesimalAction& 
 {
     Judge judge(graph, proof_setting(graph, whole), accessory_inputs(whole), 0, budget);
     return std::ranges::all_of(action.fields, [&](const std::vector<NodeId>& X) {
-        const NodeId rate = along_lift(graph, whole, X, f);
+        const NodeId rate = lift_of_function(graph, whole, f, X);
         return graph.is_zero(rate) || judge.decide(rate).status == ProofStatus::proved;
     });
 }
@@ -72,7 +61,7 @@ StructureReport verify_symmetry(Graph& graph, const System& whole, const Infinit
     for (std::size_t b = 0; b < action.fields.size(); ++b)
         report.checks.push_back({"symmetry",
                                  {names[b]},
-                                 judge.decide(along_lift(graph, whole, action.fields[b], *whole.lagrangian)),
+                                 judge.decide(lift_of_function(graph, whole, *whole.lagrangian, action.fields[b])),
                                  {},
                                  {}});
     report.verdict = verdict_of(report);

@@ -134,7 +134,7 @@ Outcome call(const std::vector<std::string>& arguments, const Surroundings& arou
     return finish(start_call(arguments, around));
 }
 
-std::vector<double> last_row(std::vector<std::string> arguments)
+json::Value finished_run(std::vector<std::string> arguments)
 {
     arguments.insert(arguments.begin(), "run");
     arguments.insert(arguments.end(), {"--format", "json"});
@@ -143,8 +143,22 @@ std::vector<double> last_row(std::vector<std::string> arguments)
     REQUIRE(outcome.code == 0);
     const json::Value value = json::parse(outcome.out);
     REQUIRE(value["status"].text == "ok");
+    return value;
+}
+
+std::map<std::string, double> last_columns(const json::Value& run)
+{
+    std::map<std::string, double> row;
+    for (std::size_t k = 0; k < run["columns"].size(); ++k)
+        row[run["columns"][k].text] = std::stod(run["rows"].entries.back()[k].text);
+    return row;
+}
+
+std::vector<double> last_row(std::vector<std::string> arguments)
+{
+    const json::Value run = finished_run(std::move(arguments));
     std::vector<double> row;
-    for (const json::Value& entry : value["rows"].entries.back().entries)
+    for (const json::Value& entry : run["rows"].entries.back().entries)
         row.push_back(static_cast<double>(entry.number()));
     return row;
 }

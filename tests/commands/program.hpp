@@ -2,6 +2,9 @@
 /// The program as its user meets it: arguments in, exit code and two streams out.
 #pragma once
 
+#include "support/json.hpp"
+
+#include <map>
 #include <string>
 #include <sys/types.h>
 #include <utility>
@@ -38,6 +41,10 @@ struct Started {
 [[nodiscard]] Started start_call(const std::vector<std::string>& arguments, const Surroundings& around = {});
 [[nodiscard]] Outcome finish(const Started& started);
 
+/// The report of `lagen run` with these arguments, which must come to its end.
+[[nodiscard]] json::Value finished_run(std::vector<std::string> arguments);
+/// Its last row by the names of the columns.
+[[nodiscard]] std::map<std::string, double> last_columns(const json::Value& run);
 /// The last row of `lagen run` with these arguments, which must come to its end: t, then the columns.
 [[nodiscard]] std::vector<double> last_row(std::vector<std::string> arguments);
 

@@ -20,20 +20,14 @@ std::string recipe(const std::string& name)
 }
 
 struct Cooked {
-    std::map<std::string, double> last;
     json::Value run;
+    std::map<std::string, double> last = last_columns(run);
 };
 
 Cooked cook(const std::string& name, std::vector<std::string> options = {})
 {
-    options.insert(options.begin(), {"run", recipe(name), "--tolerance", "1e-12", "--format", "json"});
-    const Outcome outcome = call(options);
-    INFO(outcome.err);
-    REQUIRE(outcome.code == 0);
-    Cooked cooked{{}, json::parse(outcome.out)};
-    for (std::size_t k = 0; k < cooked.run["columns"].size(); ++k)
-        cooked.last[cooked.run["columns"][k].text] = std::stod(cooked.run["rows"].entries.back()[k].text);
-    return cooked;
+    options.insert(options.begin(), {recipe(name), "--tolerance", "1e-12"});
+    return {finished_run(options)};
 }
 
 } // namespace

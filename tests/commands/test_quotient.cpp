@@ -62,17 +62,9 @@ std::vector<std::string> named_checks(const json::Value& report)
     return lines;
 }
 
-/// The last row of the default scene at tolerance 1e-13, by the names of its columns.
-std::map<std::string, double> last_row(const std::string& model)
+std::map<std::string, double> end_of(const std::string& model)
 {
-    const Outcome outcome = call({"run", model, "--tolerance", "1e-13", "--format", "json"});
-    INFO(outcome.err);
-    REQUIRE(outcome.code == 0);
-    const json::Value run = json::parse(outcome.out);
-    std::map<std::string, double> row;
-    for (std::size_t k = 0; k < run["columns"].size(); ++k)
-        row[run["columns"][k].text] = std::stod(run["rows"].entries.back()[k].text);
-    return row;
+    return last_columns(finished_run({model, "--tolerance", "1e-13"}));
 }
 
 } // namespace
@@ -134,7 +126,7 @@ initial = { ps = "2/5", v_ps = "6/5", w1 = "0.7", w2 = "1/2", w3 = "-0.3" }
 duration = 10
 )toml");
     CHECK(call({"check", reduced}).code == 0);
-    std::map<std::string, double> whole = last_row(beanie_on_tangent), part = last_row(reduced);
+    std::map<std::string, double> whole = end_of(beanie_on_tangent), part = end_of(reduced);
     CHECK(std::abs(whole["ps"] - part["ps"]) < 1e-11);
     CHECK(std::abs(whole["v_th"] - part["w1"]) < 1e-11);
     // The body sees what the whole model has in fixed axes; its pose was 0.3 at the start, where the slice cuts.
@@ -162,7 +154,7 @@ TEST_CASE("two points in space are reduced by rotations: what is not invariant i
     CHECK(text.find("domain = [\"b_2*a_1^2 != 0\"]\n") != std::string::npos);
     CHECK(text.find("observe = [\"distance\", \"energy\", \"sqrt(dot(a, a))\"]\n") != std::string::npos);
     CHECK(call({"check", reduced}).out.find("reduced: valid\n") == 0);
-    std::map<std::string, double> points = last_row(whole), triangle = last_row(reduced);
+    std::map<std::string, double> points = end_of(whole), triangle = end_of(reduced);
     for (const char* name : {"distance", "energy", "sqrt(dot(a, a))"})
         CHECK(std::abs(points.at(name) - triangle.at(name)) < 1e-10);
 }

@@ -102,12 +102,6 @@ StructureReport action_report(const System& moving)
     return report;
 }
 
-std::string algebra_name(const std::string& group)
-{
-    const std::optional<NamedAlgebra> algebra = algebra_of_group(group);
-    return algebra ? algebra->name : std::string();
-}
-
 } // namespace
 
 GroupQuotient quotient_by_group(const CheckedModel& checked, const std::vector<Setting>& settings,
@@ -138,10 +132,11 @@ GroupQuotient quotient_by_group(const CheckedModel& checked, const std::vector<S
     std::vector<NodeId> w;
     for (const std::string& each : names) w.push_back(graph.input(each));
     const Quotient divided = quotient(graph, whole, fields, choose_slice(graph, checked, fields, group, slice), w);
-    const GroupReduction reduction{model, whole, graph, fields, divided, group, algebra_name(group), [&](NodeId f) {
-                                       return is_invariant(graph, whole, fields, f);
-                                   }};
-    const QuotientDocument document(reduction, settings);
+    const GroupReduction reduction{
+        model, whole, graph, fields, divided, group, algebra ? algebra->name : "", [&](NodeId f) {
+            return is_invariant(graph, whole, fields, f);
+        }};
+    QuotientDocument document(reduction, settings);
     const std::string name = model.name + "_quotient.toml";
     const Model draft = read_model_text(name, document.text(document.lagrangian()));
     const System drafted = elaborate(draft);

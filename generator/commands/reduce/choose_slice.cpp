@@ -43,11 +43,10 @@ Values start_values(Graph& graph, const Model& model)
 {
     Values values(model.base.coordinates.size());
     if (model.scenes.empty()) return values;
-    auto scene = std::ranges::find(model.scenes, "default", &Scene::name);
-    if (scene == model.scenes.end()) scene = model.scenes.begin();
+    const Scene& scene = find_scene(model, "");
     for (std::size_t i = 0; i < values.size(); ++i)
-        if (const auto given = std::ranges::find(scene->initial, model.base.coordinates[i].name, &NamedTree::name);
-            given != scene->initial.end())
+        if (const auto given = std::ranges::find(scene.initial, model.base.coordinates[i].name, &NamedTree::name);
+            given != scene.initial.end())
             values[i] = Lowering(graph)(given->value);
     return values;
 }

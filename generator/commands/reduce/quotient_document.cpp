@@ -59,7 +59,8 @@ std::string array_text(const SymbolGroup& group, const std::vector<std::string>&
 } // namespace
 
 QuotientDocument::QuotientDocument(const GroupReduction& reduction, const std::vector<Setting>& settings)
-    : reduction_(reduction), settings_(settings), taken_(symbol_names(reduction.model))
+    : reduction_(reduction), document_(reduction.model, settings, "by " + reduction.group),
+      taken_(symbol_names(reduction.model))
 {
     for (const Definition& each : reduction.model.definitions) taken_.push_back(each.name);
     for (const NodeId each : reduction.quotient.w) w_.push_back(reduction.graph.input_name(each));
@@ -67,6 +68,11 @@ QuotientDocument::QuotientDocument(const GroupReduction& reduction, const std::v
     choose_names(reduction.model.base.coordinates, false);
     choose_names(reduction.model.fibre.coordinates, true);
     lagrangian_ = shown(reduction.quotient.lagrangian);
+    put_algebroid();
+    TomlValue& definitions = document_.at("definitions");
+    for (const auto& [name, value] : definitions_) entry_in(definitions, name) = toml_string(value);
+    drop_claims();
+    move_scenes();
 }
 
 std::string QuotientDocument::unused(std::string name)
@@ -159,30 +165,30 @@ std::vector<std::string> QuotientDocument::domain() const
     return texts;
 }
 
-void QuotientDocument::put_algebroid(ReducedDocument& document) const
+void QuotientDocument::put_algebroid()
 {
-    TomlValue& base = document.at("base");
-    document.erase("base", {"coordinates", "domain"});
+    TomlValue& base = document_.at("base");
+    document_.erase("base", {"coordinates", "domain"});
     if (!base_.empty()) entry_in(base, "coordinates") = toml_list(base_);
     if (const std::vector<std::string> conditions = domain(); !conditions.empty())
         entry_in(base, "domain") = toml_list(conditions);
     std::vector<std::string> sections = velocities_;
     sections.insert(sections.end(), w_.begin(), w_.end());
-    document.forget("fibre");
-    entry_in(document.at("fibre"), "coordinates") = toml_list(sections);
-    document.forget("algebroid");
-    TomlValue& algebroid = document.at("algebroid");
+    document_.forget("fibre");
+    entry_in(document_.at("fibre"), "coordinates") = toml_list(sections);
+    document_.forget("algebroid");
+    TomlValue& algebroid = document_.at("algebroid");
     entry_in(algebroid, "kind") = toml_string(base_.empty() ? "lie_algebra" : "atiyah");
     entry_in(algebroid, "algebra") = toml_string(reduction_.algebra);
 }
 
-void QuotientDocument::drop_claims(ReducedDocument& document) const
+void QuotientDocument::drop_claims()
 {
-    document.drop({"symmetries", "forms", "hamilton_jacobi", "states", "reconstruct"});
+    document_.drop({"symmetries", "forms", "hamilton_jacobi", "states", "reconstruct"});
     for (const NamedTree& each : reduction_.model.invariants)
-        if (!is_kept(each.value)) document.drop("invariants", each.name, fmt::format("the invariant {}", each.name));
+        if (!is_kept(each.value)) document_.drop("invariants", each.name, fmt::format("the invariant {}", each.name));
     for (const NamedTree& each : reduction_.model.observables)
-        if (!is_kept(each.value)) document.drop("observables", each.name, fmt::format("the observable {}", each.name));
+        if (!is_kept(each.value)) document_.drop("observables", each.name, fmt::format("the observable {}", each.name));
 }
 
 /// Whether the scene starts on the slice, with the start of the quotient in its table.
@@ -228,17 +234,17 @@ bool QuotientDocument::move_start(const Scene& scene, TomlValue& table) const
 }
 
 /// Of what a scene shows the invariant columns are left; one that does not start on the slice is left out.
-void QuotientDocument::move_scenes(ReducedDocument& document) const
+void QuotientDocument::move_scenes()
 {
     std::vector<std::string> gone;
     for (const Scene& scene : reduction_.model.scenes) {
-        TomlValue& table = document.scene(scene.name);
+        TomlValue& table = document_.scene(scene.name);
         const auto like = std::ranges::find(table.entries, "like", &TomlEntry::name);
         const bool follows =
             like != table.entries.end() && std::ranges::find(gone, like->value.text.text) != gone.end();
         if (follows || !move_start(scene, table)) {
             gone.push_back(scene.name);
-            document.drop("scene", scene.name, fmt::format("the scene {}", scene.name));
+            document_.drop("scene", scene.name, fmt::format("the scene {}", scene.name));
             continue;
         }
         for (const char* key : {"rest", "project", "observe", "events", "plot", "time_scale"})
@@ -250,21 +256,15 @@ void QuotientDocument::move_scenes(ReducedDocument& document) const
     }
 }
 
-std::string QuotientDocument::text(const Tree& lagrangian) const
+std::string QuotientDocument::text(const Tree& lagrangian)
 {
-    ReducedDocument document(reduction_.model, settings_, "by " + reduction_.group);
-    put_algebroid(document);
-    TomlValue& definitions = document.at("definitions");
-    for (const auto& [name, value] : definitions_) entry_in(definitions, name) = toml_string(value);
-    drop_claims(document);
-    entry_in(document.at("lagrangian"), "L") = toml_string(to_text(lagrangian));
-    move_scenes(document);
+    entry_in(document_.at("lagrangian"), "L") = toml_string(to_text(lagrangian));
     std::vector<std::string> slice;
     for (std::size_t k = 0; k < reduction_.quotient.slice.frozen.size(); ++k)
         slice.push_back(fmt::format("{} = {}",
                                     reduction_.model.base.coordinates[reduction_.quotient.slice.frozen[k]].name,
                                     to_text(to_tree(reduction_.graph, reduction_.quotient.slice.values[k]))));
-    return document.text(
+    return document_.text(
         fmt::format("# The quotient of {} by {}, cut by the slice {}. A motion is a point of the slice moved\n"
                     "# by {}, and {} are the components of g^-1 g'.\n",
                     std::filesystem::path(reduction_.model.file->name).filename().string(), reduction_.group,

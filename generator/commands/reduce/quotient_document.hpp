@@ -34,7 +34,7 @@ class QuotientDocument {
     /// "v_x = u_x - w*y" of each coordinate and velocity that is defined.
     [[nodiscard]] const std::vector<std::pair<std::string, std::string>>& definitions() const { return definitions_; }
     /// The file with `lagrangian` for L.
-    [[nodiscard]] std::string text(const Tree& lagrangian) const;
+    [[nodiscard]] std::string text(const Tree& lagrangian);
 
   private:
     void choose_names(const std::vector<Symbol>& symbols, bool fibre);
@@ -42,13 +42,13 @@ class QuotientDocument {
     [[nodiscard]] Tree shown(NodeId node) const;
     [[nodiscard]] bool is_kept(const Tree& tree) const;
     [[nodiscard]] std::vector<std::string> domain() const;
-    void put_algebroid(ReducedDocument& document) const;
-    void drop_claims(ReducedDocument& document) const;
+    void put_algebroid();
+    void drop_claims();
     bool move_start(const Scene& scene, TomlValue& table) const;
-    void move_scenes(ReducedDocument& document) const;
+    void move_scenes();
 
     const GroupReduction& reduction_;
-    const std::vector<Setting>& settings_;
+    ReducedDocument document_;
     std::vector<std::string> taken_;
     std::vector<std::string> x_, u_, w_;         ///< names of free coordinates, of their velocities, of generators
     std::map<std::string, Tree> values_;         ///< what names of the whole stand for on the slice
