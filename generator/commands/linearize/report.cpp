@@ -53,10 +53,19 @@ std::string table_text(const std::vector<std::vector<std::string>>& rows)
     return text;
 }
 
+/// By rows, which may be empty: M.rowwise() does not take a matrix without columns.
+std::vector<std::vector<double>> rows_of(const Matrix& M)
+{
+    std::vector<std::vector<double>> rows(static_cast<std::size_t>(M.rows()));
+    for (Eigen::Index i = 0; i < M.rows(); ++i)
+        for (Eigen::Index j = 0; j < M.cols(); ++j) rows[static_cast<std::size_t>(i)].push_back(M(i, j));
+    return rows;
+}
+
 std::string matrix_text(const Matrix& M)
 {
     std::vector<std::vector<std::string>> rows;
-    for (const auto& row : M.rowwise()) {
+    for (const std::vector<double>& row : rows_of(M)) {
         rows.emplace_back();
         for (const double entry : row) rows.back().push_back(short_number(entry));
     }
@@ -179,7 +188,7 @@ void number_json(JsonWriter& json, double value)
 void matrix_json(JsonWriter& json, const char* key, const Matrix& M)
 {
     json.key(key).begin_array();
-    for (const auto& row : M.rowwise()) {
+    for (const std::vector<double>& row : rows_of(M)) {
         json.begin_array();
         for (const double entry : row) number_json(json, entry);
         json.end_array();
