@@ -47,22 +47,22 @@ struct Sides {
     std::vector<EquationSet> source, target;
 };
 
-std::vector<std::string> forms_in(const StructureReport& report)
+std::vector<std::string> forms_in(const std::vector<Check>& checks)
 {
     std::vector<std::string> forms;
-    for (const Check& check : report.checks)
+    for (const Check& check : checks)
         if (std::ranges::find(forms, check.indices[0]) == forms.end()) forms.push_back(check.indices[0]);
     return forms;
 }
 
 /// "  lagrange        g1, g2, g3, w1: proved", a line a form and a status.
-std::string components_text(const StructureReport& report)
+std::string components_text(const std::vector<Check>& checks)
 {
     std::string text;
-    for (const std::string& form : forms_in(report))
+    for (const std::string& form : forms_in(checks))
         for (const ProofStatus status : {ProofStatus::proved, ProofStatus::refuted, ProofStatus::undecided}) {
             std::vector<std::string> components;
-            for (const Check& check : report.checks)
+            for (const Check& check : checks)
                 if (check.indices[0] == form && check.decision.status == status) components.push_back(check.indices[1]);
             if (!components.empty())
                 text += fmt::format("  {:<15} {}: {}\n", form, fmt::join(components, ", "), to_text(status));
@@ -80,11 +80,12 @@ const char* said_of(Verdict verdict)
     return "are not shown to project onto";
 }
 
-std::string reduction_text(const VerifiedMorphism& verified, const StructureReport& report, const Sides& sides)
+std::string reduction_text(const VerifiedMorphism& verified, const ReductionReport& reduction, const Sides& sides)
 {
+    const StructureReport& report = reduction.projects;
     std::string text = fmt::format("{}: the equations of {} {} those of {}\n", verified.name, verified.source_name,
                                    said_of(report.verdict), verified.target_name);
-    text += components_text(report);
+    text += components_text(report.checks) + components_text(reduction.paths);
     if (!report.note.empty()) text += fmt::format("  note: {}\n", report.note);
     text += failures_text(report);
     for (const std::vector<EquationSet>* list : {&sides.source, &sides.target})
@@ -99,11 +100,14 @@ std::string equations_json(const std::vector<EquationSet>& list)
     return "[" + text + "]";
 }
 
-std::string reduction_json(const VerifiedMorphism& verified, const StructureReport& report, const Sides& sides)
+std::string reduction_json(const VerifiedMorphism& verified, const ReductionReport& reduction, const Sides& sides)
 {
+    const StructureReport& report = reduction.projects;
     JsonWriter json;
     json.begin_object().key("model").value(verified.name).key("verdict").value(to_text(report.verdict));
     structure_json(json, report);
+    json.key("paths");
+    checks_json(json, reduction.paths);
     if (!report.note.empty()) json.key("note").value(report.note);
     return fmt::format("{},\n \"source\": {},\n \"target\": {}}}", json.text(), equations_json(sides.source),
                        equations_json(sides.target));
@@ -123,18 +127,18 @@ ExitCode reduce_morphism(const Options& options, const MorphismFile& file)
     const SystemMorphism map = elaborate_whole(file);
     Sides sides;
     const auto add = [&](std::vector<EquationSet>& list, const Model& model, const System& system, const Report& known,
-                         const StructureReport& report) {
+                         const std::vector<Check>& checks) {
         for (const std::string& warning :
              require_unrefuted("model", model.name, model.file->name, known.structure, unchecked))
             write_standard_error(fmt::format("warning: {}\n", warning));
-        for (const std::string& form : forms_in(report)) list.push_back(derive(form, model, system, known));
+        for (const std::string& form : forms_in(checks)) list.push_back(derive(form, model, system, known));
     };
-    const StructureReport report = verify_reduction(map);
-    add(sides.source, source_of(file), map.source, verified.source, report);
-    add(sides.target, target_of(file), map.target, verified.target, report);
+    const ReductionReport report = verify_reduction(map);
+    add(sides.source, source_of(file), map.source, verified.source, report.projects.checks);
+    add(sides.target, target_of(file), map.target, verified.target, report.projects.checks);
     write_result(options, options.get("format") == "json" ? reduction_json(verified, report, sides)
                                                           : reduction_text(verified, report, sides));
-    return code_of(report.verdict);
+    return code_of(report.projects.verdict);
 }
 
 /// Throws MathematicsError with the defect of a coordinate that is none.

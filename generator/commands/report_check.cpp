@@ -207,6 +207,13 @@ const char* lifts_text(ProofStatus lifts)
                : "along integral curves of ρ(∂H/∂μ ∘ α) the momenta α do not solve Hamilton's equations";
 }
 
+const char* action_text(ProofStatus action)
+{
+    if (action == ProofStatus::undecided) return "not decided whether ∫ (L + H) dt along them is the integral of α";
+    return action == ProofStatus::proved ? "along them ∫ (L + H) dt is the integral of α: S(x(t₁)) - S(x(t₀)) where α = dS"
+                                         : "along them ∫ (L + H) dt is not the integral of α";
+}
+
 /// How a proved maximum is known, where more is to be said of it than its name says.
 std::string maximum_text(const StructureReport& structure)
 {
@@ -324,8 +331,10 @@ std::string report_text(const std::string& model, const Report& verified)
     std::string text = fmt::format("{}: {}\n{}", model, to_text(structure.verdict), claims_text(structure));
     for (const FormReport& form : structure.forms)
         text += fmt::format("  {:<16}degree {}, {}\n", "form " + form.name, form.degree, closed_text(form.closed));
-    if (structure.hamilton_jacobi)
-        text += fmt::format("  {:<16}{}\n", "solutions", lifts_text(structure.hamilton_jacobi->lifts));
+    if (const auto& candidate = structure.hamilton_jacobi) {
+        text += fmt::format("  {:<16}{}\n", "solutions", lifts_text(candidate->lifts));
+        if (candidate->action) text += fmt::format("  {:<16}{}\n", "action", action_text(*candidate->action));
+    }
     for (const Regularity* each : {&verified.mechanics.discrete, &verified.mechanics.regularity})
         text += regularity_text(*each);
     text += nonholonomic_text(verified.mechanics);
@@ -335,11 +344,16 @@ std::string report_text(const std::string& model, const Report& verified)
     return text + failures_text(structure);
 }
 
+void checks_json(JsonWriter& json, const std::vector<Check>& checks)
+{
+    json.begin_array();
+    for (const Check& check : checks) check_json(json, check);
+    json.end_array();
+}
+
 void structure_json(JsonWriter& json, const StructureReport& structure)
 {
-    json.key("trivial").value(structure.trivial).key("checks").begin_array();
-    for (const Check& check : structure.checks) check_json(json, check);
-    json.end_array();
+    checks_json(json.key("trivial").value(structure.trivial).key("checks"), structure.checks);
     if (!structure.forms.empty()) {
         json.key("forms").begin_array();
         for (const FormReport& form : structure.forms)
@@ -353,16 +367,14 @@ void structure_json(JsonWriter& json, const StructureReport& structure)
                 .end_object();
         json.end_array();
     }
-    if (const auto& candidate = structure.hamilton_jacobi)
-        json.key("hamilton_jacobi")
-            .begin_object()
-            .key("closed")
-            .value(to_text(candidate->closed))
-            .key("constant_on_leaves")
-            .value(to_text(candidate->equation))
-            .key("lifts")
-            .value(to_text(candidate->lifts))
-            .end_object();
+    if (const auto& candidate = structure.hamilton_jacobi) {
+        json.key("hamilton_jacobi").begin_object();
+        json.key("closed").value(to_text(candidate->closed));
+        json.key("constant_on_leaves").value(to_text(candidate->equation));
+        json.key("lifts").value(to_text(candidate->lifts));
+        if (candidate->action) json.key("action").value(to_text(*candidate->action));
+        json.end_object();
+    }
 }
 
 void report_json(JsonWriter& json, const std::string& model, const Report& verified)

@@ -23,6 +23,9 @@ namespace lagen {
 /// {"model", "verdict", "trivial", "checks": [...], "regularity": {...}} into `json`.
 void report_json(JsonWriter& json, const std::string& model, const Report& verified);
 
+/// The checks as a list, which follows a key.
+void checks_json(JsonWriter& json, const std::vector<Check>& checks);
+
 /// "trivial": .., "checks": [..], and "forms" where there are some, into the open object.
 void structure_json(JsonWriter& json, const StructureReport& structure);
 

@@ -2,6 +2,7 @@
 #include "equations/derive.hpp"
 
 #include "equations/cartan.hpp"
+#include "equations/control_variations.hpp"
 #include "equations/discrete.hpp"
 #include "equations/exterior.hpp"
 #include "equations/hamilton.hpp"
@@ -50,7 +51,9 @@ EquationSet derive(const std::string& form, const Model& model, const System& sy
     if (form == "exterior") return derive_exterior(model, system);
     if (form == "poisson") return derive_poisson(model, system, report.mechanics.regularity, brackets);
     if (form == "invariants") return derive_invariants(model, system, report.mechanics.regularity);
-    if (form == "variations") return derive_variations(model, system);
+    if (form == "variations")
+        return system.control && !system.lagrangian ? derive_control_variations(model, system)
+                                                    : derive_variations(model, system);
     if (form == "cartan") {
         const bool discrete = system.discrete && (system.discrete->written || !system.lagrangian);
         return discrete ? derive_cartan(model, system)

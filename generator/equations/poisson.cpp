@@ -5,6 +5,7 @@
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/lower.hpp"
 #include "mechanics/hamilton.hpp"
+#include "mechanics/pontryagin.hpp"
 #include "mechanics/symplectic.hpp"
 #include "verify/proof_setting.hpp"
 
@@ -44,6 +45,7 @@ class PoissonDerivation {
             set.statements.push_back(dynamics());
             set.statements.push_back(rates());
         }
+        if (system_.control) set.statements.push_back(extremals());
         return set;
     }
 
@@ -169,14 +171,27 @@ class PoissonDerivation {
     /// i_{X_H} Omega - dH with X_H = y^a X_a + mudot_a P^a of Hamilton's equations without forces.
     [[nodiscard]] DecidedStatement dynamics()
     {
-        Section X_H;
-        const PhaseSystem phase = free_motion();
-        for (std::size_t a = 0; a < system_.r(); ++a) X_H.push_back({a, phase.y[a]});
-        for (std::size_t a = 0; a < system_.r(); ++a) X_H.push_back({system_.r() + a, phase.mudot[a]});
-        const ExteriorForm left = contraction(graph_, X_H, canonical_.omega);
-        const ExteriorForm dH = differential(partial_, canonical_.prolongation, function_form(hamiltonian_->value));
         return decided("i_{X_H} Ω = dH  for X_H = y^a X_a + μ̇_a P^a of Hamilton's equations (without forces)",
-                       R"(i_{X_H} \Omega = dH)", named(difference(graph_, left, dH)));
+                       R"(i_{X_H} \Omega = dH)", of_sections(free_motion(), hamiltonian_->value));
+    }
+
+    /// i_X Omega - dH on sections of T^E E*, X = y^a X_a + mudot_a P^a of this motion.
+    [[nodiscard]] std::vector<NamedResidual> of_sections(const PhaseSystem& phase, NodeId H)
+    {
+        Section X;
+        for (std::size_t a = 0; a < system_.r(); ++a) X.push_back({a, phase.y[a]});
+        for (std::size_t a = 0; a < system_.r(); ++a) X.push_back({system_.r() + a, phase.mudot[a]});
+        const ExteriorForm left = contraction(graph_, X, canonical_.omega);
+        return named(difference(graph_, left, differential(partial_, canonical_.prolongation, function_form(H))));
+    }
+
+    /// Pontryagin's equations by a section along pr_1: controls are fixed under d here, dH/du stands apart.
+    [[nodiscard]] DecidedStatement extremals()
+    {
+        const NodeId H = control_hamiltonian(graph_, *system_.control, system_.mu).value;
+        return decided("i_{σ_H} Ω = dH - (∂H/∂u^A) du^A  for σ_H = σ^a X_a + μ̇_a P^a along pr₁: E* ×_M B → E*",
+                       R"(i_{\sigma_H} \Omega = dH - \frac{\partial H}{\partial u^A}\, du^A)",
+                       of_sections(pontryagin_system(graph_, system_, H, {}), H));
     }
 
     [[nodiscard]] DecidedStatement rates()

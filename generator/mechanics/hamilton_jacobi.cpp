@@ -27,6 +27,10 @@ HamiltonJacobiNodes hamilton_jacobi(Graph& graph, const System& system, const Ha
         replacements(algebroid.x, base_velocity(graph, algebroid, balance.y));
     const std::vector<NodeId> along = directional(graph, alpha, motion);
     const NodeId H = at_alpha({hamiltonian.value})[0];
+    if (system.lagrangian) {
+        const NodeId L = substitute(graph, {&*system.lagrangian, 1}, replacements(algebroid.y, balance.y))[0];
+        result.action = graph.subtract(contraction(graph, alpha, balance.y), graph.add(L, H));
+    }
     for (std::size_t b = 0; b < r; ++b) {
         result.equation.push_back(partial.along(algebroid.anchor[b], H));
         result.lift.push_back(graph.subtract(along[b], mudot[b]));

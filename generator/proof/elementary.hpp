@@ -115,6 +115,7 @@ class Elementary {
     [[nodiscard]] StumpffPair repeated(const Family& family, const mpz_class& count);
     void make_family(Family& family, const Fraction& kernel);
     [[nodiscard]] std::optional<Fraction> argument_root(const Fraction& z, int sign);
+    [[nodiscard]] std::optional<Fraction> known_root(const Fraction& z);
     [[nodiscard]] bool is_dense_where_nonzero(const Fraction& z);
     void divide_by_argument(const Fraction& z);
     [[nodiscard]] Fraction number_root(const mpq_class& number, unsigned degree);

@@ -61,7 +61,9 @@ const Fraction* Elementary::exponent_of(const Polynomial& p) const
 /// All roots of one radicand are powers of one generator, whose degree is the least common multiple of theirs.
 Fraction Elementary::root_generator(const Polynomial& radicand, unsigned wanted)
 {
-    unsigned& common = root_degrees_.try_emplace(key_of(radicand), wanted).first->second;
+    const auto [known, fresh] = root_degrees_.try_emplace(key_of(radicand), wanted);
+    unsigned& common = known->second;
+    refined_ = refined_ || (fresh && !families_.empty()); // Stumpff functions are written by known roots
     if (common % wanted != 0 && std::lcm(common, wanted) <= highest_degree) {
         common = std::lcm(common, wanted);
         refined_ = true;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Stumpff functions in the ring. All orders of one argument z are written by c_0 and c_1, z c_{k+2} = 1/k! - c_k, with
-/// c_0^2 + z c_1^2 = 1; where z is w^2 or -w^2, by the sine and cosine, or the exponential, of w.
+/// c_0^2 + z c_1^2 = 1; where z is w^2 or -w^2, by the sine and cosine, or the exponential, of w. So is z >= 0 whose
+/// root stands in the expression already: c_1(v.v) beside sin(|v|/2).
 ///
 /// The division by z is sound although c_k is defined where z = 0. Let V be the points of the tower of generators over
 /// the space F of the free ones, all of them taken as independent variables, and E the expression, in which c_k(z) is
@@ -90,6 +91,23 @@ std::optional<Fraction> Elementary::argument_root(const Fraction& z, int sign)
     return ring_.times(below, ring_.of(root));
 }
 
+/// sqrt z, where z is not negative and roots of its factors are generators already; nothing else.
+std::optional<Fraction> Elementary::known_root(const Fraction& z)
+{
+    const Factored parts = factored(z);
+    if (sgn(parts.number) < 0) return std::nullopt;
+    bool known = false;
+    for (const auto& [base, exponent] : parts.factors) {
+        if (exponent % 2 == 0) continue;
+        const auto found = root_degrees_.find(key_of(base));
+        if (found == root_degrees_.end() || found->second % 2 != 0) return std::nullopt;
+        if (!ring_.signs(base).certainly_nonnegative()) return std::nullopt;
+        known = true;
+    }
+    if (!known) return std::nullopt;
+    return root(z, 2);
+}
+
 /// Two generators: c_0 of the unit n/d, and c_1 / d, so that c_0^2 = 1 - n d (c_1/d)^2 has no denominator.
 void Elementary::make_family(Family& family, const Fraction& kernel)
 {
@@ -141,7 +159,9 @@ Elementary::StumpffPair Elementary::repeated(const Family& family, const mpz_cla
 
 Elementary::StumpffPair Elementary::stumpff_pair(const Fraction& z)
 {
-    if (const auto angle = argument_root(z, 1)) {
+    std::optional<Fraction> angle = argument_root(z, 1);
+    if (!angle) angle = known_root(z);
+    if (angle) {
         divide_by_argument(*angle);
         const SineCosine value = sine_cosine(*angle);
         return {value.cosine, ring_.divide(value.sine, *angle)};

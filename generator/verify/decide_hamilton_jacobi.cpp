@@ -38,13 +38,14 @@ void Claims::decide_hamilton_jacobi(StructureReport& structure, const Regularity
     };
     // Where nothing has terms there may still be no point at which the candidate is defined.
     const ProofStatus defined = judge.decide(graph_.constant(0)).status;
-    report = {defined, defined, defined};
+    report = {defined, defined, defined, std::nullopt};
     for (const auto& [index, value] : nodes.closed.components)
         append("closed", {"alpha", name_of(index[0]), name_of(index[1])}, value, report.closed);
     for (std::size_t b = 0; b < nodes.equation.size(); ++b)
         append("hamilton_jacobi", {name_of(b)}, nodes.equation[b], report.equation);
     for (const NodeId value : nodes.lift)
         if (!graph_.is_zero(value)) report.lifts = both(report.lifts, judge.decide(value).status);
+    if (nodes.action) report.action = both(defined, judge.decide(*nodes.action).status);
     if (defined != ProofStatus::proved)
         structure.checks.push_back({"hamilton_jacobi", {}, judge.decide(graph_.constant(0)), {}, {}});
 }

@@ -98,11 +98,12 @@ struct FormReport {
     ProofStatus closed = ProofStatus::undecided;
 };
 
-/// What is known of the candidate of [hamilton_jacobi]; `lifts` stands outside the verdict.
+/// What is known of the candidate of [hamilton_jacobi]; `lifts` and `action` stand outside the verdict.
 struct HamiltonJacobiReport {
     ProofStatus closed = ProofStatus::undecided;
     ProofStatus equation = ProofStatus::undecided; ///< H o alpha is constant on leaves
     ProofStatus lifts = ProofStatus::undecided;    ///< integral curves of rho(F_H o alpha) lift to solutions
+    std::optional<ProofStatus> action;             ///< <alpha, sigma> = L o sigma + H o alpha along them; of an L
 };
 
 /// Which claims hold: the structure equations of the algebroid, and what else its model says of it.

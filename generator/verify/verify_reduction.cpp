@@ -5,6 +5,7 @@
 #include "mechanics/discrete.hpp"
 #include "mechanics/hamilton.hpp"
 #include "mechanics/pontryagin.hpp"
+#include "mechanics/variations.hpp"
 #include "verify/fibre_rank.hpp"
 #include "verify/judge.hpp"
 #include "verify/mapped_systems.hpp"
@@ -47,10 +48,19 @@ class Reduction {
         if (from_.control && to_.control)
             setting.variables.insert(setting.variables.end(), both_.target_momenta().begin(),
                                      both_.target_momenta().end());
-        judge_ = std::make_unique<Judge>(graph_, std::move(setting), accessory_inputs(from_), 0, budget);
+        std::set<std::string> accessory = accessory_inputs(from_);
+        for (const auto& [letter, list] : {std::pair{"σ_", &s_}, std::pair{"σ̇_", &sdot_}})
+            for (std::size_t b = 0; b < from_.r(); ++b) {
+                std::string name = letter + both_.section(b);
+                while (from_.declares(name) || to_.declares(name)) name += "'";
+                list->push_back(graph_.input(name));
+                setting.variables.push_back(list->back());
+                accessory.insert(std::move(name));
+            }
+        judge_ = std::make_unique<Judge>(graph_, std::move(setting), std::move(accessory), 0, budget);
     }
 
-    StructureReport run()
+    ReductionReport run()
     {
         if (from_.lagrangian && to_.lagrangian) decide_lagrange();
         if (from_.hamiltonian && to_.hamiltonian) decide_hamilton();
@@ -58,7 +68,7 @@ class Reduction {
         if (both_.morphism.of_groupoids && from_.discrete && to_.discrete) decide_discrete();
         if (report_.checks.empty()) report_.note = "the two models have no form of the equations of motion in common";
         report_.verdict = verdict_of(report_);
-        return std::move(report_);
+        return {std::move(report_), std::move(paths_)};
     }
 
   private:
@@ -92,6 +102,7 @@ class Reduction {
     void decide_lagrange()
     {
         const char* form = "lagrange";
+        decide_variations();
         if (carries_states(from_) || carries_states(to_))
             return leave_open(form, "forces that depend on first-order states are not compared");
         const std::vector<NodeId>& y = from_.algebroid.y;
@@ -106,7 +117,8 @@ class Reduction {
             directional(graph_, both_.pushed(y), replacements(from_.algebroid.x, xdot));
         std::vector<NodeId> rest = applied(graph_, there.W, drift);
         for (std::size_t a = 0; a < rest.size(); ++a) rest[a] = graph_.subtract(rest[a], there.f[a]);
-        if (agree_pulled_back(here, there, rest)) {
+        if (decide_lifts(here, there, rest) &&
+            fibre_rank(graph_, both_.matrix, to_.r(), from_.r(), judge_->decider()).surjective) {
             Decision proved;
             proved.status = ProofStatus::proved;
             proved.residual = "0";
@@ -119,25 +131,62 @@ class Reduction {
         for (std::size_t a = 0; a < to_.r(); ++a) decide(form, both_.target_section(a), graph_.add(moved[a], rest[a]));
     }
 
-    /// Whether Phi^* of the target's equations, W' Phi ydot + rest = 0, are the source's: nothing is divided by.
-    [[nodiscard]] bool agree_pulled_back(const Accelerations& here, const Accelerations& there,
-                                         const std::vector<NodeId>& rest)
+    /// Whether Phi^* of the target's equations, W' Phi ydot + rest = 0, are the source's, W ydot = f, by sections of
+    /// the source: nothing is divided by.
+    bool decide_lifts(const Accelerations& here, const Accelerations& there, const std::vector<NodeId>& rest)
     {
         const std::size_t r = from_.r();
-        const auto vanishes = [&](NodeId residual) {
-            return graph_.is_zero(residual) || judge_->decider().status(residual) == ProofStatus::proved;
-        };
+        std::vector<std::vector<NodeId>> residuals(r);
         const std::vector<NodeId> back = both_.pulled(rest);
-        for (std::size_t c = 0; c < r; ++c)
-            if (!vanishes(graph_.add(back[c], here.f[c]))) return false;
+        for (std::size_t c = 0; c < r; ++c) residuals[c].push_back(graph_.add(back[c], here.f[c]));
         for (std::size_t d = 0; d < r; ++d) {
             std::vector<NodeId> column; // Phi e_d
             for (std::size_t a = 0; a < to_.r(); ++a) column.push_back(both_.matrix[a * r + d]);
             const std::vector<NodeId> moved = both_.pulled(applied(graph_, there.W, column));
             for (std::size_t c = 0; c < r; ++c)
-                if (!vanishes(graph_.subtract(moved[c], here.W[c * r + d]))) return false;
+                residuals[c].push_back(graph_.subtract(moved[c], here.W[c * r + d]));
         }
-        return fibre_rank(graph_, both_.matrix, to_.r(), r, judge_->decider()).surjective;
+        bool all = true;
+        for (std::size_t c = 0; c < r; ++c) {
+            Decision decision = judge_->decide(graph_.constant(0));
+            for (const NodeId residual : residuals[c])
+                if (decision.status == ProofStatus::proved && !graph_.is_zero(residual))
+                    decision = judge_->decide(residual);
+            all = all && decision.status == ProofStatus::proved;
+            paths_.push_back({"paths", {"lifts", both_.section(c)}, std::move(decision), {}, {}});
+        }
+        return all;
+    }
+
+    /// delta_s of E-paths goes to delta_s' of their images, s' = Phi s.
+    void decide_variations()
+    {
+        const std::vector<NodeId>& y = from_.algebroid.y;
+        const Variation delta = variation(graph_, from_.algebroid, s_, sdot_);
+        const std::vector<NodeId> pushed = both_.pushed(s_);
+        Replacements motion = replacements(from_.algebroid.x, base_velocity(graph_, from_.algebroid, y));
+        const Replacements more = replacements(s_, sdot_);
+        motion.insert(motion.end(), more.begin(), more.end());
+        std::vector<NodeId> t, tdot; // of the target, for sections and their rates
+        for (std::size_t a = 0; a < to_.r(); ++a) t.push_back(to_.graph.input("σ_ " + both_.target_section(a)));
+        for (std::size_t a = 0; a < to_.r(); ++a) tdot.push_back(to_.graph.input("σ̇_ " + both_.target_section(a)));
+        const Variation target = variation(to_.graph, to_.algebroid, t, tdot);
+        AlongMap along = both_.along;
+        along.set(to_.algebroid.y, both_.pushed(y));
+        along.set(t, pushed);
+        along.set(tdot, directional(graph_, pushed, motion));
+        const auto compare = [&](const std::vector<NodeId>& moved, const std::vector<NodeId>& wanted, auto name_of) {
+            for (std::size_t k = 0; k < moved.size(); ++k)
+                paths_.push_back({"paths",
+                                  {"variations", name_of(k)},
+                                  judge_->decide(graph_.subtract(moved[k], wanted[k])),
+                                  {},
+                                  {}});
+        };
+        compare(varied(graph_, from_.algebroid, delta, both_.morphism.base), along(target.x),
+                [&](std::size_t i) { return both_.target_coordinate(i); });
+        compare(varied(graph_, from_.algebroid, delta, both_.pushed(y)), along(target.y),
+                [&](std::size_t a) { return both_.target_section(a); });
     }
 
     [[nodiscard]] static bool carries_states(const System& system)
@@ -200,6 +249,9 @@ class Reduction {
                 const NodeId rate = partial.along(from_.algebroid.anchor[b], both_.morphism.controls[B]);
                 extra[b] = graph_.add(extra[b], graph_.multiply(slopes[B], rate));
             }
+        const std::vector<NodeId> sections = both_.pushed(from_.control->sigma), image = along(to_.control->sigma);
+        for (std::size_t a = 0; a < to_.r(); ++a)
+            decide(form, both_.target_section(a), graph_.subtract(sections[a], image[a]));
         decide_momenta(form, along, at_pulled(here.xdot), at_pulled(here.mudot), there, extra);
         const std::vector<NodeId> wanted = at_pulled(H.dH_du);
         for (std::size_t A = 0; A < wanted.size(); ++A) {
@@ -256,13 +308,15 @@ class Reduction {
     const System& from_;
     System& to_; ///< functions of the target are derived on its own graph first
     ProofBudget budget_;
+    std::vector<NodeId> s_, sdot_; ///< a section of the source and its rate along a path, inputs
     std::unique_ptr<Judge> judge_;
     StructureReport report_;
+    std::vector<Check> paths_;
 };
 
 } // namespace
 
-StructureReport verify_reduction(const SystemMorphism& morphism, const ProofBudget& budget)
+ReductionReport verify_reduction(const SystemMorphism& morphism, const ProofBudget& budget)
 {
     return Reduction(morphism, budget).run();
 }

@@ -46,7 +46,9 @@ TEST_CASE("the equations of the heavy top in Euler angles project onto those on 
     CHECK(outcome.err.empty());
     CHECK(head_of(outcome.out) ==
           "heavy_top_reduction: the equations of heavy_top_euler project onto those of heavy_top\n"
-          "  lagrange        g1, g2, g3, w1, w2, w3: proved\n");
+          "  lagrange        g1, g2, g3, w1, w2, w3: proved\n"
+          "  variations      g1, g2, g3, w1, w2, w3: proved\n"
+          "  lifts           dph, dth, dps: proved\n");
     for (const char* model : {"heavy_top_euler.toml", "heavy_top.toml"}) {
         const Outcome derived = call({"derive", std::string(LAGEN_SOURCE_DIR) + "/models/" + model});
         CHECK(derived.out.size() > 500);
@@ -59,8 +61,10 @@ TEST_CASE("reduce --format json has the verdict of each component and the equati
     const Outcome outcome = call({"reduce", reduced_models + "elroys_beanie_reduction.toml", "--format", "json"});
     CHECK(outcome.code == 0);
     const json::Value value = json::parse(outcome.out);
-    CHECK(value.keys == std::vector<std::string>{"model", "verdict", "trivial", "checks", "source", "target"});
+    CHECK(value.keys == std::vector<std::string>{"model", "verdict", "trivial", "checks", "paths", "source", "target"});
     CHECK(value["verdict"].text == "valid");
+    CHECK(value["paths"][5]["name"].text == "paths");
+    CHECK(value["paths"][5]["indices"].texts() == std::vector<std::string>{"lifts", "dps"});
     REQUIRE(value["checks"].size() == 5);
     CHECK(value["checks"][4]["name"].text == "projects");
     CHECK(value["checks"][4]["indices"].texts() == std::vector<std::string>{"lagrange", "v2"});
@@ -106,7 +110,8 @@ TEST_CASE("equations project although the Lagrangians do not: twice L, and a tot
     const Outcome outcome = call({"reduce", map, "--unchecked"});
     CHECK(outcome.code == 0);
     CHECK(head_of(outcome.out) ==
-          "map: the equations of twice project onto those of once\n  lagrange        x, y, v_x, v_y: proved\n");
+          "map: the equations of twice project onto those of once\n  lagrange        x, y, v_x, v_y: proved\n"
+          "  variations      x, y, v_x, v_y: proved\n  lifts           v_x, v_y: refuted\n");
 }
 
 TEST_CASE("forces project with the equations, and one that does not is refuted in its component alone")
@@ -118,12 +123,14 @@ TEST_CASE("forces project with the equations, and one that does not is refuted i
     const std::string map = "[morphism]\nsource = \"from.toml\"\nbase = { x = \"-x\" }\nfibre = { v_x = \"-v_x\" }\n";
     const Outcome good = call({"reduce", model_written(folder, "good.toml", map + "target = \"to.toml\"\n")});
     CHECK(head_of(good.out) ==
-          "good: the equations of from project onto those of to\n  lagrange        x, v_x: proved\n");
+          "good: the equations of from project onto those of to\n  lagrange        x, v_x: proved\n"
+          "  variations      x, v_x: proved\n  lifts           v_x: proved\n");
     const Outcome bad =
         call({"reduce", model_written(folder, "bad.toml", map + "target = \"other.toml\"\n"), "--unchecked"});
     CHECK(bad.code == 1);
     CHECK(head_of(bad.out) == "bad: the equations of from do not project onto those of other\n"
-                              "  lagrange        x: proved\n  lagrange        v_x: refuted\n");
+                              "  lagrange        x: proved\n  lagrange        v_x: refuted\n"
+                              "  variations      x, v_x: proved\n  lifts           v_x: refuted\n");
 }
 
 TEST_CASE("discrete equations of arrows are pulled back, on groups, actions and bundles, and for compositions")
@@ -185,7 +192,7 @@ TEST_CASE("Hamilton's equations of H alone, and Pontryagin's with controls that 
         {"reduce", model_written(folder, "steer.toml",
                                  map + "controls = { u = \"cos(z)*u - sin(z)*v\", v = \"sin(z)*u + cos(z)*v\" }\n")});
     CHECK(head_of(pontryagin.out) == "steer: the equations of turning project onto those of fixed\n"
-                                     "  pontryagin      x, y, z, p_v_x, p_v_y, p_v_z, u, v: proved\n");
+                                     "  pontryagin      v_x, v_y, v_z, x, y, z, p_v_x, p_v_y, p_v_z, u, v: proved\n");
 }
 
 TEST_CASE("without options reduce lists the cyclic coordinates of a model")

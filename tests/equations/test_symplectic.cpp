@@ -152,3 +152,15 @@ TEST_CASE("a sign that is wrong in omega_L or in X_H is seen on the graph")
     CHECK(X_F[0].index == 0);
     CHECK(evaluate<double>(graph, {&X_F[0].value, 1}, values)[0] == Approx(0.5));
 }
+
+TEST_CASE("Pontryagin's equations are those of a section along the projection to E*")
+{
+    const std::string turning = "[base]\ncoordinates = [\"x\", \"y\", \"h\"]\n[fibre]\ncoordinates = [\"a\", \"b\", "
+                                "\"c\"]\n[algebroid.anchor]\na = { x = \"cos(h)\", y = \"sin(h)\" }\nb = { h = 1 }\n"
+                                "c = { x = \"-sin(h)\", y = \"cos(h)\" }\n[algebroid.bracket]\n\"a,b\" = { c = -1 }\n"
+                                "\"b,c\" = { a = -1 }\n[control]\ncontrols = [\"u\", \"w\"]\n"
+                                "sigma = { a = \"u*w\", b = \"w + x\" }\ncost = \"u^4 + w^2*y\"\n";
+    const EquationSet equations = derived_from("poisson", turning, {});
+    CHECK(statuses(equations) == Lines{yes, yes, yes});
+    CHECK(equations.statements[2].formula.starts_with("i_{σ_H} Ω = dH - (∂H/∂u^A) du^A"));
+}

@@ -84,3 +84,24 @@ TEST_CASE("parameters may have the names of accelerations and variations")
     CHECK(statuses_of(equations) == all_proved);
     CHECK(print_text(equations).find("  δx = σ_v_x'\n") != std::string::npos);
 }
+
+TEST_CASE("variations of controlled curves stay in an E-homotopy class, and the cost is critical where dH/du = 0")
+{
+    const auto steered = [](const std::string& more) {
+        std::string text = spinning_top(more);
+        return variations_of(text.substr(0, text.find("[lagrangian]")) +
+                             "[control]\ncontrols = [\"u\"]\nsigma = { a = \"u^2\", b = \"g3*u\", c = 1 }\n"
+                             "cost = \"u^4 + g1*u\"\n");
+    };
+    const EquationSet equations = steered("0");
+    CHECK(statuses_of(equations) == "proved proved ");
+    const std::string text = print_text(equations);
+    INFO(text);
+    for (const char* part : {"  δg1 = g2 η_c - g3 η_b\n", "  η̇_a = 2 u δu + η_b - g3 u η_c\n"})
+        CHECK(text.find(part) != std::string::npos);
+    CHECK(print_latex(equations).find(R"(\dot{\eta^{a}} &= )") != std::string::npos);
+    // [e_a, e_b] has more of e_a than its anchor: curves leave the E-paths, and the cost does not see it.
+    const EquationSet wrong = steered("1");
+    CHECK(statuses_of(wrong) == "refuted proved ");
+    CHECK(!wrong.statements[0].witness.empty());
+}

@@ -145,6 +145,10 @@ TEST_CASE("identities of Stumpff functions are proved")
         "stumpff(0, pi^2) + 1",
         "stumpff(0, sqrt(x))^2 + sqrt(x)*stumpff(1, sqrt(x))^2 - 1",
         "sqrt(x)*stumpff(2, sqrt(x)) + stumpff(0, sqrt(x)) - 1",
+        "stumpff(0, x^2 + 3*y^2) - cos(sqrt(x^2 + 3*y^2))",
+        "sqrt(x^2 + y^2)*stumpff(1, x^2 + y^2) - sin(sqrt(x^2 + y^2))",
+        "stumpff(2, x^2 + y^2) - 2*sin(sqrt(x^2 + y^2)/2)^2/(x^2 + y^2)",
+        "stumpff(3, 8*x^2 + 8*y^2)*(x^2 + y^2) - 1/8 + sin(sqrt(8*x^2 + 8*y^2))/(8*sqrt(8*x^2 + 8*y^2))",
         "stumpff(0, stumpff(2, x))^2 + stumpff(2, x)*stumpff(1, stumpff(2, x))^2 - 1",
     };
     Problem p({{"x", "y"}, {}, {}, {}, {}});
@@ -162,6 +166,8 @@ TEST_CASE("near misses of identities of Stumpff functions are refuted")
         "x*stumpff(3, x) - 1 - stumpff(1, x)",
         "stumpff(0, x^2) - cosh(x)",
         "stumpff(1, 4*x) - 2*stumpff(0, x)*stumpff(1, x)",
+        "stumpff(2, x^2 + y^2) - sin(sqrt(x^2 + y^2)/2)^2/(x^2 + y^2)",
+        "stumpff(0, x^2 + y^2) - cos(sqrt(x^2 + 2*y^2))",
         "stumpff(2, x) - stumpff(2, x + 1/10^15)",
         "stumpff(5, x) - stumpff(6, x)*6",
         "stumpff(2, 10^6*x) - stumpff(2, 10^6*x + 1)",

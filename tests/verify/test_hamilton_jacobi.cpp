@@ -125,3 +125,18 @@ TEST_CASE("forces push the momenta off the graph, and an L without closed veloci
     CHECK(candidate_statuses(moving_plane + "[lagrangian]\nL = \"u^2/2\"\n[hamilton_jacobi]\nalpha = { u = 1 }\n") ==
           Names{unknown, unknown, unknown});
 }
+
+TEST_CASE("the action along lifted curves is the integral of alpha, of an L that belongs to H")
+{
+    const auto action_of = [](const std::string& text) {
+        const Report report = verified_text(text);
+        const auto& candidate = report.structure.hamilton_jacobi;
+        return std::string(candidate && candidate->action ? to_text(*candidate->action) : "absent");
+    };
+    const std::string free = moving_plane + "[hamilton_jacobi]\nalpha = { u = \"x*y\", v = 2 }\n";
+    const std::string L = "[lagrangian]\nL = \"(u^2 + v^2)/2 + x*v - y^3\"\n";
+    CHECK(action_of(free + L) == is_so); // whether alpha is closed does not matter
+    CHECK(action_of(free + L + "[forces]\nu = \"-u\"\n") == is_so);
+    CHECK(action_of(free + "[hamiltonian]\nH = \"(p_u^2 + (p_v - x)^2)/2 + y^3\"\n") == "absent");
+    CHECK(action_of(free + L + "[hamiltonian]\nH = \"(p_u^2 + (p_v - x)^2)/2 + y^3 + 1\"\n") == fails);
+}
