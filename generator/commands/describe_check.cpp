@@ -19,6 +19,9 @@ std::string component_of(const Check& check)
 std::string map_equation_text(const Check& check)
 {
     const std::vector<std::string>& k = check.indices;
+    if (check.name == "constraint" && k[0] == "Phi(D)") return "the rank of D' less that of Phi(D)";
+    if (check.name == "constraint" && k.size() == 2 && k[0].starts_with("Phi("))
+        return fmt::format("component {} of {} less its part along the constraint of the target", k[1], k[0]);
     if (check.name == "constraint" && k.size() == 1)
         return fmt::format("the constraint {} of the target at phi(x)", k[0]);
     if (check.name == "admissible" && k.size() == 2)

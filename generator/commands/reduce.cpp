@@ -47,25 +47,33 @@ struct Sides {
     std::vector<EquationSet> source, target;
 };
 
-std::vector<std::string> forms_in(const std::vector<Check>& checks)
+/// Of `projects` and `paths`: a form and a component; of `constraint`, which is no form, what is carried.
+std::string row_of(const Check& check)
 {
-    std::vector<std::string> forms;
+    return check.name == "constraint" ? check.name : check.indices[0];
+}
+
+std::vector<std::string> rows_in(const std::vector<Check>& checks)
+{
+    std::vector<std::string> rows;
     for (const Check& check : checks)
-        if (std::ranges::find(forms, check.indices[0]) == forms.end()) forms.push_back(check.indices[0]);
-    return forms;
+        if (std::ranges::find(rows, row_of(check)) == rows.end()) rows.push_back(row_of(check));
+    return rows;
 }
 
 /// "  lagrange        g1, g2, g3, w1: proved", a line a form and a status.
 std::string components_text(const std::vector<Check>& checks)
 {
     std::string text;
-    for (const std::string& form : forms_in(checks))
+    for (const std::string& row : rows_in(checks))
         for (const ProofStatus status : {ProofStatus::proved, ProofStatus::refuted, ProofStatus::undecided}) {
             std::vector<std::string> components;
             for (const Check& check : checks)
-                if (check.indices[0] == form && check.decision.status == status) components.push_back(check.indices[1]);
+                if (row_of(check) == row && check.decision.status == status)
+                    components.push_back(check.name == row ? fmt::format("{}", fmt::join(check.indices, " "))
+                                                           : check.indices[1]);
             if (!components.empty())
-                text += fmt::format("  {:<15} {}: {}\n", form, fmt::join(components, ", "), to_text(status));
+                text += fmt::format("  {:<15} {}: {}\n", row, fmt::join(components, ", "), to_text(status));
         }
     return text;
 }
@@ -131,7 +139,8 @@ ExitCode reduce_morphism(const Options& options, const MorphismFile& file)
         for (const std::string& warning :
              require_unrefuted("model", model.name, model.file->name, known.structure, unchecked))
             write_standard_error(fmt::format("warning: {}\n", warning));
-        for (const std::string& form : forms_in(checks)) list.push_back(derive(form, model, system, known));
+        for (const std::string& row : rows_in(checks))
+            if (row != "constraint") list.push_back(derive(row, model, system, known));
     };
     const ReductionReport report = verify_reduction(map);
     add(sides.source, source_of(file), map.source, verified.source, report.projects.checks);

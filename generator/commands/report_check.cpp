@@ -210,8 +210,9 @@ const char* lifts_text(ProofStatus lifts)
 const char* action_text(ProofStatus action)
 {
     if (action == ProofStatus::undecided) return "not decided whether ∫ (L + H) dt along them is the integral of α";
-    return action == ProofStatus::proved ? "along them ∫ (L + H) dt is the integral of α: S(x(t₁)) - S(x(t₀)) where α = dS"
-                                         : "along them ∫ (L + H) dt is not the integral of α";
+    return action == ProofStatus::proved
+               ? "along them ∫ (L + H) dt is the integral of α: S(x(t₁)) - S(x(t₀)) where α = dS"
+               : "along them ∫ (L + H) dt is not the integral of α";
 }
 
 /// How a proved maximum is known, where more is to be said of it than its name says.

@@ -69,7 +69,7 @@ void require_linear(SystemMorphism& morphism, const MorphismFile& file)
             row && (graph.is_zero(rest) || ZeroDecider(graph, setting).status(rest) == ProofStatus::proved);
         if (!shown)
             throw ModelError(fmt::format("the value of '{}' is not linear in the fibre coordinates of {}",
-                                         file.target.fibre.coordinates[a].name, file.source.name),
+                                         ambient_fibre(file.target)[a].name, file.source.name),
                              file.fibre[a]->where, "a morphism of algebroids is linear on each fibre");
         value = linear;
     }
@@ -79,11 +79,6 @@ void require_linear(SystemMorphism& morphism, const MorphismFile& file)
 
 SystemMorphism elaborate(const MorphismFile& file)
 {
-    for (const Model* model : {&file.source, &file.target})
-        if (is_nonholonomic(*model))
-            throw ModelError(
-                fmt::format("morphisms of nonholonomic models are not there yet, and '{}' is one", model->name),
-                {file.file, 0, 0}, "without the constraint the map is a morphism of the ambient algebroids");
     SystemMorphism morphism;
     morphism.source = elaborate(file.source);
     morphism.target = elaborate(file.target);

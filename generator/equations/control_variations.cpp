@@ -122,10 +122,11 @@ class ControlVariations {
         const NodeId boundary = graph_.add(contraction(graph_, motion_.mudot, eta_),
                                            contraction(graph_, system_.mu, etadot_)); // d/dt (mu_a eta^a)
         const NodeId right = graph_.subtract(boundary, contraction(graph_, dH_du_, delta_u_));
-        return decided("δL = d/dt (μ_a η^a) - (∂H/∂u^A) δu^A along Pontryagin's μ̇: in its E-homotopy class, η = 0 at the "
-                       "ends, the cost is critical where ∂H/∂u = 0",
-                       R"(\delta L = \frac{d}{dt}(\mu_a\, \eta^a) - \frac{\partial H}{\partial u^A}\, \delta u^A)",
-                       {{{"L"}, graph_.subtract(varied_functions({control_.cost})[0], right)}});
+        return decided(
+            "δL = d/dt (μ_a η^a) - (∂H/∂u^A) δu^A along Pontryagin's μ̇: in its E-homotopy class, η = 0 at the "
+            "ends, the cost is critical where ∂H/∂u = 0",
+            R"(\delta L = \frac{d}{dt}(\mu_a\, \eta^a) - \frac{\partial H}{\partial u^A}\, \delta u^A)",
+            {{{"L"}, graph_.subtract(varied_functions({control_.cost})[0], right)}});
     }
 
     const System& system_;

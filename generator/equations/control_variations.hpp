@@ -8,8 +8,8 @@
 ///                                                                                                  [Martinez 2004]
 #pragma once
 
-#include "model/model.hpp"
 #include "mechanics/system.hpp"
+#include "model/model.hpp"
 #include "notation/equation_set.hpp"
 
 namespace lagen {

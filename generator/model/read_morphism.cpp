@@ -199,8 +199,8 @@ MorphismFile read_morphism_file(const std::shared_ptr<const SourceFile>& file, c
     const bool of_groupoids = from.groupoid && to.groupoid && (element != nullptr || !to.groupoid->has_group());
     if (fibre != nullptr || !of_groupoids)
         morphism.fibre =
-            reader.read_all(fibre, "fibre", block->where(), to.fibre.coordinates, "fibre coordinate",
-                            reader.legal({&x, &from.fibre.coordinates},
+            reader.read_all(fibre, "fibre", block->where(), ambient_fibre(to), "fibre coordinate",
+                            reader.legal({&x, &ambient_fibre(from)},
                                          "base coordinates, fibre coordinates and parameters of the source"));
     if (parameters != nullptr)
         morphism.parameters =

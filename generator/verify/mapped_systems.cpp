@@ -3,6 +3,8 @@
 
 #include "verify/proof_setting.hpp"
 
+#include <algorithm>
+
 namespace lagen {
 
 MappedSystems::MappedSystems(const SystemMorphism& of) : morphism(of), graph(of.source.graph), along(graph, morphism)
@@ -10,6 +12,7 @@ MappedSystems::MappedSystems(const SystemMorphism& of) : morphism(of), graph(of.
     if (morphism.of_groupoids) derived = derived_fibre(graph, morphism);
     given = fibre_matrix(graph, morphism);
     matrix = morphism.fibre.empty() && derived ? derived->matrix : given;
+    moving = velocity_map(graph, morphism, matrix);
 }
 
 std::vector<NodeId> MappedSystems::pulled(const std::vector<NodeId>& covector)
@@ -19,11 +22,7 @@ std::vector<NodeId> MappedSystems::pulled(const std::vector<NodeId>& covector)
 
 std::vector<NodeId> MappedSystems::pushed(const std::vector<NodeId>& vector)
 {
-    const std::size_t r = from().r();
-    std::vector<NodeId> out(to().r(), graph.constant(0));
-    for (std::size_t a = 0; a < to().r(); ++a)
-        for (std::size_t b = 0; b < r; ++b) out[a] = graph.add(out[a], graph.multiply(matrix[a * r + b], vector[b]));
-    return out;
+    return applied(graph, matrix, to().r(), vector);
 }
 
 const std::vector<NodeId>& MappedSystems::target_momenta()
@@ -43,10 +42,20 @@ ProofSetting MappedSystems::setting()
     append(setting.domain, along(to().domain));
     append(setting.defined, morphism.base);
     append(setting.defined, matrix);
+    if (from().distribution)
+        for (const NodeId Y : from().algebroid.y)
+            if (std::ranges::find(setting.variables, Y) == setting.variables.end()) setting.variables.push_back(Y);
     if (from().hamiltonian && to().hamiltonian) append(setting.variables, target_momenta());
     std::erase_if(setting.defined, [&](NodeId node) { return graph.is_constant(node); });
     std::erase_if(setting.domain, [&](NodeId node) { return graph.is_constant(node); });
     return setting;
+}
+
+std::set<std::string> MappedSystems::accessory() const
+{
+    std::set<std::string> names = accessory_inputs(from());
+    for (const NodeId Y : from().algebroid.y) names.insert(from().graph.input_name(Y));
+    return names;
 }
 
 MappedSystems::Arrows MappedSystems::arrows()

@@ -6,6 +6,8 @@
 #include "mechanics/morphism.hpp"
 #include "verify/arrow_decider.hpp"
 
+#include <set>
+
 namespace lagen {
 
 class MappedSystems {
@@ -22,9 +24,12 @@ class MappedSystems {
     std::optional<DerivedFibre> derived; ///< of a morphism of groupoids
     std::vector<NodeId> given;           ///< Phi^a_b as `fibre` says, shape (r', r); may be empty
     std::vector<NodeId> matrix;          ///< Phi^a_b, shape (r', r)
+    VelocityMap moving;                  ///< on velocities: Phi itself, but of nonholonomic systems
 
     [[nodiscard]] const System& from() const { return morphism.source; }
     [[nodiscard]] const System& to() const { return morphism.target; }
+
+    [[nodiscard]] bool is_constrained() const { return from().distribution || to().distribution; }
 
     /// Phi^a_b w_a and Phi^a_b v^b.
     [[nodiscard]] std::vector<NodeId> pulled(const std::vector<NodeId>& covector);
@@ -34,6 +39,8 @@ class MappedSystems {
 
     /// Points of the source which the map takes into the domain of the target.
     [[nodiscard]] ProofSetting setting();
+    /// Inputs that a witness names only where it needs them.
+    [[nodiscard]] std::set<std::string> accessory() const;
 
     /// An arrow g and one that follows it: s(h) = t(g).
     struct Arrows {
@@ -45,6 +52,12 @@ class MappedSystems {
 
     [[nodiscard]] std::string section(std::size_t b) const { return from().graph.input_name(from().algebroid.y[b]); }
     [[nodiscard]] std::string target_section(std::size_t a) const { return to().graph.input_name(to().algebroid.y[a]); }
+    /// Of y^alpha where the system is nonholonomic.
+    [[nodiscard]] std::string velocity(std::size_t b) const { return from().graph.input_name(from().velocities()[b]); }
+    [[nodiscard]] std::string target_velocity(std::size_t a) const
+    {
+        return to().graph.input_name(to().velocities()[a]);
+    }
     [[nodiscard]] std::string target_coordinate(std::size_t i) const
     {
         return to().graph.input_name(to().algebroid.x[i]);

@@ -3,11 +3,11 @@
 
 #include "graph/calculus/differentiate.hpp"
 #include "graph/calculus/transplant.hpp"
-#include "verify/judge.hpp"
-#include "verify/mapped_systems.hpp"
 #include "verify/proof_setting.hpp"
 
 #include <algorithm>
+
+#include <fmt/format.h>
 
 namespace lagen {
 
@@ -18,7 +18,7 @@ class MorphismClaims {
     MorphismClaims(const SystemMorphism& morphism, std::size_t points, const ProofBudget& budget)
         : both_(morphism), morphism_(both_.morphism), from_(both_.from()), to_(both_.to()), graph_(both_.graph),
           budget_(budget), along_(both_.along), matrix_(both_.matrix),
-          judge_(std::make_unique<Judge>(graph_, both_.setting(), accessory_inputs(from_), points, budget))
+          judge_(std::make_unique<Judge>(graph_, both_.setting(), both_.accessory(), points, budget))
     {
     }
 
@@ -26,6 +26,11 @@ class MorphismClaims {
     {
         decide_constraints();
         decide_algebroid();
+        if (both_.is_constrained())
+            for (Check& check : distribution_checks(both_, *judge_)) {
+                reaches_all_ = check.decision.status == ProofStatus::proved; // the last is Phi(D) = D'
+                report_.structure.checks.push_back(std::move(check));
+            }
         decide_functions();
         if (morphism_.of_groupoids) decide_arrows();
         report_.rank = fibre_rank(graph_, matrix_, to_.r(), from_.r(), judge_->decider());
@@ -161,9 +166,10 @@ class MorphismClaims {
         structure.verdict = verdict_of(structure);
         if (structure.verdict != Verdict::valid) return;
         const bool both = from_.lagrangian && to_.lagrangian;
-        const bool surjective = report_.rank.surjective && report_.rank.where.empty(); // at every point
+        const bool everywhere = report_.rank.surjective && report_.rank.where.empty(); // at every point
+        const bool surjective = both_.is_constrained() ? reaches_all_ : everywhere;
         report_.theorems.reduction = both && surjective;
-        report_.theorems.reconstruction = both && surjective && report_.rank.injective;
+        report_.theorems.reconstruction = both && everywhere && report_.rank.injective;
         report_.theorems.discrete = morphism_.of_groupoids && from_.discrete && to_.discrete && surjective;
     }
 
@@ -175,10 +181,43 @@ class MorphismClaims {
     const AlongMap& along_;
     const std::vector<NodeId>& matrix_;
     std::unique_ptr<Judge> judge_;
+    bool reaches_all_ = false; ///< D' by D
     MorphismReport report_;
 };
 
 } // namespace
+
+std::vector<Check> distribution_checks(MappedSystems& both, Judge& judge)
+{
+    std::vector<Check> checks;
+    const std::vector<std::vector<NodeId>>& outside = both.moving.outside;
+    for (std::size_t alpha = 0; alpha < outside.size(); ++alpha)
+        for (std::size_t a = 0; a < outside[alpha].size(); ++a) {
+            const NodeId residual = outside[alpha][a];
+            if (both.graph.is_zero(residual)) continue;
+            const std::string of = alpha + 1 < outside.size() ? both.velocity(alpha) : "drift";
+            checks.push_back({"constraint",
+                              {"Phi(" + of + ")", both.target_section(a)},
+                              judge.decide(residual),
+                              {},
+                              judge.reevaluate(residual)});
+        }
+    const std::size_t wanted = both.to().velocities().size();
+    const FibreRank rank =
+        fibre_rank(both.graph, both.moving.matrix, wanted, both.from().velocities().size(), judge.decider());
+    Check onto{"constraint", {"Phi(D)"}, {}, {}, {}};
+    if (rank.surjective && rank.where.empty()) {
+        onto.decision = judge.decide(both.graph.constant(0));
+    } else if (rank.rank && *rank.rank < wanted) {
+        onto.decision.status = ProofStatus::refuted;
+        onto.decision.residual = std::to_string(wanted - *rank.rank);
+        onto.decision.evidence = fmt::format("Phi(D) has the rank {}, and D' has {}", *rank.rank, wanted);
+    } else {
+        onto.decision.evidence = "the rank of Phi on D is not decided at every point";
+    }
+    checks.push_back(std::move(onto));
+    return checks;
+}
 
 Verdict worse(Verdict a, Verdict b)
 {
@@ -196,7 +235,7 @@ void append_equality(StructureReport& structure, const SystemMorphism& morphism,
                      const ProofBudget& budget)
 {
     MappedSystems both(morphism);
-    Judge judge(both.graph, both.setting(), accessory_inputs(both.from()), 0, budget);
+    Judge judge(both.graph, both.setting(), both.accessory(), 0, budget);
     const auto compare = [&](const std::vector<NodeId>& mine, const std::vector<NodeId>& theirs, const auto& name_of) {
         if (mine.size() != theirs.size()) return;
         const std::vector<NodeId> moved = transplant(both.graph, other.source.graph, theirs, {});

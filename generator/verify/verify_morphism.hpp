@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The claims of a morphism Phi: E -> E' over phi, each proved, refuted or undecided:
-///   constraint   h'(phi(x)) = 0 for each base constraint h' of the target
+///   constraint   h'(phi(x)) = 0 for each base constraint h' of the target; where one side is nonholonomic
+///                ("Phi(y)", a): what of Phi(e_alpha) is not in D', ("Phi(drift)", a): of Phi(b) not in b' + D',
+///                ("Phi(D)"): Phi(D) = D'
 ///   admissible   rho'(Phi e_b) = rho(e_b)(phi^i)                                     (b, i)
 ///   morphism     Phi [e_b, e_c] against [Phi e_b, Phi e_c], component a              (b, c, a)
 ///   invariance   L = L' o Phi;  Q_b = Phi^a_b Q'_a;  H o Phi^* = H';  cost, sigma;  discrete L = L' o phi
@@ -16,6 +18,8 @@
 
 #include "mechanics/morphism.hpp"
 #include "verify/fibre_rank.hpp"
+#include "verify/judge.hpp"
+#include "verify/mapped_systems.hpp"
 #include "verify/verify.hpp"
 
 namespace lagen {
@@ -40,6 +44,9 @@ struct MorphismReport {
 /// Decides that `morphism` is the map `other` between the same systems: phi^i, y'^a, u' and W' where both give them.
 void append_equality(StructureReport& structure, const SystemMorphism& morphism, const SystemMorphism& other,
                      const ProofBudget& budget = {});
+
+/// The checks `constraint` of nonholonomic systems, residuals that are 0 by structure left out.
+[[nodiscard]] std::vector<Check> distribution_checks(MappedSystems& both, Judge& judge);
 
 /// The worse of two: invalid, undecided, valid.
 [[nodiscard]] Verdict worse(Verdict a, Verdict b);

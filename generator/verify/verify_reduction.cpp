@@ -6,37 +6,23 @@
 #include "mechanics/hamilton.hpp"
 #include "mechanics/pontryagin.hpp"
 #include "mechanics/variations.hpp"
-#include "verify/fibre_rank.hpp"
-#include "verify/judge.hpp"
-#include "verify/mapped_systems.hpp"
 #include "verify/proof_setting.hpp"
+#include "verify/verify_morphism.hpp"
 
 namespace lagen {
 
 namespace {
 
-/// W ydot = f.
+/// W ydot = f along xdot.
 struct Accelerations {
-    std::vector<NodeId> W, f;
+    std::vector<NodeId> W, f, xdot;
 };
 
 Accelerations accelerations(Graph& graph, const System& system)
 {
     const LagrangianNodes lagrangian = lagrangian_nodes(graph, system);
-    return {lagrangian.fibre.hessian,
-            lagrange_rates(graph, system, lagrangian, lagrange_balance(graph, system, lagrangian)).force};
-}
-
-/// A v, A by rows of as many entries as v has.
-std::vector<NodeId> applied(Graph& graph, const std::vector<NodeId>& A, const std::vector<NodeId>& v)
-{
-    std::vector<NodeId> out;
-    for (std::size_t a = 0; a * v.size() < A.size(); ++a) {
-        NodeId sum = graph.constant(0);
-        for (std::size_t b = 0; b < v.size(); ++b) sum = graph.add(sum, graph.multiply(A[a * v.size() + b], v[b]));
-        out.push_back(sum);
-    }
-    return out;
+    LagrangeRates rates = lagrange_rates(graph, system, lagrangian, lagrange_balance(graph, system, lagrangian));
+    return {lagrangian.fibre.hessian, std::move(rates.force), std::move(rates.xdot)};
 }
 
 class Reduction {
@@ -48,7 +34,7 @@ class Reduction {
         if (from_.control && to_.control)
             setting.variables.insert(setting.variables.end(), both_.target_momenta().begin(),
                                      both_.target_momenta().end());
-        std::set<std::string> accessory = accessory_inputs(from_);
+        std::set<std::string> accessory = both_.accessory();
         for (const auto& [letter, list] : {std::pair{"σ_", &s_}, std::pair{"σ̇_", &sdot_}})
             for (std::size_t b = 0; b < from_.r(); ++b) {
                 std::string name = letter + both_.section(b);
@@ -62,11 +48,14 @@ class Reduction {
 
     ReductionReport run()
     {
+        if (both_.is_constrained()) report_.checks = distribution_checks(both_, *judge_);
+        const std::size_t before = report_.checks.size();
         if (from_.lagrangian && to_.lagrangian) decide_lagrange();
         if (from_.hamiltonian && to_.hamiltonian) decide_hamilton();
         if (from_.control && to_.control) decide_pontryagin();
         if (both_.morphism.of_groupoids && from_.discrete && to_.discrete) decide_discrete();
-        if (report_.checks.empty()) report_.note = "the two models have no form of the equations of motion in common";
+        if (report_.checks.size() == before)
+            report_.note = "the two models have no form of the equations of motion in common";
         report_.verdict = verdict_of(report_);
         return {std::move(report_), std::move(paths_)};
     }
@@ -102,49 +91,50 @@ class Reduction {
     void decide_lagrange()
     {
         const char* form = "lagrange";
-        decide_variations();
+        if (!both_.is_constrained()) decide_variations();
         if (carries_states(from_) || carries_states(to_))
             return leave_open(form, "forces that depend on first-order states are not compared");
-        const std::vector<NodeId>& y = from_.algebroid.y;
+        const std::vector<NodeId>& image = both_.moving.velocities;
         AlongMap along = both_.along;
-        along.set(to_.algebroid.y, both_.pushed(y));
-        const std::vector<NodeId> xdot = base_velocity(graph_, from_.algebroid, y);
-        decide_base(form, along, xdot, base_velocity(to_.graph, to_.algebroid, to_.algebroid.y));
-
+        along.set(to_.velocities(), image);
         const Accelerations here = accelerations(graph_, from_), of_target = accelerations(to_.graph, to_);
-        const Accelerations there{along(of_target.W), along(of_target.f)};
-        const std::vector<NodeId> drift = // d/dt (Phi y) at fixed y
-            directional(graph_, both_.pushed(y), replacements(from_.algebroid.x, xdot));
-        std::vector<NodeId> rest = applied(graph_, there.W, drift);
+        decide_base(form, along, here.xdot, of_target.xdot);
+        const Accelerations there{along(of_target.W), along(of_target.f), {}};
+        Replacements motion = replacements(from_.algebroid.x, here.xdot);
+        motion.emplace_back(from_.time, graph_.constant(1));
+        const std::vector<NodeId> drift = directional(graph_, image, motion); // d/dt y' at fixed y
+        std::vector<NodeId> rest = applied(graph_, there.W, drift.size(), drift);
         for (std::size_t a = 0; a < rest.size(); ++a) rest[a] = graph_.subtract(rest[a], there.f[a]);
+        const std::size_t k = to_.velocities().size();
         if (decide_lifts(here, there, rest) &&
-            fibre_rank(graph_, both_.matrix, to_.r(), from_.r(), judge_->decider()).surjective) {
+            fibre_rank(graph_, both_.moving.matrix, k, from_.velocities().size(), judge_->decider()).surjective) {
             Decision proved;
             proved.status = ProofStatus::proved;
             proved.residual = "0";
             proved.evidence = "W = Phi^* W' Phi, f = Phi^* (f' - W' dPhi/dt y), and Phi^* is injective";
-            for (std::size_t a = 0; a < to_.r(); ++a) append(form, both_.target_section(a), proved);
+            for (std::size_t a = 0; a < k; ++a) append(form, both_.target_velocity(a), proved);
             return;
         }
         const std::vector<NodeId> ydot = graph_.solve(here.W, here.f, MatrixStructure::symmetric);
-        const std::vector<NodeId> moved = applied(graph_, there.W, both_.pushed(ydot));
-        for (std::size_t a = 0; a < to_.r(); ++a) decide(form, both_.target_section(a), graph_.add(moved[a], rest[a]));
+        const std::vector<NodeId> moved = applied(graph_, there.W, k, applied(graph_, both_.moving.matrix, k, ydot));
+        for (std::size_t a = 0; a < k; ++a) decide(form, both_.target_velocity(a), graph_.add(moved[a], rest[a]));
     }
 
     /// Whether Phi^* of the target's equations, W' Phi ydot + rest = 0, are the source's, W ydot = f, by sections of
     /// the source: nothing is divided by.
     bool decide_lifts(const Accelerations& here, const Accelerations& there, const std::vector<NodeId>& rest)
     {
-        const std::size_t r = from_.r();
+        const std::size_t r = from_.velocities().size();
+        const std::vector<NodeId>& Phi = both_.moving.matrix;
+        const auto pulled = [&](const std::vector<NodeId>& f) { return pulled_covector(graph_, Phi, r, f); };
         std::vector<std::vector<NodeId>> residuals(r);
-        const std::vector<NodeId> back = both_.pulled(rest);
+        const std::vector<NodeId> back = pulled(rest);
         for (std::size_t c = 0; c < r; ++c) residuals[c].push_back(graph_.add(back[c], here.f[c]));
         for (std::size_t d = 0; d < r; ++d) {
             std::vector<NodeId> column; // Phi e_d
-            for (std::size_t a = 0; a < to_.r(); ++a) column.push_back(both_.matrix[a * r + d]);
-            const std::vector<NodeId> moved = both_.pulled(applied(graph_, there.W, column));
-            for (std::size_t c = 0; c < r; ++c)
-                residuals[c].push_back(graph_.subtract(moved[c], here.W[c * r + d]));
+            for (std::size_t a = 0; a < to_.velocities().size(); ++a) column.push_back(Phi[a * r + d]);
+            const std::vector<NodeId> moved = pulled(applied(graph_, there.W, column.size(), column));
+            for (std::size_t c = 0; c < r; ++c) residuals[c].push_back(graph_.subtract(moved[c], here.W[c * r + d]));
         }
         bool all = true;
         for (std::size_t c = 0; c < r; ++c) {
@@ -153,7 +143,7 @@ class Reduction {
                 if (decision.status == ProofStatus::proved && !graph_.is_zero(residual))
                     decision = judge_->decide(residual);
             all = all && decision.status == ProofStatus::proved;
-            paths_.push_back({"paths", {"lifts", both_.section(c)}, std::move(decision), {}, {}});
+            paths_.push_back({"paths", {"lifts", both_.velocity(c)}, std::move(decision), {}, {}});
         }
         return all;
     }

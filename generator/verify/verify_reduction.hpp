@@ -9,6 +9,7 @@
 ///   pontryagin  the same at u' = psi(x, u, t) modulo dH'/du' = 0, u: dH/du - dH'/du' dpsi/du, and
 ///               y'^a: Phi^a_b sigma^b - sigma'^a(phi, psi)
 ///   discrete    DEL_b(g, h) - Phi^c_b(t(g)) DEL'_c(phi(g), phi(h))
+/// Of nonholonomic systems y are the weights of sections, and the checks `constraint` of verify_morphism come first.
 /// Forms that both sides have, Hamilton's where H is given. Of Lagrangians also what Phi does to E-paths, by checks
 /// named `paths`:
 ///   variations  x'^i, y'^a: the image of delta_s less delta'_{Phi s}, mechanics/variations.hpp: TPhi Xi_a(s) =

@@ -37,14 +37,18 @@ Projection::Projection(SystemMorphism morphism, const std::string& form, const S
     put(to.algebroid.x, morphism_.base);
     if (kind.steps) put(to.groupoid->arrow.W, morphism_.element);
     if (kind.kind == FormKind::pontryagin) put(to.control->u, morphism_.controls);
+    const VelocityMap moving = velocity_map(graph_, morphism_, matrix_);
+    velocities_ = moving.velocities;
+    matrix_ = moving.matrix;
     if (!kind.momenta) {
-        put(to.algebroid.y, morphism_.fibre);
+        put(to.velocities(), velocities_);
         return;
     }
     std::vector<NodeId> mu;
     for (const NodeId each : to.mu) mu.push_back(in_target(to.graph.input_name(each)));
-    const std::vector<NodeId> pulled = pulled_covector(graph_, matrix_, from.r(), mu);
-    for (std::size_t b = 0; b < from.r(); ++b)
+    const std::size_t r = from.velocities().size();
+    const std::vector<NodeId> pulled = pulled_covector(graph_, matrix_, r, mu);
+    for (std::size_t b = 0; b < r; ++b)
         columns_.push_back({graph_.input_name(from.mu[b]), ComparedColumn::Kind::pulled, pulled[b]});
 }
 
@@ -107,7 +111,7 @@ std::vector<NamedNumber> Projection::base(const Values& x) const
 
 std::vector<NamedNumber> Projection::fibre(const Values& state) const
 {
-    return named(morphism_.target.graph, morphism_.target.algebroid.y, at(morphism_.fibre, state));
+    return named(morphism_.target.graph, morphism_.target.velocities(), at(velocities_, state));
 }
 
 std::vector<NamedNumber> Projection::momenta(const Values& x, const std::vector<long double>& mu) const

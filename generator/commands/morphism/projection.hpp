@@ -50,8 +50,9 @@ class Projection {
     [[nodiscard]] std::vector<long double> at(const std::vector<NodeId>& nodes, Values values) const;
 
     SystemMorphism morphism_;
-    Graph graph_;                ///< the source's, and what is derived here
-    std::vector<NodeId> matrix_; ///< Phi^a_b, shape (r', r)
+    Graph graph_;                    ///< the source's, and what is derived here
+    std::vector<NodeId> velocities_; ///< y'^a over x, y
+    std::vector<NodeId> matrix_;     ///< d y'^a / d y^b, shape (k', k)
     std::vector<ComparedColumn> columns_;
     std::vector<std::string> of_target_; ///< columns of the target that images use, as inputs with a prime behind
     [[nodiscard]] NodeId in_target(const std::string& name);
