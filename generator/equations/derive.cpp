@@ -28,14 +28,16 @@ std::vector<std::string> derivation_names()
 
 namespace {
 
-EquationSet derive_constrained(const std::string& form, const Model& model, const System& system)
+EquationSet derive_constrained(const std::string& form, const Model& model, const System& system,
+                               const std::vector<Tree>& brackets)
 {
     if (form == "reaction") return derive_reaction(model, system);
     if (form == "projected") return derive_projected(model, system);
     if (form == entry_of(FormKind::lagrange).name) return derive_nonholonomic(model, system);
     if (form == entry_of(FormKind::hamilton).name) return derive_constrained_hamilton(model, system);
+    if (form == "poisson") return derive_almost_poisson(model, system, brackets);
     throw MathematicsError("the form '" + form + "' of a nonholonomic model is not derived yet",
-                           "lagrange, hamilton, reaction and projected are");
+                           "lagrange, hamilton, poisson, reaction and projected are");
 }
 
 } // namespace
@@ -44,7 +46,7 @@ EquationSet derive(const std::string& form, const Model& model, const System& sy
                    const std::vector<Tree>& brackets)
 {
     const WrittenAlgebroid& algebroid = system.written.algebroid;
-    if (system.distribution) return derive_constrained(form, model, system);
+    if (system.distribution) return derive_constrained(form, model, system, brackets);
     if (form == "reaction" || form == "projected")
         throw MathematicsError("the form '" + form + "' is of nonholonomic models, and '" + model.name + "' is none",
                                "[algebroid] kind = \"nonholonomic\"");

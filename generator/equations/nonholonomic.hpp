@@ -29,6 +29,11 @@ namespace lagen {
 /// brackets. Throws MathematicsError also where y(x, p) is too long to be written out.
 [[nodiscard]] EquationSet derive_constrained_hamilton(const Model& model, const System& system);
 
+/// These brackets, those of `functions` over x and p in pairs, and the first triple of coordinates on which Jacobi's
+/// identity fails. Throws MathematicsError also where there is a drift.
+[[nodiscard]] EquationSet derive_almost_poisson(const Model& model, const System& system,
+                                                const std::vector<Tree>& functions);
+
 /// Throws MathematicsError where the model has no Lagrangian.
 void require_lagrangian(const Model& model);
 

@@ -102,6 +102,20 @@ class NonholonomicForms : ConstrainedModel {
         return set;
     }
 
+    /// `functions`: F, G of each pair whose bracket is asked for, over x and p.
+    EquationSet poisson(const std::vector<Tree>& functions)
+    {
+        if (has_drift())
+            throw MathematicsError("model '" + symbolic_.model().name + "' has a drift, which no bracket on D* makes",
+                                   "--form hamilton shows its equations there");
+        EquationSet set = symbolic_.empty_set("poisson");
+        take_momenta();
+        set.blocks = {almost_poisson()};
+        if (!functions.empty()) set.blocks.push_back(brackets_of(functions));
+        if (EquationBlock failure = jacobiator(); !failure.equations.empty()) set.blocks.push_back(std::move(failure));
+        return set;
+    }
+
   private:
     /// L = G(Y, Y)/2 - V and no drift: only then the projected bracket gives the equations of motion.
     void require_mechanical() const
@@ -211,6 +225,26 @@ class NonholonomicForms : ConstrainedModel {
         return value;
     }
 
+    [[nodiscard]] EquationBlock brackets_of(const std::vector<Tree>& functions)
+    {
+        EquationBlock block{
+            "brackets of functions",
+            "{F, G} = F^α ρ(e_α)(G) - G^α ρ(e_α)(F) + {p_α, p_β} F^α G^β,  F^α = ∂F/∂p_α",
+            R"(\{F, G\} = F^\alpha\, \rho(e_\alpha)(G) - G^\alpha\, \rho(e_\alpha)(F) + \{p_\alpha, p_\beta\}\, F^\alpha )"
+            R"(G^\beta,\quad F^\alpha = \frac{\partial F}{\partial p_\alpha})",
+            {}};
+        for (std::size_t k = 0; k + 1 < functions.size(); k += 2) {
+            const GiNaC::ex F = symbolic_.lower(functions[k]), G = symbolic_.lower(functions[k + 1]);
+            const std::string number = k == 0 ? "" : std::to_string(k / 2 + 1);
+            block.equations.push_back(symbolic_.equation(LeftSide::symbol, "F" + number, {F}));
+            block.equations.push_back(symbolic_.equation(LeftSide::symbol, "G" + number, {G}));
+            Equation value = symbolic_.equation(LeftSide::bracket, "F" + number, {almost_bracket(F, G)});
+            value.other = "G" + number;
+            block.equations.push_back(std::move(value));
+        }
+        return block;
+    }
+
     /// Of a coordinate of the base or a momentum and two momenta: the first that does not vanish.
     [[nodiscard]] EquationBlock jacobiator()
     {
@@ -245,28 +279,36 @@ class NonholonomicForms : ConstrainedModel {
     GiNaC::exmap momenta_; ///< y(x, p)
 };
 
-EquationSet derived_with(const Model& model, const System& system, EquationSet (NonholonomicForms::*derivation)())
+template <class Derivation>
+EquationSet derived_with(const Model& model, const System& system, const Derivation& derivation)
 {
     require_lagrangian(model);
-    return derived(model, "the nonholonomic equations",
-                   [&] { return (NonholonomicForms(model, system).*derivation)(); });
+    return derived(model, "the nonholonomic equations", [&] {
+        NonholonomicForms forms(model, system);
+        return derivation(forms);
+    });
 }
 
 } // namespace
 
 EquationSet derive_reaction(const Model& model, const System& system)
 {
-    return derived_with(model, system, &NonholonomicForms::reactions);
+    return derived_with(model, system, [](NonholonomicForms& forms) { return forms.reactions(); });
 }
 
 EquationSet derive_projected(const Model& model, const System& system)
 {
-    return derived_with(model, system, &NonholonomicForms::projected);
+    return derived_with(model, system, [](NonholonomicForms& forms) { return forms.projected(); });
+}
+
+EquationSet derive_almost_poisson(const Model& model, const System& system, const std::vector<Tree>& functions)
+{
+    return derived_with(model, system, [&](NonholonomicForms& forms) { return forms.poisson(functions); });
 }
 
 EquationSet derive_constrained_hamilton(const Model& model, const System& system)
 {
-    return derived_with(model, system, &NonholonomicForms::hamilton);
+    return derived_with(model, system, [](NonholonomicForms& forms) { return forms.hamilton(); });
 }
 
 } // namespace lagen

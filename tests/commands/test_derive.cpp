@@ -88,3 +88,13 @@ TEST_CASE("-o writes the equations to a file")
     CHECK(outcome.out.empty());
     CHECK(read_text(folder + "/a.tex") == call({"derive", "pendulum.toml", "--format", "latex"}).out);
 }
+
+TEST_CASE("almost Poisson brackets of functions on D* are printed, and Jacobi's identity is said to fail")
+{
+    const Outcome outcome = call({"derive", std::string(LAGEN_SOURCE_DIR) + "/models/chaplygin_sleigh.toml", "--form",
+                                  "poisson", "--bracket", "p_u", "--bracket", "x*p_w"});
+    INFO(outcome.out << outcome.err);
+    CHECK(outcome.code == 0);
+    CHECK(outcome.out.find("  {F, G} = p_w (cos(th) - m a x/(m a² + J))\n") != std::string::npos);
+    CHECK(outcome.out.find("  J(x, p_u, p_w) = sin(th)\n") != std::string::npos);
+}

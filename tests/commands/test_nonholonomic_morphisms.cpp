@@ -25,8 +25,9 @@ std::vector<std::string> refuted_by_check(const std::string& map)
 {
     const Outcome outcome = call({"check", constrained_maps + map, "--format", "json"});
     CHECK(outcome.code == 1);
+    const json::Value report = json::parse(outcome.out);
     std::vector<std::string> out;
-    for (const json::Value& check : json::parse(outcome.out)["checks"].entries) {
+    for (const json::Value& check : report["checks"].entries) {
         if (check["status"].text != "refuted") continue;
         std::string text = check["name"].text;
         for (const std::string& index : check["indices"].texts()) text += " " + index;
@@ -72,7 +73,8 @@ TEST_CASE("motions of nonholonomic models project, by velocities and by momenta"
     for (const std::vector<std::string>& more :
          {std::vector<std::string>{}, std::vector<std::string>{"--form", "hamilton"}})
         for (const char* map : {"sleigh_reduction.toml", "turned_table.toml"}) {
-            std::vector<std::string> arguments{"run", constrained_maps + map, "--tolerance", "1e-12", "--format", "json"};
+            std::vector<std::string> arguments{"run", constrained_maps + map, "--tolerance", "1e-12", "--format",
+                                               "json"};
             arguments.insert(arguments.end(), more.begin(), more.end());
             const Outcome outcome = call(arguments);
             INFO(map << outcome.err);

@@ -64,7 +64,7 @@ TEST_CASE("reduce --format json has the verdict of each component and the equati
     CHECK(value.keys == std::vector<std::string>{"model", "verdict", "trivial", "checks", "paths", "source", "target"});
     CHECK(value["verdict"].text == "valid");
     CHECK(value["paths"][5]["name"].text == "paths");
-    CHECK(value["paths"][5]["indices"].texts() == std::vector<std::string>{"lifts", "dps"});
+    CHECK(value["paths"][5]["indices"].texts() == std::vector<std::string>{"lifts", "v_th"});
     REQUIRE(value["checks"].size() == 5);
     CHECK(value["checks"][4]["name"].text == "projects");
     CHECK(value["checks"][4]["indices"].texts() == std::vector<std::string>{"lagrange", "v2"});

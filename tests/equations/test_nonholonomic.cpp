@@ -87,6 +87,8 @@ TEST_CASE("reactions, projected brackets and the form on D* of a sleigh")
     const std::string hamilton = print_text(constrained_equations("hamilton", sleigh));
     CHECK(hamilton.find("{p_u, p_w} = -m a p_w/(m a² + J)") != std::string::npos);
     CHECK(hamilton.find("J(x, p_u, p_w) = sin(th)") != std::string::npos);
+    const std::string poisson = print_text(constrained_equations("poisson", sleigh));
+    CHECK(hamilton.ends_with(poisson.substr(poisson.find("\n\n"))));
 }
 
 TEST_CASE("sections and their brackets are written in LaTeX and JSON")
