@@ -14,7 +14,8 @@ EquationSet derive_invariants(const Model& model, const System& system, const Re
 {
     Graph graph = system.graph;
     std::optional<HamiltonianNodes> H;
-    if (system.hamiltonian || (system.lagrangian && regularity.kind == Regularity::Kind::regular))
+    const bool somewhere = regularity.kind == Regularity::Kind::generically_regular;
+    if (system.hamiltonian || (system.lagrangian && (somewhere || regularity.kind == Regularity::Kind::regular)))
         H = closed_hamiltonian(graph, system, regularity.newton_start);
     if (!H)
         throw MathematicsError(
@@ -42,8 +43,9 @@ EquationSet derive_invariants(const Model& model, const System& system, const Re
         block.equations.push_back(
             symbolic.equation(LeftSide::symbol, name, {symbolic.lower(to_tree(graph, found.value))}));
         DecidedStatement statement;
-        statement.formula = fmt::format("d{}/dt = 0{}", name,
-                                        found.for_given_parameters ? ", for the parameter values of the file" : "");
+        statement.formula = fmt::format("d{}/dt = 0{}{}", name,
+                                        found.for_given_parameters ? ", for the parameter values of the file" : "",
+                                        somewhere && !system.hamiltonian ? ", where L is regular" : "");
         statement.latex_formula = fmt::format(R"(\dot F_{{{}}} = 0)", count);
         statement.status = "proved";
         set.statements.push_back(std::move(statement));

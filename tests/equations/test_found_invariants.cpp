@@ -78,3 +78,15 @@ TEST_CASE("without a Hamiltonian in closed form, with forces or explicit time no
                              "[lagrangian]\nL = \"v^2/2 - t*x\"\n", "[lagrangian]\nL = \"x*v\"\n"})
         CHECK_THROWS_AS(found_of_text(line + rest), MathematicsError);
 }
+
+TEST_CASE("where L is regular but for some points invariants are found there, and are said to hold there")
+{
+    const Model polar = read_model_text("test.toml", "[base]\ncoordinates = [\"r\", \"ph\"]\n[fibre]\ncoordinates = "
+                                                     "[\"u\", \"w\"]\n[algebroid]\nkind = \"tangent\"\n[lagrangian]\n"
+                                                     "L = \"(u^2 + r^2*w^2)/2 - r^4\"\n");
+    CHECK(found_in(polar) == Lines{"F1 = p_w"});
+    const System system = elaborate(polar);
+    const EquationSet set = derive("invariants", polar, system, verify(polar));
+    REQUIRE(set.statements.size() == 1);
+    CHECK(set.statements[0].formula == "dF1/dt = 0, where L is regular");
+}
