@@ -145,8 +145,13 @@ class InvariantSearch {
         ProofSetting made = proof_setting(graph_, system_);
         for (const NodeId mu : system_.mu)
             if (std::ranges::find(made.variables, mu) == made.variables.end()) made.variables.push_back(mu);
+        // H may divide by parameters that no domain keeps from 0.
+        for (const std::vector<NodeId>& nodes : {std::vector{phase_.hamiltonian}, phase_.xdot, phase_.mudot})
+            for (const NodeId node : nodes)
+                if (!graph_.is_constant(node)) made.defined.push_back(node);
         if (at_values_) made.parameters.clear();
         for (auto* nodes : {&made.constraints, &made.domain, &made.defined}) *nodes = fixed(*nodes);
+        std::erase_if(made.defined, [&](NodeId node) { return graph_.is_constant(node); });
         return made;
     }
 

@@ -90,3 +90,11 @@ TEST_CASE("where L is regular but for some points invariants are found there, an
     REQUIRE(set.statements.size() == 1);
     CHECK(set.statements[0].formula == "dF1/dt = 0, where L is regular");
 }
+
+TEST_CASE("no parameter need be kept from 0 by a domain")
+{
+    CHECK(found_of_text(
+              "[parameters]\nI1 = 5\nI2 = 2\nI3 = 3\n[fibre]\ncoordinates = [\"a\", \"b\", \"c\"]\n[algebroid]\n"
+              "kind = \"lie_algebra\"\nalgebra = \"so(3)\"\n[lagrangian]\nL = \"(I1*a^2 + I2*b^2 + I3*c^2)/2\"\n") ==
+          Lines{"F1 = p_a² + p_b² + p_c²"});
+}
