@@ -10,6 +10,7 @@ namespace {
 /// Appends value e^{basis} where it is not zero.
 void append(const SymbolicModel& symbolic, Equation& equation, const GiNaC::ex& value, std::vector<std::string> basis)
 {
+    if (value.is_zero()) return; // nearly all, of a large algebra
     for (TermGroup& group : symbolic.simplified({{"", value}})) {
         group.basis = basis;
         equation.groups.push_back(std::move(group));
