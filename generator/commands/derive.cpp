@@ -24,8 +24,9 @@ namespace {
 const std::string derive_form_help =
     form_list() +
     ", exterior (dx^i and de^a), cartan (theta_L and omega_L, or Theta-, Theta+ and "
-    "Omega_L of [discrete]), poisson (brackets on E*), invariants (found, beside H), variations (of E-paths and the "
-    "action, Jacobi's equations), reaction (reactions of a "
+    "Omega_L of [discrete]), poisson (brackets on E*, or on D* of a nonholonomic model), invariants (found, beside H), "
+    "variations (of E-paths and the "
+    "action, Jacobi's equations; of controlled curves), reaction (reactions of a "
     "nonholonomic model) or projected (its projected brackets); without it the first that the model has of " +
     default_order();
 

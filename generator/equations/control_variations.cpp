@@ -49,7 +49,7 @@ class ControlVariations {
     }
 
   private:
-    /// Under a name that the model does not have.
+    /// The input has a name that the model does not have.
     [[nodiscard]] NodeId input(std::string name)
     {
         while (system_.declares(name)) name += "'";
@@ -57,7 +57,7 @@ class ControlVariations {
         return graph_.input(name);
     }
 
-    /// Of functions of x, u.
+    /// The variations of functions of x and u.
     [[nodiscard]] std::vector<NodeId> varied_functions(const std::vector<NodeId>& functions)
     {
         Replacements seeds = replacements(system_.algebroid.x, delta_x_);
@@ -101,7 +101,7 @@ class ControlVariations {
                                  [&](NodeId residual) { return decision_by(decider_.get(), residual); });
     }
 
-    /// d/dt along controlled curves at fixed du/dt = 0: no function below has u in it but through sigma.
+    /// The rate of delta x has no du/dt: it is a function of x and eta.
     [[nodiscard]] DecidedStatement tangent()
     {
         const Algebroid& algebroid = system_.algebroid;
@@ -122,11 +122,14 @@ class ControlVariations {
         const NodeId boundary = graph_.add(contraction(graph_, motion_.mudot, eta_),
                                            contraction(graph_, system_.mu, etadot_)); // d/dt (mu_a eta^a)
         const NodeId right = graph_.subtract(boundary, contraction(graph_, dH_du_, delta_u_));
-        return decided(
-            "δL = d/dt (μ_a η^a) - (∂H/∂u^A) δu^A along Pontryagin's μ̇: in its E-homotopy class, η = 0 at the "
-            "ends, the cost is critical where ∂H/∂u = 0",
-            R"(\delta L = \frac{d}{dt}(\mu_a\, \eta^a) - \frac{\partial H}{\partial u^A}\, \delta u^A)",
-            {{{"L"}, graph_.subtract(varied_functions({control_.cost})[0], right)}});
+        const std::string formula =
+            "δL = d/dt (μ_a η^a) - (∂H/∂u^A) δu^A along Pontryagin's μ̇: in its E-homotopy class, "
+            "η = 0 at the ends, ";
+        return decided(formula + (control_.bounded()
+                                      ? "no δu within the bounds lowers the cost where all have (∂H/∂u^A) δu^A ≤ 0"
+                                      : "the cost is critical where ∂H/∂u = 0"),
+                       R"(\delta L = \frac{d}{dt}(\mu_a\, \eta^a) - \frac{\partial H}{\partial u^A}\, \delta u^A)",
+                       {{{"L"}, graph_.subtract(varied_functions({control_.cost})[0], right)}});
     }
 
     const System& system_;

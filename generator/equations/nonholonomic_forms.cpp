@@ -2,7 +2,10 @@
 /// Reactions, projected brackets and the form on D* of nonholonomic models.
 #include "equations/constrained_model.hpp"
 #include "equations/nonholonomic.hpp"
+#include "graph/core/lower.hpp"
+#include "mechanics/hamilton.hpp"
 #include "model/form.hpp"
+#include "verify/proof_setting.hpp"
 
 #include <algorithm>
 
@@ -12,7 +15,7 @@ namespace {
 
 class NonholonomicForms : ConstrainedModel {
   public:
-    using ConstrainedModel::ConstrainedModel;
+    NonholonomicForms(const Model& model, const System& system) : ConstrainedModel(model, system), system_(system) {}
 
     EquationSet reactions()
     {
@@ -106,8 +109,9 @@ class NonholonomicForms : ConstrainedModel {
     EquationSet poisson(const std::vector<Tree>& functions)
     {
         if (has_drift())
-            throw MathematicsError("model '" + symbolic_.model().name + "' has a drift, which no bracket on D* makes",
-                                   "--form hamilton shows its equations there");
+            throw MathematicsError("the almost Poisson brackets of model '" + symbolic_.model().name +
+                                       "' do not make its motion: the constraint has a drift",
+                                   "--form hamilton shows its equations on D*");
         EquationSet set = symbolic_.empty_set("poisson");
         take_momenta();
         set.blocks = {almost_poisson()};
@@ -180,11 +184,21 @@ class NonholonomicForms : ConstrainedModel {
         return block;
     }
 
+    /// Neither forces nor sections that move by themselves: h alone makes the motion.
+    [[nodiscard]] bool is_free()
+    {
+        bool free = !symbolic_.has_forces();
+        for (const Sum& section : sections_)
+            for (const GiNaC::ex& entry : section) free = free && symbolic_.time_derivative(entry).is_zero();
+        return free;
+    }
+
     /// Skew and a derivation in each argument; Jacobi's identity fails where D is not integrable.
     [[nodiscard]] EquationBlock almost_poisson()
     {
         EquationBlock block{
-            "almost Poisson brackets (Jacobi's identity may fail), df/dt = {h, f}",
+            is_free() ? "almost Poisson brackets (Jacobi's identity may fail), df/dt = {h, f}"
+                      : "almost Poisson brackets (Jacobi's identity may fail)",
             "{p_α, x^i} = ρ(e_α)^i,  {p_α, p_β} = P_a [e_α, e_β]^a",
             R"(\{p_\alpha, x^i\} = \rho(e_\alpha)^i, \quad \{p_\alpha, p_\beta\} = P_a\, [e_\alpha, e_\beta]^a)",
             {}};
@@ -236,46 +250,63 @@ class NonholonomicForms : ConstrainedModel {
         for (std::size_t k = 0; k + 1 < functions.size(); k += 2) {
             const GiNaC::ex F = symbolic_.lower(functions[k]), G = symbolic_.lower(functions[k + 1]);
             const std::string number = k == 0 ? "" : std::to_string(k / 2 + 1);
-            block.equations.push_back(symbolic_.equation(LeftSide::symbol, "F" + number, {F}));
-            block.equations.push_back(symbolic_.equation(LeftSide::symbol, "G" + number, {G}));
-            Equation value = symbolic_.equation(LeftSide::bracket, "F" + number, {almost_bracket(F, G)});
-            value.other = "G" + number;
+            const std::string f = symbolic_.free_name({"F" + number, "F_" + number});
+            const std::string g = symbolic_.free_name({"G" + number, "G_" + number});
+            block.equations.push_back(symbolic_.equation(LeftSide::symbol, f, {F}));
+            block.equations.push_back(symbolic_.equation(LeftSide::symbol, g, {G}));
+            Equation value = symbolic_.equation(LeftSide::bracket, f, {almost_bracket(F, G)});
+            value.other = g;
             block.equations.push_back(std::move(value));
         }
         return block;
     }
 
-    /// Of a coordinate of the base or a momentum and two momenta: the first that does not vanish.
+    /// Of a coordinate of the base or a momentum and two momenta: the first that certainly does not vanish, else the
+    /// first that is not shown to vanish; no equations where all are.
     [[nodiscard]] EquationBlock jacobiator()
     {
         EquationBlock block{"Jacobiator, the first that does not vanish",
                             "J(f, g, h) = {f, {g, h}} + {g, {h, f}} + {h, {f, g}}",
                             R"(J(f, g, h) = \{f, \{g, h\}\} + \{g, \{h, f\}\} + \{h, \{f, g\}\})",
                             {}};
-        Sum coordinates = symbolic_.x();
-        std::vector<std::string> names;
-        for (const Symbol& symbol : symbolic_.algebroid().base) names.push_back(symbol.name);
-        for (std::size_t alpha = 0; alpha < k_; ++alpha) {
-            coordinates.push_back(symbolic_.mu()[alpha]);
-            names.push_back(momentum_name(alpha));
-        }
-        const std::size_t n = symbolic_.n();
-        for (std::size_t i = 0; i < coordinates.size(); ++i)
-            for (std::size_t j = std::max(i + 1, n); j < coordinates.size(); ++j)
-                for (std::size_t l = j + 1; l < coordinates.size(); ++l) {
-                    const GiNaC::ex &f = coordinates[i], &g = coordinates[j], &h = coordinates[l];
-                    const GiNaC::ex J = almost_bracket(f, almost_bracket(g, h)) +
-                                        almost_bracket(g, almost_bracket(h, f)) +
-                                        almost_bracket(h, almost_bracket(f, g));
-                    Equation failure = symbolic_.equation(LeftSide::component, "J", {J});
-                    if (failure.groups.empty()) continue;
-                    failure.arguments = {names[i], names[j], names[l]};
-                    block.equations.push_back(std::move(failure));
-                    return block;
+        Graph graph = system_.graph;
+        const auto hamiltonian = closed_hamiltonian(graph, system_, {});
+        if (!hamiltonian || !hamiltonian->constrained) throw InternalError("momenta that are affine, and no h");
+        ProofSetting setting = proof_setting(graph, system_);
+        setting.variables.insert(setting.variables.end(), system_.mu.begin(), system_.mu.end());
+        const auto decider = ZeroDecider::make(graph, setting);
+        const auto bracket_of = [&](NodeId f, NodeId g) {
+            return almost_poisson_bracket(graph, system_, *hamiltonian->constrained, f, g);
+        };
+        std::vector<NodeId> z = system_.algebroid.x;
+        z.insert(z.end(), system_.mu.begin(), system_.mu.end());
+        const std::size_t n = system_.n();
+        for (std::size_t i = 0; i < z.size(); ++i)
+            for (std::size_t j = std::max(i + 1, n); j < z.size(); ++j)
+                for (std::size_t l = j + 1; l < z.size(); ++l) {
+                    const NodeId terms[] = {bracket_of(z[i], bracket_of(z[j], z[l])),
+                                            bracket_of(z[j], bracket_of(z[l], z[i])),
+                                            bracket_of(z[l], bracket_of(z[i], z[j]))};
+                    const NodeId J = graph.sum(terms);
+                    const ProofStatus status = graph.is_zero(J) ? ProofStatus::proved
+                                               : decider        ? decider->status(J)
+                                                                : ProofStatus::undecided;
+                    if (status == ProofStatus::proved) continue;
+                    if (status == ProofStatus::undecided && !block.equations.empty()) continue;
+                    Equation failure =
+                        symbolic_.equation(LeftSide::component, "J", {symbolic_.lower(to_tree(graph, J))});
+                    for (const NodeId each : {z[i], z[j], z[l]}) failure.arguments.push_back(graph.input_name(each));
+                    block.equations = {std::move(failure)};
+                    if (status == ProofStatus::refuted) {
+                        block.title = "Jacobiator, the first that does not vanish";
+                        return block;
+                    }
+                    block.title = "Jacobiator, the first that is not shown to vanish";
                 }
         return block;
     }
 
+    const System& system_;
     GiNaC::exmap momenta_; ///< y(x, p)
 };
 

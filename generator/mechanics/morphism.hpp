@@ -45,19 +45,9 @@ class AlongMap {
 /// Phi^a_b, shape (r', r), by rows: d y'^a / d y^b.
 [[nodiscard]] std::vector<NodeId> fibre_matrix(Graph& graph, const SystemMorphism& morphism);
 
-/// A v, A by so many rows: Phi^a_b v^b, shape (r').
+/// A v, A by so many rows.
 [[nodiscard]] std::vector<NodeId> applied(Graph& graph, const std::vector<NodeId>& A, std::size_t rows,
                                           const std::vector<NodeId>& v);
-
-/// Phi on the velocities of both systems, y and, of nonholonomic ones, the weights y^alpha of b + y^alpha e_alpha.
-struct VelocityMap {
-    std::vector<NodeId> velocities; ///< y'^a over x, y, shape (k'): least squares in b' + y'^beta e'_beta = Phi(Y)
-    std::vector<NodeId> matrix;     ///< d y'^a / d y^b, shape (k', k), by rows
-    /// What lies outside of D', one vector of E' a section e_alpha, then of the drift; empty where D' is all of E'.
-    std::vector<std::vector<NodeId>> outside;
-};
-/// `matrix`: Phi^a_b of the ambient algebroids.
-[[nodiscard]] VelocityMap velocity_map(Graph& graph, const SystemMorphism& morphism, const std::vector<NodeId>& matrix);
 
 /// Phi^* f = Phi^a_b f_a of a covector on the target, shape (r), by this matrix.
 [[nodiscard]] std::vector<NodeId> pulled_covector(Graph& graph, const std::vector<NodeId>& matrix, std::size_t r,

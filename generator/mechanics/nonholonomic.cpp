@@ -153,6 +153,24 @@ std::vector<NodeId> reaction(Graph& graph, const System& system, const Constrain
     return lambda;
 }
 
+NodeId almost_poisson_bracket(Graph& graph, const System& system, const ConstrainedNodes& nodes, NodeId F, NodeId G)
+{
+    BaseGradient partial(graph, system.algebroid.x);
+    const std::vector<NodeId> F_p = gradient(graph, F, system.mu), G_p = gradient(graph, G, system.mu);
+    const ConstraintHull& hull = nodes.hull;
+    std::vector<NodeId> terms;
+    for (std::size_t alpha = 0; alpha < hull.k; ++alpha) {
+        const VectorField& rho = hull.frame.anchor[alpha];
+        terms.push_back(graph.multiply(F_p[alpha], partial.along(rho, G)));
+        terms.push_back(graph.negate(graph.multiply(G_p[alpha], partial.along(rho, F))));
+        for (std::size_t beta = 0; beta < hull.k; ++beta) {
+            const NodeId factors[] = {pairing(graph, nodes.P, hull.frame.C(alpha, beta)), F_p[alpha], G_p[beta]};
+            terms.push_back(graph.product(factors));
+        }
+    }
+    return graph.sum(terms);
+}
+
 Binding ambient_names(const System& system, const std::vector<NodeId>& Y)
 {
     Binding binding;

@@ -63,6 +63,11 @@ struct ConstrainedNodes {
 [[nodiscard]] std::vector<NodeId> reaction(Graph& graph, const System& system, const ConstrainedNodes& nodes,
                                            const Replacements& rates);
 
+/// {F, G} = F^alpha rho(e_alpha)(G) - G^alpha rho(e_alpha)(F) + P_a [e_alpha, e_beta]^a F^alpha G^beta on D*, F^alpha =
+/// dF/dp_alpha; `nodes` at y(x, p). Without drift, forces and explicit time Fdot = {h, F}.
+[[nodiscard]] NodeId almost_poisson_bracket(Graph& graph, const System& system, const ConstrainedNodes& nodes, NodeId F,
+                                            NodeId G);
+
 /// The ambient coordinates that are no velocities themselves, with their values Y.
 [[nodiscard]] Binding ambient_names(const System& system, const std::vector<NodeId>& Y);
 

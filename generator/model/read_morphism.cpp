@@ -198,10 +198,13 @@ MorphismFile read_morphism_file(const std::shared_ptr<const SourceFile>& file, c
     if (element != nullptr) morphism.element = read_element(reader, *element);
     const bool of_groupoids = from.groupoid && to.groupoid && (element != nullptr || !to.groupoid->has_group());
     if (fibre != nullptr || !of_groupoids)
-        morphism.fibre =
-            reader.read_all(fibre, "fibre", block->where(), ambient_fibre(to), "fibre coordinate",
-                            reader.legal({&x, &ambient_fibre(from)},
-                                         "base coordinates, fibre coordinates and parameters of the source"));
+        morphism.fibre = reader.read_all(
+            fibre, "fibre", block->where(), ambient_fibre(to),
+            is_nonholonomic(to) ? "ambient fibre coordinate" : "fibre coordinate",
+            reader.legal({&x, &ambient_fibre(from)},
+                         is_nonholonomic(from)
+                             ? "base coordinates, ambient fibre coordinates and parameters of the source"
+                             : "base coordinates, fibre coordinates and parameters of the source"));
     if (parameters != nullptr)
         morphism.parameters =
             reader.read(*parameters, free_parameters(to), "parameter", reader.legal({}, "parameters of the source"));

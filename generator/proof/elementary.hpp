@@ -57,6 +57,8 @@ class Elementary {
     /// An argument of stumpff by which it divided, although it may vanish on a whole component of the points; empty:
     /// none.
     [[nodiscard]] const std::string& condition() const { return condition_; }
+    /// From now on the Stumpff functions that occur stay generators: a constraint is solved in terms of them.
+    void keep_families();
     /// A function of its own: odd, between -1 and 1, 0 at 0 alone.
     [[nodiscard]] Fraction error_function(const Fraction& a);
     [[nodiscard]] Fraction arcsine(const Fraction& a);
@@ -72,7 +74,8 @@ class Elementary {
     [[nodiscard]] const std::vector<OpenSign>& open_signs() const { return open_signs_; }
     [[nodiscard]] Fraction opaque(const std::string& name, const std::vector<Fraction>& arguments);
 
-    /// True once a unit became finer, so that results made before no longer meet those made now; resets.
+    /// True once a unit became finer or a root known, so that results made before no longer meet those made now;
+    /// resets.
     [[nodiscard]] bool take_refined() { return std::exchange(refined_, false); }
 
   private:
@@ -93,6 +96,7 @@ class Elementary {
         mpq_class size;    ///< argument = size^2 * kernel
         Fraction argument; ///< of `first`
         StumpffPair first;
+        bool kept = false; ///< although a root of its argument may be known by now
     };
     struct Factor {
         Polynomial base;
@@ -113,6 +117,7 @@ class Elementary {
     [[nodiscard]] SineCosine sum(const SineCosine& a, const SineCosine& b);
     [[nodiscard]] StumpffPair stumpff_pair(const Fraction& z);
     [[nodiscard]] StumpffPair repeated(const Family& family, const mpz_class& count);
+    void forget_families();
     void make_family(Family& family, const Fraction& kernel);
     [[nodiscard]] std::optional<Fraction> argument_root(const Fraction& z, int sign);
     [[nodiscard]] std::optional<Fraction> known_root(const Fraction& z);

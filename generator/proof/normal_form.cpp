@@ -112,6 +112,7 @@ void NormalForm::prepare(const std::vector<NodeId>& roots)
     add_domain();
     if (!constraints_.empty()) register_units(roots);
     for (const SolvedConstraint& solved : constraints_) solve_constraint(solved);
+    elementary_.keep_families();
     done_.clear();
     if (!constraints_.empty()) add_domain();
     if (ring_.work().radicands_first) register_radicands(roots);
@@ -225,14 +226,15 @@ Fraction NormalForm::readable(const Fraction& a)
 
 Fraction NormalForm::of(NodeId node)
 {
-    // A finer unit for an angle changes earlier results: start again. Each restart divides a unit by an integer.
+    // A finer unit for an angle, or a root of an argument of Stumpff functions, changes earlier results: start again.
+    // Each restart divides a unit by an integer or knows one more root.
     for (int restart = 0; restart < 32; ++restart) {
         Fraction result = once(node);
         if (!elementary_.take_refined())
             return !relations_.empty() && vanishes_by_rows(result.num) ? Fraction{} : result;
         done_.clear();
     }
-    throw BudgetExhausted("32 refinements of angle units exhausted");
+    throw BudgetExhausted("32 refinements of units and roots exhausted");
 }
 
 Fraction NormalForm::once(NodeId node)

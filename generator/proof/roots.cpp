@@ -63,7 +63,7 @@ Fraction Elementary::root_generator(const Polynomial& radicand, unsigned wanted)
 {
     const auto [known, fresh] = root_degrees_.try_emplace(key_of(radicand), wanted);
     unsigned& common = known->second;
-    refined_ = refined_ || (fresh && !families_.empty()); // Stumpff functions are written by known roots
+    if (fresh) forget_families(); // Stumpff functions are written by known roots
     if (common % wanted != 0 && std::lcm(common, wanted) <= highest_degree) {
         common = std::lcm(common, wanted);
         refined_ = true;

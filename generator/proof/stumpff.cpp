@@ -41,7 +41,8 @@ SquarePart square_part(const mpq_class& a)
 
 } // namespace
 
-/// Is {z != 0} dense? By the norm: p = a + b g with g^2 = r divides a^2 - b^2 r.
+/// Is {z != 0} dense? By the norm: p = a + b g with g^2 = r divides a^2 - b^2 r; a product vanishes where the radicands
+/// of its roots do.
 bool Elementary::is_dense_where_nonzero(const Fraction& z)
 {
     if (ring_.signs(z).certainly_nonzero()) return true;
@@ -52,6 +53,14 @@ bool Elementary::is_dense_where_nonzero(const Fraction& z)
             for (std::size_t i = 0; i < term.monomial.size(); ++i)
                 if (ring_.generator(term.monomial.generator(i)).power != 0) found = term.monomial.generator(i);
         if (!found) return true;
+        if (p.size() == 1) {
+            Polynomial radicands = constant_polynomial(1);
+            for (std::size_t i = 0; i < p[0].monomial.size(); ++i)
+                if (const Generator& root = ring_.generator(p[0].monomial.generator(i)); root.power != 0)
+                    radicands = ring_.times(radicands, Polynomial(root.relation));
+            p = std::move(radicands);
+            continue;
+        }
         if (ring_.generator(*found).power != 2) return false;
         Polynomial even, odd;
         for (const Term& term : p) {
@@ -108,6 +117,16 @@ std::optional<Fraction> Elementary::known_root(const Fraction& z)
     return root(z, 2);
 }
 
+void Elementary::forget_families()
+{
+    refined_ = std::erase_if(families_, [](const auto& entry) { return !entry.second.kept; }) > 0 || refined_;
+}
+
+void Elementary::keep_families()
+{
+    for (auto& [key, family] : families_) family.kept = true;
+}
+
 /// Two generators: c_0 of the unit n/d, and c_1 / d, so that c_0^2 = 1 - n d (c_1/d)^2 has no denominator.
 void Elementary::make_family(Family& family, const Fraction& kernel)
 {
@@ -159,13 +178,12 @@ Elementary::StumpffPair Elementary::repeated(const Family& family, const mpz_cla
 
 Elementary::StumpffPair Elementary::stumpff_pair(const Fraction& z)
 {
-    std::optional<Fraction> angle = argument_root(z, 1);
-    if (!angle) angle = known_root(z);
-    if (angle) {
-        divide_by_argument(*angle);
-        const SineCosine value = sine_cosine(*angle);
-        return {value.cosine, ring_.divide(value.sine, *angle)};
-    }
+    const auto circular = [&](const Fraction& angle) -> StumpffPair {
+        divide_by_argument(z);
+        const SineCosine value = sine_cosine(angle);
+        return {value.cosine, ring_.divide(value.sine, angle)};
+    };
+    if (const auto angle = argument_root(z, 1)) return circular(*angle);
     if (const auto argument = argument_root(z, -1)) {
         divide_by_argument(*argument);
         const Fraction e = exponential(*argument);
@@ -178,6 +196,8 @@ Elementary::StumpffPair Elementary::stumpff_pair(const Fraction& z)
     number.canonicalize();
     const mpq_class size = square_part(number).root;
     const Fraction kernel = ring_.times(ring_.constant(mpq_class(1 / (size * size))), z);
+    if (!families_.contains(key_of(kernel)))
+        if (const auto angle = known_root(z)) return circular(*angle);
     const auto [at, fresh] = families_.try_emplace(key_of(kernel));
     Family& family = at->second;
     mpq_class quotient = fresh ? mpq_class(1) : mpq_class(size / family.size);

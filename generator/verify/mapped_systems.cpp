@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "verify/mapped_systems.hpp"
 
+#include "graph/calculus/differentiate.hpp"
 #include "verify/proof_setting.hpp"
 
 #include <algorithm>
@@ -13,6 +14,15 @@ MappedSystems::MappedSystems(const SystemMorphism& of) : morphism(of), graph(of.
     given = fibre_matrix(graph, morphism);
     matrix = morphism.fibre.empty() && derived ? derived->matrix : given;
     moving = velocity_map(graph, morphism, matrix);
+}
+
+bool MappedSystems::compares_forces() const
+{
+    const auto carries_states = [](const System& system) {
+        return !system.forces.empty() && !system.states.empty() &&
+               depends_on_any(system.graph, system.forces, system.states);
+    };
+    return !carries_states(from()) && !carries_states(to());
 }
 
 std::vector<NodeId> MappedSystems::pulled(const std::vector<NodeId>& covector)
@@ -42,6 +52,7 @@ ProofSetting MappedSystems::setting()
     append(setting.domain, along(to().domain));
     append(setting.defined, morphism.base);
     append(setting.defined, matrix);
+    append(setting.defined, moving.basis);
     if (from().distribution)
         for (const NodeId Y : from().algebroid.y)
             if (std::ranges::find(setting.variables, Y) == setting.variables.end()) setting.variables.push_back(Y);

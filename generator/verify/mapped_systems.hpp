@@ -3,7 +3,7 @@
 /// are decided.
 #pragma once
 
-#include "mechanics/morphism.hpp"
+#include "mechanics/velocity_map.hpp"
 #include "verify/arrow_decider.hpp"
 
 #include <set>
@@ -29,6 +29,8 @@ class MappedSystems {
     [[nodiscard]] const System& from() const { return morphism.source; }
     [[nodiscard]] const System& to() const { return morphism.target; }
 
+    /// Whether no force of either side depends on first-order states, whose own equations are not compared.
+    [[nodiscard]] bool compares_forces() const;
     [[nodiscard]] bool is_constrained() const { return from().distribution || to().distribution; }
 
     /// Phi^a_b w_a and Phi^a_b v^b.
@@ -52,7 +54,7 @@ class MappedSystems {
 
     [[nodiscard]] std::string section(std::size_t b) const { return from().graph.input_name(from().algebroid.y[b]); }
     [[nodiscard]] std::string target_section(std::size_t a) const { return to().graph.input_name(to().algebroid.y[a]); }
-    /// Of y^alpha where the system is nonholonomic.
+    /// The name of y^b, or of y^alpha where the system is nonholonomic.
     [[nodiscard]] std::string velocity(std::size_t b) const { return from().graph.input_name(from().velocities()[b]); }
     [[nodiscard]] std::string target_velocity(std::size_t a) const
     {

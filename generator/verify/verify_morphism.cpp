@@ -3,11 +3,10 @@
 
 #include "graph/calculus/differentiate.hpp"
 #include "graph/calculus/transplant.hpp"
+#include "verify/carried_distribution.hpp"
 #include "verify/proof_setting.hpp"
 
 #include <algorithm>
-
-#include <fmt/format.h>
 
 namespace lagen {
 
@@ -26,11 +25,11 @@ class MorphismClaims {
     {
         decide_constraints();
         decide_algebroid();
-        if (both_.is_constrained())
-            for (Check& check : distribution_checks(both_, *judge_)) {
-                reaches_all_ = check.decision.status == ProofStatus::proved; // the last is Phi(D) = D'
-                report_.structure.checks.push_back(std::move(check));
-            }
+        if (both_.is_constrained()) {
+            CarriedDistribution carried = decide_carried(both_, *judge_);
+            reaches_all_ = carried.onto;
+            for (Check& check : carried.checks) report_.structure.checks.push_back(std::move(check));
+        }
         decide_functions();
         if (morphism_.of_groupoids) decide_arrows();
         report_.rank = fibre_rank(graph_, matrix_, to_.r(), from_.r(), judge_->decider());
@@ -78,7 +77,11 @@ class MorphismClaims {
         along.set(to_.algebroid.y, both_.pushed(from_.algebroid.y));
         if (from_.lagrangian && to_.lagrangian)
             append("invariance", {"L"}, graph_.subtract(*from_.lagrangian, along(*to_.lagrangian)));
-        if (from_.lagrangian && to_.lagrangian && (!from_.forces.empty() || !to_.forces.empty())) {
+        if (from_.lagrangian && to_.lagrangian && !both_.compares_forces()) {
+            Decision open;
+            open.evidence = "forces that depend on first-order states are not compared";
+            report_.structure.checks.push_back({"invariance", {"force"}, std::move(open), {}, {}});
+        } else if (from_.lagrangian && to_.lagrangian && (!from_.forces.empty() || !to_.forces.empty())) {
             const std::vector<NodeId> here = from_.forces_or_zero(graph_);
             std::vector<NodeId> there(to_.r(), graph_.constant(0));
             if (!to_.forces.empty()) there = along(to_.forces);
@@ -181,43 +184,11 @@ class MorphismClaims {
     const AlongMap& along_;
     const std::vector<NodeId>& matrix_;
     std::unique_ptr<Judge> judge_;
-    bool reaches_all_ = false; ///< D' by D
+    bool reaches_all_ = false; ///< Phi(D) = D' at every point
     MorphismReport report_;
 };
 
 } // namespace
-
-std::vector<Check> distribution_checks(MappedSystems& both, Judge& judge)
-{
-    std::vector<Check> checks;
-    const std::vector<std::vector<NodeId>>& outside = both.moving.outside;
-    for (std::size_t alpha = 0; alpha < outside.size(); ++alpha)
-        for (std::size_t a = 0; a < outside[alpha].size(); ++a) {
-            const NodeId residual = outside[alpha][a];
-            if (both.graph.is_zero(residual)) continue;
-            const std::string of = alpha + 1 < outside.size() ? both.velocity(alpha) : "drift";
-            checks.push_back({"constraint",
-                              {"Phi(" + of + ")", both.target_section(a)},
-                              judge.decide(residual),
-                              {},
-                              judge.reevaluate(residual)});
-        }
-    const std::size_t wanted = both.to().velocities().size();
-    const FibreRank rank =
-        fibre_rank(both.graph, both.moving.matrix, wanted, both.from().velocities().size(), judge.decider());
-    Check onto{"constraint", {"Phi(D)"}, {}, {}, {}};
-    if (rank.surjective && rank.where.empty()) {
-        onto.decision = judge.decide(both.graph.constant(0));
-    } else if (rank.rank && *rank.rank < wanted) {
-        onto.decision.status = ProofStatus::refuted;
-        onto.decision.residual = std::to_string(wanted - *rank.rank);
-        onto.decision.evidence = fmt::format("Phi(D) has the rank {}, and D' has {}", *rank.rank, wanted);
-    } else {
-        onto.decision.evidence = "the rank of Phi on D is not decided at every point";
-    }
-    checks.push_back(std::move(onto));
-    return checks;
-}
 
 Verdict worse(Verdict a, Verdict b)
 {

@@ -18,8 +18,6 @@
 
 #include "mechanics/morphism.hpp"
 #include "verify/fibre_rank.hpp"
-#include "verify/judge.hpp"
-#include "verify/mapped_systems.hpp"
 #include "verify/verify.hpp"
 
 namespace lagen {
@@ -44,9 +42,6 @@ struct MorphismReport {
 /// Decides that `morphism` is the map `other` between the same systems: phi^i, y'^a, u' and W' where both give them.
 void append_equality(StructureReport& structure, const SystemMorphism& morphism, const SystemMorphism& other,
                      const ProofBudget& budget = {});
-
-/// The checks `constraint` of nonholonomic systems, residuals that are 0 by structure left out.
-[[nodiscard]] std::vector<Check> distribution_checks(MappedSystems& both, Judge& judge);
 
 /// The worse of two: invalid, undecided, valid.
 [[nodiscard]] Verdict worse(Verdict a, Verdict b);

@@ -6,8 +6,9 @@
 #include "mechanics/hamilton.hpp"
 #include "mechanics/pontryagin.hpp"
 #include "mechanics/variations.hpp"
+#include "verify/carried_distribution.hpp"
+#include "verify/fibre_rank.hpp"
 #include "verify/proof_setting.hpp"
-#include "verify/verify_morphism.hpp"
 
 namespace lagen {
 
@@ -34,11 +35,12 @@ class Reduction {
         if (from_.control && to_.control)
             setting.variables.insert(setting.variables.end(), both_.target_momenta().begin(),
                                      both_.target_momenta().end());
-        std::set<std::string> accessory = both_.accessory();
+        std::set<std::string> accessory = both_.accessory(), taken;
+        for (const NodeId free : both_.morphism.free_parameters) taken.insert(graph_.input_name(free));
         for (const auto& [letter, list] : {std::pair{"σ_", &s_}, std::pair{"σ̇_", &sdot_}})
             for (std::size_t b = 0; b < from_.r(); ++b) {
                 std::string name = letter + both_.section(b);
-                while (from_.declares(name) || to_.declares(name)) name += "'";
+                while (from_.declares(name) || to_.declares(name) || taken.contains(name)) name += "'";
                 list->push_back(graph_.input(name));
                 setting.variables.push_back(list->back());
                 accessory.insert(std::move(name));
@@ -48,7 +50,7 @@ class Reduction {
 
     ReductionReport run()
     {
-        if (both_.is_constrained()) report_.checks = distribution_checks(both_, *judge_);
+        if (both_.is_constrained()) report_.checks = decide_carried(both_, *judge_).checks;
         const std::size_t before = report_.checks.size();
         if (from_.lagrangian && to_.lagrangian) decide_lagrange();
         if (from_.hamiltonian && to_.hamiltonian) decide_hamilton();
@@ -92,7 +94,7 @@ class Reduction {
     {
         const char* form = "lagrange";
         if (!both_.is_constrained()) decide_variations();
-        if (carries_states(from_) || carries_states(to_))
+        if (!both_.compares_forces())
             return leave_open(form, "forces that depend on first-order states are not compared");
         const std::vector<NodeId>& image = both_.moving.velocities;
         AlongMap along = both_.along;
@@ -106,8 +108,12 @@ class Reduction {
         std::vector<NodeId> rest = applied(graph_, there.W, drift.size(), drift);
         for (std::size_t a = 0; a < rest.size(); ++a) rest[a] = graph_.subtract(rest[a], there.f[a]);
         const std::size_t k = to_.velocities().size();
-        if (decide_lifts(here, there, rest) &&
-            fibre_rank(graph_, both_.moving.matrix, k, from_.velocities().size(), judge_->decider()).surjective) {
+        const auto is_injective = [&] { // Phi^*, at every point
+            const FibreRank rank =
+                fibre_rank(graph_, both_.moving.matrix, k, from_.velocities().size(), judge_->decider());
+            return rank.surjective && rank.where.empty();
+        };
+        if (decide_lifts(here, there, rest) && is_injective()) {
             Decision proved;
             proved.status = ProofStatus::proved;
             proved.residual = "0";
@@ -179,16 +185,10 @@ class Reduction {
                 [&](std::size_t a) { return both_.target_section(a); });
     }
 
-    [[nodiscard]] static bool carries_states(const System& system)
-    {
-        return !system.forces.empty() && !system.states.empty() &&
-               depends_on_any(system.graph, system.forces, system.states);
-    }
-
     void decide_hamilton()
     {
         const char* form = "hamilton";
-        if (carries_states(from_) || carries_states(to_))
+        if (!both_.compares_forces())
             return leave_open(form, "forces that depend on first-order states are not compared");
         const PhaseSystem here = hamilton_system(graph_, from_, given_hamiltonian(graph_, from_));
         const PhaseSystem there = hamilton_system(to_.graph, to_, given_hamiltonian(to_.graph, to_));

@@ -99,3 +99,16 @@ TEST_CASE("sections and their brackets are written in LaTeX and JSON")
                                      "[{\"label\": \"\", \"value\": \"sin(th)\", \"basis\": [\"v_x\"]}") !=
           std::string::npos);
 }
+
+TEST_CASE("Jacobi's identity of almost Poisson brackets is decided, not read off a formula")
+{
+    // Involutive: v_z of e_u is x, written so that no expansion sees it.
+    const std::string flat =
+        "[base]\ncoordinates = [\"x\", \"y\", \"z\"]\n[fibre]\ncoordinates = [\"u\", \"w\"]\n[algebroid]\n"
+        "kind = \"nonholonomic\"\n[algebroid.of]\nkind = \"tangent\"\n[algebroid.sections]\n"
+        "u = { v_x = 1, v_z = \"sin(2*y)/2 - sin(y)*cos(y) + x\" }\nw = { v_y = 1 }\n"
+        "[lagrangian]\nL = \"(v_x^2 + v_y^2 + v_z^2)/2\"\n";
+    CHECK(print_text(constrained_equations("poisson", flat)).find("Jacobiator") == std::string::npos);
+    const std::string moved = print_text(constrained_equations("poisson", flat + "[forces]\nv_x = 1\n"));
+    CHECK(moved.find("df/dt = {h, f}") == std::string::npos);
+}

@@ -149,6 +149,9 @@ TEST_CASE("identities of Stumpff functions are proved")
         "sqrt(x^2 + y^2)*stumpff(1, x^2 + y^2) - sin(sqrt(x^2 + y^2))",
         "stumpff(2, x^2 + y^2) - 2*sin(sqrt(x^2 + y^2)/2)^2/(x^2 + y^2)",
         "stumpff(3, 8*x^2 + 8*y^2)*(x^2 + y^2) - 1/8 + sin(sqrt(8*x^2 + 8*y^2))/(8*sqrt(8*x^2 + 8*y^2))",
+        "(x*stumpff(3, x) + stumpff(1, x) - 1)*x^(1/4)",
+        "(stumpff(0, 4*x) - 2*stumpff(0, x)^2 + 1)*sqrt(x)*x^(1/3)",
+        "stumpff(0, sqrt(x)) - cos(x^(1/4))",
         "stumpff(0, stumpff(2, x))^2 + stumpff(2, x)*stumpff(1, stumpff(2, x))^2 - 1",
     };
     Problem p({{"x", "y"}, {}, {}, {}, {}});
@@ -246,4 +249,13 @@ TEST_CASE("enclosures of Stumpff functions hold the value and are narrow on both
     Ball wide;
     arb_add_error_2exp_si(wide.get(), 200);
     CHECK_FALSE(enclose_stumpff(2, wide, 256).is_finite());
+}
+
+TEST_CASE("a constraint in Stumpff functions stands beside a root of their argument")
+{
+    Problem one({{"y", "x"}, {}, {"y - stumpff(1, 1 + x^2)"}, {}, {}});
+    CHECK(one.decide("sqrt(1 + x^2)*(y - stumpff(1, 1 + x^2))").status == ProofStatus::proved);
+    CHECK(one.decide("sqrt(1 + x^2)*(y - stumpff(2, 1 + x^2))").status == ProofStatus::refuted);
+    Problem two({{"z", "x", "y"}, {}, {"z - stumpff(2, x^2 + y^2)"}, {}, {}});
+    CHECK(two.decide("sqrt(x^2 + y^2)*(z - stumpff(2, x^2 + y^2))").status == ProofStatus::proved);
 }

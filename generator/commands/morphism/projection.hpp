@@ -3,7 +3,7 @@
 /// W' = W'(g), u' = psi(x, u, t). Momenta go the other way: mu = Phi^* mu' at the point x of the source.
 #pragma once
 
-#include "mechanics/morphism.hpp"
+#include "mechanics/velocity_map.hpp"
 #include "scene/evaluate_scene.hpp"
 
 namespace lagen {
