@@ -34,6 +34,7 @@ void for_each_tree(const EquationBlock& block, const std::function<void(const Tr
 
 namespace {
 
+constexpr std::size_t one_page = 4000; ///< characters; what is longer is compared with the form without symbols
 constexpr std::size_t long_value = 60; ///< nodes; so much is not written into equations in place of names
 
 std::string stem_of(const std::string& name)
@@ -84,21 +85,45 @@ std::set<std::string> needless(const EquationSet& set)
     return names;
 }
 
+/// Characters of all that is derived.
+std::size_t written_length(const EquationSet& set)
+{
+    std::size_t length = 0;
+    for (const EquationBlock& block : set.blocks)
+        for_each_tree(block, [&](const Tree& tree) { length += to_text(tree).size(); });
+    for (const WhereEntry& entry : set.where) length += to_text(entry.value).size();
+    return length;
+}
+
+/// Derived again without the names that do not pay, until all do.
+EquationSet with_symbols(const std::function<EquationSet(const DefinitionChoice&)>& derivation)
+{
+    DefinitionChoice choice{true, {}};
+    for (;;) {
+        EquationSet set = derivation(choice);
+        const std::set<std::string> more = needless(set);
+        if (more.empty()) return set;
+        choice.dropped.insert(more.begin(), more.end());
+    }
+}
+
 } // namespace
 
 EquationSet with_definitions(Definitions definitions, const std::function<EquationSet(const DefinitionChoice&)>& derivation)
 {
-    DefinitionChoice choice{definitions == Definitions::kept, {}};
+    if (definitions == Definitions::expanded) return derivation({});
     try {
-        while (choice.kept) {
-            EquationSet set = derivation(choice);
-            const std::set<std::string> more = needless(set);
-            if (more.empty()) return set;
-            choice.dropped.insert(more.begin(), more.end());
-        }
-    } catch (const MathematicsError&) { // in symbols something divides by what is zero, or grows too large
+        EquationSet set = with_symbols(derivation);
+        if (set.where.empty() || written_length(set) <= one_page) return set;
+        EquationSet flat = derivation({});
+        return written_length(flat) < written_length(set) ? flat : set;
+    } catch (const MathematicsError&) { // one of both grows too large, or in symbols something divides by what is zero
     }
-    return derivation({});
+    try {
+        return derivation({});
+    } catch (const MathematicsError&) {
+        return with_symbols(derivation);
+    }
 }
 
 } // namespace lagen

@@ -22,7 +22,8 @@ struct DefinitionChoice {
 };
 
 /// `derivation` with the definitions that pay for their names: those that stand twice in one block or three times in
-/// all, or are long. Others are written out; all are where the derivation does not go through with symbols.
+/// all, or are long. Others are written out; all are where that is shorter than a long form with symbols, and where the
+/// derivation does not go through with them.
 [[nodiscard]] EquationSet with_definitions(Definitions definitions,
                                            const std::function<EquationSet(const DefinitionChoice&)>& derivation);
 

@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t short_definition = 8;  ///< nodes of what is not worth a name
 constexpr std::size_t short_derivative = 12; ///< likewise
+constexpr std::size_t most_derivatives = 40; ///< with names: more take long, and nobody reads them
 
 bool is_smooth(const Tree& tree)
 {
@@ -169,6 +170,8 @@ GiNaC::ex KeptSymbols::rate(std::size_t k, const GiNaC::ex& symbol)
         next.family = root.family;
         next.behind = kept_[k].name();
         if (!choice_.dropped.contains(next.stem)) {
+            if (++derivatives_ > most_derivatives)
+                throw MathematicsError("the definitions have more derivatives than a person would name");
             next.of_points = kept_[k].of_points;
             append(std::move(next));
             result = kept_.back().symbol;
@@ -276,9 +279,25 @@ GiNaC::ex KeptSymbols::shortened(GiNaC::ex sum, const std::vector<std::pair<GiNa
     return sum;
 }
 
-GiNaC::ex KeptSymbols::reduced(const GiNaC::ex& f, const GiNaC::exvector& moving)
+/// Without names of parts, T of L = T - V: they would hide all that T is made of.
+GiNaC::ex KeptSymbols::without_parts(GiNaC::ex f)
 {
-    if (kept_.empty()) return f;
+    for (bool more = true; more;) {
+        more = false;
+        for (const std::size_t k : symbols_in(f)) {
+            const GiNaC::ex slope = f.diff(GiNaC::ex_to<GiNaC::symbol>(kept_[k].symbol));
+            if (kept_[k].of_points || !GiNaC::is_a<GiNaC::numeric>(slope)) continue;
+            f = f.subs(kept_[k].symbol == value_of(k), GiNaC::subs_options::no_pattern);
+            more = true;
+        }
+    }
+    return f;
+}
+
+GiNaC::ex KeptSymbols::reduced(const GiNaC::ex& whole, const GiNaC::exvector& moving)
+{
+    if (kept_.empty()) return whole;
+    const GiNaC::ex f = without_parts(whole);
     const GiNaC::ex open = without_moving(f);
     if (!expanded_length(open)) return f;
     const auto rules = pivots();

@@ -29,9 +29,9 @@ class KeptSymbols {
     /// y^a df/dy^a; of a symbol that is homogeneous of degree k in y it is k times the symbol.
     [[nodiscard]] GiNaC::ex along_fibre(const GiNaC::ex& f, const GiNaC::exvector& y);
     [[nodiscard]] bool depends_on(const GiNaC::ex& f, const GiNaC::ex& symbol);
-    /// `f` in the shorter of two forms: as it is, or with definitions that move with `moving` written out and the
+    /// A function in the shorter of two forms: as it is, or with definitions that move with `moving` written out and the
     /// coefficients of these in terms of those that do not: I w^2/2 for (J + m a^2) w^2/2 where I = J + m a^2.
-    [[nodiscard]] GiNaC::ex reduced(const GiNaC::ex& f, const GiNaC::exvector& moving);
+    [[nodiscard]] GiNaC::ex reduced(const GiNaC::ex& whole, const GiNaC::exvector& moving);
     /// A symbol for `value` where that is long, else `value`.
     [[nodiscard]] GiNaC::ex named(const std::string& name, const GiNaC::ex& value);
 
@@ -63,6 +63,7 @@ class KeptSymbols {
     [[nodiscard]] GiNaC::ex along_fibre(std::size_t k, const GiNaC::exvector& y);
     [[nodiscard]] std::vector<std::pair<GiNaC::ex, GiNaC::ex>> pivots();
     [[nodiscard]] GiNaC::ex without_moving(GiNaC::ex f);
+    [[nodiscard]] GiNaC::ex without_parts(GiNaC::ex f);
     [[nodiscard]] GiNaC::ex shortened(GiNaC::ex sum, const std::vector<std::pair<GiNaC::ex, GiNaC::ex>>& rules) const;
     [[nodiscard]] std::size_t cost_of(const GiNaC::ex& f) const;
     [[nodiscard]] std::size_t cost_with_definitions(const GiNaC::ex& f);
@@ -79,6 +80,7 @@ class KeptSymbols {
     std::map<std::size_t, std::size_t> by_tree_;      ///< by the number of the definition's tree
     std::map<std::string, GiNaC::ex> rates_;          ///< by root and symbols
     std::map<std::size_t, GiNaC::ex> along_fibre_;
+    std::size_t derivatives_ = 0; ///< that have names
 };
 
 } // namespace lagen

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Definitions that stay symbols in derived equations: with what the symbols stand for, each equation has the values of
 /// the one that is written out.
+#include "elaborate/make_frame.hpp"
 #include "emit/print_equations.hpp"
 #include "emit/print_equations_terms.hpp"
 #include "equations/numbers.hpp"
@@ -38,7 +39,7 @@ Elaborated load(Model model)
 
 Elaborated load(const std::string& path)
 {
-    return load(read_model(LAGEN_SOURCE_DIR "/" + path));
+    return load(read_model(LAGEN_SOURCE_DIR "/" + path, {}, choosers()));
 }
 
 Elaborated load_text(const std::string& text)
