@@ -6,14 +6,14 @@
 ///     "other", "arguments": [..],
 ///                "mass": [{"symbol", "value"}]},
 ///       "relation": "at_least" | "at_most", "right": "...", "groups": [{"label", "value"}]}]}],
-///   "where": [{"symbol", "value"}], "statements": [{"formula", "status", "component": [..], "residual", "witness": {}, "value", "evidence"}]}
+///   "where": [{"symbol", "value"}], "statements": [{"formula", "status", "component": [..], "residual", "witness": {},
+///   "value", "evidence"}]}
 /// `where` says what symbols of the equations stand for, in coordinates, parameters and others of the list; it is left
-/// out where there are none. `symbol` is left out of kind "zero", `mass` where the left side has no mass matrix; `other` is of kind "bracket",
-/// {symbol, other}; `arguments` are those of kind "component",
-/// symbol(arguments); `relation` is left out of equations, `statements` where there are none. Of kinds "differential",
-/// d symbol, and "form", d e^symbol, the right side is the sum of value e^{basis[0]} ^ e^{basis[1]} .. of the groups,
-/// each {"label", "value", "basis"}; of "section", e_symbol, and "commutator", [e_symbol, e_other], that of value
-/// e_{basis[0]}.
+/// out where there are none. `symbol` is left out of kind "zero", `mass` where the left side has no mass matrix;
+/// `other` is of kind "bracket", {symbol, other}; `arguments` are those of kind "component", symbol(arguments);
+/// `relation` is left out of equations, `statements` where there are none. Of kinds "differential", d symbol, and
+/// "form", d e^symbol, the right side is the sum of value e^{basis[0]} ^ e^{basis[1]} .. of the groups, each {"label",
+/// "value", "basis"}; of "section", e_symbol, and "commutator", [e_symbol, e_other], that of value e_{basis[0]}.
 #include "emit/json.hpp"
 #include "emit/print_equations.hpp"
 #include "emit/print_equations_terms.hpp"

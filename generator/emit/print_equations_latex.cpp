@@ -212,8 +212,8 @@ class WidthMeter {
             const std::size_t numerator = measure_item();
             return std::max(numerator, at_ < text_.size() ? measure_item() : 0) + 2;
         }
-        static constexpr std::string_view silent[] = {"left",   "right",        "dot",  "ddot", "mathit",
-                                                      "mathrm", "operatorname", "text"};
+        static constexpr std::string_view silent[] = {"left",   "right",  "dot",          "ddot",
+                                                      "mathit", "mathrm", "operatorname", "text"};
         if (std::find(std::begin(silent), std::end(silent), word) != std::end(silent)) return 0;
         static constexpr std::string_view spelled[] = {"sin",  "cos",  "tan", "arcsin", "arccos", "arctan", "sinh",
                                                        "cosh", "tanh", "exp", "log",    "min",    "max"};

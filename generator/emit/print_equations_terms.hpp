@@ -33,7 +33,8 @@ struct SignedTree {
                                                   std::size_t first, std::size_t later, std::size_t width,
                                                   std::size_t (*measure)(std::string_view));
 
-/// The lines, those that are too wide broken before an inner sign, else between factors, in as few parentheses as can be.
+/// The lines, those that are too wide broken before an inner sign, else between factors, in as few parentheses as can
+/// be.
 [[nodiscard]] std::vector<std::string> with_inner_breaks(const std::vector<std::string>& lines, std::size_t first,
                                                          std::size_t later, std::size_t width);
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t page_width = 120;
 constexpr std::size_t widest_left = page_width / 2; ///< of a left side beside its right side
-constexpr std::size_t longest_text = 100'000; ///< bytes; a shared tree may be exponentially long when written out
+constexpr std::size_t longest_text = 100'000;       ///< bytes; a shared tree may be exponentially long when written out
 
 /// How tightly a text holds together, loosest first.
 enum class TextHold { sum, sign, quotient, product, power, atom };
@@ -220,8 +220,31 @@ std::string text_of_term(const SignedTree& term, bool of_sections)
 /// The first line where the text ends, the others behind a margin.
 void append_lines(std::string& text, const std::vector<std::string>& lines, std::size_t margin)
 {
-    for (std::size_t k = 0; k < lines.size(); ++k)
-        text += (k == 0 ? "" : std::string(margin, ' ')) + lines[k] + "\n";
+    for (std::size_t k = 0; k < lines.size(); ++k) text += (k == 0 ? "" : std::string(margin, ' ')) + lines[k] + "\n";
+}
+
+std::vector<std::pair<bool, std::string>> right_terms(const Equation& equation)
+{
+    std::vector<std::pair<bool, std::string>> terms;
+    for (const SignedTree& term : right_side_terms(equation))
+        terms.emplace_back(term.negative, text_of_term(term, is_of_sections(equation)));
+    if (terms.empty()) terms.emplace_back(false, "0");
+    return terms;
+}
+
+/// Lines within the page, the first behind `first` columns, the others behind `margin`.
+std::vector<std::string> page_lines(const std::vector<std::pair<bool, std::string>>& terms, std::size_t first,
+                                    std::size_t margin)
+{
+    return with_inner_breaks(wrap_terms(terms, first, margin, page_width, columns_of), first, margin, page_width);
+}
+
+/// Whether a long left side stands on lines of its own, the right side below.
+bool stands_apart(const Equation& equation)
+{
+    const std::size_t columns = columns_of(left_side(equation));
+    return !equation.mass.empty() && columns > widest_left &&
+           page_lines(right_terms(equation), columns + 5, 0).size() > 1;
 }
 
 void print_block(std::string& text, const EquationBlock& block)
@@ -230,30 +253,22 @@ void print_block(std::string& text, const EquationBlock& block)
     text += "\n" + block.title + (fits ? ":  " : ":\n  ") + block.formula + "\n";
     std::size_t widest = 0; // of the left sides that share a column
     for (const Equation& equation : block.equations)
-        if (const std::size_t columns = columns_of(left_side(equation)); columns <= widest_left)
-            widest = std::max(widest, columns);
+        if (!stands_apart(equation)) widest = std::max(widest, columns_of(left_side(equation)));
+    widest = std::min(widest, widest_left);
     for (const Equation& equation : block.equations) {
+        if (stands_apart(equation)) {
+            text += "  ";
+            append_lines(text, page_lines(mass_terms(equation), 2, 4), 4);
+            text += "    " + std::string(relation_text(equation.relation) + 1);
+            append_lines(text, page_lines(right_terms(equation), 6, 6), 6);
+            continue;
+        }
         const std::string left = left_side(equation);
         const std::size_t columns = columns_of(left);
-        const bool apart = columns > widest_left; // on lines of its own, the right side below
-        if (apart) {
-            append_lines(text += "  ",
-                         with_inner_breaks(wrap_terms(mass_terms(equation), 2, 4, page_width, columns_of), 2, 4,
-                                           page_width),
-                         4);
-            text += "  ";
-        }
-        text += (apart ? std::string(2, ' ') : "  " + std::string(widest - columns, ' ') + left) +
-                (relation_text(equation.relation) + (apart ? 1 : 0));
-        std::vector<std::pair<bool, std::string>> terms;
-        for (const SignedTree& term : right_side_terms(equation))
-            terms.emplace_back(term.negative, text_of_term(term, is_of_sections(equation)));
-        if (terms.empty()) terms.emplace_back(false, "0");
-        const std::size_t margin = apart ? 6 : widest + 5;
-        append_lines(text,
-                     with_inner_breaks(wrap_terms(terms, margin, margin, page_width, columns_of), margin, margin,
-                                       page_width),
-                     margin);
+        text +=
+            "  " + std::string(columns < widest ? widest - columns : 0, ' ') + left + relation_text(equation.relation);
+        const std::size_t margin = widest + 5;
+        append_lines(text, page_lines(right_terms(equation), std::max(columns, widest) + 5, margin), margin);
     }
 }
 
@@ -269,11 +284,7 @@ void print_where(std::string& text, const EquationSet& equations)
     for (const WhereItem& item : items) {
         std::vector<std::string> lines;
         if (item.values.size() == 1) {
-            std::vector<std::pair<bool, std::string>> terms;
-            for (const SignedTree& term : right_side_terms({LeftSide::symbol, {}, {}, {{"", item.values[0]}}}))
-                terms.emplace_back(term.negative, text_of_term(term, false));
-            lines = with_inner_breaks(wrap_terms(terms, margin, margin, page_width, columns_of), margin, margin,
-                                      page_width);
+            lines = page_lines(right_terms({LeftSide::symbol, {}, {}, {{"", item.values[0]}}}), margin, margin);
         } else {
             std::vector<std::string> entries;
             for (const Tree& value : item.values) entries.push_back(TextWriter().write(value, TextHold::sum));

@@ -17,8 +17,9 @@ std::set<std::string> substituted_in(const Model& model, const System& system)
 
 ConstrainedModel::ConstrainedModel(const Model& model, const System& system, const DefinitionChoice& choice)
     : written_(*system.written.distribution),
-      symbolic_(model, system.written.algebroid, {model.lagrangian, model.dissipation}, choice, substituted_in(model, system)), r_(symbolic_.r()),
-      k_(written_.y.size()), sections_(k_, Sum(r_, 0)), drift_(r_, 0)
+      symbolic_(model, system.written.algebroid, {model.lagrangian, model.dissipation}, choice,
+                substituted_in(model, system)),
+      r_(symbolic_.r()), k_(written_.y.size()), sections_(k_, Sum(r_, 0)), drift_(r_, 0)
 {
     for (const Symbol& symbol : written_.y) y_.push_back(symbolic_.lower(name(symbol.name)));
     for (const SectionValue& entry : written_.sections) sections_[entry.alpha][entry.a] += symbolic_.lower(entry.value);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 namespace lagen {
 namespace {
@@ -109,20 +110,23 @@ EquationSet with_symbols(const std::function<EquationSet(const DefinitionChoice&
 
 } // namespace
 
-EquationSet with_definitions(Definitions definitions, const std::function<EquationSet(const DefinitionChoice&)>& derivation)
+EquationSet with_definitions(Definitions definitions,
+                             const std::function<EquationSet(const DefinitionChoice&)>& derivation)
 {
     if (definitions == Definitions::expanded) return derivation({});
+    std::optional<EquationSet> set;
     try {
-        EquationSet set = with_symbols(derivation);
-        if (set.where.empty() || written_length(set) <= one_page) return set;
-        EquationSet flat = derivation({});
-        return written_length(flat) < written_length(set) ? flat : set;
-    } catch (const MathematicsError&) { // one of both grows too large, or in symbols something divides by what is zero
+        set = with_symbols(derivation);
+    } catch (const TooManyNames&) {
+    } catch (const MathematicsError&) { // in symbols something divides by what is zero
     }
+    if (!set) return derivation({});
+    if (set->where.empty() || written_length(*set) <= one_page) return *set;
     try {
-        return derivation({});
-    } catch (const MathematicsError&) {
-        return with_symbols(derivation);
+        const EquationSet flat = derivation({});
+        return written_length(flat) < written_length(*set) ? flat : *set;
+    } catch (const MathematicsError&) { // too large without symbols
+        return *set;
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include "notation/equation_set.hpp"
 
+#include <exception>
 #include <functional>
 #include <set>
 
@@ -20,6 +21,9 @@ struct DefinitionChoice {
     bool kept = false;             ///< false: none, everything is written out in coordinates and parameters
     std::set<std::string> dropped; ///< names that are written out all the same
 };
+
+/// What a derivation throws that would need more names than anybody reads.
+class TooManyNames : public std::exception {};
 
 /// `derivation` with the definitions that pay for their names: those that stand twice in one block or three times in
 /// all, or are long. Others are written out; all are where that is shorter than a long form with symbols, and where the

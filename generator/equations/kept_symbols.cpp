@@ -44,14 +44,6 @@ bool holds_any(const Tree& tree, const std::set<std::string>& names)
     return std::ranges::any_of(names_in(tree), [&](const std::string& each) { return names.contains(each); });
 }
 
-/// The terms of a sum, the factors of a product; anything else is one part.
-template <class Composite>
-GiNaC::exvector parts_of(const GiNaC::ex& e)
-{
-    if (!GiNaC::is_a<Composite>(e)) return {e};
-    return {e.begin(), e.end()};
-}
-
 void insert_behind(std::vector<std::string>& list, const std::string& behind, const std::string& name)
 {
     const auto found = std::ranges::find(list, behind);
@@ -84,8 +76,7 @@ void KeptSymbols::take_definitions(const std::set<std::string>& substituted)
             kept.index = entry_name("", value.shape, k);
             kept.family = value.entries.size();
             kept.tree = value.entries[k];
-            if (written_nodes(kept.tree) > short_definition)
-                by_tree_.try_emplace(identity_(kept.tree), kept_.size());
+            if (written_nodes(kept.tree) > short_definition) by_tree_.try_emplace(identity_(kept.tree), kept_.size());
             kept.of_points = !holds_any(value.entries[k], moving);
             append(std::move(kept));
         }
@@ -161,7 +152,9 @@ GiNaC::ex KeptSymbols::rate(std::size_t k, const GiNaC::ex& symbol)
     const Tree tree = shortest_form(derivative(value_of(k), symbol), symbols_, order_);
     next.value = to_ginac(tree, symbols_);
     GiNaC::ex result = *next.value;
-    if (written_nodes(tree) > short_derivative) {
+    if (const std::optional<GiNaC::ex> known = known_as(result)) {
+        result = *known;
+    } else if (written_nodes(tree) > short_derivative) {
         const Kept& root = kept_[next.root];
         next.stem = root.stem;
         for (const std::string& each : next.by) next.stem += "_" + each;
@@ -170,8 +163,7 @@ GiNaC::ex KeptSymbols::rate(std::size_t k, const GiNaC::ex& symbol)
         next.family = root.family;
         next.behind = kept_[k].name();
         if (!choice_.dropped.contains(next.stem)) {
-            if (++derivatives_ > most_derivatives)
-                throw MathematicsError("the definitions have more derivatives than a person would name");
+            if (++derivatives_ > most_derivatives) throw TooManyNames();
             next.of_points = kept_[k].of_points;
             append(std::move(next));
             result = kept_.back().symbol;
@@ -179,6 +171,19 @@ GiNaC::ex KeptSymbols::rate(std::size_t k, const GiNaC::ex& symbol)
     }
     rates_.emplace(key, result);
     return result;
+}
+
+/// D or -D where that is a definition: w2 for dw1/dpsi.
+std::optional<GiNaC::ex> KeptSymbols::known_as(const GiNaC::ex& value)
+{
+    if (!GiNaC::is_a<GiNaC::add>(value)) return {};
+    for (std::size_t k = 0; k < kept_.size(); ++k) {
+        if (!kept_[k].tree || written_nodes(kept_[k].tree) <= short_definition) continue;
+        for (const int sign : {1, -1})
+            if (expanded_length(value - sign * value_of(k)) == std::optional<std::size_t>(0))
+                return GiNaC::ex(sign * kept_[k].symbol);
+    }
+    return {};
 }
 
 std::string KeptSymbols::free_stem(std::string stem, const std::string& index) const
@@ -221,117 +226,14 @@ bool KeptSymbols::depends_on(const GiNaC::ex& f, const GiNaC::ex& symbol)
     return std::ranges::any_of(symbols_in(f), [&](std::size_t k) { return depends_on(value_of(k), symbol); });
 }
 
-/// Of definitions on points D = c k + rest with a parameter k that is nowhere in the rest: k and (D - rest)/c.
-std::vector<std::pair<GiNaC::ex, GiNaC::ex>> KeptSymbols::pivots()
+bool KeptSymbols::vanishes(GiNaC::ex f)
 {
-    std::vector<std::pair<GiNaC::ex, GiNaC::ex>> result;
-    for (std::size_t k = 0; k < kept_.size(); ++k) {
-        if (!kept_[k].tree || !kept_[k].of_points || !expanded_length(value_of(k))) continue;
-        const GiNaC::ex body = value_of(k).expand();
-        for (const Parameter& parameter : model_.parameters) {
-            const GiNaC::ex symbol = symbols_.symbol(parameter.symbol.name);
-            const GiNaC::ex slope = body.diff(GiNaC::ex_to<GiNaC::symbol>(symbol));
-            if (!GiNaC::is_a<GiNaC::numeric>(slope) || slope.is_zero()) continue;
-            result.emplace_back(symbol, (kept_[k].symbol - body + slope * symbol).expand() / slope);
-            break;
-        }
+    for (std::vector<std::size_t> inside = symbols_in(f); !inside.empty(); inside = symbols_in(f)) {
+        GiNaC::exmap values;
+        for (const std::size_t k : inside) values[kept_[k].symbol] = value_of(k);
+        f = f.subs(values, GiNaC::subs_options::no_pattern);
     }
-    return result;
-}
-
-/// With definitions that are not of points written out.
-GiNaC::ex KeptSymbols::without_moving(GiNaC::ex f)
-{
-    for (bool more = true; more;) {
-        more = false;
-        for (const std::size_t k : symbols_in(f))
-            if (!kept_[k].of_points) {
-                f = f.subs(kept_[k].symbol == value_of(k), GiNaC::subs_options::no_pattern);
-                more = true;
-            }
-    }
-    return f;
-}
-
-std::size_t KeptSymbols::cost_of(const GiNaC::ex& f) const
-{
-    return to_text(shortest_form(f, symbols_, order_)).size();
-}
-
-/// With those parameters replaced that make the expanded sum shorter.
-GiNaC::ex KeptSymbols::shortened(GiNaC::ex sum, const std::vector<std::pair<GiNaC::ex, GiNaC::ex>>& rules) const
-{
-    sum = sum.expand();
-    std::size_t cost = cost_of(sum);
-    for (bool more = true; more;) {
-        more = false;
-        const GiNaC::ex before = sum;
-        for (const auto& [parameter, replacement] : rules) {
-            if (!before.has(parameter)) continue;
-            const GiNaC::ex next = before.subs(parameter == replacement, GiNaC::subs_options::no_pattern).expand();
-            const std::size_t next_cost = cost_of(next);
-            if (next_cost >= cost) continue;
-            sum = next;
-            cost = next_cost;
-            more = true;
-        }
-    }
-    return sum;
-}
-
-/// Without names of parts, T of L = T - V: they would hide all that T is made of.
-GiNaC::ex KeptSymbols::without_parts(GiNaC::ex f)
-{
-    for (bool more = true; more;) {
-        more = false;
-        for (const std::size_t k : symbols_in(f)) {
-            const GiNaC::ex slope = f.diff(GiNaC::ex_to<GiNaC::symbol>(kept_[k].symbol));
-            if (kept_[k].of_points || !GiNaC::is_a<GiNaC::numeric>(slope)) continue;
-            f = f.subs(kept_[k].symbol == value_of(k), GiNaC::subs_options::no_pattern);
-            more = true;
-        }
-    }
-    return f;
-}
-
-GiNaC::ex KeptSymbols::reduced(const GiNaC::ex& whole, const GiNaC::exvector& moving)
-{
-    if (kept_.empty()) return whole;
-    const GiNaC::ex f = without_parts(whole);
-    const GiNaC::ex open = without_moving(f);
-    if (!expanded_length(open)) return f;
-    const auto rules = pivots();
-    std::map<GiNaC::ex, GiNaC::exvector, GiNaC::ex_is_less> coefficients;
-    for (const GiNaC::ex& term : parts_of<GiNaC::add>(open.expand())) {
-        GiNaC::ex monomial = 1, coefficient = 1;
-        for (const GiNaC::ex& factor : parts_of<GiNaC::mul>(term)) {
-            const bool moves = std::ranges::any_of(moving, [&](const GiNaC::ex& each) { return factor.has(each); });
-            (moves || !symbols_in(factor).empty() ? monomial : coefficient) *= factor;
-        }
-        coefficients[monomial].push_back(coefficient);
-    }
-    GiNaC::exvector terms;
-    for (const auto& [monomial, sum] : coefficients)
-        terms.push_back(monomial * shortened(GiNaC::ex(GiNaC::dynallocate<GiNaC::add>(sum)), rules));
-    const GiNaC::ex sum(GiNaC::dynallocate<GiNaC::add>(terms));
-    const GiNaC::ex result = to_ginac(shortest_form(sum, symbols_, order_), symbols_);
-    return cost_with_definitions(result) < cost_with_definitions(f) ? result : f;
-}
-
-/// Characters of an expression and of what its symbols stand for.
-std::size_t KeptSymbols::cost_with_definitions(const GiNaC::ex& f)
-{
-    std::size_t sum = cost_of(f);
-    std::set<std::size_t> used;
-    std::vector<std::size_t> pending = symbols_in(f);
-    while (!pending.empty()) {
-        const std::size_t k = pending.back();
-        pending.pop_back();
-        if (!used.insert(k).second) continue;
-        sum += cost_of(value_of(k));
-        for (const std::size_t inner : symbols_in(value_of(k))) pending.push_back(inner);
-    }
-    return sum;
+    return expanded_length(f) == std::optional<std::size_t>(0);
 }
 
 GiNaC::ex KeptSymbols::named(const std::string& name, const GiNaC::ex& value)
@@ -391,7 +293,8 @@ void KeptSymbols::append_latex(EquationSet& equations) const
         for (const std::string& each : kept.by) {
             const std::string latex = latex_of_name(each);
             given = given || !latex.empty();
-            below += (below.empty() ? "" : " ") + (latex.empty() ? each.size() == 1 ? each : "\\mathit{" + each + "}" : latex);
+            below += (below.empty() ? "" : " ") +
+                     (latex.empty() ? each.size() == 1 ? each : "\\mathit{" + each + "}" : latex);
         }
         const std::string latex = latex_of_name(kept_[kept.root].stem);
         const std::string& stem = kept_[kept.root].stem;

@@ -29,9 +29,11 @@ class KeptSymbols {
     /// y^a df/dy^a; of a symbol that is homogeneous of degree k in y it is k times the symbol.
     [[nodiscard]] GiNaC::ex along_fibre(const GiNaC::ex& f, const GiNaC::exvector& y);
     [[nodiscard]] bool depends_on(const GiNaC::ex& f, const GiNaC::ex& symbol);
-    /// A function in the shorter of two forms: as it is, or with definitions that move with `moving` written out and the
-    /// coefficients of these in terms of those that do not: I w^2/2 for (J + m a^2) w^2/2 where I = J + m a^2.
+    /// A function in the shorter of two forms: as it is, or with definitions that move with `moving` written out and
+    /// the coefficients of these in terms of those that do not: I w^2/2 for (J + m a^2) w^2/2 where I = J + m a^2.
     [[nodiscard]] GiNaC::ex reduced(const GiNaC::ex& whole, const GiNaC::exvector& moving);
+    /// Whether it is plainly zero when all symbols are written out.
+    [[nodiscard]] bool vanishes(GiNaC::ex f);
     /// A symbol for `value` where that is long, else `value`.
     [[nodiscard]] GiNaC::ex named(const std::string& name, const GiNaC::ex& value);
 
@@ -49,8 +51,8 @@ class KeptSymbols {
         Tree tree;                   ///< of a definition
         std::optional<GiNaC::ex> value;
         GiNaC::ex symbol;
-        std::string behind;          ///< where it stands in the order of terms
-        bool of_points = true;       ///< depends on points of the base, time and parameters alone
+        std::string behind;    ///< where it stands in the order of terms
+        bool of_points = true; ///< depends on points of the base, time and parameters alone
 
         [[nodiscard]] std::string name() const { return stem + index; }
     };
@@ -60,6 +62,7 @@ class KeptSymbols {
     [[nodiscard]] std::vector<std::size_t> symbols_in(const GiNaC::ex& f) const;
     [[nodiscard]] GiNaC::ex value_of(std::size_t k);
     [[nodiscard]] GiNaC::ex rate(std::size_t k, const GiNaC::ex& symbol);
+    [[nodiscard]] std::optional<GiNaC::ex> known_as(const GiNaC::ex& value);
     [[nodiscard]] GiNaC::ex along_fibre(std::size_t k, const GiNaC::exvector& y);
     [[nodiscard]] std::vector<std::pair<GiNaC::ex, GiNaC::ex>> pivots();
     [[nodiscard]] GiNaC::ex without_moving(GiNaC::ex f);
@@ -76,9 +79,9 @@ class KeptSymbols {
     Order& order_;
     TreeIdentity identity_;
     std::vector<Kept> kept_;
-    std::map<std::string, std::size_t> index_;        ///< by name
-    std::map<std::size_t, std::size_t> by_tree_;      ///< by the number of the definition's tree
-    std::map<std::string, GiNaC::ex> rates_;          ///< by root and symbols
+    std::map<std::string, std::size_t> index_;   ///< by name
+    std::map<std::size_t, std::size_t> by_tree_; ///< by the number of the definition's tree
+    std::map<std::string, GiNaC::ex> rates_;     ///< by root and symbols
     std::map<std::size_t, GiNaC::ex> along_fibre_;
     std::size_t derivatives_ = 0; ///< that have names
 };

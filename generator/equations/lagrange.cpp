@@ -94,7 +94,8 @@ class LagrangeDerivation {
         for (std::size_t a = 0; a < r(); ++a) {
             Equation next{LeftSide::time_derivative, fibre_name(a), {}, {}};
             for (std::size_t b = 0; b < r(); ++b)
-                for (TermGroup& mass : symbolic_.simplified({{fibre_name(b), symbolic_.derivative(p_[a], symbolic_.y()[b])}}))
+                for (TermGroup& mass :
+                     symbolic_.simplified({{fibre_name(b), symbolic_.derivative(p_[a], symbolic_.y()[b])}}))
                     next.mass.push_back(std::move(mass));
             next.groups =
                 symbolic_.simplified({{"ρ_a(L)", total(symbolic_.along_anchor(a, lagrangian_))},

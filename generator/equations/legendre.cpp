@@ -73,8 +73,7 @@ std::optional<LegendreTransform> legendre_transform(SymbolicModel& symbolic, con
     const auto simpler = [&](const GiNaC::ex& e) { return symbolic.simpler(e); };
     const bool coupled = couples_by(symbolic, *W);
     Rewriting divisor;
-    if (coupled && name_entries(symbolic, *W))
-        divisor = [&](const GiNaC::ex& e) { return symbolic.named("det_W", e); };
+    if (coupled && name_entries(symbolic, *W)) divisor = [&](const GiNaC::ex& e) { return symbolic.named("det_W", e); };
     auto velocities = solve_in_blocks(*W, difference, simpler, divisor);
     if (!velocities) return {};
     for (GiNaC::ex& velocity : *velocities) velocity = simpler(velocity);

@@ -70,7 +70,8 @@ std::optional<GiNaC::exvector> solve_in_blocks(const SquareMatrix& A, const GiNa
         for (const std::size_t i : block) right.push_back(b[i]);
         const bool small = block.size() <= largest_written_block;
         if (!small && !all_numbers(part)) return {};
-        const auto solution = small ? solve_by_determinants(part, right, simpler, divisor) : solve_by_elimination(part, right);
+        const auto solution =
+            small ? solve_by_determinants(part, right, simpler, divisor) : solve_by_elimination(part, right);
         if (!solution) return {};
         for (std::size_t k = 0; k < block.size(); ++k) z[block[k]] = (*solution)[k];
     }

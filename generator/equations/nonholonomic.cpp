@@ -94,7 +94,8 @@ class NonholonomicDerivation : ConstrainedModel {
         for (std::size_t alpha = 0; alpha < k_; ++alpha) {
             Equation next{LeftSide::time_derivative, written_.y[alpha].name, {}, {}};
             for (std::size_t beta = 0; beta < k_; ++beta)
-                for (TermGroup& mass : symbolic_.simplified({{written_.y[beta].name, symbolic_.derivative(p_[alpha], y_[beta])}}))
+                for (TermGroup& mass :
+                     symbolic_.simplified({{written_.y[beta].name, symbolic_.derivative(p_[alpha], y_[beta])}}))
                     next.mass.push_back(std::move(mass));
             std::vector<Group> groups = balance(alpha);
             groups.insert(groups.begin() + 1, {"-∂p_α/∂x^i ẋ^i - ∂p_α/∂t", -at_fixed_velocity(p_[alpha])});

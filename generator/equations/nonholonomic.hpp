@@ -8,8 +8,8 @@
 /// [Cortes, de Leon, Marrero, Martinez 2009]
 #pragma once
 
-#include "mechanics/system.hpp"
 #include "equations/kept_symbols.hpp"
+#include "mechanics/system.hpp"
 #include "model/model.hpp"
 #include "notation/equation_set.hpp"
 

@@ -55,8 +55,8 @@ class NonholonomicForms : ConstrainedModel {
                 for (std::size_t delta = 0; delta < k_; ++delta)
                     for (std::size_t a = 0; a < r_; ++a)
                         for (std::size_t b = 0; b < r_; ++b)
-                            right[delta] +=
-                                sections_[delta][a] * symbolic_.derivative(ambient_momenta_[a], symbolic_.y()[b]) * V[b];
+                            right[delta] += sections_[delta][a] *
+                                            symbolic_.derivative(ambient_momenta_[a], symbolic_.y()[b]) * V[b];
                 for (GiNaC::ex& each : right) each = symbolic_.simpler(each);
                 const auto C = solved(G, right);
                 if (!C)
@@ -203,7 +203,8 @@ class NonholonomicForms : ConstrainedModel {
     {
         GiNaC::ex value;
         for (std::size_t alpha = 0; alpha < k_; ++alpha) {
-            const GiNaC::ex f_p = symbolic_.derivative(f, symbolic_.mu()[alpha]), g_p = symbolic_.derivative(g, symbolic_.mu()[alpha]);
+            const GiNaC::ex f_p = symbolic_.derivative(f, symbolic_.mu()[alpha]),
+                            g_p = symbolic_.derivative(g, symbolic_.mu()[alpha]);
             value += f_p * total(along(sections_[alpha], g)) - g_p * total(along(sections_[alpha], f));
             for (std::size_t beta = 0; beta < k_; ++beta)
                 value += f_p * symbolic_.derivative(g, symbolic_.mu()[beta]) * bracket_of_momenta(alpha, beta);

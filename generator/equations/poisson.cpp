@@ -19,9 +19,9 @@ class PoissonDerivation {
   public:
     PoissonDerivation(const Model& model, const System& system, const Regularity& regularity,
                       const std::vector<Tree>& brackets, const DefinitionChoice& choice)
-        : system_(system), kept_(choice.kept), graph_(system.graph), symbolic_(model, system.written.algebroid, {}, choice),
-          canonical_(canonical_forms(graph_, system)), partial_(graph_, canonical_.prolongation.x),
-          decider_(ZeroDecider::make(graph_, setting_of(graph_, system)))
+        : system_(system), kept_(choice.kept), graph_(system.graph),
+          symbolic_(model, system.written.algebroid, {}, choice), canonical_(canonical_forms(graph_, system)),
+          partial_(graph_, canonical_.prolongation.x), decider_(ZeroDecider::make(graph_, setting_of(graph_, system)))
     {
         Lowering lower(graph_);
         for (const Tree& each : brackets) functions_.push_back({each, lower(each)});
@@ -38,13 +38,18 @@ class PoissonDerivation {
                 set.symbols.push_back({kind + basis_name(a), latex + symbolic_.fibre_latex(a) + "}"});
         set.blocks = {poisson_brackets(symbolic_), symplectic_section()};
         if (!functions_.empty()) set.blocks.push_back(given_brackets());
-        set.statements = {jacobi(), closed()};
-        for (std::size_t k = 0; k + 1 < functions_.size(); k += 2) set.statements.push_back(through_sections(k));
-        if (hamiltonian_) {
-            set.statements.push_back(dynamics());
-            set.statements.push_back(rates());
-        }
         return symbolic_.closed(std::move(set));
+    }
+
+    [[nodiscard]] std::vector<DecidedStatement> statements()
+    {
+        std::vector<DecidedStatement> statements{jacobi(), closed()};
+        for (std::size_t k = 0; k + 1 < functions_.size(); k += 2) statements.push_back(through_sections(k));
+        if (hamiltonian_) {
+            statements.push_back(dynamics());
+            statements.push_back(rates());
+        }
+        return statements;
     }
 
   private:
@@ -248,8 +253,12 @@ EquationBlock poisson_brackets(const SymbolicModel& symbolic)
 EquationSet derive_poisson(const Model& model, const System& system, const Regularity& regularity,
                            const std::vector<Tree>& brackets, Definitions definitions)
 {
-    return derived(model, "the Poisson brackets", definitions, [&](const DefinitionChoice& choice) {
-        return PoissonDerivation(model, system, regularity, brackets, choice).run();
+    return derived(model, "the Poisson brackets", [&] {
+        EquationSet set = with_definitions(definitions, [&](const DefinitionChoice& choice) {
+            return PoissonDerivation(model, system, regularity, brackets, choice).run();
+        });
+        set.statements = PoissonDerivation(model, system, regularity, brackets, {}).statements();
+        return set;
     });
 }
 

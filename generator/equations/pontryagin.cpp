@@ -16,7 +16,8 @@ class PontryaginDerivation {
     PontryaginDerivation(const Model& model, const WrittenAlgebroid& algebroid, const ControlMaximum& maximum,
                          const DefinitionChoice& choice)
         : control_(*model.control), maximal_(maximum.kind == ControlMaximum::Kind::maximal), angles_(maximum.angles),
-          symbolic_(model, algebroid, functions_of(*model.control), choice, substituted_in(model, algebroid)), sigma_(symbolic_.r(), 0)
+          symbolic_(model, algebroid, functions_of(*model.control), choice, substituted_in(model, algebroid)),
+          sigma_(symbolic_.r(), 0)
     {
         for (const ComponentEntry& entry : control_.sigma) sigma_[entry.section] += symbolic_.lower(entry.value);
         Sum terms;
@@ -142,7 +143,8 @@ class PontryaginDerivation {
             block.latex_formula += R"(, \text{ or } u^A \text{ at a bound where } H \text{ is largest})";
         }
         for (const GiNaC::ex& control : symbolic_.controls())
-            block.equations.push_back(symbolic_.equation(LeftSide::zero, "", {symbolic_.derivative(hamiltonian_, control)}));
+            block.equations.push_back(
+                symbolic_.equation(LeftSide::zero, "", {symbolic_.derivative(hamiltonian_, control)}));
         return block;
     }
 

@@ -19,6 +19,6 @@ namespace lagen {
 /// maximum or no dH/du.
 [[nodiscard]] EquationSet derive_pontryagin(const Model& model, const WrittenAlgebroid& algebroid,
                                             const ControlMaximum& maximum,
-                                          Definitions definitions = Definitions::expanded);
+                                            Definitions definitions = Definitions::expanded);
 
 } // namespace lagen

@@ -155,10 +155,10 @@ void SymbolicModel::lower_curvature()
                 set(c, i, b, total(terms));
             }
             for (std::size_t j = i + 1; j < m; ++j) {
-                Sum terms{derivative(A[i * r() + c], x_[block.base[j]]), -derivative(A[j * r() + c], x_[block.base[i]])};
+                Sum terms{derivative(A[i * r() + c], x_[block.base[j]]),
+                          -derivative(A[j * r() + c], x_[block.base[i]])};
                 for (std::size_t a = m; a < r(); ++a)
-                    for (std::size_t b = m; b < r(); ++b)
-                        terms.push_back(A[i * r() + a] * A[j * r() + b] * C(c, a, b));
+                    for (std::size_t b = m; b < r(); ++b) terms.push_back(A[i * r() + a] * A[j * r() + b] * C(c, a, b));
                 set(c, i, j, total(terms));
             }
         }
@@ -213,6 +213,7 @@ Tree SymbolicModel::shortest(const GiNaC::ex& e) const
 
 GiNaC::ex SymbolicModel::simpler(const GiNaC::ex& e)
 {
+    if (kept_->vanishes(e)) return 0;
     return to_ginac(shortest_form(e, symbols_, order_), symbols_);
 }
 

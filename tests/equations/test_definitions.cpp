@@ -234,7 +234,8 @@ TEST_CASE("definitions as symbols leave every equation its values, in all forms"
         for (const std::string form : {"lagrange", "hamilton", "poisson"}) {
             const Elaborated derived = load(path);
             if (derived.system.distribution && form == "poisson") continue;
-            if (derived.report.mechanics.regularity.kind == Regularity::Kind::degenerate && form == "hamilton") continue;
+            if (derived.report.mechanics.regularity.kind == Regularity::Kind::degenerate && form == "hamilton")
+                continue;
             check_same(derived, form, symbols);
         }
     CHECK(symbols > 10);
@@ -280,7 +281,8 @@ where:
   I_x = -2 m l sin(x) (a + l cos(x))
 )");
     const std::string latex = print_latex(set);
-    CHECK(latex.find("  m\\, l^{2}\\, \\ddot\\theta &= m\\, a\\, \\sin \\theta + \\frac{I_{\\theta}\\, w^{2}}{2} \\\\\n") !=
+    CHECK(latex.find(
+              "  m\\, l^{2}\\, \\ddot\\theta &= m\\, a\\, \\sin \\theta + \\frac{I_{\\theta}\\, w^{2}}{2} \\\\\n") !=
           std::string::npos);
     CHECK(latex.find("  p_{\\theta} &= m\\, l^{2}\\, \\dot\\theta \\\\\n") != std::string::npos);
     CHECK(latex.find(R"(\paragraph{where}
@@ -290,7 +292,8 @@ where:
 \end{align*}
 )") != std::string::npos);
     CHECK(print_json(set).find(R"json("where": [{"symbol": "I", "value": "J + m*(a + l*cos(x))^2"}, )json"
-                               R"json({"symbol": "I_x", "value": "-2*m*l*sin(x)*(a + l*cos(x))"}]})json") != std::string::npos);
+                               R"json({"symbol": "I_x", "value": "-2*m*l*sin(x)*(a + l*cos(x))"}]})json") !=
+          std::string::npos);
 }
 
 TEST_CASE("vectors are shown as vectors, and entry by entry in JSON")
@@ -300,7 +303,8 @@ TEST_CASE("vectors are shown as vectors, and entry by entry in JSON")
     CHECK(print_text(set).ends_with("\nwhere:\n  X = [x cos(th) - y sin(th), x sin(th) + y cos(th)]\n"));
     CHECK(print_latex(set).find("  X &= (x\\, \\cos \\mathit{th} - y\\, \\sin \\mathit{th}, x\\, \\sin \\mathit{th} + "
                                 "y\\, \\cos \\mathit{th})\n") != std::string::npos);
-    CHECK(print_json(set).find(R"json("where": [{"symbol": "X[1]", "value": "x*cos(th) - y*sin(th)"}, {"symbol": "X[2]")json") !=
+    CHECK(print_json(set).find(
+              R"json("where": [{"symbol": "X[1]", "value": "x*cos(th) - y*sin(th)"}, {"symbol": "X[2]")json") !=
           std::string::npos);
 }
 
