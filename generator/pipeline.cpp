@@ -56,7 +56,7 @@ std::vector<std::string> readable_equations(const CheckedModel& checked, const s
     if (!is_readable(checked.system))
         return {fmt::format("The equations are too long to be written out here: {} prints them.", command)};
     try {
-        return lines_of(print_text(derive(form, checked.model, checked.system, checked.report)));
+        return lines_of(print_text(derive(form, checked.model, checked.system, checked.report), LongLines::whole));
     } catch (const MathematicsError& error) {
         return {fmt::format("The equations are not written out here: {}.", error.message())};
     }

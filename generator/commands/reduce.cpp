@@ -127,7 +127,8 @@ ExitCode reduce_morphism(const Options& options, const MorphismFile& file)
         for (const std::string& warning :
              require_unrefuted("model", model.name, model.file->name, known.structure, unchecked))
             write_standard_error(fmt::format("warning: {}\n", warning));
-        for (const std::string& form : forms_in(report)) list.push_back(derive(form, model, system, known, {}, Definitions::kept));
+        for (const std::string& form : forms_in(report))
+            list.push_back(derive(form, model, system, known, {}, Definitions::kept));
     };
     const StructureReport report = verify_reduction(map);
     add(sides.source, source_of(file), map.source, verified.source, report);

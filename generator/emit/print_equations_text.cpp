@@ -234,33 +234,34 @@ std::vector<std::pair<bool, std::string>> right_terms(const Equation& equation)
 
 /// Lines within the page, the first behind `first` columns, the others behind `margin`.
 std::vector<std::string> page_lines(const std::vector<std::pair<bool, std::string>>& terms, std::size_t first,
-                                    std::size_t margin)
+                                    std::size_t margin, LongLines long_lines)
 {
+    if (long_lines == LongLines::whole) return wrap_terms(terms, first, margin, page_width, columns_of);
     return with_inner_breaks(wrap_terms(terms, first, margin, page_width, columns_of), first, margin, page_width);
 }
 
 /// Whether a long left side stands on lines of its own, the right side below.
-bool stands_apart(const Equation& equation)
+bool stands_apart(const Equation& equation, LongLines long_lines)
 {
     const std::size_t columns = columns_of(left_side(equation));
-    return !equation.mass.empty() && columns > widest_left &&
-           page_lines(right_terms(equation), columns + 5, 0).size() > 1;
+    return long_lines == LongLines::broken && !equation.mass.empty() && columns > widest_left &&
+           page_lines(right_terms(equation), columns + 5, 0, long_lines).size() > 1;
 }
 
-void print_block(std::string& text, const EquationBlock& block)
+void print_block(std::string& text, const EquationBlock& block, LongLines long_lines)
 {
     const bool fits = columns_of(block.title) + 3 + columns_of(block.formula) <= page_width;
     text += "\n" + block.title + (fits ? ":  " : ":\n  ") + block.formula + "\n";
     std::size_t widest = 0; // of the left sides that share a column
     for (const Equation& equation : block.equations)
-        if (!stands_apart(equation)) widest = std::max(widest, columns_of(left_side(equation)));
+        if (!stands_apart(equation, long_lines)) widest = std::max(widest, columns_of(left_side(equation)));
     widest = std::min(widest, widest_left);
     for (const Equation& equation : block.equations) {
-        if (stands_apart(equation)) {
+        if (stands_apart(equation, long_lines)) {
             text += "  ";
-            append_lines(text, page_lines(mass_terms(equation), 2, 4), 4);
+            append_lines(text, page_lines(mass_terms(equation), 2, 4, long_lines), 4);
             text += "    " + std::string(relation_text(equation.relation) + 1);
-            append_lines(text, page_lines(right_terms(equation), 6, 6), 6);
+            append_lines(text, page_lines(right_terms(equation), 6, 6, long_lines), 6);
             continue;
         }
         const std::string left = left_side(equation);
@@ -268,12 +269,13 @@ void print_block(std::string& text, const EquationBlock& block)
         text +=
             "  " + std::string(columns < widest ? widest - columns : 0, ' ') + left + relation_text(equation.relation);
         const std::size_t margin = widest + 5;
-        append_lines(text, page_lines(right_terms(equation), std::max(columns, widest) + 5, margin), margin);
+        append_lines(text, page_lines(right_terms(equation), std::max(columns, widest) + 5, margin, long_lines),
+                     margin);
     }
 }
 
 /// What symbols stand for; vectors as vectors.
-void print_where(std::string& text, const EquationSet& equations)
+void print_where(std::string& text, const EquationSet& equations, LongLines long_lines)
 {
     const std::vector<WhereItem> items = where_items(equations);
     if (items.empty()) return;
@@ -284,7 +286,8 @@ void print_where(std::string& text, const EquationSet& equations)
     for (const WhereItem& item : items) {
         std::vector<std::string> lines;
         if (item.values.size() == 1) {
-            lines = page_lines(right_terms({LeftSide::symbol, {}, {}, {{"", item.values[0]}}}), margin, margin);
+            lines =
+                page_lines(right_terms({LeftSide::symbol, {}, {}, {{"", item.values[0]}}}), margin, margin, long_lines);
         } else {
             std::vector<std::string> entries;
             for (const Tree& value : item.values) entries.push_back(TextWriter().write(value, TextHold::sum));
@@ -320,12 +323,12 @@ void print_statement(std::string& text, const DecidedStatement& statement)
 
 } // namespace
 
-std::string print_text(const EquationSet& equations)
+std::string print_text(const EquationSet& equations, LongLines long_lines)
 {
     std::string text = (equations.title.empty() ? equations.model : equations.title) + "\n";
     for (const EquationBlock& block : equations.blocks)
-        if (!block.equations.empty()) print_block(text, block);
-    print_where(text, equations);
+        if (!block.equations.empty()) print_block(text, block, long_lines);
+    print_where(text, equations, long_lines);
     if (!equations.statements.empty()) text += "\nstatements:\n";
     for (const DecidedStatement& statement : equations.statements) print_statement(text, statement);
     return text;
