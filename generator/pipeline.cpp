@@ -56,10 +56,18 @@ std::vector<std::string> readable_equations(const CheckedModel& checked, const s
     if (!is_readable(checked.system))
         return {fmt::format("The equations are too long to be written out here: {} prints them.", command)};
     try {
-        return lines_of(print_text(derive(form, checked.model, checked.system, checked.report)));
+        return lines_of(print_text(derive(form, checked.model, checked.system, checked.report), LongLines::whole));
     } catch (const MathematicsError& error) {
         return {fmt::format("The equations are not written out here: {}.", error.message())};
     }
+}
+
+constexpr std::size_t longest_residual = 100; ///< bytes in a message, which is one line
+
+/// A residual in a message.
+std::string short_residual(const std::string& residual)
+{
+    return residual.size() <= longest_residual ? residual : fmt::format("of {} characters", residual.size());
 }
 
 /// The first check with this status, as "anchor (w1, w2, g3), residual 2*g3"; of the maximum of H more is said
@@ -70,7 +78,7 @@ std::string first_with(const StructureReport& structure, ProofStatus status)
         if (check.decision.status == status && check.name != "maximum")
             return check.decision.residual.empty()
                        ? names_of(check)
-                       : fmt::format("{}, residual {}", names_of(check), check.decision.residual);
+                       : fmt::format("{}, residual {}", names_of(check), short_residual(check.decision.residual));
     return structure.note;
 }
 

@@ -34,6 +34,9 @@ const CommandSyntax derive_syntax{"derive",
                                   "MODEL",
                                   "Prints the equations of motion.",
                                   {{"form", "FORM", derive_form_help.c_str()},
+                                   {"expand", nullptr,
+                                    "write definitions out in coordinates and parameters; without it those that are "
+                                    "long and occur more than once stay symbols, with a list of what they stand for"},
                                    {"bracket", "F",
                                     "with --form poisson: the bracket {F, G} of two functions of base "
                                     "coordinates and momenta (twice)"},
@@ -127,7 +130,9 @@ ExitCode run_derive(Arguments arguments)
     if (is_form(form, FormKind::discrete) && checked.report.mechanics.discrete.kind == Regularity::Kind::degenerate)
         write_standard_error(
             "warning: the discrete Lagrangian is degenerate: the arrow of a step is not determined by the equations\n");
-    const EquationSet equations = derive(form, checked.model, checked.system, checked.report, brackets);
+    const bool expanded = options.has("expand") || format == "sympy";
+    const EquationSet equations = derive(form, checked.model, checked.system, checked.report, brackets,
+                                         expanded ? Definitions::expanded : Definitions::kept);
     const std::string text =
         marked(format == "text"    ? print_text(equations)
                : format == "latex" ? print_latex(equations)

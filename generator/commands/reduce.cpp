@@ -140,7 +140,7 @@ ExitCode reduce_morphism(const Options& options, const MorphismFile& file)
              require_unrefuted("model", model.name, model.file->name, known.structure, unchecked))
             write_standard_error(fmt::format("warning: {}\n", warning));
         for (const std::string& row : rows_in(checks))
-            if (row != "constraint") list.push_back(derive(row, model, system, known));
+            if (row != "constraint") list.push_back(derive(row, model, system, known, {}, Definitions::kept));
     };
     const ReductionReport report = verify_reduction(map);
     add(sides.source, source_of(file), map.source, verified.source, report.projects.checks);

@@ -6,8 +6,14 @@
 
 namespace lagen {
 
-[[nodiscard]] std::string
-print_text(const EquationSet& equations); ///< UTF-8, aligned, at most 120 columns where terms allow
+/// What becomes of a term or a left side that is wider than a page.
+enum class LongLines {
+    broken, ///< at inner signs and products
+    whole,  ///< one line, for a reader who leaves it out
+};
+
+/// UTF-8, aligned, at most 120 columns.
+[[nodiscard]] std::string print_text(const EquationSet& equations, LongLines long_lines = LongLines::broken);
 [[nodiscard]] std::string print_latex(const EquationSet& equations); ///< a compilable fragment: align* blocks (amsmath)
 [[nodiscard]] std::string print_json(const EquationSet& equations);
 

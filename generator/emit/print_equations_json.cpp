@@ -6,13 +6,14 @@
 ///     "other", "arguments": [..],
 ///                "mass": [{"symbol", "value"}]},
 ///       "relation": "at_least" | "at_most", "right": "...", "groups": [{"label", "value"}]}]}],
-///   "statements": [{"formula", "status", "component": [..], "residual", "witness": {}, "value", "evidence"}]}
-/// `symbol` is left out of kind "zero", `mass` where the left side has no mass matrix; `other` is of kind "bracket",
-/// {symbol, other}; `arguments` are those of kind "component",
-/// symbol(arguments); `relation` is left out of equations, `statements` where there are none. Of kinds "differential",
-/// d symbol, and "form", d e^symbol, the right side is the sum of value e^{basis[0]} ^ e^{basis[1]} .. of the groups,
-/// each {"label", "value", "basis"}; of "section", e_symbol, and "commutator", [e_symbol, e_other], that of value
-/// e_{basis[0]}.
+///   "where": [{"symbol", "value"}], "statements": [{"formula", "status", "component": [..], "residual", "witness": {},
+///   "value", "evidence"}]}
+/// `where` says what symbols of the equations stand for, in coordinates, parameters and others of the list; it is left
+/// out where there are none. `symbol` is left out of kind "zero", `mass` where the left side has no mass matrix;
+/// `other` is of kind "bracket", {symbol, other}; `arguments` are those of kind "component", symbol(arguments);
+/// `relation` is left out of equations, `statements` where there are none. Of kinds "differential", d symbol, and
+/// "form", d e^symbol, the right side is the sum of value e^{basis[0]} ^ e^{basis[1]} .. of the groups, each {"label",
+/// "value", "basis"}; of "section", e_symbol, and "commutator", [e_symbol, e_other], that of value e_{basis[0]}.
 #include "emit/json.hpp"
 #include "emit/print_equations.hpp"
 #include "emit/print_equations_terms.hpp"
@@ -111,6 +112,12 @@ std::string print_json(const EquationSet& equations)
         json.end_array().end_object();
     }
     json.end_array();
+    if (!equations.where.empty()) {
+        json.key("where").begin_array();
+        for (const WhereEntry& entry : equations.where)
+            json.begin_object().key("symbol").value(entry.symbol).key("value").value(to_text(entry.value)).end_object();
+        json.end_array();
+    }
     if (!equations.statements.empty()) {
         json.key("statements").begin_array();
         for (const DecidedStatement& statement : equations.statements) write_statement(json, statement);

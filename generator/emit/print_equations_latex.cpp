@@ -26,14 +26,15 @@ class LatexWriter {
   public:
     explicit LatexWriter(const LatexNames& names) : names_(names) {}
 
-    std::string write(const Tree& tree, LatexHold at_least)
+    /// `last`: no factor stands behind it, which a sine without parentheses would take in.
+    std::string write(const Tree& tree, LatexHold at_least, bool last = true)
     {
-        const LatexPiece piece = write_piece(tree);
+        const LatexPiece piece = write_piece(tree, last);
         return piece.hold >= at_least ? piece.text : "\\left(" + piece.text + "\\right)";
     }
 
   private:
-    LatexPiece write_piece(const Tree& tree)
+    LatexPiece write_piece(const Tree& tree, bool last)
     {
         written_ += 1;
         if (written_ > longest_latex) return {"\\dots", LatexHold::atom};
@@ -41,15 +42,15 @@ class LatexWriter {
         case TreeKind::number: return write_number(tree->number);
         case TreeKind::pi: return {"\\pi", LatexHold::atom};
         case TreeKind::name: return {names_.symbol(tree->name), LatexHold::power};
-        case TreeKind::negate: return {"-" + write(tree->arguments[0], LatexHold::product), LatexHold::sign};
+        case TreeKind::negate: return {"-" + write(tree->arguments[0], LatexHold::product, last), LatexHold::sign};
         case TreeKind::add: return write_sum(tree);
-        case TreeKind::multiply: return write_product(tree);
+        case TreeKind::multiply: return write_product(tree, last);
         case TreeKind::divide:
             return {"\\frac{" + write(tree->arguments[0], LatexHold::sum) + "}{" +
                         write(tree->arguments[1], LatexHold::sum) + "}",
                     LatexHold::product};
-        case TreeKind::power: return write_power(tree);
-        case TreeKind::call: return write_call(tree);
+        case TreeKind::power: return write_power(tree, last);
+        case TreeKind::call: return write_call(tree, last);
         case TreeKind::solve: return write_solve(tree);
         case TreeKind::compare: return write_comparison(tree);
         default: break;
@@ -66,14 +67,25 @@ class LatexWriter {
     }
 
     /// sin^2(x) rather than (sin(x))^2.
-    LatexPiece write_power(const Tree& tree)
+    LatexPiece write_power(const Tree& tree, bool last)
     {
         const std::string exponent = "^{" + write(tree->arguments[1], LatexHold::sum) + "}";
         if (!raised_by_name(tree)) return {write_base(tree->arguments[0]) + exponent, LatexHold::power};
         const Tree& call = tree->arguments[0];
-        return {entry_of(call->function).latex + exponent + "\\left(" + write(call->arguments[0], LatexHold::sum) +
-                    "\\right)",
-                LatexHold::power};
+        return {entry_of(call->function).latex + exponent + write_argument(call->arguments[0], last), LatexHold::power};
+    }
+
+    /// Of a circular or hyperbolic function: a symbol stands without parentheses, sin x.
+    std::string write_argument(const Tree& argument, bool last)
+    {
+        const std::string text = write(argument, LatexHold::sum);
+        return argument->kind == TreeKind::name && last ? " " + text : "\\left(" + text + "\\right)";
+    }
+
+    static bool begins_with_function(const Tree& tree)
+    {
+        const Tree& base = tree->kind == TreeKind::power ? tree->arguments[0] : tree;
+        return base->kind == TreeKind::call && entry_of(base->function).raised_by_name;
     }
 
     /// A symbol may be raised although it is no atom: its own subscript stays below.
@@ -93,16 +105,21 @@ class LatexWriter {
         return {text, LatexHold::sum};
     }
 
-    LatexPiece write_product(const Tree& tree)
+    LatexPiece write_product(const Tree& tree, bool last)
     {
         std::string text;
-        for (const Tree& factor : tree->arguments)
-            text += (text.empty() ? "" : "\\, ") + write(factor, LatexHold::product);
+        const std::vector<Tree>& factors = tree->arguments;
+        for (std::size_t k = 0; k < factors.size(); ++k) {
+            const bool ends = k + 1 == factors.size() ? last : begins_with_function(factors[k + 1]);
+            text += (text.empty() ? "" : "\\, ") + write(factors[k], LatexHold::product, ends);
+        }
         return {text, LatexHold::product};
     }
 
-    LatexPiece write_call(const Tree& tree)
+    LatexPiece write_call(const Tree& tree, bool last)
     {
+        if (begins_with_function(tree))
+            return {entry_of(tree->function).latex + write_argument(tree->arguments[0], last), LatexHold::power};
         const std::string first = write(tree->arguments[0], LatexHold::sum);
         if (tree->function == Function::sqrt) return {"\\sqrt{" + first + "}", LatexHold::atom};
         if (tree->function == Function::stumpff)
@@ -195,8 +212,8 @@ class WidthMeter {
             const std::size_t numerator = measure_item();
             return std::max(numerator, at_ < text_.size() ? measure_item() : 0) + 2;
         }
-        static constexpr std::string_view silent[] = {"left",   "right",        "dot", "mathit",
-                                                      "mathrm", "operatorname", "text"};
+        static constexpr std::string_view silent[] = {"left",   "right",  "dot",          "ddot",
+                                                      "mathit", "mathrm", "operatorname", "text"};
         if (std::find(std::begin(silent), std::end(silent), word) != std::end(silent)) return 0;
         static constexpr std::string_view spelled[] = {"sin",  "cos",  "tan", "arcsin", "arccos", "arctan", "sinh",
                                                        "cosh", "tanh", "exp", "log",    "min",    "max"};
@@ -231,7 +248,7 @@ std::string left_side(const Equation& equation, const LatexNames& names)
     for (const TermGroup& entry : equation.mass) {
         const SignedTree mass = without_sign(entry.value);
         text += text.empty() ? (mass.negative ? "-" : "") : (mass.negative ? " - " : " + ");
-        text += (is_one(mass.tree) ? "" : LatexWriter(names).write(mass.tree, LatexHold::product) + "\\, ") +
+        text += (is_one(mass.tree) ? "" : LatexWriter(names).write(mass.tree, LatexHold::product, false) + "\\, ") +
                 names.dotted(entry.label);
     }
     return text;
@@ -248,7 +265,7 @@ std::string latex_of_term(const SignedTree& term, const LatexNames& names, bool 
     std::string wedge;
     for (const std::string& name : term.basis)
         wedge += (of_sections ? "e_{" : wedge.empty() ? "e^{" : " \\wedge e^{") + names.symbol(name) + "}";
-    return (is_one(term.tree) ? "" : LatexWriter(names).write(term.tree, LatexHold::product) + "\\, ") + wedge;
+    return (is_one(term.tree) ? "" : LatexWriter(names).write(term.tree, LatexHold::product, false) + "\\, ") + wedge;
 }
 
 void print_block(std::string& text, const EquationBlock& block, const LatexNames& names)
@@ -273,6 +290,35 @@ void print_block(std::string& text, const EquationBlock& block, const LatexNames
     text += "\\end{align*}\n";
 }
 
+/// What symbols stand for; vectors as vectors.
+void print_where(std::string& text, const EquationSet& equations, const LatexNames& names)
+{
+    const std::vector<WhereItem> items = where_items(equations);
+    if (items.empty()) return;
+    text += "\\paragraph{where}\n\\begin{align*}\n";
+    std::size_t widest = 0;
+    for (const WhereItem& item : items) widest = std::max(widest, typeset_width(names.symbol(item.symbol)));
+    const std::size_t margin = std::min(widest, line_width / 2) + 12;
+    for (std::size_t e = 0; e < items.size(); ++e) {
+        std::vector<std::string> lines;
+        if (items[e].values.size() == 1) {
+            std::vector<std::pair<bool, std::string>> terms;
+            for (const SignedTree& term : right_side_terms({LeftSide::symbol, {}, {}, {{"", items[e].values[0]}}}))
+                terms.emplace_back(term.negative, latex_of_term(term, names, false));
+            lines = wrap_terms(terms, margin, margin + indent, line_width, typeset_width);
+        } else {
+            std::vector<std::string> entries;
+            for (const Tree& value : items[e].values)
+                entries.push_back(LatexWriter(names).write(value, LatexHold::sum));
+            lines = wrap_entries(entries, "(", ")", margin, margin + indent, line_width, typeset_width);
+        }
+        text += "  " + names.symbol(items[e].symbol) + " &= ";
+        for (std::size_t k = 0; k < lines.size(); ++k) text += (k == 0 ? "" : " \\\\\n  &\\quad ") + lines[k];
+        text += e + 1 < items.size() ? " \\\\\n" : "\n";
+    }
+    text += "\\end{align*}\n";
+}
+
 } // namespace
 
 std::string latex_of(const Tree& tree, const EquationSet& symbols)
@@ -287,6 +333,7 @@ std::string print_latex(const EquationSet& equations)
         "\\subsection*{" + escape_latex(equations.title.empty() ? equations.model : equations.title) + "}\n";
     for (const EquationBlock& block : equations.blocks)
         if (!block.equations.empty()) print_block(text, block, names);
+    print_where(text, equations, names);
     if (!equations.statements.empty()) text += "\\paragraph{statements}\n\\begin{itemize}\n";
     for (const DecidedStatement& statement : equations.statements)
         text += "  \\item $" + statement.latex_formula + "$: " + statement.status + "\n";

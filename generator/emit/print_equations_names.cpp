@@ -70,10 +70,14 @@ std::string subscripted(const Parts& parts)
     return parts.subscript.empty() ? parts.body : parts.body + "_{" + parts.subscript + "}";
 }
 
+bool is_letter(char c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
 /// Where the first letter or command of a given symbol ends if a subscript follows it ("\\omega_1": 6), else 0.
 std::size_t letter_before_subscript(const std::string& latex)
 {
-    const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
     std::size_t end = 1;
     if (!latex.empty() && latex[0] == '\\')
         while (end < latex.size() && is_letter(latex[end])) ++end;
@@ -141,6 +145,8 @@ std::string LatexNames::dotted(const std::string& name) const
 {
     const auto given = given_.find(name);
     if (given != given_.end()) {
+        if (given->second.starts_with("\\dot") && given->second.size() > 4 && !is_letter(given->second[4]))
+            return "\\ddot" + given->second.substr(4);
         const std::size_t letter = letter_before_subscript(given->second);
         if (letter == 0) return "\\dot{" + given->second + "}";
         return "\\dot{" + given->second.substr(0, letter) + "}" + given->second.substr(letter);

@@ -67,6 +67,85 @@ std::vector<std::string> wrap_terms(const std::vector<std::pair<bool, std::strin
     return lines;
 }
 
+namespace {
+
+/// Where a line of at most `width` columns is best broken: the space there. At the beginning, where nowhere.
+std::size_t best_break(const std::string& line, std::size_t width)
+{
+    std::size_t best = 0, columns = 0, depth = 0, best_depth = 0;
+    for (std::size_t k = 0; k < line.size(); ++k) {
+        if ((static_cast<unsigned char>(line[k]) & 0xC0U) != 0x80U) ++columns; // a combining mark too: no line is wider
+        if (columns > width) break;
+        if (line[k] == '(' || line[k] == '[') ++depth;
+        if ((line[k] == ')' || line[k] == ']') && depth > 0) --depth;
+        const bool sign = line.compare(k, 3, " + ") == 0 || line.compare(k, 3, " - ") == 0;
+        const bool behind_sign = k > 0 && (line[k - 1] == '+' || line[k - 1] == '-');
+        if (line[k] != ' ' || behind_sign || columns < width / 2) continue;
+        const std::size_t cost = 2 * depth + (sign ? 0 : 3);
+        if (best != 0 && cost > best_depth) continue;
+        best = k;
+        best_depth = cost;
+    }
+    return best;
+}
+
+} // namespace
+
+std::vector<std::string> with_inner_breaks(const std::vector<std::string>& lines, std::size_t first, std::size_t later,
+                                           std::size_t width)
+{
+    std::vector<std::string> result;
+    for (std::string line : lines) {
+        for (;;) {
+            const std::size_t room = width - std::min(width, result.empty() ? first : later);
+            const std::size_t at = columns_of(line) > room ? best_break(line, room) : 0;
+            if (at == 0) break;
+            result.push_back(line.substr(0, at));
+            line = line.substr(at + 1);
+        }
+        result.push_back(line);
+    }
+    return result;
+}
+
+std::vector<std::string> wrap_entries(const std::vector<std::string>& entries, const char* open, const char* close,
+                                      std::size_t first, std::size_t later, std::size_t width,
+                                      std::size_t (*measure)(std::string_view))
+{
+    std::vector<std::string> lines{open};
+    std::size_t used = first + 1;
+    for (std::size_t k = 0; k < entries.size(); ++k) {
+        const std::string piece = entries[k] + (k + 1 < entries.size() ? "," : close);
+        const std::size_t columns = measure(piece) + 1;
+        if (k > 0 && used + columns > width) {
+            lines.push_back(piece);
+            used = later + columns;
+            continue;
+        }
+        lines.back() += (k == 0 ? "" : " ") + piece;
+        used += columns;
+    }
+    return lines;
+}
+
+std::vector<WhereItem> where_items(const EquationSet& equations)
+{
+    std::vector<WhereItem> items;
+    const std::vector<WhereEntry>& where = equations.where;
+    for (std::size_t k = 0; k < where.size(); ++k) {
+        const std::size_t size = where[k].family;
+        const std::string stem = where[k].symbol.substr(0, where[k].symbol.find('['));
+        bool whole = size > 1 && k + size <= where.size();
+        for (std::size_t entry = 0; whole && entry < size; ++entry)
+            whole = where[k + entry].symbol == stem + "[" + std::to_string(entry + 1) + "]";
+        items.push_back({whole ? stem : where[k].symbol, {}});
+        for (std::size_t entry = 0; entry < (whole ? size : 1); ++entry)
+            items.back().values.push_back(where[k + entry].value);
+        if (whole) k += size - 1;
+    }
+    return items;
+}
+
 std::size_t columns_of(std::string_view text)
 {
     std::size_t columns = 0;

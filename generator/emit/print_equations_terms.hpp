@@ -33,6 +33,24 @@ struct SignedTree {
                                                   std::size_t first, std::size_t later, std::size_t width,
                                                   std::size_t (*measure)(std::string_view));
 
+/// The lines, those that are too wide broken before an inner sign, else between factors, in as few parentheses as can
+/// be.
+[[nodiscard]] std::vector<std::string> with_inner_breaks(const std::vector<std::string>& lines, std::size_t first,
+                                                         std::size_t later, std::size_t width);
+
+/// Lines of "[a, b, c]" with these brackets, broken behind a comma likewise.
+[[nodiscard]] std::vector<std::string> wrap_entries(const std::vector<std::string>& entries, const char* open,
+                                                    const char* close, std::size_t first, std::size_t later,
+                                                    std::size_t width, std::size_t (*measure)(std::string_view));
+
+/// What symbols stand for, as one list for the printers: a vector whose entries all stand one after the other is one
+/// item with several values.
+struct WhereItem {
+    std::string symbol;
+    std::vector<Tree> values;
+};
+[[nodiscard]] std::vector<WhereItem> where_items(const EquationSet& equations);
+
 /// Columns of a UTF-8 text on a terminal: code points, combining marks not counted.
 [[nodiscard]] std::size_t columns_of(std::string_view text);
 

@@ -13,7 +13,8 @@ namespace lagen {
 namespace {
 
 constexpr std::size_t page_width = 120;
-constexpr std::size_t longest_text = 100'000; ///< bytes; a shared tree may be exponentially long when written out
+constexpr std::size_t widest_left = page_width / 2; ///< of a left side beside its right side
+constexpr std::size_t longest_text = 100'000;       ///< bytes; a shared tree may be exponentially long when written out
 
 /// How tightly a text holds together, loosest first.
 enum class TextHold { sum, sign, quotient, product, power, atom };
@@ -170,6 +171,17 @@ std::string dotted(const std::string& name)
     return name.substr(0, size) + "\u0307" + name.substr(size);
 }
 
+std::vector<std::pair<bool, std::string>> mass_terms(const Equation& equation)
+{
+    std::vector<std::pair<bool, std::string>> terms;
+    for (const TermGroup& entry : equation.mass) {
+        const SignedTree mass = without_sign(entry.value);
+        const std::string factor = is_one(mass.tree) ? "" : TextWriter().write(mass.tree, TextHold::product) + " ";
+        terms.emplace_back(mass.negative, factor + dotted(entry.label));
+    }
+    return terms;
+}
+
 std::string left_side(const Equation& equation)
 {
     if (equation.left == LeftSide::zero) return "0";
@@ -182,11 +194,8 @@ std::string left_side(const Equation& equation)
     if (equation.left == LeftSide::component) return equation.symbol + "(" + joined(equation.arguments) + ")";
     if (equation.mass.empty()) return dotted(equation.symbol);
     std::string text;
-    for (const TermGroup& entry : equation.mass) {
-        const SignedTree mass = without_sign(entry.value);
-        text += text.empty() ? (mass.negative ? "-" : "") : (mass.negative ? " - " : " + ");
-        text += (is_one(mass.tree) ? "" : TextWriter().write(mass.tree, TextHold::product) + " ") + dotted(entry.label);
-    }
+    for (const auto& [negative, term] : mass_terms(equation))
+        text += (text.empty() ? (negative ? "-" : "") : (negative ? " - " : " + ")) + term;
     return text;
 }
 
@@ -208,28 +217,93 @@ std::string text_of_term(const SignedTree& term, bool of_sections)
     return (is_one(term.tree) ? "" : TextWriter().write(term.tree, TextHold::product) + " ") + wedge;
 }
 
-void print_block(std::string& text, const EquationBlock& block)
+/// The first line where the text ends, the others behind a margin.
+void append_lines(std::string& text, const std::vector<std::string>& lines, std::size_t margin)
+{
+    for (std::size_t k = 0; k < lines.size(); ++k) text += (k == 0 ? "" : std::string(margin, ' ')) + lines[k] + "\n";
+}
+
+std::vector<std::pair<bool, std::string>> right_terms(const Equation& equation)
+{
+    std::vector<std::pair<bool, std::string>> terms;
+    for (const SignedTree& term : right_side_terms(equation))
+        terms.emplace_back(term.negative, text_of_term(term, is_of_sections(equation)));
+    if (terms.empty()) terms.emplace_back(false, "0");
+    return terms;
+}
+
+/// Lines within the page, the first behind `first` columns, the others behind `margin`.
+std::vector<std::string> page_lines(const std::vector<std::pair<bool, std::string>>& terms, std::size_t first,
+                                    std::size_t margin, LongLines long_lines)
+{
+    if (long_lines == LongLines::whole) return wrap_terms(terms, first, margin, page_width, columns_of);
+    return with_inner_breaks(wrap_terms(terms, first, margin, page_width, columns_of), first, margin, page_width);
+}
+
+/// Whether a long left side stands on lines of its own, the right side below.
+bool stands_apart(const Equation& equation, LongLines long_lines)
+{
+    const std::size_t columns = columns_of(left_side(equation));
+    return long_lines == LongLines::broken && !equation.mass.empty() && columns > widest_left &&
+           page_lines(right_terms(equation), columns + 5, 0, long_lines).size() > 1;
+}
+
+void print_block(std::string& text, const EquationBlock& block, LongLines long_lines)
 {
     const bool fits = columns_of(block.title) + 3 + columns_of(block.formula) <= page_width;
     text += "\n" + block.title + (fits ? ":  " : ":\n  ") + block.formula + "\n";
-    std::size_t widest = 0;
-    for (const Equation& equation : block.equations) widest = std::max(widest, columns_of(left_side(equation)));
-    widest = std::min(widest, page_width / 2);
+    std::size_t widest = 0; // of the left sides that share a column
+    for (const Equation& equation : block.equations)
+        if (!stands_apart(equation, long_lines)) widest = std::max(widest, columns_of(left_side(equation)));
+    widest = std::min(widest, widest_left);
     for (const Equation& equation : block.equations) {
+        if (stands_apart(equation, long_lines)) {
+            text += "  ";
+            append_lines(text, page_lines(mass_terms(equation), 2, 4, long_lines), 4);
+            text += "    " + std::string(relation_text(equation.relation) + 1);
+            append_lines(text, page_lines(right_terms(equation), 6, 6, long_lines), 6);
+            continue;
+        }
         const std::string left = left_side(equation);
         const std::size_t columns = columns_of(left);
         text +=
             "  " + std::string(columns < widest ? widest - columns : 0, ' ') + left + relation_text(equation.relation);
-        std::vector<std::pair<bool, std::string>> terms;
-        for (const SignedTree& term : right_side_terms(equation))
-            terms.emplace_back(term.negative, text_of_term(term, is_of_sections(equation)));
-        if (terms.empty()) terms.emplace_back(false, "0");
         const std::size_t margin = widest + 5;
-        const std::vector<std::string> lines =
-            wrap_terms(terms, std::max(columns, widest) + 5, margin, page_width, columns_of);
-        for (std::size_t k = 0; k < lines.size(); ++k)
-            text += (k == 0 ? "" : std::string(margin, ' ')) + lines[k] + "\n";
+        append_lines(text, page_lines(right_terms(equation), std::max(columns, widest) + 5, margin, long_lines),
+                     margin);
     }
+}
+
+/// What symbols stand for; vectors as vectors.
+void print_where(std::string& text, const EquationSet& equations, LongLines long_lines)
+{
+    const std::vector<WhereItem> items = where_items(equations);
+    if (items.empty()) return;
+    text += "\nwhere:\n";
+    std::size_t widest = 0;
+    for (const WhereItem& item : items) widest = std::max(widest, columns_of(item.symbol));
+    const std::size_t margin = widest + 5;
+    for (const WhereItem& item : items) {
+        std::vector<std::string> lines;
+        if (item.values.size() == 1) {
+            lines =
+                page_lines(right_terms({LeftSide::symbol, {}, {}, {{"", item.values[0]}}}), margin, margin, long_lines);
+        } else {
+            std::vector<std::string> entries;
+            for (const Tree& value : item.values) entries.push_back(TextWriter().write(value, TextHold::sum));
+            lines = wrap_entries(entries, "[", "]", margin, margin + 1, page_width, columns_of);
+            for (std::size_t k = 1; k < lines.size(); ++k) lines[k].insert(0, " ");
+        }
+        text += "  " + std::string(widest - columns_of(item.symbol), ' ') + item.symbol + " = ";
+        append_lines(text, lines, margin);
+    }
+}
+
+/// A residual, cut where it is long; JSON has it whole.
+std::string on_one_line(const std::string& residual)
+{
+    constexpr std::size_t room = 90;
+    return residual.size() <= room ? residual : residual.substr(0, room - 3) + "...";
 }
 
 void print_statement(std::string& text, const DecidedStatement& statement)
@@ -239,7 +313,7 @@ void print_statement(std::string& text, const DecidedStatement& statement)
     if (!statement.residual.empty() && statement.status != "proved") {
         text += margin + "residual";
         if (!statement.component.empty()) text += "(" + joined(statement.component) + ")";
-        text += " " + statement.residual + "\n";
+        text += " " + on_one_line(statement.residual) + "\n";
     }
     std::vector<std::string> point;
     for (const auto& [name, value] : statement.witness) point.push_back(name + " = " + value);
@@ -249,11 +323,12 @@ void print_statement(std::string& text, const DecidedStatement& statement)
 
 } // namespace
 
-std::string print_text(const EquationSet& equations)
+std::string print_text(const EquationSet& equations, LongLines long_lines)
 {
     std::string text = (equations.title.empty() ? equations.model : equations.title) + "\n";
     for (const EquationBlock& block : equations.blocks)
-        if (!block.equations.empty()) print_block(text, block);
+        if (!block.equations.empty()) print_block(text, block, long_lines);
+    print_where(text, equations, long_lines);
     if (!equations.statements.empty()) text += "\nstatements:\n";
     for (const DecidedStatement& statement : equations.statements) print_statement(text, statement);
     return text;

@@ -3,10 +3,23 @@
 
 namespace lagen {
 
-ConstrainedModel::ConstrainedModel(const Model& model, const System& system)
+namespace {
+
+/// Y on the constraint is put in for Y, and y is solved for.
+std::set<std::string> substituted_in(const Model& model, const System& system)
+{
+    std::set<std::string> names = name_set(system.written.algebroid.fibre);
+    names.merge(name_set(model.fibre.coordinates));
+    return names;
+}
+
+} // namespace
+
+ConstrainedModel::ConstrainedModel(const Model& model, const System& system, const DefinitionChoice& choice)
     : written_(*system.written.distribution),
-      symbolic_(model, system.written.algebroid, {model.lagrangian, model.dissipation}), r_(symbolic_.r()),
-      k_(written_.y.size()), sections_(k_, Sum(r_, 0)), drift_(r_, 0)
+      symbolic_(model, system.written.algebroid, {model.lagrangian, model.dissipation}, choice,
+                substituted_in(model, system)),
+      r_(symbolic_.r()), k_(written_.y.size()), sections_(k_, Sum(r_, 0)), drift_(r_, 0)
 {
     for (const Symbol& symbol : written_.y) y_.push_back(symbolic_.lower(name(symbol.name)));
     for (const SectionValue& entry : written_.sections) sections_[entry.alpha][entry.a] += symbolic_.lower(entry.value);
@@ -14,11 +27,11 @@ ConstrainedModel::ConstrainedModel(const Model& model, const System& system)
     Y_ = drift_;
     for (std::size_t alpha = 0; alpha < k_; ++alpha)
         for (std::size_t a = 0; a < r_; ++a) Y_[a] += sections_[alpha][a] * y_[alpha];
-    lagrangian_ = symbolic_.lower(model.lagrangian);
-    for (const GiNaC::ex& Y : symbolic_.y()) ambient_momenta_.push_back(derivative(lagrangian_, Y));
+    lagrangian_ = symbolic_.reduced(symbolic_.lower(model.lagrangian));
+    for (const GiNaC::ex& Y : symbolic_.y()) ambient_momenta_.push_back(symbolic_.derivative(lagrangian_, Y));
     l_ = on_constraint(lagrangian_);
     for (const GiNaC::ex& P : ambient_momenta_) P_.push_back(on_constraint(P));
-    for (const GiNaC::ex& y : y_) p_.push_back(derivative(l_, y));
+    for (const GiNaC::ex& y : y_) p_.push_back(symbolic_.derivative(l_, y));
     forces_ = symbolic_.forces(Y_);
 }
 
@@ -118,7 +131,7 @@ SquareMatrix ConstrainedModel::hessian()
     SquareMatrix W{k_, {}};
     for (std::size_t alpha = 0; alpha < k_; ++alpha)
         for (std::size_t beta = 0; beta < k_; ++beta)
-            W.entries.push_back(symbolic_.simpler(derivative(p_[alpha], y_[beta])));
+            W.entries.push_back(symbolic_.simpler(symbolic_.derivative(p_[alpha], y_[beta])));
     return W;
 }
 
@@ -141,7 +154,7 @@ std::optional<GiNaC::exvector> ConstrainedModel::accelerations()
 Sum ConstrainedModel::along_motion(const GiNaC::ex& f, const GiNaC::exvector& ydot)
 {
     Sum terms{at_fixed_velocity(f)};
-    for (std::size_t alpha = 0; alpha < k_; ++alpha) terms.push_back(derivative(f, y_[alpha]) * ydot[alpha]);
+    for (std::size_t alpha = 0; alpha < k_; ++alpha) terms.push_back(symbolic_.derivative(f, y_[alpha]) * ydot[alpha]);
     return terms;
 }
 

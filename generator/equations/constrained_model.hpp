@@ -12,7 +12,7 @@ namespace lagen {
 class ConstrainedModel {
   public:
     /// Of a model that has L. Keeps references.
-    ConstrainedModel(const Model& model, const System& system);
+    ConstrainedModel(const Model& model, const System& system, const DefinitionChoice& choice = {});
 
   protected:
     [[nodiscard]] const std::string& ambient_name(std::size_t a) const { return symbolic_.algebroid().fibre[a].name; }

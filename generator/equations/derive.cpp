@@ -29,11 +29,11 @@ std::vector<std::string> derivation_names()
 namespace {
 
 EquationSet derive_constrained(const std::string& form, const Model& model, const System& system,
-                               const std::vector<Tree>& brackets)
+                               const std::vector<Tree>& brackets, Definitions definitions)
 {
     if (form == "reaction") return derive_reaction(model, system);
     if (form == "projected") return derive_projected(model, system);
-    if (form == entry_of(FormKind::lagrange).name) return derive_nonholonomic(model, system);
+    if (form == entry_of(FormKind::lagrange).name) return derive_nonholonomic(model, system, definitions);
     if (form == entry_of(FormKind::hamilton).name) return derive_constrained_hamilton(model, system);
     if (form == "poisson") return derive_almost_poisson(model, system, brackets);
     throw MathematicsError("the form '" + form + "' of a nonholonomic model is not derived yet",
@@ -43,15 +43,15 @@ EquationSet derive_constrained(const std::string& form, const Model& model, cons
 } // namespace
 
 EquationSet derive(const std::string& form, const Model& model, const System& system, const Report& report,
-                   const std::vector<Tree>& brackets)
+                   const std::vector<Tree>& brackets, Definitions definitions)
 {
     const WrittenAlgebroid& algebroid = system.written.algebroid;
-    if (system.distribution) return derive_constrained(form, model, system, brackets);
+    if (system.distribution) return derive_constrained(form, model, system, brackets, definitions);
     if (form == "reaction" || form == "projected")
         throw MathematicsError("the form '" + form + "' is of nonholonomic models, and '" + model.name + "' is none",
                                "[algebroid] kind = \"nonholonomic\"");
     if (form == "exterior") return derive_exterior(model, system);
-    if (form == "poisson") return derive_poisson(model, system, report.mechanics.regularity, brackets);
+    if (form == "poisson") return derive_poisson(model, system, report.mechanics.regularity, brackets, definitions);
     if (form == "invariants") return derive_invariants(model, system, report.mechanics.regularity);
     if (form == "variations")
         return system.control && !system.lagrangian ? derive_control_variations(model, system)
@@ -62,9 +62,9 @@ EquationSet derive(const std::string& form, const Model& model, const System& sy
                         : derive_lagrangian_cartan(model, system, report.mechanics.regularity);
     }
     switch (form_named(form).kind) {
-    case FormKind::lagrange: return derive_lagrange(model, algebroid, report.mechanics.regularity);
-    case FormKind::hamilton: return derive_hamilton(model, algebroid, report.mechanics.regularity);
-    case FormKind::pontryagin: return derive_pontryagin(model, algebroid, report.control.maximum);
+    case FormKind::lagrange: return derive_lagrange(model, algebroid, report.mechanics.regularity, definitions);
+    case FormKind::hamilton: return derive_hamilton(model, algebroid, report.mechanics.regularity, definitions);
+    case FormKind::pontryagin: return derive_pontryagin(model, algebroid, report.control.maximum, definitions);
     case FormKind::discrete: return derive_discrete(model, system);
     }
     throw InternalError("a form without equations");

@@ -2,6 +2,7 @@
 /// The equations of a model in one of its forms.
 #pragma once
 
+#include "equations/kept_symbols.hpp"
 #include "model/model.hpp"
 #include "notation/equation_set.hpp"
 #include "verify/verify.hpp"
@@ -15,6 +16,7 @@ namespace lagen {
 /// `form` is one of derivation_names(); `brackets`: functions on E* by pairs, for "poisson". Throws MathematicsError
 /// where the model has no equations of that form.
 [[nodiscard]] EquationSet derive(const std::string& form, const Model& model, const System& system,
-                                 const Report& report, const std::vector<Tree>& brackets = {});
+                                 const Report& report, const std::vector<Tree>& brackets = {},
+                                 Definitions definitions = Definitions::expanded);
 
 } // namespace lagen

@@ -11,13 +11,14 @@ namespace {
 
 class HamiltonDerivation {
   public:
-    HamiltonDerivation(const Model& model, const WrittenAlgebroid& algebroid)
-        : symbolic_(model, algebroid, {model.hamiltonian ? model.hamiltonian : model.lagrangian, model.dissipation})
+    HamiltonDerivation(const Model& model, const WrittenAlgebroid& algebroid, const DefinitionChoice& choice)
+        : symbolic_(model, algebroid, {model.hamiltonian ? model.hamiltonian : model.lagrangian, model.dissipation},
+                    choice, name_set(algebroid.fibre))
     {
         if (model.hamiltonian)
-            take_hamiltonian(symbolic_.lower(model.hamiltonian));
+            take_hamiltonian(symbolic_.reduced(symbolic_.lower(model.hamiltonian)));
         else
-            transform(symbolic_.lower(model.lagrangian));
+            transform(symbolic_.reduced(symbolic_.lower(model.lagrangian)));
         forces_ = symbolic_.forces(y_);
     }
 
@@ -39,7 +40,7 @@ class HamiltonDerivation {
         if (EquationBlock states = symbolic_.states(y_); !states.equations.empty())
             set.blocks.push_back(std::move(states));
         set.blocks.push_back(poisson_brackets(symbolic_));
-        return set;
+        return symbolic_.closed(std::move(set));
     }
 
   private:
@@ -48,7 +49,7 @@ class HamiltonDerivation {
     void take_hamiltonian(const GiNaC::ex& H)
     {
         hamiltonian_ = H;
-        for (const GiNaC::ex& mu : symbolic_.mu()) y_.push_back(derivative(H, mu));
+        for (const GiNaC::ex& mu : symbolic_.mu()) y_.push_back(symbolic_.derivative(H, mu));
         velocities_ = y_;
     }
 
@@ -96,7 +97,7 @@ class HamiltonDerivation {
             block.equations.push_back(
                 implicit_
                     ? symbolic_.equation(LeftSide::symbol, symbolic_.momentum_name(a),
-                                         {derivative(lagrangian_, symbolic_.y()[a])})
+                                         {symbolic_.derivative(lagrangian_, symbolic_.y()[a])})
                     : symbolic_.equation(LeftSide::symbol, symbolic_.algebroid().fibre[a].name, {velocities_[a]}));
         return block;
     }
@@ -161,7 +162,8 @@ class HamiltonDerivation {
 
 } // namespace
 
-EquationSet derive_hamilton(const Model& model, const WrittenAlgebroid& algebroid, const Regularity& regularity)
+EquationSet derive_hamilton(const Model& model, const WrittenAlgebroid& algebroid, const Regularity& regularity,
+                            Definitions definitions)
 {
     if (!model.hamiltonian && !model.lagrangian)
         throw MathematicsError(
@@ -174,7 +176,9 @@ EquationSet derive_hamilton(const Model& model, const WrittenAlgebroid& algebroi
                                std::to_string(regularity.rank) + " of " + std::to_string(algebroid.r()) +
                                ", so that it has no Hamiltonian form; Hamilton's equations need [hamiltonian] H");
     if (!model.hamiltonian) require_legendre_transform(model.name, regularity);
-    return derived(model, "Hamilton's equations", [&] { return HamiltonDerivation(model, algebroid).derive(); });
+    return derived(model, "Hamilton's equations", definitions, [&](const DefinitionChoice& choice) {
+        return HamiltonDerivation(model, algebroid, choice).derive();
+    });
 }
 
 } // namespace lagen

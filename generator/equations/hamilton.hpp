@@ -7,6 +7,7 @@
 /// that falls into small blocks, else left implicit, with y(x, mu) from mu_a = dL/dy^a, rho_a(H) = -rho_a(L) at that y.
 #pragma once
 
+#include "equations/kept_symbols.hpp"
 #include "model/model.hpp"
 #include "notation/equation_set.hpp"
 #include "verify/verify.hpp"
@@ -17,6 +18,7 @@ namespace lagen {
 /// balance where it is not zero, Poisson brackets. Throws MathematicsError where the model has neither H nor L, and
 /// where it has no H and `regularity` says that L is degenerate or its momenta are not shown to fix the velocities.
 [[nodiscard]] EquationSet derive_hamilton(const Model& model, const WrittenAlgebroid& algebroid,
-                                          const Regularity& regularity = {});
+                                          const Regularity& regularity = {},
+                                          Definitions definitions = Definitions::expanded);
 
 } // namespace lagen

@@ -12,11 +12,11 @@ namespace {
 
 class LagrangeDerivation {
   public:
-    LagrangeDerivation(const Model& model, const WrittenAlgebroid& algebroid)
-        : symbolic_(model, algebroid, {model.lagrangian, model.dissipation}),
-          lagrangian_(symbolic_.lower(model.lagrangian)), forces_(symbolic_.forces(symbolic_.y()))
+    LagrangeDerivation(const Model& model, const WrittenAlgebroid& algebroid, const DefinitionChoice& choice)
+        : symbolic_(model, algebroid, {model.lagrangian, model.dissipation}, choice),
+          lagrangian_(symbolic_.reduced(symbolic_.lower(model.lagrangian))), forces_(symbolic_.forces(symbolic_.y()))
     {
-        for (const GiNaC::ex& y : symbolic_.y()) p_.push_back(derivative(lagrangian_, y));
+        for (const GiNaC::ex& y : symbolic_.y()) p_.push_back(symbolic_.derivative(lagrangian_, y));
     }
 
     EquationSet derive(const Regularity& regularity)
@@ -32,7 +32,7 @@ class LagrangeDerivation {
         if (EquationBlock states = symbolic_.states(symbolic_.y()); !states.equations.empty())
             set.blocks.push_back(std::move(states));
         append_kernel(set, regularity);
-        return set;
+        return symbolic_.closed(std::move(set));
     }
 
   private:
@@ -94,7 +94,8 @@ class LagrangeDerivation {
         for (std::size_t a = 0; a < r(); ++a) {
             Equation next{LeftSide::time_derivative, fibre_name(a), {}, {}};
             for (std::size_t b = 0; b < r(); ++b)
-                for (TermGroup& mass : symbolic_.simplified({{fibre_name(b), derivative(p_[a], symbolic_.y()[b])}}))
+                for (TermGroup& mass :
+                     symbolic_.simplified({{fibre_name(b), symbolic_.derivative(p_[a], symbolic_.y()[b])}}))
                     next.mass.push_back(std::move(mass));
             next.groups =
                 symbolic_.simplified({{"ρ_a(L)", total(symbolic_.along_anchor(a, lagrangian_))},
@@ -112,8 +113,7 @@ class LagrangeDerivation {
 
     [[nodiscard]] EquationBlock energy() const
     {
-        Sum terms = {-lagrangian_};
-        for (std::size_t a = 0; a < r(); ++a) terms.push_back(symbolic_.y()[a] * p_[a]);
+        const Sum terms{symbolic_.along_fibre(lagrangian_), -lagrangian_};
         return {"energy",
                 "E = y^a p_a - L",
                 R"(E = y^a p_a - L)",
@@ -157,13 +157,15 @@ class LagrangeDerivation {
 
 } // namespace
 
-EquationSet derive_lagrange(const Model& model, const WrittenAlgebroid& algebroid, const Regularity& regularity)
+EquationSet derive_lagrange(const Model& model, const WrittenAlgebroid& algebroid, const Regularity& regularity,
+                            Definitions definitions)
 {
     if (!model.lagrangian)
         throw MathematicsError("model '" + model.name +
                                "' has no Lagrangian; Lagrange's equations need [lagrangian] L");
-    return derived(model, "Lagrange's equations",
-                   [&] { return LagrangeDerivation(model, algebroid).derive(regularity); });
+    return derived(model, "Lagrange's equations", definitions, [&](const DefinitionChoice& choice) {
+        return LagrangeDerivation(model, algebroid, choice).derive(regularity);
+    });
 }
 
 } // namespace lagen

@@ -5,6 +5,7 @@
 ///   Q_a = forces_a - dR/dy^a,   E_L = y^a p_a - L,   dE_L/dt = Q_a y^a - dL/dt                   [Martinez 2001]
 #pragma once
 
+#include "equations/kept_symbols.hpp"
 #include "model/model.hpp"
 #include "notation/equation_set.hpp"
 #include "verify/verify.hpp"
@@ -15,6 +16,7 @@ namespace lagen {
 /// (acceleration form), energy, energy balance where it is not zero; where L is degenerate, the kernel of W as far
 /// as `regularity` has it. Throws MathematicsError where the model has no Lagrangian.
 [[nodiscard]] EquationSet derive_lagrange(const Model& model, const WrittenAlgebroid& algebroid,
-                                          const Regularity& regularity = {});
+                                          const Regularity& regularity = {},
+                                          Definitions definitions = Definitions::expanded);
 
 } // namespace lagen

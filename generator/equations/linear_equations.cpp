@@ -9,7 +9,6 @@ namespace lagen {
 namespace {
 
 using Block = std::vector<std::size_t>;
-using Simpler = std::function<GiNaC::ex(const GiNaC::ex&)>;
 
 SquareMatrix part_of(const SquareMatrix& matrix, const Block& block)
 {
@@ -32,10 +31,11 @@ GiNaC::ex determinant_of(const SquareMatrix& matrix)
 
 /// Cramer's rule: det(A with b for column k) / det A.
 std::optional<GiNaC::exvector> solve_by_determinants(const SquareMatrix& A, const GiNaC::exvector& b,
-                                                     const Simpler& simpler)
+                                                     const Rewriting& simpler, const Rewriting& divisor)
 {
-    const GiNaC::ex whole = simpler(determinant_of(A));
+    GiNaC::ex whole = simpler(determinant_of(A));
     if (whole.is_zero()) return {};
+    if (divisor) whole = divisor(whole);
     GiNaC::exvector z;
     for (std::size_t k = 0; k < A.order; ++k) {
         SquareMatrix replaced = A;
@@ -60,7 +60,8 @@ std::vector<Block> coupled_unknowns(const SquareMatrix& matrix)
     return connected_classes(matrix.order, [&](std::size_t i, std::size_t j) { return !matrix(i, j).is_zero(); });
 }
 
-std::optional<GiNaC::exvector> solve_in_blocks(const SquareMatrix& A, const GiNaC::exvector& b, const Simpler& simpler)
+std::optional<GiNaC::exvector> solve_in_blocks(const SquareMatrix& A, const GiNaC::exvector& b,
+                                               const Rewriting& simpler, const Rewriting& divisor)
 {
     GiNaC::exvector z(A.order);
     for (const Block& block : coupled_unknowns(A)) {
@@ -69,7 +70,8 @@ std::optional<GiNaC::exvector> solve_in_blocks(const SquareMatrix& A, const GiNa
         for (const std::size_t i : block) right.push_back(b[i]);
         const bool small = block.size() <= largest_written_block;
         if (!small && !all_numbers(part)) return {};
-        const auto solution = small ? solve_by_determinants(part, right, simpler) : solve_by_elimination(part, right);
+        const auto solution =
+            small ? solve_by_determinants(part, right, simpler, divisor) : solve_by_elimination(part, right);
         if (!solution) return {};
         for (std::size_t k = 0; k < block.size(); ++k) z[block[k]] = (*solution)[k];
     }

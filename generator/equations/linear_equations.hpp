@@ -25,8 +25,9 @@ struct SquareMatrix {
 inline constexpr std::size_t largest_written_block = 3;
 
 /// z with A z = b; nothing where a determinant vanishes or a block is too large to be written out. `simpler` rewrites
-/// determinants before they are divided.
+/// determinants before they are divided; `divisor` may give the one below another form, a name.
+using Rewriting = std::function<GiNaC::ex(const GiNaC::ex&)>;
 [[nodiscard]] std::optional<GiNaC::exvector> solve_in_blocks(const SquareMatrix& A, const GiNaC::exvector& b,
-                                                             const std::function<GiNaC::ex(const GiNaC::ex&)>& simpler);
+                                                             const Rewriting& simpler, const Rewriting& divisor = {});
 
 } // namespace lagen

@@ -19,7 +19,7 @@ class NonholonomicDerivation : ConstrainedModel {
                                                 symbolic_.casimirs(), momenta(), momentum_form(), acceleration_form(),
                                                 energy(), energy_balance(), moving_energy(), symbolic_.states(Y_)})
             if (!block.equations.empty()) set.blocks.push_back(std::move(block));
-        return set;
+        return symbolic_.closed(std::move(set));
     }
 
   private:
@@ -94,7 +94,8 @@ class NonholonomicDerivation : ConstrainedModel {
         for (std::size_t alpha = 0; alpha < k_; ++alpha) {
             Equation next{LeftSide::time_derivative, written_.y[alpha].name, {}, {}};
             for (std::size_t beta = 0; beta < k_; ++beta)
-                for (TermGroup& mass : symbolic_.simplified({{written_.y[beta].name, derivative(p_[alpha], y_[beta])}}))
+                for (TermGroup& mass :
+                     symbolic_.simplified({{written_.y[beta].name, symbolic_.derivative(p_[alpha], y_[beta])}}))
                     next.mass.push_back(std::move(mass));
             std::vector<Group> groups = balance(alpha);
             groups.insert(groups.begin() + 1, {"-∂p_α/∂x^i ẋ^i - ∂p_α/∂t", -at_fixed_velocity(p_[alpha])});
@@ -170,10 +171,12 @@ void require_lagrangian(const Model& model)
                                "' has no Lagrangian; nonholonomic equations need [lagrangian] L");
 }
 
-EquationSet derive_nonholonomic(const Model& model, const System& system)
+EquationSet derive_nonholonomic(const Model& model, const System& system, Definitions definitions)
 {
     require_lagrangian(model);
-    return derived(model, "the nonholonomic equations", [&] { return NonholonomicDerivation(model, system).derive(); });
+    return derived(model, "the nonholonomic equations", definitions, [&](const DefinitionChoice& choice) {
+        return NonholonomicDerivation(model, system, choice).derive();
+    });
 }
 
 } // namespace lagen

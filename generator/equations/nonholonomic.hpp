@@ -8,6 +8,7 @@
 /// [Cortes, de Leon, Marrero, Martinez 2009]
 #pragma once
 
+#include "equations/kept_symbols.hpp"
 #include "mechanics/system.hpp"
 #include "model/model.hpp"
 #include "notation/equation_set.hpp"
@@ -16,7 +17,8 @@ namespace lagen {
 
 /// Blocks: constraints as given, sections, brackets of sections, velocities, kinematics, momenta, equations of motion
 /// in both forms, energy and its rate. Throws MathematicsError where the model has no Lagrangian.
-[[nodiscard]] EquationSet derive_nonholonomic(const Model& model, const System& system);
+[[nodiscard]] EquationSet derive_nonholonomic(const Model& model, const System& system,
+                                              Definitions definitions = Definitions::expanded);
 
 /// lambda_a as functions of the state. Throws MathematicsError also where the accelerations are too long to be written
 /// out.

@@ -58,8 +58,8 @@ class NonholonomicForms : ConstrainedModel {
                 for (std::size_t delta = 0; delta < k_; ++delta)
                     for (std::size_t a = 0; a < r_; ++a)
                         for (std::size_t b = 0; b < r_; ++b)
-                            right[delta] +=
-                                sections_[delta][a] * derivative(ambient_momenta_[a], symbolic_.y()[b]) * V[b];
+                            right[delta] += sections_[delta][a] *
+                                            symbolic_.derivative(ambient_momenta_[a], symbolic_.y()[b]) * V[b];
                 for (GiNaC::ex& each : right) each = symbolic_.simpler(each);
                 const auto C = solved(G, right);
                 if (!C)
@@ -136,7 +136,7 @@ class NonholonomicForms : ConstrainedModel {
                 refuse("L has terms that are linear in the velocities, or is not smooth");
             for (const GiNaC::ex& Y : symbolic_.y())
                 for (const GiNaC::ex& Z : symbolic_.y())
-                    if (!derivative(derivative(P, Y), Z).expand().is_zero())
+                    if (!symbolic_.derivative(symbolic_.derivative(P, Y), Z).expand().is_zero())
                         refuse("L is not quadratic in the velocities");
         }
     }
@@ -152,7 +152,7 @@ class NonholonomicForms : ConstrainedModel {
             right.push_back(symbolic_.mu()[alpha] - p_[alpha].subs(rest, GiNaC::subs_options::no_pattern));
             for (const GiNaC::ex& y : y_)
                 for (const GiNaC::ex& z : y_)
-                    affine = affine && derivative(derivative(p_[alpha], y), z).expand().is_zero();
+                    affine = affine && symbolic_.derivative(symbolic_.derivative(p_[alpha], y), z).expand().is_zero();
         }
         const auto y = affine ? solved(hessian(), right) : std::nullopt;
         if (!y)
@@ -231,10 +231,11 @@ class NonholonomicForms : ConstrainedModel {
     {
         GiNaC::ex value;
         for (std::size_t alpha = 0; alpha < k_; ++alpha) {
-            const GiNaC::ex f_p = derivative(f, symbolic_.mu()[alpha]), g_p = derivative(g, symbolic_.mu()[alpha]);
+            const GiNaC::ex f_p = symbolic_.derivative(f, symbolic_.mu()[alpha]),
+                            g_p = symbolic_.derivative(g, symbolic_.mu()[alpha]);
             value += f_p * total(along(sections_[alpha], g)) - g_p * total(along(sections_[alpha], f));
             for (std::size_t beta = 0; beta < k_; ++beta)
-                value += f_p * derivative(g, symbolic_.mu()[beta]) * bracket_of_momenta(alpha, beta);
+                value += f_p * symbolic_.derivative(g, symbolic_.mu()[beta]) * bracket_of_momenta(alpha, beta);
         }
         return value;
     }

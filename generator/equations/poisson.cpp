@@ -19,10 +19,10 @@ namespace {
 class PoissonDerivation {
   public:
     PoissonDerivation(const Model& model, const System& system, const Regularity& regularity,
-                      const std::vector<Tree>& brackets)
-        : system_(system), graph_(system.graph), symbolic_(model, system.written.algebroid, {}),
-          canonical_(canonical_forms(graph_, system)), partial_(graph_, canonical_.prolongation.x),
-          decider_(ZeroDecider::make(graph_, setting_of(graph_, system)))
+                      const std::vector<Tree>& brackets, const DefinitionChoice& choice)
+        : system_(system), kept_(choice.kept), graph_(system.graph),
+          symbolic_(model, system.written.algebroid, {}, choice), canonical_(canonical_forms(graph_, system)),
+          partial_(graph_, canonical_.prolongation.x), decider_(ZeroDecider::make(graph_, setting_of(graph_, system)))
     {
         Lowering lower(graph_);
         for (const Tree& each : brackets) functions_.push_back({each, lower(each)});
@@ -39,14 +39,19 @@ class PoissonDerivation {
                 set.symbols.push_back({kind + basis_name(a), latex + symbolic_.fibre_latex(a) + "}"});
         set.blocks = {poisson_brackets(symbolic_), symplectic_section()};
         if (!functions_.empty()) set.blocks.push_back(given_brackets());
-        set.statements = {jacobi(), closed()};
-        for (std::size_t k = 0; k + 1 < functions_.size(); k += 2) set.statements.push_back(through_sections(k));
+        return symbolic_.closed(std::move(set));
+    }
+
+    [[nodiscard]] std::vector<DecidedStatement> statements()
+    {
+        std::vector<DecidedStatement> statements{jacobi(), closed()};
+        for (std::size_t k = 0; k + 1 < functions_.size(); k += 2) statements.push_back(through_sections(k));
         if (hamiltonian_) {
-            set.statements.push_back(dynamics());
-            set.statements.push_back(rates());
+            statements.push_back(dynamics());
+            statements.push_back(rates());
         }
-        if (system_.control) set.statements.push_back(extremals());
-        return set;
+        if (system_.control) statements.push_back(extremals());
+        return statements;
     }
 
   private:
@@ -80,12 +85,22 @@ class PoissonDerivation {
                             R"(\Omega = X^a \wedge P_a + \tfrac12 \mu_c\, C^c_{ab}\, X^a \wedge X^b = -d(\mu_a X^a))",
                             {}};
         for (const auto& [index, value] : canonical_.omega.components) {
-            Equation equation = symbolic_.equation(LeftSide::component, "Ω", {symbolic_.lower(to_tree(graph_, value))});
+            Equation equation = symbolic_.equation(LeftSide::component, "Ω", {component_of(index, value)});
             if (equation.groups.empty()) continue;
             for (const std::size_t k : index) equation.arguments.push_back(section_name(k));
             block.equations.push_back(std::move(equation));
         }
         return block;
+    }
+
+    /// Omega(X_a, X_b) = mu_c C^c_ab where definitions are symbols: the graph has none.
+    [[nodiscard]] GiNaC::ex component_of(const std::vector<std::size_t>& index, NodeId value)
+    {
+        if (!kept_ || index.at(1) >= system_.r()) return symbolic_.lower(to_tree(graph_, value));
+        Sum terms;
+        for (std::size_t c = 0; c < system_.r(); ++c)
+            terms.push_back(symbolic_.mu()[c] * symbolic_.C(c, index[0], index[1]));
+        return total(terms);
     }
 
     /// F, G of the first pair, F2, G2 of the second.
@@ -214,6 +229,7 @@ class PoissonDerivation {
     }
 
     const System& system_;
+    bool kept_; ///< definitions as symbols
     Graph graph_;
     SymbolicModel symbolic_;
     SymplecticForms canonical_;
@@ -250,10 +266,15 @@ EquationBlock poisson_brackets(const SymbolicModel& symbolic)
 }
 
 EquationSet derive_poisson(const Model& model, const System& system, const Regularity& regularity,
-                           const std::vector<Tree>& brackets)
+                           const std::vector<Tree>& brackets, Definitions definitions)
 {
-    return derived(model, "the Poisson brackets",
-                   [&] { return PoissonDerivation(model, system, regularity, brackets).run(); });
+    return derived(model, "the Poisson brackets", [&] {
+        EquationSet set = with_definitions(definitions, [&](const DefinitionChoice& choice) {
+            return PoissonDerivation(model, system, regularity, brackets, choice).run();
+        });
+        set.statements = PoissonDerivation(model, system, regularity, brackets, {}).statements();
+        return set;
+    });
 }
 
 } // namespace lagen

@@ -13,9 +13,11 @@ namespace {
 
 class PontryaginDerivation {
   public:
-    PontryaginDerivation(const Model& model, const WrittenAlgebroid& algebroid, const ControlMaximum& maximum)
+    PontryaginDerivation(const Model& model, const WrittenAlgebroid& algebroid, const ControlMaximum& maximum,
+                         const DefinitionChoice& choice)
         : control_(*model.control), maximal_(maximum.kind == ControlMaximum::Kind::maximal), angles_(maximum.angles),
-          symbolic_(model, algebroid, functions_of(*model.control)), sigma_(symbolic_.r(), 0)
+          symbolic_(model, algebroid, functions_of(*model.control), choice, substituted_in(model, algebroid)),
+          sigma_(symbolic_.r(), 0)
     {
         for (const ComponentEntry& entry : control_.sigma) sigma_[entry.section] += symbolic_.lower(entry.value);
         Sum terms;
@@ -47,10 +49,18 @@ class PontryaginDerivation {
                 {"energy balance", "Ḣ = ∂H/∂t", R"(\dot H = \frac{\partial H}{\partial t})", {std::move(balance)}});
         if (EquationBlock states = symbolic_.states(sigma_); !states.equations.empty())
             set.blocks.push_back(std::move(states));
-        return set;
+        return symbolic_.closed(std::move(set));
     }
 
   private:
+    /// Controls, for which their values are put in, and velocities, for which sigma is.
+    static std::set<std::string> substituted_in(const Model& model, const WrittenAlgebroid& algebroid)
+    {
+        std::set<std::string> names = name_set(algebroid.fibre);
+        names.merge(name_set(model.control->controls));
+        return names;
+    }
+
     static std::vector<Tree> functions_of(const Control& control)
     {
         std::vector<Tree> functions = {control.cost};
@@ -75,8 +85,8 @@ class PontryaginDerivation {
         for (const std::size_t A : angles_) {
             GiNaC::exmap zero;
             zero[u[A]] = upright[u[A]] = 0;
-            const GiNaC::ex slope = derivative(hamiltonian_, u[A]);
-            directions_.push_back({A, (-derivative(slope, u[A])).subs(zero, GiNaC::subs_options::no_pattern),
+            const GiNaC::ex slope = symbolic_.derivative(hamiltonian_, u[A]);
+            directions_.push_back({A, (-symbolic_.derivative(slope, u[A])).subs(zero, GiNaC::subs_options::no_pattern),
                                    slope.subs(zero, GiNaC::subs_options::no_pattern)});
         }
         rest_ = hamiltonian_.subs(upright, GiNaC::subs_options::no_pattern);
@@ -94,9 +104,9 @@ class PontryaginDerivation {
         SquareMatrix second{u.size(), {}};
         Sum first, right;
         for (const GiNaC::ex& control : u) {
-            first.push_back(derivative(rest_, control));
+            first.push_back(symbolic_.derivative(rest_, control));
             for (const GiNaC::ex& other : u) {
-                GiNaC::ex entry = derivative(first.back(), other);
+                GiNaC::ex entry = symbolic_.derivative(first.back(), other);
                 if (expanded_length(entry)) entry = entry.expand();
                 if (std::any_of(u.begin(), u.end(), [&](const GiNaC::ex& symbol) { return entry.has(symbol); })) return;
                 second.entries.push_back(entry);
@@ -133,7 +143,8 @@ class PontryaginDerivation {
             block.latex_formula += R"(, \text{ or } u^A \text{ at a bound where } H \text{ is largest})";
         }
         for (const GiNaC::ex& control : symbolic_.controls())
-            block.equations.push_back(symbolic_.equation(LeftSide::zero, "", {derivative(hamiltonian_, control)}));
+            block.equations.push_back(
+                symbolic_.equation(LeftSide::zero, "", {symbolic_.derivative(hamiltonian_, control)}));
         return block;
     }
 
@@ -244,15 +255,17 @@ class PontryaginDerivation {
 
 } // namespace
 
-EquationSet derive_pontryagin(const Model& model, const WrittenAlgebroid& algebroid, const ControlMaximum& maximum)
+EquationSet derive_pontryagin(const Model& model, const WrittenAlgebroid& algebroid, const ControlMaximum& maximum,
+                              Definitions definitions)
 {
     if (!model.control)
         throw MathematicsError("model '" + model.name +
                                "' has no controls; Pontryagin's equations need [control] controls, sigma and cost");
     if (maximum.kind == ControlMaximum::Kind::refuted || maximum.kind == ControlMaximum::Kind::nonsmooth)
         require_maximum(model.name, maximum);
-    return derived(model, "Pontryagin's equations",
-                   [&] { return PontryaginDerivation(model, algebroid, maximum).derive(); });
+    return derived(model, "Pontryagin's equations", definitions, [&](const DefinitionChoice& choice) {
+        return PontryaginDerivation(model, algebroid, maximum, choice).derive();
+    });
 }
 
 } // namespace lagen

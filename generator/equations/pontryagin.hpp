@@ -5,6 +5,7 @@
 ///                                                                                            [Martinez 2004]
 #pragma once
 
+#include "equations/kept_symbols.hpp"
 #include "model/model.hpp"
 #include "notation/equation_set.hpp"
 #include "verify/verify.hpp"
@@ -17,6 +18,7 @@ namespace lagen {
 /// energy balance where it is not zero. Throws MathematicsError where the model has no controls, and where H has no
 /// maximum or no dH/du.
 [[nodiscard]] EquationSet derive_pontryagin(const Model& model, const WrittenAlgebroid& algebroid,
-                                            const ControlMaximum& maximum);
+                                            const ControlMaximum& maximum,
+                                            Definitions definitions = Definitions::expanded);
 
 } // namespace lagen

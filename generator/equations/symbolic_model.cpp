@@ -28,13 +28,18 @@ GiNaC::ex total(const Sum& terms)
     return GiNaC::ex(GiNaC::dynallocate<GiNaC::add>(terms));
 }
 
-GiNaC::ex derivative(const GiNaC::ex& f, const GiNaC::ex& symbol)
+std::set<std::string> name_set(const std::vector<Symbol>& symbols)
 {
-    return f.diff(GiNaC::ex_to<GiNaC::symbol>(symbol));
+    std::set<std::string> names;
+    for (const Symbol& symbol : symbols) names.insert(symbol.name);
+    return names;
 }
 
-SymbolicModel::SymbolicModel(const Model& model, const WrittenAlgebroid& algebroid, const std::vector<Tree>& functions)
-    : model_(model), algebroid_(algebroid)
+SymbolicModel::SymbolicModel(const Model& model, const WrittenAlgebroid& algebroid, const std::vector<Tree>& functions,
+                             const DefinitionChoice& choice, const std::set<std::string>& substituted)
+    : model_(model), algebroid_(algebroid),
+      kept_(std::make_unique<KeptSymbols>(
+          model, DefinitionChoice{}, substituted, [](const Tree& tree) { return tree; }, symbols_, order_))
 {
     for (const Parameter& parameter : model.parameters) order_.parameters.push_back(parameter.symbol.name);
     for (const NamedTree& casimir : model.base.casimirs)
@@ -56,10 +61,39 @@ SymbolicModel::SymbolicModel(const Model& model, const WrittenAlgebroid& algebro
     for (const FirstOrderState& state : model.states) add_variable(state.symbol.name);
     lower_structure();
     take_labels(functions);
+    if (!choice.kept) return;
+    kept_ = std::make_unique<KeptSymbols>(
+        model, choice, substituted, [this](const Tree& tree) { return label_casimirs(tree, labels_); }, symbols_,
+        order_);
+    lower_structure();
+    lower_curvature();
+}
+
+GiNaC::ex SymbolicModel::derivative(const GiNaC::ex& f, const GiNaC::ex& symbol) const
+{
+    return kept_->derivative(f, symbol);
+}
+
+bool SymbolicModel::depends_on(const GiNaC::ex& f, const Sum& symbols) const
+{
+    return std::ranges::any_of(symbols, [&](const GiNaC::ex& each) { return kept_->depends_on(f, each); });
+}
+
+GiNaC::ex SymbolicModel::reduced(const GiNaC::ex& f) const
+{
+    Sum moving = y_;
+    moving.insert(moving.end(), mu_.begin(), mu_.end());
+    return kept_->reduced(f, moving);
+}
+
+GiNaC::ex SymbolicModel::named(const std::string& name, const GiNaC::ex& value)
+{
+    return kept_->named(name, value);
 }
 
 bool SymbolicModel::is_declared(const std::string& name) const
 {
+    if (kept_->declares(name)) return true;
     const std::vector<std::string> names = symbol_names(model_);
     if (std::find(names.begin(), names.end(), name) != names.end()) return true;
     const auto called = [&](const Symbol& symbol) { return symbol.name == name; };
@@ -83,18 +117,51 @@ GiNaC::ex SymbolicModel::variable(const std::string& name)
 void SymbolicModel::lower_structure()
 {
     anchor_.assign(r() * n(), 0);
-    for (const AnchorValue& entry : algebroid_.rho) anchor_[entry.a * n() + entry.i] += to_ginac(entry.value, symbols_);
+    for (const AnchorValue& entry : algebroid_.rho) anchor_[entry.a * n() + entry.i] += lower(entry.value);
     std::vector<bool> given(r() * r(), false);
     bracket_.assign(r() * r() * r(), 0);
     for (const StructureValue& entry : algebroid_.C) {
         given[entry.a * r() + entry.b] = true;
-        bracket_[(entry.a * r() + entry.b) * r() + entry.c] += to_ginac(entry.value, symbols_);
+        bracket_[(entry.a * r() + entry.b) * r() + entry.c] += lower(entry.value);
     }
     for (std::size_t a = 0; a < r(); ++a)
         for (std::size_t b = 0; b < r(); ++b)
             if (given[a * r() + b] && !given[b * r() + a])
                 for (std::size_t c = 0; c < r(); ++c)
                     bracket_[(b * r() + a) * r() + c] = -bracket_[(a * r() + b) * r() + c];
+}
+
+/// Of an Atiyah algebroid, whose structure functions are elaborated without the definitions: of e_i = d/dx^i - A_i^c
+/// e_c, [e_i, e_j]^c = dA_i^c/dx^j - dA_j^c/dx^i + A_i^a A_j^b c^c_ab and [e_i, e_b]^c = -A_i^a c^c_ab.
+void SymbolicModel::lower_curvature()
+{
+    const AlgebroidBlock& block = model_.algebroid;
+    const std::size_t m = block.base.size();
+    if (block.kind != AlgebroidKind::atiyah || block.fibre.size() != r() || n() != model_.base.coordinates.size())
+        return;
+    std::vector<GiNaC::ex> A(m * r(), 0);
+    for (const ConnectionEntry& entry : block.connection)
+        for (std::size_t i = 0; i < m; ++i)
+            if (block.base[i] == entry.coordinate) A[i * r() + entry.section] += lower(entry.value);
+    const auto set = [&](std::size_t c, std::size_t a, std::size_t b, const GiNaC::ex& value) {
+        bracket_[(a * r() + b) * r() + c] = value;
+        bracket_[(b * r() + a) * r() + c] = -value;
+    };
+    for (std::size_t i = 0; i < m; ++i)
+        for (std::size_t c = m; c < r(); ++c) {
+            for (std::size_t b = m; b < r(); ++b) {
+                Sum terms;
+                for (std::size_t a = m; a < r(); ++a) terms.push_back(-A[i * r() + a] * C(c, a, b));
+                set(c, i, b, total(terms));
+            }
+            for (std::size_t j = i + 1; j < m; ++j) {
+                Sum terms{derivative(A[i * r() + c], x_[block.base[j]]),
+                          -derivative(A[j * r() + c], x_[block.base[i]])};
+                for (std::size_t a = m; a < r(); ++a)
+                    for (std::size_t b = m; b < r(); ++b) terms.push_back(A[i * r() + a] * A[j * r() + b] * C(c, a, b));
+                set(c, i, j, total(terms));
+            }
+        }
 }
 
 void SymbolicModel::take_labels(const std::vector<Tree>& functions)
@@ -118,13 +185,13 @@ void SymbolicModel::take_labels(const std::vector<Tree>& functions)
 
 GiNaC::ex SymbolicModel::lower(const Tree& tree)
 {
-    return to_ginac(label_casimirs(tree, labels_), symbols_);
+    return to_ginac(kept_->folded(label_casimirs(tree, labels_)), symbols_);
 }
 
 /// What is not smooth stands for itself: it is not differentiated, and comes back as it is written.
 GiNaC::ex SymbolicModel::lower_rough(const Tree& tree)
 {
-    return to_ginac(rewrite_tree(label_casimirs(tree, labels_),
+    return to_ginac(rewrite_tree(kept_->folded(label_casimirs(tree, labels_)),
                                  [&](const Tree& node) {
                                      if (!is_rough(*node)) return Tree{};
                                      const std::string text = to_text(node);
@@ -146,12 +213,13 @@ Tree SymbolicModel::shortest(const GiNaC::ex& e) const
 
 GiNaC::ex SymbolicModel::simpler(const GiNaC::ex& e)
 {
+    if (kept_->vanishes(e)) return 0;
     return to_ginac(shortest_form(e, symbols_, order_), symbols_);
 }
 
 GiNaC::ex SymbolicModel::time_derivative(const GiNaC::ex& f)
 {
-    return time_ ? f.diff(*time_) : GiNaC::ex(0);
+    return time_ ? derivative(f, *time_) : GiNaC::ex(0);
 }
 
 Sum SymbolicModel::along_anchor(std::size_t a, const GiNaC::ex& f) const
@@ -278,7 +346,10 @@ EquationSet SymbolicModel::empty_set(const std::string& form) const
         const Symbol& coordinate = model_.fibre.coordinates[a];
         const bool follows =
             momentum.latex.empty() && !coordinate.latex.empty() && momentum.name == "p_" + coordinate.name;
-        set.symbols.push_back({momentum.name, follows ? "p_{" + coordinate.latex + "}" : momentum.latex});
+        // p_theta, the momentum of the velocity \dot\theta
+        const bool dotted = coordinate.latex.starts_with("\\dot\\") || coordinate.latex.starts_with("\\dot{");
+        const std::string index = dotted ? coordinate.latex.substr(4) : coordinate.latex;
+        set.symbols.push_back({momentum.name, follows ? "p_{" + index + "}" : momentum.latex});
     }
     if (model_.control)
         for (const Symbol& symbol : model_.control->controls) set.symbols.push_back({symbol.name, symbol.latex});
@@ -287,6 +358,19 @@ EquationSet SymbolicModel::empty_set(const std::string& form) const
         if (const Symbol& symbol = model_.states[k].symbol; !is_total_cost(model_, k))
             set.symbols.push_back({symbol.name, symbol.latex});
     return set;
+}
+
+EquationSet SymbolicModel::closed(EquationSet set) const
+{
+    set.where = kept_->where(set);
+    kept_->append_latex(set);
+    return set;
+}
+
+EquationSet derived(const Model& model, const char* equations, Definitions definitions,
+                    const std::function<EquationSet(const DefinitionChoice&)>& derivation)
+{
+    return derived(model, equations, [&] { return with_definitions(definitions, derivation); });
 }
 
 EquationSet derived(const Model& model, const char* equations, const std::function<EquationSet()>& derivation)

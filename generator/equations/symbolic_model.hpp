@@ -3,6 +3,7 @@
 /// brought to its own shortest form, in an order and with signs of our own, so that the text is the same on every run.
 #pragma once
 
+#include "equations/kept_symbols.hpp"
 #include "equations/label_casimirs.hpp"
 #include "mechanics/written_algebroid.hpp"
 #include "model/model.hpp"
@@ -10,6 +11,7 @@
 #include "symbolic/shortest_form.hpp"
 
 #include <functional>
+#include <memory>
 #include <optional>
 
 namespace lagen {
@@ -17,9 +19,6 @@ namespace lagen {
 /// Terms of one group, kept apart until they are simplified together.
 using Sum = GiNaC::exvector;
 [[nodiscard]] GiNaC::ex total(const Sum& terms);
-
-/// df/dsymbol
-[[nodiscard]] GiNaC::ex derivative(const GiNaC::ex& f, const GiNaC::ex& symbol);
 
 /// One group of a formula before it is simplified. The label begins with '-' where the formula subtracts the group.
 struct Group {
@@ -30,8 +29,12 @@ struct Group {
 class SymbolicModel {
   public:
     /// `functions`: what equations are derived from (L, H, a running cost; null ones are none). Casimirs that they use
-    /// by name stay names where rho_a(f) = 0 is plain to see: the labels of leaves are constants.
-    SymbolicModel(const Model& model, const WrittenAlgebroid& algebroid, const std::vector<Tree>& functions);
+    /// by name stay names where rho_a(f) = 0 is plain to see: the labels of leaves are constants. `choice`: the
+    /// definitions that stay symbols; none that depends on what the derivation substitutes.
+    SymbolicModel(const Model& model, const WrittenAlgebroid& algebroid, const std::vector<Tree>& functions,
+                  const DefinitionChoice& choice = {}, const std::set<std::string>& substituted = {});
+    SymbolicModel(const SymbolicModel&) = delete;
+    SymbolicModel& operator=(const SymbolicModel&) = delete;
 
     [[nodiscard]] const Model& model() const { return model_; }
     [[nodiscard]] const WrittenAlgebroid& algebroid() const { return algebroid_; }
@@ -61,6 +64,15 @@ class SymbolicModel {
     /// The same value in its shortest form, to go on with.
     [[nodiscard]] GiNaC::ex simpler(const GiNaC::ex& e);
 
+    /// df/dsymbol
+    [[nodiscard]] GiNaC::ex derivative(const GiNaC::ex& f, const GiNaC::ex& symbol) const;
+    /// y^a df/dy^a
+    [[nodiscard]] GiNaC::ex along_fibre(const GiNaC::ex& f) const { return kept_->along_fibre(f, y_); }
+    [[nodiscard]] bool depends_on(const GiNaC::ex& f, const Sum& symbols) const;
+    /// The shorter of two forms with definitions as symbols; without these what it is given.
+    [[nodiscard]] GiNaC::ex reduced(const GiNaC::ex& f) const;
+    /// A symbol for a long value where definitions are kept, else the value.
+    [[nodiscard]] GiNaC::ex named(const std::string& name, const GiNaC::ex& value);
     /// df/dt at fixed state; 0 where the model declares a symbol t of its own.
     [[nodiscard]] GiNaC::ex time_derivative(const GiNaC::ex& f);
     /// rho_a(f) = rho^i_a df/dx^i
@@ -84,11 +96,14 @@ class SymbolicModel {
     [[nodiscard]] EquationBlock casimirs();
     /// An empty set with the symbols and their LaTeX.
     [[nodiscard]] EquationSet empty_set(const std::string& form) const;
+    /// The set with what its symbols stand for.
+    [[nodiscard]] EquationSet closed(EquationSet set) const;
 
   private:
     [[nodiscard]] bool is_declared(const std::string& name) const;
     [[nodiscard]] GiNaC::ex variable(const std::string& name);
     void lower_structure();
+    void lower_curvature();
     void take_labels(const std::vector<Tree>& functions);
     [[nodiscard]] GiNaC::ex lower_rough(const Tree& tree);
     [[nodiscard]] std::map<std::string, Tree> velocities(const Sum& y) const;
@@ -102,6 +117,7 @@ class SymbolicModel {
     std::optional<GiNaC::realsymbol> time_;
     std::vector<NamedTree> labels_;     ///< Casimirs that stand in the functions by name
     std::map<std::string, Tree> rough_; ///< what is not smooth, under its text
+    std::unique_ptr<KeptSymbols> kept_; ///< over symbols_ and order_
     std::vector<GiNaC::ex> anchor_;     ///< anchor_[a n + i] = rho^i_a
     std::vector<GiNaC::ex> bracket_;    ///< bracket_[(a r + b) r + c] = C^c_ab
 };
@@ -109,5 +125,11 @@ class SymbolicModel {
 /// What `derivation` gives; an exception of GiNaC becomes a MathematicsError that says whose `equations` failed.
 [[nodiscard]] EquationSet derived(const Model& model, const char* equations,
                                   const std::function<EquationSet()>& derivation);
+/// The same with definitions as symbols.
+[[nodiscard]] EquationSet derived(const Model& model, const char* equations, Definitions definitions,
+                                  const std::function<EquationSet(const DefinitionChoice&)>& derivation);
+
+/// The names of these.
+[[nodiscard]] std::set<std::string> name_set(const std::vector<Symbol>& symbols);
 
 } // namespace lagen

@@ -63,6 +63,13 @@ struct DecidedStatement {
     std::string evidence = {}; ///< what is known of it; may be empty
 };
 
+/// A symbol of the equations that stands for a longer expression: a definition of the model, a derivative of one.
+struct WhereEntry {
+    std::string symbol;     ///< of an entry of a vector: "r[1]"
+    Tree value;             ///< over coordinates, parameters and other symbols of the list
+    std::size_t family = 1; ///< the entries of the vector, which stand together; 1: no vector
+};
+
 struct SymbolText {
     std::string name;
     std::string latex; ///< how LaTeX shows the symbol; empty: made from the name
@@ -76,6 +83,7 @@ struct EquationSet {
     std::vector<SymbolText> symbols;
     std::vector<EquationBlock> blocks;
     std::vector<DecidedStatement> statements = {};
+    std::vector<WhereEntry> where = {}; ///< each over coordinates, parameters and others of the list
 };
 
 } // namespace lagen

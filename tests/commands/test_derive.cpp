@@ -79,6 +79,36 @@ TEST_CASE("Euler's equations of the rigid body are those of the textbook")
           std::string::npos);
 }
 
+TEST_CASE("definitions are symbols with a list of what they stand for, and --expand writes them out")
+{
+    const std::string folder = fresh_folder();
+    write_text(folder + "/a.toml", R"toml([parameters]
+J = 1
+m = 2
+[base]
+coordinates = ["x"]
+[fibre]
+coordinates = ["u", "w"]
+[algebroid]
+kind = "atiyah"
+algebra = "R^1"
+[definitions]
+I = "J + m*(2 + cos(x))^2"
+[lagrangian]
+L = "m*u^2/2 + I*w^2/2"
+)toml");
+    const std::string kept = call({"derive", folder + "/a.toml"}).out;
+    CHECK(kept.find("\n  p_w = I w\n") != std::string::npos);
+    CHECK(kept.ends_with("\nwhere:\n  I = J + m (cos(x) + 2)²\n"));
+    const std::string flat = call({"derive", folder + "/a.toml", "--expand"}).out;
+    CHECK(flat.find("\n  p_w = w (J + m (cos(x) + 2)²)\n") != std::string::npos);
+    CHECK(flat.find("where") == std::string::npos);
+    CHECK(call({"derive", folder + "/a.toml", "--format", "json"}).out.find(R"("where": [{"symbol": "I", "value": )") !=
+          std::string::npos);
+    CHECK(call({"derive", folder + "/a.toml", "--format", "sympy"}).out ==
+          call({"derive", folder + "/a.toml", "--format", "sympy", "--expand"}).out);
+}
+
 TEST_CASE("-o writes the equations to a file")
 {
     const std::string folder = fresh_folder();

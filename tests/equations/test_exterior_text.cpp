@@ -71,7 +71,7 @@ TEST_CASE("the forms of a model stand with their differentials")
    F = x e^v_x∧e^v_y
   dF = 0
 )");
-    CHECK(print_latex(set).find("  dA &= \\left(\\cos\\left(x\\right) - 2\\, y\\right)") != std::string::npos);
+    CHECK(print_latex(set).find("  dA &= \\left(\\cos x - 2\\, y\\right)") != std::string::npos);
     CHECK(print_json(set).find(R"({"left": {"kind": "symbol", "symbol": "F"}, "groups": [{"label": "", "value": "x", )"
                                R"("basis": ["v_x", "v_y"]}]})") != std::string::npos);
 }

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Uses of names are counted in what was derived with them.
+#include "equations/definition_choice.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+namespace lagen {
+namespace {
+
+constexpr std::size_t most_nodes = 5000; ///< of a tree that are counted
+
+} // namespace
+
+std::size_t written_nodes(const Tree& tree)
+{
+    std::size_t count = 0;
+    std::vector<const TreeNode*> pending{tree.get()};
+    while (!pending.empty() && count < most_nodes) {
+        const TreeNode* node = pending.back();
+        pending.pop_back();
+        ++count;
+        for (const Tree& argument : node->arguments) pending.push_back(argument.get());
+    }
+    return count;
+}
+
+void for_each_tree(const EquationBlock& block, const std::function<void(const Tree&)>& visit)
+{
+    for (const Equation& equation : block.equations)
+        for (const auto* groups : {&equation.mass, &equation.groups})
+            for (const TermGroup& group : *groups) visit(group.value);
+}
+
+namespace {
+
+constexpr std::size_t one_page = 4000; ///< characters; what is longer is compared with the form without symbols
+constexpr std::size_t long_value = 60; ///< nodes; so much is not written into equations in place of names
+
+std::string stem_of(const std::string& name)
+{
+    return name.substr(0, name.find('['));
+}
+
+/// Occurrences of the stems of `where` in one tree, each place counted.
+void count_names(const Tree& tree, std::map<std::string, std::size_t>& counts)
+{
+    std::vector<const TreeNode*> pending{tree.get()};
+    std::size_t nodes = 0;
+    while (!pending.empty() && nodes++ < 100 * most_nodes) {
+        const TreeNode* node = pending.back();
+        pending.pop_back();
+        if (node->kind == TreeKind::name)
+            if (const auto known = counts.find(stem_of(node->name)); known != counts.end()) ++known->second;
+        for (const Tree& argument : node->arguments) pending.push_back(argument.get());
+    }
+}
+
+/// Symbols that do not pay for their names.
+std::set<std::string> needless(const EquationSet& set)
+{
+    std::map<std::string, std::size_t> none, most, all, size;
+    for (const WhereEntry& entry : set.where) {
+        none[stem_of(entry.symbol)] = 0;
+        size[stem_of(entry.symbol)] += written_nodes(entry.value);
+    }
+    most = all = none;
+    const auto take = [&](std::map<std::string, std::size_t> counts) {
+        for (const auto& [name, count] : counts) {
+            most[name] = std::max(most[name], count);
+            all[name] += count;
+        }
+    };
+    for (const EquationBlock& block : set.blocks) {
+        std::map<std::string, std::size_t> counts = none;
+        for_each_tree(block, [&](const Tree& tree) { count_names(tree, counts); });
+        take(std::move(counts));
+    }
+    std::map<std::string, std::size_t> counts = none;
+    for (const WhereEntry& entry : set.where) count_names(entry.value, counts);
+    take(std::move(counts));
+    std::set<std::string> names;
+    for (const auto& [name, count] : most)
+        if (count < 2 && all.at(name) < 3 && size.at(name) * all.at(name) < long_value) names.insert(name);
+    return names;
+}
+
+/// Characters of all that is derived.
+std::size_t written_length(const EquationSet& set)
+{
+    std::size_t length = 0;
+    for (const EquationBlock& block : set.blocks)
+        for_each_tree(block, [&](const Tree& tree) { length += to_text(tree).size(); });
+    for (const WhereEntry& entry : set.where) length += to_text(entry.value).size();
+    return length;
+}
+
+/// Derived again without the names that do not pay, until all do.
+EquationSet with_symbols(const std::function<EquationSet(const DefinitionChoice&)>& derivation)
+{
+    DefinitionChoice choice{true, {}};
+    for (;;) {
+        EquationSet set = derivation(choice);
+        const std::set<std::string> more = needless(set);
+        if (more.empty()) return set;
+        choice.dropped.insert(more.begin(), more.end());
+    }
+}
+
+} // namespace
+
+EquationSet with_definitions(Definitions definitions,
+                             const std::function<EquationSet(const DefinitionChoice&)>& derivation)
+{
+    if (definitions == Definitions::expanded) return derivation({});
+    std::optional<EquationSet> set;
+    try {
+        set = with_symbols(derivation);
+    } catch (const TooManyNames&) {
+    } catch (const MathematicsError&) { // in symbols something divides by what is zero
+    }
+    if (!set) return derivation({});
+    if (set->where.empty() || written_length(*set) <= one_page) return *set;
+    try {
+        const EquationSet flat = derivation({});
+        return written_length(flat) < written_length(*set) ? flat : *set;
+    } catch (const MathematicsError&) { // too large without symbols
+        return *set;
+    }
+}
+
+} // namespace lagen
