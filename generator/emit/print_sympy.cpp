@@ -76,10 +76,10 @@ class SympyModule {
         text_ += block.text();
     }
 
-    /// A text of sympy_program with '@' replaced.
+    /// A text of sympy_program with '$' replaced.
     void program(std::string_view text, const std::string& replacement = {})
     {
-        for (const char c : text.substr(1)) c == '@' ? text_ += replacement : text_ += c;
+        for (const char c : text.substr(1)) c == '$' ? text_ += replacement : text_ += c;
     }
 
     [[nodiscard]] const std::string& variable(const std::string& symbol) const { return names_.symbol.at(symbol); }

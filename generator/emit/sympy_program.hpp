@@ -25,7 +25,7 @@ inline constexpr std::string_view poisson = R"(
 
 coordinates = base + momenta
 poisson = sp.zeros(len(coordinates), len(coordinates))
-for _bracket in equations["@"]:
+for _bracket in equations["$"]:
     _i, _j = map(coordinates.index, _bracket.lhs.args)
     poisson[_i, _j], poisson[_j, _i] = _bracket.rhs, -_bracket.rhs
 
@@ -39,8 +39,8 @@ def bracket(F, G):
 inline constexpr std::string_view accelerations = R"(
 
 accelerated = tuple(rates[state.index(y)] for y in fibre)
-mass = sp.Matrix([e.lhs for e in equations["@"]]).jacobian(accelerated)  # shape (r, r)
-force = sp.Matrix([e.rhs for e in equations["@"]])  # shape (r, 1)
+mass = sp.Matrix([e.lhs for e in equations["$"]]).jacobian(accelerated)  # shape (r, r)
+force = sp.Matrix([e.rhs for e in equations["$"]])  # shape (r, 1)
 
 
 def accelerations():
@@ -80,6 +80,8 @@ def _compiled():
 
 def _numbers(t, state, parameters):
     """The entries of `_expressions`."""
+    if len(state) != len(rates):
+        raise ValueError(f"the state has {len(rates)} entries, and {len(state)} are given")
     given = (t, *state, *(parameters if isinstance(parameters, tuple) else values(parameters)))
     return _compiled()(*(numpy.array(given, dtype=float) if numpy else given))
 

@@ -90,6 +90,7 @@ void Claims::decide_distribution(Report& report)
     std::vector<NodeId> forms;
     if (!is_refuted("constraint")) forms = constraint_rows(graph_, system_);
     report.mechanics.integrable = decide_integrability(graph_, system_, setting_, judge_->decider().budget(), forms);
+    report.mechanics.integrable->has_drift = !system_.distribution->drift.empty();
     if (!lagrangian_) return;
     const MomentumBalance balance = lagrange_balance(graph_, system_, *lagrangian_);
     const NodeId rate = moving_energy_rate(graph_, system_, *lagrangian_->constrained, balance);

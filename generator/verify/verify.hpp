@@ -120,6 +120,7 @@ struct StructureReport {
 
 /// Whether the brackets of a distribution's sections lie in it, which stands outside the verdict.
 struct Integrability {
+    bool has_drift = false; ///< which plays no part in it
     ProofStatus status = ProofStatus::undecided;
     // Of the first bracket that does not, where refuted:
     std::vector<std::string> bracket;                            ///< its two sections

@@ -74,7 +74,7 @@ class Modules(unittest.TestCase):
                         text = derive(path, form=form)
                     except lagen.Error as error:
                         self.assertEqual(error.code, 1)
-                        self.assertRegex(error.message, "has no |has neither |is not derived yet")
+                        self.assertRegex(error.message, "has no |has neither |is not derived yet|do not make its motion")
                         if "which has no formula" in error.message:
                             refused.append((path.stem, form))
                         continue
@@ -115,6 +115,12 @@ class Modules(unittest.TestCase):
             numbers = output_of(sys.executable, written(folder, "without.py", script)).split()
         module = lagen.equations(models / "double_pendulum.toml")
         numpy.testing.assert_allclose([float(n) for n in numbers], module.rhs(0, (0.5, 1, 0.25, -2), {"m1": 1.5}), rtol=1e-12)
+
+    def test_a_right_hand_side_is_compiled_once_and_wants_the_whole_state(self):
+        module = lagen.equations(models / "duffing.toml")
+        self.assertIs(module._compiled(), module._compiled())
+        with self.assertRaisesRegex(ValueError, "the state has 2 entries, and 1 are given"):
+            module.rhs(0, [1])
 
     def test_a_right_hand_side_beyond_the_domain_is_not_a_number(self):
         module = lagen.equations(models / "relativistic_oscillator.toml")
