@@ -114,6 +114,61 @@ TEST_CASE("infinitely many bounces are zeno, at the time of the closed form", "[
                                          "model does not say what follows them\n  the last good state is at t = "));
 }
 
+TEST_CASE("a floor that rises or shakes: zeno where the closed form says, none without losses, no ball falls through",
+          "[run]")
+{
+    const std::string folder = fresh_folder(), floor = folder + "/floor.toml";
+    write_text(floor, R"toml(
+[parameters]
+g = 9.81
+V = 0.3
+A = 0
+e = 0.7
+z0 = 0.1
+[base]
+coordinates = ["z"]
+[algebroid]
+kind = "tangent"
+[definitions]
+Z = "V*t + A*sin(25*t)"
+W = "Dt(Z)"
+[lagrangian]
+L = "v_z^2/2 - g*z"
+[scene.default]
+initial = { z = "z0", v_z = 0 }
+duration = 5
+[scene.default.events]
+bounce = { when = "z - Z", direction = "falling", jump = { v_z = "W - e*(v_z - W)" } }
+[scene.along]
+like = "default"
+initial = { z = "z0", v_z = "V" }
+duration = 1
+)toml");
+    for (const double speed : {0.0, 0.3, 1.0}) {
+        const json::Value value = run_of_events({floor, "--set", "V=" + std::to_string(speed)}, 1);
+        CHECK(value["status"].text == "zeno");
+        const double u = std::sqrt(speed * speed + 2 * 9.81 * 0.1);
+        const double limit = (u - speed) / 9.81 + 2 * 0.7 * u / (9.81 * 0.3);
+        CHECK_THAT(event_number(value["t"]), WithinAbs(limit, 1e-12 + 4e-7 * speed));
+    }
+    const json::Value elastic =
+        run_of_events({floor, "--scene", "along", "--set", "e=1", "--set", "z0=1e-5", "--method", "taylor"});
+    CHECK(elastic["status"].text == "ok");
+    const double flight = 2 * std::sqrt(2e-5 / 9.81);
+    CHECK(elastic["events"].size() == static_cast<std::size_t>(1 / flight + 0.5));
+    for (const std::string method : {"dop853", "tsit5", "taylor"}) {
+        const json::Value value =
+            run_of_events({floor, "--set", "e=0", "--set", "V=0", "--set", "A=0.02", "--method", method}, 1);
+        CHECK(value["status"].text == "zeno");
+        CHECK_THAT(event_number(value["t"]), WithinAbs(0.1509990598532425, 1e-13));
+        CHECK(value["events"].size() == 2);
+    }
+    // a ball of e = 0.7 comes to lie on that table where 40 digits have 1.2566177882
+    const json::Value table = run_of_events({floor, "--set", "V=0", "--set", "A=0.02"}, 1);
+    CHECK(table["status"].text == "zeno");
+    CHECK_THAT(event_number(table["t"]), WithinAbs(1.256617788154216, 2e-7));
+}
+
 TEST_CASE("a rimless wheel comes to the speed of its limit cycle, step by step as the closed form says", "[run]")
 {
     const Outcome outcome = call({"run", "rimless_wheel.toml", "--scene", "steps"});

@@ -2,33 +2,15 @@
 /// Jumps at events: a ball on a floor against its closed form, by every method; which side of its zero a function is on
 /// behind a jump; when jumps pile up.
 #include "lagen/lagen.hpp"
+#include "runtime/ball.hpp"
 #include "runtime/pendulum.hpp"
 
 #include <catch2/catch.hpp>
 
 using namespace lagen;
+using namespace lagen::problems;
 
 namespace {
-
-constexpr double gravity = 9.81;
-
-/// x' = v, v' = -g: any method of order two or more is exact.
-struct Ball {
-    using Scalar = double;
-    using State = Eigen::Matrix<double, 2, 1>;
-    static constexpr int dimension = 2;
-    static constexpr int base_dimension = 1;
-    static constexpr SecondOrder second_order = SecondOrder::velocity_free;
-    static constexpr std::array<int, 1> jacobian_rows = {0}, jacobian_columns = {1};
-    Status rhs(double, const State& s, State& ds) const noexcept
-    {
-        const double v = s[1];
-        ds[0] = v;
-        ds[1] = -gravity;
-        return Status::ok;
-    }
-    void jacobian_values(double, const State&, std::array<double, 1>& values) const noexcept { values[0] = 1; }
-};
 
 /// (x, v) of two of them.
 struct Two {
@@ -42,9 +24,6 @@ struct Two {
         return Status::ok;
     }
 };
-
-using BallState = Ball::State;
-using BallRequest = EventRequest<double, BallState>;
 
 BallRequest bounce(double e, double floor = 0)
 {

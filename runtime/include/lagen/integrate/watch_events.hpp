@@ -2,8 +2,8 @@
 /// Looks for the zero crossings of event functions in one accepted step after another.
 #pragma once
 
+#include "lagen/integrate/event_values.hpp"
 #include "lagen/integrate/locate.hpp"
-#include "lagen/integrate/retract.hpp"
 #include "lagen/integrate/run.hpp"
 
 #include <algorithm>
@@ -30,9 +30,9 @@ class EventWatch {
     };
 
     EventWatch(const M& model, std::span<const Request> requests)
-        : model_(model), requests_(requests), before_(requests.size()), after_(requests.size()),
-          rate_before_(requests.size()), rate_(requests.size()), back_(requests.size()), ahead_(requests.size()),
-          noise_(requests.size()), from_(requests.size()), sides_(requests.size()), seen_(requests.size(), 0)
+        : values_(model, requests), requests_(requests), before_(requests.size()), after_(requests.size()),
+          rate_before_(requests.size()), rate_(requests.size()), there_(requests.size()), from_(requests.size()),
+          sides_(requests.size()), seen_(requests.size(), 0)
     {
         crossed_.reserve(2 * requests.size());
     }
@@ -58,32 +58,33 @@ class EventWatch {
     void begin(Real t, const State& s, Real length)
     {
         using std::sqrt;
-        evaluate(t, s, before_);
+        values_.evaluate(t, s, before_);
         if (std::find(before_.begin(), before_.end(), Real(0)) == before_.end()) return;
-        find_rates(t, s, sqrt(std::numeric_limits<Real>::epsilon()) * length, rate_);
+        values_.find_rates(t, s, sqrt(std::numeric_limits<Real>::epsilon()) * length, rate_);
         for (std::size_t r = 0; r < requests_.size(); ++r)
-            if (before_[r] == Real(0)) sides_[r] = {sign(rate_[r])};
+            if (before_[r] == Real(0)) sides_[r] = {sign(rate_[r]), values_.noise(r)};
     }
 
     /// Behind the jumps at theta of the last step, of the signed length h, where theta is known to `width`: they led at
     /// time t from a state to another one. Functions that are zero to rounding there are on the side to which they go.
     void restart(Real t, const State& from, const State& to, Real h, Real theta, Real width)
     {
-        evaluate(t, from, after_);
-        find_rates(t, from, h, rate_before_);
-        evaluate(t, to, before_);
-        find_rates(t, to, h, rate_);
+        values_.evaluate(t, from, after_);
+        values_.find_rates(t, from, h, rate_before_);
+        values_.evaluate(t, to, before_);
+        values_.find_rates(t, to, h, rate_);
         for (std::size_t r = 0; r < requests_.size(); ++r) {
             const auto same = [&](const Crossed& each) { return each.request == r && each.theta == theta; };
             const auto crossed = std::find_if(crossed_.begin(), crossed_.end(), same);
             const bool here = crossed != crossed_.end(), jumps = !!requests_[r].jump;
             const Real rate = std::max<Real>(size_of(rate_[r]), size_of(rate_before_[r])), size = size_of(before_[r]);
             const Real near = std::max<Real>(Real(8) * width * size_of(h) * rate, Real(4) * size_of(after_[r]));
-            const Real level = std::max<Real>(here ? near : Real(0), noise_[r]);
-            const Real side = size_of(rate_[r]) > Real(1e-8) * rate ? sign(rate_[r])
-                              : here                                ? crossed->side
-                              : jumps                               ? side_before(requests_[r].direction)
-                                                                    : Real(0);
+            const Real level = std::max<Real>(here ? near : Real(0), values_.noise(r));
+            const bool sure = size_of(rate_[r]) > std::max<Real>(Real(1e-8) * rate, values_.rate_noise(r));
+            const Real side = sure    ? sign(rate_[r])
+                              : here  ? crossed->side
+                              : jumps ? side_before(requests_[r].direction)
+                                      : Real(0);
             after_[r] = side;
             const bool soon = size <= std::max<Real>(level, Real(1e-6) * size_of(h) * size_of(rate_[r]));
             if (!here && soon && side != Real(0) && crosses(r))
@@ -111,7 +112,7 @@ class EventWatch {
         for (const Real& end : ends) {
             if (cut) break;
             const auto [t, s] = at(end);
-            evaluate(t, *s, after_);
+            values_.evaluate(t, *s, after_);
             for (std::size_t r = 0; r < requests_.size(); ++r) look_at(r, begin, end, width, turns, value_of(r, at));
             cut = order_and_count(found);
             piece_ = found;
@@ -125,8 +126,8 @@ class EventWatch {
     /// From (t, s), where function r is nearly zero, along the motion in the direction of h, to where it is.
     [[nodiscard]] Real time_to_zero(std::size_t r, Real t, const State& s, Real h)
     {
-        find_rates(t, s, h, rate_);
-        const Real time = evaluate_one(r, t, s) / rate_[r];
+        values_.find_rates(t, s, h, rate_);
+        const Real time = values_.evaluate_one(r, t, s) / rate_[r];
         return h < Real(0) ? time : Real(-time);
     }
 
@@ -134,7 +135,7 @@ class EventWatch {
     /// is within the errors of its steps.
     [[nodiscard]] bool returns(const Crossed& crossed, Real t, const State& s, Real h)
     {
-        find_rates(t, s, h, rate_);
+        values_.find_rates(t, s, h, rate_);
         return rate_[crossed.request] * crossed.side > Real(0);
     }
 
@@ -142,11 +143,11 @@ class EventWatch {
     /// there have crossed them, too.
     void settle(Real t, const State& s, Real theta)
     {
-        evaluate(t, s, back_);
+        values_.evaluate(t, s, there_);
         for (std::size_t r = 0; r < requests_.size(); ++r) {
             const auto own = [r](const Crossed& each) { return each.request == r; };
             const auto piece = crossed_.begin() + static_cast<std::ptrdiff_t>(piece_);
-            if (!(from_[r] < theta) || !crosses(r, after_[r], back_[r]) || std::any_of(piece, crossed_.end(), own))
+            if (!(from_[r] < theta) || !crosses(r, after_[r], there_[r]) || std::any_of(piece, crossed_.end(), own))
                 continue;
             crossed_.push_back({theta, r, sign(after_[r])});
             count(crossed_.back());
@@ -178,33 +179,37 @@ class EventWatch {
     {
         return [this, r, &at](Real theta) {
             const auto [time, state] = at(theta);
-            return evaluate_one(r, time, *state);
+            return values_.evaluate_one(r, time, *state);
         };
     }
 
-    /// A place of (0, last] where function r is on its side: the other crossings of the step are behind it.
+    /// A place of (0, last] where function r is on its side by more than its rounding errors, which would cross again:
+    /// the other crossings of the step are behind it.
     template <class Function>
     void find_side(std::size_t r, Real last, Real width, const Function& value)
     {
         const Side side = sides_[r];
         const Real first = std::min<Real>(Real(4) * width, last);
-        for (Real x = first;; x = std::min<Real>(Real(2) * x, last)) {
+        Real x = first;
+        bool beyond = false;
+        for (;; x = std::min<Real>(Real(2) * x, last)) {
             after_[r] = value(x);
-            if (after_[r] * side.side > Real(0)) {
+            beyond = -after_[r] * side.side > side.level;
+            if (after_[r] * side.side > side.level) {
                 if (side.crosses && crosses(r)) add(r, Real(0), x, width, value);
                 before_[r] = after_[r];
                 from_[r] = x;
                 sides_[r] = {};
                 return;
             }
-            if (!(x < last)) break;
+            if (!(x < last) || (beyond && side.at_once)) break;
         }
         if (side.crosses) {
             sides_[r] = {};
             return;
         }
-        from_[r] = last;
-        if (!(-after_[r] * side.side > side.level)) return; // it has not left its zero yet
+        from_[r] = x;
+        if (!beyond) return; // it has not left its zero yet
         before_[r] = side.side;
         if (side.at_once && crosses(r)) crossed_.push_back({first, r, side.side, true});
         before_[r] = after_[r];
@@ -297,88 +302,16 @@ class EventWatch {
         return cut;
     }
 
-    /// The rates of the functions along the motion through s at t, in the direction of h, by differences over a part of
-    /// h, or of the time in which the state changes where these are rounding errors; 0 where those are, too.
-    void find_rates(Real t, const State& s, Real h, std::vector<Real>& rates)
-    {
-        std::fill(rates.begin(), rates.end(), Real(0));
-        if constexpr (RightHandSide<M> && !is_pack<Scalar>) {
-            using std::sqrt;
-            const Real half = sqrt(std::numeric_limits<Real>::epsilon()), quarter = sqrt(half);
-            tangent_t<M> slope;
-            if constexpr (std::is_same_v<State, tangent_t<M>>) slope = s;
-            if (model_.rhs(Scalar(t), s, slope) != Status::ok) return;
-            find_noise(t, s);
-            find_differences(t, s, slope, quarter * h, rates);
-            if constexpr (moves_by_sums<M>) {
-                Real place = Real(0), speed = Real(0);
-                for (Eigen::Index i = 0; i < s.size(); ++i) place += s[i] * s[i], speed += slope[i] * slope[i];
-                if (speed > Real(0)) find_differences(t, s, slope, quarter * sqrt(place / speed) * sign(h), rates);
-            }
-        }
-    }
-
-    /// Of those that are not known yet.
-    void find_differences(Real t, const State& s, const tangent_t<M>& slope, Real part, std::vector<Real>& rates)
-    {
-        evaluate(t - part, retracted(model_, s, tangent_t<M>(Scalar(-part) * slope)), back_);
-        evaluate(t + part, retracted(model_, s, tangent_t<M>(Scalar(part) * slope)), ahead_);
-        for (std::size_t r = 0; r < rates.size(); ++r) {
-            const Real difference = ahead_[r] - back_[r];
-            if (rates[r] == Real(0) && size_of(difference) > noise_[r])
-                rates[r] = difference / (Real(2) * size_of(part));
-        }
-    }
-
-    /// What the functions change by where the lanes of s change by four units of their last places.
-    void find_noise(Real t, const State& s)
-    {
-        std::fill(noise_.begin(), noise_.end(), Real(0));
-        if constexpr (moves_by_sums<M> && !is_pack<Scalar>) {
-            evaluate(t, s, ahead_);
-            for (const int pattern : {0, 1}) {
-                State near = s;
-                for (Eigen::Index i = 0; i < s.size(); ++i) {
-                    const Real change = Real(4) * std::numeric_limits<Real>::epsilon();
-                    near[i] *= Scalar(Real(1) + (i % 2 < pattern ? -change : change));
-                }
-                evaluate(t, near, back_);
-                for (std::size_t r = 0; r < noise_.size(); ++r)
-                    noise_[r] = std::max<Real>(noise_[r], size_of(Real(back_[r] - ahead_[r])));
-            }
-        }
-    }
-
-    void evaluate(Real t, const State& s, std::vector<Real>& values)
-    {
-        if constexpr (HasEvents<M> && !is_pack<Scalar>) {
-            const auto all = model_.events(t, s);
-            for (std::size_t r = 0; r < requests_.size(); ++r)
-                values[r] =
-                    requests_[r].when ? requests_[r].when(t, s) : all[static_cast<Eigen::Index>(requests_[r].index)];
-        } else {
-            for (std::size_t r = 0; r < requests_.size(); ++r) values[r] = requests_[r].when(t, s);
-        }
-    }
-
-    [[nodiscard]] Real evaluate_one(std::size_t r, Real t, const State& s) const
-    {
-        if constexpr (HasEvents<M> && !is_pack<Scalar>)
-            if (!requests_[r].when) return model_.events(t, s)[static_cast<Eigen::Index>(requests_[r].index)];
-        return requests_[r].when(t, s);
-    }
-
-    const M& model_;
+    EventValues<M> values_;
     std::span<const Request> requests_;
     std::vector<Real> before_, after_;
     std::vector<Real> rate_before_, rate_; ///< along the motion, by time
-    std::vector<Real> back_, ahead_, noise_;
-    std::vector<Real> from_; ///< theta in the step behind which each is looked at
+    std::vector<Real> there_;              ///< where the last step jumps
+    std::vector<Real> from_;               ///< theta in the step behind which each is looked at
     std::vector<Side> sides_;
     std::vector<std::size_t> seen_;
     std::vector<Crossed> crossed_;
-    std::size_t piece_ =
-        0; ///< from which on they are of the last piece that was looked at, at whose beginning after_ is
+    std::size_t piece_ = 0; ///< from which on they are of the last piece looked at, at whose beginning after_ is
 };
 
 } // namespace lagen::detail
