@@ -117,6 +117,8 @@ inline std::string program_text(const std::vector<CompiledCase>& cases, const st
             for (std::size_t k = 0; k < module.parameters.size(); ++k)
                 text +=
                     fmt::format("        m.parameter({}) = {};\n", k, hex_literal(point.at(module.parameters[k].name)));
+            for (std::size_t k = 0; k < module.inputs.size(); ++k)
+                text += fmt::format("        m.input({}) = {};\n", k, hex_literal(point.at(module.inputs[k].name)));
             std::size_t lane = 0;
             for (const Quantity& quantity : lanes_of(module))
                 text += fmt::format("        s[{}] = {};\n", lane++, hex_literal(point.at(quantity.name)));
