@@ -104,7 +104,7 @@ class Modules(unittest.TestCase):
             for (t, state), rates in zip(states, expected[model, form]):
                 with self.subTest(model=model, form=form):
                     found = modules[model, form].rhs(t, state, parameters)
-                    self.assertGreater(numpy.abs(rates).max(), 0.01)
+                    self.assertGreater(numpy.abs(rates).max(), 0.001)
                     numpy.testing.assert_allclose(found, rates, rtol=1e-12, atol=1e-12 * numpy.abs(rates).max())
 
     def test_without_numpy_the_numbers_are_the_same(self):
