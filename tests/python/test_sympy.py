@@ -117,7 +117,7 @@ class Modules(unittest.TestCase):
         numpy.testing.assert_allclose([float(n) for n in numbers], module.rhs(0, (0.5, 1, 0.25, -2), {"m1": 1.5}), rtol=1e-12)
 
     def test_a_right_hand_side_is_compiled_once_and_wants_the_whole_state(self):
-        module = lagen.equations(models / "duffing.toml")
+        module = lagen.equations(models / "pendulum.toml")
         self.assertIs(module._compiled(), module._compiled())
         with self.assertRaisesRegex(ValueError, "the state has 2 entries, and 1 are given"):
             module.rhs(0, [1])
