@@ -8,6 +8,13 @@
 #include <algorithm>
 
 namespace lagen {
+
+bool is_rough(const TreeNode& node)
+{
+    return node.kind == TreeKind::compare ||
+           (node.kind == TreeKind::call && (!entry_of(node.function).smooth || node.function == Function::select));
+}
+
 namespace {
 
 constexpr std::size_t short_definition = 8;  ///< nodes of what is not worth a name
@@ -18,9 +25,7 @@ bool is_smooth(const Tree& tree)
 {
     bool smooth = true;
     (void)rewrite_tree(tree, [&](const Tree& node) {
-        if (node->kind == TreeKind::compare ||
-            (node->kind == TreeKind::call && (!entry_of(node->function).smooth || node->function == Function::select)))
-            smooth = false;
+        if (is_rough(*node)) smooth = false;
         return Tree{};
     });
     return smooth;

@@ -13,6 +13,9 @@
 
 namespace lagen {
 
+/// Whether the operation of the node is not differentiated: a comparison, a selection, a function with kinks or jumps.
+[[nodiscard]] bool is_rough(const TreeNode& node);
+
 class KeptSymbols {
   public:
     /// Definitions that depend on a name in `substituted` are written out: the derivation replaces it. `prepared` is

@@ -10,12 +10,6 @@
 namespace lagen {
 namespace {
 
-bool is_rough(const TreeNode& node)
-{
-    return node.kind == TreeKind::compare ||
-           (node.kind == TreeKind::call && (!entry_of(node.function).smooth || node.function == Function::select));
-}
-
 bool is_zero(const Tree& tree)
 {
     return tree->kind == TreeKind::number && tree->number == 0;
