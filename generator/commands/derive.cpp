@@ -35,8 +35,9 @@ const CommandSyntax derive_syntax{"derive",
                                   "Prints the equations of motion.",
                                   {{"form", "FORM", derive_form_help.c_str()},
                                    {"expand", nullptr,
-                                    "write definitions out in coordinates and parameters; without it those that are "
-                                    "long and occur more than once stay symbols, with a list of what they stand for"},
+                                    "write components, and definitions out in coordinates and parameters; without it "
+                                    "vectors are vectors, families stand once, and definitions that are long and occur "
+                                    "more than once stay symbols, with a list of what they stand for"},
                                    {"bracket", "F",
                                     "with --form poisson: the bracket {F, G} of two functions of base "
                                     "coordinates and momenta (twice)"},

@@ -53,6 +53,7 @@ class LatexWriter {
         case TreeKind::call: return write_call(tree, last);
         case TreeKind::solve: return write_solve(tree);
         case TreeKind::compare: return write_comparison(tree);
+        case TreeKind::apply: return write_vector_product(tree);
         default: break;
         }
         return {"\\dots", LatexHold::atom};
@@ -111,8 +112,22 @@ class LatexWriter {
         const std::vector<Tree>& factors = tree->arguments;
         for (std::size_t k = 0; k < factors.size(); ++k) {
             const bool ends = k + 1 == factors.size() ? last : begins_with_function(factors[k + 1]);
-            text += (text.empty() ? "" : "\\, ") + write(factors[k], LatexHold::product, ends);
+            text += (text.empty() ? "" : "\\, ") + (is_vector_product(factors[k]) && k + 1 < factors.size()
+                                                        ? "\\left(" + write(factors[k], LatexHold::sum) + "\\right)"
+                                                        : write(factors[k], LatexHold::product, ends));
         }
+        return {text, LatexHold::product};
+    }
+
+    LatexPiece write_vector_product(const Tree& tree)
+    {
+        std::string text;
+        for (const Tree& argument : tree->arguments)
+            text += (text.empty()            ? ""
+                     : tree->name == "cross" ? " \\times "
+                                             : " \\cdot ") +
+                    (is_vector_product(argument) ? "\\left(" + write(argument, LatexHold::sum) + "\\right)"
+                                                 : write(argument, LatexHold::product));
         return {text, LatexHold::product};
     }
 
@@ -272,20 +287,25 @@ void print_block(std::string& text, const EquationBlock& block, const LatexNames
 {
     text += "\\paragraph{" + escape_latex(block.title) + "} $" + block.latex_formula + "$\n\\begin{align*}\n";
     std::size_t widest = 0; // the left sides share a column
-    for (const Equation& equation : block.equations)
-        widest = std::max(widest, typeset_width(left_side(equation, names)));
+    const std::vector<Equation>& equations = written_equations(block);
+    for (const Equation& equation : equations) widest = std::max(widest, typeset_width(left_side(equation, names)));
     const std::size_t margin = std::min(widest, line_width / 2) + 12;
-    for (std::size_t e = 0; e < block.equations.size(); ++e) {
-        const Equation& equation = block.equations[e];
+    for (std::size_t e = 0; e < equations.size(); ++e) {
+        const Equation& equation = equations[e];
         std::vector<std::pair<bool, std::string>> terms;
         const bool of_sections = equation.left == LeftSide::section || equation.left == LeftSide::commutator;
         for (const SignedTree& term : right_side_terms(equation))
             terms.emplace_back(term.negative, latex_of_term(term, names, of_sections));
         if (terms.empty()) terms.emplace_back(false, "0");
+        std::string ranges;
+        for (const IndexRange& range : equation.ranges)
+            ranges += (ranges.empty() ? "" : ", \\; ") + range.letter + " = " + std::to_string(range.from) +
+                      ", \\dots, " + std::to_string(range.to);
+        if (!ranges.empty()) terms.back().second += " \\qquad (" + ranges + ")";
         text += "  " + left_side(equation, names) + relation_latex(equation.relation);
         const std::vector<std::string> lines = wrap_terms(terms, margin, margin + indent, line_width, typeset_width);
         for (std::size_t k = 0; k < lines.size(); ++k) text += (k == 0 ? "" : " \\\\\n  &\\quad ") + lines[k];
-        text += e + 1 < block.equations.size() ? " \\\\\n" : "\n";
+        text += e + 1 < equations.size() ? " \\\\\n" : "\n";
     }
     text += "\\end{align*}\n";
 }
@@ -310,7 +330,8 @@ void print_where(std::string& text, const EquationSet& equations, const LatexNam
             std::vector<std::string> entries;
             for (const Tree& value : items[e].values)
                 entries.push_back(LatexWriter(names).write(value, LatexHold::sum));
-            lines = wrap_entries(entries, "(", ")", margin, margin + indent, line_width, typeset_width);
+            lines = wrap_entries(entries, items[e].diagonal ? "\\operatorname{diag}(" : "(", ")", margin,
+                                 margin + indent, line_width, typeset_width);
         }
         text += "  " + names.symbol(items[e].symbol) + " &= ";
         for (std::size_t k = 0; k < lines.size(); ++k) text += (k == 0 ? "" : " \\\\\n  &\\quad ") + lines[k];

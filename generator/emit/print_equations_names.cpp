@@ -97,6 +97,11 @@ std::string entry_indices(const std::string& name, std::size_t open)
 Parts split(const std::string& name)
 {
     Parts parts;
+    constexpr std::string_view transposed = "ᵀ"; // of a matrix in written equations
+    if (name.ends_with(transposed)) {
+        parts = split(name.substr(0, name.size() - transposed.size()));
+        return {subscripted(parts) + "^{\\mathsf{T}}", ""};
+    }
     const std::size_t open = name.find('[');
     if (open != std::string::npos && name.back() == ']') {
         parts = split(name.substr(0, open));

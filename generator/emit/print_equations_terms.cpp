@@ -18,6 +18,16 @@ bool is_one(const Tree& tree)
     return tree->kind == TreeKind::number && tree->number == 1;
 }
 
+bool is_vector_product(const Tree& tree)
+{
+    return tree->kind == TreeKind::apply;
+}
+
+const std::vector<Equation>& written_equations(const EquationBlock& block)
+{
+    return block.written.empty() ? block.equations : block.written;
+}
+
 bool raised_by_name(const Tree& tree)
 {
     if (tree->kind != TreeKind::power || tree->arguments[0]->kind != TreeKind::call) return false;
@@ -131,6 +141,7 @@ std::vector<std::string> wrap_entries(const std::vector<std::string>& entries, c
 std::vector<WhereItem> where_items(const EquationSet& equations)
 {
     std::vector<WhereItem> items;
+    for (const VectorText& vector : equations.vectors) items.push_back({vector.name, vector.entries, vector.diagonal});
     const std::vector<WhereEntry>& where = equations.where;
     for (std::size_t k = 0; k < where.size(); ++k) {
         const std::size_t size = where[k].family;

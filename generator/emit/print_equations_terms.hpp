@@ -23,6 +23,12 @@ struct SignedTree {
 /// A coefficient of the left side without its sign.
 [[nodiscard]] SignedTree without_sign(const Tree& tree);
 
+/// Whether the tree is a x b or a . b of written equations.
+[[nodiscard]] bool is_vector_product(const Tree& tree);
+
+/// The equations as text and LaTeX show them.
+[[nodiscard]] const std::vector<Equation>& written_equations(const EquationBlock& block);
+
 /// A power that is written at the function's name, sin^2(x): of a circular or hyperbolic function, with a whole
 /// exponent of 2 or more (sin^-1 would read as the inverse).
 [[nodiscard]] bool raised_by_name(const Tree& tree);
@@ -48,6 +54,7 @@ struct SignedTree {
 struct WhereItem {
     std::string symbol;
     std::vector<Tree> values;
+    bool diagonal = false; ///< a matrix with these in its diagonal
 };
 [[nodiscard]] std::vector<WhereItem> where_items(const EquationSet& equations);
 

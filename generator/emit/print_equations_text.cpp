@@ -67,6 +67,7 @@ class TextWriter {
         case TreeKind::power: return write_power(tree);
         case TreeKind::call: return write_call(tree);
         case TreeKind::solve: return write_solve(tree);
+        case TreeKind::apply: return write_vector_product(tree);
         default: break;
         }
         return {to_text(tree), TextHold::sum};
@@ -92,7 +93,23 @@ class TextWriter {
     TextPiece write_product(const Tree& tree)
     {
         std::string text;
-        for (const Tree& factor : tree->arguments) text += (text.empty() ? "" : " ") + write(factor, TextHold::product);
+        for (const Tree& factor : tree->arguments)
+            text += (text.empty() ? "" : " ") + (is_vector_product(factor) && factor != tree->arguments.back()
+                                                     ? "(" + write(factor, TextHold::sum) + ")"
+                                                     : write(factor, TextHold::product));
+        return {text, TextHold::product};
+    }
+
+    /// a × b and a · b
+    TextPiece write_vector_product(const Tree& tree)
+    {
+        std::string text;
+        for (const Tree& argument : tree->arguments)
+            text += (text.empty()            ? ""
+                     : tree->name == "cross" ? " × "
+                                             : " · ") +
+                    (is_vector_product(argument) ? "(" + write(argument, TextHold::sum) + ")"
+                                                 : write(argument, TextHold::product));
         return {text, TextHold::product};
     }
 
@@ -150,9 +167,10 @@ bool bears_dot(const std::string& name)
     const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
     if (name.empty()) return false;
     const auto first = static_cast<unsigned char>(name[0]);
+    const auto begins_index = [](char c) { return c == '_' || c == '[' || (c >= '0' && c <= '9'); };
     if (first >= 0xCE && first <= 0xCF && name.size() >= 2) // Greek
-        return name.size() == 2 || name[2] == '_' || (name[2] >= '0' && name[2] <= '9');
-    return letter(name[0]) && (name.size() == 1 || name[1] == '_' || (name[1] >= '0' && name[1] <= '9'));
+        return name.size() == 2 || begins_index(name[2]);
+    return letter(name[0]) && (name.size() == 1 || begins_index(name[1]));
 }
 
 /// Composed characters where Unicode has them (normal form C), else the letter and a combining dot.
@@ -229,6 +247,10 @@ std::vector<std::pair<bool, std::string>> right_terms(const Equation& equation)
     for (const SignedTree& term : right_side_terms(equation))
         terms.emplace_back(term.negative, text_of_term(term, is_of_sections(equation)));
     if (terms.empty()) terms.emplace_back(false, "0");
+    std::string ranges;
+    for (const IndexRange& range : equation.ranges)
+        ranges += fmt::format("{}{} = {}..{}", ranges.empty() ? "" : ", ", range.letter, range.from, range.to);
+    if (!ranges.empty()) terms.back().second += "   (" + ranges + ")";
     return terms;
 }
 
@@ -253,10 +275,11 @@ void print_block(std::string& text, const EquationBlock& block, LongLines long_l
     const bool fits = columns_of(block.title) + 3 + columns_of(block.formula) <= page_width;
     text += "\n" + block.title + (fits ? ":  " : ":\n  ") + block.formula + "\n";
     std::size_t widest = 0; // of the left sides that share a column
-    for (const Equation& equation : block.equations)
+    const std::vector<Equation>& equations = written_equations(block);
+    for (const Equation& equation : equations)
         if (!stands_apart(equation, long_lines)) widest = std::max(widest, columns_of(left_side(equation)));
     widest = std::min(widest, widest_left);
-    for (const Equation& equation : block.equations) {
+    for (const Equation& equation : equations) {
         if (stands_apart(equation, long_lines)) {
             text += "  ";
             append_lines(text, page_lines(mass_terms(equation), 2, 4, long_lines), 4);
@@ -291,7 +314,8 @@ void print_where(std::string& text, const EquationSet& equations, LongLines long
         } else {
             std::vector<std::string> entries;
             for (const Tree& value : item.values) entries.push_back(TextWriter().write(value, TextHold::sum));
-            lines = wrap_entries(entries, "[", "]", margin, margin + 1, page_width, columns_of);
+            lines = wrap_entries(entries, item.diagonal ? "diag(" : "[", item.diagonal ? ")" : "]", margin, margin + 1,
+                                 page_width, columns_of);
             for (std::size_t k = 1; k < lines.size(); ++k) lines[k].insert(0, " ");
         }
         text += "  " + std::string(widest - columns_of(item.symbol), ' ') + item.symbol + " = ";

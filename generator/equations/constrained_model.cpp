@@ -109,7 +109,7 @@ std::vector<Group> ConstrainedModel::balance(std::size_t alpha)
         moving += P_[a] * symbolic_.time_derivative(sections_[alpha][a]);
         force += sections_[alpha][a] * forces_[a];
     }
-    return {{"ρ_α(l)", total(along(sections_[alpha], l_))},
+    return {{"ρ(e_α)(l)", total(along(sections_[alpha], l_))},
             {"-P_a [e_α, Y]^a", bracket_term},
             {"P_a ∂A_α^a/∂t", moving},
             {"Q_α", force}};

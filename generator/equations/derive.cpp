@@ -6,6 +6,7 @@
 #include "equations/discrete.hpp"
 #include "equations/exterior.hpp"
 #include "equations/hamilton.hpp"
+#include "equations/indexed_equations.hpp"
 #include "equations/invariants.hpp"
 #include "equations/lagrange.hpp"
 #include "equations/lagrangian_cartan.hpp"
@@ -13,6 +14,7 @@
 #include "equations/poisson.hpp"
 #include "equations/pontryagin.hpp"
 #include "equations/variations.hpp"
+#include "equations/vector_equations.hpp"
 #include "model/form.hpp"
 #include "model/scene_form.hpp"
 
@@ -40,10 +42,8 @@ EquationSet derive_constrained(const std::string& form, const Model& model, cons
                            "lagrange, hamilton, poisson, reaction and projected are");
 }
 
-} // namespace
-
-EquationSet derive(const std::string& form, const Model& model, const System& system, const Report& report,
-                   const std::vector<Tree>& brackets, Definitions definitions)
+EquationSet derive_components(const std::string& form, const Model& model, const System& system, const Report& report,
+                              const std::vector<Tree>& brackets, Definitions definitions)
 {
     const WrittenAlgebroid& algebroid = system.written.algebroid;
     if (system.distribution) return derive_constrained(form, model, system, brackets, definitions);
@@ -68,6 +68,18 @@ EquationSet derive(const std::string& form, const Model& model, const System& sy
     case FormKind::discrete: return derive_discrete(model, system);
     }
     throw InternalError("a form without equations");
+}
+
+} // namespace
+
+EquationSet derive(const std::string& form, const Model& model, const System& system, const Report& report,
+                   const std::vector<Tree>& brackets, Definitions definitions)
+{
+    EquationSet equations = derive_components(form, model, system, report, brackets, definitions);
+    if (definitions == Definitions::expanded) return equations;
+    write_vectors(equations, model);
+    write_by_index(equations);
+    return equations;
 }
 
 } // namespace lagen

@@ -104,29 +104,24 @@ class HamiltonDerivation {
 
     [[nodiscard]] EquationBlock motion() const
     {
-        EquationBlock block{"equations of motion",
-                            "μ̇_a = -ρ_a(H) - μ_c C^c_ab ∂H/∂μ_b",
-                            R"(\dot \mu_a = -\rho_a(H) - \mu_c\, C^c_{ab}\, \frac{\partial H}{\partial \mu_b})",
-                            {}};
-        if (in_velocities_)
-            block = {"equations of motion",
-                     "μ̇_a = ρ_a(L) - μ_c C^c_ab y^b",
-                     R"(\dot \mu_a = \rho_a(L) - \mu_c\, C^c_{ab}\, y^b)",
-                     {}};
-        if (symbolic_.has_forces()) {
-            block.formula += " + Q_a";
-            block.latex_formula += " + Q_a";
-        }
+        const FormulaTerm anchor =
+            in_velocities_ ? FormulaTerm{"ρ_a(L)", R"(\rho_a(L))"} : FormulaTerm{"-ρ_a(H)", R"(-\rho_a(H))"};
+        const FormulaTerm bracket =
+            in_velocities_
+                ? FormulaTerm{"-μ_c C^c_ab y^b", R"(-\mu_c\, C^c_{ab}\, y^b)"}
+                : FormulaTerm{"-μ_c C^c_ab ∂H/∂μ_b", R"(-\mu_c\, C^c_{ab}\, \frac{\partial H}{\partial \mu_b})"};
+        const FormulaTerm force{"Q_a", "Q_a"};
+        EquationBlock block{"equations of motion", "μ̇_a", R"(\dot \mu_a)", {}};
         for (std::size_t a = 0; a < r(); ++a) {
             Equation next{LeftSide::time_derivative, symbolic_.momentum_name(a), {}, {}};
-            next.groups = symbolic_.simplified({in_velocities_
-                                                    ? Group{"ρ_a(L)", total(symbolic_.along_anchor(a, lagrangian_))}
-                                                    : Group{"-ρ_a(H)", -total(symbolic_.along_anchor(a, hamiltonian_))},
-                                                {in_velocities_ ? "-μ_c C^c_ab y^b" : "-μ_c C^c_ab ∂H/∂μ_b",
-                                                 total(symbolic_.bracket_terms(a, symbolic_.mu(), y_))},
-                                                {"Q_a", forces_[a]}});
+            next.groups = symbolic_.simplified(
+                {{anchor.label, in_velocities_ ? total(symbolic_.along_anchor(a, lagrangian_))
+                                               : GiNaC::ex(-total(symbolic_.along_anchor(a, hamiltonian_)))},
+                 {bracket.label, total(symbolic_.bracket_terms(a, symbolic_.mu(), y_))},
+                 {force.label, forces_[a]}});
             block.equations.push_back(std::move(next));
         }
+        append_right_side(block, {anchor, bracket, force});
         return block;
     }
 
@@ -138,16 +133,13 @@ class HamiltonDerivation {
         const GiNaC::ex drift = in_velocities_ ? GiNaC::ex(-symbolic_.time_derivative(lagrangian_))
                                                : symbolic_.time_derivative(hamiltonian_);
         Equation balance{LeftSide::time_derivative, energy_name(), {}, {}};
-        balance.groups =
-            symbolic_.simplified({{"Q_a y^a", total(power)}, {in_velocities_ ? "-∂L/∂t" : "∂H/∂t", drift}});
-        std::string formula = in_velocities_ ? "Ḣ = -∂L/∂t" : "Ḣ = ∂H/∂t";
-        std::string latex =
-            in_velocities_ ? R"(\dot H = -\frac{\partial L}{\partial t})" : R"(\dot H = \frac{\partial H}{\partial t})";
-        if (symbolic_.has_forces()) {
-            formula += " + Q_a y^a";
-            latex += R"( + Q_a\, y^a)";
-        }
-        return {"energy balance", formula, latex, {std::move(balance)}};
+        const FormulaTerm rate = in_velocities_ ? FormulaTerm{"-∂L/∂t", R"(-\frac{\partial L}{\partial t})"}
+                                                : FormulaTerm{"∂H/∂t", R"(\frac{\partial H}{\partial t})"};
+        const FormulaTerm work{"Q_a y^a", R"(Q_a\, y^a)"};
+        balance.groups = symbolic_.simplified({{work.label, total(power)}, {rate.label, drift}});
+        EquationBlock block{"energy balance", "Ḣ", R"(\dot H)", {std::move(balance)}};
+        append_right_side(block, {rate, work});
+        return block;
     }
 
     SymbolicModel symbolic_;

@@ -39,12 +39,6 @@ class LagrangeDerivation {
     [[nodiscard]] std::size_t r() const { return symbolic_.r(); }
     [[nodiscard]] const std::string& fibre_name(std::size_t a) const { return symbolic_.algebroid().fibre[a].name; }
 
-    /// The part of a formula that only models with forces have.
-    [[nodiscard]] std::string with_forces(const std::string& formula) const
-    {
-        return symbolic_.has_forces() ? formula + " + Q_a" : formula;
-    }
-
     /// -(d2L/dy^a dx^i) rho^i_b y^b
     [[nodiscard]] Sum drift_terms(std::size_t a) const
     {
@@ -64,33 +58,27 @@ class LagrangeDerivation {
 
     [[nodiscard]] EquationBlock momentum_form() const
     {
-        EquationBlock block{"equations of motion (momentum form)",
-                            with_forces("ṗ_a = ρ_a(L) - p_c C^c_ab y^b"),
-                            with_forces(R"(\dot p_a = \rho_a(L) - p_c\, C^c_{ab}\, y^b)"),
-                            {}};
+        EquationBlock block{"equations of motion (momentum form)", "ṗ_a", R"(\dot p_a)", {}};
         for (std::size_t a = 0; a < r(); ++a) {
             Equation next{LeftSide::time_derivative, symbolic_.momentum_name(a), {}, {}};
             // Each group for itself: nothing cancels between the momenta and L.
             for (const Group& group :
-                 {Group{"ρ_a(L)", total(symbolic_.along_anchor(a, lagrangian_))},
-                  Group{"-p_c C^c_ab y^b", total(symbolic_.bracket_terms(a, symbolic_.mu(), symbolic_.y()))},
-                  Group{"Q_a", forces_[a]}})
+                 {Group{anchor_term_.label, total(symbolic_.along_anchor(a, lagrangian_))},
+                  Group{bracket_term_.label, total(symbolic_.bracket_terms(a, symbolic_.mu(), symbolic_.y()))},
+                  Group{force_term_.label, forces_[a]}})
                 for (TermGroup& simple : symbolic_.simplified({group})) next.groups.push_back(std::move(simple));
             block.equations.push_back(std::move(next));
         }
+        append_right_side(block, {anchor_term_, bracket_term_, force_term_});
         return block;
     }
 
     [[nodiscard]] EquationBlock acceleration_form()
     {
-        EquationBlock block{
-            "equations of motion (acceleration form)",
-            with_forces("W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - ∂²L/∂y^a∂t - p_c C^c_ab y^b") +
-                ",  W_ab = ∂²L/∂y^a∂y^b",
-            with_forces(
-                R"(W_{ab}\, \dot y^b = \rho_a(L) - \frac{\partial^2 L}{\partial y^a \partial x^i}\, \rho^i_b\, y^b - \frac{\partial^2 L}{\partial y^a \partial t} - p_c\, C^c_{ab}\, y^b)") +
-                R"(, \quad W_{ab} = \frac{\partial^2 L}{\partial y^a \partial y^b})",
-            {}};
+        const FormulaTerm drift{"-(∂²L/∂y^a∂x^i) ρ^i_b y^b",
+                                R"(-\frac{\partial^2 L}{\partial y^a \partial x^i}\, \rho^i_b\, y^b)"};
+        const FormulaTerm rate{"-∂²L/∂y^a∂t", R"(-\frac{\partial^2 L}{\partial y^a \partial t})"};
+        EquationBlock block{"equations of motion (acceleration form)", "W_ab ẏ^b", R"(W_{ab}\, \dot y^b)", {}};
         for (std::size_t a = 0; a < r(); ++a) {
             Equation next{LeftSide::time_derivative, fibre_name(a), {}, {}};
             for (std::size_t b = 0; b < r(); ++b)
@@ -98,14 +86,17 @@ class LagrangeDerivation {
                      symbolic_.simplified({{fibre_name(b), symbolic_.derivative(p_[a], symbolic_.y()[b])}}))
                     next.mass.push_back(std::move(mass));
             next.groups =
-                symbolic_.simplified({{"ρ_a(L)", total(symbolic_.along_anchor(a, lagrangian_))},
-                                      {"-(∂²L/∂y^a∂x^i) ρ^i_b y^b", total(drift_terms(a))},
-                                      {"-∂²L/∂y^a∂t", -symbolic_.time_derivative(p_[a])},
-                                      {"-p_c C^c_ab y^b", total(symbolic_.bracket_terms(a, p_, symbolic_.y()))},
-                                      {"Q_a", forces_[a]}});
+                symbolic_.simplified({{anchor_term_.label, total(symbolic_.along_anchor(a, lagrangian_))},
+                                      {drift.label, total(drift_terms(a))},
+                                      {rate.label, -symbolic_.time_derivative(p_[a])},
+                                      {bracket_term_.label, total(symbolic_.bracket_terms(a, p_, symbolic_.y()))},
+                                      {force_term_.label, forces_[a]}});
             if (next.mass.empty()) next.left = LeftSide::zero;
             block.equations.push_back(std::move(next));
         }
+        append_right_side(block, {anchor_term_, drift, rate, bracket_term_, force_term_});
+        block.formula += ",  W_ab = ∂²L/∂y^a∂y^b";
+        block.latex_formula += R"(, \quad W_{ab} = \frac{\partial^2 L}{\partial y^a \partial y^b})";
         return block;
     }
 
@@ -125,13 +116,13 @@ class LagrangeDerivation {
         Sum power;
         for (std::size_t a = 0; a < r(); ++a) power.push_back(forces_[a] * symbolic_.y()[a]);
         Equation balance{LeftSide::time_derivative, energy_name(), {}, {}};
+        const FormulaTerm work{"Q_a y^a", R"(Q_a\, y^a)"};
+        const FormulaTerm rate{"-∂L/∂t", R"(-\frac{\partial L}{\partial t})"};
         balance.groups =
-            symbolic_.simplified({{"Q_a y^a", total(power)}, {"-∂L/∂t", -symbolic_.time_derivative(lagrangian_)}});
-        return {"energy balance",
-                symbolic_.has_forces() ? "Ė = Q_a y^a - ∂L/∂t" : "Ė = -∂L/∂t",
-                symbolic_.has_forces() ? R"(\dot E = Q_a\, y^a - \frac{\partial L}{\partial t})"
-                                       : R"(\dot E = -\frac{\partial L}{\partial t})",
-                {std::move(balance)}};
+            symbolic_.simplified({{work.label, total(power)}, {rate.label, -symbolic_.time_derivative(lagrangian_)}});
+        EquationBlock block{"energy balance", "Ė", R"(\dot E)", {std::move(balance)}};
+        append_right_side(block, {work, rate});
+        return block;
     }
 
     /// The accelerations are free along these.
@@ -149,6 +140,9 @@ class LagrangeDerivation {
         }
     }
 
+    const FormulaTerm anchor_term_{"ρ_a(L)", R"(\rho_a(L))"};
+    const FormulaTerm bracket_term_{"-p_c C^c_ab y^b", R"(-p_c\, C^c_{ab}\, y^b)"};
+    const FormulaTerm force_term_{"Q_a", "Q_a"};
     SymbolicModel symbolic_;
     GiNaC::ex lagrangian_;
     Sum p_;      ///< p_a, shape (r)

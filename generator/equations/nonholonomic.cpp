@@ -23,11 +23,6 @@ class NonholonomicDerivation : ConstrainedModel {
     }
 
   private:
-    [[nodiscard]] std::string with_forces(const std::string& formula, const char* forces) const
-    {
-        return symbolic_.has_forces() ? formula + forces : formula;
-    }
-
     [[nodiscard]] EquationBlock constraints()
     {
         EquationBlock block{"constraints", "Ψ^A(t, x, Y) = 0", R"(\Psi^A(t, x, Y) = 0)", {}};
@@ -70,27 +65,23 @@ class NonholonomicDerivation : ConstrainedModel {
 
     [[nodiscard]] EquationBlock momentum_form()
     {
-        EquationBlock block{
-            "equations of motion (momentum form)",
-            with_forces("ṗ_α = ρ(e_α)(l) - P_a [e_α, Y]^a", " + Q_α") + ",  P_a = ∂L/∂Y^a",
-            with_forces(R"(\dot p_\alpha = \rho(e_\alpha)(l) - P_a\, [e_\alpha, Y]^a)", R"( + Q_\alpha)") +
-                R"(, \quad P_a = \frac{\partial L}{\partial Y^a})",
-            {}};
+        EquationBlock block{"equations of motion (momentum form)", "ṗ_α", R"(\dot p_\alpha)", {}};
         for (std::size_t alpha = 0; alpha < k_; ++alpha)
             block.equations.push_back(
                 {LeftSide::time_derivative, momentum_name(alpha), {}, symbolic_.simplified(balance(alpha))});
+        append_right_side(block, {anchor_term_, bracket_term_, section_term_, force_term_});
+        block.formula += ",  P_a = ∂L/∂Y^a";
+        block.latex_formula += R"(, \quad P_a = \frac{\partial L}{\partial Y^a})";
         return block;
     }
 
     [[nodiscard]] EquationBlock acceleration_form()
     {
+        const FormulaTerm drift{
+            "-(∂²l/∂y^α∂x^i) ẋ^i - ∂²l/∂y^α∂t",
+            R"(-\frac{\partial^2 l}{\partial y^\alpha \partial x^i}\, \dot x^i - \frac{\partial^2 l}{\partial y^\alpha \partial t})"};
         EquationBlock block{
-            "equations of motion (acceleration form)",
-            with_forces("W_αβ ẏ^β = ρ(e_α)(l) - (∂²l/∂y^α∂x^i) ẋ^i - ∂²l/∂y^α∂t - P_a [e_α, Y]^a", " + Q_α"),
-            with_forces(
-                R"(W_{\alpha\beta}\, \dot y^\beta = \rho(e_\alpha)(l) - \frac{\partial^2 l}{\partial y^\alpha \partial x^i}\, \dot x^i - \frac{\partial^2 l}{\partial y^\alpha \partial t} - P_a\, [e_\alpha, Y]^a)",
-                R"( + Q_\alpha)"),
-            {}};
+            "equations of motion (acceleration form)", "W_αβ ẏ^β", R"(W_{\alpha\beta}\, \dot y^\beta)", {}};
         for (std::size_t alpha = 0; alpha < k_; ++alpha) {
             Equation next{LeftSide::time_derivative, written_.y[alpha].name, {}, {}};
             for (std::size_t beta = 0; beta < k_; ++beta)
@@ -98,11 +89,12 @@ class NonholonomicDerivation : ConstrainedModel {
                      symbolic_.simplified({{written_.y[beta].name, symbolic_.derivative(p_[alpha], y_[beta])}}))
                     next.mass.push_back(std::move(mass));
             std::vector<Group> groups = balance(alpha);
-            groups.insert(groups.begin() + 1, {"-∂p_α/∂x^i ẋ^i - ∂p_α/∂t", -at_fixed_velocity(p_[alpha])});
+            groups.insert(groups.begin() + 1, {drift.label, -at_fixed_velocity(p_[alpha])});
             next.groups = symbolic_.simplified(std::move(groups));
             if (next.mass.empty()) next.left = LeftSide::zero;
             block.equations.push_back(std::move(next));
         }
+        append_right_side(block, {anchor_term_, drift, bracket_term_, section_term_, force_term_});
         return block;
     }
 
@@ -122,15 +114,17 @@ class NonholonomicDerivation : ConstrainedModel {
     /// Q_a Y^a - dL/dt; with a drift the reactions do work, and the moving energy tells more.
     [[nodiscard]] EquationBlock energy_balance()
     {
-        EquationBlock block{
-            "energy balance", "Ė = Q_a Y^a - ∂L/∂t", R"(\dot E = Q_a\, Y^a - \frac{\partial L}{\partial t})", {}};
+        const FormulaTerm work{"Q_a Y^a", R"(Q_a\, Y^a)"};
+        const FormulaTerm rate{"-∂L/∂t", R"(-\frac{\partial L}{\partial t})"};
+        EquationBlock block{"energy balance", "Ė", R"(\dot E)", {}};
         if (has_drift()) return block;
         Sum power;
         for (std::size_t a = 0; a < r_; ++a) power.push_back(forces_[a] * Y_[a]);
         Equation balance{LeftSide::time_derivative, energy_name(), {}, {}};
         balance.groups = symbolic_.simplified(
-            {{"Q_a Y^a", total(power)}, {"-∂L/∂t", -on_constraint(symbolic_.time_derivative(lagrangian_))}});
+            {{work.label, total(power)}, {rate.label, -on_constraint(symbolic_.time_derivative(lagrangian_))}});
         block.equations.push_back(std::move(balance));
+        append_right_side(block, {work, rate});
         return block;
     }
 
@@ -160,6 +154,11 @@ class NonholonomicDerivation : ConstrainedModel {
         block.equations.push_back(std::move(balance));
         return block;
     }
+
+    const FormulaTerm anchor_term_{"ρ(e_α)(l)", R"(\rho(e_\alpha)(l))"};
+    const FormulaTerm bracket_term_{"-P_a [e_α, Y]^a", R"(-P_a\, [e_\alpha, Y]^a)"};
+    const FormulaTerm section_term_{"P_a ∂A_α^a/∂t", R"(P_a\, \frac{\partial A_\alpha^a}{\partial t})"};
+    const FormulaTerm force_term_{"Q_α", R"(Q_\alpha)"};
 };
 
 } // namespace

@@ -227,17 +227,17 @@ class PontryaginDerivation {
 
     [[nodiscard]] EquationBlock motion() const
     {
-        EquationBlock block{"equations of motion",
-                            "μ̇_a = -ρ_a(H) - μ_c C^c_ab σ^b",
-                            R"(\dot \mu_a = -\rho_a(H) - \mu_c\, C^c_{ab}\, \sigma^b)",
-                            {}};
+        const FormulaTerm anchor{"-ρ_a(H)", R"(-\rho_a(H))"};
+        const FormulaTerm bracket{"-μ_c C^c_ab σ^b", R"(-\mu_c\, C^c_{ab}\, \sigma^b)"};
+        EquationBlock block{"equations of motion", "μ̇_a", R"(\dot \mu_a)", {}};
         for (std::size_t a = 0; a < symbolic_.r(); ++a) {
             Equation next{LeftSide::time_derivative, symbolic_.momentum_name(a), {}, {}};
             next.groups =
-                symbolic_.simplified({{"-ρ_a(H)", -total(symbolic_.along_anchor(a, hamiltonian_))},
-                                      {"-μ_c C^c_ab σ^b", total(symbolic_.bracket_terms(a, symbolic_.mu(), sigma_))}});
+                symbolic_.simplified({{anchor.label, -total(symbolic_.along_anchor(a, hamiltonian_))},
+                                      {bracket.label, total(symbolic_.bracket_terms(a, symbolic_.mu(), sigma_))}});
             block.equations.push_back(std::move(next));
         }
+        append_right_side(block, {anchor, bracket});
         return block;
     }
 

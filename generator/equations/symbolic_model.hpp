@@ -26,6 +26,16 @@ struct Group {
     GiNaC::ex value;
 };
 
+/// A group of terms in the formula over a block: its label, which begins with '-' where it is subtracted, and LaTeX for
+/// the same.
+struct FormulaTerm {
+    std::string label, latex;
+};
+
+/// Appends " = " and the groups to the block's formula, the left side so far: those that occur in its equations, or 0
+/// where none does.
+void append_right_side(EquationBlock& block, const std::vector<FormulaTerm>& terms);
+
 class SymbolicModel {
   public:
     /// `functions`: what equations are derived from (L, H, a running cost; null ones are none). Casimirs that they use

@@ -31,6 +31,14 @@ struct TermGroup {
     std::vector<std::string> basis = {};
 };
 
+/// A letter that stands for an index of families, from `from` to `to`.
+struct IndexRange {
+    std::string letter;
+    std::size_t from, to;
+
+    friend bool operator==(const IndexRange&, const IndexRange&) = default;
+};
+
 /// left = sum of groups, or an inequality. With `mass` entries the left side is sum_b mass[b].value *
 /// d(mass[b].label)/dt instead.
 struct Equation {
@@ -41,6 +49,7 @@ struct Equation {
     std::string other = {};        ///< of a bracket: its second function
     Relation relation = Relation::equal;
     std::vector<std::string> arguments = {}; ///< of a component: the sections by name
+    std::vector<IndexRange> ranges = {};     ///< the indices that it is written with letters for
 };
 
 /// One titled block, e.g. "momenta" or "equations of motion (acceleration form)", with its formula in UTF-8.
@@ -49,6 +58,7 @@ struct EquationBlock {
     std::string formula; ///< e.g. "W_ab ẏ^b = ρ_a(L) − (∂²L/∂y^a∂x^i) ρ^i_b y^b − p_c C^c_ab y^b"
     std::string latex_formula;
     std::vector<Equation> equations;
+    std::vector<Equation> written = {}; ///< the same as a paper has them, by vectors and indices; empty: as they are
 };
 
 /// What is said of the equations, and whether it was proved.
@@ -70,6 +80,13 @@ struct WhereEntry {
     std::size_t family = 1; ///< the entries of the vector, which stand together; 1: no vector
 };
 
+/// A vector of three declared symbols, or a diagonal matrix of them, that written equations have under one name.
+struct VectorText {
+    std::string name;
+    std::vector<Tree> entries;
+    bool diagonal = false;
+};
+
 struct SymbolText {
     std::string name;
     std::string latex; ///< how LaTeX shows the symbol; empty: made from the name
@@ -83,7 +100,8 @@ struct EquationSet {
     std::vector<SymbolText> symbols;
     std::vector<EquationBlock> blocks;
     std::vector<DecidedStatement> statements = {};
-    std::vector<WhereEntry> where = {}; ///< each over coordinates, parameters and others of the list
+    std::vector<WhereEntry> where = {};   ///< each over coordinates, parameters and others of the list
+    std::vector<VectorText> vectors = {}; ///< of the written equations, but for families, which bear their name
 };
 
 } // namespace lagen

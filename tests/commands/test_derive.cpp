@@ -73,10 +73,14 @@ TEST_CASE("a form that is none is answered with the nearest one")
 
 TEST_CASE("Euler's equations of the rigid body are those of the textbook")
 {
-    const std::string text = call({"derive", "rigid_body.toml"}).out;
+    const std::string text = call({"derive", "rigid_body.toml", "--expand"}).out;
     INFO(text);
     CHECK(text.find("\n  I1 ẇ1 = (I2 - I3) w2 w3\n  I2 ẇ2 = (I3 - I1) w1 w3\n  I3 ẇ3 = (I1 - I2) w1 w2\n") !=
           std::string::npos);
+    const std::string vectors = call({"derive", "rigid_body.toml"}).out;
+    INFO(vectors);
+    CHECK(vectors.find("\n  I ẇ = I w × w\n") != std::string::npos);
+    CHECK(vectors.find("\n   I = diag(I1, I2, I3)\n") != std::string::npos);
 }
 
 TEST_CASE("definitions are symbols with a list of what they stand for, and --expand writes them out")

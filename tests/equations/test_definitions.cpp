@@ -281,12 +281,11 @@ momenta:  p_a = ∂L/∂y^a
   p_u = m l² u
   p_w = I w
 
-equations of motion (momentum form):  ṗ_a = ρ_a(L) - p_c C^c_ab y^b
+equations of motion (momentum form):  ṗ_a = ρ_a(L)
   ṗ_u = m a sin(x) + I_x w²/2
   ṗ_w = 0
 
-equations of motion (acceleration form):
-  W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - ∂²L/∂y^a∂t - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
+equations of motion (acceleration form):  W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b,  W_ab = ∂²L/∂y^a∂y^b
   m l² u̇ = m a sin(x) + I_x w²/2
      I ẇ = -I_x u w
 
