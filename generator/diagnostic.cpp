@@ -308,7 +308,7 @@ std::string nearest_name(std::string_view unknown, std::span<const std::string> 
         const std::u32string candidate = code_points(name);
         const bool same_letters = lower_case(candidate) == wanted_lower;
         // One letter for another is no slip: something of the name must be left.
-        const std::size_t distance = same_letters ? 1 : edit_distance(wanted, candidate);
+        const std::size_t distance = same_letters ? 0 : edit_distance(wanted, candidate);
         if (distance >= best_distance) continue;
         if (!same_letters && distance >= std::max(wanted.size(), candidate.size())) continue;
         best = &name;

@@ -146,7 +146,7 @@ class InternalError {
 };
 
 /// The entry of `known` nearest to `unknown` in edit distance if it is near enough to be a slip of the hand, else "".
-/// Ties go to the earlier entry.
+/// Capitals for small letters are the least of slips; ties go to the earlier entry.
 [[nodiscard]] std::string nearest_name(std::string_view unknown, std::span<const std::string> known);
 
 } // namespace lagen

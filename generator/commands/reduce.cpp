@@ -31,7 +31,8 @@ const CommandSyntax reduce_syntax{
     "reduce",
     "MORPHISM",
     "Proves, component by component, that the equations of the source of a morphism project onto those of its target, "
-    "and prints both. Of a model: lists its cyclic coordinates, or reduces it by some of them or by a group.",
+    "and what else the morphism carries: variations, lifts of solutions, constraints; prints both. Of a model: lists "
+    "its cyclic coordinates, or reduces it by some of them or by a group.",
     {{"routh", "X,..", "of a model: Routh's reduction by these cyclic coordinates, proved and written as a model file"},
      {"group", "GROUP",
       "of a model: the quotient by this group, SO(3), SE(2), R^2, .., proved and written as a model file"},

@@ -60,7 +60,7 @@ const CommandSyntax run_syntax{
      {"seed", "S", "of these variations; without it 0"},
      {"jacobi-field", "NAME=VALUE",
       "a Jacobi field along the motion, sigma = 0 and these delta y at the start, as columns (may be repeated)"},
-     {"output,o", "FILE", "the rows as CSV"},
+     {"output,o", "FILE", "the rows as CSV; FILE.json: the report with the rows as JSON"},
      {"plot", "FILE", "a picture (.svg, .png, .pdf): the scene's curves, else its columns over time"},
      {"curves", "X:Y,..", "what --plot draws: t:x, x:y, x:y:z; curves in brackets share a panel (may be repeated)"},
      {"equal", nullptr, "curves have one scale on all axes"},
@@ -183,7 +183,8 @@ ExitCode run_run(Arguments arguments)
 
     RunOutcome outcome = run.integrate();
     outcome.action = action_report(outcome, variations);
-    if (options.has("output")) write_file(options.get("output"), to_csv(outcome.table));
+    if (const std::string file = options.get("output"); !file.empty())
+        write_file(file, file.ends_with(".json") ? report_json(outcome) : to_csv(outcome.table));
     const std::string picture = draw(options, run, outcome, overlaid, whole);
     tell(options, outcome, picture, as_json);
     return succeeded(outcome.status) && whole ? ExitCode::done : ExitCode::refuted;

@@ -117,10 +117,12 @@ class RestSearch {
     Equilibrium run(const std::vector<MotionPoint>& starts)
     {
         std::string obstacle;
-        for (const bool moves_inputs : {false, true}) {
+        for (const From from : {From::held_inputs, From::start, From::resting_inputs}) {
+            const bool moves_inputs = from != From::held_inputs;
             if (moves_inputs && equations_.inputs.empty()) break;
             for (const MotionPoint& start : starts) {
-                std::string met = search(start, moves_inputs);
+                std::string met =
+                    search(from == From::resting_inputs ? with_resting_inputs(start) : start, moves_inputs);
                 if (met.empty()) {
                     Equilibrium out;
                     out.moves_inputs = moves_inputs;
@@ -136,6 +138,32 @@ class RestSearch {
     }
 
   private:
+    /// Where a search begins, and what it moves: the state alone; the state and the inputs; both, from inputs that keep
+    /// the start at rest as well as they can.
+    enum class From { held_inputs, start, resting_inputs };
+
+    /// The state of the start, with the inputs of least |f| there.
+    [[nodiscard]] MotionPoint with_resting_inputs(MotionPoint start)
+    {
+        const std::size_t n = equations_.state.size();
+        Replacements held;
+        for (std::size_t k = 0; k < n; ++k) held.emplace_back(all_[k], graph_.constant(Rational(start.state[k])));
+        const Nodes conditions = substitute(graph_, joined(without_solves(graph_, equations_.rates), residuals_), held);
+        const SlopedFunctions functions(graph_, conditions,
+                                        {all_.begin() + static_cast<std::ptrdiff_t>(n), all_.end()});
+        Doubles point = start.unknowns;
+        point.insert(point.end(), start.inputs.begin(), start.inputs.end());
+        const auto found = proof::least_squares(point, [&](const Doubles& at_point) {
+            const NewtonEquations at = functions.at(exact_balls(at_point), descent_bits);
+            return proof::Residual{middles(at.value), middles(at.slope), 0};
+        });
+        if (!found) return start;
+        const auto inputs = found->z.begin() + static_cast<std::ptrdiff_t>(start.unknowns.size());
+        start.unknowns.assign(found->z.begin(), inputs);
+        start.inputs.assign(inputs, found->z.end());
+        return start;
+    }
+
     /// The constraints, and Casimirs whose slopes at the start are independent of those before.
     void choose_leaf(const Doubles& state)
     {

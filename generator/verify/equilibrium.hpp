@@ -2,7 +2,8 @@
 /// An equilibrium of sdot = f(s, u) near a start, and the equations linearised there:
 ///   d/dt ds = A ds + B du,      A = df/ds, B = df/du.
 /// The inputs u are held at first. Where no s is found with f(s, u) = 0 they are unknowns too, and (s, u) is what the
-/// steps of least length end at (proof/least_squares.hpp). Coordinates that no rate depends on stay at the start.
+/// steps of least length end at (proof/least_squares.hpp), from the start or else from the inputs that best keep it at
+/// rest. Coordinates that no rate depends on stay at the start.
 ///
 /// Certificate: coordinates that are 0 are taken out, with the equations that hold identically then; so is all but a
 /// point of a family, by g.(z - z_0) = 0 along directions g that the equations leave free. Of the rest, as many
@@ -41,7 +42,8 @@ struct Equilibrium {
 };
 
 /// Throws MathematicsError where Newton's method ends at none, or at one outside the domain or at a kink or jump of f.
-/// `starts`, at least one on one leaf: tried in turn, each with its inputs held, then each with inputs that move.
+/// `starts`, at least one on one leaf: tried in turn, each with its inputs held, then each with inputs that move, then
+/// each with inputs that have moved first.
 [[nodiscard]] Equilibrium equilibrium_near(Graph& graph, const MotionEquations& equations,
                                            const std::vector<MotionPoint>& starts);
 

@@ -4,6 +4,7 @@
 
 #include "graph/core/evaluate.hpp"
 #include "pipeline.hpp"
+#include "support/golden.hpp"
 #include "support/json.hpp"
 #include "support/tolerances.hpp"
 
@@ -150,6 +151,32 @@ TEST_CASE("where they have no equilibrium they move as little as possible, and t
     CHECK(texts(found["equilibrium"]) == std::vector<std::string>{"1", "0", "2", "4"}); // 10 (1, 2)/5
     CHECK(call({"linearize", "loaded.toml"}).out.find("none was found with the inputs that the scene gives") !=
           std::string::npos);
+}
+
+TEST_CASE("inputs far from any equilibrium are first brought to rest at the state of the start")
+{
+    const std::string folder = fresh_folder();
+    write_text(folder + "/held.toml", R"toml([inputs]
+u = 0
+[base]
+coordinates = ["th"]
+[fibre]
+coordinates = ["w"]
+[algebroid]
+kind = "tangent"
+[lagrangian]
+L = "w^2/2 + 9.81*cos(th)"
+[forces]
+w = "u"
+[scene.default]
+initial = { th = 2, w = 0 }
+inputs = { u = 30 }
+)toml");
+    const json::Value found = linearised({folder + "/held.toml"});
+    CHECK(found["certified"].text == "true");
+    CHECK(found["inputs_moved"].text == "true");
+    CHECK(found["equilibrium"]["th"].text == "2");
+    CHECK(found["equilibrium"]["u"].number() == Approx(9.81 * std::sin(2.0)).epsilon(1e-15));
 }
 
 TEST_CASE("one force does not reach the difference of equal oscillators")

@@ -98,6 +98,17 @@ TEST_CASE("CSV has a heading, CRLF line ends and 201 even rows, and -o writes th
     CHECK(names_in(folder) == std::vector<std::string>{"rows.csv"});
 }
 
+TEST_CASE("an output called .json has the report, and a name in other capitals is the nearest one")
+{
+    const std::string folder = fresh_folder();
+    const std::string written = call({"run", "oscillator.toml", "--at", "0", "--format", "json"}).out;
+    CHECK(call({"run", "oscillator.toml", "--at", "0", "-o", folder + "/run.json"}).out.empty());
+    const std::string filed = read_text(folder + "/run.json");
+    // But for the seconds that each took.
+    CHECK(filed.substr(0, filed.find("\"seconds\"")) == written.substr(0, written.find("\"seconds\"")));
+    CHECK(filed.ends_with("}\n"));
+}
+
 TEST_CASE("--at gives rows at exactly these times, sorted, and stretches the run to the last of them")
 {
     const json::Value value = run({"oscillator.toml", "--at", "3,0.1, pi/2 ,2"});

@@ -45,6 +45,7 @@ TEST_CASE("the nearest name is the one with the fewest slips")
     CHECK(nearest("omgea", {"alpha", "omega"}) == "omega");
     CHECK(nearest("lenght", {"length", "weight"}) == "length");
     CHECK(nearest("Mgl", {"m", "mgl"}) == "mgl");
+    CHECK(nearest("om", {"m", "Om"}) == "Om"); // a capital is the least of slips
     CHECK(nearest("X", {"y", "x"}) == "x");
     CHECK(nearest("θ1", {"φ2", "θ"}) == "θ");
 }
