@@ -26,6 +26,9 @@ class NameSearch {
         for (const WhereEntry& entry : equations.where) add(entry.symbol);
         for (const Parameter& parameter : model.parameters) parameters_.insert(parameter.symbol.name);
         for (const std::string& taken : symbol_names(model)) declared_.insert(taken);
+        declared_.insert({"t", "pi"});
+        for (const EquationBlock& block : equations.blocks) // E, H
+            for (const Equation& equation : block.equations) declared_.insert(equation.symbol);
     }
 
     [[nodiscard]] VectorNames find() const

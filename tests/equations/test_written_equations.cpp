@@ -398,3 +398,19 @@ L = "(I1*w1^2 + I2*w2^2 + I3*w3^2)/2 - g*g3"
 )toml");
     CHECK(block_text(taken, "kinematics") == "  ġ1 = g2 w3 - g3 w2\n  ġ2 = g3 w1 - g1 w3\n  ġ3 = g1 w2 - g2 w1\n");
 }
+
+TEST_CASE("no vector is called like the time, the energy or another symbol")
+{
+    const EquationSet set = of_text(R"toml(
+[base]
+coordinates = ["t1", "t2", "t3", "E1", "E2", "E3"]
+[fibre]
+coordinates = ["u1", "u2", "u3", "v1", "v2", "v3"]
+[algebroid]
+kind = "tangent"
+[lagrangian]
+L = "(u1^2 + u2^2 + u3^2 + v1^2 + v2^2 + v3^2)/2 - (t1*E1 + t2*E2 + t3*E3)"
+)toml");
+    CHECK(block_text(set, "kinematics") == "  ṫ1 = u1\n  ṫ2 = u2\n  ṫ3 = u3\n  Ė1 = v1\n  Ė2 = v2\n  Ė3 = v3\n");
+    CHECK(block_text(set, "energy") == "  E = u · u/2 + v · v/2 + t1 E1 + t2 E2 + t3 E3\n");
+}
