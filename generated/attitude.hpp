@@ -33,7 +33,7 @@
 ///     q̇2 = q0 u2/2 - q1 u3/2 + q3 u1/2
 ///     q̇3 = q0 u3/2 + q1 u2/2 - q2 u1/2
 ///
-///   equations of motion:  μ̇_a = -ρ_a(H) - μ_c C^c_ab σ^b
+///   equations of motion:  μ̇_a = -μ_c C^c_ab σ^b
 ///     d/dt mu1 = mu2 u3 - mu3 u2
 ///     d/dt mu2 = mu3 u1 - mu1 u3
 ///     d/dt mu3 = mu1 u2 - mu2 u1

@@ -12,11 +12,10 @@
 ///   momenta:  p_a = ∂L/∂y^a
 ///     p_v = m v
 ///
-///   equations of motion (momentum form):  ṗ_a = ρ_a(L) - p_c C^c_ab y^b
+///   equations of motion (momentum form):  ṗ_a = ρ_a(L)
 ///     ṗ_v = -m g
 ///
-///   equations of motion (acceleration form):
-///     W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - ∂²L/∂y^a∂t - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
+///   equations of motion (acceleration form):  W_ab ẏ^b = ρ_a(L),  W_ab = ∂²L/∂y^a∂y^b
 ///     m v̇ = -m g
 ///
 ///   energy:  E = y^a p_a - L

@@ -14,19 +14,18 @@
 ///     p_u = M u + m l w cos(th) + m u
 ///     p_w = m l (l w + u cos(th))
 ///
-///   equations of motion (momentum form):  ṗ_a = ρ_a(L) - p_c C^c_ab y^b + Q_a
+///   equations of motion (momentum form):  ṗ_a = ρ_a(L) + Q_a
 ///     ṗ_u = F - c u
 ///     ṗ_w = -m l sin(th) (g + u w)
 ///
-///   equations of motion (acceleration form):
-///     W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - ∂²L/∂y^a∂t - p_c C^c_ab y^b + Q_a,  W_ab = ∂²L/∂y^a∂y^b
+///   equations of motion (acceleration form):  W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b + Q_a,  W_ab = ∂²L/∂y^a∂y^b
 ///     (M + m) u̇ + m l cos(th) ẇ = m l w² sin(th) + F - c u
 ///        m l cos(th) u̇ + m l² ẇ = -m l g sin(th)
 ///
 ///   energy:  E = y^a p_a - L
 ///     E = m l² w²/2 - m l g cos(th) + m l u w cos(th) + (M + m) u²/2
 ///
-///   energy balance:  Ė = Q_a y^a - ∂L/∂t
+///   energy balance:  Ė = Q_a y^a
 ///     Ė = u F - c u²
 ///
 ///   first-order states:  ż = f(t, x, y, z)

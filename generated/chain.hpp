@@ -7,10 +7,10 @@
 ///   Chain of n pendulums
 ///
 ///   kinematics:  ẋ^i = ρ^i_a y^a
-///     d/dt a[1] = w[1]
-///     d/dt a[2] = w[2]
-///     d/dt a[3] = w[3]
-///     d/dt a[4] = w[4]
+///     ȧ[1] = w[1]
+///     ȧ[2] = w[2]
+///     ȧ[3] = w[3]
+///     ȧ[4] = w[4]
 ///
 ///   momenta:  p_a = ∂L/∂y^a
 ///     p_w[1] = m[4] l[1] l[4] w[4] sin(a[1]) sin(a[4]) + m[4] l[1] l[4] w[4] cos(a[1]) cos(a[4])
@@ -27,7 +27,7 @@
 ///              + l[3]² (m[3] + m[4]) w[3]
 ///     (one equation is too long to stand here: lagen derive chain.toml prints it)
 ///
-///   equations of motion (momentum form):  ṗ_a = ρ_a(L) - p_c C^c_ab y^b
+///   equations of motion (momentum form):  ṗ_a = ρ_a(L)
 ///     ṗ_w[1] = m[4] l[1] l[4] w[1] w[4] sin(a[4]) cos(a[1]) + l[1] l[2] (m[2] + m[3] + m[4]) w[1] w[2] sin(a[2]) cos(a[1])
 ///              + l[1] l[3] (m[3] + m[4]) w[1] w[3] sin(a[3]) cos(a[1]) - m[4] l[1] l[4] w[1] w[4] sin(a[1]) cos(a[4])
 ///              - l[1] l[2] (m[2] + m[3] + m[4]) w[1] w[2] sin(a[1]) cos(a[2])
@@ -42,8 +42,7 @@
 ///              - l[2] l[3] (m[3] + m[4]) w[2] w[3] sin(a[3]) cos(a[2]) - l[3] g (m[3] + m[4]) sin(a[3])
 ///     (one equation is too long to stand here: lagen derive chain.toml prints it)
 ///
-///   equations of motion (acceleration form):
-///     W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - ∂²L/∂y^a∂t - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
+///   equations of motion (acceleration form):  W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b,  W_ab = ∂²L/∂y^a∂y^b
 ///     (4 equations are too long to stand here: lagen derive chain.toml prints them)
 ///
 ///   energy:  E = y^a p_a - L

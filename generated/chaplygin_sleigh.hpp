@@ -30,11 +30,11 @@
 ///     p_u = m u
 ///     p_w = m a² w + J w
 ///
-///   equations of motion (momentum form):  ṗ_α = ρ(e_α)(l) - P_a [e_α, Y]^a,  P_a = ∂L/∂Y^a
+///   equations of motion (momentum form):  ṗ_α = -P_a [e_α, Y]^a,  P_a = ∂L/∂Y^a
 ///     ṗ_u = m a w²
 ///     ṗ_w = -m a u w
 ///
-///   equations of motion (acceleration form):  W_αβ ẏ^β = ρ(e_α)(l) - (∂²l/∂y^α∂x^i) ẋ^i - ∂²l/∂y^α∂t - P_a [e_α, Y]^a
+///   equations of motion (acceleration form):  W_αβ ẏ^β = -P_a [e_α, Y]^a
 ///              m u̇ = m a w²
 ///     (m a² + J) ẇ = -m a u w
 ///

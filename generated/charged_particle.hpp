@@ -20,8 +20,7 @@
 ///     ṗ_v = -k y - u p_q (b0 + b1 x + b2 y²)
 ///     ṗ_q = 0
 ///
-///   equations of motion (acceleration form):
-///     W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - ∂²L/∂y^a∂t - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
+///   equations of motion (acceleration form):  W_ab ẏ^b = ρ_a(L) - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
 ///     u̇ = v q (b0 + b1 x + b2 y²) - k x
 ///     v̇ = -k y - u q (b0 + b1 x + b2 y²)
 ///     q̇ = 0

@@ -23,7 +23,7 @@
 ///     ẋ = v
 ///     v̇ = u
 ///
-///   equations of motion:  μ̇_a = -ρ_a(H) - μ_c C^c_ab σ^b
+///   equations of motion:  μ̇_a = -ρ_a(H)
 ///     d/dt mu_x = 0
 ///     d/dt mu_v = -mu_x
 ///

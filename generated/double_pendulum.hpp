@@ -14,12 +14,11 @@
 ///     p_u = m2 l1 l2 v cos(a - b) + l1² (m1 + m2) u
 ///     p_v = m2 l2 (l1 u cos(a - b) + l2 v)
 ///
-///   equations of motion (momentum form):  ṗ_a = ρ_a(L) - p_c C^c_ab y^b
+///   equations of motion (momentum form):  ṗ_a = ρ_a(L)
 ///     ṗ_u = -m2 l1 l2 u v sin(a - b) - l1 g (m1 + m2) sin(a)
 ///     ṗ_v = m2 l2 (l1 u v sin(a - b) - g sin(b))
 ///
-///   equations of motion (acceleration form):
-///     W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - ∂²L/∂y^a∂t - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
+///   equations of motion (acceleration form):  W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b,  W_ab = ∂²L/∂y^a∂y^b
 ///     l1² (m1 + m2) u̇ + m2 l1 l2 cos(a - b) v̇ = -m2 l1 l2 v² sin(a - b) - l1 g (m1 + m2) sin(a)
 ///            m2 l1 l2 cos(a - b) u̇ + m2 l2² v̇ = m2 l2 (l1 u² sin(a - b) - g sin(b))
 ///

@@ -12,17 +12,16 @@
 ///   momenta:  p_a = ∂L/∂y^a
 ///     p_w = I w
 ///
-///   equations of motion (momentum form):  ṗ_a = ρ_a(L) - p_c C^c_ab y^b + Q_a
+///   equations of motion (momentum form):  ṗ_a = ρ_a(L) + Q_a
 ///     ṗ_w = A cos(Omega t) - mgl sin(th) - b w
 ///
-///   equations of motion (acceleration form):
-///     W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - ∂²L/∂y^a∂t - p_c C^c_ab y^b + Q_a,  W_ab = ∂²L/∂y^a∂y^b
+///   equations of motion (acceleration form):  W_ab ẏ^b = ρ_a(L) + Q_a,  W_ab = ∂²L/∂y^a∂y^b
 ///     I ẇ = A cos(Omega t) - mgl sin(th) - b w
 ///
 ///   energy:  E = y^a p_a - L
 ///     E = I w²/2 - mgl cos(th)
 ///
-///   energy balance:  Ė = Q_a y^a - ∂L/∂t
+///   energy balance:  Ė = Q_a y^a
 ///     Ė = A w cos(Omega t) - b w²
 ///
 /// Operations (with shared terms computed once; "written out" without sharing):

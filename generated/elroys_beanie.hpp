@@ -21,8 +21,7 @@
 ///     ṗ_v1 = p_v2 (W - I2 d/(I1 + I2))
 ///     ṗ_v2 = p_v1 (I2 d/(I1 + I2) - W)
 ///
-///   equations of motion (acceleration form):
-///     W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - ∂²L/∂y^a∂t - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
+///   equations of motion (acceleration form):  W_ab ẏ^b = ρ_a(L) - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
 ///     (I1 I2/(I1 + I2)) ḋ = -k sin(ps)
 ///             (I1 + I2) Ẇ = 0
 ///                    M v̇1 = M v2 (W - I2 d/(I1 + I2))

@@ -14,11 +14,10 @@
 ///   momenta:  p_a = ∂L/∂y^a
 ///     (one equation is too long to stand here: lagen derive four_bar.toml prints it)
 ///
-///   equations of motion (momentum form):  ṗ_a = ρ_a(L) - p_c C^c_ab y^b
+///   equations of motion (momentum form):  ṗ_a = ρ_a(L)
 ///     (one equation is too long to stand here: lagen derive four_bar.toml prints it)
 ///
-///   equations of motion (acceleration form):
-///     W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - ∂²L/∂y^a∂t - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
+///   equations of motion (acceleration form):  W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b,  W_ab = ∂²L/∂y^a∂y^b
 ///     (one equation is too long to stand here: lagen derive four_bar.toml prints it)
 ///
 ///   energy:  E = y^a p_a - L

@@ -11,13 +11,12 @@
 ///     p_w2 = I2 w2 + b2
 ///     p_w3 = I3 w3 + b3
 ///
-///   equations of motion (momentum form):  ṗ_a = ρ_a(L) - p_c C^c_ab y^b
+///   equations of motion (momentum form):  ṗ_a = -p_c C^c_ab y^b
 ///     ṗ_w1 = w3 p_w2 - w2 p_w3
 ///     ṗ_w2 = w1 p_w3 - w3 p_w1
 ///     ṗ_w3 = w2 p_w1 - w1 p_w2
 ///
-///   equations of motion (acceleration form):
-///     W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - ∂²L/∂y^a∂t - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
+///   equations of motion (acceleration form):  W_ab ẏ^b = -p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
 ///     I1 ẇ1 = b2 w3 - b3 w2 + (I2 - I3) w2 w3
 ///     I2 ẇ2 = b3 w1 + (I3 - I1) w1 w3 - b1 w3
 ///     I3 ẇ3 = b1 w2 - b2 w1 + (I1 - I2) w1 w2

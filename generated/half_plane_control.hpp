@@ -28,7 +28,7 @@
 ///     ẋ = y u1
 ///     ẏ = y u2
 ///
-///   equations of motion:  μ̇_a = -ρ_a(H) - μ_c C^c_ab σ^b
+///   equations of motion:  μ̇_a = -ρ_a(H)
 ///     d/dt mu1 = 0
 ///     d/dt mu2 = -mu1 u1 - mu2 u2
 ///

@@ -21,8 +21,7 @@
 ///     ṗ_w2 = mgl (e1 g3 - e3 g1) + w1 p_w3 - w3 p_w1
 ///     ṗ_w3 = mgl (e2 g1 - e1 g2) + w2 p_w1 - w1 p_w2
 ///
-///   equations of motion (acceleration form):
-///     W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - ∂²L/∂y^a∂t - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
+///   equations of motion (acceleration form):  W_ab ẏ^b = ρ_a(L) - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
 ///     I1 ẇ1 = mgl (e3 g2 - e2 g3) + (I2 - I3) w2 w3
 ///     I2 ẇ2 = mgl (e1 g3 - e3 g1) + (I3 - I1) w1 w3
 ///     I3 ẇ3 = mgl (e2 g1 - e1 g2) + (I1 - I2) w1 w2

@@ -17,7 +17,7 @@
 ///     p_dth = I1 dth cos²(ps) + I2 dth sin²(ps) + (I1 - I2) dph sin(th) sin(ps) cos(ps)
 ///     p_dps = I3 dph cos(th) + I3 dps
 ///
-///   equations of motion (momentum form):  ṗ_a = ρ_a(L) - p_c C^c_ab y^b
+///   equations of motion (momentum form):  ṗ_a = ρ_a(L)
 ///     ṗ_dph = 0
 ///     ṗ_dth = I1 dph sin(ps) cos(th) (dph sin(th) sin(ps) + dth cos(ps))
 ///             + I2 dph cos(th) cos(ps) (dph sin(th) cos(ps) - dth sin(ps)) - I3 dph sin(th) (dph cos(th) + dps)
@@ -25,8 +25,7 @@
 ///     ṗ_dps = mgl e2 sin(th) sin(ps) + (I1 - I2) dph² sin²(th) sin(ps) cos(ps) + (I2 - I1) dph dth sin(th) sin²(ps)
 ///             + (I1 - I2) dph dth sin(th) cos²(ps) + (I2 - I1) dth² sin(ps) cos(ps) - mgl e1 sin(th) cos(ps)
 ///
-///   equations of motion (acceleration form):
-///     W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - ∂²L/∂y^a∂t - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
+///   equations of motion (acceleration form):  W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b,  W_ab = ∂²L/∂y^a∂y^b
 ///     (I1 sin²(th) sin²(ps) + I2 sin²(th) cos²(ps) + I3 cos²(th)) d/dt dph + (I1 - I2) sin(th) sin(ps) cos(ps) d/dt dth + I3 cos(th) d/dt dps = 2 I3 dph dth sin(th) cos(th)
 ///                                                                    + I3 dth dps sin(th)
 ///                                                                    + 2 (I2 - I1) dph dps sin²(th) sin(ps) cos(ps)

@@ -30,8 +30,7 @@
 ///     ṗ_V_w2 = 0
 ///     ṗ_V_w3 = 0
 ///
-///   equations of motion (acceleration form):
-///     W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - ∂²L/∂y^a∂t - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
+///   equations of motion (acceleration form):  W_ab ẏ^b = ρ_a(L),  W_ab = ∂²L/∂y^a∂y^b
 ///     Ẋ_w1 = mgl (e3 g2 - e2 g3)
 ///     Ẋ_w2 = mgl (e1 g3 - e3 g1)
 ///     Ẋ_w3 = mgl (e2 g1 - e1 g2)

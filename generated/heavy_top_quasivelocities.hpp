@@ -21,8 +21,7 @@
 ///     ṗ_w2 = mgl (e1 cos(th) - e3 sin(th) sin(ps)) + w1 p_w3 - w3 p_w1
 ///     ṗ_w3 = mgl sin(th) (e2 sin(ps) - e1 cos(ps)) + w2 p_w1 - w1 p_w2
 ///
-///   equations of motion (acceleration form):
-///     W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - ∂²L/∂y^a∂t - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
+///   equations of motion (acceleration form):  W_ab ẏ^b = ρ_a(L) - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
 ///     I1 ẇ1 = mgl (e3 sin(th) cos(ps) - e2 cos(th)) + (I2 - I3) w2 w3
 ///     I2 ẇ2 = mgl (e1 cos(th) - e3 sin(th) sin(ps)) + (I3 - I1) w1 w3
 ///     I3 ẇ3 = mgl sin(th) (e2 sin(ps) - e1 cos(ps)) + (I1 - I2) w1 w2

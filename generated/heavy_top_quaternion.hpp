@@ -22,8 +22,7 @@
 ///     ṗ_w2 = mgl (e1 q0² - e1 q1² - e1 q2² + e1 q3² + 2 e3 q0 q2 - 2 e3 q1 q3) + w1 p_w3 - w3 p_w1
 ///     ṗ_w3 = 2 mgl (e2 q1 q3 - e1 q0 q1 - e1 q2 q3 - e2 q0 q2) + w2 p_w1 - w1 p_w2
 ///
-///   equations of motion (acceleration form):
-///     W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - ∂²L/∂y^a∂t - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
+///   equations of motion (acceleration form):  W_ab ẏ^b = ρ_a(L) - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
 ///     I1 ẇ1 = mgl (e2 q1² + e2 q2² + 2 e3 q0 q1 + 2 e3 q2 q3 - e2 q0² - e2 q3²) + (I2 - I3) w2 w3
 ///     I2 ẇ2 = mgl (e1 q0² - e1 q1² - e1 q2² + e1 q3² + 2 e3 q0 q2 - 2 e3 q1 q3) + (I3 - I1) w1 w3
 ///     I3 ẇ3 = 2 mgl (e2 q1 q3 - e1 q0 q1 - e1 q2 q3 - e2 q0 q2) + (I1 - I2) w1 w2

@@ -16,13 +16,12 @@
 ///     p_v2 = v2
 ///     p_v3 = v3
 ///
-///   equations of motion (momentum form):  ṗ_a = ρ_a(L) - p_c C^c_ab y^b
+///   equations of motion (momentum form):  ṗ_a = -p_c C^c_ab y^b
 ///     ṗ_v1 = -v2 p_v3
 ///     ṗ_v2 = v1 p_v3
 ///     ṗ_v3 = 0
 ///
-///   equations of motion (acceleration form):
-///     W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - ∂²L/∂y^a∂t - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
+///   equations of motion (acceleration form):  W_ab ẏ^b = -p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
 ///     v̇1 = -v2 v3
 ///     v̇2 = v1 v3
 ///     v̇3 = 0

@@ -30,7 +30,7 @@
 ///     ẏ = u2
 ///     ż = x u2/2 - y u1/2
 ///
-///   equations of motion:  μ̇_a = -ρ_a(H) - μ_c C^c_ab σ^b
+///   equations of motion:  μ̇_a = -μ_c C^c_ab σ^b
 ///     d/dt mu1 = -mu3 u2
 ///     d/dt mu2 = mu3 u1
 ///     d/dt mu3 = 0

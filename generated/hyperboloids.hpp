@@ -15,13 +15,12 @@
 ///     p_a = m a (x² + y²)
 ///     p_b = m b (x² + y²) (x² + y² + z²)
 ///
-///   equations of motion (momentum form):  ṗ_a = ρ_a(L) - p_c C^c_ab y^b
+///   equations of motion (momentum form):  ṗ_a = ρ_a(L)
 ///     ṗ_a = c y
 ///     ṗ_b = 3 m x⁴ z b² + 6 m x² y² z b² + m x² z³ b² + m x² z a² + 3 m y⁴ z b² + m y² z³ b² + m y² z a² - k x² z + k x²
 ///           - k y² z + k y² - c x z
 ///
-///   equations of motion (acceleration form):
-///     W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - ∂²L/∂y^a∂t - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
+///   equations of motion (acceleration form):  W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b,  W_ab = ∂²L/∂y^a∂y^b
 ///                  (m x² + m y²) ȧ = c y - 2 m z a b (x² + y²)
 ///     m (x² + y²) (x² + y² + z²) ḃ = m x² z a² + m y² z a² + k x² + k y² - 3 m x⁴ z b² - 6 m x² y² z b² - m x² z³ b²
 ///                                    - 3 m y⁴ z b² - m y² z³ b² - k x² z - k y² z - c x z

@@ -14,12 +14,11 @@
 ///     p_u = u
 ///     p_v = v
 ///
-///   equations of motion (momentum form):  ṗ_a = ρ_a(L) - p_c C^c_ab y^b
+///   equations of motion (momentum form):  ṗ_a = ρ_a(L)
 ///     ṗ_u = -k x/(x² + y²)^(3/2)
 ///     ṗ_v = -k y/(x² + y²)^(3/2)
 ///
-///   equations of motion (acceleration form):
-///     W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - ∂²L/∂y^a∂t - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
+///   equations of motion (acceleration form):  W_ab ẏ^b = ρ_a(L),  W_ab = ∂²L/∂y^a∂y^b
 ///     u̇ = -k x/(x² + y²)^(3/2)
 ///     v̇ = -k y/(x² + y²)^(3/2)
 ///

@@ -14,7 +14,7 @@
 ///     p_v2 = m2 v2
 ///     p_v3 = m3 v3
 ///
-///   equations of motion (momentum form):  ṗ_a = ρ_a(L) - p_c C^c_ab y^b
+///   equations of motion (momentum form):  ṗ_a = -p_c C^c_ab y^b
 ///     ṗ_w1 = w3 p_w2 + v3 p_v2 - w2 p_w3 - v2 p_v3
 ///     ṗ_w2 = w1 p_w3 - w3 p_w1 + v1 p_v3 - v3 p_v1
 ///     ṗ_w3 = w2 p_w1 + v2 p_v1 - w1 p_w2 - v1 p_v2
@@ -22,8 +22,7 @@
 ///     ṗ_v2 = w1 p_v3 - w3 p_v1
 ///     ṗ_v3 = w2 p_v1 - w1 p_v2
 ///
-///   equations of motion (acceleration form):
-///     W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - ∂²L/∂y^a∂t - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
+///   equations of motion (acceleration form):  W_ab ẏ^b = -p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
 ///     J1 ẇ1 = (J2 - J3) w2 w3 + (m2 - m3) v2 v3
 ///     J2 ẇ2 = (J3 - J1) w1 w3 + (m3 - m1) v1 v3
 ///     J3 ẇ3 = (J1 - J2) w1 w2 + (m1 - m2) v1 v2

@@ -21,8 +21,7 @@
 ///     ṗ_w2 = mgl g3 + w1 p_w3 - w3 p_w1
 ///     ṗ_w3 = w2 p_w1 - mgl g2 - w1 p_w2
 ///
-///   equations of motion (acceleration form):
-///     W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - ∂²L/∂y^a∂t - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
+///   equations of motion (acceleration form):  W_ab ẏ^b = ρ_a(L) - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
 ///     2 J ẇ1 = J w2 w3
 ///     2 J ẇ2 = mgl g3 - J w1 w3
 ///       J ẇ3 = -mgl g2

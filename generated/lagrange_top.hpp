@@ -21,8 +21,7 @@
 ///     ṗ_w2 = w1 p_w3 - mgl g1 - w3 p_w1
 ///     ṗ_w3 = w2 p_w1 - w1 p_w2
 ///
-///   equations of motion (acceleration form):
-///     W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - ∂²L/∂y^a∂t - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
+///   equations of motion (acceleration form):  W_ab ẏ^b = ρ_a(L) - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
 ///     I1 ẇ1 = mgl g2 + (I1 - I3) w2 w3
 ///     I1 ẇ2 = (I3 - I1) w1 w3 - mgl g1
 ///     I3 ẇ3 = 0

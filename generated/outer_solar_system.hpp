@@ -7,24 +7,24 @@
 ///   The outer solar system
 ///
 ///   kinematics:  ẋ^i = ρ^i_a y^a
-///     d/dt Q[1,1] = V[1,1]
-///     d/dt Q[1,2] = V[1,2]
-///     d/dt Q[1,3] = V[1,3]
-///     d/dt Q[2,1] = V[2,1]
-///     d/dt Q[2,2] = V[2,2]
-///     d/dt Q[2,3] = V[2,3]
-///     d/dt Q[3,1] = V[3,1]
-///     d/dt Q[3,2] = V[3,2]
-///     d/dt Q[3,3] = V[3,3]
-///     d/dt Q[4,1] = V[4,1]
-///     d/dt Q[4,2] = V[4,2]
-///     d/dt Q[4,3] = V[4,3]
-///     d/dt Q[5,1] = V[5,1]
-///     d/dt Q[5,2] = V[5,2]
-///     d/dt Q[5,3] = V[5,3]
-///     d/dt Q[6,1] = V[6,1]
-///     d/dt Q[6,2] = V[6,2]
-///     d/dt Q[6,3] = V[6,3]
+///     Q̇[1,1] = V[1,1]
+///     Q̇[1,2] = V[1,2]
+///     Q̇[1,3] = V[1,3]
+///     Q̇[2,1] = V[2,1]
+///     Q̇[2,2] = V[2,2]
+///     Q̇[2,3] = V[2,3]
+///     Q̇[3,1] = V[3,1]
+///     Q̇[3,2] = V[3,2]
+///     Q̇[3,3] = V[3,3]
+///     Q̇[4,1] = V[4,1]
+///     Q̇[4,2] = V[4,2]
+///     Q̇[4,3] = V[4,3]
+///     Q̇[5,1] = V[5,1]
+///     Q̇[5,2] = V[5,2]
+///     Q̇[5,3] = V[5,3]
+///     Q̇[6,1] = V[6,1]
+///     Q̇[6,2] = V[6,2]
+///     Q̇[6,3] = V[6,3]
 ///
 ///   momenta:  p_a = ∂L/∂y^a
 ///     p_V[1,1] = m[1] V[1,1]
@@ -46,11 +46,10 @@
 ///     p_V[6,2] = m[6] V[6,2]
 ///     p_V[6,3] = m[6] V[6,3]
 ///
-///   equations of motion (momentum form):  ṗ_a = ρ_a(L) - p_c C^c_ab y^b
+///   equations of motion (momentum form):  ṗ_a = ρ_a(L)
 ///     (18 equations are too long to stand here: lagen derive outer_solar_system.toml prints them)
 ///
-///   equations of motion (acceleration form):
-///     W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - ∂²L/∂y^a∂t - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
+///   equations of motion (acceleration form):  W_ab ẏ^b = ρ_a(L),  W_ab = ∂²L/∂y^a∂y^b
 ///     (18 equations are too long to stand here: lagen derive outer_solar_system.toml prints them)
 ///
 ///   energy:  E = y^a p_a - L

@@ -11,13 +11,12 @@
 ///     p_v1 = m1 v1
 ///     p_v2 = m2 v2
 ///
-///   equations of motion (momentum form):  ṗ_a = ρ_a(L) - p_c C^c_ab y^b
+///   equations of motion (momentum form):  ṗ_a = -p_c C^c_ab y^b
 ///      ṗ_w = v2 p_v1 - v1 p_v2
 ///     ṗ_v1 = w p_v2
 ///     ṗ_v2 = -w p_v1
 ///
-///   equations of motion (acceleration form):
-///     W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - ∂²L/∂y^a∂t - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
+///   equations of motion (acceleration form):  W_ab ẏ^b = -p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
 ///       J ẇ = (m1 - m2) v1 v2
 ///     m1 v̇1 = m2 w v2
 ///     m2 v̇2 = -m1 w v1

@@ -31,7 +31,7 @@
 ///     ẋ = u1
 ///     ẏ = u2
 ///
-///   equations of motion:  μ̇_a = -ρ_a(H) - μ_c C^c_ab σ^b
+///   equations of motion:  μ̇_a = -μ_c C^c_ab σ^b
 ///     d/dt mu_x = -q3 u2/R²
 ///     d/dt mu_y = q3 u1/R²
 ///            q̇1 = q3 u1/R

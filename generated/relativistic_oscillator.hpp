@@ -14,12 +14,11 @@
 ///     p_u = m u/√(1 - u² - v²)
 ///     p_v = m v/√(1 - u² - v²)
 ///
-///   equations of motion (momentum form):  ṗ_a = ρ_a(L) - p_c C^c_ab y^b
+///   equations of motion (momentum form):  ṗ_a = ρ_a(L)
 ///     ṗ_u = -k x
 ///     ṗ_v = -k ratio y
 ///
-///   equations of motion (acceleration form):
-///     W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - ∂²L/∂y^a∂t - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
+///   equations of motion (acceleration form):  W_ab ẏ^b = ρ_a(L),  W_ab = ∂²L/∂y^a∂y^b
 ///     (m (1 - v²)/(1 - u² - v²)^(3/2)) u̇ + (m u v/(1 - u² - v²)^(3/2)) v̇ = -k x
 ///     (m u v/(1 - u² - v²)^(3/2)) u̇ + (m (1 - u²)/(1 - u² - v²)^(3/2)) v̇ = -k ratio y
 ///

@@ -11,13 +11,12 @@
 ///     Pi2 = I2 w2
 ///     Pi3 = I3 w3
 ///
-///   equations of motion (momentum form):  ṗ_a = ρ_a(L) - p_c C^c_ab y^b
+///   equations of motion (momentum form):  ṗ_a = -p_c C^c_ab y^b
 ///     d/dt Pi1 = w3 Pi2 - w2 Pi3
 ///     d/dt Pi2 = w1 Pi3 - w3 Pi1
 ///     d/dt Pi3 = w2 Pi1 - w1 Pi2
 ///
-///   equations of motion (acceleration form):
-///     W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - ∂²L/∂y^a∂t - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
+///   equations of motion (acceleration form):  W_ab ẏ^b = -p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
 ///     I1 ẇ1 = (I2 - I3) w2 w3
 ///     I2 ẇ2 = (I3 - I1) w1 w3
 ///     I3 ẇ3 = (I1 - I2) w1 w2

@@ -12,11 +12,10 @@
 ///   momenta:  p_a = ∂L/∂y^a
 ///     p_w = m l² w
 ///
-///   equations of motion (momentum form):  ṗ_a = ρ_a(L) - p_c C^c_ab y^b
+///   equations of motion (momentum form):  ṗ_a = ρ_a(L)
 ///     ṗ_w = m l g sin(th)
 ///
-///   equations of motion (acceleration form):
-///     W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - ∂²L/∂y^a∂t - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
+///   equations of motion (acceleration form):  W_ab ẏ^b = ρ_a(L),  W_ab = ∂²L/∂y^a∂y^b
 ///     m l² ẇ = m l g sin(th)
 ///
 ///   energy:  E = y^a p_a - L

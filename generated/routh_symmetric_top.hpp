@@ -12,11 +12,10 @@
 ///   momenta:  p_a = ∂L/∂y^a
 ///     p_w = I1 w
 ///
-///   equations of motion (momentum form):  ṗ_a = ρ_a(L) - p_c C^c_ab y^b
+///   equations of motion (momentum form):  ṗ_a = ρ_a(L)
 ///     ṗ_w = pps (pps cos(th) - pph)/(I1 sin(th)) + cos(th) (pph - pps cos(th))²/(I1 sin³(th)) + mgl sin(th)
 ///
-///   equations of motion (acceleration form):
-///     W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - ∂²L/∂y^a∂t - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
+///   equations of motion (acceleration form):  W_ab ẏ^b = ρ_a(L),  W_ab = ∂²L/∂y^a∂y^b
 ///     I1 ẇ = pps (pps cos(th) - pph)/(I1 sin(th)) + cos(th) (pph - pps cos(th))²/(I1 sin³(th)) + mgl sin(th)
 ///
 ///   energy:  E = y^a p_a - L

@@ -24,8 +24,7 @@
 ///     ṗ_w2 = w1 p_w3 - w3 p_w1
 ///     ṗ_w3 = w2 p_w1 - w1 p_w2
 ///
-///   equations of motion (acceleration form):
-///     W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - ∂²L/∂y^a∂t - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
+///   equations of motion (acceleration form):  W_ab ẏ^b = ρ_a(L) - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
 ///         u̇ = -k x/(x² + y²)^(3/2)
 ///         v̇ = -k y/(x² + y²)^(3/2)
 ///     I1 ẇ1 = (I2 - I3) w2 w3

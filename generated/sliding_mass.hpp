@@ -22,7 +22,7 @@
 ///     ṗ_w3 = w2 p_w1 - w1 p_w2
 ///
 ///   equations of motion (acceleration form):
-///     W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - ∂²L/∂y^a∂t - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
+///     W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
 ///                       m v̇ + m d0 ẇ1 = m s w1² + m s w2² + k - m d0 w2 w3 - k s
 ///     m d0 v̇ + (J1 + m d0² + m s²) ẇ1 = m d0 s w2² - 2 m s v w1 - m d0 s w3² + m s² w2 w3 + (J2 - J3 - m d0²) w2 w3
 ///          (J2 + m s²) ẇ2 - m d0 s ẇ3 = (J3 - J1) w1 w3 - m d0 s w1 w2 - m s² w1 w3 - 2 m s v w2

@@ -14,12 +14,11 @@
 ///     p_w = m l² w
 ///     p_v = m l² v sin²(th)
 ///
-///   equations of motion (momentum form):  ṗ_a = ρ_a(L) - p_c C^c_ab y^b
+///   equations of motion (momentum form):  ṗ_a = ρ_a(L)
 ///     ṗ_w = m l sin(th) (l v² cos(th) - g)
 ///     ṗ_v = 0
 ///
-///   equations of motion (acceleration form):
-///     W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - ∂²L/∂y^a∂t - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
+///   equations of motion (acceleration form):  W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b,  W_ab = ∂²L/∂y^a∂y^b
 ///              m l² ẇ = m l sin(th) (l v² cos(th) - g)
 ///     m l² sin²(th) v̇ = -2 m l² w v sin(th) cos(th)
 ///

@@ -15,12 +15,11 @@
 ///     p_a = m a (x² + y²)
 ///     p_b = m b (x² + y²) (x² + y² + z²)
 ///
-///   equations of motion (momentum form):  ṗ_a = ρ_a(L) - p_c C^c_ab y^b
+///   equations of motion (momentum form):  ṗ_a = ρ_a(L)
 ///     ṗ_a = 0
 ///     ṗ_b = m (g x² + g y² + x⁴ z b² + 2 x² y² z b² + x² z³ b² + x² z a² + y⁴ z b² + y² z³ b² + y² z a²)
 ///
-///   equations of motion (acceleration form):
-///     W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - ∂²L/∂y^a∂t - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
+///   equations of motion (acceleration form):  W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b,  W_ab = ∂²L/∂y^a∂y^b
 ///                  (m x² + m y²) ȧ = -2 m z a b (x² + y²)
 ///     m (x² + y²) (x² + y² + z²) ḃ = m (g x² + g y² - x⁴ z b² - 2 x² y² z b² - x² z³ b² + x² z a² - y⁴ z b² - y² z³ b² + y² z a²)
 ///

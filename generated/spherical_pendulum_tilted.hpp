@@ -20,7 +20,7 @@
 ///     ṗ_b = m (g y + x z a b - y z a²) + a (y p_a - x p_b)/z
 ///
 ///   equations of motion (acceleration form):
-///     W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - ∂²L/∂y^a∂t - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
+///     W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
 ///     (m x² + m z²) ȧ + m x y ḃ = m (g x - x z b² + y z a b)
 ///     m x y ȧ + (m y² + m z²) ḃ = m (g y + x z a b - y z a²)
 ///

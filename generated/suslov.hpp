@@ -23,11 +23,11 @@
 ///     p_w1 = I11 w1 + I12 w2
 ///     p_w2 = I22 w2 + I12 w1
 ///
-///   equations of motion (momentum form):  ṗ_α = ρ(e_α)(l) - P_a [e_α, Y]^a,  P_a = ∂L/∂Y^a
+///   equations of motion (momentum form):  ṗ_α = -P_a [e_α, Y]^a,  P_a = ∂L/∂Y^a
 ///     ṗ_w1 = -I13 w1 w2 - I23 w2²
 ///     ṗ_w2 = I13 w1² + I23 w1 w2
 ///
-///   equations of motion (acceleration form):  W_αβ ẏ^β = ρ(e_α)(l) - (∂²l/∂y^α∂x^i) ẋ^i - ∂²l/∂y^α∂t - P_a [e_α, Y]^a
+///   equations of motion (acceleration form):  W_αβ ẏ^β = -P_a [e_α, Y]^a
 ///     I11 ẇ1 + I12 ẇ2 = -I13 w1 w2 - I23 w2²
 ///     I12 ẇ1 + I22 ẇ2 = I13 w1² + I23 w1 w2
 ///

@@ -14,12 +14,11 @@
 ///     p_u = r² u
 ///     p_v = v (R + r cos(th))²
 ///
-///   equations of motion (momentum form):  ṗ_a = ρ_a(L) - p_c C^c_ab y^b
+///   equations of motion (momentum form):  ṗ_a = ρ_a(L)
 ///     ṗ_u = -r v² sin(th) (R + r cos(th))
 ///     ṗ_v = 0
 ///
-///   equations of motion (acceleration form):
-///     W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - ∂²L/∂y^a∂t - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
+///   equations of motion (acceleration form):  W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b,  W_ab = ∂²L/∂y^a∂y^b
 ///                   r² u̇ = -r v² sin(th) (R + r cos(th))
 ///     (R + r cos(th))² v̇ = 2 r u v sin(th) (R + r cos(th))
 ///

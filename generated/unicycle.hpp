@@ -30,7 +30,7 @@
 ///     ẏ = u1 sin(h)
 ///     ḣ = u2
 ///
-///   equations of motion:  μ̇_a = -ρ_a(H) - μ_c C^c_ab σ^b
+///   equations of motion:  μ̇_a = -μ_c C^c_ab σ^b
 ///     d/dt mu1 = mu3 u2
 ///     d/dt mu2 = -mu3 u1
 ///     d/dt mu3 = -mu1 u2

@@ -31,11 +31,11 @@
 ///     p_v_ph = J v_ph
 ///     p_v_th = (m R² + Ir) v_th
 ///
-///   equations of motion (momentum form):  ṗ_α = ρ(e_α)(l) - P_a [e_α, Y]^a,  P_a = ∂L/∂Y^a
+///   equations of motion (momentum form):  ṗ_α = ρ(e_α)(l),  P_a = ∂L/∂Y^a
 ///     ṗ_v_ph = 0
 ///     ṗ_v_th = -R k (x cos(ph) + y sin(ph))
 ///
-///   equations of motion (acceleration form):  W_αβ ẏ^β = ρ(e_α)(l) - (∂²l/∂y^α∂x^i) ẋ^i - ∂²l/∂y^α∂t - P_a [e_α, Y]^a
+///   equations of motion (acceleration form):  W_αβ ẏ^β = ρ(e_α)(l)
 ///               J v̇_ph = 0
 ///     (m R² + Ir) v̇_th = -R k (x cos(ph) + y sin(ph))
 ///

@@ -26,8 +26,7 @@
 ///     ṗ_q2 = a x² v p_q1 - a y u p_q3 + b u p_q1 - c x y v p_q3 + q1 p_q3 - q3 p_q1
 ///     ṗ_q3 = a y u p_q2 + b x v p_q1 + c x y v p_q2 - q1 p_q2 + q2 p_q1
 ///
-///   equations of motion (acceleration form):
-///     W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b - ∂²L/∂y^a∂t - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
+///   equations of motion (acceleration form):  W_ab ẏ^b = ρ_a(L) - p_c C^c_ab y^b,  W_ab = ∂²L/∂y^a∂y^b
 ///      u̇ = v q1 (c y - a - b² x) - k x + v q2 (a² x² y - b c x y - b) + v q3 (a b x y + 2 a x)
 ///      v̇ = u q1 (a + b² x - c y) - k y + u q2 (b c x y + b - a² x² y) - u q3 (a b x y + 2 a x)
 ///     q̇1 = -a x² v q2 - b x v q3 - b u q2
