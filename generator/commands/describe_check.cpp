@@ -59,6 +59,9 @@ std::string equation_text(const Check& check)
         return fmt::format("rho({}) of the constraint {}, on the constraints", k[0], k[1]);
     if (check.name == "casimir" && k.size() == 2) return fmt::format("rho({}) of {}", k[0], k[1]);
     if (check.name == "unit" && k.size() == 1) return fmt::format("coordinate {0} of x.1 less {0}", k[0]);
+    if (check.name == "action" && k.size() == 2)
+        return fmt::format("d/ds {1} of x.(W exp(s E)) less {1} of the field of the action at x.W, generator {0}", k[0],
+                           k[1]);
     if (check.name == "action" && k.size() == 1) return fmt::format("coordinate {} of x.(W W') less (x.W).W'", k[0]);
     if (check.name == "algebroid_of_groupoid" && k.size() == 2)
         return fmt::format("coordinate {1} of rho({0}) as it is given less that of the groupoid", k[0], k[1]);

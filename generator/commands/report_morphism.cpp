@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace lagen {
 
 namespace {
@@ -43,12 +45,17 @@ struct Consequence {
 std::vector<Consequence> consequences(const VerifiedMorphism& verified)
 {
     const MorphismTheorems& theorems = verified.map.theorems;
+    const auto reduces = [](const VerifiedMorphism& stage) {
+        return stage.map.theorems.reduction || stage.map.theorems.discrete;
+    };
     return {{"reduction", theorems.reduction, "solutions of the source project to solutions of the target"},
             {"reconstruction", theorems.reconstruction,
              "admissible curves over solutions of the target are solutions of the source"},
             {"discrete", theorems.discrete,
              "arrows solve the source's discrete equations where their images solve the target's, and there alone"},
-            {"stages", !verified.stages.empty() && verdict_of(verified) == Verdict::valid,
+            {"stages",
+             !verified.stages.empty() && verdict_of(verified) == Verdict::valid &&
+                 std::ranges::all_of(verified.stages, reduces),
              "the composition is the reduction by its stages"}};
 }
 
@@ -61,6 +68,24 @@ std::string rank_text(const FibreRank& rank)
     else if (rank.surjective || rank.injective)
         text += rank.surjective ? ", surjective" : ", injective";
     if (!rank.where.empty()) text += fmt::format(" where {}", fmt::join(rank.where, " and "));
+    return text;
+}
+
+/// On what part of the source the claims are made, and what they leave out.
+std::string extent_text(const MorphismReport& map)
+{
+    std::string text;
+    const auto line = [&](const char* name, const std::string& words) {
+        text += fmt::format("  {:<15} {}\n", name, words);
+    };
+    if (!map.reach.obstacle.empty())
+        line("domain", "a part of the source: there the map is defined and reaches the target's domain");
+    else if (!map.reach.where.empty())
+        line("domain", fmt::format("where {}: there the map is defined and reaches the target's domain",
+                                   fmt::join(map.reach.where, " and ")));
+    if (!map.compares_motions)
+        line("motions",
+             "not compared: one model has L, the other H; `[hamiltonian]` or `[lagrangian]` in both compares them");
     return text;
 }
 
@@ -77,7 +102,16 @@ void body_json(JsonWriter& json, const VerifiedMorphism& verified)
         for (const std::string& condition : rank.where) json.value(condition);
         json.end_array();
     }
-    json.end_object().key("follows").begin_array();
+    json.end_object();
+    const ReachOfMap& reach = verified.map.reach;
+    if (!reach.where.empty() || !reach.obstacle.empty()) {
+        json.key("domain").begin_object().key("where").begin_array();
+        for (const std::string& condition : reach.where) json.value(condition);
+        json.end_array();
+        if (!reach.obstacle.empty()) json.key("evidence").value(reach.obstacle);
+        json.end_object();
+    }
+    json.key("follows").begin_array();
     for (const Consequence& each : consequences(verified))
         if (each.holds) json.value(each.name);
     json.end_array();
@@ -142,7 +176,7 @@ std::string morphism_text(const VerifiedMorphism& verified)
 {
     std::string out =
         fmt::format("{}: {}\n{}", verified.name, to_text(verdict_of(verified)), claims_text(verified.map.structure));
-    out += fmt::format("  {:<15} {}\n", "fibrewise rank", rank_text(verified.map.rank));
+    out += fmt::format("  {:<15} {}\n", "fibrewise rank", rank_text(verified.map.rank)) + extent_text(verified.map);
     for (const VerifiedMorphism& stage : verified.stages)
         out += fmt::format("  {:<15} {}: {}\n", "stage", stage.name, to_text(verdict_of(stage)));
     out += fmt::format("  {:<15} {}: {}\n", "source", verified.source_name, to_text(verified.source.structure.verdict));

@@ -5,6 +5,7 @@
 #include "graph/calculus/transplant.hpp"
 #include "verify/carried_distribution.hpp"
 #include "verify/proof_setting.hpp"
+#include "verify/where_constant.hpp"
 
 #include <algorithm>
 
@@ -32,6 +33,7 @@ class MorphismClaims {
         }
         decide_functions();
         if (morphism_.of_groupoids) decide_arrows();
+        find_reach();
         report_.rank = fibre_rank(graph_, matrix_, to_.r(), from_.r(), judge_->decider());
         conclude();
         return std::move(report_);
@@ -77,18 +79,7 @@ class MorphismClaims {
         along.set(to_.algebroid.y, both_.pushed(from_.algebroid.y));
         if (from_.lagrangian && to_.lagrangian)
             append("invariance", {"L"}, graph_.subtract(*from_.lagrangian, along(*to_.lagrangian)));
-        if (from_.lagrangian && to_.lagrangian && !both_.compares_forces()) {
-            Decision open;
-            open.evidence = "forces that depend on first-order states are not compared";
-            report_.structure.checks.push_back({"invariance", {"force"}, std::move(open), {}, {}});
-        } else if (from_.lagrangian && to_.lagrangian && (!from_.forces.empty() || !to_.forces.empty())) {
-            const std::vector<NodeId> here = from_.forces_or_zero(graph_);
-            std::vector<NodeId> there(to_.r(), graph_.constant(0));
-            if (!to_.forces.empty()) there = along(to_.forces);
-            const std::vector<NodeId> back = both_.pulled(there);
-            for (std::size_t b = 0; b < from_.r(); ++b)
-                append("invariance", {"force", both_.section(b)}, graph_.subtract(here[b], back[b]));
-        }
+        decide_forces(along);
         if (from_.hamiltonian && to_.hamiltonian) {
             along.set(to_.mu, both_.target_momenta());
             const Replacements at = replacements(from_.mu, both_.pulled(both_.target_momenta()));
@@ -101,7 +92,66 @@ class MorphismClaims {
             const std::vector<NodeId> here = both_.pushed(from_.control->sigma), there = along(to_.control->sigma);
             for (std::size_t a = 0; a < to_.r(); ++a)
                 append("invariance", {"sigma", both_.target_section(a)}, graph_.subtract(here[a], there[a]));
+            decide_bounds(along);
         }
+    }
+
+    /// Q_b = Phi^a_b Q'_a where both sides have motions of the same form.
+    void decide_forces(const AlongMap& along)
+    {
+        const bool comparable = (from_.lagrangian && to_.lagrangian) || (from_.hamiltonian && to_.hamiltonian);
+        report_.compares_motions =
+            comparable || (!from_.lagrangian && !from_.hamiltonian) || (!to_.lagrangian && !to_.hamiltonian);
+        if (!comparable || (from_.forces.empty() && to_.forces.empty())) return;
+        if (!both_.compares_forces())
+            return leave_open({"force"}, "forces that depend on first-order states are not compared");
+        const std::vector<NodeId> here = from_.forces_or_zero(graph_);
+        std::vector<NodeId> there(to_.r(), graph_.constant(0));
+        if (!to_.forces.empty()) there = along(to_.forces);
+        const std::vector<NodeId> back = both_.pulled(there);
+        for (std::size_t b = 0; b < from_.r(); ++b)
+            append("invariance", {"force", both_.section(b)}, graph_.subtract(here[b], back[b]));
+    }
+
+    /// The bounds of controls that are taken over as they are; others are not compared.
+    void decide_bounds(const AlongMap& along)
+    {
+        const ControlProblem &here = *from_.control, &there = *to_.control;
+        if (!here.bounded() && !there.bounded()) return;
+        const auto same = [&](const std::optional<NodeId>& mine, const std::optional<NodeId>& theirs) {
+            return mine.has_value() == theirs.has_value() &&
+                   (!mine || judge_->decide(graph_.subtract(*mine, along(*theirs))).status == ProofStatus::proved);
+        };
+        std::vector<NodeId> reached = morphism_.controls;
+        std::ranges::sort(reached);
+        bool all = reached.size() == here.u.size() && std::ranges::adjacent_find(reached) == reached.end();
+        for (std::size_t B = 0; all && B < there.u.size(); ++B) {
+            const auto A = static_cast<std::size_t>(std::ranges::find(here.u, morphism_.controls[B]) - here.u.begin());
+            all = A < here.u.size() && same(here.lower[A], there.lower[B]) && same(here.upper[A], there.upper[B]);
+        }
+        if (all)
+            ++report_.structure.trivial;
+        else
+            leave_open({"bounds"}, "bounds are compared of controls that are the same on both sides");
+    }
+
+    void leave_open(std::vector<std::string> indices, const char* why)
+    {
+        Decision open;
+        open.evidence = why;
+        report_.structure.checks.push_back({"invariance", std::move(indices), std::move(open), {}, {}});
+    }
+
+    void find_reach()
+    {
+        ProofSetting setting = proof_setting(graph_, from_);
+        setting.parameters.insert(setting.parameters.end(), morphism_.free_parameters.begin(),
+                                  morphism_.free_parameters.end());
+        std::vector<NodeId> map = morphism_.base;
+        map.insert(map.end(), matrix_.begin(), matrix_.end());
+        WhereConstant reach(graph_, setting, budget_, [](NodeId) { return false; });
+        const WhereConstant::Conditions found = reach.reaching(map, along_(to_.domain));
+        report_.reach = {found.texts, found.obstacle};
     }
 
     void decide_arrows()
@@ -152,12 +202,9 @@ class MorphismClaims {
     {
         const DiscreteSystem &here = *from_.discrete, &there = *to_.discrete;
         const bool whole = here.lagrangian && there.lagrangian && here.inner.empty() && there.inner.empty();
-        if (!whole) {
-            Decision open;
-            open.evidence = "a discrete Lagrangian with unknowns inside of a step, or none, is not compared";
-            report_.structure.checks.push_back({"invariance", {"discrete L"}, open, {}, {}});
-            return;
-        }
+        if (!whole)
+            return leave_open({"discrete L"},
+                              "a discrete Lagrangian with unknowns inside of a step, or none, is not compared");
         if (!morphism_.parameters.contains(there.step)) along.set({&there.step, 1}, {&here.step, 1});
         equate("invariance", {"discrete L"}, *here.lagrangian, along(*there.lagrangian));
     }
@@ -226,6 +273,16 @@ void append_equality(StructureReport& structure, const SystemMorphism& morphism,
     compare(morphism.fibre, other.fibre, names_of(to.algebroid.y));
     if (to.control) compare(morphism.controls, other.controls, names_of(to.control->u));
     if (to.groupoid) compare(morphism.element, other.element, names_of(to.groupoid->arrow.W));
+    std::vector<NodeId> mine, theirs;
+    std::vector<NodeId> asked;
+    for (const NodeId parameter : to.parameters) {
+        const auto here = morphism.parameters.find(parameter), there = other.parameters.find(parameter);
+        if (here == morphism.parameters.end() || there == other.parameters.end()) continue;
+        asked.push_back(parameter);
+        mine.push_back(here->second);
+        theirs.push_back(there->second);
+    }
+    compare(mine, theirs, names_of(asked));
     structure.verdict = verdict_of(structure);
 }
 

@@ -5,15 +5,17 @@
 ///                ("Phi(D)"): Phi(D) = D'
 ///   admissible   rho'(Phi e_b) = rho(e_b)(phi^i)                                     (b, i)
 ///   morphism     Phi [e_b, e_c] against [Phi e_b, Phi e_c], component a              (b, c, a)
-///   invariance   L = L' o Phi;  Q_b = Phi^a_b Q'_a;  H o Phi^* = H';  cost, sigma;  discrete L = L' o phi
+///   invariance   L = L' o Phi;  Q_b = Phi^a_b Q'_a;  H o Phi^* = H';  cost, sigma, bounds of controls;  discrete L =
+///   L' o phi
 /// and where both are of groupoids, of the map of arrows g -> (phi(s(g)), phi(t(g)), W'(g)):
 ///   target       phi(t(g)) is the target of the image                                (i)
 ///   product      W'(g h) = W'(g) W'(h), t(g) = s(h)                                   (row, column)
 ///   unit         W' = 1 at the arrows 1                                               (row, column)
 ///   element      dW' is in the algebra of the target's group there, and W' in the group then
 ///   fibre        the fibre map that is given is that of the arrows                    (a, b)
-///   equals       Phi is another map that it is claimed to be                           (coordinate)
-/// The rank of Phi^a_b stands outside of the verdict.                                          [Martinez 2001]
+///   equals       Phi is another map that it is claimed to be                           (coordinate, parameter)
+/// The rank of Phi^a_b stands outside of the verdict, and where the map is defined and reaches the target's domain: all
+/// claims are about points there.                                                              [Martinez 2001]
 #pragma once
 
 #include "mechanics/morphism.hpp"
@@ -29,9 +31,17 @@ struct MorphismTheorems {
     bool discrete = false;       ///< arrows solve the discrete equations exactly where their images do
 };
 
+/// Where the map is defined and takes its point into the target's domain.
+struct ReachOfMap {
+    std::vector<std::string> where; ///< sufficient strict conditions that the source's domain does not imply
+    std::string obstacle;           ///< why they cannot be named; may be empty
+};
+
 struct MorphismReport {
     StructureReport structure; ///< of the map alone
     FibreRank rank;
+    ReachOfMap reach;
+    bool compares_motions = true; ///< false: one side has L and the other H, or none of the two
     MorphismTheorems theorems;
 };
 
@@ -39,7 +49,8 @@ struct MorphismReport {
 [[nodiscard]] MorphismReport verify(const SystemMorphism& morphism, std::size_t points = 0,
                                     const ProofBudget& budget = {});
 
-/// Decides that `morphism` is the map `other` between the same systems: phi^i, y'^a, u' and W' where both give them.
+/// Decides that `morphism` is the map `other` between the same systems: phi^i, y'^a, u' and W' where both give them,
+/// and the target's parameters.
 void append_equality(StructureReport& structure, const SystemMorphism& morphism, const SystemMorphism& other,
                      const ProofBudget& budget = {});
 

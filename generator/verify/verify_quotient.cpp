@@ -5,6 +5,7 @@
 #include "graph/calculus/transplant.hpp"
 #include "mechanics/routh.hpp"
 #include "mechanics/symmetry.hpp"
+#include "verify/arrow_decider.hpp"
 #include "verify/judge.hpp"
 #include "verify/proof_setting.hpp"
 
@@ -42,6 +43,43 @@ std::vector<NodeId> reduced_residuals(Graph& graph, const System& reduced, const
 }
 
 } // namespace
+
+StructureReport verify_right_action(const System& moving, const ProofBudget& budget)
+{
+    StructureReport report = verify(moving).structure;
+    std::string hint; // where it is a left action
+    for (const Check& check : report.checks)
+        if (check.name == "action" && hint.empty()) hint = check.hint;
+    std::erase_if(report.checks, [](const Check& check) { return check.name == "action"; });
+    Graph graph = moving.graph;
+    const Groupoid& groupoid = *moving.groupoid;
+    const std::vector<NodeId>& x = moving.algebroid.x;
+    const std::vector<NodeId> coordinates = groupoid.coordinates();
+    const std::vector<NodeId> moved = target(graph, groupoid, groupoid.arrow);
+    ArrowDecider decider(graph, arrow_setting(graph, moving, {x}), groupoid, {groupoid.arrow.W}, budget);
+    for (std::size_t b = 0; b < moving.r(); ++b) {
+        Replacements field;
+        for (const ColumnEntry& entry : groupoid.left[b]) field.emplace_back(coordinates[entry.index], entry.value);
+        const std::vector<NodeId> rates = directional(graph, moved, field);
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            const NodeId xi = Algebroid::entry(graph, moving.algebroid.anchor[b], i);
+            const NodeId residual = graph.subtract(rates[i], substitute(graph, {&xi, 1}, replacements(x, moved))[0]);
+            if (graph.is_zero(residual)) {
+                ++report.trivial;
+                continue;
+            }
+            report.checks.push_back({"action",
+                                     {graph.input_name(moving.algebroid.y[b]), graph.input_name(x[i])},
+                                     decider.decide(residual),
+                                     {},
+                                     {}});
+            if (report.checks.back().decision.status != ProofStatus::proved)
+                report.checks.back().hint = std::exchange(hint, {});
+        }
+    }
+    report.verdict = verdict_of(report);
+    return report;
+}
 
 bool is_invariant(Graph& graph, const System& whole, const InfinitesimalAction& action, NodeId f,
                   const ProofBudget& budget)

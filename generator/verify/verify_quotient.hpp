@@ -7,6 +7,12 @@
 
 namespace lagen {
 
+/// What is decided of x.W on the base of an action groupoid: all that is claimed of that, but of the action
+///   action (w, x)   <-e_b (x.W)^i = xi_b^i(x.W),   xi_b = rho(e_b)
+/// With x.1 = x this is x.(W V) = (x.W).V near the identity and, where all is analytic, on the connected group; an
+/// angle may hold up to full turns, to which its rates are blind.
+[[nodiscard]] StructureReport verify_right_action(const System& moving, const ProofBudget& budget = {});
+
 /// Whether a function f(t, x, y) on TQ is invariant, xi_b^c(f) = 0 for the generator number b; false where a proof is
 /// not found.
 [[nodiscard]] bool is_invariant(Graph& graph, const System& whole, const InfinitesimalAction& action, NodeId f,

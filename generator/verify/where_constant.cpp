@@ -43,8 +43,12 @@ void WhereConstant::require(NodeId node)
     case Smoothness::chosen: return; // its condition is a comparison
     case Smoothness::meromorphic:
     case Smoothness::analytic:
-    case Smoothness::system: break;
+    case Smoothness::system: return require_defined(node);
     }
+}
+
+void WhereConstant::require_defined(NodeId node)
+{
     switch (domain_of(graph_, node)) {
     case Sense::nonzero: return require_nonzero(condition_of(graph_, node));
     case Sense::nonnegative:
@@ -192,6 +196,29 @@ WhereConstant::Conditions WhereConstant::of(const std::vector<NodeId>& functions
     obstacle_.clear();
     for (const NodeId node : reachable(graph_, functions)) require(node);
     for (const NamedNode& divisor : divisors) require_divisor(divisor);
+    return conditions(functions);
+}
+
+WhereConstant::Conditions WhereConstant::reaching(const std::vector<NodeId>& functions,
+                                                  const std::vector<NodeId>& domain)
+{
+    conditions_.clear();
+    obstacle_.clear();
+    for (const NodeId node : reachable(graph_, functions)) require_defined(node);
+    for (const NodeId comparison : domain) {
+        if (graph_.is_constant(comparison)) continue;
+        const NodeId difference = condition_of(graph_, comparison);
+        const Trichotomy holds = operator_of(graph_.op(comparison)).holds;
+        if (holds.below && holds.above)
+            require_nonzero(difference);
+        else
+            require_positive(holds.below ? graph_.negate(difference) : difference);
+    }
+    return conditions(functions);
+}
+
+WhereConstant::Conditions WhereConstant::conditions(const std::vector<NodeId>& functions)
+{
     drop_implied();
     std::vector<std::string> texts;
     for (const Condition& condition : conditions_) {

@@ -34,6 +34,9 @@ class WhereConstant {
     /// `functions`: a function whose rate vanishes and what else must be defined of it; `divisors`: of its rate.
     [[nodiscard]] Conditions of(const std::vector<NodeId>& functions, const std::vector<NamedNode>& divisors = {});
 
+    /// Where the functions are defined (they may jump) and the comparisons `domain` hold.
+    [[nodiscard]] Conditions reaching(const std::vector<NodeId>& functions, const std::vector<NodeId>& domain);
+
     /// Of a check that is proved because the rate vanishes: `Check::where`. It becomes `undecided` where there is an
     /// obstacle.
     static void restrict(Check& check, const Conditions& conditions);
@@ -47,6 +50,7 @@ class WhereConstant {
 
     [[nodiscard]] bool is_conserved(NodeId f);
     void require(NodeId node);
+    void require_defined(NodeId node);
     void require_off_cut(NodeId node);
     void require_regular(NodeId factor);
     void require_nonzero(NodeId f);
@@ -56,6 +60,7 @@ class WhereConstant {
     void add(NodeId f, bool positive, const std::string& name = {});
     [[nodiscard]] ProofSetting with_conditions_but(std::size_t left_out);
     void drop_implied();
+    [[nodiscard]] Conditions conditions(const std::vector<NodeId>& functions);
     [[nodiscard]] bool hold_somewhere(const std::vector<NodeId>& functions);
     [[nodiscard]] std::string text_of(const Condition& condition);
 

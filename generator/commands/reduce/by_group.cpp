@@ -89,19 +89,6 @@ void add_checks(StructureReport& to, const StructureReport& from)
     to.verdict = verdict_of(to);
 }
 
-/// What is decided of the action. Near the identity its fields decide whether it is one, and the reduction is made of
-/// them; x.(W W') = (x.W).W' of an angle holds up to full turns, and is shown where they fail.
-StructureReport action_report(const System& moving)
-{
-    StructureReport report = verify(moving).structure;
-    const auto fails = [](const Check& check) {
-        return check.name != "action" && check.decision.status != ProofStatus::proved;
-    };
-    if (std::ranges::none_of(report.checks, fails))
-        std::erase_if(report.checks, [](const Check& check) { return check.name == "action"; });
-    return report;
-}
-
 } // namespace
 
 GroupQuotient quotient_by_group(const CheckedModel& checked, const std::vector<Setting>& settings,
@@ -116,7 +103,7 @@ GroupQuotient quotient_by_group(const CheckedModel& checked, const std::vector<S
     const System moving = elaborate(acting);
 
     GroupQuotient made;
-    add_checks(made.report, action_report(moving));
+    add_checks(made.report, verify_right_action(moving));
     if (made.report.verdict == Verdict::invalid) {
         made.said = "  x.W is no right action\n";
         return made;
