@@ -226,8 +226,9 @@ std::optional<BallMatrix> EquilibriumCertificate::complement(const std::vector<F
     return proof::sum(V, exact_ball(-1), proof::product(D, *shares, full_bits), full_bits);
 }
 
-/// Of H_zz - lambda_i F_i,zz on N for some lambda that leaves H_lambda critical.
-int EquilibriumCertificate::definite_sign(const std::vector<FunctionJet>& jets, const BallMatrix& N) const
+/// Of H_zz - lambda_i F_i,zz on N for some lambda that leaves H_lambda critical, which `multipliers` are then.
+int EquilibriumCertificate::definite_sign(const std::vector<FunctionJet>& jets, const BallMatrix& N,
+                                          Doubles& multipliers) const
 {
     const std::size_t f = free_.size(), s = chosen_.size();
     const auto on_N = [&](const BallMatrix& Q) {
@@ -241,7 +242,12 @@ int EquilibriumCertificate::definite_sign(const std::vector<FunctionJet>& jets, 
     }
     const BallMatrix fixed = on_N(Q);
     // Where the chosen differentials span all free directions, the other ones are combinations of them.
+    struct Combination {
+        std::size_t t;
+        Doubles c; // dF_t = c_i dF_i
+    };
     std::vector<BallMatrix> shifts;
+    std::vector<Combination> combinations;
     if (s == f)
         for (std::size_t t = 0; t < conserved_.size(); ++t) {
             if (std::ranges::find(chosen_, t) != chosen_.end()) continue;
@@ -255,6 +261,7 @@ int EquilibriumCertificate::definite_sign(const std::vector<FunctionJet>& jets, 
             }
             const auto shares = spanned ? proof::solved(D, right, full_bits) : std::nullopt;
             if (!shares) continue;
+            combinations.push_back({t, middles(*shares)});
             BallMatrix shift = jets[t + 1].curvature;
             for (std::size_t i = 0; i < s; ++i) {
                 Ball factor = shares->at(i, 0);
@@ -279,7 +286,12 @@ int EquilibriumCertificate::definite_sign(const std::vector<FunctionJet>& jets, 
                     tried[t] += change;
                     if (const double value = least_eigenvalue(form(tried)); value > best) best = value, shares = tried;
                 }
-        if (proof::is_certainly_definite(form(shares), full_bits)) return sign;
+        if (!proof::is_certainly_definite(form(shares), full_bits)) continue;
+        for (std::size_t k = 0; k < shares.size(); ++k) {
+            multipliers[combinations[k].t] -= shares[k];
+            for (std::size_t i = 0; i < s; ++i) multipliers[chosen_[i]] += shares[k] * combinations[k].c[i];
+        }
+        return sign;
     }
     return 0;
 }
@@ -312,7 +324,7 @@ void EquilibriumCertificate::judge(RelativeEquilibrium& out)
         for (std::size_t j = 0; j < N->columns; ++j) reduced.at(i, j) = within->at(i, j);
     out.eigenvalues = proof::eigenvalues(reduced, full_bits);
     if (!out.certified) return;
-    out.definite = definite_sign(jets, *N);
+    out.definite = definite_sign(jets, *N, out.multipliers);
     if (out.definite != 0)
         out.stability = Stability::stable;
     else if (std::ranges::any_of(out.eigenvalues, [](const auto& each) { return each.certain && each.least > 0; }))

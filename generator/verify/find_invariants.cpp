@@ -17,6 +17,7 @@ namespace lagen {
 namespace {
 
 using Numbers = std::vector<long double>; ///< a function at all points
+using Flow = Replacements;                ///< the rates of coordinates of E*
 
 constexpr long double negligible = 1e-10L; ///< of what is 0 but for rounding
 constexpr std::size_t more_points = 16;    ///< than unknowns
@@ -34,9 +35,12 @@ class InvariantSearch {
     /// Those with coefficients that no parameter changes first, then those for the values of the file.
     std::vector<FoundInvariant> run()
     {
+        const std::vector<Flow> motion{hamiltonian_flow()}, all = coordinate_flows();
         for (const bool at_values : {false, true}) {
             at_values_ = at_values;
-            if (take_points()) search();
+            if (!take_points()) continue;
+            search(all);
+            search(motion);
         }
         return std::move(found_);
     }
@@ -90,8 +94,41 @@ class InvariantSearch {
         return out;
     }
 
-    void search()
+    /// xdot and mudot.
+    [[nodiscard]] Flow hamiltonian_flow() const
     {
+        Flow flow = replacements(system_.algebroid.x, phase_.xdot);
+        const Replacements more = replacements(phase_.mu, phase_.mudot);
+        flow.insert(flow.end(), more.begin(), more.end());
+        return flow;
+    }
+
+    /// Those of the coordinates of E*, along which Casimirs are constant: {mu_a, x^i} = rho^i_a, {mu_a, mu_b} = C^c_ab
+    /// mu_c. A function that is constant along those of the mu_a and that of the x^i is one.
+    [[nodiscard]] std::vector<Flow> coordinate_flows()
+    {
+        const Algebroid& algebroid = system_.algebroid;
+        std::vector<Flow> flows(system_.r() + system_.n());
+        for (std::size_t a = 0; a < system_.r(); ++a) {
+            for (const ColumnEntry& entry : algebroid.anchor[a]) {
+                flows[a].emplace_back(algebroid.x[entry.index], entry.value);
+                flows[system_.r() + entry.index].emplace_back(system_.mu[a], entry.value);
+            }
+            for (std::size_t b = 0; b < system_.r(); ++b) {
+                NodeId bracket = graph_.constant(0);
+                for (const ColumnEntry& entry : algebroid.C(a, b))
+                    bracket = graph_.add(bracket, graph_.multiply(entry.value, system_.mu[entry.index]));
+                if (!graph_.is_zero(bracket)) flows[a].emplace_back(system_.mu[b], bracket);
+            }
+        }
+        std::erase_if(flows, [](const Flow& flow) { return flow.empty(); });
+        return flows;
+    }
+
+    /// Functions that are constant along all flows.
+    void search(const std::vector<Flow>& flows)
+    {
+        if (flows.empty()) return;
         const std::vector<Numbers> values = at_points(fixed(monomials_));
         OrthonormalSpan independent(negligible);
         (void)independent.add(Numbers(points_.size(), 1.0L));
@@ -99,7 +136,13 @@ class InvariantSearch {
         std::vector<long double> sizes;
         for (std::size_t k = 0; k < monomials_.size(); ++k)
             if (independent.add(values[k])) kept.push_back(monomials_[k]), sizes.push_back(length_of(values[k]));
-        for (const Numbers& coefficients : kernel(at_points(fixed(rates(kept))), sizes)) take(kept, coefficients);
+        std::vector<Numbers> columns(kept.size());
+        for (const Flow& flow : flows) {
+            const std::vector<Numbers> rates = at_points(fixed(directional(graph_, kept, flow)));
+            for (std::size_t k = 0; k < kept.size(); ++k)
+                columns[k].insert(columns[k].end(), rates[k].begin(), rates[k].end());
+        }
+        for (const Numbers& coefficients : kernel(std::move(columns), sizes)) take(kept, coefficients, flows);
     }
 
     /// By degree, then in the order of the generators.
@@ -130,14 +173,6 @@ class InvariantSearch {
     [[nodiscard]] std::vector<NodeId> fixed(const std::vector<NodeId>& nodes)
     {
         return at_values_ ? substitute(graph_, nodes, values_) : nodes;
-    }
-
-    [[nodiscard]] std::vector<NodeId> rates(const std::vector<NodeId>& functions)
-    {
-        std::vector<std::pair<NodeId, NodeId>> along;
-        for (std::size_t i = 0; i < system_.n(); ++i) along.emplace_back(system_.algebroid.x[i], phase_.xdot[i]);
-        for (std::size_t a = 0; a < system_.r(); ++a) along.emplace_back(phase_.mu[a], phase_.mudot[a]);
-        return directional(graph_, functions, along);
     }
 
     [[nodiscard]] ProofSetting setting()
@@ -219,7 +254,7 @@ class InvariantSearch {
     }
 
     /// Keeps what is new, rational and proved.
-    void take(const std::vector<NodeId>& monomials, const Numbers& coefficients)
+    void take(const std::vector<NodeId>& monomials, const Numbers& coefficients, const std::vector<Flow>& flows)
     {
         std::vector<std::pair<Rational, NodeId>> terms;
         mpz_class common = 1; // denominator
@@ -234,8 +269,12 @@ class InvariantSearch {
         for (const auto& [c, monomial] : terms)
             sum = graph_.add(sum, graph_.multiply(graph_.constant(c * common), monomial));
         if (is_constant(sum) || known().contains(at_points(fixed({sum}))[0])) return;
-        const NodeId rate = fixed(rates({sum}))[0];
-        if (ZeroDecider(graph_, setting()).status(rate) == ProofStatus::proved) found_.push_back({sum, at_values_});
+        const ZeroDecider decider(graph_, setting());
+        if (std::ranges::all_of(flows, [&](const Flow& flow) {
+                const NodeId rate = fixed(directional(graph_, std::vector{sum}, flow))[0];
+                return graph_.is_zero(rate) || decider.status(rate) == ProofStatus::proved;
+            }))
+            found_.push_back({sum, at_values_});
     }
 
     /// Whether it is a function of the parameters alone.

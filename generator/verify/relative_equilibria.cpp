@@ -10,6 +10,7 @@
 #include "verify/energy_momentum.hpp"
 #include "verify/find_invariants.hpp"
 #include "verify/proof_setting.hpp"
+#include "verify/singular_set.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -56,6 +57,7 @@ class EquilibriumFinder {
             if (std::ranges::find(out_.cyclic, system.algebroid.x[i]) != out_.cyclic.end())
                 cyclic_rates_.push_back(fixed(phase_.xdot[i]));
         commuting_ = commute(F);
+        for (const NodeId z : out_.coordinates) is_angle_.push_back(is_angle(z));
     }
 
     RelativeEquilibria run(const EquilibriumSearch& search)
@@ -160,6 +162,18 @@ class EquilibriumFinder {
         return std::ranges::all_of(out_.coordinates,
                                    [&](NodeId z) { return is_proved_zero(poisson_bracket(graph_, system_at_, f, z)); });
     }
+    /// Whether a whole turn of z changes nothing: not H, not what is conserved, not rho and C.
+    [[nodiscard]] bool is_angle(NodeId z)
+    {
+        std::vector<NodeId> functions = system_at_.algebroid.entries();
+        functions.push_back(fixed(phase_.hamiltonian));
+        for (const ConservedFunction& each : out_.conserved) functions.push_back(each.value);
+        const NodeId turned = graph_.add(z, graph_.multiply(graph_.constant(4), quarter_turn(graph_).node));
+        const std::vector<NodeId> after = substitute(graph_, functions, Replacements{{z, turned}});
+        for (std::size_t k = 0; k < functions.size(); ++k)
+            if (!is_proved_zero(graph_.subtract(after[k], functions[k]))) return false;
+        return true;
+    }
     [[nodiscard]] bool commute(const std::vector<NodeId>& F)
     {
         for (std::size_t i = 0; i < F.size(); ++i)
@@ -239,13 +253,14 @@ class EquilibriumFinder {
     [[nodiscard]] bool is_new(const Doubles& z, double energy) const
     {
         const auto differ = [](double a, double b) { return std::fabs(a - b) > 1e-6 * (1 + std::fabs(a)); };
-        // Whole turns of an angle are no other point: it makes the same energy.
-        const auto apart = [&](double a, double b) { return differ(std::remainder(a - b, 2 * std::numbers::pi), 0); };
+        const auto apart = [&](std::size_t k, double a, double b) {
+            return is_angle_[k] ? differ(std::remainder(a - b, 2 * std::numbers::pi), 0) : differ(a, b);
+        };
         return std::ranges::none_of(out_.found, [&](const RelativeEquilibrium& known) {
             if (differ(known.energy, energy)) return false;
             if (!known.certified) return true;
             for (std::size_t k = 0; k < z.size(); ++k)
-                if (!known.moved[k] && apart(known.z[k], z[k])) return false;
+                if (!known.moved[k] && apart(k, known.z[k], z[k])) return false;
             return true;
         });
     }
@@ -260,6 +275,7 @@ class EquilibriumFinder {
     std::vector<NodeId> cyclic_rates_;
     std::unique_ptr<ZeroDecider> decider_;
     std::size_t constraints_ = 0; ///< the first of the F are base constraints, which are 0
+    std::vector<bool> is_angle_;  ///< of each coordinate, proved
     double slope_ = 0;            ///< the largest component of dH at the starts
     bool commuting_ = false;      ///< all {F_i, F_j} are proved to vanish
 };

@@ -21,7 +21,7 @@ enum class Stability { stable, spectrally_unstable, undecided };
 struct RelativeEquilibrium {
     std::vector<double> z;           ///< of the coordinates
     std::vector<Rational> exact;     ///< z in fractions, where it is exactly that; else empty
-    std::vector<double> multipliers; ///< lambda_i
+    std::vector<double> multipliers; ///< lambda_i; where it is definite, those at which it is
     std::vector<double> cyclic;      ///< rates of the cyclic coordinates
     double energy = 0;               ///< H
     double radius = 0;               ///< there is one within this distance in each coordinate; certified
