@@ -48,6 +48,7 @@ class Claims {
     [[nodiscard]] std::unique_ptr<EquationsOfMotion> equations_of_motion();
     [[nodiscard]] WhereConstant along_anchor();
     [[nodiscard]] WhereConstant along_motions(EquationsOfMotion& motion, const Regularity& regularity);
+    [[nodiscard]] bool motions_fill(const Regularity& regularity);
     [[nodiscard]] std::vector<NamedNode> divisors_of(const Rate& rate, const Regularity& regularity) const;
     void require_triangular_constraints();
     void refuse_zero_divisors(const ProofBudget& budget);

@@ -122,12 +122,34 @@ void Claims::decide_invariants(Report& report, const std::vector<NamedTree>& ext
     if (steps) decide_along_steps(report.structure, claims);
 }
 
+/// Whether a motion goes through each point of E: W ydot = f can be solved there, k^a f_a = 0 where k^a W_ab = 0.
+bool Claims::motions_fill(const Regularity& regularity)
+{
+    if (!lagrangian_ || regularity.of != Regularity::Matrix::lagrangian ||
+        regularity.kind != Regularity::Kind::degenerate)
+        return true;
+    const std::vector<NodeId>& y = lagrangian_->fibre.y;
+    if (regularity.rank + regularity.kernel.size() != y.size()) return false;
+    const LagrangeRates rates =
+        lagrange_rates(graph_, system_, *lagrangian_, lagrange_balance(graph_, system_, *lagrangian_));
+    Lowering lower(graph_);
+    return std::ranges::all_of(regularity.kernel, [&](const auto& vector) {
+        NodeId sum = graph_.constant(0);
+        for (std::size_t a = 0; a < y.size(); ++a)
+            for (const auto& [name, value] : vector)
+                if (name == graph_.input_name(y[a]))
+                    sum = graph_.add(sum, graph_.multiply(lower(value), rates.force[a]));
+        return graph_.is_zero(sum) || judge_->decide(sum).status == ProofStatus::proved;
+    });
+}
+
 void Claims::decide_along_motions(Report& report, const std::vector<NamedTree>& claims)
 {
     const std::unique_ptr<EquationsOfMotion> motion = equations_of_motion();
     WhereConstant where = along_motions(*motion, report.mechanics.regularity);
     const Binding names = motion->names();
     Lowering lower(graph_, names);
+    const bool everywhere = motions_fill(report.mechanics.regularity);
     for (const NamedTree& claim : claims) {
         Check check{"invariant", {claim.name}, {}, {}, {}};
         const NodeId f = lower(claim.value);
@@ -146,9 +168,12 @@ void Claims::decide_along_motions(Report& report, const std::vector<NamedTree>& 
             if (check.decision.status == ProofStatus::proved)
                 WhereConstant::restrict(check, where.of(functions, divisors_of(rate, report.mechanics.regularity)));
             check.reevaluation = judge.reevaluate(*rate.value);
-            if (rate.for_every_control && check.decision.status == ProofStatus::refuted) {
+            if (check.decision.status == ProofStatus::refuted && (rate.for_every_control || !everywhere)) {
                 check.decision = Decision{};
-                check.decision.evidence = rate.obstacle;
+                check.decision.evidence = rate.for_every_control
+                                              ? rate.obstacle
+                                              : "its rate is not zero at every point of E, but the Lagrangian is "
+                                                "degenerate and its motions may fill a part of E alone";
             }
         }
         report.structure.checks.push_back(std::move(check));

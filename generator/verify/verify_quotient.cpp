@@ -91,6 +91,19 @@ bool is_invariant(Graph& graph, const System& whole, const InfinitesimalAction& 
     });
 }
 
+bool is_invariant_set(Graph& graph, const System& whole, const InfinitesimalAction& action, NodeId f,
+                      const ProofBudget& budget)
+{
+    Judge judge(graph, proof_setting(graph, whole), accessory_inputs(whole), 0, budget);
+    const auto is_zero = [&](NodeId node) {
+        return graph.is_zero(node) || judge.decide(node).status == ProofStatus::proved;
+    };
+    return std::ranges::all_of(action.fields, [&](const std::vector<NodeId>& X) {
+        const NodeId rate = lift_of_function(graph, whole, f, X);
+        return is_zero(rate) || std::ranges::all_of(gradient(graph, graph.divide(rate, f), whole.algebroid.x), is_zero);
+    });
+}
+
 StructureReport verify_symmetry(Graph& graph, const System& whole, const InfinitesimalAction& action,
                                 const std::vector<std::string>& names, const ProofBudget& budget)
 {

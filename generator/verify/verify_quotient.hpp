@@ -18,6 +18,10 @@ namespace lagen {
 [[nodiscard]] bool is_invariant(Graph& graph, const System& whole, const InfinitesimalAction& action, NodeId f,
                                 const ProofBudget& budget = {});
 
+/// Whether the set f > 0 of the base is invariant: xi_b(f) = c_b f with constants c_b; false likewise.
+[[nodiscard]] bool is_invariant_set(Graph& graph, const System& whole, const InfinitesimalAction& action, NodeId f,
+                                    const ProofBudget& budget = {});
+
 /// A check `symmetry` (w) a generator: the complete lift of xi_b leaves L.
 [[nodiscard]] StructureReport verify_symmetry(Graph& graph, const System& whole, const InfinitesimalAction& action,
                                               const std::vector<std::string>& names, const ProofBudget& budget = {});

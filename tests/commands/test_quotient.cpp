@@ -194,6 +194,43 @@ TEST_CASE("a left action, and one that changes L, are refuted; nothing is writte
                        "refuted: symmetry (w1)\n") == 0);
 }
 
+TEST_CASE("an action whose fields at the identity are one, and that is none, is refuted at the element")
+{
+    // x.(W V) - (x.W).V = 2 W[1,2] V[1,2]
+    const std::string line =
+        written_model("line.toml", "[base]\ncoordinates = [\"x\"]\n[algebroid]\nkind = \"tangent\"\n"
+                                   "[lagrangian]\nL = \"v_x^2/2\"\n");
+    const Outcome bent = call({"reduce", line, "--group", "R", "--action", "x = x + W[1,2] + W[1,2]^2"});
+    CHECK(bent.code == 1);
+    CHECK(bent.err.find("refuted: action (w, x)\n  d/ds x of x.(W exp(s E)) less x of the field of the action at x.W, "
+                        "generator w\n  residual 2*s(1)\n") != std::string::npos);
+    const Outcome turned = call(
+        {"reduce", beanie_on_tangent, "--group", "SE(2)", "--action",
+         "th = th - atan2(W[2,1], W[1,1]) + W[1,3]*W[2,3]" + motions_of_plane.substr(motions_of_plane.find(", x ="))});
+    CHECK(turned.code == 1);
+    CHECK(turned.err.find("refuted: action (w2, th)\n") != std::string::npos);
+}
+
+TEST_CASE("a half-plane is invariant where its boundary is scaled")
+{
+    const std::string half_plane = written_model("half_plane.toml", R"toml([base]
+coordinates = ["x", "y", "z"]
+domain = ["x > 0"]
+[algebroid]
+kind = "tangent"
+[lagrangian]
+L = "(v_x^2 + v_y^2)/(2*x^2) + v_z^2/2 + z*v_y/x"
+[scene.default]
+initial = { x = 1.2, y = 0.3, z = 0.4, v_x = 0.1, v_y = 0.7, v_z = 0.2 }
+)toml");
+    const Outcome outcome =
+        call({"reduce", half_plane, "--group", "AFF(1)", "--action", "x = x/W[1,1], y = (y - W[1,2])/W[1,1]"});
+    CHECK(outcome.code == 0);
+    CHECK(outcome.out.find("L = \"z*(3*w1 + 10*w2)/12 + v_z^2/2 + w1^2/2 + (3*w1 + 10*w2)^2/288\"\n") !=
+          std::string::npos);
+    CHECK(outcome.out.find("domain") == std::string::npos);
+}
+
 TEST_CASE("orbits that are smaller than the group have no slice")
 {
     const std::string point = written_model("point.toml", R"toml([base]
@@ -235,5 +272,5 @@ L = "(v_x^2 + v_y^2)/2 - y^2"
 )toml");
     const Outcome outcome = call({"reduce", slid, "--group", "R", "--action", "x = x + W[1,2]"});
     CHECK(outcome.code == 1);
-    CHECK(outcome.err.find("error: the domain of model 'slid' is not invariant under R: x > 0\n") == 0);
+    CHECK(outcome.err.find("error: the domain of model 'slid' is not shown to be invariant under R: x > 0\n") == 0);
 }

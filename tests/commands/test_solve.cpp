@@ -59,6 +59,59 @@ TEST_CASE("a free body is stable about its first and last axis, and unstable abo
     }
 }
 
+namespace {
+
+std::vector<json::Value> equilibria_of_text(const std::string& text)
+{
+    const std::string path = fresh_folder() + "/model.toml";
+    write_text(path, text);
+    return equilibria_of({path});
+}
+
+const std::string free_body = R"toml([fibre]
+coordinates = ["w1", "w2", "w3"]
+[algebroid]
+kind = "lie_algebra"
+algebra = "so(3)"
+[lagrangian]
+L = "(w1^2 + 2*w2^2 + 3*w3^2)/2"
+[scene.default]
+initial = { w1 = 0, w2 = 0, w3 = )toml";
+
+} // namespace
+
+TEST_CASE("Casimirs hold the level of the start, whatever energy is made of, and momenta are no angles")
+{
+    // |Pi| = 3, and pi: +-Pi are two equilibria, and not one of them is Pi = 0.
+    for (const char* spin : {"1 }\n", "\"pi/3\" }\n"}) {
+        const auto equilibria = equilibria_of_text(free_body + spin);
+        CHECK(counts_of(equilibria) == "2 spectrally_unstable, 4 stable");
+    }
+    // se(2): the level p_a^2 + p_b^2 = 1 of an invariant that is one of energy and its own.
+    const auto plane = equilibria_of_text(
+        "[fibre]\ncoordinates = [\"w\", \"a\", \"b\"]\n[algebroid]\nkind = \"lie_algebra\"\nalgebra = \"se(2)\"\n"
+        "[lagrangian]\nL = \"(w^2 + a^2 + 2*b^2)/2\"\n[scene.default]\ninitial = { w = 0, a = 1, b = 0 }\n");
+    CHECK(counts_of(plane) == "2 spectrally_unstable, 2 stable");
+    for (const json::Value& each : plane)
+        CHECK(std::hypot(each["state"]["p_a"].number(), each["state"]["p_b"].number()) == Approx(1).epsilon(1e-14));
+    // x = pi and x = -pi of a potential without a period
+    CHECK(counts_of(equilibria_of_text("[base]\ncoordinates = [\"x\"]\n[algebroid]\nkind = \"tangent\"\n[lagrangian]\n"
+                                       "L = \"v_x^2/2 - (x^2 - pi^2)^2\"\n[scene.default]\n"
+                                       "initial = { x = 0, v_x = 0 }\n")) == "1 spectrally_unstable, 2 stable");
+}
+
+TEST_CASE("a second variation that is definite says with which multipliers")
+{
+    // Two springs that push outwards in a field that turns: H is indefinite at rest, H - lambda (x p_y - y p_x) is not
+    // for lambda near -2, where it is (p_x^2 + p_y^2 + 3 (x^2 + y^2))/2 in turned coordinates.
+    const auto found =
+        equilibria_of_text("[base]\ncoordinates = [\"x\", \"y\"]\n[algebroid]\nkind = \"tangent\"\n[lagrangian]\n"
+                           "L = \"(v_x^2 + v_y^2)/2 + 2*(x*v_y - y*v_x) + (x^2 + y^2)/2\"\n[scene.default]\n"
+                           "initial = { x = 0, y = 0, v_x = 0, v_y = 0 }\n");
+    REQUIRE(counts_of(found) == "1 stable");
+    CHECK(std::abs(found[0]["multipliers"].entries[0].number() + 2) < 1.7);
+}
+
 TEST_CASE("Lagrange's sleeping top is stable above the limit, unstable below it, and left open at it", "[run]")
 {
     const auto upright = [](const std::vector<json::Value>& equilibria) {

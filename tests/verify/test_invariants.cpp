@@ -106,6 +106,16 @@ TEST_CASE("a degenerate Lagrangian leaves undecided what needs its accelerations
     CHECK(verified.structure.verdict == Verdict::undecided);
 }
 
+TEST_CASE("a degenerate Lagrangian refutes nothing where its motions may fill a part of E alone")
+{
+    // d/dt (y) = dL/dy of w: y = 0 along motions, so that y, p_w = y and v w = 0 there are constant.
+    const std::string text = plane("x^2*u^2/2 + v*y - y^2/2");
+    CHECK(statuses(text, {"energy", "y", "p_v - y"}) == "proved, undecided, undecided");
+    CHECK(verified_text(text, {{"y", name("y"), {}}}).structure.checks.back().decision.evidence ==
+          "its rate is not zero at every point of E, but the Lagrangian is degenerate and its motions may fill a part "
+          "of E alone");
+}
+
 TEST_CASE("without a Lagrangian only functions on the base can be invariant")
 {
     const std::string text = "[base]\ncoordinates = [\"x\", \"k\"]\n[fibre]\ncoordinates = [\"v\"]\n[algebroid]\nkind "

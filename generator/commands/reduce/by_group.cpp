@@ -119,10 +119,15 @@ GroupQuotient quotient_by_group(const CheckedModel& checked, const std::vector<S
     std::vector<NodeId> w;
     for (const std::string& each : names) w.push_back(graph.input(each));
     const Quotient divided = quotient(graph, whole, fields, choose_slice(graph, checked, fields, group, slice), w);
-    const GroupReduction reduction{
-        model, whole, graph, fields, divided, group, algebra ? algebra->name : "", [&](NodeId f) {
-            return is_invariant(graph, whole, fields, f);
-        }};
+    const GroupReduction reduction{model,
+                                   whole,
+                                   graph,
+                                   fields,
+                                   divided,
+                                   group,
+                                   algebra ? algebra->name : "",
+                                   [&](NodeId f) { return is_invariant(graph, whole, fields, f); },
+                                   [&](NodeId f) { return is_invariant_set(graph, whole, fields, f); }};
     QuotientDocument document(reduction, settings);
     const std::string name = model.name + "_quotient.toml";
     const Model draft = read_model_text(name, document.text(document.lagrangian()));

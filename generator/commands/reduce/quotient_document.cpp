@@ -132,8 +132,7 @@ Tree QuotientDocument::shown(NodeId node) const
     return with_values(to_tree(reduction_.graph, node), values_);
 }
 
-/// Whether a function in the names of the whole is one on the quotient.
-bool QuotientDocument::is_kept(const Tree& tree) const
+bool QuotientDocument::is_in_names_of_whole(const Tree& tree) const
 {
     const Model& model = reduction_.model;
     for (const std::string& each : names_in(tree)) {
@@ -144,7 +143,13 @@ bool QuotientDocument::is_kept(const Tree& tree) const
             each != reduction_.graph.input_name(reduction_.system.time) && each != "energy")
             return false;
     }
-    return reduction_.is_invariant(Lowering(reduction_.graph)(tree));
+    return true;
+}
+
+/// Whether a function in the names of the whole is one on the quotient.
+bool QuotientDocument::is_kept(const Tree& tree) const
+{
+    return is_in_names_of_whole(tree) && reduction_.is_invariant(Lowering(reduction_.graph)(tree));
 }
 
 std::vector<std::string> QuotientDocument::domain() const
@@ -152,11 +157,13 @@ std::vector<std::string> QuotientDocument::domain() const
     std::vector<std::string> texts;
     for (const Tree& condition : reduction_.model.base.domain) {
         const Tree difference = add({condition->arguments[0], negate(condition->arguments[1])});
-        if (!is_kept(difference))
-            throw MathematicsError(fmt::format("the domain of model '{}' is not invariant under {}: {}",
+        if (!is_in_names_of_whole(difference) || !reduction_.is_invariant_set(Lowering(reduction_.graph)(difference)))
+            throw MathematicsError(fmt::format("the domain of model '{}' is not shown to be invariant under {}: {}",
                                                reduction_.model.name, reduction_.group, to_text(condition)),
-                                   "a symmetry of the motions is one of the domain too: leave the condition out");
-        texts.push_back(to_text(with_values(condition, values_)));
+                                   "a symmetry of the motions is one of the domain too; a condition f > 0 is invariant "
+                                   "where the generators change f by a factor that is a number");
+        const Tree on_slice = with_values(condition, values_);
+        if (!names_in(on_slice).empty()) texts.push_back(to_text(on_slice)); // else it is one of numbers
     }
     if (const NodeId divisor = reduction_.quotient.determinant; !reduction_.graph.is_constant(divisor)) {
         const Tree tree = shown(divisor);

@@ -20,8 +20,9 @@ struct GroupReduction {
     Graph& graph; ///< a copy of the system's, with what is derived
     const InfinitesimalAction& action;
     const Quotient& quotient;
-    std::string group, algebra;               ///< "SO(3)", "so(3)"
-    std::function<bool(NodeId)> is_invariant; ///< of a function of t, x and y
+    std::string group, algebra;                   ///< "SO(3)", "so(3)"
+    std::function<bool(NodeId)> is_invariant;     ///< of a function of t, x and y
+    std::function<bool(NodeId)> is_invariant_set; ///< of the set f > 0 of a function of x
 };
 
 class QuotientDocument {
@@ -40,6 +41,7 @@ class QuotientDocument {
     void choose_names(const std::vector<Symbol>& symbols, bool fibre);
     [[nodiscard]] std::string unused(std::string name);
     [[nodiscard]] Tree shown(NodeId node) const;
+    [[nodiscard]] bool is_in_names_of_whole(const Tree& tree) const;
     [[nodiscard]] bool is_kept(const Tree& tree) const;
     [[nodiscard]] std::vector<std::string> domain() const;
     void put_algebroid();
