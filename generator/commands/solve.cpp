@@ -74,6 +74,15 @@ std::string eigenvalues_text(const RelativeEquilibrium& found)
     return text;
 }
 
+/// ", lambda1 = 2, .."
+std::string multipliers_text(const std::vector<double>& multipliers)
+{
+    std::string text;
+    for (std::size_t i = 0; i < multipliers.size(); ++i)
+        text += fmt::format(", lambda{} = {}", i + 1, number(multipliers[i]));
+    return text;
+}
+
 std::string solution_text(const Solution& solution, const Graph& graph)
 {
     const RelativeEquilibria& all = solution.equilibria;
@@ -97,13 +106,14 @@ std::string solution_text(const Solution& solution, const Graph& graph)
         for (std::size_t k = 0; k < found.cyclic.size(); ++k)
             text += fmt::format("  {}' = {}\n", graph.input_name(all.cyclic[k]), number(found.cyclic[k]));
         text += fmt::format("  H = {}", number(found.energy));
-        for (std::size_t i = 0; i < found.multipliers.size(); ++i)
-            text += fmt::format(", lambda{} = {}", i + 1, number(found.multipliers[i]));
+        text += multipliers_text(found.multipliers);
         if (found.certified && found.radius > 0) text += fmt::format("; certified to {:.1g}", found.radius);
         text +=
             fmt::format("\n  on ker dF{}, {} dimension{}: eigenvalues {}\n",
                         found.flows > 0 ? " modulo the flows of F" : "", found.dimension,
                         found.dimension == 1 ? "" : "s", found.eigenvalues.empty() ? "none" : eigenvalues_text(found));
+        if (!found.definite_at.empty())
+            text += fmt::format("  definite with{}\n", multipliers_text(found.definite_at).substr(1));
     }
     return text;
 }
@@ -151,6 +161,11 @@ std::string solution_json(const Solution& solution, const Graph& graph)
             .value(found.definite > 0   ? "positive definite"
                    : found.definite < 0 ? "negative definite"
                                         : "not shown to be definite");
+        if (!found.definite_at.empty()) {
+            json.key("definite_at").begin_array();
+            for (const double lambda : found.definite_at) json.value(lambda);
+            json.end_array();
+        }
         json.key("eigenvalues").begin_array();
         for (const proof::Eigenvalue& each : found.eigenvalues)
             json.begin_array().value(each.real).value(each.imaginary).end_array();

@@ -25,15 +25,14 @@ EquationSet derive_invariants(const Model& model, const System& system, const Re
                 model.name),
             "check --invariant decides a function that is given");
     const NodeId only[] = {H->value};
-    if (depends_on_any(graph, only, std::vector<NodeId>{system.time}) || !system.forces.empty())
+    if (!system.forces.empty())
         throw MathematicsError(
-            fmt::format("invariants are sought of motions without forces and explicit time, and model "
-                        "'{}' has them",
-                        model.name),
+            fmt::format("invariants are sought of motions without forces, and model '{}' has them", model.name),
             "check --invariant decides a function that is given");
+    const bool autonomous = !depends_on_any(graph, only, std::vector<NodeId>{system.time});
     SymbolicModel symbolic(model, system.written.algebroid, {});
     EquationSet set = symbolic.empty_set("invariants");
-    EquationBlock block{"invariants beside H",
+    EquationBlock block{autonomous ? "invariants beside H" : "invariants without t",
                         "Ḟ = 0 along Hamilton's equations, F of degree 2 at most in the momenta",
                         R"(\dot F = 0)",
                         {}};
@@ -50,7 +49,9 @@ EquationSet derive_invariants(const Model& model, const System& system, const Re
         statement.status = "proved";
         set.statements.push_back(std::move(statement));
     }
-    if (count == 0) set.title += set.title.empty() ? "beside H none is found" : ": beside H none is found";
+    if (count == 0)
+        set.title += fmt::format("{}{}", set.title.empty() ? "" : ": ",
+                                 autonomous ? "beside H none is found" : "none without t is found");
     set.blocks = {std::move(block)};
     return set;
 }

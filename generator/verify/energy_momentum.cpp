@@ -226,9 +226,9 @@ std::optional<BallMatrix> EquilibriumCertificate::complement(const std::vector<F
     return proof::sum(V, exact_ball(-1), proof::product(D, *shares, full_bits), full_bits);
 }
 
-/// Of H_zz - lambda_i F_i,zz on N for some lambda that leaves H_lambda critical, which `multipliers` are then.
-int EquilibriumCertificate::definite_sign(const std::vector<FunctionJet>& jets, const BallMatrix& N,
-                                          Doubles& multipliers) const
+/// Of H_zz - lambda_i F_i,zz on N for some lambda that leaves H_lambda critical.
+void EquilibriumCertificate::find_definite(const std::vector<FunctionJet>& jets, const BallMatrix& N,
+                                           RelativeEquilibrium& out) const
 {
     const std::size_t f = free_.size(), s = chosen_.size();
     const auto on_N = [&](const BallMatrix& Q) {
@@ -287,13 +287,15 @@ int EquilibriumCertificate::definite_sign(const std::vector<FunctionJet>& jets, 
                     if (const double value = least_eigenvalue(form(tried)); value > best) best = value, shares = tried;
                 }
         if (!proof::is_certainly_definite(form(shares), full_bits)) continue;
+        out.definite = sign;
+        if (std::ranges::all_of(shares, [](double share) { return share == 0; })) return;
+        out.definite_at = out.multipliers;
         for (std::size_t k = 0; k < shares.size(); ++k) {
-            multipliers[combinations[k].t] -= shares[k];
-            for (std::size_t i = 0; i < s; ++i) multipliers[chosen_[i]] += shares[k] * combinations[k].c[i];
+            out.definite_at[combinations[k].t] -= shares[k];
+            for (std::size_t i = 0; i < s; ++i) out.definite_at[chosen_[i]] += shares[k] * combinations[k].c[i];
         }
-        return sign;
+        return;
     }
-    return 0;
 }
 
 void EquilibriumCertificate::judge(RelativeEquilibrium& out)
@@ -324,7 +326,7 @@ void EquilibriumCertificate::judge(RelativeEquilibrium& out)
         for (std::size_t j = 0; j < N->columns; ++j) reduced.at(i, j) = within->at(i, j);
     out.eigenvalues = proof::eigenvalues(reduced, full_bits);
     if (!out.certified) return;
-    out.definite = definite_sign(jets, *N, out.multipliers);
+    find_definite(jets, *N, out);
     if (out.definite != 0)
         out.stability = Stability::stable;
     else if (std::ranges::any_of(out.eigenvalues, [](const auto& each) { return each.certain && each.least > 0; }))

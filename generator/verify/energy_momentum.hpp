@@ -36,8 +36,8 @@ class EquilibriumCertificate {
     [[nodiscard]] std::vector<Rational> rational_point(const std::vector<double>& z) const;
     void judge(RelativeEquilibrium& out);
     [[nodiscard]] std::optional<proof::BallMatrix> complement(const std::vector<FunctionJet>& jets) const;
-    [[nodiscard]] int definite_sign(const std::vector<FunctionJet>& jets, const proof::BallMatrix& N,
-                                    std::vector<double>& multipliers) const;
+    void find_definite(const std::vector<FunctionJet>& jets, const proof::BallMatrix& N,
+                       RelativeEquilibrium& out) const;
 
     Graph& graph_;
     const AugmentedEnergy& energy_;

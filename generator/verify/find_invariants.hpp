@@ -21,7 +21,7 @@ struct FoundInvariant {
 };
 
 /// Casimirs of E* first, then others. Linearly independent ones, up to constants and Casimirs of the base, which are no
-/// polynomials in H and in those before them; each with rate zero, proved. Explicit time has none here. `graph`: a copy
+/// polynomials in H and in those before them; each with rate zero, proved, and without t. `graph`: a copy
 /// of the system's with H.
 [[nodiscard]] std::vector<FoundInvariant> find_invariants(Graph& graph, const System& system,
                                                           const HamiltonianNodes& hamiltonian,

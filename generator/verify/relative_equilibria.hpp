@@ -21,15 +21,16 @@ enum class Stability { stable, spectrally_unstable, undecided };
 struct RelativeEquilibrium {
     std::vector<double> z;           ///< of the coordinates
     std::vector<Rational> exact;     ///< z in fractions, where it is exactly that; else empty
-    std::vector<double> multipliers; ///< lambda_i; where it is definite, those at which it is
+    std::vector<double> multipliers; ///< lambda_i, in whose frame the eigenvalues are
     std::vector<double> cyclic;      ///< rates of the cyclic coordinates
     double energy = 0;               ///< H
     double radius = 0;               ///< there is one within this distance in each coordinate; certified
     bool certified = false;
-    std::vector<bool> moved;   ///< a flow of F moves the coordinate
-    std::size_t flows = 0;     ///< the number of directions of flows of F through it
-    std::size_t dimension = 0; ///< of ker dF modulo these
-    int definite = 0;          ///< 1, -1: the second variation is certainly positive, negative definite there
+    std::vector<bool> moved;         ///< a flow of F moves the coordinate
+    std::size_t flows = 0;           ///< the number of directions of flows of F through it
+    std::size_t dimension = 0;       ///< of ker dF modulo these
+    int definite = 0;                ///< 1, -1: the second variation is certainly positive, negative definite there
+    std::vector<double> definite_at; ///< the lambda_i that it is definite with, where these are others; else empty
     std::vector<proof::Eigenvalue> eigenvalues; ///< of the linearised motion there
     Stability stability = Stability::undecided;
 };

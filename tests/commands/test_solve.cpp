@@ -109,7 +109,9 @@ TEST_CASE("a second variation that is definite says with which multipliers")
                            "L = \"(v_x^2 + v_y^2)/2 + 2*(x*v_y - y*v_x) + (x^2 + y^2)/2\"\n[scene.default]\n"
                            "initial = { x = 0, y = 0, v_x = 0, v_y = 0 }\n");
     REQUIRE(counts_of(found) == "1 stable");
-    CHECK(std::abs(found[0]["multipliers"].entries[0].number() + 2) < 1.7);
+    CHECK(found[0]["multipliers"].entries[0].number() == 0);
+    // positive definite for |lambda + 2| < sqrt(3)
+    CHECK(std::abs(found[0]["definite_at"].entries[0].number() + 2) < 1.7);
 }
 
 TEST_CASE("Lagrange's sleeping top is stable above the limit, unstable below it, and left open at it", "[run]")
