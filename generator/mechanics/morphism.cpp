@@ -40,7 +40,7 @@ std::vector<std::vector<NodeId>> moved(const AlongMap& along, std::vector<std::v
 } // namespace
 
 AlongMap::AlongMap(Graph& graph, const SystemMorphism& morphism)
-    : graph_(graph), from_(morphism.target.graph), inputs_(morphism.parameters)
+    : graph_(graph), target_(morphism.target), inputs_(morphism.parameters)
 {
     inputs_[morphism.target.time] = morphism.source.time;
     set(morphism.target.algebroid.x, morphism.base);
@@ -53,7 +53,12 @@ void AlongMap::set(std::span<const NodeId> inputs, std::span<const NodeId> value
 
 std::vector<NodeId> AlongMap::operator()(std::span<const NodeId> functions) const
 {
-    return transplant(graph_, from_, functions, inputs_);
+    try {
+        return transplant(graph_, target_.graph, functions, inputs_);
+    } catch (const DivisionByZero&) {
+        throw MathematicsError("along the map a divisor of model '" + target_.name + "' is zero everywhere",
+                               "nothing of the target is defined there: change `base` or `parameters`");
+    }
 }
 
 std::vector<NodeId> fibre_matrix(Graph& graph, const SystemMorphism& morphism)

@@ -38,7 +38,7 @@ class AlongMap {
 
   private:
     Graph& graph_;
-    const Graph& from_;
+    const System& target_;
     std::map<NodeId, NodeId> inputs_;
 };
 
