@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Candidates and their lengths.
 #include "symbolic/shortest_form.hpp"
-#include "symbolic/sorted_form.hpp"
+#include "symbolic/joined_angles.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -121,12 +121,6 @@ std::optional<GiNaC::ex> factored(const GiNaC::ex& e)
     return atoms.show(with_expanded_factors(GiNaC::factor(above)) / with_expanded_factors(GiNaC::factor(below)));
 }
 
-SortedTerm product_of(std::vector<SortedFactor> factors, const Rational& coefficient)
-{
-    SortedTerm term{coefficient, std::move(factors), {}};
-    return sorted_product({term});
-}
-
 /// What both have in common: the factors of `a` with the smaller of both exponents.
 std::vector<SortedFactor> common_factors(const std::vector<SortedFactor>& a, const std::vector<SortedFactor>& b)
 {
@@ -141,12 +135,6 @@ std::vector<SortedFactor> common_factors(const std::vector<SortedFactor>& a, con
     return common;
 }
 
-SortedTerm divided(const SortedTerm& term, std::vector<SortedFactor> divisor)
-{
-    for (SortedFactor& factor : divisor) factor.exponent = -factor.exponent;
-    return sorted_product({term, product_of(std::move(divisor), 1)});
-}
-
 /// A sum with the factors that all terms share drawn out in front.
 SortedTerm with_common_factor(const std::vector<SortedTerm>& terms)
 {
@@ -155,14 +143,6 @@ SortedTerm with_common_factor(const std::vector<SortedTerm>& terms)
     std::vector<SortedTerm> rest;
     for (const SortedTerm& term : terms) rest.push_back(divided(term, common));
     return sorted_product({sorted_sum(rest), product_of(common, 1)});
-}
-
-std::vector<SortedTerm> terms_in(const SortedTerm& sum)
-{
-    if (sum.factors.size() != 1 || sum.factors[0].terms.empty() || sum.factors[0].exponent != 1) return {sum};
-    std::vector<SortedTerm> terms = sum.factors[0].terms;
-    for (SortedTerm& term : terms) term.coefficient *= sum.coefficient;
-    return terms;
 }
 
 /// Terms with the same monomial in the variables together: (I2 - I3) w2 w3 - mgl g2.
@@ -195,60 +175,6 @@ SortedTerm with_collected_factors(const SortedTerm& product)
     return sorted_product(parts);
 }
 
-/// cos for sin and sin for cos of the same argument, squared; nothing for other factors and lower powers.
-std::optional<SortedFactor> complement(const SortedFactor& factor)
-{
-    const bool call_of_one = factor.terms.empty() && factor.base->kind == TreeKind::call && factor.exponent >= 2;
-    if (!call_of_one || (factor.base->function != Function::sin && factor.base->function != Function::cos)) return {};
-    const Function other = factor.base->function == Function::sin ? Function::cos : Function::sin;
-    SortedFactor result = factor;
-    result.base = call(other, factor.base->arguments);
-    result.exponent = 2;
-    result.key.replace(2, function_key(other).size(), function_key(other));
-    return result;
-}
-
-/// One use of T sin^2 + T cos^2 = T or of T - T sin^2 = T cos^2 (and with cos); false where there is none.
-bool join_squares(std::map<std::string, SortedTerm>& terms)
-{
-    for (const auto& [key, term] : terms)
-        for (const SortedFactor& factor : term.factors) {
-            const std::optional<SortedFactor> other = complement(factor);
-            if (!other) continue;
-            SortedFactor square = factor;
-            square.exponent = 2;
-            const SortedTerm rest = divided(term, {square});
-            const SortedTerm partner = sorted_product({rest, product_of({*other}, 1)});
-            const auto beside = terms.find(partner.key);
-            const auto whole = terms.find(rest.key);
-            const bool sum = beside != terms.end() && beside->second.coefficient == term.coefficient;
-            const bool difference = whole != terms.end() && whole->second.coefficient == -term.coefficient;
-            if (!sum && !difference) continue;
-            SortedTerm joined = sum ? rest : partner;
-            joined.coefficient = sum ? Rational(term.coefficient) : Rational(-term.coefficient);
-            const std::string used = key;
-            terms.erase(sum ? beside : whole);
-            terms.erase(used);
-            const auto [slot, fresh] = terms.emplace(joined.key, joined);
-            if (!fresh) slot->second.coefficient += joined.coefficient;
-            if (slot->second.coefficient == 0) terms.erase(slot);
-            return true;
-        }
-    return false;
-}
-
-/// The expanded sum with sin^2 + cos^2 = 1 used as often as it shortens the sum: every use takes a term away.
-SortedTerm with_joined_squares(const SortedTerm& expanded)
-{
-    std::map<std::string, SortedTerm> terms;
-    for (const SortedTerm& term : terms_in(expanded)) terms.emplace(term.key, term);
-    while (join_squares(terms)) {
-    }
-    std::vector<SortedTerm> list;
-    for (const auto& [key, term] : terms) list.push_back(term);
-    return sorted_sum(list);
-}
-
 /// A term to a whole power; not of 0 to a negative one.
 SortedTerm raised(SortedTerm term, long exponent)
 {
@@ -259,8 +185,8 @@ SortedTerm raised(SortedTerm term, long exponent)
     return sorted_product({term});
 }
 
-/// A product with sin^2 + cos^2 = 1 used in each sum that is one of its factors.
-SortedTerm with_joined_factors(const SortedTerm& product)
+/// A product with sin^2 + cos^2 = 1 and the addition theorems used in each sum that is one of its factors.
+SortedTerm with_joined_factors(const SortedTerm& product, const AngleSums& angles)
 {
     std::vector<SortedTerm> parts = {product_of({}, product.coefficient)};
     for (const SortedFactor& factor : product.factors) {
@@ -268,7 +194,7 @@ SortedTerm with_joined_factors(const SortedTerm& product)
         if (!factor.terms.empty() && factor.exponent.get_den() == 1 && abs(factor.exponent) <= factor_degree) {
             SortedFactor sum = factor;
             sum.exponent = 1;
-            const SortedTerm joined = with_joined_squares(product_of({sum}, 1));
+            const SortedTerm joined = angles.joined(with_joined_squares(product_of({sum}, 1)));
             if (joined.coefficient != 0) part = raised(joined, factor.exponent.get_num().get_si());
         }
         parts.push_back(std::move(part));
@@ -306,9 +232,11 @@ Tree shortest_form(const GiNaC::ex& expression, const SymbolTable& symbols, cons
 {
     return with_ginac("an expression could not be rewritten", [&] {
         Shortest shortest;
+        const AngleSums angles(symbols, order);
         if (expanded_terms(expression) <= term_limit) {
             const SortedTerm expanded = sort_expression(expression.expand(), symbols, order);
-            for (const SortedTerm& sum : {expanded, with_joined_squares(expanded)}) {
+            const SortedTerm squares = with_joined_squares(expanded);
+            for (const SortedTerm& sum : {expanded, squares, angles.joined(squares)}) {
                 const SortedTerm common = with_common_factor(terms_in(sum));
                 if (common.key != sum.key) shortest.offer(tree_of(common));
                 shortest.offer(tree_of(collected(sum)));
@@ -318,7 +246,7 @@ Tree shortest_form(const GiNaC::ex& expression, const SymbolTable& symbols, cons
                 const SortedTerm sorted = sort_expression(*product, symbols, order);
                 shortest.offer(tree_of(sorted));
                 shortest.offer(tree_of(with_collected_factors(sorted)));
-                shortest.offer(tree_of(with_joined_factors(sorted)));
+                shortest.offer(tree_of(with_joined_factors(sorted, angles)));
             }
         }
         shortest.offer(from_ginac(expression, symbols, order));

@@ -9,9 +9,9 @@
 namespace lagen {
 
 /// The shortest text (a pair of parentheses counts as a few characters more) among: expanded; expanded with the
-/// coefficients of each monomial in the variables factored; both with sin^2 + cos^2 = 1 used; factored as a whole; as
-/// derived. Rewritings that would cost too much are left out, by bounds that depend on the expression alone, so that
-/// the choice is the same on every run.
+/// coefficients of each monomial in the variables factored; both with sin^2 + cos^2 = 1 used, and with the addition
+/// theorems of sin and cos; factored as a whole; as derived. Rewritings that would cost too much are left out, by
+/// bounds that depend on the expression alone, so that the choice is the same on every run.
 [[nodiscard]] Tree shortest_form(const GiNaC::ex& expression, const SymbolTable& symbols, const Order& order);
 
 /// Whether numerator and denominator over a common denominator have few terms even if nothing cancels: the greatest

@@ -68,15 +68,6 @@ SortedFactor sum_factor(std::vector<SortedTerm> terms)
     return factor;
 }
 
-/// The terms of what is a sum up to its coefficient, the coefficient multiplied in.
-std::vector<SortedTerm> spread(const SortedTerm& term)
-{
-    if (term.factors.size() != 1 || term.factors[0].terms.empty() || term.factors[0].exponent != 1) return {term};
-    std::vector<SortedTerm> terms = term.factors[0].terms;
-    for (SortedTerm& inner : terms) inner.coefficient *= term.coefficient;
-    return terms;
-}
-
 // ---- trees ----
 
 Tree raised(const Tree& base, const Rational& exponent)
@@ -150,6 +141,26 @@ Tree sum_tree(const std::vector<SortedTerm>& terms)
 
 } // namespace
 
+SortedTerm product_of(std::vector<SortedFactor> factors, const Rational& coefficient)
+{
+    SortedTerm term{coefficient, std::move(factors), {}};
+    return sorted_product({term});
+}
+
+SortedTerm divided(const SortedTerm& term, std::vector<SortedFactor> divisor)
+{
+    for (SortedFactor& factor : divisor) factor.exponent = -factor.exponent;
+    return sorted_product({term, product_of(std::move(divisor), 1)});
+}
+
+std::vector<SortedTerm> terms_in(const SortedTerm& sum)
+{
+    if (sum.factors.size() != 1 || sum.factors[0].terms.empty() || sum.factors[0].exponent != 1) return {sum};
+    std::vector<SortedTerm> terms = sum.factors[0].terms;
+    for (SortedTerm& term : terms) term.coefficient *= sum.coefficient;
+    return terms;
+}
+
 SortedTerm sorted_product(const std::vector<SortedTerm>& factors)
 {
     SortedTerm result;
@@ -173,7 +184,7 @@ SortedTerm sorted_sum(const std::vector<SortedTerm>& summands)
 {
     std::map<std::string, SortedTerm> merged;
     for (const SortedTerm& summand : summands)
-        for (const SortedTerm& term : spread(summand)) {
+        for (const SortedTerm& term : terms_in(summand)) {
             const auto [slot, fresh] = merged.emplace(term.key, term);
             if (!fresh) slot->second.coefficient += term.coefficient;
         }
@@ -192,7 +203,7 @@ SortedTerm sorted_sum(const std::vector<SortedTerm>& summands)
 
 Tree tree_of(const SortedTerm& term)
 {
-    const std::vector<SortedTerm> terms = spread(term);
+    const std::vector<SortedTerm> terms = terms_in(term);
     if (terms.size() > 1) return sum_tree(terms);
     auto [negative, tree] = signed_tree(term);
     return negative ? negate(std::move(tree)) : std::move(tree);

@@ -34,6 +34,12 @@ struct SortedTerm {
 [[nodiscard]] SortedTerm sorted_product(const std::vector<SortedTerm>& factors);
 [[nodiscard]] SortedTerm sorted_sum(const std::vector<SortedTerm>& terms);
 
+/// coefficient times the factors; a term by factors that it may have or not; the terms of what is a sum up to its
+/// coefficient, that multiplied in.
+[[nodiscard]] SortedTerm product_of(std::vector<SortedFactor> factors, const Rational& coefficient);
+[[nodiscard]] SortedTerm divided(const SortedTerm& term, std::vector<SortedFactor> divisor);
+[[nodiscard]] std::vector<SortedTerm> terms_in(const SortedTerm& sum);
+
 /// The part of a function's key that stands for the function, after the two characters of its group.
 [[nodiscard]] std::string function_key(Function function);
 

@@ -211,6 +211,44 @@ TEST_CASE("an action whose fields at the identity are one, and that is none, is 
     CHECK(turned.err.find("refuted: action (w2, th)\n") != std::string::npos);
 }
 
+TEST_CASE("rates Dt of what a reduction fixes or forgets are written out in velocities")
+{
+    const std::string cart = written_model("cart.toml", R"toml([base]
+coordinates = ["x", "th"]
+[algebroid]
+kind = "tangent"
+[definitions]
+bob = "[x + sin(th), -cos(th)]"
+"speed(X)" = "dot(Dt(X), Dt(X))"
+T = "3*Dt(x)^2/2 + speed(bob)/2"
+[lagrangian]
+L = "T - 9.81*bob[2]"
+[observables]
+kinetic = "T"
+rate = "Dt(bob)"
+twice = "2*speed(bob)"
+[invariants]
+momentum = "3*Dt(x) + Dt(bob)[1]"
+[scene.default]
+initial = { x = 0.2, th = 0.7, v_x = 0.4, v_th = 1 }
+)toml");
+    for (const std::vector<std::string>& how :
+         {std::vector<std::string>{"--group", "R", "--action", "x = x + W[1,2]"}, {"--routh", "x"}}) {
+        const std::string reduced = fresh_folder() + "/reduced.toml";
+        std::vector<std::string> arguments{"reduce", cart, "-o", reduced};
+        arguments.insert(arguments.end(), how.begin(), how.end());
+        const Outcome outcome = call(arguments);
+        INFO(outcome.err);
+        REQUIRE(outcome.code == 0);
+        const std::string file = read_text(reduced);
+        CHECK(file.find("rate = \"[v_x + cos(th)*v_th, sin(th)*v_th]\"\n") != std::string::npos);
+        CHECK(file.find("kinetic = \"T\"\n") != std::string::npos);
+        CHECK(file.find("momentum = \"3*v_x + v_x + cos(th)*v_th\"\n") != std::string::npos);
+        CHECK(file.find("Dt") == std::string::npos);
+        CHECK(call({"check", reduced}).code == 0);
+    }
+}
+
 TEST_CASE("a half-plane is invariant where its boundary is scaled")
 {
     const std::string half_plane = written_model("half_plane.toml", R"toml([base]

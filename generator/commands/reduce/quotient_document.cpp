@@ -62,6 +62,7 @@ QuotientDocument::QuotientDocument(const GroupReduction& reduction, const std::v
     : reduction_(reduction), document_(reduction.model, settings, "by " + reduction.group),
       taken_(symbol_names(reduction.model))
 {
+    document_.write_out_rates(reduction.model);
     for (const Definition& each : reduction.model.definitions) taken_.push_back(each.name);
     for (const NodeId each : reduction.quotient.w) w_.push_back(reduction.graph.input_name(each));
     taken_.insert(taken_.end(), w_.begin(), w_.end());

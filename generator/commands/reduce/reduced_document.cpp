@@ -2,11 +2,70 @@
 #include "commands/reduce/reduced_document.hpp"
 
 #include "diagnostic.hpp"
+#include "expression/parse.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <set>
 
 namespace lagen {
+namespace {
+
+/// Whether one of these functions is applied in a tree as parsed.
+bool applies(const Tree& tree, const std::set<std::string>& functions)
+{
+    if (tree->kind == TreeKind::apply && functions.contains(tree->name)) return true;
+    return std::ranges::any_of(tree->arguments, [&](const Tree& each) { return applies(each, functions); });
+}
+
+/// "a", "[a, b]", "[[a, b], [c, d]]"
+std::string array_text(const ArrayValue& value)
+{
+    if (value.shape.rank == Rank::scalar) return to_text(value.entries[0]);
+    std::vector<std::string> rows;
+    for (std::size_t i = 0; i < value.shape.rows; ++i) {
+        std::vector<std::string> row;
+        for (std::size_t j = 0; j < value.shape.columns; ++j)
+            row.push_back(to_text(value.entries[i * value.shape.columns + j]));
+        const std::string text = fmt::format("{}", fmt::join(row, ", "));
+        rows.push_back(value.shape.rank == Rank::matrix ? "[" + text + "]" : text);
+    }
+    return fmt::format("[{}]", fmt::join(rows, ", "));
+}
+
+} // namespace
+
+void ReducedDocument::write_out_rates(const Model& model)
+{
+    std::set<std::string> rates{"Dt"}; // and functions of the model that are made of it
+    for (std::size_t before = 0; before != rates.size();) {
+        before = rates.size();
+        for (const Definition& each : model.definitions)
+            if (!each.parameters.empty() && applies(each.body, rates)) rates.insert(each.name);
+    }
+    for (const Definition& each : model.definitions) {
+        if (!applies(each.body, rates)) continue;
+        if (each.parameters.empty())
+            entry_in(at("definitions"), each.name) =
+                toml_string(array_text(model.observer.close_array(each.body, true)));
+        else
+            std::erase_if(at("definitions").entries,
+                          [&](const TomlEntry& entry) { return entry.name().starts_with(each.name + "("); });
+    }
+    for (const char* block : {"forces", "dissipation", "states", "observables", "invariants"}) {
+        TomlValue* table = find(block);
+        if (table == nullptr) continue;
+        for (TomlEntry& entry : table->entries) {
+            if (entry.value.kind != TomlKind::string) continue;
+            const Tree tree = parse_expression(whole_text(block, entry.value.text.text));
+            if (!applies(tree, rates)) continue;
+            try {
+                entry.value = toml_string(array_text(model.observer.close_array(tree, true)));
+            } catch (const UnknownSymbol&) { // a running index: the reader of the file says what it makes of the rate
+            }
+        }
+    }
+}
 
 ReducedDocument::ReducedDocument(const Model& model, const std::vector<Setting>& settings, const std::string& how)
     : document_(parse_toml(model.file))

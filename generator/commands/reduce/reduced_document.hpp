@@ -15,6 +15,10 @@ class ReducedDocument {
     /// With the values that `settings` give to parameters, and the title "TITLE, reduced HOW".
     ReducedDocument(const Model& model, const std::vector<Setting>& settings, const std::string& how);
 
+    /// Writes the velocities out where a rate Dt stands, also by way of a definition: of a coordinate that the
+    /// reduction fixes or forgets Dt says something else.
+    void write_out_rates(const Model& model);
+
     /// A top-level table or key, made where it is missing.
     [[nodiscard]] TomlValue& at(const std::string& block) { return entry_in(document_, block); }
     /// The same, or nullptr where it is missing.

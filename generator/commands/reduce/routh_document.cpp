@@ -24,6 +24,7 @@ class RouthDocument {
 
     std::string write()
     {
+        document_.write_out_rates(model_);
         TomlValue& parameters = document_.at("parameters");
         for (const std::size_t k : cyclic_) // until a scene says otherwise
             entry_in(parameters, momentum(k)) = toml_string("0");
