@@ -4,6 +4,7 @@
 #include "commands/line/options.hpp"
 #include "commands/machine/places.hpp"
 #include "commands/machine/write_file.hpp"
+#include "commands/scene/exact_start.hpp"
 #include "commands/scene/range.hpp"
 #include "commands/scene/scene_options.hpp"
 #include "commands/scene/start_state.hpp"
@@ -89,8 +90,8 @@ std::string solution_text(const Solution& solution, const Graph& graph)
     std::string text = fmt::format("{}, scene {}: {} relative equilibri{} found\n", solution.model.name, solution.scene,
                                    all.found.size(), all.found.size() == 1 ? "um" : "a");
     for (std::size_t i = 0; i < all.conserved.size(); ++i)
-        text += fmt::format("  F{} = {} = {}{}\n", i + 1, solution.conserved[i], number(all.conserved[i].level),
-                            all.conserved[i].casimir ? " (Casimir)" : "");
+        text += fmt::format("  F{} = {} = {}{}\n", i + 1, solution.conserved[i],
+                            number(all.conserved[i].level.middle()), all.conserved[i].casimir ? " (Casimir)" : "");
     for (std::size_t e = 0; e < all.found.size(); ++e) {
         const RelativeEquilibrium& found = all.found[e];
         text += fmt::format("\n{}: {}: {}\n", e + 1, to_text(found.stability), reason_of(found));
@@ -132,7 +133,11 @@ std::string solution_json(const Solution& solution, const Graph& graph)
     json.begin_object().key("model").value(solution.model.name).key("scene").value(solution.scene);
     json.key("conserved").begin_array();
     for (std::size_t i = 0; i < all.conserved.size(); ++i) {
-        json.begin_object().key("function").value(solution.conserved[i]).key("value").value(all.conserved[i].level);
+        json.begin_object()
+            .key("function")
+            .value(solution.conserved[i])
+            .key("value")
+            .value(all.conserved[i].level.middle());
         json.key("casimir").value(all.conserved[i].casimir).end_object();
     }
     json.end_array().key("relative_equilibria").begin_array();
@@ -207,7 +212,7 @@ ExitCode run_solve(Arguments arguments)
     for (const Setting& setting : options.named("initial")) set_initial(model, scene, setting);
     scene = in_form(model, scene, "hamilton");
     const SceneValues values = evaluate_scene(model, scene);
-    set_parameters(checked, finite_numbers(values.parameters, scene));
+    put_exact_parameters(checked, scene, finite_numbers(values.parameters, scene));
     const System& system = checked.system;
     Graph graph = system.graph;
     std::optional<HamiltonianNodes> H;
@@ -221,12 +226,7 @@ ExitCode run_solve(Arguments arguments)
 
     StartState to_momenta([&](bool) -> const CheckedModel& { return checked; }, "hamilton");
     (void)to_momenta.prepare(!values.momenta.empty(), true);
-    const std::vector<long double> state = to_momenta(values);
-    std::map<std::string, double> start;
-    for (std::size_t i = 0; i < system.n(); ++i)
-        start[graph.input_name(system.algebroid.x[i])] = static_cast<double>(state[i]);
-    for (std::size_t a = 0; a < system.r(); ++a)
-        start[graph.input_name(system.mu[a])] = static_cast<double>(state[system.n() + a]);
+    const std::vector<NodeId> start = exact_start(graph, system, scene, to_momenta(values));
     EquilibriumSearch search;
     search.starts = static_cast<std::size_t>(starts);
     Solution solution{model, scene.name, relative_equilibria(graph, system, *H, start, search), {}, {}};
@@ -235,7 +235,8 @@ ExitCode run_solve(Arguments arguments)
     for (const ConservedFunction& each : solution.equilibria.conserved)
         solution.conserved.push_back(to_text(symbolic.shortest(symbolic.lower(to_tree(graph, each.value)))));
     for (const RelativeEquilibrium& found : solution.equilibria.found) {
-        std::map<std::string, double> inputs = start;
+        std::map<std::string, double> inputs;
+        for (const NodeId x : system.algebroid.x) inputs[graph.input_name(x)] = 0; // cyclic ones
         for (const auto& [parameter, value] : system.parameter_values)
             inputs[graph.input_name(parameter)] = graph.value(value).get_d();
         for (std::size_t k = 0; k < found.z.size(); ++k)

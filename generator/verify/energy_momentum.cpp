@@ -57,7 +57,7 @@ void EquilibriumCertificate::choose(const std::vector<FunctionJet>& jets)
     for (std::size_t i = 0; i < conserved_.size(); ++i)
         if (span.add(vector_of(middles(jets[i + 1].slope)))) chosen_.push_back(i);
     for (std::size_t i = 0; i < conserved_.size(); ++i) {
-        if (conserved_[i].casimir) continue;
+        if (conserved_[i].flowless) continue;
         const OrthonormalSpan::Vector flow = vector_of(middles(jets[i + 1].flow));
         if (!(length_of(flow) > nearly) || !span.add(flow)) continue;
         directions_.push_back(doubles_of(span[span.size() - 1]));
@@ -140,8 +140,7 @@ proof::NewtonEquations EquilibriumCertificate::equations(const std::vector<Ball>
     }
     for (std::size_t i = 0; i < s; ++i) {
         Ball& value = out.value.at(f + i, 0);
-        arb_sub(value.get(), jets[chosen_[i] + 1].value.get(), exact_ball(conserved_[chosen_[i]].level).get(),
-                full_bits);
+        arb_sub(value.get(), jets[chosen_[i] + 1].value.get(), conserved_[chosen_[i]].level.get(), full_bits);
     }
     return out;
 }
@@ -172,7 +171,7 @@ bool EquilibriumCertificate::is_regular_gauge() const
     return proof::solved(pairs, BallMatrix::identity(gauge_.size()), full_bits).has_value();
 }
 
-/// Simple fractions at which dH is exactly a combination of the dF_S; empty where there are none.
+/// Simple fractions at which dH is exactly a combination of the dF_S, and F on its level; empty where there are none.
 std::vector<Rational> EquilibriumCertificate::rational_point(const Doubles& z) const
 {
     std::vector<Rational> point;
@@ -183,6 +182,8 @@ std::vector<Rational> EquilibriumCertificate::rational_point(const Doubles& z) c
     }
     const auto functions = energy_.exactly_at(point);
     if (!functions) return {};
+    for (std::size_t i = 0; i < conserved_.size(); ++i)
+        if (!arb_overlaps(conserved_[i].level.get(), Ball((*functions)[i + 1][0], full_bits).get())) return {};
     const std::size_t size = std::max(energy_.n(), chosen_.size() + 1);
     const auto rank_with = [&](bool energy) {
         std::vector<Rational> rows(size * size, Rational(0));

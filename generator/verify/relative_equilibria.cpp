@@ -39,9 +39,10 @@ constexpr slong search_bits = 64;
 class EquilibriumFinder {
   public:
     EquilibriumFinder(Graph& graph, const System& system, const HamiltonianNodes& hamiltonian,
-                      const std::map<std::string, double>& start)
-        : graph_(graph), system_(system), start_(start)
+                      const std::vector<NodeId>& start)
+        : graph_(graph), system_(system)
     {
+        put_start(start);
         phase_ = hamilton_system(graph, system, hamiltonian);
         std::vector<NodeId> rates = phase_.xdot;
         rates.insert(rates.end(), phase_.mudot.begin(), phase_.mudot.end());
@@ -51,6 +52,7 @@ class EquilibriumFinder {
         collect(hamiltonian);
         std::vector<NodeId> F;
         for (const ConservedFunction& each : out_.conserved) F.push_back(each.value);
+        take_levels(F);
         const NodeId H = fixed(phase_.hamiltonian);
         energy_.emplace(graph, system_at_, H, F, out_.coordinates);
         for (std::size_t i = 0; i < system.n(); ++i)
@@ -65,9 +67,6 @@ class EquilibriumFinder {
         const std::size_t n = energy_->n();
         Doubles z0;
         for (const NodeId z : out_.coordinates) z0.push_back(start_.at(graph_.input_name(z)));
-        const std::vector<FunctionJet> jets = energy_->at(exact_balls(z0));
-        for (std::size_t i = constraints_; i < out_.conserved.size(); ++i)
-            out_.conserved[i].level = jets[i + 1].value.middle();
         const std::size_t base = n - system_.mu.size();
         const auto size = [&](std::size_t from, std::size_t to) {
             double largest = 0;
@@ -93,6 +92,24 @@ class EquilibriumFinder {
     }
 
   private:
+    void put_start(const std::vector<NodeId>& start)
+    {
+        const std::vector<double> numbers = evaluate<double>(graph_, start, {});
+        for (std::size_t k = 0; k < start.size(); ++k) {
+            const NodeId z = k < system_.n() ? system_.algebroid.x[k] : system_.mu[k - system_.n()];
+            at_start_.emplace_back(z, start[k]);
+            start_[graph_.input_name(z)] = numbers[k];
+        }
+    }
+
+    /// F_i = c_i; base constraints are 0.
+    void take_levels(const std::vector<NodeId>& F)
+    {
+        const proof::Evaluation there(graph_, substitute(graph_, F, at_start_));
+        const std::vector<Ball> levels = there.enclose({}, AugmentedEnergy::precision);
+        for (std::size_t i = constraints_; i < F.size(); ++i) out_.conserved[i].level = levels[i];
+    }
+
     [[nodiscard]] NodeId fixed(NodeId node) { return substitute(graph_, {&node, 1}, system_.parameter_values)[0]; }
 
     /// Constraints, Casimirs, and what is found: Casimirs of E* and functions linear in the momenta.
@@ -111,10 +128,10 @@ class EquilibriumFinder {
             const NodeId only[] = {value};
             if (depends_on_any(graph_, only, out_.cyclic)) continue;
             if (!is_independent(value)) continue;
-            const bool casimir = generates_nothing(value);
+            const bool flowless = generates_nothing(value, out_.coordinates);
             const std::vector<NodeId> by_momenta = gradient(graph_, value, system_.mu);
-            if (!casimir && depends_on_any(graph_, by_momenta, system_.mu)) continue;
-            out_.conserved.push_back({value, 0, casimir});
+            if (!flowless && depends_on_any(graph_, by_momenta, system_.mu)) continue;
+            out_.conserved.push_back({value, {}, flowless, flowless && generates_nothing(value, out_.cyclic)});
             if (k < system_.functions.constraints.size()) constraints_ = out_.conserved.size();
         }
     }
@@ -157,9 +174,9 @@ class EquilibriumFinder {
         }
         return false;
     }
-    [[nodiscard]] bool generates_nothing(NodeId f)
+    [[nodiscard]] bool generates_nothing(NodeId f, const std::vector<NodeId>& coordinates)
     {
-        return std::ranges::all_of(out_.coordinates,
+        return std::ranges::all_of(coordinates,
                                    [&](NodeId z) { return is_proved_zero(poisson_bracket(graph_, system_at_, f, z)); });
     }
     /// Whether a whole turn of z changes nothing: not H, not what is conserved, not rho and C.
@@ -178,7 +195,7 @@ class EquilibriumFinder {
     {
         for (std::size_t i = 0; i < F.size(); ++i)
             for (std::size_t j = 0; j < i; ++j)
-                if (!out_.conserved[i].casimir && !out_.conserved[j].casimir &&
+                if (!out_.conserved[i].flowless && !out_.conserved[j].flowless &&
                     !is_proved_zero(poisson_bracket(graph_, system_at_, F[i], F[j])))
                     return false;
         return true;
@@ -209,8 +226,8 @@ class EquilibriumFinder {
                 for (std::size_t l = 0; l < n; ++l)
                     out.slopes[k * all + l] -= lambda[i] * F.curvature.at(k, l).middle();
             }
-            out.values[n + i] = F.value.middle() - out_.conserved[i].level;
-            out.size = std::max({out.size, std::fabs(out_.conserved[i].level), 1.0});
+            out.values[n + i] = F.value.middle() - out_.conserved[i].level.middle();
+            out.size = std::max({out.size, std::fabs(out_.conserved[i].level.middle()), 1.0});
         }
         return out;
     }
@@ -267,7 +284,8 @@ class EquilibriumFinder {
 
     Graph& graph_;
     const System& system_;
-    const std::map<std::string, double>& start_;
+    std::map<std::string, double> start_;
+    Replacements at_start_;
     System system_at_; ///< with numbers for the parameters
     PhaseSystem phase_;
     RelativeEquilibria out_;
@@ -283,7 +301,7 @@ class EquilibriumFinder {
 } // namespace
 
 RelativeEquilibria relative_equilibria(Graph& graph, const System& system, const HamiltonianNodes& hamiltonian,
-                                       const std::map<std::string, double>& start, const EquilibriumSearch& search)
+                                       const std::vector<NodeId>& start, const EquilibriumSearch& search)
 {
     return EquilibriumFinder(graph, system, hamiltonian, start).run(search);
 }

@@ -37,8 +37,9 @@ struct RelativeEquilibrium {
 
 struct ConservedFunction {
     NodeId value = 0;
-    double level = 0;     ///< at the start
-    bool casimir = false; ///< it generates no flow
+    proof::Ball level;     ///< at the start
+    bool flowless = false; ///< it generates no flow of the coordinates z
+    bool casimir = false;  ///< nor of cyclic ones
 };
 
 struct RelativeEquilibria {
@@ -53,11 +54,11 @@ struct EquilibriumSearch {
     std::uint64_t seed = 1;
 };
 
-/// At the parameter values of `system`, without forces and explicit time. `start`: by names, the point whose levels are
-/// taken, (x, mu). `graph`: a copy of the system's with H.
+/// At the parameter values of `system`, without forces and explicit time. `start`: the point (x, mu) whose levels are
+/// taken, by nodes without inputs. `graph`: a copy of the system's with H.
 [[nodiscard]] RelativeEquilibria relative_equilibria(Graph& graph, const System& system,
                                                      const HamiltonianNodes& hamiltonian,
-                                                     const std::map<std::string, double>& start,
+                                                     const std::vector<NodeId>& start,
                                                      const EquilibriumSearch& search = {});
 
 } // namespace lagen

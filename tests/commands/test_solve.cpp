@@ -100,6 +100,35 @@ TEST_CASE("Casimirs hold the level of the start, whatever energy is made of, and
                                        "initial = { x = 0, v_x = 0 }\n")) == "1 spectrally_unstable, 2 stable");
 }
 
+TEST_CASE("at a bifurcation in decimal numbers nothing is proved of stability")
+{
+    // H = (p^2 + j^2)/2 + b j^2 q^2/2 - c q^2/2 - q^4 with b j^2 = c: q = 0 is a maximum of -q^4. No double is 9/10.
+    const auto at = [](const std::string& j) {
+        return equilibria_of_text("[parameters]\nb = 0.1\nc = 0.081\n[base]\ncoordinates = [\"q\", \"ph\"]\n[fibre]\n"
+                                  "coordinates = [\"v\", \"w\"]\nmomenta = [\"p\", \"j\"]\n[algebroid]\nkind = "
+                                  "\"tangent\"\n[hamiltonian]\nH = \"(p^2 + j^2)/2 + b*j^2*q^2/2 - c*q^2/2 - q^4\"\n"
+                                  "[scene.default]\ninitial = { q = 0, ph = 0, p = 0, j = " +
+                                  j + " }\n");
+    };
+    const auto stability_at_rest = [&](const std::string& j) {
+        for (const json::Value& each : at(j))
+            if (std::abs(each["state"]["q"].number()) < 1e-9) return each["stability"].text;
+        return std::string();
+    };
+    CHECK(stability_at_rest("0.9") == "undecided");
+    CHECK(stability_at_rest("0.9000001") == "stable");
+    CHECK(stability_at_rest("0.8999999") == "spectrally_unstable");
+}
+
+TEST_CASE("parameters of the scene are those of its equilibria")
+{
+    const auto found = equilibria_of_text("[parameters]\nk = 1\n[base]\ncoordinates = [\"x\"]\n[algebroid]\nkind = "
+                                          "\"tangent\"\n[lagrangian]\nL = \"v_x^2/2 - (x - k)^2\"\n[scene.default]\n"
+                                          "parameters = { k = \"10/3\" }\ninitial = { x = 0, v_x = 0 }\n");
+    REQUIRE(found.size() == 1);
+    CHECK(found[0]["exact"]["x"].text == "10/3");
+}
+
 TEST_CASE("a second variation that is definite says with which multipliers")
 {
     // Two springs that push outwards in a field that turns: H is indefinite at rest, H - lambda (x p_y - y p_x) is not
