@@ -72,14 +72,15 @@ mpz_class whole_factor(const Tree& tree)
     }
 }
 
-/// "x != 0", "y + 1 != 0" of 2*x*(y + 1): factors one by one, as the signs of a domain are looked for.
+/// "x > 0", "y + 1 > 0" of 2*x*(y + 1): factors one by one, as the signs of a domain are looked for. A run would step
+/// over x != 0.
 std::string conditions_of(const Tree& minor)
 {
     const std::vector<Tree> factors = minor->kind == TreeKind::multiply ? minor->arguments : std::vector{minor};
     std::string text;
     for (const Tree& factor : factors)
         if (factor->kind != TreeKind::number)
-            text += fmt::format("{}\"{} != 0\"", text.empty() ? "" : ", ", to_text(factor));
+            text += fmt::format("{}\"{} > 0\"", text.empty() ? "" : ", ", to_text(factor));
     return text;
 }
 
@@ -159,7 +160,12 @@ class FrameBuilder {
                 gram.push_back(graph.sum(terms));
             }
         const NodeId determinant = determinant_of(graph, gram, m_, first_places(m_), first_places(m_));
-        return ZeroDecider(graph, work_->setting()).proves_nonzero(determinant);
+        const ZeroDecider decider(graph, work_->setting());
+        if (decider.proves_nonzero(determinant)) return true;
+        if (m_ > 1) return false;
+        std::vector<NodeId> terms; // x^i df/dx^i, a number on quadrics and other homogeneous level sets
+        for (std::size_t i = 0; i < n_; ++i) terms.push_back(graph.multiply(x_[i], rows_.B[i]));
+        return decider.proves_nonzero(graph.sum(terms));
     }
 
     LevelSetFrame graph_frame(const Places& kept)
@@ -247,7 +253,9 @@ class FrameBuilder {
         else
             text += fmt::format("no {} of its coordinates are proved to parametrise all of it", n_ - m_);
         if (!choice.first) throw ModelError(text, request_.where, "the constraints fix one of them: keep others");
-        std::string hint = fmt::format("[base] domain = [{}] makes a chart of the first", conditions_of(*choice.first));
+        std::string hint =
+            fmt::format("[base] domain = [{}] makes a chart of the first, and < 0 the one on the other side",
+                        conditions_of(*choice.first));
         if (is_curve && regular) hint += "; a name of your own in [fibre], \"u\", takes a tangent that needs no chart";
         throw ModelError(text + fmt::format(": it needs several charts, where the minors {} are not 0", choice.minors),
                          request_.where, hint);

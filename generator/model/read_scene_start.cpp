@@ -28,8 +28,12 @@ bool is_among(const std::vector<Symbol>& symbols, const std::string& name)
     for (const std::vector<std::string>& more :
          {declared_names(fibre.coordinates), declared_names(fibre.momenta), reader.names.of(Role::state)})
         known.insert(known.end(), more.begin(), more.end());
-    std::string hint =
-        reader.model.control || is_nonholonomic(reader.model) ? "" : hint_for_rate(entry.name(), reader.rates);
+    std::string hint;
+    if (std::ranges::find(reader.rates, entry.name(), &CoordinateRate::rate) != reader.rates.end())
+        hint = fmt::format("it follows from the fibre coordinates: {}",
+                           fmt::join(declared_names(fibre.coordinates), ", "));
+    else if (!reader.model.control && !is_nonholonomic(reader.model))
+        hint = hint_for_rate(entry.name(), reader.rates);
     if (hint.empty()) hint = hint_for_momentum(entry.name(), reader.rates);
     if (hint.empty()) hint = hint_for(entry.name(), known, "coordinates");
     throw ModelError(fmt::format("scene '{}' gives an initial value to '{}', which is no coordinate of the model",

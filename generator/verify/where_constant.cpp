@@ -2,6 +2,7 @@
 #include "verify/where_constant.hpp"
 
 #include "graph/calculus/determinant.hpp"
+#include "graph/calculus/differentiate.hpp"
 #include "graph/core/lower.hpp"
 #include "graph/core/operators.hpp"
 #include "verify/reduced_fraction.hpp"
@@ -23,7 +24,29 @@ WhereConstant::WhereConstant(Graph& graph, const ProofSetting& setting, const Pr
     : graph_(graph), setting_(setting), defined_(std::move(setting_.defined)), conserved_(std::move(conserved))
 {
     setting_.defined.clear();
+    drop_what_is_stepped_over();
     decider_ = std::make_unique<ZeroDecider>(graph, setting_, budget);
+}
+
+/// A run ends where it would leave f > 0; it steps over f != 0, unless f has one sign and vanishes on something smaller
+/// than a wall.
+void WhereConstant::drop_what_is_stepped_over()
+{
+    ProofSetting open = setting_;
+    std::erase_if(open.domain, [&](NodeId each) { return graph_.op(each) == Op::not_equal; });
+    const auto decider = ZeroDecider::make(graph_, open, {});
+    std::erase_if(setting_.domain, [&](NodeId each) {
+        if (graph_.op(each) != Op::not_equal) return false;
+        const NodeId f = condition_of(graph_, each);
+        return !depends_only_on_parameters(f) && !decider->proves_nonnegative(f) &&
+               !decider->proves_nonnegative(graph_.negate(f));
+    });
+}
+
+bool WhereConstant::depends_only_on_parameters(NodeId f)
+{
+    const NodeId only[] = {f};
+    return !depends_on_any(graph_, only, setting_.variables);
 }
 
 bool WhereConstant::is_conserved(NodeId f)

@@ -362,8 +362,10 @@ std::string drift_warnings(const RunOutcome& outcome)
             if (is_number(drift.moved_at) && !changes_by_itself(outcome, drift))
                 text +=
                     fmt::format("warning: {} should be constant and moved by {}: by more than 1e-3 of its size {} "
-                                "from t = {} on; a smaller step or tolerance keeps it better\n",
-                                drift.name, brief(drift.max_drift, 3), brief(drift.size, 3), brief(drift.moved_at, 9));
+                                "from t = {} on{}\n",
+                                drift.name, brief(drift.max_drift, 3), brief(drift.size, 3), brief(drift.moved_at, 9),
+                                outcome.status == "left_domain" ? ", where the run left the domain"
+                                                                : "; a smaller step or tolerance keeps it better");
     return text;
 }
 
