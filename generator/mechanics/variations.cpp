@@ -56,6 +56,24 @@ ActionVariations action_variations(Graph& graph, const System& system, const Var
     return out;
 }
 
+std::vector<NodeId> terms_of_first_variation(Graph& graph, const System& system, const std::vector<NodeId>& s,
+                                             const std::vector<NodeId>& sdot)
+{
+    const Algebroid& algebroid = system.algebroid;
+    const LagrangianNodes lagrangian = lagrangian_nodes(graph, system);
+    const std::vector<NodeId>& p = lagrangian.fibre.momenta;
+    const std::vector<NodeId> turned = constant_bracket(graph, algebroid, algebroid.y, s);
+    std::vector<NodeId> terms;
+    for (std::size_t a = 0; a < algebroid.r(); ++a) {
+        std::vector<NodeId> alone(algebroid.r(), graph.constant(0));
+        alone[a] = s[a];
+        terms.push_back(contraction(graph, lagrangian.dL_dx, base_velocity(graph, algebroid, alone)));
+    }
+    for (std::size_t a = 0; a < algebroid.r(); ++a) terms.push_back(graph.multiply(p[a], sdot[a]));
+    for (std::size_t a = 0; a < algebroid.r(); ++a) terms.push_back(graph.multiply(p[a], turned[a]));
+    return terms;
+}
+
 std::string jacobi_rate_name(const std::string& state)
 {
     return "d/dt " + state;

@@ -40,6 +40,12 @@ struct ActionVariations {
 [[nodiscard]] ActionVariations action_variations(Graph& graph, const System& system, const Variation& delta,
                                                  const std::vector<NodeId>& s);
 
+/// The separate terms of delta L, shape (3 r): rho_a(L) s^a, then p_a sdot^a, then p_a C^a_bc y^b s^c. Each may cancel
+/// with others of them: their sizes, and not that of a sum, tell what the round-off of delta L is to be compared with.
+[[nodiscard]] std::vector<NodeId> terms_of_first_variation(Graph& graph, const System& system,
+                                                           const std::vector<NodeId>& s,
+                                                           const std::vector<NodeId>& sdot);
+
 /// The name that stands for the rate of the state delta y^a of a Jacobi field, which follows from the accelerations.
 [[nodiscard]] std::string jacobi_rate_name(const std::string& state);
 

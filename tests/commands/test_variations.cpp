@@ -43,6 +43,28 @@ TEST_CASE("motions are critical points of the action, and those of a coarse meth
     CHECK(others["value"].number() == Approx(exact["value"].number()).epsilon(1e-12));
 }
 
+TEST_CASE("where L does not depend on x a first variation is told from its terms, which cancel alone too", "[run]")
+{
+    for (const char* model : {"rigid_body.toml", "half_plane.toml"}) {
+        const json::Value action = action_of({model, "--variations", "2", "--tolerance", "1e-13"});
+        INFO(model);
+        CHECK(action["parts"].number() > 1);
+        CHECK(action["first"].number() < 1e-12 * action["parts"].number());
+        for (const json::Value& base : action["base"].entries) CHECK(base.number() == 0);
+        const json::Value coarse = action_of({model, "--variations", "2", "--method", "rk4", "--step", "0.5"});
+        CHECK(coarse["parts"].number() == Approx(action["parts"].number()).epsilon(0.05));
+    }
+}
+
+TEST_CASE("the terms of a first variation bound what its parts come to", "[run]")
+{
+    // A part has 2 r terms at most: by Schwarz's inequality it is at most sqrt(2 r) = 2.4.. times the bound.
+    const json::Value action = action_of({"heavy_top.toml", "--variations", "3"});
+    for (const char* part : {"base", "fibre"})
+        for (const json::Value& value : action[part].entries)
+            CHECK(std::abs(value.number()) < 3 * action["parts"].number());
+}
+
 TEST_CASE("the second variation of a short motion is positive, and that beyond a conjugate point is not always",
           "[run]")
 {

@@ -170,7 +170,8 @@ double number_of(const std::string& text)
     return text.empty() ? std::nan("") : std::strtod(text.c_str(), nullptr);
 }
 
-/// The largest first variation, its largest part, and the least and largest second variation.
+/// The largest first variation, what its separate terms come to before they cancel, and the least and largest second
+/// variation. The two parts may be round-off both, where L does not depend on x: they are no measure of it.
 struct ActionSizes {
     double first = 0, part = 0, least = INFINITY, largest = -INFINITY;
 };
@@ -180,7 +181,7 @@ ActionSizes sizes_of(const ActionReport& action)
     for (std::size_t k = 0; k < action.base.size(); ++k) {
         const double base = number_of(action.base[k]), fibre = number_of(action.fibre[k]);
         sizes.first = std::max(sizes.first, std::fabs(base + fibre));
-        sizes.part = std::max({sizes.part, std::fabs(base), std::fabs(fibre)});
+        sizes.part = std::max(sizes.part, std::sqrt(number_of(action.squares[k])));
         sizes.least = std::min(sizes.least, number_of(action.second[k]));
         sizes.largest = std::max(sizes.largest, number_of(action.second[k]));
     }

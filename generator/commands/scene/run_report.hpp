@@ -32,10 +32,11 @@ struct Drift {
     std::string size{}, moved_at{}; ///< of f, and when it first moved by more than 1e-3 of that
 };
 
-/// The action over a run, its first variations as their two parts, and its second variations. Numbers as printed.
+/// The action over a run, its first variations as their two parts, its second variations, and for each the square of a
+/// bound of the integrals of |term| of the terms of the first variation. Numbers as printed.
 struct ActionReport {
     std::string action;
-    std::vector<std::string> base, fibre, second; ///< one a variation
+    std::vector<std::string> base, fibre, second, squares; ///< one a variation
 };
 
 struct RunOutcome {

@@ -48,6 +48,7 @@ class VariationStates {
             add(part_name(k, "base"), to_tree(graph_, action.base));
             add(part_name(k, "fibre"), to_tree(graph_, action.fibre));
             add(part_name(k, "second"), to_tree(graph_, action.second));
+            add(part_name(k, "squares"), to_tree(graph_, scaled_squares(s, sdot, times)));
         }
     }
 
@@ -81,6 +82,18 @@ class VariationStates {
         text_ += fmt::format("{}' = {}\n", state_name, to_text(state.rate));
         model_.states.push_back(std::move(state));
         if (scene_.observe) scene_.observe->push_back({state_name, name(state_name), {}});
+    }
+
+    /// (end - start) sum of the squares of the terms f of delta L: its integral is at least (integral of |f|)^2 of
+    /// each, by Schwarz's inequality, and smooth, where |f| has corners that a step control would stumble over.
+    [[nodiscard]] NodeId scaled_squares(const std::vector<NodeId>& s, const std::vector<NodeId>& sdot,
+                                        const SampleTimes& times)
+    {
+        std::vector<NodeId> squares;
+        for (const NodeId term : terms_of_first_variation(graph_, system_, s, sdot))
+            squares.push_back(graph_.power(term, 2));
+        const Rational duration(static_cast<double>(times.end - times.start));
+        return graph_.multiply(graph_.constant(duration), graph_.sum(squares));
     }
 
     /// sum_j c_j sin(j pi (t - start)/(end - start)); zero at both ends.
@@ -153,11 +166,12 @@ std::optional<ActionReport> action_report(const RunOutcome& outcome, const Varia
         const auto found = std::ranges::find(outcome.state, lane, &std::pair<std::string, std::string>::first);
         return found == outcome.state.end() ? std::string() : found->second;
     };
-    ActionReport report{value("action"), {}, {}, {}};
+    ActionReport report{value("action"), {}, {}, {}, {}};
     for (std::size_t k = 1; k <= request.count; ++k) {
         report.base.push_back(value(part_name(k, "base")));
         report.fibre.push_back(value(part_name(k, "fibre")));
         report.second.push_back(value(part_name(k, "second")));
+        report.squares.push_back(value(part_name(k, "squares")));
     }
     return report;
 }
