@@ -48,6 +48,7 @@ std::string map_equation_text(const Check& check)
 std::string equation_text(const Check& check)
 {
     const std::vector<std::string>& k = check.indices;
+    if (!check.meaning.empty()) return check.meaning;
     if (check.name == "antisymmetry" && k.size() == 3)
         return fmt::format("component {2} of [{0}, {1}] + [{1}, {0}]", k[0], k[1], k[2]);
     if (check.name == "anchor" && k.size() == 3)
@@ -68,7 +69,6 @@ std::string equation_text(const Check& check)
     if (check.name == "algebroid_of_groupoid" && k.size() == 3)
         return fmt::format("component {2} of [{0}, {1}] as it is given less that of the groupoid", k[0], k[1], k[2]);
     if (const std::string of_map = map_equation_text(check); !of_map.empty()) return of_map;
-    if (check.name == "independent") return "the squares of the minors of these rows, or a combination that is zero";
     if (check.name == "constraint" && k.size() == 2)
         return k[0] == "drift" ? fmt::format("{} at the drift", k[1])
                                : fmt::format("the linear part of {} at the section {}", k[1], k[0]);

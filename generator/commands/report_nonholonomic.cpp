@@ -29,7 +29,9 @@ std::string integrable_text(const Integrability& integrable)
     switch (integrable.status) {
     case ProofStatus::proved:
         return fmt::format("  {:<16}yes: brackets of sections lie in their span{}\n", "integrable",
-                           integrable.has_drift ? "" : ", and kind = \"subbundle\" says more");
+                           integrable.moves_with_time ? " at each t"
+                           : integrable.has_drift     ? ""
+                                                      : ", and kind = \"subbundle\" says more");
     case ProofStatus::undecided: return fmt::format("  {:<16}not decided\n", "integrable");
     case ProofStatus::refuted: break;
     }
@@ -77,7 +79,7 @@ void nonholonomic_json(JsonWriter& json, const MechanicsReport& mechanics)
                 json.end_object().key("value").value(integrable->witness->value);
             }
         }
-        if (integrable->status == ProofStatus::proved && !integrable->has_drift)
+        if (integrable->status == ProofStatus::proved && !integrable->has_drift && !integrable->moves_with_time)
             json.key("hint").value("D is a Lie algebroid: kind = \"subbundle\" says more of it");
         json.end_object();
     }

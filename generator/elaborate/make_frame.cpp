@@ -109,6 +109,7 @@ class FrameBuilder {
         const bool regular = is_regular();
         if (regular && n_ - m_ == 1 && request_.sections && request_.kept.empty()) return frame_of_minors();
         if (!regular) refuse_singular();
+        refuse_empty();
         refuse_charts(choice, regular);
     }
 
@@ -239,6 +240,17 @@ class FrameBuilder {
                          model_.base.constraint_texts.front(),
                          "leave the point out by a condition of [base] domain, such as one on the side of it where "
                          "the motions are");
+    }
+
+    /// Of the points that satisfy the constraints that are triangular, and the domain, none is found.
+    void refuse_empty()
+    {
+        if (ZeroDecider(work_->graph(), work_->setting()).sample_point()) return;
+        throw ModelError("no point of the level set is found: none of the points that are tried satisfies its "
+                         "constraints and [base] domain",
+                         model_.base.constraint_texts.front(),
+                         "constraints such as x^2 + y^2 + 1 have no real solution: is a sign wrong, or the domain too "
+                         "small?");
     }
 
     [[noreturn]] void refuse_charts(const KeptChoice& choice, bool regular) const

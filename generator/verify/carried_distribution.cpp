@@ -12,13 +12,13 @@ namespace {
 
 /// Are the sections of D' independent along phi? Least squares, and the rank of Phi on D, tell nothing where they are
 /// not.
-bool is_independent(MappedSystems& both, const Judge& judge)
+bool is_independent(MappedSystems& both, Judge& judge)
 {
     if (both.moving.basis.empty()) return true;
     std::vector<std::string> names;
     for (std::size_t beta = 0; beta < both.to().velocities().size(); ++beta)
         names.push_back(both.target_velocity(beta));
-    const Check check = independence(both.graph, both.moving.basis, std::move(names), judge.setting(), judge.decider());
+    const Check check = independence(both.graph, both.moving.basis, std::move(names), judge);
     return check.decision.status == ProofStatus::proved && check.where.empty();
 }
 

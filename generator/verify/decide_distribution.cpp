@@ -65,12 +65,18 @@ void Claims::decide_independence(StructureReport& structure)
     if (names.empty()) return;
     const std::vector<NodeId> rows =
         distribution.has_dependent ? constraint_rows(graph_, system_) : section_rows(graph_, system_);
-    Check check = independence(graph_, rows, std::move(names), setting_, judge_->decider());
+    std::vector<NodeId> values;
+    if (distribution.has_dependent)
+        values = substitute(graph_, distribution.constraints,
+                            replacements(system_.algebroid.y, std::vector(system_.r(), graph_.constant(0))));
+    Check check = independence(graph_, rows, std::move(names), *judge_, values);
+    const bool contradict = check.decision.witness && check.decision.witness->value != 0;
     if (check.decision.status == ProofStatus::refuted)
-        check.hint = distribution.has_dependent
+        check.hint = contradict ? "no velocity satisfies all of them there: leave out those that are not meant"
+                     : distribution.has_dependent
                          ? "leave out the constraints that the others contain"
                          : "sections are independent at every point of the domain, as many as D has dimensions";
-    if (check.decision.witness)
+    if (check.decision.witness && !contradict)
         std::erase_if(check.decision.witness->point,
                       [unused = accessory_inputs(system_)](const auto& entry) { return unused.contains(entry.first); });
     structure.checks.push_back(std::move(check));
@@ -108,11 +114,16 @@ void Claims::add_singular_minor(Regularity& regularity)
     ProofSetting setting = setting_;
     setting.defined.clear();
     const std::set<std::string> unused = accessory_inputs(system_);
-    for (const SliceValue& value : {SliceValue{graph_.constant(0), Rational(0)}, quarter_turn(graph_)})
-        for (NamedPoint& point : singular_points(graph_, setting, judge_->decider().budget(), {*minor}, value)) {
+    const auto list = [&](std::vector<NamedPoint> points) {
+        for (NamedPoint& point : points) {
             std::erase_if(point, [&](const auto& entry) { return unused.contains(entry.first); });
             regularity.singular_at.push_back(std::move(point));
         }
+    };
+    const ProofBudget& budget = judge_->decider().budget();
+    for (const SliceValue& value : {SliceValue{graph_.constant(0), Rational(0)}, quarter_turn(graph_)})
+        list(singular_points(graph_, setting, budget, {*minor}, value));
+    list(singular_parameters(graph_, setting, budget, {*minor}));
     const ZeroDecider bare(graph_, setting, judge_->decider().budget());
     for (std::string& factor : singular_factors(graph_, setting, bare, system_.parameter_values, {*minor}))
         regularity.singular_where.push_back(std::move(factor));

@@ -5,7 +5,6 @@
 #include "graph/calculus/differentiate.hpp"
 #include "graph/calculus/places.hpp"
 #include "graph/core/lower.hpp"
-#include "verify/judge.hpp"
 #include "verify/proof_setting.hpp"
 #include "verify/reduced_fraction.hpp"
 #include "verify/singular_set.hpp"
@@ -13,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 namespace lagen {
 
@@ -33,44 +33,63 @@ struct Rows {
 };
 
 /// Rows and columns of a minor that is certainly not zero somewhere and that none larger contains; nothing where one is
-/// not decided.
-std::optional<std::pair<Places, Places>> largest_minor(const Rows& matrix, std::size_t rows, const ZeroDecider& decider)
+/// not decided. Of the columns of a row `everywhere` prefers one whose minor vanishes nowhere.
+std::optional<std::pair<Places, Places>> largest_minor(const Rows& matrix, std::size_t rows, const ZeroDecider& decider,
+                                                       bool everywhere = false)
 {
     std::pair<Places, Places> found;
-    for (std::size_t row = 0; row < rows; ++row)
+    for (std::size_t row = 0; row < rows; ++row) {
+        std::optional<std::pair<Places, Places>> best;
         for (std::size_t column = 0; column < matrix.width; ++column) {
             if (std::ranges::find(found.second, column) != found.second.end()) continue;
             std::pair<Places, Places> larger = found;
             larger.first.push_back(row);
             larger.second.push_back(column);
-            const ProofStatus zero = decider.status(matrix.minor(larger.first, larger.second));
+            const NodeId minor = matrix.minor(larger.first, larger.second);
+            const ProofStatus zero = decider.status(minor);
             if (zero == ProofStatus::undecided) return std::nullopt;
             if (zero == ProofStatus::proved) continue;
-            found = std::move(larger);
-            break;
+            const bool is_last = !everywhere || decider.proves_nonzero(minor);
+            if (is_last || !best) best = std::move(larger);
+            if (is_last) break;
         }
+        if (best) found = std::move(*best);
+    }
     return found;
 }
 
-/// The combination of rows of the first one that adds nothing to those before, which is zero: cofactors of a minor that
-/// is bordered by it.
-NodeId relation_of(const Rows& matrix, const Places& minor_rows, const Places& columns,
-                   const std::vector<std::string>& names)
-{
-    Graph& graph = matrix.graph;
-    std::size_t extra = 0;
-    while (std::ranges::find(minor_rows, extra) != minor_rows.end()) ++extra;
-    Places rows = minor_rows;
-    rows.push_back(extra);
-    std::vector<NodeId> terms;
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-        Places others = rows;
-        others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
-        const NodeId cofactor = matrix.minor(others, columns);
-        const NodeId term = graph.multiply(cofactor, graph.input(names[rows[k]]));
-        terms.push_back((rows.size() - 1 - k) % 2 == 0 ? term : graph.negate(term));
+/// A combination of rows that is zero, sum_k coefficients[k] rows[k].
+struct RowRelation {
+    Places rows;
+    std::vector<NodeId> coefficients;
+
+    [[nodiscard]] NodeId of(Graph& graph, const std::vector<NodeId>& values) const
+    {
+        std::vector<NodeId> terms;
+        for (std::size_t k = 0; k < rows.size(); ++k) terms.push_back(graph.multiply(coefficients[k], values[rows[k]]));
+        return graph.sum(terms);
     }
-    return graph.sum(terms);
+};
+
+/// For each row outside of a largest minor the combination of it and those inside: cofactors of the minor bordered by
+/// it.
+std::vector<RowRelation> relations_of(const Rows& matrix, std::size_t count, const Places& minor_rows,
+                                      const Places& columns)
+{
+    std::vector<RowRelation> relations;
+    for (std::size_t extra = 0; extra < count; ++extra) {
+        if (std::ranges::find(minor_rows, extra) != minor_rows.end()) continue;
+        RowRelation& relation = relations.emplace_back(RowRelation{minor_rows, {}});
+        relation.rows.push_back(extra);
+        for (std::size_t k = 0; k < relation.rows.size(); ++k) {
+            Places others = relation.rows;
+            others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
+            const NodeId cofactor = matrix.minor(others, columns);
+            relation.coefficients.push_back((minor_rows.size() - k) % 2 == 0 ? cofactor
+                                                                             : matrix.graph.negate(cofactor));
+        }
+    }
+    return relations;
 }
 
 /// The text of a node that may have further inputs in it.
@@ -185,11 +204,54 @@ std::optional<std::vector<NodeId>> minors_of(const Rows& matrix, std::size_t k, 
     return minors;
 }
 
+/// Of rows all of whose minors are zero: a combination of them that is. Where `values` are given the rows are linear
+/// parts of constraints, and a combination of these may be left that is not zero.
+void describe_dependence(Check& check, const Rows& matrix, Judge& judge, const std::vector<NodeId>& values)
+{
+    Graph& graph = matrix.graph;
+    const ZeroDecider& decider = judge.decider();
+    const auto minor = largest_minor(matrix, check.indices.size(), decider, true);
+    const std::optional<NamedPoint> point = decider.sample_point();
+    if (!minor || !point) return;
+    std::vector<std::string> rows; // constraints in parentheses
+    std::vector<NodeId> inputs;
+    for (const std::string& row : check.indices) {
+        rows.push_back(row.find(' ') == std::string::npos ? row : "(" + row + ")");
+        inputs.push_back(graph.input(rows.back()));
+    }
+    const auto text = [&](const RowRelation& relation) {
+        return text_with(graph, judge.setting(), rows, relation.of(graph, inputs), decider.budget());
+    };
+    const std::vector<RowRelation> relations = relations_of(matrix, rows.size(), minor->first, minor->second);
+    check.decision = dependent_at(text(relations.front()), *point);
+    check.meaning = values.empty() ? "a combination of these sections that is zero"
+                                   : "a combination of these constraints that is zero: one follows from the others";
+    for (const RowRelation& relation : relations) {
+        if (values.empty()) break;
+        const Decision value = judge.decide(relation.of(graph, values));
+        if (value.status == ProofStatus::proved) continue;
+        check.decision.residual = text(relation);
+        if (value.status == ProofStatus::undecided) {
+            check.meaning =
+                "a combination of these constraints in which the velocities cancel; not decided whether it is zero";
+            check.decision.witness.reset();
+            continue;
+        }
+        check.meaning =
+            "a combination of these constraints in which the velocities cancel, and which is not zero: they "
+            "contradict each other";
+        check.decision.witness = value.witness;
+        return;
+    }
+}
+
 } // namespace
 
-Check independence(Graph& graph, const std::vector<NodeId>& entries, std::vector<std::string> names,
-                   const ProofSetting& setting, const ZeroDecider& decider)
+Check independence(Graph& graph, const std::vector<NodeId>& entries, std::vector<std::string> names, Judge& judge,
+                   const std::vector<NodeId>& values)
 {
+    const ProofSetting& setting = judge.setting();
+    const ZeroDecider& decider = judge.decider();
     const std::size_t k = names.size();
     const Rows matrix{graph, entries, entries.size() / k};
     Check check{"independent", std::move(names), {}, {}, {}};
@@ -199,14 +261,7 @@ Check independence(Graph& graph, const std::vector<NodeId>& entries, std::vector
         return check;
     }
     if (minors->empty()) {
-        const auto minor = largest_minor(matrix, k, decider);
-        const std::optional<NamedPoint> point = decider.sample_point();
-        if (!minor || !point) return check;
-        std::vector<std::string> rows; // constraints in parentheses
-        for (const std::string& row : check.indices)
-            rows.push_back(row.find(' ') == std::string::npos ? row : "(" + row + ")");
-        const NodeId relation = relation_of(matrix, minor->first, minor->second, rows);
-        check.decision = dependent_at(text_with(graph, setting, rows, relation, decider.budget()), *point);
+        describe_dependence(check, matrix, judge, values);
         return check;
     }
     std::vector<ReducedMinor> reduced_minors;
@@ -226,9 +281,12 @@ Check independence(Graph& graph, const std::vector<NodeId>& entries, std::vector
     }
     const NodeId sum = graph.sum(squares);
     const std::string text = text_with(graph, setting, {}, sum, decider.budget());
+    check.meaning = "the sum of the squares of the minors of these rows, which is zero where they are dependent";
     const std::vector<NamedPoint> points = singular_points(graph, setting, decider.budget(), {sum});
-    if (!points.empty()) {
-        check.decision = dependent_at(text, points.front());
+    const std::optional<NamedPoint> point =
+        points.empty() ? singular_corner(graph, setting, decider.budget(), {sum}) : points.front();
+    if (point) {
+        check.decision = dependent_at(text, *point);
         return check;
     }
     check.decision.residual = text;
@@ -297,6 +355,7 @@ Integrability decide_integrability(Graph& graph, const System& system, const Pro
     const ConstraintHull hull = constraint_hull(graph, system);
     const std::vector<std::vector<NodeId>> forms = annihilators(graph, system, decider, given);
     Integrability result;
+    result.moves_with_time = depends_on_any(graph, section_rows(graph, system), std::array{system.time});
     result.status = forms.empty() && hull.k > 1 ? ProofStatus::undecided : ProofStatus::proved;
     std::vector<std::string> ambient;
     for (const NodeId Y : system.algebroid.y) ambient.push_back(graph.input_name(Y));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "mechanics/nonholonomic.hpp"
+#include "verify/judge.hpp"
 #include "verify/verify.hpp"
 
 namespace lagen {
@@ -14,9 +15,10 @@ namespace lagen {
 
 /// Are the rows, called `names`, independent at every point? Proved by a minor that vanishes nowhere, or squares of
 /// minors whose sum does not, perhaps where factors of parameters alone do not; refuted where all minors are zero, with
-/// a combination of the rows that is, or at a point where they are.
+/// a combination of the rows that is, or at a point where they are. Of rows that are linear parts of constraints
+/// `values` are the constraints at Y = 0: where a combination of them is not zero they contradict each other.
 [[nodiscard]] Check independence(Graph& graph, const std::vector<NodeId>& rows, std::vector<std::string> names,
-                                 const ProofSetting& setting, const ZeroDecider& decider);
+                                 Judge& judge, const std::vector<NodeId>& values = {});
 
 /// Do all brackets [e_alpha, e_beta] lie in D? The first that does not, in components on Y, with a form that vanishes
 /// on D and not on it: one of `given` (by rows of r entries) where there are some, else a minor of the sections with

@@ -3,16 +3,19 @@
 #include "verify/singular_set.hpp"
 
 #include "graph/calculus/differentiate.hpp"
+#include "graph/calculus/places.hpp"
 #include "graph/core/lower.hpp"
 #include "verify/at_values.hpp"
 #include "verify/reduced_fraction.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace lagen {
 namespace {
 
 constexpr std::size_t point_limit = 8;
+constexpr std::size_t most_in_corner = 8; ///< variables of which each choice is looked at
 constexpr std::size_t longest_factor = 80;
 /// One slice a variable is looked at: none may take long.
 constexpr ProofBudget slice_budget{.products = 200'000};
@@ -62,6 +65,47 @@ std::vector<NamedPoint> singular_points(Graph& graph, const ProofSetting& settin
         points.push_back(std::move(*point));
     }
     return points;
+}
+
+std::vector<NamedPoint> singular_parameters(Graph& graph, const ProofSetting& setting, const ProofBudget& budget,
+                                            const std::vector<NodeId>& determinants)
+{
+    std::vector<NamedPoint> points;
+    if (setting.is_wider) return points;
+    for (std::size_t k = 0; k < setting.parameters.size() && points.size() < point_limit; ++k) {
+        const NodeId parameter = setting.parameters[k];
+        if (!depends_on_any(graph, determinants, std::array{parameter})) continue;
+        std::optional<NamedPoint> point =
+            singular_point(graph, setting, budget, {{parameter, graph.constant(0)}}, determinants);
+        if (!point) continue;
+        const std::size_t place = setting.variables.size() + k;
+        point->insert(point->begin() + static_cast<std::ptrdiff_t>(place), {graph.input_name(parameter), Rational(0)});
+        points.push_back(std::move(*point));
+    }
+    return points;
+}
+
+std::optional<NamedPoint> singular_corner(Graph& graph, const ProofSetting& setting, const ProofBudget& budget,
+                                          const std::vector<NodeId>& determinants)
+{
+    if (setting.is_wider) return std::nullopt;
+    Places used; // places of variables
+    for (std::size_t k = 0; k < setting.variables.size(); ++k)
+        if (depends_on_any(graph, determinants, std::array{setting.variables[k]})) used.push_back(k);
+    for (std::size_t count = used.size() <= most_in_corner ? 2 : used.size(); count <= used.size(); ++count) {
+        Places chosen = first_places(count);
+        do {
+            Replacements zero;
+            for (const std::size_t place : chosen) zero.emplace_back(setting.variables[used[place]], graph.constant(0));
+            std::optional<NamedPoint> point = singular_point(graph, setting, budget, zero, determinants);
+            if (!point) continue;
+            for (const std::size_t place : chosen)
+                point->insert(point->begin() + static_cast<std::ptrdiff_t>(used[place]),
+                              {graph.input_name(setting.variables[used[place]]), Rational(0)});
+            return point;
+        } while (next_places(chosen, used.size()));
+    }
+    return std::nullopt;
 }
 
 std::vector<std::string> singular_factors(Graph& graph, const ProofSetting& setting, const ZeroDecider& valued,

@@ -31,4 +31,15 @@ struct SliceValue {
                                                       const ProofBudget& budget,
                                                       const std::vector<NodeId>& determinants, const SliceValue& value);
 
+/// The same on each slice "a parameter is zero".
+[[nodiscard]] std::vector<NamedPoint> singular_parameters(Graph& graph, const ProofSetting& setting,
+                                                          const ProofBudget& budget,
+                                                          const std::vector<NodeId>& determinants);
+
+/// The same where several variables are zero at once, as few as do: of those that the determinants depend on each
+/// choice where they are eight at most, else all of them. For sums of squares, which vanish on no slice.
+[[nodiscard]] std::optional<NamedPoint> singular_corner(Graph& graph, const ProofSetting& setting,
+                                                        const ProofBudget& budget,
+                                                        const std::vector<NodeId>& determinants);
+
 } // namespace lagen

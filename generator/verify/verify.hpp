@@ -33,6 +33,7 @@ struct Check {
     std::optional<Reevaluation> reevaluation; ///< where it was asked for and there is a residual
     std::vector<std::string> where = {}; ///< of what is constant along motions and proved: strict conditions, which the
                                          ///< domain does not imply; it may change where a motion crosses them
+    std::string meaning = {};            ///< what the residual is, where `name` and `indices` do not tell
 };
 
 enum class Verdict { valid, invalid, undecided };
@@ -120,7 +121,8 @@ struct StructureReport {
 
 /// Whether the brackets of a distribution's sections lie in it, which stands outside the verdict.
 struct Integrability {
-    bool has_drift = false; ///< which plays no part in it
+    bool has_drift = false;       ///< which plays no part in it
+    bool moves_with_time = false; ///< the sections depend on t: brackets are those of one t, and D is no subbundle of E
     ProofStatus status = ProofStatus::undecided;
     // Of the first bracket that does not, where refuted:
     std::vector<std::string> bracket;                            ///< its two sections

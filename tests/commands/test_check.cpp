@@ -32,6 +32,22 @@ TEST_CASE("every example model is proved", "[long]")
     }
 }
 
+TEST_CASE("what a subbundle says more is no hint where sections move with time")
+{
+    const std::string path = fresh_folder() + "/moving.toml";
+    const auto checked = [&](const char* constraint, const char* format) {
+        write_text(path, "[base]\ncoordinates = [\"x\", \"y\", \"z\"]\n[fibre]\ncoordinates = [\"v_x\", \"v_y\"]\n"
+                         "[algebroid]\nkind = \"nonholonomic\"\nof = { kind = \"tangent\" }\nconstraints = [\"" +
+                             std::string(constraint) + "\"]\n");
+        return call({"check", "--format", format, path}).out;
+    };
+    const std::string moving = checked("v_z - x*v_x - t*v_y", "text"), fixed = checked("v_z - x*v_x - y*v_y", "text");
+    CHECK(moving.find("integrable      yes: brackets of sections lie in their span at each t\n") != std::string::npos);
+    CHECK(fixed.find("lie in their span, and kind = \"subbundle\" says more\n") != std::string::npos);
+    CHECK(checked("v_z - x*v_x - t*v_y", "json").find("subbundle") == std::string::npos);
+    CHECK(checked("v_z - x*v_x - y*v_y", "json").find("subbundle") != std::string::npos);
+}
+
 TEST_CASE("a refuted model shows its residual and a witness, and exits 1")
 {
     const Outcome outcome = call({"check", "refuted.toml"});
