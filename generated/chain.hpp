@@ -13,48 +13,32 @@
 ///     ȧ[4] = w[4]
 ///
 ///   momenta:  p_a = ∂L/∂y^a
-///     p_w[1] = m[4] l[1] l[4] w[4] sin(a[1]) sin(a[4]) + m[4] l[1] l[4] w[4] cos(a[1]) cos(a[4])
-///              + l[1]² (m[1] + m[2] + m[3] + m[4]) w[1] + l[1] l[2] (m[2] + m[3] + m[4]) w[2] sin(a[1]) sin(a[2])
-///              + l[1] l[2] (m[2] + m[3] + m[4]) w[2] cos(a[1]) cos(a[2]) + l[1] l[3] (m[3] + m[4]) w[3] sin(a[1]) sin(a[3])
-///              + l[1] l[3] (m[3] + m[4]) w[3] cos(a[1]) cos(a[3])
-///     p_w[2] = m[4] l[2] l[4] w[4] sin(a[2]) sin(a[4]) + m[4] l[2] l[4] w[4] cos(a[2]) cos(a[4])
-///              + l[1] l[2] (m[2] + m[3] + m[4]) w[1] sin(a[1]) sin(a[2])
-///              + l[1] l[2] (m[2] + m[3] + m[4]) w[1] cos(a[1]) cos(a[2]) + l[2]² (m[2] + m[3] + m[4]) w[2]
-///              + l[2] l[3] (m[3] + m[4]) w[3] sin(a[2]) sin(a[3]) + l[2] l[3] (m[3] + m[4]) w[3] cos(a[2]) cos(a[3])
-///     p_w[3] = m[4] l[3] l[4] w[4] sin(a[3]) sin(a[4]) + m[4] l[3] l[4] w[4] cos(a[3]) cos(a[4])
-///              + l[1] l[3] (m[3] + m[4]) w[1] sin(a[1]) sin(a[3]) + l[1] l[3] (m[3] + m[4]) w[1] cos(a[1]) cos(a[3])
-///              + l[2] l[3] (m[3] + m[4]) w[2] sin(a[2]) sin(a[3]) + l[2] l[3] (m[3] + m[4]) w[2] cos(a[2]) cos(a[3])
-///              + l[3]² (m[3] + m[4]) w[3]
-///     (one equation is too long to stand here: lagen derive chain.toml prints it)
+///     p_w[1] = m[4] l[1] l[4] w[4] cos(a[1] - a[4]) + l[1]² (m[1] + m[2] + m[3] + m[4]) w[1]
+///              + l[1] l[2] (m[2] + m[3] + m[4]) w[2] cos(a[1] - a[2]) + l[1] l[3] (m[3] + m[4]) w[3] cos(a[1] - a[3])
+///     p_w[2] = m[4] l[2] l[4] w[4] cos(a[2] - a[4]) + l[1] l[2] (m[2] + m[3] + m[4]) w[1] cos(a[1] - a[2])
+///              + l[2]² (m[2] + m[3] + m[4]) w[2] + l[2] l[3] (m[3] + m[4]) w[3] cos(a[2] - a[3])
+///     p_w[3] = m[4] l[3] l[4] w[4] cos(a[3] - a[4]) + l[1] l[3] (m[3] + m[4]) w[1] cos(a[1] - a[3])
+///              + l[2] l[3] (m[3] + m[4]) w[2] cos(a[2] - a[3]) + l[3]² (m[3] + m[4]) w[3]
+///     p_w[4] = m[4] l[4] (l[1] w[1] cos(a[1] - a[4]) + l[2] w[2] cos(a[2] - a[4]) + l[3] w[3] cos(a[3] - a[4]) + l[4] w[4])
 ///
 ///   equations of motion (momentum form):  ṗ_a = ρ_a(L)
-///     ṗ_w[1] = m[4] l[1] l[4] w[1] w[4] sin(a[4]) cos(a[1]) + l[1] l[2] (m[2] + m[3] + m[4]) w[1] w[2] sin(a[2]) cos(a[1])
-///              + l[1] l[3] (m[3] + m[4]) w[1] w[3] sin(a[3]) cos(a[1]) - m[4] l[1] l[4] w[1] w[4] sin(a[1]) cos(a[4])
-///              - l[1] l[2] (m[2] + m[3] + m[4]) w[1] w[2] sin(a[1]) cos(a[2])
-///              - l[1] l[3] (m[3] + m[4]) w[1] w[3] sin(a[1]) cos(a[3]) - l[1] g (m[1] + m[2] + m[3] + m[4]) sin(a[1])
-///     ṗ_w[2] = m[4] l[2] l[4] w[2] w[4] sin(a[4]) cos(a[2]) + l[1] l[2] (m[2] + m[3] + m[4]) w[1] w[2] sin(a[1]) cos(a[2])
-///              + l[2] l[3] (m[3] + m[4]) w[2] w[3] sin(a[3]) cos(a[2]) - m[4] l[2] l[4] w[2] w[4] sin(a[2]) cos(a[4])
-///              - l[1] l[2] (m[2] + m[3] + m[4]) w[1] w[2] sin(a[2]) cos(a[1])
-///              - l[2] l[3] (m[3] + m[4]) w[2] w[3] sin(a[2]) cos(a[3]) - l[2] g (m[2] + m[3] + m[4]) sin(a[2])
-///     ṗ_w[3] = m[4] l[3] l[4] w[3] w[4] sin(a[4]) cos(a[3]) + l[1] l[3] (m[3] + m[4]) w[1] w[3] sin(a[1]) cos(a[3])
-///              + l[2] l[3] (m[3] + m[4]) w[2] w[3] sin(a[2]) cos(a[3]) - m[4] l[3] l[4] w[3] w[4] sin(a[3]) cos(a[4])
-///              - l[1] l[3] (m[3] + m[4]) w[1] w[3] sin(a[3]) cos(a[1])
-///              - l[2] l[3] (m[3] + m[4]) w[2] w[3] sin(a[3]) cos(a[2]) - l[3] g (m[3] + m[4]) sin(a[3])
-///     (one equation is too long to stand here: lagen derive chain.toml prints it)
+///     ṗ_w[1] = -m[4] l[1] l[4] w[1] w[4] sin(a[1] - a[4]) - l[1] l[2] (m[2] + m[3] + m[4]) w[1] w[2] sin(a[1] - a[2])
+///              - l[1] l[3] (m[3] + m[4]) w[1] w[3] sin(a[1] - a[3]) - l[1] g (m[1] + m[2] + m[3] + m[4]) sin(a[1])
+///     ṗ_w[2] = l[1] l[2] (m[2] + m[3] + m[4]) w[1] w[2] sin(a[1] - a[2]) - m[4] l[2] l[4] w[2] w[4] sin(a[2] - a[4])
+///              - l[2] l[3] (m[3] + m[4]) w[2] w[3] sin(a[2] - a[3]) - l[2] g (m[2] + m[3] + m[4]) sin(a[2])
+///     ṗ_w[3] = l[1] l[3] (m[3] + m[4]) w[1] w[3] sin(a[1] - a[3]) + l[2] l[3] (m[3] + m[4]) w[2] w[3] sin(a[2] - a[3])
+///              - m[4] l[3] l[4] w[3] w[4] sin(a[3] - a[4]) - l[3] g (m[3] + m[4]) sin(a[3])
+///     ṗ_w[4] = m[4] l[4] (l[1] w[1] w[4] sin(a[1] - a[4]) + l[2] w[2] w[4] sin(a[2] - a[4]) + l[3] w[3] w[4] sin(a[3] - a[4]) - g sin(a[4]))
 ///
 ///   equations of motion (acceleration form):  W_ab ẏ^b = ρ_a(L) - (∂²L/∂y^a∂x^i) ρ^i_b y^b,  W_ab = ∂²L/∂y^a∂y^b
 ///     (4 equations are too long to stand here: lagen derive chain.toml prints them)
 ///
 ///   energy:  E = y^a p_a - L
-///     E = m[4] l[1] l[4] w[1] w[4] sin(a[1]) sin(a[4]) + m[4] l[1] l[4] w[1] w[4] cos(a[1]) cos(a[4])
-///         + m[4] l[2] l[4] w[2] w[4] sin(a[2]) sin(a[4]) + m[4] l[2] l[4] w[2] w[4] cos(a[2]) cos(a[4])
-///         + m[4] l[3] l[4] w[3] w[4] sin(a[3]) sin(a[4]) + m[4] l[3] l[4] w[3] w[4] cos(a[3]) cos(a[4])
-///         + m[4] l[4]² w[4]²/2 - m[4] l[4] g cos(a[4]) + l[1]² (m[1] + m[2] + m[3] + m[4]) w[1]²/2
-///         + l[1] l[2] (m[2] + m[3] + m[4]) w[1] w[2] sin(a[1]) sin(a[2])
-///         + l[1] l[2] (m[2] + m[3] + m[4]) w[1] w[2] cos(a[1]) cos(a[2])
-///         + l[1] l[3] (m[3] + m[4]) w[1] w[3] sin(a[1]) sin(a[3]) + l[1] l[3] (m[3] + m[4]) w[1] w[3] cos(a[1]) cos(a[3])
-///         - l[1] g (m[1] + m[2] + m[3] + m[4]) cos(a[1]) + l[2]² (m[2] + m[3] + m[4]) w[2]²/2
-///         + l[2] l[3] (m[3] + m[4]) w[2] w[3] sin(a[2]) sin(a[3]) + l[2] l[3] (m[3] + m[4]) w[2] w[3] cos(a[2]) cos(a[3])
+///     E = m[4] l[1] l[4] w[1] w[4] cos(a[1] - a[4]) + m[4] l[2] l[4] w[2] w[4] cos(a[2] - a[4])
+///         + m[4] l[3] l[4] w[3] w[4] cos(a[3] - a[4]) + m[4] l[4]² w[4]²/2 - m[4] l[4] g cos(a[4])
+///         + l[1]² (m[1] + m[2] + m[3] + m[4]) w[1]²/2 + l[1] l[2] (m[2] + m[3] + m[4]) w[1] w[2] cos(a[1] - a[2])
+///         + l[1] l[3] (m[3] + m[4]) w[1] w[3] cos(a[1] - a[3]) - l[1] g (m[1] + m[2] + m[3] + m[4]) cos(a[1])
+///         + l[2]² (m[2] + m[3] + m[4]) w[2]²/2 + l[2] l[3] (m[3] + m[4]) w[2] w[3] cos(a[2] - a[3])
 ///         - l[2] g (m[2] + m[3] + m[4]) cos(a[2]) + l[3]² (m[3] + m[4]) w[3]²/2 - l[3] g (m[3] + m[4]) cos(a[3])
 ///
 /// Operations (with shared terms computed once; "written out" without sharing):

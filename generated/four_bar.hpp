@@ -8,11 +8,11 @@
 ///
 ///   kinematics:  ẋ^i = ρ^i_a y^a
 ///     d/dt th = v_th
-///     d/dt ph = a v_th (sin(ps) cos(th) - sin(th) cos(ps))/(b (sin(ph) cos(ps) - sin(ps) cos(ph)))
-///     d/dt ps = a v_th (sin(ph) cos(th) - sin(th) cos(ph))/(c (sin(ph) cos(ps) - sin(ps) cos(ph)))
+///     d/dt ph = -a v_th sin(th - ps)/(b sin(ph - ps))
+///     d/dt ps = -a v_th sin(th - ph)/(c sin(ph - ps))
 ///
 ///   momenta:  p_a = ∂L/∂y^a
-///     (one equation is too long to stand here: lagen derive four_bar.toml prints it)
+///     p_v_th = a² v_th (m_a + m_b sin²(th - ps)/sin²(ph - ps) - 3 m_b sin(th - ps) cos(th - ph)/sin(ph - ps) + 3 m_b + m_c sin²(th - ph)/sin²(ph - ps))/3
 ///
 ///   equations of motion (momentum form):  ṗ_a = ρ_a(L)
 ///     (one equation is too long to stand here: lagen derive four_bar.toml prints it)
@@ -21,29 +21,21 @@
 ///     (one equation is too long to stand here: lagen derive four_bar.toml prints it)
 ///
 ///   energy:  E = y^a p_a - L
-///     E = a² m_b v_th² sin²(th) cos²(ps)/(6 (sin(ph) cos(ps) - sin(ps) cos(ph))²)
-///         + a² m_b v_th² sin(th) sin(ph) sin(ps) cos(th)/(2 (sin(ph) cos(ps) - sin(ps) cos(ph)))
-///         + a² m_b v_th² sin²(ps) cos²(th)/(6 (sin(ph) cos(ps) - sin(ps) cos(ph))²)
-///         + a² m_b v_th² sin(ps) cos²(th) cos(ph)/(2 (sin(ph) cos(ps) - sin(ps) cos(ph)))
-///         + a² m_c v_th² sin²(th) cos²(ph)/(6 (sin(ph) cos(ps) - sin(ps) cos(ph))²)
-///         + a² m_c v_th² sin²(ph) cos²(th)/(6 (sin(ph) cos(ps) - sin(ps) cos(ph))²) + a² (m_a + 3 m_b) v_th²/6
-///         + a g (m_a + 2 m_b) sin(th)/2 + b m_b g sin(ph)/2 + c m_c g sin(ps)/2
-///         - a² m_b v_th² sin²(th) sin(ph) cos(ps)/(2 (sin(ph) cos(ps) - sin(ps) cos(ph)))
-///         - a² m_b v_th² sin(th) sin(ps) cos(th) cos(ps)/(3 (sin(ph) cos(ps) - sin(ps) cos(ph))²)
-///         - a² m_b v_th² sin(th) cos(th) cos(ph) cos(ps)/(2 (sin(ph) cos(ps) - sin(ps) cos(ph)))
-///         - a² m_c v_th² sin(th) sin(ph) cos(th) cos(ph)/(3 (sin(ph) cos(ps) - sin(ps) cos(ph))²)
+///     E = a² m_b v_th² sin²(th - ps)/(6 sin²(ph - ps)) - a² m_b v_th² sin(th - ps) cos(th - ph)/(2 sin(ph - ps))
+///         + a² m_c v_th² sin²(th - ph)/(6 sin²(ph - ps)) + a² (m_a + 3 m_b) v_th²/6 + a g (m_a + 2 m_b) sin(th)/2
+///         + b m_b g sin(ph)/2 + c m_c g sin(ps)/2
 ///
 /// Operations (with shared terms computed once; "written out" without sharing):
 ///   kernel            + -      *      /  functions  solves  written out
-///   rhs                55    122      4          3       0         2253
-///   mass_matrix        11     28      1          3       0           98
-///   momentum           11     29      1          3       0           99
-///   energy             16     42      1          3       0          120
-///   lagrangian         13     36      1          3       0          109
+///   rhs                25     55      5          6       0          237
+///   mass_matrix         8     14      1          5       0           38
+///   momentum            8     15      1          5       0           39
+///   energy             12     26      1          6       0           57
+///   lagrangian         13     37      1          4       0          104
 ///   constraints         5      6      0          3       0           17
 ///   domain              1      0      0          1       0            2
 ///   observables         4      8      0          2       0           20
-///   jacobian          273    503      5          3       0        31939
+///   jacobian          143    305      5          6       0         2940
 ///
 /// Parameters:
 ///   a [m]: length of the crank
@@ -157,53 +149,37 @@ class four_bar {
         const S v_th = s[3];
         auto status = StatusOf<S>::good();
         ds[0] = v_th;
-        const auto [sines, cosines] = sincos<S, 3>({th, ph, ps});
-        const S w0 = S(1) / (cosines[1] * sines[2] - sines[1] * cosines[2]);
+        const S w0 = th - ps;
+        const S w1 = ph - ps;
+        const S w2 = th - ph;
+        const auto [sines, cosines] = sincos<S, 6>({th, ph, ps, w0, w1, w2});
+        const S w3 = S(1) / sines[4];
+        const S w4 = sines[3] * w3;
         const auto [a, b, c, d, m_a, m_b, m_c, g] = parameters;
-        const S w1 = a * w0;
-        const S w2 = cosines[0] * sines[2] - sines[0] * cosines[2];
-        const S w3 = w2 / b;
-        const S w4 = w1 * w3;
-        ds[1] = -w4 * v_th;
-        const S w5 = cosines[0] * sines[1] - sines[0] * cosines[1];
-        const S w6 = w5 / c;
-        const S w7 = w6 * w1;
-        ds[2] = -w7 * v_th;
-        const S w8 = w2 * w0;
-        const S w9 = (sines[1] * sines[2] + cosines[1] * cosines[2]) * (w3 - w6) * w1;
-        const S w10 = sines[0] * sines[2] + cosines[0] * cosines[2];
-        const S w11 = w10 + w10 * w7 + w8 * w9;
-        const S w12 = w2 * w4;
-        const S w13 = S(2) * cosines[0];
-        const S w14 = w13 + (sines[1] * w11 + cosines[1] * w12) * w0;
-        const S w15 = w13 - cosines[1] * w8;
-        const S w16 = S(2) * sines[0];
-        const S w17 = w16 - sines[1] * w8;
-        const S w18 = w16 + (sines[1] * w12 - cosines[1] * w11) * w0;
-        const S w19 = w8 - S(3) * (sines[1] * w17 + cosines[1] * w15);
-        const S w20 = cosines[0] * cosines[1] + sines[0] * sines[1];
-        const S w21 = m_c * w5;
-        const S w22 = w21 * w0;
-        const S w23 = m_b * (w2 * (w11 * w0 + S(3) * (sines[1] * w14 + (sines[1] * w15 - cosines[1] * w17) * w4 -
-                cosines[1] * w18)) + w19 * w11) + S(8) * (w5 * w9 * w0 + (w20 + w20 * w4)) * w22;
-        const S w24 = a * (v_th * v_th);
-        const S w25 = m_b * w19;
-        const S w26 = w2 * w25 + S(4) * w5 * w22;
-        const S w27 = m_b * w2;
-        const S w28 = w1 * w24;
-        const S w29 = cosines[1] * (S(6) * b * m_b * g + (S(3) * w17 * w27 - (S(4) * cosines[0] * w21 + cosines[2] *
-                w26) * w0) * w28) - sines[1] * (S(3) * w15 * w27 + (sines[2] * w26 + S(4) * sines[0] * w21) * w0) * w28;
-        const S w30 = w26 * w0;
-        const S w31 = w6 * (sines[2] * (sines[0] * w25 - sines[1] * w30) * w28 + cosines[2] * ((cosines[0] * w25 -
-                cosines[1] * w30) * w28 - S(6) * c * g * m_c));
-        const S w32 = S(6) * m_b;
-        const S w33 = w0 * (w3 * w29 + w23 * w24 - w31) - cosines[0] * (S(6) * (m_a + S(2) * m_b) * g + ((cosines[2] *
-                w25 + S(4) * cosines[1] * w22) * w0 - w32 * w17) * w24);
-        const S w34 = (w32 * (cosines[0] * (w17 - w18) + sines[0] * (w14 - w15)) + sines[0] * (w32 * w15 + (sines[2] *
-                w25 + S(4) * sines[1] * w22) * w0)) * w24;
-        const S w35 = S(4) * m_a + w32 * (cosines[0] * w15 + sines[0] * w17) + w30;
-        ds[3] = (w33 - w34) / (a * w35);
-        StatusOf<S>::fail(status, S(1) / S(12) * (a * a) * w35 == S(0), Status::singular_mass_matrix);
+        const S w5 = S(1) / b;
+        const S w6 = a * v_th;
+        ds[1] = -w5 * w4 * w6;
+        const S w7 = sines[5] * w3;
+        const S w8 = S(1) / c;
+        ds[2] = -w8 * w7 * w6;
+        const S w9 = w8 * sines[5];
+        const S w10 = cosines[4] * w4;
+        const S w11 = w5 * sines[3];
+        const S w12 = S(3) * (sines[0] * sines[1] + cosines[0] * cosines[1]);
+        const S w13 = S(3) * (sines[0] * cosines[1] - cosines[0] * sines[1]);
+        const S w14 = cosines[4] * w7;
+        const S w15 = m_c * sines[5];
+        const S w16 = w15 * w3;
+        const S w17 = m_b * sines[3];
+        const S w18 = m_b * (w13 * sines[3] + (a * (w9 * (cosines[3] - w10) + w11 * w10) * w3 + cosines[3]) * (S(2) * w4
+                - w12)) + (a * ((w13 * w17 + S(2) * (cosines[5] + w14) * w16) * w11 - S(2) * w9 * w16 * w14) + S(2) *
+                cosines[5] * w15) * w3;
+        const S w19 = g / a;
+        const S w20 = S(0.5) * (w3 * (S(3) * w19 * (cosines[1] * w17 + w15 * cosines[2]) - w18 * (v_th * v_th)) - S(3) *
+                (m_a + S(2) * m_b) * w19 * cosines[0]);
+        const S w21 = m_a + S(3) * m_b + ((w4 - w12) * w17 + w15 * w7) * w3;
+        ds[3] = w20 / w21;
+        StatusOf<S>::fail(status, S(1) / S(3) * (a * a) * w21 == S(0), Status::singular_mass_matrix);
         return status;
     }
 
@@ -212,17 +188,12 @@ class four_bar {
     {
         Eigen::Matrix<S, 1, 1> result;
         const S th = s[0], ph = s[1], ps = s[2];
-        const auto [sines, cosines] = sincos<S, 3>({th, ph, ps});
-        const S w0 = cosines[0] * sines[1] - sines[0] * cosines[1];
-        const S w1 = S(1) / (cosines[1] * sines[2] - sines[1] * cosines[2]);
-        const S w2 = sines[0] * sines[1];
-        const S w3 = cosines[0] * cosines[1] + w2;
-        const S w4 = sines[0] * cosines[2];
-        const S w5 = cosines[0] * sines[2] - w4;
+        const auto [sines, cosines] = sincos<S, 5>({th, ph, th - ps, ph - ps, th - ph});
+        const S w0 = S(1) / sines[3];
         const auto [a, b, c, d, m_a, m_b, m_c, g] = parameters;
-        const S w6 = S(2) * m_c * (w0 * w0) * w1 - m_b * ((S(3) * w3 - S(2) * w5 * w1) * w5 + S(3) * (cosines[0] * (w3 *
-                sines[2] - cosines[1] * w4) - w2 * w4));
-        result(0, 0) = S(1) / S(6) * (a * a) * (S(2) * m_a + S(6) * m_b + w6 * w1);
+        const S w1 = m_a + S(3) * m_b + (m_b * sines[2] * (sines[2] * w0 - S(3) * (sines[0] * sines[1] + cosines[0] *
+                cosines[1])) + m_c * (sines[4] * sines[4]) * w0) * w0;
+        result(0, 0) = S(1) / S(3) * (a * a) * w1;
         return result;
     }
 
@@ -232,17 +203,12 @@ class four_bar {
         Eigen::Matrix<S, 1, 1> result;
         const S th = s[0], ph = s[1], ps = s[2];
         const S v_th = s[3];
-        const auto [sines, cosines] = sincos<S, 3>({th, ph, ps});
-        const S w0 = cosines[0] * sines[1] - sines[0] * cosines[1];
-        const S w1 = S(1) / (cosines[1] * sines[2] - sines[1] * cosines[2]);
-        const S w2 = sines[0] * sines[1];
-        const S w3 = cosines[0] * cosines[1] + w2;
-        const S w4 = sines[0] * cosines[2];
-        const S w5 = cosines[0] * sines[2] - w4;
+        const auto [sines, cosines] = sincos<S, 5>({th, ph, th - ps, ph - ps, th - ph});
+        const S w0 = S(1) / sines[3];
         const auto [a, b, c, d, m_a, m_b, m_c, g] = parameters;
-        const S w6 = S(2) * m_c * (w0 * w0) * w1 - m_b * ((S(3) * w3 - S(2) * w5 * w1) * w5 + S(3) * (cosines[0] * (w3 *
-                sines[2] - cosines[1] * w4) - w2 * w4));
-        result[0] = S(1) / S(6) * (a * a) * (S(2) * m_a + S(6) * m_b + w6 * w1) * v_th;
+        const S w1 = m_a + S(3) * m_b + (m_b * sines[2] * (sines[2] * w0 - S(3) * (sines[0] * sines[1] + cosines[0] *
+                cosines[1])) + m_c * (sines[4] * sines[4]) * w0) * w0;
+        result[0] = S(1) / S(3) * (a * a) * w1 * v_th;
         return result;
     }
 
@@ -251,19 +217,13 @@ class four_bar {
     {
         const S th = s[0], ph = s[1], ps = s[2];
         const S v_th = s[3];
-        const auto [sines, cosines] = sincos<S, 3>({th, ph, ps});
-        const S w0 = sines[0] * cosines[2];
-        const S w1 = S(1) / (cosines[1] * sines[2] - sines[1] * cosines[2]);
-        const S w2 = cosines[0] * (sines[2] * ((cosines[0] * sines[2] - S(2) * w0) * w1 - S(3) * (cosines[0] *
-                cosines[1] + sines[0] * sines[1])) + S(3) * cosines[1] * w0) + sines[0] * (cosines[2] * w1 + S(3) *
-                sines[1]) * w0;
-        const S w3 = cosines[0] * sines[1];
-        const S w4 = sines[0] * cosines[1];
+        const auto [sines, cosines] = sincos<S, 6>({th, ph, ps, th - ps, ph - ps, th - ph});
+        const S w0 = S(1) / sines[4];
         const auto [a, b, c, d, m_a, m_b, m_c, g] = parameters;
-        const S w5 = a * (m_a + S(3) * m_b + (m_b * w2 + m_c * ((w3 - S(2) * w4) * w3 + w4 * w4) * w1) * w1) * (v_th *
-                v_th);
-        return S(1) / S(6) * a * (w5 + S(3) * (m_a + S(2) * m_b) * g * sines[0]) + S(0.5) * g * (b * m_b * sines[1] + c
-                * m_c * sines[2]);
+        const S w1 = m_a + S(3) * m_b + (m_b * sines[3] * (sines[3] * w0 - S(3) * (sines[0] * sines[1] + cosines[0] *
+                cosines[1])) + m_c * (sines[5] * sines[5]) * w0) * w0;
+        return S(1) / S(6) * a * (a * w1 * (v_th * v_th) + S(3) * (m_a + S(2) * m_b) * g * sines[0]) + S(0.5) * g * (b *
+                m_b * sines[1] + c * m_c * sines[2]);
     }
 
     /// L(t, x, y).
@@ -271,17 +231,19 @@ class four_bar {
     {
         const S th = s[0], ph = s[1], ps = s[2];
         const S v_th = s[3];
-        const auto [sines, cosines] = sincos<S, 3>({th, ph, ps});
-        const S w0 = S(1) / (cosines[1] * sines[2] - sines[1] * cosines[2]);
-        const S w1 = (cosines[0] * sines[2] - sines[0] * cosines[2]) * w0;
-        const S w2 = sines[1] * w1 - S(2) * sines[0];
-        const S w3 = cosines[1] * w1 - S(2) * cosines[0];
-        const S w4 = cosines[0] * sines[1] - sines[0] * cosines[1];
         const auto [a, b, c, d, m_a, m_b, m_c, g] = parameters;
-        const S w5 = a * (m_b * (S(3) * (w2 * w2 + w3 * w3) + w1 * w1) + S(4) * (m_a + m_c * (w4 * w4) * (w0 * w0))) *
-                (v_th * v_th);
-        return S(1) / S(24) * a * (w5 - S(12) * (m_a + S(2) * m_b) * g * sines[0]) - S(0.5) * g * (b * m_b * sines[1] +
-                c * m_c * sines[2]);
+        const S w0 = a * a * (v_th * v_th);
+        const auto [sines, cosines] = sincos<S, 4>({th, ph, ps, ph - ps});
+        const S w1 = sines[0] * cosines[1] - cosines[0] * sines[1];
+        const S w2 = S(1) / sines[3];
+        const S w3 = (sines[0] * cosines[2] - cosines[0] * sines[2]) * w2;
+        const S w4 = sines[1] * w3 - S(2) * sines[0];
+        const S w5 = cosines[1] * w3 - S(2) * cosines[0];
+        const S w6 = m_b * w0;
+        const S w7 = S(1) / S(6) * m_a * w0 + S(1) / S(6) * m_c * (w1 * w1) * (w2 * w2) * w0 + S(0.125) * (w4 * w4 + w5
+                * w5) * w6 + S(1) / S(24) * (w3 * w3) * w6;
+        const S w8 = a * sines[0];
+        return w7 - S(0.5) * g * (c * m_c * sines[2] + m_a * w8 + m_b * (b * sines[1] + S(2) * w8));
     }
 
     static constexpr std::array<const char*, 2> constraints_names = {"a*cos(th) + b*cos(ph) - c*cos(ps) - d",
@@ -333,211 +295,132 @@ class four_bar {
     {
         const S th = s[0], ph = s[1], ps = s[2];
         const S v_th = s[3];
-        const auto [sines, cosines] = sincos<S, 3>({th, ph, ps});
-        values[0] = S(1);
+        const S w0 = th - ps;
+        const S w1 = ph - ps;
+        const S w2 = th - ph;
         const auto [a, b, c, d, m_a, m_b, m_c, g] = parameters;
-        const S w0 = S(6) * m_b;
-        const S w1 = S(8) * m_c;
-        const S w2 = S(4) * m_c;
-        const S w3 = S(3) * m_b;
-        const S w4 = a * (v_th * v_th);
-        const S w5 = S(1) / b;
-        const S w6 = S(1) / c;
-        const S w7 = S(2) * sines[0];
-        const S w8 = S(2) * cosines[0];
-        const S w9 = S(4) * cosines[1];
-        const S w10 = S(4) * sines[1];
-        const S w11 = m_b * sines[0];
-        const S w12 = cosines[0] * sines[2] - sines[0] * cosines[2];
-        const S w13 = cosines[0] * sines[1] - sines[0] * cosines[1];
-        const S w14 = m_b * cosines[0];
-        const S w15 = sines[1] * sines[2] + cosines[1] * cosines[2];
-        const S w16 = sines[0] * sines[2] + cosines[0] * cosines[2];
-        const S w17 = cosines[0] * cosines[1] + sines[0] * sines[1];
-        const S w18 = w5 * w12;
-        const S w19 = w6 * w13;
-        const S w20 = cosines[1] * w12;
-        const S w21 = sines[1] * w12;
-        const S w22 = m_c * w13;
-        const S w23 = m_b * w12;
-        const S w24 = sines[1] * w13;
-        const S w25 = cosines[1] * w13;
-        const S w26 = S(6) * w12;
-        const S w27 = w5 * w16;
-        const S w28 = w6 * w17;
-        const S w29 = cosines[1] * w16;
-        const S w30 = sines[1] * w16;
-        const S w31 = sines[0] * w22;
-        const S w32 = cosines[0] * w22;
-        const S w33 = a * w18;
-        const S w34 = S(1) / (cosines[1] * sines[2] - sines[1] * cosines[2]);
-        const S w35 = S(3) * w23;
-        const S w36 = cosines[0] * w13 - sines[0] * w17;
-        const S w37 = cosines[0] * w17 + sines[0] * w13;
-        const S w38 = w15 * (w18 - w19);
-        const S w39 = w12 * w33;
-        const S w40 = w12 * w34;
-        const S w41 = a * w34;
-        const S w42 = w15 * (w27 - w28);
-        const S w43 = w22 * w34;
-        const S w44 = w15 * w34;
-        const S w45 = cosines[1] * w34;
-        const S w46 = sines[1] * w34;
-        const S w47 = m_c * w34;
-        const S w48 = w7 - sines[1] * w40;
-        const S w49 = w8 - cosines[1] * w40;
-        const S w50 = w19 * w41;
-        const S w51 = w41 * w18;
-        const S w52 = w41 * w34;
-        const S w53 = w12 * w44;
-        const S w54 = sines[2] * w44 - cosines[2];
-        const S w55 = sines[2] + cosines[2] * w44;
-        const S w56 = S(8) * w43;
-        const S w57 = cosines[1] * w44;
-        const S w58 = sines[1] * w44;
-        const S w59 = w13 * w44;
-        const S w60 = w38 * w44;
-        const S w61 = w41 * w4;
-        const S w62 = w8 + w16 * w46;
-        const S w63 = w7 - w16 * w45;
-        const S w64 = w5 * w41;
-        const S w65 = w17 * w47;
-        values[8] = -w50;
-        const S w66 = w41 * v_th;
-        values[4] = -w51;
-        const S w67 = w16 + w16 * w50;
-        const S w68 = S(3) * w49;
-        const S w69 = S(3) * w48;
-        const S w70 = w17 + w17 * w51;
-        const S w71 = w53 - w16;
-        const S w72 = S(2) * w51;
-        const S w73 = cosines[1] + w58;
-        const S w74 = sines[1] - w57;
-        const S w75 = w17 + w59;
-        values[7] = w19 * w44 * w66;
-        values[5] = w28 * w66;
-        values[1] = w27 * w66;
-        const S w76 = (w12 * w42 + w38 * w16) * w52 - (w12 + w6 * (w36 * sines[2] - w37 * cosines[2]) * w41);
-        const S w77 = w67 + w38 * w41 * w40;
-        const S w78 = sines[1] * w49 - cosines[1] * w48;
-        const S w79 = w13 * w38 * w52 + w70;
-        const S w80 = sines[1] * w71;
-        const S w81 = cosines[1] * w71;
-        const S w82 = w67 * w15;
-        const S w83 = w5 * w71;
-        const S w84 = m_b * w71;
-        const S w85 = w70 * w15;
-        const S w86 = w6 * w75;
-        const S w87 = w75 + w59;
-        const S w88 = w12 * w73;
-        const S w89 = w12 * w74;
-        const S w90 = w40 - S(3) * (sines[1] * w48 + cosines[1] * w49);
-        values[2] = -w44 * w51 * v_th;
-        const S w91 = sines[1] * w77;
-        const S w92 = cosines[1] * w77;
-        const S w93 = cosines[0] * w74 - sines[0] * w73;
-        const S w94 = m_c * w87;
-        values[6] = -w86 * w66;
-        values[3] = w83 * w66;
-        const S w95 = m_b * w90;
-        const S w96 = w90 * w15 + S(4) * w71;
-        const S w97 = w90 + S(4) * w40;
-        const S w98 = w90 * w44;
-        const S w99 = w16 * w34 + S(3) * (sines[1] * w62 - cosines[1] * w63);
-        const S w100 = w7 + (sines[1] * w76 + w72 * w29) * w34;
-        const S w101 = w8 + (cosines[1] * w76 - w72 * w30) * w34;
-        const S w102 = w8 + (w91 + w51 * w20) * w34;
-        const S w103 = w7 + (w51 * w21 - w92) * w34;
-        const S w104 = S(4) * w13 * w43 + w23 * w90;
-        const S w105 = w96 * w34;
-        const S w106 = S(3) * (w78 + (sines[1] * w73 - cosines[1] * w74) * w40) + w44 * w40;
-        const S w107 = w6 * (cosines[2] * (w24 - cosines[1] * w75) - sines[2] * (sines[1] * w75 + w25)) + (sines[2] *
-                w73 - cosines[2] * w74) * w18;
-        const S w108 = w1 * (w13 * ((w13 * w42 + w17 * w38) * w52 - (w13 + (cosines[0] * (w21 - w29) - sines[0] * (w20 +
-                w30)) * w64)) + w17 * w79);
-        const S w109 = m_b * w99;
-        const S w110 = sines[2] * w104;
-        const S w111 = cosines[2] * w104;
-        const S w112 = w48 - w103;
-        const S w113 = w49 - w102;
-        const S w114 = w5 * (sines[2] * (w20 + w80) + cosines[2] * (w81 - w21)) - w19 * (sines[1] * w54 + cosines[1] *
-                w55);
-        const S w115 = w98 + w106;
-        const S w116 = m_b * (w12 * w99 + w90 * w16) + S(8) * w17 * w43;
-        const S w117 = cosines[0] * w95 - w104 * w45;
-        const S w118 = sines[0] * w95 - w104 * w46;
-        const S w119 = w0 * w48 - (cosines[2] * w95 + w9 * w43) * w34;
-        const S w120 = w0 * w49 + (sines[2] * w95 + w10 * w43) * w34;
-        const S w121 = m_b * (w90 * w53 + w71 * w97) + S(12) * w43 * w59;
-        const S w122 = sines[2] * w118;
-        const S w123 = w119 * w4 - S(6) * (m_a + S(2) * m_b) * g;
-        const S w124 = w77 * w34 + S(3) * (sines[1] * w102 + w78 * w51 - cosines[1] * w103);
-        const S w125 = w68 * w23 + (w110 + S(4) * w31) * w34;
-        const S w126 = w69 * w23 - (w111 + S(4) * w32) * w34;
-        const S w127 = w0 * (cosines[0] * w112 - sines[0] * w113) + sines[0] * w120;
-        const S w128 = S(6) * c * g * m_c - w117 * w61;
-        const S w129 = S(4) * (S(2) * w75 + w59) * w43 + (w98 + w115) * w23;
-        const S w130 = S(1) / (S(4) * m_a + w0 * (cosines[0] * w49 + sines[0] * w48) + w104 * w34);
-        const S w131 = w12 * w124;
-        const S w132 = sines[1] * w125;
-        const S w133 = w12 + (cosines[0] * w55 + sines[0] * w54) * w50 + (w82 + (w38 * w53 + (w12 * w114 + w38 * w71)) *
-                w41) * w34;
-        const S w134 = cosines[0] * (m_b * (sines[2] * w90 + cosines[2] * w105 + S(6) * w80) + w56 * w57) + sines[0] *
-                (m_b * (sines[2] * w105 - cosines[2] * w90 - S(6) * w81) + w56 * w58);
-        const S w135 = cosines[2] * w128 - w122 * w61;
-        const S w136 = a * (w16 * w86 + (w60 + (w60 + w107)) * w40) + w82;
-        const S w137 = cosines[0] * (m_b * (cosines[2] * w115 + w26 * w73) + S(4) * (cosines[1] * w87 - w24) * w47) +
-                sines[0] * (m_b * (sines[2] * w115 + w26 * w74) + S(4) * (sines[1] * w87 + w25) * w47);
-        const S w138 = w19 * (sines[2] * (m_b * (cosines[0] * w90 - sines[0] * w99) + w116 * w46) + cosines[2] * (w116 *
-                w45 - m_b * (cosines[0] * w99 + sines[0] * w90)));
-        const S w139 = w12 * (w76 * w34 + S(3) * (sines[1] * w100 + cosines[1] * w101 + (w12 * (sines[1] * w63 +
-                cosines[1] * w62) + w16 * w78) * w64)) + w90 * w76;
-        const S w140 = sines[1] * w133 + w72 * w81;
-        const S w141 = S(6) * b * m_b * g + w126 * w61;
-        const S w142 = w0 * (cosines[0] * (w101 + w113 - w62) + sines[0] * (w100 + w112 - w63)) + cosines[0] * (w0 * w62
-                + (cosines[2] * w109 + w9 * w65) * w34 - w120);
-        const S w143 = m_b * (w90 * w77 + w131);
-        const S w144 = w72 * w80 - cosines[1] * w133;
-        const S w145 = w92 + (sines[1] * w136 + (w57 - w74) * w39) * w34;
-        const S w146 = w130 / a;
-        const S w147 = sines[1] * (w3 * (w12 * w63 + w49 * w16) + (sines[2] * w116 - w2 * w36) * w34) + cosines[1] * (w3
-                * (w12 * w62 - w48 * w16) + (w2 * w37 + cosines[2] * w116) * w34);
-        const S w148 = w132 * w61 - cosines[1] * w141;
-        const S w149 = w91 + ((w73 + w58) * w39 - cosines[1] * w136) * w34;
-        const S w150 = w146 * w34;
-        const S w151 = sines[1] * ((w111 + w35 * w81 - sines[2] * w121 - S(8) * w31 * w44) * w34 - w68 * w84) +
-                cosines[1] * (w69 * w84 - (w110 + cosines[2] * w121 + S(8) * w32 * w44 + w35 * w80) * w34);
-        const S w152 = ((sines[2] * (w11 * w96 - sines[1] * w121) + cosines[2] * (w14 * w96 - cosines[1] * w121)) * w34
-                - cosines[2] * w118) * w61 - sines[2] * w128 - w44 * w135;
-        const S w153 = sines[1] * (sines[2] * w129 + S(4) * sines[0] * w94 + S(3) * (w89 + w49 * w15) * w23) +
-                cosines[1] * (S(4) * cosines[0] * w94 + cosines[2] * w129 + S(3) * (w88 - w48 * w15) * w23);
-        const S w154 = a * w19 * (sines[2] * (w11 * w115 - (sines[1] * w129 + cosines[1] * w104) * w34) + cosines[2] *
-                (w14 * w115 + (sines[1] * w104 - cosines[1] * w129) * w34));
-        const S w155 = w142 + sines[0] * (w0 * w63 + (sines[2] * w109 + w10 * w65) * w34) + ((a * (w147 * w18 - w138) -
-                w108) * w34 - m_b * (w139 + w77 * w99 + w124 * w16)) * w34;
-        const S w156 = w136 * (w34 * w34) + S(3) * (sines[1] * w103 + cosines[1] * w102 + (sines[1] * w145 + S(2) *
-                (cosines[0] * w73 + sines[0] * w74) * w33 - cosines[1] * w149) * w34);
-        const S w157 = w154 - m_b * (w90 * w136 + w15 * w131) - w1 * (w13 * ((w85 + (w38 * w59 + (w13 * w107 + w38 *
-                w75)) * w41) * w34 - (w13 + w93 * w51)) + w79 * w75);
-        const S w158 = m_b * (w12 * (w133 + S(3) * (a * w78 * w83 + sines[1] * w140 - cosines[1] * w144)) + S(4) * w77 *
-                w71) + w151 * w33 + S(8) * (w79 * w15 + (a * (w13 * (w60 + (w60 + w114)) * w34 + w17 * w83) + w85)) *
-                w43;
-        const S w159 = cosines[0] * w119 + (w143 + (S(8) * w22 * w79 - a * ((w132 - cosines[1] * w126) * w18 + w19 *
-                (cosines[2] * w117 + w122))) * w34) * w34;
-        const S w160 = w130 * (cosines[0] * w123 + w34 * (w19 * w135 + (w143 + S(8) * w79 * w43) * w4 - w18 * w148) -
-                w127 * w4);
-        const S w161 = w86 * w135 - (w137 + w157 * w34 - m_b * (w12 * w156 + w77 * w106 + S(6) * (cosines[0] * (w88 +
-                w149) + sines[0] * (w89 - w145)))) * w4;
-        const S w162 = w83 * w148 + (w134 - m_b * (w90 * w133 + w124 * w71 + S(6) * (cosines[0] * (w144 + w80) -
-                sines[0] * (w140 + w81))) - w158 * w34) * w4;
-        const S w163 = w155 * w4 + w34 * (w27 * w148 - w28 * w135) - sines[0] * w123 + (w0 * (cosines[0] * (w63 - w48) +
-                sines[0] * (w49 - w62)) + w116 * w34) * w160;
-        const S w164 = w161 - w18 * (w44 * w148 + (sines[1] * w141 + (cosines[1] * w125 + w153 * w34) * w61)) - (S(8) *
-                w75 * w43 + (S(6) * w93 + w115) * w23) * w160;
-        values[12] = S(2) * (w159 - w127) * w130 * v_th;
-        values[9] = w146 * w163;
-        values[11] = w150 * (w162 + w19 * w152 + ((w97 - S(6) * w17) * w84 + w56 * w59) * w160);
-        values[10] = w150 * w164;
+        const S w3 = S(1) / a;
+        const S w4 = S(2) * m_b;
+        const S w5 = w3 * g;
+        const auto [sines, cosines] = sincos<S, 6>({th, ph, ps, w0, w1, w2});
+        const S w6 = S(3) * m_b;
+        const S w7 = S(2) * m_c;
+        const S w8 = v_th * v_th;
+        const S w9 = S(1) / b;
+        const S w10 = S(1) / c;
+        const S w11 = S(4) * m_c;
+        const S w12 = S(3) * g;
+        const S w13 = S(3) * b;
+        const S w14 = S(3) * w5;
+        const S w15 = S(3) * ((m_a + w4) * w5);
+        const S w16 = w9 * sines[3];
+        const S w17 = w10 * cosines[5];
+        const S w18 = w10 * sines[5];
+        const S w19 = m_c * sines[5];
+        const S w20 = m_b * sines[3];
+        const S w21 = S(2) * cosines[5];
+        const S w22 = S(2) * cosines[3];
+        const S w23 = m_c * cosines[2];
+        const S w24 = m_b * cosines[3];
+        const S w25 = sines[5] * sines[3];
+        const S w26 = cosines[5] * cosines[5];
+        const S w27 = S(1) / sines[4];
+        const S w28 = sines[0] * sines[1] + cosines[0] * cosines[1];
+        const S w29 = S(2) * cosines[4];
+        const S w30 = S(2) * sines[5];
+        const S w31 = cosines[4] * cosines[3];
+        const S w32 = b * cosines[3];
+        const S w33 = sines[0] * cosines[1] - cosines[0] * sines[1];
+        const S w34 = sines[3] * w27;
+        const S w35 = w25 - cosines[5] * cosines[3];
+        const S w36 = S(3) * w28;
+        const S w37 = cosines[4] * w27;
+        const S w38 = sines[3] * w16;
+        const S w39 = w21 * w19;
+        const S w40 = c * w16;
+        const S w41 = sines[5] * w19;
+        const S w42 = w30 * cosines[3];
+        const S w43 = b * w18 - sines[3];
+        const S w44 = S(2) * w18;
+        const S w45 = w33 * sines[3];
+        const S w46 = S(2) * w34 - w36;
+        const S w47 = S(3) * w33;
+        const S w48 = a * w27;
+        const S w49 = sines[3] * w37 - cosines[3];
+        const S w50 = sines[1] + cosines[1] * w37;
+        const S w51 = w19 * w27;
+        const S w52 = w28 * cosines[3];
+        const S w53 = w37 * w16;
+        const S w54 = sines[5] * w37;
+        const S w55 = w28 * sines[3];
+        const S w56 = S(2) * w33;
+        const S w57 = w47 * w20;
+        const S w58 = w43 * w27;
+        const S w59 = w48 * v_th;
+        const S w60 = w18 * w51;
+        const S w61 = w21 * w51;
+        const S w62 = cosines[5] * w37;
+        const S w63 = cosines[5] + w54;
+        const S w64 = cosines[4] * w46 - w22;
+        const S w65 = S(2) * w37;
+        const S w66 = w9 * w49;
+        const S w67 = sines[5] * w54;
+        const S w68 = a * v_th * w59;
+        const S w69 = w46 * w49;
+        const S w70 = w49 * w43;
+        const S w71 = w10 * w63;
+        const S w72 = w63 * w51;
+        const S w73 = cosines[3] + (w37 * w38 - w18 * w49) * w48;
+        const S w74 = w64 * w34 + S(3) * w52;
+        const S w75 = (w39 + cosines[4] * (w30 * w51 + w46 * w20)) * w27 + w57;
+        const S w76 = w6 * (((sines[1] * w37 - cosines[1]) * (cosines[1] * w34 - S(2) * cosines[0]) + w50 * (S(2) *
+                sines[0] - sines[1] * w34)) * w38 - S(2) * w17 * w52);
+        const S w77 = w73 * (w22 * w27 + w47) + w46 * ((w22 * w53 - w10 * ((cosines[5] * sines[3] + sines[5] *
+                cosines[3]) * w37 + w35)) * w48 - sines[3]) + S(3) * (w55 + w33 * cosines[3]);
+        const S w78 = m_b * (sines[3] * ((w21 * sines[3] + sines[5] * w64) * w27 - S(3) * cosines[5] * w28) + S(3) *
+                sines[5] * w52) + S(2) * (w67 + S(2) * w63 * (sines[5] - w40)) * w51;
+        const S w79 = m_b * (sines[3] * (w49 * (w46 + S(2) * w58) + S(3) * (sines[3] * (w28 * w37 - w56) - w52)) - w36 *
+                w70) + S(2) * (w42 - sines[3] * (S(4) * cosines[5] + S(5) * w54)) * w51;
+        const S w80 = S(1) / (m_a + w6 + (sines[5] * w51 + (w34 - w36) * w20) * w27);
+        const S w81 = w9 * (sines[3] * (w6 * (w55 + w56 * cosines[3]) + w7 * (sines[5] * (S(2) * w62 - sines[5]) + w26)
+                * w27) + w22 * w72) - S(6) * w62 * w60;
+        const S w82 = w27 * w80;
+        const S w83 = (m_b * (w73 * w46 + S(3) * w45) + (a * ((w57 + S(2) * w72) * w16 - S(2) * w54 * w60) + w39) * w27)
+                * v_th;
+        const S w84 = S(3) * cosines[4] * w45 + w46 * (a * ((S(1) + S(3) * (w37 * w37)) * w38 - w10 * ((sines[3] *
+                (cosines[5] + S(3) * w54) - w42) * w37 + w35)) + w31);
+        const S w85 = cosines[4] * (w9 * w79 + w18 * (S(2) * (w22 * w20 + (S(4) * w41 - sines[3] * w20) * w37) * w27 -
+                m_b * w69)) - w30 * (m_c * (w9 * (w25 - w21 * cosines[3]) - sines[5] * w18) + w10 * cosines[3] * w24);
+        const S w86 = w46 * ((a * ((w44 * w49 + w9 * (sines[3] * (cosines[3] - S(2) * sines[3] * w37) + w70)) * w37 -
+                w38) - w31) * w27 - sines[3]) + ((a * (sines[3] * (w65 * w58 - w47) - w44 * w32 * w27) - S(2) * w32) *
+                w27 - w13 * w33) * w66;
+        const S w87 = w80 * (w15 * cosines[0] + w27 * (v_th * w83 - w14 * (cosines[1] * w20 + w19 * cosines[2])));
+        const S w88 = sines[3] * (w9 * (S(3) * sines[3] * w20 - w11 * w26) + S(4) * w17 * w24) + w29 * ((w57 - w61) *
+                w16 - w10 * w78) - S(4) * w18 * w41;
+        const S w89 = (w4 * (cosines[3] * (S(3) * a * w33 * w16 - cosines[3]) - w73 * w49) + (a * w85 + w29 *
+                (cosines[3] * w20 - w39)) * w27) * w27;
+        const S w90 = (m_b * (w22 * w34 + S(3) * (w45 - w52)) + w61) * w87 + w14 * (cosines[1] * w24 + cosines[5] * w23)
+                - (m_b * w77 + (a * w81 + w7 * (w26 - sines[5] * sines[5])) * w27) * w8;
+        const S w91 = a * (w76 + w88 * w27) + w4 * w84 + w11 * (w63 * (cosines[5] + (w63 * w16 - w18 * w54) * w48 + w10
+                * (c * cosines[5] + (w63 * w40 - w67) * w48)) - S(1));
+        const S w92 = (m_b * w86 + w89) * w8 - w3 * (w12 * w19 * (sines[2] - cosines[2] * w37) - w66 * (w75 * w68 + w13
+                * m_b * g * cosines[1]));
+        const S w93 = w75 * w87 + w3 * (w12 * w50 * w20 + w71 * (S(3) * c * g * w23 - (m_b * w74 + S(2) * w51 * w54) *
+                w68));
+        values[0] = S(1);
+        values[4] = -w48 * w16;
+        values[8] = -w18 * w48;
+        values[1] = -w9 * cosines[3] * w59;
+        values[2] = w53 * w59;
+        values[5] = -w17 * w59;
+        const S w94 = S(0.25) * w82;
+        values[7] = -w18 * w37 * w59;
+        values[3] = -w66 * w59;
+        values[6] = w71 * w59;
+        values[12] = -w82 * w83;
+        values[9] = S(0.5) * w80 * (w15 * sines[0] + w27 * w90);
+        values[11] = w94 * ((m_b * (w69 + w74) + S(4) * w51 * w54) * w87 + S(2) * w92);
+        values[10] = w94 * ((w4 * (w36 * sines[3] + w73 * (w47 + w65 * w34)) + w91 * w27) * w8 - S(2) * w93);
     }
 
     /// The same as a dense matrix, shape (4, 4).
