@@ -199,14 +199,19 @@ ExitCode reduce_by_routh(const Options& options, const std::string& path)
     Graph graph = checked.system.graph;
     const Routhian made = routhian(graph, checked.system, cyclic);
     const RouthianText text = routhian_text(model, checked.system, graph, made);
-    const std::string document = routh_document(model, options.settings(), cyclic, text);
+    const std::vector<Tree> factors = singular_factors_of_momenta(graph, checked.system, made);
+    const std::string document = routh_document(model, options.settings(), cyclic, text, factors);
     const Model reduced = read_model_text(model.name + "_routh.toml", document);
-    const StructureReport report = verify_routh(graph, checked.system, made, elaborate(reduced), free_of);
+    std::vector<std::string> where;
+    for (const Tree& factor : factors) where.push_back(to_text(factor) + " != 0");
+    const StructureReport report = verify_routh(graph, checked.system, made, elaborate(reduced), free_of, where);
     std::string said =
         fmt::format("{}: reduced by {}: {}\n", model.name, options.get("routh"), to_text(report.verdict));
     for (std::size_t j = 0; j < cyclic.size(); ++j)
         said += fmt::format("  {} = {}\n", model.fibre.coordinates[cyclic[j]].name, to_text(text.velocities[j]));
-    said += fmt::format("  R = {}\n{}", to_text(text.value), failures_text(report));
+    said += fmt::format("  R = {}\n", to_text(text.value));
+    if (!where.empty()) said += fmt::format("  where {}\n", fmt::join(where, " and "));
+    said += failures_text(report);
     return write_reduced(options, model.name, {"routhian", to_text(text.value)}, document, said, report);
 }
 

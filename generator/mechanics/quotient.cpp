@@ -5,7 +5,6 @@
 #include "graph/calculus/differentiate.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace lagen {
 
@@ -28,26 +27,6 @@ std::vector<NodeId> frozen_block(const std::vector<std::vector<NodeId>>& fields,
     return block;
 }
 
-NodeId determinant(Graph& graph, const std::vector<NodeId>& block, std::size_t size)
-{
-    std::vector<std::size_t> all(size);
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    return determinant_of(graph, block, size, all, all);
-}
-
-/// B^-1 right, by Cramer's rule.
-std::vector<NodeId> solved(Graph& graph, const std::vector<NodeId>& block, NodeId divisor,
-                           const std::vector<NodeId>& right)
-{
-    std::vector<NodeId> out;
-    for (std::size_t b = 0; b < right.size(); ++b) {
-        std::vector<NodeId> replaced = block;
-        for (std::size_t row = 0; row < right.size(); ++row) replaced[row * right.size() + b] = right[row];
-        out.push_back(graph.divide(determinant(graph, replaced, right.size()), divisor));
-    }
-    return out;
-}
-
 } // namespace
 
 Replacements Quotient::on_slice(const System& whole) const
@@ -58,7 +37,7 @@ Replacements Quotient::on_slice(const System& whole) const
 NodeId slice_determinant(Graph& graph, const System& whole, const InfinitesimalAction& action, const Slice& slice)
 {
     const std::vector<NodeId> block = substitute(graph, frozen_block(action.fields, slice), fixed(whole, slice));
-    return determinant(graph, block, slice.frozen.size());
+    return determinant_of(graph, block, slice.frozen.size());
 }
 
 Quotient quotient(Graph& graph, const System& whole, const InfinitesimalAction& action, Slice slice,
@@ -86,8 +65,8 @@ Quotient quotient(Graph& graph, const System& whole, const InfinitesimalAction& 
             made.velocity[i] = graph.add(made.velocity[i], graph.multiply(made.w[b], made.xi[b][i]));
     }
     const std::vector<NodeId> block = frozen_block(made.xi, made.slice);
-    made.determinant = determinant(graph, block, made.slice.frozen.size());
-    made.group = solved(graph, block, made.determinant, moving);
+    made.determinant = determinant_of(graph, block, made.slice.frozen.size());
+    made.group = solved_by_cramer(graph, block, made.determinant, moving);
     for (const std::size_t i : made.free) {
         made.base.push_back(y[i]);
         for (std::size_t b = 0; b < made.w.size(); ++b)

@@ -10,6 +10,14 @@
 
 namespace lagen {
 
+SingularMomenta::SingularMomenta(const std::string& model)
+    : MathematicsError(fmt::format("the momenta of the cyclic coordinates of model '{}' do not determine their "
+                                   "velocities: det d2L/dy2 is 0 in them",
+                                   model),
+                       "leave out a coordinate whose velocity L does not have, or has in a sum with another")
+{
+}
+
 Routhian routhian(Graph& graph, const System& system, std::vector<std::size_t> cyclic)
 {
     if (cyclic.size() > determinant_limit)
@@ -21,9 +29,7 @@ Routhian routhian(Graph& graph, const System& system, std::vector<std::size_t> c
     Routhian made;
     std::vector<NodeId> mu;
     std::vector<std::pair<NodeId, NodeId>> at_rest;
-    std::vector<std::size_t> all;
     for (const std::size_t k : cyclic) {
-        all.push_back(all.size());
         made.y.push_back(system.algebroid.y[k]);
         mu.push_back(system.mu[k]);
         at_rest.emplace_back(made.y.back(), graph.constant(0));
@@ -38,24 +44,17 @@ Routhian routhian(Graph& graph, const System& system, std::vector<std::size_t> c
                         "have no formula",
                         system.name),
             "`run --form hamilton` keeps the momenta without reducing");
-    const NodeId determinant = determinant_of(graph, W, all.size(), all, all);
-    if (graph.is_zero(determinant))
-        throw MathematicsError(fmt::format("the momenta of the cyclic coordinates of model '{}' do not determine their "
-                                           "velocities: det d2L/dy2 is 0 in them",
-                                           system.name),
-                               "leave out a coordinate whose velocity L does not have, or has in a sum with another");
+    made.determinant = determinant_of(graph, W, mu.size());
+    if (graph.is_zero(made.determinant)) throw SingularMomenta(system.name);
     std::vector<NodeId> right = substitute(graph, made.momenta, at_rest);
-    for (const std::size_t k : all) right[k] = graph.subtract(mu[k], right[k]);
-    // L is quadratic in the cyclic velocities: R = L(y^k = 0) - (p - b)_k Theta^k / 2, Theta by Cramer's rule.
+    for (std::size_t k = 0; k < mu.size(); ++k) right[k] = graph.subtract(mu[k], right[k]);
+    made.velocities = solved_by_cramer(graph, W, made.determinant, right);
+    // L is quadratic in the cyclic velocities: R = L(y^k = 0) - (p - b)_k Theta^k / 2.
     const NodeId only[] = {L};
     made.value = substitute(graph, only, at_rest)[0];
-    for (const std::size_t k : all) {
-        std::vector<NodeId> replaced = W;
-        for (const std::size_t row : all) replaced[row * all.size() + k] = right[row];
-        made.velocities.push_back(graph.divide(determinant_of(graph, replaced, all.size(), all, all), determinant));
+    for (std::size_t k = 0; k < mu.size(); ++k)
         made.value = graph.subtract(
             made.value, graph.multiply(graph.constant(Rational(1, 2)), graph.multiply(right[k], made.velocities[k])));
-    }
     return made;
 }
 

@@ -31,8 +31,8 @@ struct Check {
     Decision decision;
     std::string hint;                         ///< may be empty
     std::optional<Reevaluation> reevaluation; ///< where it was asked for and there is a residual
-    std::vector<std::string> where = {}; ///< of what is constant along motions and proved: strict conditions, which the
-                                         ///< domain does not imply; it may change where a motion crosses them
+    std::vector<std::string> where = {}; ///< of what is proved there alone: strict conditions, which the domain does
+                                         ///< not imply; what is constant may change where a motion crosses them
     std::string meaning = {};            ///< what the residual is, where `name` and `indices` do not tell
 };
 

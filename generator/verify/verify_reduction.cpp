@@ -10,6 +10,8 @@
 #include "verify/fibre_rank.hpp"
 #include "verify/proof_setting.hpp"
 
+#include <algorithm>
+
 namespace lagen {
 
 namespace {
@@ -17,13 +19,14 @@ namespace {
 /// W ydot = f along xdot.
 struct Accelerations {
     std::vector<NodeId> W, f, xdot;
+    FibreHessian hessian; ///< W with its blocks
 };
 
 Accelerations accelerations(Graph& graph, const System& system)
 {
     const LagrangianNodes lagrangian = lagrangian_nodes(graph, system);
     LagrangeRates rates = lagrange_rates(graph, system, lagrangian, lagrange_balance(graph, system, lagrangian));
-    return {lagrangian.fibre.hessian, std::move(rates.force), std::move(rates.xdot)};
+    return {lagrangian.fibre.hessian, std::move(rates.force), std::move(rates.xdot), lagrangian.fibre};
 }
 
 class Reduction {
@@ -72,11 +75,11 @@ class Reduction {
         append(form, std::move(component), judge_->decide(residual));
     }
     /// What is not compared, by name.
-    void leave_open(const char* form, const char* why)
+    void leave_open(const char* form, const char* why, std::string component = "all")
     {
         Decision open;
         open.evidence = why;
-        append(form, "all", std::move(open));
+        append(form, std::move(component), std::move(open));
     }
 
     /// xdot'^i of the target at y' against d phi^i along xdot.
@@ -101,7 +104,7 @@ class Reduction {
         along.set(to_.velocities(), image);
         const Accelerations here = accelerations(graph_, from_), of_target = accelerations(to_.graph, to_);
         decide_base(form, along, here.xdot, of_target.xdot);
-        const Accelerations there{along(of_target.W), along(of_target.f), {}};
+        const Accelerations there{along(of_target.W), along(of_target.f), {}, {}};
         Replacements motion = replacements(from_.algebroid.x, here.xdot);
         motion.emplace_back(from_.time, graph_.constant(1));
         const std::vector<NodeId> drift = directional(graph_, image, motion); // d/dt y' at fixed y
@@ -123,7 +126,22 @@ class Reduction {
         }
         const std::vector<NodeId> ydot = graph_.solve(here.W, here.f, MatrixStructure::symmetric);
         const std::vector<NodeId> moved = applied(graph_, there.W, k, applied(graph_, both_.moving.matrix, k, ydot));
-        for (std::size_t a = 0; a < k; ++a) decide(form, both_.target_velocity(a), graph_.add(moved[a], rest[a]));
+        const bool known = !is_singular(here.hessian);
+        for (std::size_t a = 0; a < k; ++a)
+            if (known || graph_.is_zero(moved[a]))
+                decide(form, both_.target_velocity(a), graph_.add(moved[a], rest[a]));
+            else
+                leave_open(form, "L of the source is degenerate: its equations do not determine the accelerations",
+                           both_.target_velocity(a));
+    }
+
+    /// Whether W is proved to be singular everywhere, by one of its blocks.
+    bool is_singular(const FibreHessian& hessian)
+    {
+        return std::ranges::any_of(hessian.blocks, [&](const std::vector<std::size_t>& block) {
+            return block.size() <= determinant_limit &&
+                   judge_->decider().status(minor_determinant(graph_, hessian, block, block)) == ProofStatus::proved;
+        });
     }
 
     /// Whether Phi^* of the target's equations, W' Phi ydot + rest = 0, are the source's, W ydot = f, by sections of

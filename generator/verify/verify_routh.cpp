@@ -3,8 +3,11 @@
 
 #include "graph/calculus/differentiate.hpp"
 #include "graph/calculus/transplant.hpp"
+#include "graph/core/lower.hpp"
+#include "verify/at_values.hpp"
 #include "verify/judge.hpp"
 #include "verify/proof_setting.hpp"
+#include "verify/reduced_fraction.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -24,10 +27,51 @@ NodeId moved_lagrangian(Graph& graph, const System& from)
     return transplant(graph, from.graph, only, inputs)[0];
 }
 
+/// The first of `factors` that is proved to vanish for the parameter values of the file, or null.
+Tree factor_that_vanishes(Graph& graph, const System& system, const ProofSetting& setting,
+                          const std::vector<Tree>& factors, const ProofBudget& budget)
+{
+    const auto there = replaced(graph, setting, system.parameter_values);
+    const auto decider = there ? ZeroDecider::make(graph, *there, budget) : nullptr;
+    for (const Tree& factor : factors) {
+        const NodeId node[] = {Lowering(graph)(factor)};
+        const auto value = substitute_where_defined(graph, node, system.parameter_values);
+        if (!value) continue;
+        if (graph.is_zero((*value)[0]) || (decider && decider->status((*value)[0]) == ProofStatus::proved))
+            return factor;
+    }
+    return nullptr;
+}
+
 } // namespace
 
+std::vector<Tree> singular_factors_of_momenta(Graph& graph, const System& system, const Routhian& routhian,
+                                              const ProofBudget& budget)
+{
+    ProofSetting setting = proof_setting(graph, system);
+    setting.defined.clear(); // that L is written with 1/x is no reason to leave x != 0 out
+    const ZeroDecider decider(graph, setting, budget);
+    const NodeId determinant = routhian.determinant;
+    if (decider.status(determinant) == ProofStatus::proved) throw SingularMomenta(system.name);
+    const std::vector<Tree> factors = factors_of(graph, determinant, writing_order(graph, setting), decider)
+                                          .value_or(std::vector{to_tree(graph, determinant)});
+    if (const Tree zero = factor_that_vanishes(graph, system, setting, factors, budget))
+        throw MathematicsError(fmt::format("the momenta of the cyclic coordinates of model '{}' do not determine their "
+                                           "velocities for the parameter values of the file: the factor {} of "
+                                           "det d2L/dy2 is 0 in them",
+                                           system.name, to_text(zero)),
+                               "--set gives a parameter another value");
+    std::vector<Tree> open;
+    std::set<std::string> seen;
+    for (const Tree& factor : factors)
+        if (!decider.proves_nonzero(Lowering(graph)(factor)) && seen.insert(to_text(factor)).second)
+            open.push_back(factor);
+    return open;
+}
+
 StructureReport verify_routh(Graph& graph, const System& system, const Routhian& routhian, const System& reduced,
-                             const StructureReport& cyclic, const ProofBudget& budget)
+                             const StructureReport& cyclic, const std::vector<std::string>& where,
+                             const ProofBudget& budget)
 {
     StructureReport report;
     const auto name_of = [&](NodeId node) { return graph.input_name(node); };
@@ -50,8 +94,12 @@ StructureReport verify_routh(Graph& graph, const System& system, const Routhian&
     std::set<std::string> accessory = accessory_inputs(system);
     for (const NodeId node : ydot) accessory.insert(name_of(node));
     Judge judge(graph, setting, std::move(accessory), 0, budget);
-    const auto append = [&](const char* name, NodeId about, NodeId residual) {
-        report.checks.push_back({name, {name_of(about)}, judge.decide(residual), {}, {}});
+    const auto append = [&](const char* name, NodeId about, NodeId residual) -> Check& {
+        return report.checks.emplace_back(Check{name, {name_of(about)}, judge.decide(residual), {}, {}});
+    };
+    const auto append_at_velocities = [&](const char* name, NodeId about, NodeId residual) {
+        Check& check = append(name, about, residual);
+        if (check.decision.status == ProofStatus::proved) check.where = where;
     };
 
     // On the level set: velocities Theta, and the accelerations that follow from them.
@@ -75,13 +123,13 @@ StructureReport verify_routh(Graph& graph, const System& system, const Routhian&
     for (std::size_t k = 0; k < y.size(); ++k) {
         const NodeId p = system.mu[routhian.cyclic[k]];
         append("conserved", p, forces[routhian.cyclic[k]]);
-        append("momentum", p, graph.subtract(momenta[k], p));
+        append_at_velocities("momentum", p, graph.subtract(momenta[k], p));
     }
     const std::vector<NodeId> whole =
         substitute(graph, euler_lagrange(graph, system, *system.lagrangian, rest, ydot), on_level);
     const std::vector<NodeId> ours = euler_lagrange(graph, system, moved_lagrangian(graph, reduced), rest, ydot);
     for (std::size_t j = 0; j < rest.size(); ++j)
-        append("routh", system.algebroid.y[rest[j]], graph.subtract(whole[j], ours[j]));
+        append_at_velocities("routh", system.algebroid.y[rest[j]], graph.subtract(whole[j], ours[j]));
     report.verdict = verdict_of(report);
     return report;
 }

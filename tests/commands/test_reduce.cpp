@@ -114,6 +114,37 @@ TEST_CASE("equations project although the Lagrangians do not: twice L, and a tot
           "  variations      x, y, v_x, v_y: proved\n  lifts           v_x, v_y: refuted\n");
 }
 
+TEST_CASE("of a source whose Lagrangian is degenerate the accelerations are not known, and it is said")
+{
+    const std::string folder = fresh_folder();
+    model_written(folder, "flat.toml",
+                  "[parameters]\nm = 1\n[base]\ncoordinates = [\"x\", \"y\"]\n[algebroid]\nkind = \"tangent\"\n"
+                  "[lagrangian]\nL = \"9*m*x^4*v_x^2/2\"\n");
+    const auto reduced = [&](const std::string& name, const std::string& coordinates, const std::string& L,
+                             const std::string& maps) {
+        model_written(folder, "line.toml",
+                      "[parameters]\nm = 1\n[base]\ncoordinates = [" + coordinates +
+                          "]\n[algebroid]\nkind = \"tangent\"\n[lagrangian]\nL = \"" + L + "\"\n");
+        return call(
+            {"reduce", "--unchecked",
+             model_written(folder, name, "[morphism]\nsource = \"flat.toml\"\ntarget = \"line.toml\"\n" + maps)});
+    };
+    const Outcome cube =
+        reduced("cube.toml", "\"q\"", "m*v_q^2/2", "base = { q = \"x^3\" }\nfibre = { v_q = \"3*x^2*v_x\" }\n");
+    CHECK(cube.code == 2);
+    CHECK(head_of(cube.out) == "cube: the equations of flat are not shown to project onto those of line\n"
+                               "  lagrange        q: proved\n  lagrange        v_q: undecided\n"
+                               "  variations      q, v_q: proved\n  lifts           v_x, v_y: proved\n");
+    CHECK(cube.out.find("undecided: projects (lagrange, v_q)\n  known: L of the source is degenerate: its equations do "
+                        "not determine the accelerations\n") != std::string::npos);
+    // An equation without accelerations is decided as ever.
+    const Outcome still =
+        reduced("still.toml", "\"q\", \"s\"", "m*v_q^2/2 - s^2",
+                "base = { q = \"x^3\", s = \"y\" }\nfibre = { v_q = \"3*x^2*v_x\", v_s = \"v_y\" }\n");
+    CHECK(still.out.find("  lagrange        q, s: proved\n  lagrange        v_s: refuted\n"
+                         "  lagrange        v_q: undecided\n") != std::string::npos);
+}
+
 TEST_CASE("forces project with the equations, and one that does not is refuted in its component alone")
 {
     const std::string folder = fresh_folder();

@@ -147,3 +147,105 @@ TEST_CASE("a scene that starts from momenta gives them to the parameters")
         outcome.out.find("[scene.momenta]\ninitial = { th = 0.9, ph = 0, ps = 0, p_w = 0.3 }\nduration = 1\nobserve = "
                          "[\"th\"]\nparameters = { p_dph = \"2.1\", p_dps = \"2.4\" }\n") != std::string::npos);
 }
+
+TEST_CASE("where the momenta do not determine the velocities is left out of the domain, and said beside the proof")
+{
+    const std::string text = R"toml([parameters]
+k = 3
+m = 2
+[base]
+coordinates = ["x", "th"]
+domain = ["m > 0"]
+[fibre]
+coordinates = ["v", "w"]
+[algebroid]
+kind = "tangent"
+[lagrangian]
+L = "v^2/2 + m*x^2*(k - 2)*w^2/2 + v*w - x^2"
+[scene.default]
+initial = { x = 1, th = 0, v = 0.3, w = 0.7 }
+duration = 1
+)toml";
+    const std::string whole = model_file("loose.toml", text), reduced = fresh_folder() + "/reduced.toml";
+    const Outcome outcome = call({"reduce", whole, "--routh", "th", "-o", reduced});
+    CHECK(outcome.code == 0);
+    CHECK(outcome.err.find("loose: reduced by th: valid\n") == 0);
+    CHECK(outcome.err.ends_with("\n  where k - 2 != 0 and x != 0\n"));
+    CHECK(read_text(reduced).find("\ndomain = [\"m > 0\", \"k - 2 != 0\", \"x != 0\"]\n") != std::string::npos);
+    const Outcome outside = call({"run", reduced, "--set", "k=2"});
+    CHECK(outside.code == 3);
+    CHECK(outside.err.find("k - 2 != 0 is required") != std::string::npos);
+    const json::Value report = json::parse(call({"reduce", whole, "--routh", "th", "--format", "json"}).out);
+    for (const json::Value& check : report["checks"].entries) {
+        const bool divides = check["name"].text == "momentum" || check["name"].text == "routh";
+        REQUIRE(check.has("where") == divides);
+        if (divides) CHECK(check["where"].texts() == std::vector<std::string>{"k - 2 != 0", "x != 0"});
+    }
+    CHECK(call({"reduce", whole, "--routh", "th", "--set", "k=2"}).code == 1);
+}
+
+TEST_CASE(
+    "a determinant that has velocities or the time stands in a comment, and one that algebra finds to be 0 is refused")
+{
+    const std::string head =
+        "[base]\ncoordinates = [\"x\", \"a\"]\n[fibre]\ncoordinates = [\"v\", \"p\"]\n[algebroid]\n"
+        "kind = \"tangent\"\n[lagrangian]\n";
+    const Outcome moving =
+        call({"reduce", model_file("moving.toml", head + "L = \"v^2/2 + t*v^2*p^2/2\"\n"), "--routh", "a"});
+    CHECK(moving.code == 0);
+    CHECK(moving.err.ends_with("\n  where v != 0 and t != 0\n"));
+    CHECK(moving.out.find("# It holds where v != 0 and t != 0.\n") != std::string::npos);
+    CHECK(moving.out.find("domain") == std::string::npos);
+    const Outcome zero =
+        call({"reduce", model_file("zero.toml", head + "L = \"v^2/2 + (sin(x)^2 + cos(x)^2 - 1)*p^2/2 + v*p\"\n"),
+              "--routh", "a"});
+    CHECK(zero.code == 1);
+    CHECK(zero.err.find("do not determine their velocities: det d2L/dy2 is 0 in them\n") != std::string::npos);
+}
+
+TEST_CASE("a momentum that depends on the time is that of the start of each scene", "[run]")
+{
+    const std::string whole = model_file("driven.toml", R"toml([parameters]
+k = 2
+late = 0.25
+[base]
+coordinates = ["x", "a"]
+[fibre]
+coordinates = ["v", "p"]
+[algebroid]
+kind = "tangent"
+[lagrangian]
+L = "v^2/2 + (1 + x^2)*p^2/2 + p*v*cos(k*t) - x^4"
+[scene.default]
+initial = { x = 0.6, a = 0.1, v = 0.1, p = 0.4 }
+duration = 1
+[scene.later]
+initial = { x = 0.6, a = 0.1, v = 0.1, p = 0.4 }
+start = 1.5
+duration = 1
+[scene.like_later]
+like = "later"
+start = "3*late"
+[scene.momenta]
+initial = { x = 0.6, a = 0.1, p_v = 0.1, p_p = 0.4 }
+start = 2
+duration = 1
+)toml");
+    const std::string reduced = fresh_folder() + "/reduced.toml";
+    const Outcome outcome = call({"reduce", whole, "--routh", "a", "-o", reduced});
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    const std::string text = read_text(reduced);
+    for (const char* start : {"cos(k*0)", "cos(k*3/2)", "cos(k*late*3)"})
+        CHECK(text.find(std::string("parameters = { p_p = \"(3/5)^2*2/5 + 0.1*") + start + " + 2/5\" }\n") !=
+              std::string::npos);
+    std::vector<double> ends;
+    for (const char* scene : {"default", "later", "like_later", "momenta"}) {
+        std::vector<double> x;
+        for (const std::string& path : {whole, reduced})
+            x.push_back(last_columns(finished_run({path, "--scene", scene, "--tolerance", "1e-13"})).at("x"));
+        CHECK(std::abs(x[0] - x[1]) < 1e-11);
+        for (const double other : ends) CHECK(std::abs(x[0] - other) > 1e-3);
+        ends.push_back(x[0]);
+    }
+}

@@ -13,22 +13,6 @@ namespace lagen {
 
 namespace {
 
-/// Phi^-1 v by Cramer's rule, Phi with as many rows as v has entries.
-std::vector<NodeId> solved(Graph& graph, const std::vector<NodeId>& Phi, const std::vector<NodeId>& v)
-{
-    const std::size_t r = v.size();
-    std::vector<std::size_t> all(r);
-    for (std::size_t k = 0; k < r; ++k) all[k] = k;
-    const NodeId determinant = determinant_of(graph, Phi, r, all, all);
-    std::vector<NodeId> out;
-    for (std::size_t b = 0; b < r; ++b) {
-        std::vector<NodeId> replaced = Phi;
-        for (std::size_t a = 0; a < r; ++a) replaced[a * r + b] = v[a];
-        out.push_back(graph.divide(determinant_of(graph, replaced, r, all, all), determinant));
-    }
-    return out;
-}
-
 /// lifted_x, under names that the target does not have.
 std::vector<std::string> names_of_lifts(const SystemMorphism& map)
 {
@@ -57,7 +41,8 @@ LiftedTarget lifted_target(const Model& target, const SystemMorphism& map, const
         y.push_back(graph.input(name + "'"));
         values.emplace_back(y.back(), graph.input(name));
     }
-    const std::vector<NodeId> velocity = solved(graph, fibre_matrix(graph, map), y);
+    const std::vector<NodeId> Phi = fibre_matrix(graph, map);
+    const std::vector<NodeId> velocity = solved_by_cramer(graph, Phi, determinant_of(graph, Phi, y.size()), y);
     const std::vector<NodeId> rates = substitute(graph, base_velocity(graph, map.source.algebroid, velocity), values);
     for (std::size_t i = 0; i < rates.size(); ++i) {
         FirstOrderState state;

@@ -17,8 +17,9 @@ namespace {
 class RouthDocument {
   public:
     RouthDocument(const Model& model, const std::vector<Setting>& settings, const std::vector<std::size_t>& cyclic,
-                  const RouthianText& text)
-        : model_(model), cyclic_(cyclic), text_(text), document_(model, settings, "by " + comma_list_of_coordinates())
+                  const RouthianText& text, const std::vector<Tree>& nonzero)
+        : model_(model), cyclic_(cyclic), text_(text), nonzero_(nonzero),
+          document_(model, settings, "by " + comma_list_of_coordinates())
     {
     }
 
@@ -29,6 +30,7 @@ class RouthDocument {
         for (const std::size_t k : cyclic_) // until a scene says otherwise
             entry_in(parameters, momentum(k)) = toml_string("0");
         drop_coordinates();
+        const std::string elsewhere = restrict_domain();
         add_velocities();
         entry_in(document_.at("lagrangian"), "L") = toml_string(to_text(text_.value));
         drop_claims();
@@ -36,8 +38,8 @@ class RouthDocument {
         return document_.text(fmt::format(
             "# Routh's reduction of {} by {}: R = L - p_k y^k at p_k = dL/dy^k. The velocities of the cyclic\n"
             "# coordinates are definitions, their momenta parameters, they themselves states that run\n"
-            "# where they are observed.\n",
-            std::filesystem::path(model_.file->name).filename().string(), comma_list_of_coordinates()));
+            "# where they are observed.\n{}",
+            std::filesystem::path(model_.file->name).filename().string(), comma_list_of_coordinates(), elsewhere));
     }
 
   private:
@@ -77,6 +79,30 @@ class RouthDocument {
         put_rest(fibre, "coordinates", model_.fibre.coordinates);
         put_rest(fibre, "momenta", model_.fibre.momenta);
         for (const std::size_t k : cyclic_) document_.erase("forces", {velocity(k), momentum(k)});
+    }
+
+    /// The domain is about base coordinates and parameters: what else must not be 0 is said in a comment.
+    std::string restrict_domain()
+    {
+        const auto is_of_base = [&](const Tree& tree) {
+            const std::vector<std::string> names = names_in(tree);
+            return std::ranges::none_of(names, [&](const std::string& name) {
+                return name == "t" || std::ranges::find(model_.fibre.coordinates, name, &Symbol::name) !=
+                                          model_.fibre.coordinates.end();
+            });
+        };
+        std::vector<std::string> others;
+        for (const Tree& factor : nonzero_) {
+            const std::string condition = to_text(factor) + " != 0";
+            if (!is_of_base(factor)) {
+                others.push_back(condition);
+                continue;
+            }
+            TomlValue& domain = entry_in(document_.at("base"), "domain");
+            if (domain.kind != TomlKind::array) domain = toml_list({});
+            domain.items.push_back(toml_string(condition));
+        }
+        return others.empty() ? "" : fmt::format("# It holds where {}.\n", fmt::join(others, " and "));
     }
 
     void add_velocities()
@@ -126,7 +152,7 @@ class RouthDocument {
         std::map<std::string, Tree> values;
         for (const NamedTree& each : scene.initial) values[each.name] = each.value;
         if (const auto given = values.find(momentum(k)); given != values.end()) return given->second;
-        if (scene.start != nullptr) values["t"] = scene.start;
+        values["t"] = scene.start != nullptr ? scene.start : number(0);
         bool known = true;
         const std::vector<std::string> needed = names_in(p);
         for (const auto* symbols : {&model_.base.coordinates, &model_.fibre.coordinates})
@@ -148,6 +174,7 @@ class RouthDocument {
     const Model& model_;
     const std::vector<std::size_t>& cyclic_;
     const RouthianText& text_;
+    const std::vector<Tree>& nonzero_;
     ReducedDocument document_;
 };
 
@@ -184,9 +211,10 @@ std::vector<std::size_t> coordinates_to_reduce(const Model& model, const std::ve
 }
 
 std::string routh_document(const Model& model, const std::vector<Setting>& settings,
-                           const std::vector<std::size_t>& cyclic, const RouthianText& text)
+                           const std::vector<std::size_t>& cyclic, const RouthianText& text,
+                           const std::vector<Tree>& nonzero)
 {
-    return RouthDocument(model, settings, cyclic, text).write();
+    return RouthDocument(model, settings, cyclic, text, nonzero).write();
 }
 
 } // namespace lagen

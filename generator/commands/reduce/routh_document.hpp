@@ -10,9 +10,11 @@
 
 namespace lagen {
 
-/// `settings`: values of parameters from the command line. Throws MathematicsError for what of a model is not reduced.
+/// `settings`: values of parameters from the command line; `nonzero`: what the momenta determine the velocities where
+/// it is not 0, for the domain. Throws MathematicsError for what of a model is not reduced.
 [[nodiscard]] std::string routh_document(const Model& model, const std::vector<Setting>& settings,
-                                         const std::vector<std::size_t>& cyclic, const RouthianText& text);
+                                         const std::vector<std::size_t>& cyclic, const RouthianText& text,
+                                         const std::vector<Tree>& nonzero);
 
 /// The coordinates of these names. Throws where one is none, where the model is not of the sort that is reduced, and
 /// where none would be left.

@@ -3,6 +3,8 @@
 
 #include "expression/linear_algebra.hpp"
 
+#include <numeric>
+
 namespace lagen {
 
 namespace {
@@ -33,6 +35,26 @@ NodeId determinant_of(Graph& graph, const std::vector<NodeId>& matrix, std::size
     if (m > determinant_limit || rows.size() != m)
         throw InternalError("a determinant of size " + std::to_string(m) + " was asked for");
     return determinant(NodeRing{graph, matrix, width, rows, columns}, m, ExpandBy::last_row);
+}
+
+NodeId determinant_of(Graph& graph, const std::vector<NodeId>& matrix, std::size_t size)
+{
+    std::vector<std::size_t> all(size);
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    return determinant_of(graph, matrix, size, all, all);
+}
+
+std::vector<NodeId> solved_by_cramer(Graph& graph, const std::vector<NodeId>& A, NodeId divisor,
+                                     const std::vector<NodeId>& b)
+{
+    const std::size_t size = b.size();
+    std::vector<NodeId> out;
+    for (std::size_t column = 0; column < size; ++column) {
+        std::vector<NodeId> replaced = A;
+        for (std::size_t row = 0; row < size; ++row) replaced[row * size + column] = b[row];
+        out.push_back(graph.divide(determinant_of(graph, replaced, size), divisor));
+    }
+    return out;
 }
 
 } // namespace lagen

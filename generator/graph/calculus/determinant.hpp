@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-/// Determinants of matrices of graph nodes.
+/// Determinants of matrices of graph nodes, and Cramer's rule.
 #pragma once
 
 #include "graph/core/graph.hpp"
@@ -15,5 +15,12 @@ inline constexpr std::size_t determinant_limit = 8;
 /// `width` columns, by minors of growing size that share their sub-determinants.
 [[nodiscard]] NodeId determinant_of(Graph& graph, const std::vector<NodeId>& matrix, std::size_t width,
                                     const std::vector<std::size_t>& rows, const std::vector<std::size_t>& columns);
+/// That of a whole matrix with `size` rows.
+[[nodiscard]] NodeId determinant_of(Graph& graph, const std::vector<NodeId>& matrix, std::size_t size);
+
+/// A^-1 b by Cramer's rule, of a square A by rows whose determinant is `divisor`. Throws DivisionByZero where that is
+/// the constant 0.
+[[nodiscard]] std::vector<NodeId> solved_by_cramer(Graph& graph, const std::vector<NodeId>& A, NodeId divisor,
+                                                   const std::vector<NodeId>& b);
 
 } // namespace lagen
