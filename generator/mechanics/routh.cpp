@@ -18,6 +18,23 @@ SingularMomenta::SingularMomenta(const std::string& model)
 {
 }
 
+namespace {
+
+/// L where the cyclic coordinates, on which it does not depend, are 0, or 1 where it is not defined there: algebra may
+/// have left them in it, sin(x)^2 + cos(x)^2.
+NodeId without_cyclic(Graph& graph, const System& system, const std::vector<std::size_t>& cyclic)
+{
+    const NodeId L[] = {*system.lagrangian};
+    for (const int value : {0, 1}) {
+        std::vector<std::pair<NodeId, NodeId>> there;
+        for (const std::size_t k : cyclic) there.emplace_back(system.algebroid.x[k], graph.constant(value));
+        if (const auto found = substitute_where_defined(graph, L, there)) return (*found)[0];
+    }
+    return L[0];
+}
+
+} // namespace
+
 Routhian routhian(Graph& graph, const System& system, std::vector<std::size_t> cyclic)
 {
     if (cyclic.size() > determinant_limit)
@@ -35,7 +52,7 @@ Routhian routhian(Graph& graph, const System& system, std::vector<std::size_t> c
         at_rest.emplace_back(made.y.back(), graph.constant(0));
     }
     made.cyclic = std::move(cyclic);
-    const NodeId L = *system.lagrangian;
+    const NodeId L = without_cyclic(graph, system, made.cyclic);
     made.momenta = gradient(graph, L, made.y);
     const std::vector<NodeId> W = joined_rows(jacobian(graph, made.momenta, made.y));
     if (depends_on_any(graph, W, made.y))

@@ -251,3 +251,31 @@ duration = 1
         ends.push_back(x[0]);
     }
 }
+
+TEST_CASE("a cyclic coordinate that algebra has left in L is gone from the Routhian", "[run]")
+{
+    const std::string whole = model_file("sphere.toml", R"toml([parameters]
+m = 2
+l = 1.5
+[base]
+coordinates = ["th", "ph"]
+[algebroid]
+kind = "tangent"
+[definitions]
+X = "[l*sin(th)*cos(ph), l*sin(th)*sin(ph), -l*cos(th)]"
+[lagrangian]
+L = "m*dot(Dt(X), Dt(X))/2 - 9*m*X[3]"
+[scene.default]
+initial = { th = 1, ph = 0.2, v_th = 0.1, v_ph = 2 }
+duration = 2
+)toml");
+    const std::string reduced = fresh_folder() + "/reduced.toml";
+    REQUIRE(call({"reduce", whole, "--routh", "ph", "-o", reduced}).code == 0);
+    const std::string text = read_text(reduced);
+    const std::size_t L = text.find("L = ");
+    CHECK(text.substr(L, text.find('\n', L) - L).find("ph)") == std::string::npos);
+    std::vector<double> ends;
+    for (const std::string& path : {whole, reduced})
+        ends.push_back(last_columns(finished_run({path, "--tolerance", "1e-13"})).at("th"));
+    CHECK(std::abs(ends[0] - ends[1]) < 1e-11);
+}
