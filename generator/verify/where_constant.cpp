@@ -28,8 +28,8 @@ WhereConstant::WhereConstant(Graph& graph, const ProofSetting& setting, const Pr
     decider_ = std::make_unique<ZeroDecider>(graph, setting_, budget);
 }
 
-/// A run ends where it would leave f > 0; it steps over f != 0, unless f has one sign and vanishes on something smaller
-/// than a wall.
+/// A run ends where it would leave f > 0; one of a header steps over f != 0, unless f has one sign and vanishes on
+/// something smaller than a wall.
 void WhereConstant::drop_what_is_stepped_over()
 {
     ProofSetting open = setting_;

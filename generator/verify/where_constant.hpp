@@ -5,10 +5,10 @@
 ///
 /// One rule: an operation of the function asks for what the operator table says, that it is defined (a divisor is not
 /// 0, a radicand is positive) and does not jump (sign, comparisons, the cut of atan2); kinks are no jumps. A condition
-/// is left out where it follows from the domain, which a run does not leave (but for f != 0, which it steps over), and
-/// where it is about a constant of the motion, so that no motion crosses it. What is left stands beside the verdict.
-/// That L is not defined at x = 0 as it is written is no reason to leave x != 0 out: a run steps over that, and its
-/// equations may have lost the divisor.
+/// is left out where it follows from the domain, which a run does not leave (but for f != 0, which that of a header
+/// steps over), and where it is about a constant of the motion, so that no motion crosses it. What is left stands
+/// beside the verdict. That L is not defined at x = 0 as it is written is no reason to leave x != 0 out: a run steps
+/// over that, and its equations may have lost the divisor.
 #pragma once
 
 #include "mechanics/equations_of_motion.hpp"

@@ -56,6 +56,35 @@ TEST_CASE("an infall into a centre cannot go on, and keeps the rows before it", 
                                 Catch::Contains(" right-hand sides, 1 row\n"));
 }
 
+TEST_CASE("a wall of the domain ends a run, also where a step goes over it", "[run]")
+{
+    const std::string folder = fresh_folder();
+    write_text(folder + "/wall.toml",
+               "[parameters]\nk = 2\n[base]\ncoordinates = [\"x\", \"y\"]\n"
+               "domain = [\"k != 3\", \"x != 0\", \"x^2 + y^2 != 0\"]\n"
+               "[algebroid]\nkind = \"tangent\"\n[lagrangian]\nL = \"(v_x^2 + v_y^2)/2\"\n"
+               "[scene.default]\ninitial = { x = 1, y = 1, v_x = -1, v_y = 0 }\nduration = 3\n"
+               "[scene.back]\nlike = \"default\"\ninitial = { x = -0.5, y = 1, v_x = 1, v_y = 0 }\n"
+               "[scene.back.events]\nhalf = { when = \"x + 0.25\" }\n");
+    for (const std::vector<std::string>& more :
+         {std::vector<std::string>{}, {"--method", "rk4", "--step", "0.3"}, {"--method", "taylor"}}) {
+        std::vector<std::string> arguments{"run", folder + "/wall.toml", "--format", "json"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Outcome outcome = call(arguments);
+        CHECK(outcome.code == 1);
+        const json::Value value = json::parse(outcome.out);
+        CHECK(value["status"].text == "left_domain");
+        CHECK(std::abs(value["t"].number() - 1) < 1e-12L);
+        CHECK(value["events"].size() == 0);
+    }
+    const json::Value back =
+        json::parse(call({"run", folder + "/wall.toml", "--scene", "back", "--format", "json"}).out);
+    CHECK(back["status"].text == "left_domain");
+    CHECK(std::abs(back["t"].number() - 0.5L) < 1e-12L);
+    REQUIRE(back["events"].size() == 1);
+    CHECK(back["events"][0]["name"].text == "half");
+}
+
 TEST_CASE("a run that leaves the domain says so")
 {
     const json::Value value = fails("leave");

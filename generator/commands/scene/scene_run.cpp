@@ -3,6 +3,7 @@
 
 #include "commands/machine/write_file.hpp"
 #include "commands/scene/branch_report.hpp"
+#include "commands/scene/domain_walls.hpp"
 #include "commands/scene/integrate_scene.hpp"
 #include "commands/scene/largest_step.hpp"
 #include "model/scene_form.hpp"
@@ -25,6 +26,7 @@ void SceneRun::prepare(Scene scene, const MethodEntry& method, bool stretch)
     method_ = &method;
     form_ = form_of(checked_.model, scene_);
     values_ = evaluate_scene(checked_.model, scene_);
+    if (!values_.discrete) add_walls(scene_, checked_.model);
     parameters_ = finite_numbers(values_.parameters, scene_);
     input_.events = &scene_.events;
     const auto decided = [this](bool needed) -> const CheckedModel& {
@@ -54,6 +56,7 @@ RunOutcome SceneRun::integrate()
     for (const std::string& lane : record().names.lanes) outcome.state.emplace_back(lane, "");
     outcome.left_out = names_without_values(checked_.model, form_);
     integrate_scene(record().program, input_, outcome);
+    call_walls(outcome);
     if (!options_.has("bind") && !is_branch_missing(outcome))
         outcome.largest_step = largest_step(checked_.model, scene_, record().program, input_, *start_, outcome);
     return outcome;

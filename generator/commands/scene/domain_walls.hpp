@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Walls of the domain: a condition a != b is left where a - b changes its sign, which may happen within one step. A
+/// run watches for it as for an event that stops it.
+#pragma once
+
+#include "commands/scene/run_report.hpp"
+#include "model/model.hpp"
+
+namespace lagen {
+
+/// Adds such an event to the scene for each wall that can move away from the sign of its start; those of parameters
+/// alone cannot.
+void add_walls(Scene& scene, const Model& model);
+
+/// A run that a wall has stopped has left the domain.
+void call_walls(RunOutcome& outcome);
+
+} // namespace lagen
