@@ -163,7 +163,11 @@ std::vector<std::string> QuotientDocument::domain() const
                                                reduction_.model.name, reduction_.group, to_text(condition)),
                                    "a symmetry of the motions is one of the domain too; a condition f > 0 is invariant "
                                    "where the generators change f by a factor that is a number");
-        const Tree on_slice = with_values(condition, values_);
+        const auto folded = [&](const Tree& side) {
+            return to_tree(reduction_.graph, Lowering(reduction_.graph)(with_values(side, values_)));
+        };
+        const Tree on_slice =
+            compare(condition->comparison, folded(condition->arguments[0]), folded(condition->arguments[1]));
         if (!names_in(on_slice).empty()) texts.push_back(to_text(on_slice)); // else it is one of numbers
     }
     if (const NodeId divisor = reduction_.quotient.determinant; !reduction_.graph.is_constant(divisor)) {
