@@ -44,7 +44,7 @@ class Claims {
     void decide_along_motions(Report& report, const std::vector<NamedTree>& claims);
     /// Whether there are motions in continuous time, whose equations claims are about.
     [[nodiscard]] bool has_motions() const { return lagrangian_ || system_.hamiltonian || system_.control; }
-    void decide_along_steps(StructureReport& structure, const std::vector<NamedTree>& claims);
+    void decide_along_steps(Report& report, const std::vector<NamedTree>& claims);
     [[nodiscard]] std::unique_ptr<EquationsOfMotion> equations_of_motion();
     [[nodiscard]] WhereConstant along_anchor();
     [[nodiscard]] WhereConstant along_motions(EquationsOfMotion& motion, const Regularity& regularity);

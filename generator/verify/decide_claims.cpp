@@ -119,7 +119,7 @@ void Claims::decide_invariants(Report& report, const std::vector<NamedTree>& ext
     claims.insert(claims.end(), extra.begin(), extra.end());
     const bool steps = system_.discrete && system_.discrete->written;
     if (has_motions() || !steps) decide_along_motions(report, claims);
-    if (steps) decide_along_steps(report.structure, claims);
+    if (steps) decide_along_steps(report, claims);
 }
 
 /// Whether a motion goes through each point of E: W ydot = f can be solved there, k^a f_a = 0 where k^a W_ab = 0.

@@ -52,6 +52,13 @@ TEST_CASE("explicit time moves on by a step, and what is no function of points a
           Lines{"invariant(p) proved", "invariant(way) proved", "invariant(speed) undecided"});
 }
 
+TEST_CASE("a degenerate discrete Lagrangian proves what every arrow keeps, and refutes nothing")
+{
+    // Motions have y = 0 and keep it; the arrow from y = 2 to y = 4, which no motion has, does not.
+    CHECK(invariants_of(pairs("(x_next - x)^2/(2*h) - h*y^2/2", "a = \"y\"\np = \"p_u\"\n")) ==
+          Lines{"invariant(a) undecided", "invariant(p) proved"});
+}
+
 TEST_CASE(
     "beside [lagrangian] a claim in momenta is decided for its motions and for the steps, one in velocities for the "
     "motions alone")
