@@ -41,7 +41,10 @@ class LatexWriter {
         switch (tree->kind) {
         case TreeKind::number: return write_number(tree->number);
         case TreeKind::pi: return {"\\pi", LatexHold::atom};
-        case TreeKind::name: return {names_.symbol(tree->name), LatexHold::power};
+        case TreeKind::name:
+            return {tree->name[0] == rate_mark ? names_.dotted(tree->name.substr(1)) : names_.symbol(tree->name),
+                    LatexHold::power};
+        case TreeKind::sum_over: return write_indexed_sum(tree, last);
         case TreeKind::negate: return {"-" + write(tree->arguments[0], LatexHold::product, last), LatexHold::sign};
         case TreeKind::add: return write_sum(tree);
         case TreeKind::multiply: return write_product(tree, last);
@@ -112,11 +115,23 @@ class LatexWriter {
         const std::vector<Tree>& factors = tree->arguments;
         for (std::size_t k = 0; k < factors.size(); ++k) {
             const bool ends = k + 1 == factors.size() ? last : begins_with_function(factors[k + 1]);
-            text += (text.empty() ? "" : "\\, ") + (is_vector_product(factors[k]) && k + 1 < factors.size()
-                                                        ? "\\left(" + write(factors[k], LatexHold::sum) + "\\right)"
-                                                        : write(factors[k], LatexHold::product, ends));
+            const bool open = k + 1 < factors.size() && (is_vector_product(factors[k]) || is_indexed_sum(factors[k]));
+            text += (text.empty() ? "" : "\\, ") + (open ? "\\left(" + write(factors[k], LatexHold::sum) + "\\right)"
+                                                         : write(factors[k], LatexHold::product, ends));
         }
         return {text, LatexHold::product};
+    }
+
+    /// \sum_{j=1, j \neq i}^{4} body
+    LatexPiece write_indexed_sum(const Tree& tree, bool last)
+    {
+        const auto bound = [](const Tree& index) {
+            return index->name.starts_with("max(") ? "\\" + index->name : index->name;
+        };
+        const std::vector<Tree>& parts = tree->arguments;
+        std::string text = "\\sum_{" + tree->name + "=" + bound(parts[0]);
+        if (parts.size() > 3) text += ",\\, " + tree->name + " \\neq " + bound(parts[3]);
+        return {text + "}^{" + bound(parts[1]) + "} " + write(parts[2], LatexHold::product, last), LatexHold::product};
     }
 
     LatexPiece write_vector_product(const Tree& tree)
@@ -262,6 +277,11 @@ std::string left_side(const Equation& equation, const LatexNames& names)
     std::string text;
     for (const TermGroup& entry : equation.mass) {
         const SignedTree mass = without_sign(entry.value);
+        if (entry.label.empty()) {
+            text += text.empty() ? (mass.negative ? "-" : "") : (mass.negative ? " - " : " + ");
+            text += LatexWriter(names).write(mass.tree, LatexHold::product);
+            continue;
+        }
         text += text.empty() ? (mass.negative ? "-" : "") : (mass.negative ? " - " : " + ");
         text += (is_one(mass.tree) ? "" : LatexWriter(names).write(mass.tree, LatexHold::product, false) + "\\, ") +
                 names.dotted(entry.label);
@@ -283,6 +303,16 @@ std::string latex_of_term(const SignedTree& term, const LatexNames& names, bool 
     return (is_one(term.tree) ? "" : LatexWriter(names).write(term.tree, LatexHold::product, false) + "\\, ") + wedge;
 }
 
+/// The values of indices, behind an equation.
+std::string ranges_latex(const std::vector<IndexRange>& ranges)
+{
+    std::string text;
+    for (const IndexRange& range : ranges)
+        text += (text.empty() ? " \\qquad (" : ", \\; ") + range.letter + " = " + std::to_string(range.from) +
+                ", \\dots, " + std::to_string(range.to);
+    return text + (text.empty() ? "" : ")");
+}
+
 void print_block(std::string& text, const EquationBlock& block, const LatexNames& names)
 {
     text += "\\paragraph{" + escape_latex(block.title) + "} $" + block.latex_formula + "$\n\\begin{align*}\n";
@@ -297,11 +327,7 @@ void print_block(std::string& text, const EquationBlock& block, const LatexNames
         for (const SignedTree& term : right_side_terms(equation))
             terms.emplace_back(term.negative, latex_of_term(term, names, of_sections));
         if (terms.empty()) terms.emplace_back(false, "0");
-        std::string ranges;
-        for (const IndexRange& range : equation.ranges)
-            ranges += (ranges.empty() ? "" : ", \\; ") + range.letter + " = " + std::to_string(range.from) +
-                      ", \\dots, " + std::to_string(range.to);
-        if (!ranges.empty()) terms.back().second += " \\qquad (" + ranges + ")";
+        terms.back().second += ranges_latex(equation.ranges);
         text += "  " + left_side(equation, names) + relation_latex(equation.relation);
         const std::vector<std::string> lines = wrap_terms(terms, margin, margin + indent, line_width, typeset_width);
         for (std::size_t k = 0; k < lines.size(); ++k) text += (k == 0 ? "" : " \\\\\n  &\\quad ") + lines[k];
@@ -325,6 +351,7 @@ void print_where(std::string& text, const EquationSet& equations, const LatexNam
             std::vector<std::pair<bool, std::string>> terms;
             for (const SignedTree& term : right_side_terms({LeftSide::symbol, {}, {}, {{"", items[e].values[0]}}}))
                 terms.emplace_back(term.negative, latex_of_term(term, names, false));
+            terms.back().second += ranges_latex(items[e].ranges);
             lines = wrap_terms(terms, margin, margin + indent, line_width, typeset_width);
         } else {
             std::vector<std::string> entries;

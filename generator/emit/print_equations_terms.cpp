@@ -23,6 +23,11 @@ bool is_vector_product(const Tree& tree)
     return tree->kind == TreeKind::apply;
 }
 
+bool is_indexed_sum(const Tree& tree)
+{
+    return tree->kind == TreeKind::sum_over;
+}
+
 const std::vector<Equation>& written_equations(const EquationBlock& block)
 {
     return block.written.empty() ? block.equations : block.written;
@@ -110,8 +115,8 @@ std::vector<std::string> with_inner_breaks(const std::vector<std::string>& lines
             const std::size_t room = width - std::min(width, result.empty() ? first : later);
             const std::size_t at = columns_of(line) > room ? best_break(line, room) : 0;
             if (at == 0) break;
-            result.push_back(line.substr(0, at));
-            line = line.substr(at + 1);
+            result.push_back(line.substr(0, line.find_last_not_of(' ', at) + 1));
+            line = line.substr(line.find_first_not_of(' ', at));
         }
         result.push_back(line);
     }
@@ -142,16 +147,25 @@ std::vector<WhereItem> where_items(const EquationSet& equations)
 {
     std::vector<WhereItem> items;
     for (const VectorText& vector : equations.vectors) items.push_back({vector.name, vector.entries, vector.diagonal});
-    const std::vector<WhereEntry>& where = equations.where;
-    for (std::size_t k = 0; k < where.size(); ++k) {
-        const std::size_t size = where[k].family;
-        const std::string stem = where[k].symbol.substr(0, where[k].symbol.find('['));
-        bool whole = size > 1 && k + size <= where.size();
+    std::vector<Equation> entries = equations.written_where;
+    if (entries.empty())
+        for (const WhereEntry& entry : equations.where)
+            entries.push_back({LeftSide::symbol, entry.symbol, {}, {{"", entry.value}}});
+    const auto value_of = [](const Equation& entry) {
+        std::vector<Tree> terms;
+        for (const TermGroup& group : entry.groups) terms.push_back(group.value);
+        return terms.size() == 1 ? terms[0] : add(terms);
+    };
+    for (std::size_t k = 0; k < entries.size(); ++k) {
+        const auto known = std::ranges::find(equations.where, entries[k].symbol, &WhereEntry::symbol);
+        const std::size_t size = known == equations.where.end() ? 1 : known->family;
+        const std::string stem = entries[k].symbol.substr(0, entries[k].symbol.find('['));
+        bool whole = size > 1 && k + size <= entries.size();
         for (std::size_t entry = 0; whole && entry < size; ++entry)
-            whole = where[k + entry].symbol == stem + "[" + std::to_string(entry + 1) + "]";
-        items.push_back({whole ? stem : where[k].symbol, {}});
+            whole = entries[k + entry].symbol == stem + "[" + std::to_string(entry + 1) + "]";
+        items.push_back({whole ? stem : entries[k].symbol, {}, false, entries[k].ranges});
         for (std::size_t entry = 0; entry < (whole ? size : 1); ++entry)
-            items.back().values.push_back(where[k + entry].value);
+            items.back().values.push_back(value_of(entries[k + entry]));
         if (whole) k += size - 1;
     }
     return items;

@@ -26,6 +26,9 @@ struct SignedTree {
 /// Whether the tree is a x b or a . b of written equations.
 [[nodiscard]] bool is_vector_product(const Tree& tree);
 
+/// Whether the tree is a sum over an index of written equations.
+[[nodiscard]] bool is_indexed_sum(const Tree& tree);
+
 /// The equations as text and LaTeX show them.
 [[nodiscard]] const std::vector<Equation>& written_equations(const EquationBlock& block);
 
@@ -55,6 +58,7 @@ struct WhereItem {
     std::string symbol;
     std::vector<Tree> values;
     bool diagonal = false; ///< a matrix with these in its diagonal
+    std::vector<IndexRange> ranges = {};
 };
 [[nodiscard]] std::vector<WhereItem> where_items(const EquationSet& equations);
 

@@ -41,6 +41,8 @@ std::string lowered_digits(const std::string& digits)
     return text;
 }
 
+std::string dotted(const std::string& name);
+
 class TextWriter {
   public:
     std::string write(const Tree& tree, TextHold at_least)
@@ -57,7 +59,9 @@ class TextWriter {
         switch (tree->kind) {
         case TreeKind::number: return write_number(tree->number);
         case TreeKind::pi: return {"π", TextHold::atom};
-        case TreeKind::name: return {tree->name, TextHold::atom};
+        case TreeKind::name:
+            return {tree->name[0] == rate_mark ? dotted(tree->name.substr(1)) : tree->name, TextHold::atom};
+        case TreeKind::sum_over: return write_indexed_sum(tree);
         case TreeKind::negate: return {"-" + write(tree->arguments[0], TextHold::quotient), TextHold::sign};
         case TreeKind::add: return write_sum(tree);
         case TreeKind::multiply: return write_product(tree);
@@ -90,14 +94,26 @@ class TextWriter {
         return {text, TextHold::sum};
     }
 
+    /// A sum over an index takes in what stands behind it; as the last factor it needs no parentheses.
     TextPiece write_product(const Tree& tree)
     {
         std::string text;
+        const Tree& last = tree->arguments.back();
         for (const Tree& factor : tree->arguments)
-            text += (text.empty() ? "" : " ") + (is_vector_product(factor) && factor != tree->arguments.back()
-                                                     ? "(" + write(factor, TextHold::sum) + ")"
-                                                     : write(factor, TextHold::product));
-        return {text, TextHold::product};
+            text += (text.empty() ? "" : " ") +
+                    (is_vector_product(factor) && factor != last ? "(" + write(factor, TextHold::sum) + ")"
+                     : is_indexed_sum(factor) && factor == last  ? write(factor, TextHold::quotient)
+                                                                 : write(factor, TextHold::product));
+        return {text, is_indexed_sum(last) ? TextHold::quotient : TextHold::product};
+    }
+
+    /// Σ_{j=1..4, j≠i} body
+    TextPiece write_indexed_sum(const Tree& tree)
+    {
+        const std::vector<Tree>& parts = tree->arguments;
+        std::string text = "Σ_{" + tree->name + "=" + parts[0]->name + ".." + parts[1]->name;
+        if (parts.size() > 3) text += ", " + tree->name + "≠" + parts[3]->name;
+        return {text + "} " + write(parts[2], TextHold::quotient), TextHold::quotient};
     }
 
     /// a × b and a · b
@@ -194,6 +210,10 @@ std::vector<std::pair<bool, std::string>> mass_terms(const Equation& equation)
     std::vector<std::pair<bool, std::string>> terms;
     for (const TermGroup& entry : equation.mass) {
         const SignedTree mass = without_sign(entry.value);
+        if (entry.label.empty()) {
+            terms.emplace_back(mass.negative, TextWriter().write(mass.tree, TextHold::quotient));
+            continue;
+        }
         const std::string factor = is_one(mass.tree) ? "" : TextWriter().write(mass.tree, TextHold::product) + " ";
         terms.emplace_back(mass.negative, factor + dotted(entry.label));
     }
@@ -241,16 +261,21 @@ void append_lines(std::string& text, const std::vector<std::string>& lines, std:
     for (std::size_t k = 0; k < lines.size(); ++k) text += (k == 0 ? "" : std::string(margin, ' ')) + lines[k] + "\n";
 }
 
+std::string ranges_text(const std::vector<IndexRange>& ranges)
+{
+    std::string text;
+    for (const IndexRange& range : ranges)
+        text += fmt::format("{}{} = {}..{}", text.empty() ? "" : ", ", range.letter, range.from, range.to);
+    return text;
+}
+
 std::vector<std::pair<bool, std::string>> right_terms(const Equation& equation)
 {
     std::vector<std::pair<bool, std::string>> terms;
     for (const SignedTree& term : right_side_terms(equation))
         terms.emplace_back(term.negative, text_of_term(term, is_of_sections(equation)));
     if (terms.empty()) terms.emplace_back(false, "0");
-    std::string ranges;
-    for (const IndexRange& range : equation.ranges)
-        ranges += fmt::format("{}{} = {}..{}", ranges.empty() ? "" : ", ", range.letter, range.from, range.to);
-    if (!ranges.empty()) terms.back().second += "   (" + ranges + ")";
+    if (!equation.ranges.empty()) terms.back().second += "   (" + ranges_text(equation.ranges) + ")";
     return terms;
 }
 
@@ -309,8 +334,9 @@ void print_where(std::string& text, const EquationSet& equations, LongLines long
     for (const WhereItem& item : items) {
         std::vector<std::string> lines;
         if (item.values.size() == 1) {
-            lines =
-                page_lines(right_terms({LeftSide::symbol, {}, {}, {{"", item.values[0]}}}), margin, margin, long_lines);
+            Equation entry{LeftSide::symbol, {}, {}, {{"", item.values[0]}}};
+            entry.ranges = item.ranges;
+            lines = page_lines(right_terms(entry), margin, margin, long_lines);
         } else {
             std::vector<std::string> entries;
             for (const Tree& value : item.values) entries.push_back(TextWriter().write(value, TextHold::sum));

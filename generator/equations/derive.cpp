@@ -6,7 +6,6 @@
 #include "equations/discrete.hpp"
 #include "equations/exterior.hpp"
 #include "equations/hamilton.hpp"
-#include "equations/indexed_equations.hpp"
 #include "equations/invariants.hpp"
 #include "equations/lagrange.hpp"
 #include "equations/lagrangian_cartan.hpp"
@@ -14,7 +13,8 @@
 #include "equations/poisson.hpp"
 #include "equations/pontryagin.hpp"
 #include "equations/variations.hpp"
-#include "equations/vector_equations.hpp"
+#include "equations/written/indexed_equations.hpp"
+#include "equations/written/vector_equations.hpp"
 #include "model/form.hpp"
 #include "model/scene_form.hpp"
 

@@ -143,6 +143,32 @@ GiNaC::ex KeptSymbols::derivative(const GiNaC::ex& f, const GiNaC::ex& symbol)
     return GiNaC::ex(GiNaC::dynallocate<GiNaC::add>(terms));
 }
 
+/// The derivative of what symbol k stands for, written out.
+const Tree& KeptSymbols::slope_of(std::size_t k, const GiNaC::ex& symbol)
+{
+    const std::pair key(k, GiNaC::ex_to<GiNaC::symbol>(symbol).get_name());
+    if (const auto known = slopes_.find(key); known != slopes_.end()) return known->second;
+    const Tree slope = shortest_form(derivative(value_of(k), symbol), symbols_, order_);
+    return slopes_.emplace(key, slope).first->second;
+}
+
+/// Whether the derivative is worth a symbol: of a family of variables all that are not zero are, or none.
+bool KeptSymbols::has_long_slope(std::size_t k, const GiNaC::ex& symbol)
+{
+    const auto is_short = [&](const GiNaC::ex& variable) {
+        return written_nodes(slope_of(k, variable)) <= short_derivative;
+    };
+    if (is_short(symbol)) return false;
+    const std::string name = GiNaC::ex_to<GiNaC::symbol>(symbol).get_name();
+    const std::size_t open = name.find('[');
+    if (open == std::string::npos) return true;
+    return std::ranges::none_of(order_.variables, [&](const std::string& each) {
+        if (!each.starts_with(name.substr(0, open + 1)) || each == name) return false;
+        const GiNaC::ex variable = symbols_.symbol(each);
+        return value_of(k).has(variable) && is_short(variable);
+    });
+}
+
 /// Mixed derivatives are one symbol, whatever comes first.
 GiNaC::ex KeptSymbols::rate(std::size_t k, const GiNaC::ex& symbol)
 {
@@ -154,12 +180,11 @@ GiNaC::ex KeptSymbols::rate(std::size_t k, const GiNaC::ex& symbol)
     std::string key = std::to_string(next.root);
     for (const std::string& each : next.by) key += " " + each;
     if (const auto known = rates_.find(key); known != rates_.end()) return known->second;
-    const Tree tree = shortest_form(derivative(value_of(k), symbol), symbols_, order_);
-    next.value = to_ginac(tree, symbols_);
+    next.value = to_ginac(slope_of(k, symbol), symbols_);
     GiNaC::ex result = *next.value;
     if (const std::optional<GiNaC::ex> known = known_as(result)) {
         result = *known;
-    } else if (written_nodes(tree) > short_derivative) {
+    } else if (has_long_slope(k, symbol)) {
         const Kept& root = kept_[next.root];
         next.stem = root.stem;
         for (const std::string& each : next.by) next.stem += "_" + each;

@@ -65,6 +65,8 @@ class KeptSymbols {
     [[nodiscard]] std::vector<std::size_t> symbols_in(const GiNaC::ex& f) const;
     [[nodiscard]] GiNaC::ex value_of(std::size_t k);
     [[nodiscard]] GiNaC::ex rate(std::size_t k, const GiNaC::ex& symbol);
+    [[nodiscard]] const Tree& slope_of(std::size_t k, const GiNaC::ex& symbol);
+    [[nodiscard]] bool has_long_slope(std::size_t k, const GiNaC::ex& symbol);
     [[nodiscard]] std::optional<GiNaC::ex> known_as(const GiNaC::ex& value);
     [[nodiscard]] GiNaC::ex along_fibre(std::size_t k, const GiNaC::exvector& y);
     [[nodiscard]] std::vector<std::pair<GiNaC::ex, GiNaC::ex>> pivots();
@@ -85,6 +87,7 @@ class KeptSymbols {
     std::map<std::string, std::size_t> index_;   ///< by name
     std::map<std::size_t, std::size_t> by_tree_; ///< by the number of the definition's tree
     std::map<std::string, GiNaC::ex> rates_;     ///< by root and symbols
+    std::map<std::pair<std::size_t, std::string>, Tree> slopes_;
     std::map<std::size_t, GiNaC::ex> along_fibre_;
     std::size_t derivatives_ = 0; ///< that have names
 };

@@ -39,8 +39,11 @@ struct IndexRange {
     friend bool operator==(const IndexRange&, const IndexRange&) = default;
 };
 
+/// Stands before the name of a symbol in a written equation where its rate is meant.
+inline constexpr char rate_mark = '\'';
+
 /// left = sum of groups, or an inequality. With `mass` entries the left side is sum_b mass[b].value *
-/// d(mass[b].label)/dt instead.
+/// d(mass[b].label)/dt instead; without a label the value has the rate in it.
 struct Equation {
     LeftSide left = LeftSide::time_derivative;
     std::string symbol;
@@ -58,7 +61,9 @@ struct EquationBlock {
     std::string formula; ///< e.g. "W_ab ẏ^b = ρ_a(L) − (∂²L/∂y^a∂x^i) ρ^i_b y^b − p_c C^c_ab y^b"
     std::string latex_formula;
     std::vector<Equation> equations;
-    std::vector<Equation> written = {}; ///< the same as a paper has them, by vectors and indices; empty: as they are
+    /// The same as a paper has them, by vectors, indices and sums over these (TreeKind::sum_over: from, to, body and
+    /// perhaps the value that is left out); empty: as they are.
+    std::vector<Equation> written = {};
 };
 
 /// What is said of the equations, and whether it was proved.
@@ -100,8 +105,9 @@ struct EquationSet {
     std::vector<SymbolText> symbols;
     std::vector<EquationBlock> blocks;
     std::vector<DecidedStatement> statements = {};
-    std::vector<WhereEntry> where = {};   ///< each over coordinates, parameters and others of the list
-    std::vector<VectorText> vectors = {}; ///< of the written equations, but for families, which bear their name
+    std::vector<WhereEntry> where = {};       ///< each over coordinates, parameters and others of the list
+    std::vector<Equation> written_where = {}; ///< the same by indices; empty: as they are
+    std::vector<VectorText> vectors = {};     ///< of the written equations, but for families, which bear their name
 };
 
 } // namespace lagen

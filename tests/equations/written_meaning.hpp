@@ -32,6 +32,11 @@ class WrittenMeaning {
                     for (const TermGroup& entry : *list)
                         for (const std::string& name : names_in(entry.value)) take(name);
             }
+        for (const WhereEntry& entry : set.where) {
+            take(entry.symbol);
+            take("'" + entry.symbol);
+            for (const std::string& name : names_in(entry.value)) take(name);
+        }
     }
 
     /// The left side minus the right one for all that the equations stand for, one after the other.
@@ -56,7 +61,10 @@ class WrittenMeaning {
         }
         WrittenValue sum = equation.mass.empty() ? named("'" + equation.symbol, letters) : WrittenValue{};
         for (const TermGroup& entry : equation.mass)
-            add(sum, product(value(entry.value, letters), named("'" + entry.label, letters)), 1);
+            add(sum,
+                entry.label.empty() ? value(entry.value, letters)
+                                    : product(value(entry.value, letters), named("'" + entry.label, letters)),
+                1);
         for (const TermGroup& group : equation.groups) add(sum, value(group.value, letters), -1);
         result.insert(result.end(), sum.begin(), sum.end());
     }
@@ -137,8 +145,35 @@ class WrittenMeaning {
         return result;
     }
 
+    /// Of a bound of a sum: a number, a letter with an offset, the greater one of two.
+    static long bound(const std::string& text, const Letters& letters)
+    {
+        if (const std::size_t comma = text.find(','); comma != std::string::npos) // max(i,j)
+            return std::max(bound(text.substr(4, comma - 4), letters),
+                            bound(text.substr(comma + 1, text.size() - comma - 2), letters));
+        const std::size_t sign = text.find_first_of("+-");
+        const auto letter = letters.find(text.substr(0, sign));
+        if (letter == letters.end()) return std::stol(text);
+        return static_cast<long>(letter->second) + (sign == std::string::npos ? 0 : std::stol(text.substr(sign)));
+    }
+
+    WrittenValue indexed_sum(const Tree& tree, const Letters& letters)
+    {
+        REQUIRE_FALSE(letters.contains(tree->name));
+        const std::vector<Tree>& parts = tree->arguments;
+        WrittenValue sum;
+        for (long index = bound(parts[0]->name, letters); index <= bound(parts[1]->name, letters); ++index) {
+            if (parts.size() > 3 && index == bound(parts[3]->name, letters)) continue;
+            Letters inner = letters;
+            inner[tree->name] = static_cast<std::size_t>(index);
+            add(sum, value(parts[2], inner), 1);
+        }
+        return sum;
+    }
+
     WrittenValue value(const Tree& tree, const Letters& letters)
     {
+        if (tree->kind == TreeKind::sum_over) return indexed_sum(tree, letters);
         std::vector<WrittenValue> arguments;
         for (const Tree& argument : tree->arguments) arguments.push_back(value(argument, letters));
         switch (tree->kind) {

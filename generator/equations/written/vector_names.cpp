@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "equations/vector_names.hpp"
+#include "equations/written/vector_names.hpp"
 
 #include <algorithm>
 #include <set>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "equations/vector_terms.hpp"
+#include "equations/written/vector_terms.hpp"
 
 #include <algorithm>
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "equations/vector_equations.hpp"
+#include "equations/written/vector_equations.hpp"
 
-#include "equations/vector_terms.hpp"
+#include "equations/written/hidden_roots.hpp"
+#include "equations/written/vector_terms.hpp"
 #include "symbolic/shortest_form.hpp"
 
 #include <algorithm>
@@ -213,30 +214,64 @@ class VectorWriting {
         return bases.size() <= 1 && (!bare || product);
     }
 
-    /// The value as terms, those with one vector together.
+    struct Collected {
+        GiNaC::ex factor;
+        VectorTerm vector;
+    };
+
+    /// Adds a factor of a vector to what is known of it.
+    static void collect(std::vector<Collected>& collected, const GiNaC::ex& factor, const VectorTerm& vector)
+    {
+        const std::string written = to_text(vector.tree);
+        const auto known = std::ranges::find_if(
+            collected, [&](const Collected& each) { return to_text(each.vector.tree) == written; });
+        if (known == collected.end())
+            collected.push_back({factor, vector});
+        else
+            known->factor += factor;
+    }
+
+    static GiNaC::ex to_number(const Rational& value) { return GiNaC::numeric(value.get_str().c_str()); }
+
+    /// Several terms as one, divided by the coefficient of the first.
+    static VectorTerm sum_of_terms(const VectorTerms& terms, const std::map<std::size_t, Rational>& sum)
+    {
+        VectorTerm whole{nullptr, nullptr, {}};
+        std::vector<Tree> written;
+        for (const auto& [k, rational] : sum) {
+            written.push_back(times(number(rational / sum.begin()->second), terms[k]));
+            whole.vectors.insert(terms[k].vectors.begin(), terms[k].vectors.end());
+            whole.diagonals.insert(terms[k].diagonals.begin(), terms[k].diagonals.end());
+            if (terms[k].basis != 0) whole.basis = terms[k].basis;
+        }
+        whole.tree = add(written);
+        return whole;
+    }
+
+    /// The value as terms: those with one vector together, or by their factors where that is much shorter, as for the
+    /// forces of bodies, m M (x - y)/|x - y|^3.
     template <class TermsOf>
     std::optional<std::vector<Term>> sum_of(const ByFactor& value, const TermsOf& terms_of)
     {
-        struct Collected {
-            GiNaC::ex factor;
-            VectorTerm vector;
-        };
-        std::vector<Collected> collected;
+        std::vector<Collected> by_vector, by_factor;
         for (const auto& [text, part] : value) {
             const VectorTerms terms = terms_of(part.value);
             const auto sum = terms.sum_of(part.value);
             if (!sum) return std::nullopt;
-            for (const auto& [k, rational] : *sum) {
-                const GiNaC::ex factor = part.factor * GiNaC::ex(GiNaC::numeric(rational.get_str().c_str()));
-                const std::string written = to_text(terms[k].tree);
-                const auto known = std::ranges::find_if(
-                    collected, [&](const Collected& each) { return to_text(each.vector.tree) == written; });
-                if (known == collected.end())
-                    collected.push_back({factor, terms[k]});
-                else
-                    known->factor += factor;
-            }
+            for (const auto& [k, rational] : *sum) collect(by_vector, part.factor * to_number(rational), terms[k]);
+            if (sum->size() > 1)
+                collect(by_factor, part.factor * to_number(sum->begin()->second), sum_of_terms(terms, *sum));
+            else
+                for (const auto& [k, rational] : *sum) collect(by_factor, part.factor * to_number(rational), terms[k]);
         }
+        std::vector<Term> vectors = written_terms(by_vector);
+        if (by_vector.size() < 3) return vectors;
+        std::vector<Term> factors = written_terms(by_factor);
+        return 3 * length_of(factors) < 2 * length_of(vectors) ? factors : vectors;
+    }
+
+    std::vector<Term> written_terms(const std::vector<Collected>& collected)
+    {
         std::vector<Term> result;
         for (const Collected& each : collected)
             result.push_back({shortest_form(each.factor, symbols_, order_), each.vector});
@@ -244,10 +279,17 @@ class VectorWriting {
         return result;
     }
 
+    static std::size_t length_of(const std::vector<Term>& terms)
+    {
+        std::size_t length = 0;
+        for (const Term& term : terms) length += to_text(times(term.factor, term.vector)).size();
+        return length;
+    }
+
     /// Adds the terms of component k; nothing where there are too many.
     bool split(const Tree& tree, std::size_t k, std::size_t components, ByFactor& value)
     {
-        const GiNaC::ex whole = to_ginac(tree, symbols_);
+        const GiNaC::ex whole = roots_.hidden(to_ginac(tree, symbols_));
         const std::optional<std::size_t> length = expanded_length(whole);
         if (!length || *length > most_terms) return false;
         const GiNaC::ex expanded = whole.expand();
@@ -284,6 +326,7 @@ class VectorWriting {
         else
             take(term);
         std::ranges::sort(monomial);
+        rest = roots_.shown(rest);
         ScalarFactor& part = value[to_text(shortest_form(rest, symbols_, order_))];
         part.factor = rest;
         part.value.resize(components);
@@ -316,6 +359,7 @@ class VectorWriting {
     std::set<std::string> entries_;
     SymbolTable symbols_;
     Order order_;
+    HiddenRoots roots_{symbols_, order_};
     std::set<std::string> used_, diagonals_; ///< names that written equations have
 };
 

@@ -4,7 +4,7 @@
 /// what is found is equal.
 #pragma once
 
-#include "equations/vector_names.hpp"
+#include "equations/written/vector_names.hpp"
 
 #include <map>
 #include <optional>

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "equations/written/index_shape.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <functional>
+
+namespace lagen {
+namespace {
+
+constexpr std::size_t most_nodes = 4000; ///< of an expression that is looked at
+
+/// Gives back what is put for the index.
+using IndexMap = std::function<std::string(const IndexSlot&)>;
+
+std::string mapped_name(const std::string& name, const IndexMap& map)
+{
+    const std::size_t open = name.find('[');
+    if (open == std::string::npos || name.back() != ']') return name;
+    std::string result = name.substr(0, open + 1), index;
+    std::size_t place = 1;
+    for (std::size_t k = open + 1; k < name.size(); ++k) {
+        if (name[k] != ',' && name[k] != ']') {
+            index += name[k];
+            continue;
+        }
+        result += map({index, place++}) + name[k];
+        index.clear();
+    }
+    return result;
+}
+
+Tree mapped(const Tree& tree, const IndexMap& map)
+{
+    if (tree->kind == TreeKind::name) {
+        const std::string text = mapped_name(tree->name, map);
+        return text == tree->name ? tree : name(text);
+    }
+    if (tree->arguments.empty()) return tree;
+    TreeNode node = *tree;
+    for (std::size_t k = 0; k < node.arguments.size(); ++k) {
+        const bool bound = node.kind == TreeKind::sum_over && k != 2;
+        node.arguments[k] = bound ? name(map({tree->arguments[k]->name, 0})) : mapped(tree->arguments[k], map);
+    }
+    return std::make_shared<const TreeNode>(std::move(node));
+}
+
+void append_form(const Tree& tree, std::string& form, std::size_t& nodes)
+{
+    if (++nodes > most_nodes) return;
+    form += fmt::format("{}/{}", static_cast<int>(tree->kind), tree->arguments.size());
+    switch (tree->kind) {
+    case TreeKind::number: form += tree->number.get_str(); break;
+    case TreeKind::name: form += mapped_name(tree->name, [](const IndexSlot&) { return std::string(); }); break;
+    case TreeKind::call: form += entry_of(tree->function).name; break;
+    case TreeKind::compare: form += std::to_string(static_cast<int>(tree->comparison)); break;
+    case TreeKind::solve: form += tree->number.get_str(); break;
+    case TreeKind::apply:
+    case TreeKind::sum_over: form += tree->name; break;
+    default: break;
+    }
+    form += ';';
+    for (std::size_t k = 0; k < tree->arguments.size(); ++k)
+        if (tree->kind != TreeKind::sum_over || k == 2) append_form(tree->arguments[k], form, nodes);
+}
+
+} // namespace
+
+std::optional<long> index_number(const std::string& text)
+{
+    const std::size_t sign = text.starts_with('-') ? 1 : 0;
+    if (text.size() == sign || text.size() > 9 ||
+        !std::all_of(text.begin() + static_cast<long>(sign), text.end(), [](char c) { return c >= '0' && c <= '9'; }))
+        return std::nullopt;
+    return std::stol(text);
+}
+
+std::string with_offset(const std::string& text, long offset)
+{
+    if (const auto number = index_number(text)) return std::to_string(*number + offset);
+    const std::size_t sign = text.find_first_of("+-");
+    if (sign != std::string::npos) offset += std::stol(text.substr(sign));
+    return offset == 0 ? text.substr(0, sign) : fmt::format("{}{:+}", text.substr(0, sign), offset);
+}
+
+std::string index_at(const std::string& text, const std::string& letter, const std::string& value)
+{
+    if (text.starts_with("max(")) {
+        const std::size_t comma = text.find(',');
+        const std::string a = index_at(text.substr(4, comma - 4), letter, value);
+        const std::string b = index_at(text.substr(comma + 1, text.size() - comma - 2), letter, value);
+        const std::optional<long> first = index_number(a), second = index_number(b);
+        return first && second ? std::to_string(std::max(*first, *second)) : "max(" + a + "," + b + ")";
+    }
+    const std::size_t sign = text.find_first_of("+-");
+    if (text.substr(0, sign) != letter) return text;
+    return with_offset(value, sign == std::string::npos ? 0 : std::stol(text.substr(sign)));
+}
+
+IndexShape shape_of(const Tree& tree)
+{
+    IndexShape shape;
+    std::size_t nodes = 0;
+    append_form(tree, shape.form, nodes);
+    if (nodes > most_nodes) return {};
+    mapped(tree, [&](const IndexSlot& slot) {
+        shape.slots.push_back(slot);
+        return slot.text;
+    });
+    return shape;
+}
+
+Tree with_indices(const Tree& tree, const std::vector<std::string>& texts)
+{
+    std::size_t next = 0;
+    return mapped(tree, [&](const IndexSlot&) { return texts[next++]; });
+}
+
+Tree at_index(const Tree& tree, const std::string& letter, const std::string& value)
+{
+    return mapped(tree, [&](const IndexSlot& slot) { return index_at(slot.text, letter, value); });
+}
+
+Tree at_index(const Tree& tree, const std::string& letter, long value)
+{
+    return at_index(tree, letter, std::to_string(value));
+}
+
+Tree tree_of(const IndexedSum& sum)
+{
+    TreeNode node;
+    node.kind = TreeKind::sum_over;
+    node.name = sum.letter;
+    node.arguments = {name(sum.from), name(sum.to), sum.body};
+    if (sum.excluded) node.arguments.push_back(name(*sum.excluded));
+    return std::make_shared<const TreeNode>(std::move(node));
+}
+
+IndexedSum indexed_sum(const Tree& tree)
+{
+    IndexedSum sum{tree->name, tree->arguments[0]->name, tree->arguments[1]->name, std::nullopt, tree->arguments[2]};
+    if (tree->arguments.size() > 3) sum.excluded = tree->arguments[3]->name;
+    return sum;
+}
+
+std::optional<std::vector<Tree>> terms_of(const IndexedSum& sum)
+{
+    const auto letter_of = [](const std::string& text) {
+        return index_number(text) ? std::string() : text.substr(0, text.find_first_of("+-"));
+    };
+    const auto offset_of = [](const std::string& text) {
+        const std::size_t sign = text.find_first_of("+-", 1);
+        return index_number(text) ? *index_number(text) : sign == std::string::npos ? 0 : std::stol(text.substr(sign));
+    };
+    const std::string letter = letter_of(sum.from);
+    if (letter.starts_with("max(") || letter_of(sum.to) != letter ||
+        (sum.excluded && letter_of(*sum.excluded) != letter))
+        return std::nullopt;
+    std::vector<Tree> terms;
+    for (long value = offset_of(sum.from); value <= offset_of(sum.to); ++value)
+        if (!sum.excluded || value != offset_of(*sum.excluded))
+            terms.push_back(
+                at_index(sum.body, sum.letter, letter.empty() ? std::to_string(value) : with_offset(letter, value)));
+    return terms;
+}
+
+Tree without_sums(const Tree& tree)
+{
+    if (tree->arguments.empty()) return tree;
+    if (tree->kind == TreeKind::sum_over) {
+        const auto terms = terms_of(indexed_sum(tree));
+        if (!terms) return tree;
+        if (terms->empty()) return number(0);
+        return without_sums(terms->size() == 1 ? (*terms)[0] : add(*terms));
+    }
+    TreeNode node = *tree;
+    for (Tree& argument : node.arguments) argument = without_sums(argument);
+    return std::make_shared<const TreeNode>(std::move(node));
+}
+
+bool has_sums(const Tree& tree)
+{
+    return tree->kind == TreeKind::sum_over || std::ranges::any_of(tree->arguments, has_sums);
+}
+
+} // namespace lagen

@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "equations/written/indexed_equations.hpp"
+
+#include "equations/written/indexed_sums.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace lagen {
+namespace {
+
+constexpr std::size_t fewest = 3; ///< equations that are worth one with an index
+
+bool is_plain(const Equation& equation)
+{
+    return (equation.left == LeftSide::time_derivative || equation.left == LeftSide::symbol) &&
+           equation.relation == Relation::equal &&
+           std::ranges::all_of(equation.groups, [](const TermGroup& group) { return group.basis.empty(); });
+}
+
+Tree array_of(std::vector<Tree> entries)
+{
+    TreeNode node;
+    node.kind = TreeKind::array;
+    node.arguments = std::move(entries);
+    return std::make_shared<const TreeNode>(std::move(node));
+}
+
+Tree times_rate(const Tree& value, const Tree& rate)
+{
+    return value->kind == TreeKind::number && value->number == 1 ? rate : multiply({value, rate});
+}
+
+bool is_rate(const Tree& tree)
+{
+    return tree->kind == TreeKind::name && tree->name.starts_with(rate_mark);
+}
+
+bool is_mass_times_rate(const Tree& tree)
+{
+    return tree->kind == TreeKind::multiply && tree->arguments.size() == 2 && is_rate(tree->arguments[1]);
+}
+
+/// An equation as one tree: [symbol, [mass * rate, ..], [group, ..]].
+Tree tree_of(const Equation& equation)
+{
+    std::vector<Tree> mass, groups;
+    for (const TermGroup& entry : equation.mass)
+        mass.push_back(entry.label.empty() ? entry.value : times_rate(entry.value, name(rate_mark + entry.label)));
+    for (const TermGroup& group : equation.groups) groups.push_back(group.value);
+    return array_of({name(equation.symbol), array_of(mass), array_of(groups)});
+}
+
+/// The equation with what such a tree has.
+Equation with_tree(Equation equation, const Tree& tree)
+{
+    equation.symbol = tree->arguments[0]->name;
+    equation.mass.clear();
+    for (const Tree& entry : tree->arguments[1]->arguments) {
+        if (is_mass_times_rate(entry))
+            equation.mass.push_back({entry->arguments[1]->name.substr(1), entry->arguments[0]});
+        else if (is_rate(entry))
+            equation.mass.push_back({entry->name.substr(1), number(1)});
+        else
+            equation.mass.push_back({"", entry});
+    }
+    std::vector<TermGroup> groups;
+    const std::vector<Tree>& values = tree->arguments[2]->arguments;
+    for (std::size_t k = 0; k < values.size(); ++k)
+        groups.push_back({values.size() == equation.groups.size() ? equation.groups[k].label : "", values[k]});
+    equation.groups = std::move(groups);
+    return equation;
+}
+
+/// An equation on its way: the letters of its ranges are "$1", "$2" for the first, the second index of the left side.
+struct Draft {
+    Equation equation; ///< but for what `tree` has
+    Tree tree;
+};
+
+class Joining {
+  public:
+    explicit Joining(const EquationSet& equations) : sums_(names_of(equations))
+    {
+        std::set<std::string> taken;
+        for (const SymbolText& symbol : equations.symbols) taken.insert(symbol.name);
+        for (const WhereEntry& entry : equations.where) taken.insert(entry.symbol.substr(0, entry.symbol.find('[')));
+        for (const char* letter : {"i", "j", "k", "l", "n", "p", "q"})
+            if (!taken.contains(letter)) letters_.emplace_back(letter);
+    }
+
+    /// The equations with sums and ranges; nothing where none has any.
+    std::vector<Equation> joined(const std::vector<Equation>& equations)
+    {
+        std::vector<Draft> drafts;
+        for (const Equation& equation : equations) drafts.push_back(draft_of(equation));
+        for (std::size_t before = 0; before != drafts.size();) { // once more where families have two indices
+            before = drafts.size();
+            drafts = joined_once(drafts);
+        }
+        std::vector<Equation> result;
+        bool any = drafts.size() < equations.size();
+        for (const Draft& draft : drafts) {
+            result.push_back(finished(draft));
+            any = any || has_sums(tree_of(result.back()));
+        }
+        return any ? result : std::vector<Equation>();
+    }
+
+  private:
+    static std::set<std::string> names_of(const EquationSet& equations)
+    {
+        std::set<std::string> names;
+        const auto take = [&](const Tree& tree) {
+            for (const std::string& each : names_in(tree)) names.insert(each);
+        };
+        for (const EquationBlock& block : equations.blocks)
+            for (const auto* list : {&block.equations, &block.written})
+                for (const Equation& equation : *list) take(tree_of(equation));
+        for (const WhereEntry& entry : equations.where) {
+            names.insert(entry.symbol);
+            take(entry.value);
+        }
+        return names;
+    }
+
+    Draft draft_of(const Equation& equation)
+    {
+        const Tree tree = tree_of(equation);
+        if (!is_plain(equation)) return {equation, tree};
+        std::vector<Tree> mass, terms;
+        for (const Tree& entry : tree->arguments[1]->arguments) mass.push_back(sums_.joined(entry));
+        mass = joined_mass(mass);
+        for (const Tree& group : tree->arguments[2]->arguments) {
+            if (group->kind == TreeKind::add)
+                terms.insert(terms.end(), group->arguments.begin(), group->arguments.end());
+            else
+                terms.push_back(group);
+        }
+        for (Tree& term : terms) term = sums_.joined(term);
+        const Tree joined = array_of({tree->arguments[0], array_of(mass), array_of(sums_.joined_terms(terms))});
+        return {equation, has_sums(joined) ? joined : tree};
+    }
+
+    /// I[i] w[i]' + J sum_j w[j]' for a row (I[1] + J) w[1]' + J w[2]' + ..: sums in masses are taken apart where that
+    /// leaves fewer terms.
+    std::vector<Tree> joined_mass(const std::vector<Tree>& mass)
+    {
+        std::vector<Tree> apart;
+        for (const Tree& entry : mass) {
+            if (!is_mass_times_rate(entry) || entry->arguments[0]->kind != TreeKind::add) {
+                apart.push_back(entry);
+                continue;
+            }
+            for (const Tree& term : entry->arguments[0]->arguments)
+                apart.push_back(times_rate(term, entry->arguments[1]));
+        }
+        std::vector<Tree> whole = sums_.joined_terms(mass), parts = sums_.joined_terms(apart);
+        return parts.size() < whole.size() ? parts : whole;
+    }
+
+    std::vector<Draft> joined_once(const std::vector<Draft>& drafts)
+    {
+        std::vector<Draft> result;
+        for (std::size_t first = 0; first < drafts.size();) {
+            std::size_t count = 1;
+            std::optional<Draft> run = longest_run(drafts, first, count);
+            result.push_back(run ? std::move(*run) : drafts[first]);
+            first += count;
+        }
+        return result;
+    }
+
+    std::optional<Draft> longest_run(const std::vector<Draft>& drafts, std::size_t first, std::size_t& count)
+    {
+        if (first + fewest > drafts.size() || !is_plain(drafts[first].equation)) return std::nullopt;
+        std::optional<IndexPattern> longest;
+        std::string letter;
+        std::size_t length = 1;
+        const std::vector<IndexSlot> left = shape_of(drafts[first].tree->arguments[0]).slots;
+        const std::vector<IndexSlot> next = shape_of(drafts[first + 1].tree->arguments[0]).slots;
+        for (std::size_t slot = 0; slot < left.size() && left.size() == next.size(); ++slot) {
+            const std::optional<long> value = index_number(left[slot].text);
+            if (!value || index_number(next[slot].text) != *value + 1 || slot >= letters_.size()) continue;
+            const std::string running = "$" + std::to_string(slot + 1);
+            for (const IndexPattern& pattern : patterns_of(drafts, first, running, *value, slot + 1)) {
+                std::size_t reached = 0;
+                while (first + reached < drafts.size() &&
+                       fits(pattern, drafts[first], drafts[first + reached], reached))
+                    ++reached;
+                if (reached <= length) continue;
+                length = reached;
+                longest = pattern;
+                letter = running;
+            }
+        }
+        if (length < fewest) return std::nullopt;
+        Draft result{drafts[first].equation, longest->tree};
+        const auto from = static_cast<std::size_t>(longest->value);
+        result.equation.ranges.insert(result.equation.ranges.begin(), {letter, from, from + length - 1});
+        count = length;
+        return result;
+    }
+
+    /// What the first equation may be with a letter for the index of its left side that has this value.
+    std::vector<IndexPattern> patterns_of(const std::vector<Draft>& drafts, std::size_t first,
+                                          const std::string& letter, long value, std::size_t place)
+    {
+        std::vector<IndexPattern> patterns;
+        const Tree& tree = drafts[first].tree;
+        const auto common = common_pattern(tree, drafts[first + 1].tree, letter);
+        if (common && common->value == value) patterns.push_back(*common);
+        if (!has_sums(tree)) return patterns;
+        for (const std::size_t where : {std::size_t{0}, place}) { // the letter for indices in any place, or in this one
+            std::vector<Tree> parts{lifted(tree->arguments[0], letter, value, where)[0]};
+            for (const std::size_t list : {1U, 2U}) {
+                std::vector<Tree> entries;
+                for (const Tree& entry : tree->arguments[list]->arguments) {
+                    const std::vector<Tree> guesses = lifted(entry, letter, value, where);
+                    Reach best;
+                    entries.push_back(guesses[0]);
+                    for (const Tree& guess : guesses) {
+                        const Reach reach = reach_of({guess, letter, value}, drafts, first, list);
+                        if (reach <= best) continue;
+                        best = reach;
+                        entries.back() = guess;
+                    }
+                }
+                parts.push_back(array_of(entries));
+            }
+            patterns.push_back({array_of(parts), letter, value});
+        }
+        return patterns;
+    }
+
+    /// Equations from the first on that have the terms of a pattern among theirs, and all these terms.
+    struct Reach {
+        std::size_t equations = 0, terms = 0;
+
+        friend auto operator<=>(const Reach&, const Reach&) = default;
+    };
+    Reach reach_of(const IndexPattern& pattern, const std::vector<Draft>& drafts, std::size_t first, std::size_t list)
+    {
+        Reach reach;
+        for (std::size_t k = first; k < drafts.size() && is_plain(drafts[k].equation); ++k) {
+            const Tree here = at_index(pattern.tree, pattern.letter, pattern.value + static_cast<long>(k - first));
+            const std::optional<Keys> part = sums_.knows_names(here) ? sums_.keys().of(here) : std::nullopt;
+            const std::optional<Keys> whole = keys_of(drafts[k].tree->arguments[list]);
+            if (!part || !whole || !std::ranges::includes(*whole, *part)) break;
+            ++reach.equations;
+            reach.terms += part->size();
+        }
+        return reach;
+    }
+
+    std::optional<Keys> keys_of(const Tree& list)
+    {
+        return list->arguments.empty() ? std::optional<Keys>(Keys()) : sums_.keys().of(add(list->arguments));
+    }
+
+    /// Whether the pattern is, `by` further on, this equation.
+    bool fits(const IndexPattern& pattern, const Draft& first, const Draft& draft, std::size_t by)
+    {
+        if (!is_plain(draft.equation) || draft.equation.left != first.equation.left ||
+            draft.equation.ranges != first.equation.ranges)
+            return false;
+        const Tree here = at_index(pattern.tree, pattern.letter, pattern.value + static_cast<long>(by));
+        if (same_tree(here, draft.tree)) return true;
+        return here->arguments[0]->name == draft.tree->arguments[0]->name && has_sums(here) &&
+               sums_.knows_names(here) && same_terms(here->arguments[1], draft.tree->arguments[1]) &&
+               same_terms(here->arguments[2], draft.tree->arguments[2]);
+    }
+
+    bool same_terms(const Tree& a, const Tree& b)
+    {
+        const std::optional<Keys> first = keys_of(a), second = keys_of(b);
+        return first && second && *first == *second;
+    }
+
+    /// With letters for the marks of indices; the equation without sums where there are too few letters.
+    Equation finished(const Draft& draft)
+    {
+        Equation result = draft.equation;
+        std::size_t taken = 0;
+        std::map<std::string, std::string> letters;
+        for (IndexRange& range : result.ranges) {
+            const std::size_t slot = static_cast<std::size_t>(range.letter[1] - '1');
+            taken = std::max(taken, slot + 1);
+            letters[range.letter] = letters_[slot];
+            range.letter = letters_[slot];
+        }
+        std::vector<Tree> parts{draft.tree->arguments[0]};
+        for (const std::size_t list : {1U, 2U}) {
+            std::vector<Tree> entries;
+            for (const Tree& entry : draft.tree->arguments[list]->arguments) {
+                const Tree whole = sums_.finished(entry);
+                if (whole->kind == TreeKind::add && entry->kind == TreeKind::sum_over)
+                    entries.insert(entries.end(), whole->arguments.begin(), whole->arguments.end());
+                else
+                    entries.push_back(whole);
+            }
+            parts.push_back(array_of(entries));
+        }
+        const Tree whole = array_of(parts);
+        if (!has_sums(whole) && result.ranges.empty()) return draft.equation;
+        if (taken + depth_of(whole) > letters_.size()) return draft.equation;
+        return with_tree(result, with_letters(whole, letters, taken));
+    }
+
+    static std::size_t depth_of(const Tree& tree)
+    {
+        std::size_t depth = 0;
+        for (const Tree& argument : tree->arguments) depth = std::max(depth, depth_of(argument));
+        return depth + (tree->kind == TreeKind::sum_over ? 1 : 0);
+    }
+
+    Tree with_letters(const Tree& tree, const std::map<std::string, std::string>& letters, std::size_t taken) const
+    {
+        const auto text = [&](const std::string& index) {
+            std::string result;
+            for (std::size_t k = 0; k < index.size(); ++k) {
+                const auto known =
+                    index[k] == '#' || index[k] == '$' ? letters.find(index.substr(k, 2)) : letters.end();
+                result += known == letters.end() ? std::string(1, index[k]) : known->second;
+                if (known != letters.end()) ++k;
+            }
+            return result;
+        };
+        if (tree->kind == TreeKind::name) return name(text(tree->name));
+        TreeNode node = *tree;
+        if (node.kind != TreeKind::sum_over) {
+            for (Tree& argument : node.arguments) argument = with_letters(argument, letters, taken);
+            return std::make_shared<const TreeNode>(std::move(node));
+        }
+        std::map<std::string, std::string> inner = letters;
+        inner[tree->name] = letters_[taken];
+        node.name = letters_[taken];
+        for (std::size_t k = 0; k < node.arguments.size(); ++k)
+            node.arguments[k] =
+                k == 2 ? with_letters(tree->arguments[2], inner, taken + 1) : name(text(tree->arguments[k]->name));
+        return std::make_shared<const TreeNode>(std::move(node));
+    }
+
+    SumWriting sums_;
+    std::vector<std::string> letters_; ///< of the first index, the second, ..
+};
+
+} // namespace
+
+void write_by_index(EquationSet& equations)
+{
+    Joining joining(equations);
+    for (EquationBlock& block : equations.blocks) {
+        std::vector<Equation> joined = joining.joined(block.written.empty() ? block.equations : block.written);
+        if (!joined.empty()) block.written = std::move(joined);
+    }
+    std::vector<Equation> where;
+    for (const WhereEntry& entry : equations.where)
+        where.push_back({LeftSide::symbol, entry.symbol, {}, {{"", entry.value}}});
+    equations.written_where = joining.joined(where);
+}
+
+} // namespace lagen
