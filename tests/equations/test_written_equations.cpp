@@ -177,7 +177,7 @@ kind = "tangent"
 [lagrangian]
 L = "sum(i, 1, n, v[i]^2)/2 - sum(i, 1, n-1, k[i]*(x[i+1] - x[i])^2)/2"
 )toml");
-    CHECK(checked_blocks(chain) == 4);
+    CHECK(checked_blocks(chain) == 5);
     CHECK(block_text(chain, "kinematics") == "  ẋ[i] = v[i]   (i = 1..6)\n");
     CHECK(block_text(chain, "equations of motion (acceleration form)") ==
           "  v̇[1] = k[1] (x[2] - x[1])\n"
