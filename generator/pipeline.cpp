@@ -56,7 +56,9 @@ std::vector<std::string> readable_equations(const CheckedModel& checked, const s
     if (!is_readable(checked.system))
         return {fmt::format("The equations are too long to be written out here: {} prints them.", command)};
     try {
-        return lines_of(print_text(derive(form, checked.model, checked.system, checked.report), LongLines::whole));
+        EquationSet equations = derive(form, checked.model, checked.system, checked.report);
+        equations.given.clear(); // the model stands in the header too
+        return lines_of(print_text(equations, LongLines::whole));
     } catch (const MathematicsError& error) {
         return {fmt::format("The equations are not written out here: {}.", error.message())};
     }

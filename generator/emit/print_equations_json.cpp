@@ -6,14 +6,16 @@
 ///     "other", "arguments": [..],
 ///                "mass": [{"symbol", "value"}]},
 ///       "relation": "at_least" | "at_most", "right": "...", "groups": [{"label", "value"}]}]}],
-///   "where": [{"symbol", "value"}], "statements": [{"formula", "status", "component": [..], "residual", "witness": {},
-///   "value", "evidence"}]}
-/// `where` says what symbols of the equations stand for, in coordinates, parameters and others of the list; it is left
-/// out where there are none. `symbol` is left out of kind "zero", `mass` where the left side has no mass matrix;
-/// `other` is of kind "bracket", {symbol, other}; `arguments` are those of kind "component", symbol(arguments);
-/// `relation` is left out of equations, `statements` where there are none. Of kinds "differential", d symbol, and
-/// "form", d e^symbol, the right side is the sum of value e^{basis[0]} ^ e^{basis[1]} .. of the groups, each {"label",
-/// "value", "basis"}; of "section", e_symbol, and "commutator", [e_symbol, e_other], that of value e_{basis[0]}.
+///   "given": [..], "where": [{"symbol", "value"}], "statements": [{"formula", "status", "component": [..], "residual",
+///   "witness": {}, "value", "evidence"}]}
+/// `given` has blocks as `blocks`: what the model gives, L, brackets, constraints, claimed invariants; it is left out
+/// where there are none. `where` says what symbols of the equations stand for, in coordinates, parameters and others of
+/// the list; it is left out where there are none. `symbol` is left out of kind "zero", `mass` where the left side has
+/// no mass matrix; `other` is of kind "bracket", {symbol, other}; `arguments` are those of kind "component",
+/// symbol(arguments); `relation` is left out of equations, `statements` where there are none. Of kinds "differential",
+/// d symbol, and "form", d e^symbol, the right side is the sum of value e^{basis[0]} ^ e^{basis[1]} .. of the groups,
+/// each {"label", "value", "basis"}; of "section", e_symbol, and "commutator", [e_symbol, e_other], that of value
+/// e_{basis[0]}.
 #include "emit/json.hpp"
 #include "emit/print_equations.hpp"
 #include "emit/print_equations_terms.hpp"
@@ -98,20 +100,27 @@ void write_statement(JsonWriter& json, const DecidedStatement& statement)
     json.end_object();
 }
 
-} // namespace
-
-std::string print_json(const EquationSet& equations)
+void write_blocks(JsonWriter& json, const std::vector<EquationBlock>& blocks)
 {
-    JsonWriter json;
-    json.begin_object().key("model").value(equations.model).key("title").value(equations.title);
-    json.key("form").value(equations.form).key("blocks").begin_array();
-    for (const EquationBlock& block : equations.blocks) {
+    json.begin_array();
+    for (const EquationBlock& block : blocks) {
         json.begin_object().key("title").value(block.title).key("formula").value(block.formula);
         json.key("equations").begin_array();
         for (const Equation& equation : block.equations) write_equation(json, equation);
         json.end_array().end_object();
     }
     json.end_array();
+}
+
+} // namespace
+
+std::string print_json(const EquationSet& equations)
+{
+    JsonWriter json;
+    json.begin_object().key("model").value(equations.model).key("title").value(equations.title);
+    json.key("form").value(equations.form);
+    write_blocks(json.key("blocks"), equations.blocks);
+    if (!equations.given.empty()) write_blocks(json.key("given"), equations.given);
     if (!equations.where.empty()) {
         json.key("where").begin_array();
         for (const WhereEntry& entry : equations.where)

@@ -379,8 +379,9 @@ std::string print_latex(const EquationSet& equations)
     const LatexNames names(equations.symbols);
     std::string text =
         "\\subsection*{" + escape_latex(equations.title.empty() ? equations.model : equations.title) + "}\n";
-    for (const EquationBlock& block : equations.blocks)
-        if (!block.equations.empty()) print_block(text, block, names);
+    for (const auto* blocks : {&equations.given, &equations.blocks})
+        for (const EquationBlock& block : *blocks)
+            if (!block.equations.empty()) print_block(text, block, names);
     print_where(text, equations, names);
     if (!equations.statements.empty()) text += "\\paragraph{statements}\n\\begin{itemize}\n";
     for (const DecidedStatement& statement : equations.statements)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "equations/hamilton.hpp"
 
+#include "equations/given_blocks.hpp"
 #include "equations/legendre.hpp"
 #include "equations/poisson.hpp"
 #include "model/form.hpp"
@@ -25,6 +26,7 @@ class HamiltonDerivation {
     EquationSet derive()
     {
         EquationSet set = symbolic_.empty_set(entry_of(FormKind::hamilton).name);
+        set.given = constraints_and_invariants(symbolic_);
         set.blocks = {hamiltonian()};
         if (EquationBlock labels = symbolic_.casimirs(); !labels.equations.empty()) set.blocks.push_back(labels);
         set.blocks.push_back(velocities());

@@ -289,7 +289,8 @@ std::vector<WhereEntry> KeptSymbols::where(const EquationSet& equations)
         for (const std::string& each : names_in(tree))
             if (const auto known = index_.find(each); known != index_.end()) use(known->second);
     };
-    for (const EquationBlock& block : equations.blocks) for_each_tree(block, use_names);
+    for (const auto* list : {&equations.given, &equations.blocks})
+        for (const EquationBlock& block : *list) for_each_tree(block, use_names);
     std::map<std::size_t, Tree> values;
     while (!pending.empty()) {
         const std::size_t k = pending.back();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "equations/lagrange.hpp"
 
-#include "equations/symbolic_model.hpp"
+#include "equations/given_blocks.hpp"
 #include "expression/parse.hpp"
 #include "model/form.hpp"
 
@@ -22,6 +22,8 @@ class LagrangeDerivation {
     EquationSet derive(const Regularity& regularity)
     {
         EquationSet set = symbolic_.empty_set(entry_of(FormKind::lagrange).name);
+        set.given = lagrangian_and_brackets(symbolic_, lagrangian_);
+        for (EquationBlock& block : constraints_and_invariants(symbolic_)) set.given.push_back(std::move(block));
         set.blocks = {
             {"kinematics", "ẋ^i = ρ^i_a y^a", R"(\dot x^i = \rho^i_a\, y^a)", symbolic_.kinematics(symbolic_.y())}};
         if (EquationBlock labels = symbolic_.casimirs(); !labels.equations.empty()) set.blocks.push_back(labels);

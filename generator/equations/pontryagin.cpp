@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "equations/pontryagin.hpp"
 
+#include "equations/given_blocks.hpp"
 #include "equations/linear_equations.hpp"
 #include "equations/symbolic_model.hpp"
 #include "model/form.hpp"
@@ -31,6 +32,7 @@ class PontryaginDerivation {
     EquationSet derive()
     {
         EquationSet set = symbolic_.empty_set(entry_of(FormKind::pontryagin).name);
+        set.given = constraints_and_invariants(symbolic_);
         set.blocks = {hamiltonian()};
         if (EquationBlock labels = symbolic_.casimirs(); !labels.equations.empty()) set.blocks.push_back(labels);
         set.blocks.push_back(section());

@@ -104,6 +104,7 @@ struct EquationSet {
     std::string form; ///< its name: "lagrange", "exterior"
     std::vector<SymbolText> symbols;
     std::vector<EquationBlock> blocks;
+    std::vector<EquationBlock> given = {}; ///< what the model gives, before them: L, brackets, constraints
     std::vector<DecidedStatement> statements = {};
     std::vector<WhereEntry> where = {};       ///< each over coordinates, parameters and others of the list
     std::vector<Equation> written_where = {}; ///< the same by indices; empty: as they are

@@ -274,6 +274,9 @@ TEST_CASE("a short derivation with a definition reads as in a paper")
     const EquationSet set = derived("lagrange", Definitions::kept);
     CHECK(print_text(set) == R"(arm
 
+Lagrangian:  L(x, y)
+  L = m l² u²/2 + I w²/2 - m a cos(x)
+
 kinematics:  ẋ^i = ρ^i_a y^a
   ẋ = u
 

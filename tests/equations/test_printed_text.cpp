@@ -41,6 +41,9 @@ TEST_CASE("the pendulum's equations read as in a textbook")
 {
     CHECK(print_text(written::derived(written::pendulum)) == "Planar pendulum\n"
                                                              "\n"
+                                                             "Lagrangian:  L(x, y)\n"
+                                                             "  L = m l² w²/2 + m l g cos(theta)\n"
+                                                             "\n"
                                                              "kinematics:  ẋ^i = ρ^i_a y^a\n"
                                                              "  d/dt theta = w\n"
                                                              "\n"

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Equations by vectors and by indices say what their components say: in numbers on every model, and some as exact
 /// texts.
-#include "elaborate/make_frame.hpp"
-#include "emit/print_equations.hpp"
 #include "emit/print_equations_terms.hpp"
-#include "equations/written_meaning.hpp"
-#include "model/read_model.hpp"
-#include "model/scene_form.hpp"
-#include "support/model_equations.hpp"
+#include "equations/written_blocks.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -18,60 +13,6 @@
 using namespace lagen;
 
 namespace {
-
-EquationSet kept_equations(Model model, std::string form = {})
-{
-    if (form.empty()) form = default_form(model);
-    const System system = elaborate(model);
-    return derive(form, model, system, verify(system), {}, Definitions::kept);
-}
-
-EquationSet of_file(const std::string& path)
-{
-    return kept_equations(read_model(LAGEN_SOURCE_DIR "/" + path, {}, choosers()));
-}
-
-EquationSet of_text(const std::string& text)
-{
-    return kept_equations(read_model_text("test.toml", text));
-}
-
-/// Blocks that are written otherwise than by components; each says the same.
-std::size_t checked_blocks(const EquationSet& set)
-{
-    std::size_t blocks = 0;
-    const auto compare = [&](const std::vector<Equation>& equations, const std::vector<Equation>& written) {
-        ++blocks;
-        CHECK(written.size() <= equations.size());
-        const std::vector<long double> expected = WrittenMeaning(set).values(equations);
-        const std::vector<long double> found = WrittenMeaning(set).values(written);
-        REQUIRE(found.size() == expected.size());
-        for (std::size_t k = 0; k < found.size(); ++k)
-            CHECK((std::abs(found[k] - expected[k]) <= 1e-13L * (1 + std::abs(expected[k])) ||
-                   (std::isnan(found[k]) && std::isnan(expected[k]))));
-    };
-    for (const EquationBlock& block : set.blocks) {
-        if (block.written.empty()) continue;
-        INFO(set.model << ", " << block.title);
-        compare(block.equations, block.written);
-    }
-    if (set.written_where.empty()) return blocks;
-    INFO(set.model << ", where");
-    std::vector<Equation> where;
-    for (const WhereEntry& entry : set.where)
-        where.push_back({LeftSide::symbol, entry.symbol, {}, {{"", entry.value}}});
-    compare(where, set.written_where);
-    return blocks;
-}
-
-std::string block_text(const EquationSet& set, const std::string& title)
-{
-    const std::string text = print_text(set) + "\n";
-    const std::size_t begin = text.find("\n" + title + ":");
-    REQUIRE(begin != std::string::npos);
-    const std::size_t line = text.find('\n', begin + 1) + 1;
-    return text.substr(line, text.find("\n\n", line) + 1 - line);
-}
 
 /// A body in R^3 with a full matrix of inertia, and vectors that are multiplied twice.
 const std::string body = R"toml(
@@ -177,7 +118,7 @@ kind = "tangent"
 [lagrangian]
 L = "sum(i, 1, n, v[i]^2)/2 - sum(i, 1, n-1, k[i]*(x[i+1] - x[i])^2)/2"
 )toml");
-    CHECK(checked_blocks(chain) == 5);
+    CHECK(checked_blocks(chain) == 6);
     CHECK(block_text(chain, "kinematics") == "  ẋ[i] = v[i]   (i = 1..6)\n");
     CHECK(block_text(chain, "equations of motion (acceleration form)") ==
           "  v̇[1] = k[1] (x[2] - x[1])\n"
@@ -188,7 +129,7 @@ L = "sum(i, 1, n, v[i]^2)/2 - sum(i, 1, n-1, k[i]*(x[i+1] - x[i])^2)/2"
 TEST_CASE("full matrices stand beside their transposes")
 {
     const EquationSet set = of_text(body);
-    CHECK(checked_blocks(set) == 5);
+    CHECK(checked_blocks(set) == 6);
     CHECK(block_text(set, "kinematics") == "  ẋ = v\n");
     CHECK(block_text(set, "momenta") == "  p_w = J w/2 + Jᵀ w/2\n  p_v = m v\n");
     CHECK(block_text(set, "equations of motion (momentum form)") ==
@@ -254,128 +195,4 @@ L = "(u1^2 + u2^2 + u3^2 + v1^2 + v2^2 + v3^2)/2 - (t1*E1 + t2*E2 + t3*E3)"
 )toml");
     CHECK(block_text(set, "kinematics") == "  ṫ1 = u1\n  ṫ2 = u2\n  ṫ3 = u3\n  Ė1 = v1\n  Ė2 = v2\n  Ė3 = v3\n");
     CHECK(block_text(set, "energy") == "  E = u · u/2 + v · v/2 + t1 E1 + t2 E2 + t3 E3\n");
-}
-
-namespace {
-
-/// n bodies with masses and charges.
-std::string bodies(int n)
-{
-    return "[sizes]\nn = " + std::to_string(n) + R"toml(
-[parameters]
-"m[1..n]" = 1
-"e[1..n]" = 1
-G = 1
-[base]
-coordinates = ["x[1..n,1..3]"]
-domain = ["m > 0"]
-[fibre]
-coordinates = ["v[1..n,1..3]"]
-[algebroid]
-kind = "tangent"
-[definitions]
-"r(i,j)" = "sqrt(sum(k, 1, 3, (x[i,k] - x[j,k])^2))"
-[lagrangian]
-L = "sum(i, 1, n, sum(k, 1, 3, m[i]*v[i,k]^2))/2 + sum(i, 1, n, sum(j, i+1, n, (G*m[i]*m[j] - e[i]*e[j])/r(i,j)))"
-)toml";
-}
-
-/// Rotors that turn one another, and a wheel on all their shafts.
-const std::string rotors = R"toml(
-[sizes]
-n = 5
-[parameters]
-"I[1..n]" = 1
-"K[1..n,1..n]" = 0.3
-J = 2
-[base]
-coordinates = ["q[1..n]"]
-domain = ["I > 0", "J > 0"]
-[fibre]
-coordinates = ["w[1..n]"]
-[algebroid]
-kind = "tangent"
-[lagrangian]
-L = "sum(i, 1, n, I[i]*w[i]^2)/2 + sum(i, 1, n, sum(j, 1, n, K[i,j]*cos(q[i] - q[j])))/2 + J*sum(i, 1, n, w[i])^2/2"
-[forces]
-"w[j]" = "-w[j]/10"
-)toml";
-
-/// A chain of masses whose springs are not linear.
-const std::string springs = R"toml(
-[sizes]
-n = 6
-[parameters]
-"m[1..n]" = 1
-"k[1..n]" = 1
-alpha = 0.25
-[base]
-coordinates = ["x[1..n]"]
-domain = ["m > 0"]
-[fibre]
-coordinates = ["v[1..n]"]
-[algebroid]
-kind = "tangent"
-[lagrangian]
-L = "sum(i, 1, n, m[i]*v[i]^2)/2 - sum(i, 1, n-1, k[i]*(x[i+1] - x[i])^2/2 + alpha*(x[i+1] - x[i])^3/3)"
-)toml";
-
-} // namespace
-
-TEST_CASE("sums over indices are equal to their terms")
-{
-    for (const std::string& text : {bodies(3), bodies(4), bodies(5), rotors, springs})
-        CHECK(checked_blocks(of_text(text)) >= 3);
-    CHECK(checked_blocks(of_file("models/chain.toml")) == 5);
-    for (const int n : {2, 3, 5, 7}) {
-        INFO(n);
-        const std::vector<Setting> settings{{"n", whole_text("--set", std::to_string(n))}};
-        CHECK(checked_blocks(kept_equations(read_model(LAGEN_SOURCE_DIR "/models/chain.toml", settings, choosers()))) >=
-              (n > 2 ? 4U : 0U));
-    }
-}
-
-TEST_CASE("a chain of pendulums is one equation, however long")
-{
-    const EquationSet chain = of_file("models/chain.toml");
-    CHECK(block_text(chain, "momenta") ==
-          "  p_w[i] = Σ_{j=1..4} l[i] l[j] (Σ_{k=max(i,j)..4} m[k]) w[j] cos(a[i] - a[j])   (i = 1..4)\n");
-    CHECK(block_text(chain, "equations of motion (acceleration form)") ==
-          "  Σ_{j=1..4} l[i] l[j] (Σ_{k=max(i,j)..4} m[k]) cos(a[i] - a[j]) ẇ[j]\n"
-          "    = -Σ_{j=1..4} l[i] l[j] (Σ_{k=max(i,j)..4} m[k]) w[j]² sin(a[i] - a[j])\n"
-          "      - l[i] g (Σ_{j=i..4} m[j]) sin(a[i])   (i = 1..4)\n");
-    CHECK(block_text(chain, "energy") ==
-          "  E = Σ_{i=1..3} Σ_{j=i+1..4} l[i] l[j] (Σ_{k=j..4} m[k]) w[i] w[j] cos(a[i] - a[j])\n"
-          "      + Σ_{i=1..4} l[i]² (Σ_{j=i..4} m[j]) w[i]²/2 - g Σ_{i=1..4} l[i] (Σ_{j=i..4} m[j]) cos(a[i])\n");
-    CHECK(print_latex(chain).find(
-              "  p_{w,i} &= \\sum_{j=1}^{4} l_{i}\\, l_{j}\\, \\left(\\sum_{k=\\max(i,j)}^{4} m_{k}\\right)\\, ") !=
-          std::string::npos);
-}
-
-TEST_CASE("bodies that attract one another are one equation of vectors with a sum over the others")
-{
-    CHECK(block_text(of_text(bodies(4)), "equations of motion (acceleration form)") ==
-          "  m[i] v̇[i,:] = Σ_{j=1..4, j≠i} (e[i] e[j] - m[i] m[j] G) (x[i,:] - x[j,:])/(Σ_{k=1..3} (x[i,k] - "
-          "x[j,k])²)^(3/2)\n"
-          "                (i = 1..4)\n");
-    const EquationSet planets = of_file("models/outer_solar_system.toml");
-    CHECK(print_text(planets).ends_with(
-        "where:\n"
-        "         potential = -G Σ_{i=1..5} Σ_{j=i+1..6} m[i] m[j]/√(Σ_{k=1..3} (Q[i,k] - Q[j,k])²)\n"
-        "  potential_Q[i,j] = G Σ_{k=1..6, k≠i} m[i] m[k] (Q[i,j] - Q[k,j])/(Σ_{l=1..3} (Q[i,l] - Q[k,l])²)^(3/2)\n"
-        "                     (i = 1..6, j = 1..3)\n"));
-}
-
-TEST_CASE("a sum stands by itself in one equation, and its ends where the terms differ")
-{
-    const EquationSet set = of_text(rotors);
-    CHECK(block_text(set, "momenta") == "  p_w[i] = I[i] w[i] + J Σ_{j=1..5} w[j]   (i = 1..5)\n");
-    CHECK(block_text(set, "equations of motion (momentum form)") ==
-          "  ṗ_w[i] = -Σ_{j=1..5} (K[i,j] + K[j,i]) sin(q[i] - q[j])/2 - w[i]/10   (i = 1..5)\n");
-    CHECK(
-        block_text(set, "equations of motion (acceleration form)") ==
-        "  I[i] ẇ[i] + J Σ_{j=1..5} ẇ[j] = -Σ_{j=1..5} (K[i,j] + K[j,i]) sin(q[i] - q[j])/2 - w[i]/10   (i = 1..5)\n");
-    CHECK(block_text(of_text(springs), "energy") ==
-          "  E = Σ_{i=1..6} m[i] v[i]²/2 + Σ_{i=1..5} k[i] (x[i] - x[i+1])²/2 - alpha Σ_{i=1..5} (x[i] - "
-          "x[i+1])³/3\n");
 }

@@ -24,14 +24,15 @@ class WrittenMeaning {
             if (!values_.contains(name))
                 values_.emplace(name, static_cast<long double>(dice_.below(9001) + 500) / 10000);
         };
-        for (const EquationBlock& block : set.blocks)
-            for (const Equation& equation : block.equations) {
-                take("'" + equation.symbol);
-                for (const TermGroup& entry : equation.mass) take("'" + entry.label);
-                for (const auto* list : {&equation.mass, &equation.groups})
-                    for (const TermGroup& entry : *list)
-                        for (const std::string& name : names_in(entry.value)) take(name);
-            }
+        for (const auto* blocks : {&set.given, &set.blocks})
+            for (const EquationBlock& block : *blocks)
+                for (const Equation& equation : block.equations) {
+                    take("'" + equation.symbol);
+                    for (const TermGroup& entry : equation.mass) take("'" + entry.label);
+                    for (const auto* list : {&equation.mass, &equation.groups})
+                        for (const TermGroup& entry : *list)
+                            for (const std::string& name : names_in(entry.value)) take(name);
+                }
         for (const WhereEntry& entry : set.where) {
             take(entry.symbol);
             take("'" + entry.symbol);

@@ -114,9 +114,10 @@ class Joining {
         const auto take = [&](const Tree& tree) {
             for (const std::string& each : names_in(tree)) names.insert(each);
         };
-        for (const EquationBlock& block : equations.blocks)
-            for (const auto* list : {&block.equations, &block.written})
-                for (const Equation& equation : *list) take(tree_of(equation));
+        for (const auto* blocks : {&equations.given, &equations.blocks})
+            for (const EquationBlock& block : *blocks)
+                for (const auto* list : {&block.equations, &block.written})
+                    for (const Equation& equation : *list) take(tree_of(equation));
         for (const WhereEntry& entry : equations.where) {
             names.insert(entry.symbol);
             take(entry.value);
@@ -350,10 +351,11 @@ class Joining {
 void write_by_index(EquationSet& equations)
 {
     Joining joining(equations);
-    for (EquationBlock& block : equations.blocks) {
-        std::vector<Equation> joined = joining.joined(block.written.empty() ? block.equations : block.written);
-        if (!joined.empty()) block.written = std::move(joined);
-    }
+    for (auto* blocks : {&equations.given, &equations.blocks})
+        for (EquationBlock& block : *blocks) {
+            std::vector<Equation> joined = joining.joined(block.written.empty() ? block.equations : block.written);
+            if (!joined.empty()) block.written = std::move(joined);
+        }
     std::vector<Equation> where;
     for (const WhereEntry& entry : equations.where)
         where.push_back({LeftSide::symbol, entry.symbol, {}, {{"", entry.value}}});

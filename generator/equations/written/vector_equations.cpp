@@ -371,13 +371,14 @@ void write_vectors(EquationSet& equations, const Model& model)
     if (names.vectors.empty()) return;
     for (;;) {
         VectorWriting writing(equations, names);
-        std::vector<std::vector<Equation>> blocks;
-        for (const EquationBlock& block : equations.blocks) blocks.push_back(writing.written(block));
+        std::vector<std::pair<EquationBlock*, std::vector<Equation>>> blocks;
+        for (auto* list : {&equations.given, &equations.blocks})
+            for (EquationBlock& block : *list) blocks.emplace_back(&block, writing.written(block));
         if (writing.is_ambiguous()) { // three numbered parameters are a vector here, and no matrix
             std::erase_if(names.matrices, [](const MatrixName& matrix) { return matrix.diagonal; });
             continue;
         }
-        for (std::size_t k = 0; k < blocks.size(); ++k) equations.blocks[k].written = std::move(blocks[k]);
+        for (auto& [block, written] : blocks) block->written = std::move(written);
         equations.vectors = writing.vectors();
         for (const VectorName& vector : names.vectors)
             if (!vector.latex.empty()) equations.symbols.push_back({vector.name, vector.latex});

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// Sums over indices of families in derived equations: equal to their terms, exact texts; what the model gives.
+#include "equations/written_blocks.hpp"
+
+using namespace lagen;
+
+namespace {
+
+/// n bodies with masses and charges.
+std::string bodies(int n)
+{
+    return "[sizes]\nn = " + std::to_string(n) + R"toml(
+[parameters]
+"m[1..n]" = 1
+"e[1..n]" = 1
+G = 1
+[base]
+coordinates = ["x[1..n,1..3]"]
+domain = ["m > 0"]
+[fibre]
+coordinates = ["v[1..n,1..3]"]
+[algebroid]
+kind = "tangent"
+[definitions]
+"r(i,j)" = "sqrt(sum(k, 1, 3, (x[i,k] - x[j,k])^2))"
+[lagrangian]
+L = "sum(i, 1, n, sum(k, 1, 3, m[i]*v[i,k]^2))/2 + sum(i, 1, n, sum(j, i+1, n, (G*m[i]*m[j] - e[i]*e[j])/r(i,j)))"
+)toml";
+}
+
+/// Rotors that turn one another, and a wheel on all their shafts.
+const std::string rotors = R"toml(
+[sizes]
+n = 5
+[parameters]
+"I[1..n]" = 1
+"K[1..n,1..n]" = 0.3
+J = 2
+[base]
+coordinates = ["q[1..n]"]
+domain = ["I > 0", "J > 0"]
+[fibre]
+coordinates = ["w[1..n]"]
+[algebroid]
+kind = "tangent"
+[lagrangian]
+L = "sum(i, 1, n, I[i]*w[i]^2)/2 + sum(i, 1, n, sum(j, 1, n, K[i,j]*cos(q[i] - q[j])))/2 + J*sum(i, 1, n, w[i])^2/2"
+[forces]
+"w[j]" = "-w[j]/10"
+)toml";
+
+/// A chain of masses whose springs are not linear.
+const std::string springs = R"toml(
+[sizes]
+n = 6
+[parameters]
+"m[1..n]" = 1
+"k[1..n]" = 1
+alpha = 0.25
+[base]
+coordinates = ["x[1..n]"]
+domain = ["m > 0"]
+[fibre]
+coordinates = ["v[1..n]"]
+[algebroid]
+kind = "tangent"
+[lagrangian]
+L = "sum(i, 1, n, m[i]*v[i]^2)/2 - sum(i, 1, n-1, k[i]*(x[i+1] - x[i])^2/2 + alpha*(x[i+1] - x[i])^3/3)"
+)toml";
+
+} // namespace
+
+TEST_CASE("sums over indices are equal to their terms")
+{
+    for (const std::string& text : {bodies(3), bodies(4), bodies(5), rotors, springs})
+        CHECK(checked_blocks(of_text(text)) >= 3);
+    CHECK(checked_blocks(of_file("models/chain.toml")) == 6);
+    for (const int n : {2, 3, 5, 7}) {
+        INFO(n);
+        const std::vector<Setting> settings{{"n", whole_text("--set", std::to_string(n))}};
+        CHECK(checked_blocks(kept_equations(read_model(LAGEN_SOURCE_DIR "/models/chain.toml", settings, choosers()))) >=
+              (n > 2 ? 4U : 0U));
+    }
+}
+
+TEST_CASE("a chain of pendulums is one equation, however long")
+{
+    const EquationSet chain = of_file("models/chain.toml");
+    CHECK(block_text(chain, "momenta") ==
+          "  p_w[i] = Σ_{j=1..4} l[i] l[j] (Σ_{k=max(i,j)..4} m[k]) w[j] cos(a[i] - a[j])   (i = 1..4)\n");
+    CHECK(block_text(chain, "equations of motion (acceleration form)") ==
+          "  Σ_{j=1..4} l[i] l[j] (Σ_{k=max(i,j)..4} m[k]) cos(a[i] - a[j]) ẇ[j]\n"
+          "    = -Σ_{j=1..4} l[i] l[j] (Σ_{k=max(i,j)..4} m[k]) w[j]² sin(a[i] - a[j])\n"
+          "      - l[i] g (Σ_{j=i..4} m[j]) sin(a[i])   (i = 1..4)\n");
+    CHECK(block_text(chain, "energy") ==
+          "  E = Σ_{i=1..3} Σ_{j=i+1..4} l[i] l[j] (Σ_{k=j..4} m[k]) w[i] w[j] cos(a[i] - a[j])\n"
+          "      + Σ_{i=1..4} l[i]² (Σ_{j=i..4} m[j]) w[i]²/2 - g Σ_{i=1..4} l[i] (Σ_{j=i..4} m[j]) cos(a[i])\n");
+    CHECK(print_latex(chain).find(
+              "  p_{w,i} &= \\sum_{j=1}^{4} l_{i}\\, l_{j}\\, \\left(\\sum_{k=\\max(i,j)}^{4} m_{k}\\right)\\, ") !=
+          std::string::npos);
+}
+
+TEST_CASE("bodies that attract one another are one equation of vectors with a sum over the others")
+{
+    CHECK(block_text(of_text(bodies(4)), "equations of motion (acceleration form)") ==
+          "  m[i] v̇[i,:] = Σ_{j=1..4, j≠i} (e[i] e[j] - m[i] m[j] G) (x[i,:] - x[j,:])/(Σ_{k=1..3} (x[i,k] - "
+          "x[j,k])²)^(3/2)\n"
+          "                (i = 1..4)\n");
+    const EquationSet planets = of_file("models/outer_solar_system.toml");
+    CHECK(print_text(planets).ends_with(
+        "where:\n"
+        "         potential = -G Σ_{i=1..5} Σ_{j=i+1..6} m[i] m[j]/√(Σ_{k=1..3} (Q[i,k] - Q[j,k])²)\n"
+        "  potential_Q[i,j] = G Σ_{k=1..6, k≠i} m[i] m[k] (Q[i,j] - Q[k,j])/(Σ_{l=1..3} (Q[i,l] - Q[k,l])²)^(3/2)\n"
+        "                     (i = 1..6, j = 1..3)\n"));
+}
+
+TEST_CASE("a sum stands by itself in one equation, and its ends where the terms differ")
+{
+    const EquationSet set = of_text(rotors);
+    CHECK(block_text(set, "momenta") == "  p_w[i] = I[i] w[i] + J Σ_{j=1..5} w[j]   (i = 1..5)\n");
+    CHECK(block_text(set, "equations of motion (momentum form)") ==
+          "  ṗ_w[i] = -Σ_{j=1..5} (K[i,j] + K[j,i]) sin(q[i] - q[j])/2 - w[i]/10   (i = 1..5)\n");
+    CHECK(
+        block_text(set, "equations of motion (acceleration form)") ==
+        "  I[i] ẇ[i] + J Σ_{j=1..5} ẇ[j] = -Σ_{j=1..5} (K[i,j] + K[j,i]) sin(q[i] - q[j])/2 - w[i]/10   (i = 1..5)\n");
+    CHECK(block_text(of_text(springs), "energy") ==
+          "  E = Σ_{i=1..6} m[i] v[i]²/2 + Σ_{i=1..5} k[i] (x[i] - x[i+1])²/2 - alpha Σ_{i=1..5} (x[i] - "
+          "x[i+1])³/3\n");
+}
+
+TEST_CASE("what the model gives stands before its equations")
+{
+    const EquationSet top = of_file("models/heavy_top.toml");
+    CHECK(print_text(top).starts_with("Heavy top in body coordinates\n"
+                                      "\n"
+                                      "Lagrangian:  L(x, y)\n"
+                                      "  L = w · I w/2 - mgl e · g\n"
+                                      "\n"
+                                      "brackets:  [e_a, e_b] = C^c_ab e_c\n"
+                                      "  [e_w1, e_w2] = e_w3\n"
+                                      "  [e_w1, e_w3] = -e_w2\n"
+                                      "  [e_w2, e_w3] = e_w1\n"
+                                      "\n"
+                                      "constraints:  φ(x) = 0 on M\n"
+                                      "  0 = g1² + g2² + g3² - 1\n"
+                                      "\n"
+                                      "claimed invariants:  ḟ = 0\n"
+                                      "  area = g · p_w\n"
+                                      "\n"
+                                      "kinematics:"));
+    CHECK(print_json(top).find("\"given\"") != std::string::npos);
+    const EquationSet control = of_file("models/half_plane_control.toml");
+    CHECK(print_text(control).find("claimed invariants:  ḟ = 0\n     shift = mu1\n") != std::string::npos);
+    const EquationSet planets = of_file("models/outer_solar_system.toml");
+    CHECK(block_text(planets, "claimed invariants") ==
+          "          momentum[i] = Σ_{j=1..6} m[j] V[j,i]   (i = 1..3)\n"
+          "  angular_momentum[1] = Σ_{i=1..6} m[i] (Q[i,2] V[i,3] - Q[i,3] V[i,2])\n"
+          "  angular_momentum[2] = Σ_{i=1..6} m[i] (Q[i,3] V[i,1] - Q[i,1] V[i,3])\n"
+          "  angular_momentum[3] = Σ_{i=1..6} m[i] (Q[i,1] V[i,2] - Q[i,2] V[i,1])\n");
+}
