@@ -25,9 +25,9 @@ std::vector<std::string> bound_guesses(const std::string& bound, const std::stri
 
 } // namespace
 
-std::optional<IndexPattern> common_pattern(const Tree& a, const Tree& b, const std::string& letter)
+std::optional<IndexPattern> common_pattern(const Tree& a, const IndexShape& first, const IndexShape& second,
+                                           const std::string& letter)
 {
-    const IndexShape first = shape_of(a), second = shape_of(b);
     if (first.form.empty() || first.form != second.form) return std::nullopt;
     std::optional<long> base, step;
     for (const bool in_names : {true, false})

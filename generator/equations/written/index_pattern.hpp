@@ -14,7 +14,8 @@ struct IndexPattern {
 
 /// What two expressions are with a letter for the indices in which they differ, all by the same number; nothing where
 /// they differ otherwise. The letter stands without an offset for the first of them in a name.
-[[nodiscard]] std::optional<IndexPattern> common_pattern(const Tree& a, const Tree& b, const std::string& letter);
+[[nodiscard]] std::optional<IndexPattern> common_pattern(const Tree& a, const IndexShape& shape_of_a,
+                                                         const IndexShape& shape_of_b, const std::string& letter);
 
 /// Guesses from a single expression: a letter for all indices of names that have this value in one place (0: in any),
 /// and for bounds of sums, which it may move or, as max(letter, ..), stop. One at least.

@@ -209,7 +209,7 @@ class Joining {
     {
         std::vector<IndexPattern> patterns;
         const Tree& tree = drafts[first].tree;
-        const auto common = common_pattern(tree, drafts[first + 1].tree, letter);
+        const auto common = common_pattern(tree, shape_of(tree), shape_of(drafts[first + 1].tree), letter);
         if (common && common->value == value) patterns.push_back(*common);
         if (!has_sums(tree)) return patterns;
         for (const std::size_t where : {std::size_t{0}, place}) { // the letter for indices in any place, or in this one

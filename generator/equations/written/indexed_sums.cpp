@@ -7,9 +7,11 @@
 namespace lagen {
 namespace {
 
-constexpr std::size_t most_joined = 200; ///< terms of a sum that is looked at
-constexpr long most_values = 1000;       ///< of an index, on either side of one that is known
-constexpr std::size_t fewest_terms = 3;  ///< of a sum that is written over an index
+constexpr std::size_t most_joined = 200;      ///< terms of a sum that is looked at
+constexpr std::size_t most_in_vain = 150'000; ///< characters of terms that were expanded for guesses that failed
+constexpr std::size_t worth = 10;             ///< of such characters to each that is joined
+constexpr long most_values = 1000;            ///< of an index, on either side of one that is known
+constexpr std::size_t fewest_terms = 3;       ///< of a sum that is written over an index
 
 std::size_t height_of(const Tree& tree)
 {
@@ -115,7 +117,8 @@ Tree SumWriting::joined(const Tree& tree)
 std::vector<Tree> SumWriting::joined_terms(std::vector<Tree> terms)
 {
     const auto has_indices = [](const Tree& term) { return !shape_of(term).slots.empty(); };
-    if (terms.size() > most_joined || std::ranges::count_if(terms, has_indices) < 2) return terms;
+    if (in_vain_ > most_in_vain || terms.size() > most_joined || std::ranges::count_if(terms, has_indices) < 2)
+        return terms;
     std::vector<Item> items;
     for (const Tree& term : terms) {
         const std::optional<Keys> keys = keys_.of(term);
@@ -129,12 +132,19 @@ std::vector<Tree> SumWriting::joined_terms(std::vector<Tree> terms)
         found = false;
         for (const bool from_one : {false, true}) {
             std::vector<Candidate> candidates;
-            for (const IndexPattern& pattern : patterns_of(items, from_one))
-                if (const auto candidate = extended(pattern, available)) candidates.push_back(*candidate);
+            for (const IndexPattern& pattern : patterns_of(items, from_one)) {
+                if (in_vain_ > most_in_vain) return terms;
+                const std::size_t before = keys_.expanded();
+                if (auto candidate = extended(pattern, available))
+                    candidates.push_back(std::move(*candidate));
+                else
+                    in_vain_ += keys_.expanded() - before;
+            }
             std::ranges::stable_sort(candidates, std::ranges::greater(), &Candidate::members);
             for (const Candidate& candidate : candidates) {
-                found = replace(items, candidate);
-                if (found) break;
+                if (!replace(items, candidate)) continue;
+                found = true;
+                in_vain_ -= std::min(in_vain_, worth * candidate.members * to_text(candidate.sum).size());
             }
             if (found) break;
         }
@@ -146,28 +156,33 @@ std::vector<Tree> SumWriting::joined_terms(std::vector<Tree> terms)
     return result;
 }
 
-/// Of two neighbours among items of one form, or of one item that has a sum.
+/// Of two items of one form, or of one item that has a sum; each once.
 std::vector<IndexPattern> SumWriting::patterns_of(const std::vector<Item>& items, bool from_one)
 {
-    const auto letter_of = [](const Tree& tree) { return "#" + std::to_string(height_of(tree) + 1); };
     std::vector<IndexPattern> patterns;
+    std::set<std::string> known;
+    const auto take = [&](IndexPattern pattern) {
+        if (known.insert(to_text(pattern.tree)).second) patterns.push_back(std::move(pattern));
+    };
+    const auto letter_of = [](const Tree& tree) { return "#" + std::to_string(height_of(tree) + 1); };
     if (from_one) {
         for (const Item& item : items)
             if (has_sums(item.tree))
-                for (IndexPattern& pattern : lifted_patterns(item.tree, letter_of(item.tree)))
-                    patterns.push_back(std::move(pattern));
+                for (IndexPattern& pattern : lifted_patterns(item.tree, letter_of(item.tree))) take(std::move(pattern));
         return patterns;
     }
-    std::map<std::string, std::vector<const Item*>> by_form;
-    for (const Item& item : items) {
-        const IndexShape shape = shape_of(item.tree);
-        if (!shape.form.empty() && !shape.slots.empty()) by_form[shape.form].push_back(&item);
-    }
+    std::map<std::string, std::vector<std::pair<const Item*, IndexShape>>> by_form;
+    for (const Item& item : items)
+        if (IndexShape shape = shape_of(item.tree); !shape.form.empty() && !shape.slots.empty()) {
+            const std::string form = shape.form;
+            by_form[form].emplace_back(&item, std::move(shape));
+        }
     for (const auto& [form, same] : by_form)
         for (std::size_t a = 0; a < same.size(); ++a)
             for (std::size_t b = a + 1; b < same.size(); ++b)
-                if (auto pattern = common_pattern(same[a]->tree, same[b]->tree, letter_of(same[a]->tree))) {
-                    patterns.push_back(std::move(*pattern));
+                if (auto pattern = common_pattern(same[a].first->tree, same[a].second, same[b].second,
+                                                  letter_of(same[a].first->tree))) {
+                    take(std::move(*pattern));
                     break;
                 }
     return patterns;
@@ -236,7 +251,7 @@ bool SumWriting::replace(std::vector<Item>& items, const Candidate& candidate)
             left.push_back(item);
         }
     }
-    if (!open.empty()) return false;
+    if (!open.empty() || left.size() + 2 > items.size()) return false;
     left.insert(left.begin() + static_cast<long>(place), {candidate.sum, candidate.keys});
     items = std::move(left);
     return true;

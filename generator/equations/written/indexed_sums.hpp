@@ -45,6 +45,8 @@ class SumWriting {
 
     std::set<std::string> names_;
     TermKeys keys_;
+    std::size_t in_vain_ =
+        0; ///< characters of terms that were expanded for guesses that failed; what is joined makes up for them
 };
 
 } // namespace lagen

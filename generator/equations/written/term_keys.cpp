@@ -10,7 +10,8 @@ namespace lagen {
 namespace {
 
 constexpr std::size_t most_keys = 400;
-constexpr const char* no_value = "?"; ///< the key of what has none
+constexpr std::size_t most_characters = 20'000'000; ///< of all terms that are expanded, so that the time is bounded
+constexpr const char* no_value = "?";               ///< the key of what has none
 
 /// Products of vectors as names: what they mean is no matter of their terms.
 Tree with_opaque_products(const Tree& tree)
@@ -50,6 +51,11 @@ const std::vector<std::string>& TermKeys::keys_of(const Tree& term)
     const auto [entry, is_new] = known_.emplace(to_text(term), std::vector<std::string>());
     std::vector<std::string>& texts = entry->second;
     if (!is_new) return texts;
+    expanded_ += entry->first.size();
+    if (expanded_ > most_characters) {
+        texts = {no_value};
+        return texts;
+    }
     const auto append_key = [&](const GiNaC::ex& part) { texts.push_back(to_text(from_ginac(part, symbols_, {}))); };
     try {
         GiNaC::ex whole = to_ginac(with_opaque_products(term), symbols_);
