@@ -72,6 +72,7 @@ class WrittenMeaning {
 
     static void add(WrittenValue& sum, const WrittenValue& term, long double factor)
     {
+        if (term.empty()) return; // a sum without terms
         if (sum.empty()) sum.assign(term.size(), 0);
         REQUIRE(sum.size() == term.size());
         for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += factor * term[k];
@@ -79,6 +80,7 @@ class WrittenMeaning {
 
     static WrittenValue product(const WrittenValue& a, const WrittenValue& b)
     {
+        if (a.empty() || b.empty()) return {};
         if (a.size() == 9 && b.size() == 3) {
             WrittenValue result(3, 0);
             for (std::size_t k = 0; k < 9; ++k) result[k / 3] += a[k] * b[k % 3];
@@ -199,6 +201,8 @@ class WrittenMeaning {
         case TreeKind::divide: return product({1 / arguments[1].at(0)}, arguments[0]);
         default: break;
         }
+        for (WrittenValue& argument : arguments)
+            if (argument.empty()) argument = {0};
         TreeNode node = *tree; // a function of scalars
         for (std::size_t k = 0; k < arguments.size(); ++k)
             if (node.arguments[k]->kind != TreeKind::number) node.arguments[k] = name("argument" + std::to_string(k));

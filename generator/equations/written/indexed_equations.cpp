@@ -84,7 +84,7 @@ class Joining {
     {
         std::set<std::string> taken;
         for (const SymbolText& symbol : equations.symbols) taken.insert(symbol.name);
-        for (const WhereEntry& entry : equations.where) taken.insert(entry.symbol.substr(0, entry.symbol.find('[')));
+        for (const std::string& each : names_of(equations)) taken.insert(each.substr(0, each.find('[')));
         for (const char* letter : {"i", "j", "k", "l", "n", "p", "q"})
             if (!taken.contains(letter)) letters_.emplace_back(letter);
     }
