@@ -114,6 +114,18 @@ TEST_CASE("bodies that attract one another are one equation of vectors with a su
         "                     (i = 1..6, j = 1..3)\n"));
 }
 
+TEST_CASE("letters of indices are none of the model's names")
+{
+    std::string text = springs;
+    for (const auto& [name, other] : {std::pair("alpha", "i"), std::pair("k[", "j["), std::pair("x[", "k["),
+                                      std::pair("v[", "l["), std::pair("\"v\"", "\"l\"")})
+        for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1))
+            text.replace(at, std::string_view(name).size(), other);
+    const EquationSet set = of_text(text);
+    CHECK(checked_blocks(set) >= 4);
+    CHECK(block_text(set, "energy").find("n=1") != std::string::npos);
+}
+
 TEST_CASE("a sum stands by itself in one equation, and its ends where the terms differ")
 {
     const EquationSet set = of_text(rotors);

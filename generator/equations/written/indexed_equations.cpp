@@ -85,7 +85,7 @@ class Joining {
         std::set<std::string> taken;
         for (const SymbolText& symbol : equations.symbols) taken.insert(symbol.name);
         for (const std::string& each : names_of(equations)) taken.insert(each.substr(0, each.find('[')));
-        for (const char* letter : {"i", "j", "k", "l", "n", "p", "q"})
+        for (const char* letter : {"i", "j", "k", "l", "n", "p", "q", "r", "s", "a", "b", "c", "d"})
             if (!taken.contains(letter)) letters_.emplace_back(letter);
     }
 

@@ -11,6 +11,7 @@ constexpr std::size_t most_joined = 200;      ///< terms of a sum that is looked
 constexpr std::size_t most_in_vain = 150'000; ///< characters of terms that were expanded for guesses that failed
 constexpr std::size_t worth = 10;             ///< of such characters to each that is joined
 constexpr long most_values = 1000;            ///< of an index, on either side of one that is known
+constexpr std::size_t sign_length = 11;       ///< characters of "sum_{i=1..3} "
 constexpr std::size_t fewest_terms = 3;       ///< of a sum that is written over an index
 
 std::size_t height_of(const Tree& tree)
@@ -288,8 +289,8 @@ Tree SumWriting::finished(const Tree& tree)
         while (sum.from != sum.to && !counts(sum.to)) sum.to = with_offset(sum.to, -1);
         terms = terms_of(sum);
         const Tree whole = terms->size() == 1 ? (*terms)[0] : add(*terms);
-        if (terms->size() < fewest_terms || 3 * to_text(tree_of(sum)).size() > 2 * to_text(whole).size())
-            return finished(whole);
+        const std::size_t length = sign_length + to_text(sum.body).size();
+        if (terms->size() < fewest_terms || 3 * length > 2 * to_text(whole).size()) return finished(whole);
     }
     if (sum.excluded == sum.from) sum.from = with_offset(sum.from, 1);
     if (sum.excluded == sum.to) sum.to = with_offset(sum.to, -1);
