@@ -109,13 +109,15 @@ std::string object_json(const RunOutcome& outcome)
 void tell(const Options& options, const RunOutcome& source, const RunOutcome& target, const RunComparison& comparison)
 {
     const std::string csv = to_csv(comparison.table);
-    if (options.has("output")) write_file(options.get("output"), csv);
+    const std::string lift =
+        options.has("reconstruct") ? fmt::format(",\n \"reconstruction\": {}", defect_json(comparison, true)) : "";
+    const std::string report =
+        fmt::format("{{\"source\": {},\n \"target\": {},\n \"defect\": {}{}}}\n", object_json(source),
+                    object_json(target), defect_json(comparison, false), lift);
+    if (options.has("output"))
+        write_file(options.get("output"), options.get("output").ends_with(".json") ? report : csv);
     if (options.get("format") == "json") {
-        const std::string lift =
-            options.has("reconstruct") ? fmt::format(",\n \"reconstruction\": {}", defect_json(comparison, true)) : "";
-        write_standard_output(fmt::format("{{\"source\": {},\n \"target\": {},\n \"defect\": {}{}}}\n",
-                                          object_json(source), object_json(target), defect_json(comparison, false),
-                                          lift));
+        write_standard_output(report);
     } else {
         if (!options.has("output")) write_standard_output(csv);
         write_standard_error(report_text(source) + report_text(target) + defect_text(comparison));

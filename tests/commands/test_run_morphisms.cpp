@@ -92,6 +92,9 @@ TEST_CASE("the heavy top in Euler angles projects onto the one on the sphere to 
     CHECK(std::abs(entry_of(target, 200, "w1") - entry_of(target, 0, "w1")) > 0.1);
     CHECK(read_text(csv).starts_with("t,g1,g2,g3,w1,w2,w3,projected_g1,projected_g2,projected_g3,projected_w1,"
                                      "projected_w2,projected_w3\r\n"));
+    const std::string report = fresh_folder() + "/report.json";
+    REQUIRE(call({"run", morphism_models + "heavy_top_reduction.toml", "-o", report}).code == 0);
+    CHECK(json::parse(read_text(report)).keys == std::vector<std::string>{"source", "target", "defect"});
 }
 
 TEST_CASE("Elroy's beanie on TQ projects onto the one reduced by SE(2), whose motion is lifted to TQ again, to 1e-11",
