@@ -9,7 +9,8 @@
 namespace lagen {
 namespace {
 
-constexpr std::size_t fewest = 3; ///< equations that are worth one with an index
+constexpr std::size_t fewest = 3;       ///< equations that are worth one with an index
+constexpr std::size_t most_indices = 2; ///< of a name that run
 
 bool is_plain(const Equation& equation)
 {
@@ -140,7 +141,8 @@ class Joining {
         }
         for (Tree& term : terms) term = sums_.joined(term);
         const Tree joined = array_of({tree->arguments[0], array_of(mass), array_of(sums_.joined_terms(terms))});
-        return {equation, has_sums(joined) ? joined : tree};
+        const bool has_letters = depth_of(joined) + most_indices <= letters_.size();
+        return {equation, has_sums(joined) && has_letters ? joined : tree};
     }
 
     /// I[i] w[i]' + J sum_j w[j]' for a row (I[1] + J) w[1]' + J w[2]' + ..: sums in masses are taken apart where that
@@ -180,7 +182,7 @@ class Joining {
         std::size_t length = 1;
         const std::vector<IndexSlot> left = shape_of(drafts[first].tree->arguments[0]).slots;
         const std::vector<IndexSlot> next = shape_of(drafts[first + 1].tree->arguments[0]).slots;
-        for (std::size_t slot = 0; slot < left.size() && left.size() == next.size(); ++slot) {
+        for (std::size_t slot = 0; slot < left.size() && left.size() == next.size() && slot < most_indices; ++slot) {
             const std::optional<long> value = index_number(left[slot].text);
             if (!value || index_number(next[slot].text) != *value + 1 || slot >= letters_.size()) continue;
             const std::string running = "$" + std::to_string(slot + 1);
@@ -278,7 +280,7 @@ class Joining {
         return first && second && *first == *second;
     }
 
-    /// With letters for the marks of indices; the equation without sums where there are too few letters.
+    /// With letters for the marks of indices.
     Equation finished(const Draft& draft)
     {
         Equation result = draft.equation;
@@ -304,7 +306,6 @@ class Joining {
         }
         const Tree whole = array_of(parts);
         if (!has_sums(whole) && result.ranges.empty()) return draft.equation;
-        if (taken + depth_of(whole) > letters_.size()) return draft.equation;
         return with_tree(result, with_letters(whole, letters, taken));
     }
 

@@ -19,7 +19,8 @@ class SumWriting {
     Tree joined(const Tree& tree);
     std::vector<Tree> joined_terms(std::vector<Tree> terms);
 
-    /// Sums without terms at their ends that are 0 or have no value; written out where that is not much longer.
+    /// Sums without the terms at their ends that are 0 or have no value, and with constant factors in front; written
+    /// out where that is not much longer.
     Tree finished(const Tree& tree);
 
     TermKeys& keys() { return keys_; }
@@ -45,8 +46,7 @@ class SumWriting {
 
     std::set<std::string> names_;
     TermKeys keys_;
-    std::size_t in_vain_ =
-        0; ///< characters of terms that were expanded for guesses that failed; what is joined makes up for them
+    std::size_t in_vain_ = 0; ///< characters that were expanded for guesses that failed, less what others were worth
 };
 
 } // namespace lagen
