@@ -11,6 +11,7 @@ namespace {
 
 constexpr double term_limit = 2000;        ///< of an expanded sum
 constexpr std::size_t factor_terms = 40;   ///< of a polynomial handed to GiNaC::factor
+constexpr std::size_t node_limit = 50'000; ///< of an expanded sum
 constexpr int factor_degree = 16;          ///< its total degree, summed over its symbols
 constexpr std::size_t factor_symbols = 10; ///< with more, unlucky points of GiNaC's own dice take it minutes
 constexpr std::size_t parenthesis_cost = 2;
@@ -77,6 +78,15 @@ class Atoms {
 
     GiNaC::exmap forward_, back_;
 };
+
+/// Whether an expression is short when it is written out: in a sum of many terms each may have long divisors.
+bool has_few_nodes(const GiNaC::ex& e)
+{
+    std::size_t nodes = 0;
+    for (auto node = e.preorder_begin(); node != e.preorder_end(); ++node)
+        if (++nodes > node_limit) return false;
+    return true;
+}
 
 std::size_t terms_of(const GiNaC::ex& e)
 {
@@ -233,14 +243,15 @@ Tree shortest_form(const GiNaC::ex& expression, const SymbolTable& symbols, cons
     return with_ginac("an expression could not be rewritten", [&] {
         Shortest shortest;
         const AngleSums angles(symbols, order);
-        if (expanded_terms(expression) <= term_limit) {
-            const SortedTerm expanded = sort_expression(expression.expand(), symbols, order);
+        const GiNaC::ex sum = expanded_terms(expression) <= term_limit ? expression.expand() : GiNaC::ex();
+        if (expanded_terms(expression) <= term_limit && has_few_nodes(sum)) {
+            const SortedTerm expanded = sort_expression(sum, symbols, order);
             const SortedTerm squares = with_joined_squares(expanded);
-            for (const SortedTerm& sum : {expanded, squares, angles.joined(squares)}) {
-                const SortedTerm common = with_common_factor(terms_in(sum));
-                if (common.key != sum.key) shortest.offer(tree_of(common));
-                shortest.offer(tree_of(collected(sum)));
-                shortest.offer(tree_of(sum));
+            for (const SortedTerm& form : {expanded, squares, angles.joined(squares)}) {
+                const SortedTerm common = with_common_factor(terms_in(form));
+                if (common.key != form.key) shortest.offer(tree_of(common));
+                shortest.offer(tree_of(collected(form)));
+                shortest.offer(tree_of(form));
             }
             if (const std::optional<GiNaC::ex> product = factored(expression)) {
                 const SortedTerm sorted = sort_expression(*product, symbols, order);

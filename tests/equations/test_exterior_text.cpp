@@ -7,6 +7,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <fmt/core.h>
+
 using namespace lagen;
 
 namespace {
@@ -51,6 +53,26 @@ TEST_CASE("coefficients that are sums stand in parentheses before their basis fo
 {
     CHECK(print_text(exterior_of("wong")).find("de^q3 = a x (b y + 2) e^u∧e^v + a y e^u∧e^q2") != std::string::npos);
     CHECK(print_text(exterior_of("wong")).find("(c y - a - b² x) e^u∧e^v") != std::string::npos);
+}
+
+TEST_CASE("a frame with 16 different denominators has long differentials, and takes no long time")
+{
+    std::string text =
+        "[base]\ncoordinates = ['x1', 'x2', 'x3', 'x4']\n[fibre]\ncoordinates = ['f1', 'f2', 'f3', 'f4']\n"
+        "[algebroid]\nkind = 'frame'\n[algebroid.sections]\n";
+    for (int a = 1; a <= 4; ++a) {
+        text += fmt::format("f{} = {{", a);
+        for (int b = 1; b <= 4; ++b)
+            text += fmt::format("{} e{} = '({} + x{})/({} + x{}^2)'", b == 1 ? "" : ",", b, a == b ? 5 : a + b - 4,
+                                (a + b) % 4 + 1, 1 + a * b, (a + 2 * b) % 4 + 1);
+        text += " }\n";
+    }
+    text += "[algebroid.of]\nkind = 'tangent'\nfibre = ['e1', 'e2', 'e3', 'e4']\n";
+    const Model model = read_model_text("frame.toml", text);
+    const EquationSet set = derive_exterior(model, elaborate(model));
+    std::size_t terms = 0;
+    for (const Equation& equation : set.blocks.back().equations) terms += equation.groups.size();
+    CHECK(terms == 24);
 }
 
 TEST_CASE("the forms of a model stand with their differentials")
