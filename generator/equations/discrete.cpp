@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "equations/discrete.hpp"
 
+#include "equations/given_blocks.hpp"
 #include "graph/core/lower.hpp"
 #include "mechanics/discrete.hpp"
 #include "model/families.hpp"
@@ -42,6 +43,8 @@ class DiscreteDerivation {
     EquationSet run()
     {
         EquationSet set = symbolic_.empty_set("discrete");
+        set.given = given_blocks({lagrangian_block(symbolic_, symbolic_.lower(model_.discrete->lagrangian), "g")},
+                                 constraints_and_invariants(symbolic_));
         if (!groupoid_.action.empty()) set.blocks.push_back(targets());
         set.blocks.push_back(momenta("momenta at the source", "F⁻L_a = →e_a(L)", R"(F^-L_a = \overrightarrow{e_a}(L))",
                                      legendre_.minus, false));

@@ -3,12 +3,17 @@
 
 namespace lagen {
 
-std::vector<EquationBlock> lagrangian_and_brackets(SymbolicModel& symbolic, const GiNaC::ex& lagrangian)
+EquationBlock lagrangian_block(const SymbolicModel& symbolic, const GiNaC::ex& lagrangian, const std::string& arguments)
 {
-    const EquationBlock function{"Lagrangian",
-                                 "L(x, y)",
-                                 "L(x, y)",
-                                 {symbolic.equation(LeftSide::symbol, symbolic.free_name({"L", "L_E"}), {lagrangian})}};
+    const std::string formula = "L(" + arguments + ")";
+    return {"Lagrangian",
+            formula,
+            formula,
+            {symbolic.equation(LeftSide::symbol, symbolic.free_name({"L", "L_E"}), {lagrangian})}};
+}
+
+EquationBlock bracket_block(const SymbolicModel& symbolic)
+{
     EquationBlock brackets{"brackets", "[e_a, e_b] = C^c_ab e_c", R"([e_a, e_b] = C^c_{ab}\, e_c)", {}};
     const std::vector<Symbol>& fibre = symbolic.algebroid().fibre;
     for (std::size_t a = 0; a < symbolic.r(); ++a)
@@ -22,8 +27,7 @@ std::vector<EquationBlock> lagrangian_and_brackets(SymbolicModel& symbolic, cons
                 }
             if (!bracket.groups.empty()) brackets.equations.push_back(std::move(bracket));
         }
-    if (brackets.equations.empty()) return {function};
-    return {function, brackets};
+    return brackets;
 }
 
 std::vector<EquationBlock> constraints_and_invariants(SymbolicModel& symbolic)
@@ -34,9 +38,14 @@ std::vector<EquationBlock> constraints_and_invariants(SymbolicModel& symbolic)
     EquationBlock invariants{"claimed invariants", "ḟ = 0", R"(\dot f = 0)", {}};
     for (const NamedTree& claim : symbolic.model().invariants)
         invariants.equations.push_back(symbolic.equation(LeftSide::symbol, claim.name, {symbolic.lower(claim.value)}));
-    std::vector<EquationBlock> blocks{constraints, invariants};
-    std::erase_if(blocks, [](const EquationBlock& block) { return block.equations.empty(); });
-    return blocks;
+    return {constraints, invariants};
+}
+
+std::vector<EquationBlock> given_blocks(std::vector<EquationBlock> first, const std::vector<EquationBlock>& behind)
+{
+    first.insert(first.end(), behind.begin(), behind.end());
+    std::erase_if(first, [](const EquationBlock& block) { return block.equations.empty(); });
+    return first;
 }
 
 } // namespace lagen

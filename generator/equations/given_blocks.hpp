@@ -6,10 +6,18 @@
 
 namespace lagen {
 
-/// L(x, y) in its shortest form and the brackets of sections, [e_a, e_b] = C^c_ab e_c, those that are not zero.
-[[nodiscard]] std::vector<EquationBlock> lagrangian_and_brackets(SymbolicModel& symbolic, const GiNaC::ex& lagrangian);
+/// L in its shortest form, a function of these `arguments`: "x, y".
+[[nodiscard]] EquationBlock lagrangian_block(const SymbolicModel& symbolic, const GiNaC::ex& lagrangian,
+                                             const std::string& arguments);
 
-/// phi(x) = 0 on M, and the invariants that the model claims, where it has any.
+/// [e_a, e_b] = C^c_ab e_c where that is not zero; no equations where all are.
+[[nodiscard]] EquationBlock bracket_block(const SymbolicModel& symbolic);
+
+/// phi(x) = 0 on M, and the invariants that the model claims; blocks without equations where it has none.
 [[nodiscard]] std::vector<EquationBlock> constraints_and_invariants(SymbolicModel& symbolic);
+
+/// The blocks one after the other, those that have equations.
+[[nodiscard]] std::vector<EquationBlock> given_blocks(std::vector<EquationBlock> first,
+                                                      const std::vector<EquationBlock>& behind);
 
 } // namespace lagen

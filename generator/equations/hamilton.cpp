@@ -26,7 +26,7 @@ class HamiltonDerivation {
     EquationSet derive()
     {
         EquationSet set = symbolic_.empty_set(entry_of(FormKind::hamilton).name);
-        set.given = constraints_and_invariants(symbolic_);
+        set.given = given_blocks({}, constraints_and_invariants(symbolic_));
         set.blocks = {hamiltonian()};
         if (EquationBlock labels = symbolic_.casimirs(); !labels.equations.empty()) set.blocks.push_back(labels);
         set.blocks.push_back(velocities());

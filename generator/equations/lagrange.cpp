@@ -22,8 +22,8 @@ class LagrangeDerivation {
     EquationSet derive(const Regularity& regularity)
     {
         EquationSet set = symbolic_.empty_set(entry_of(FormKind::lagrange).name);
-        set.given = lagrangian_and_brackets(symbolic_, lagrangian_);
-        for (EquationBlock& block : constraints_and_invariants(symbolic_)) set.given.push_back(std::move(block));
+        set.given = given_blocks({lagrangian_block(symbolic_, lagrangian_, "x, y"), bracket_block(symbolic_)},
+                                 constraints_and_invariants(symbolic_));
         set.blocks = {
             {"kinematics", "ẋ^i = ρ^i_a y^a", R"(\dot x^i = \rho^i_a\, y^a)", symbolic_.kinematics(symbolic_.y())}};
         if (EquationBlock labels = symbolic_.casimirs(); !labels.equations.empty()) set.blocks.push_back(labels);

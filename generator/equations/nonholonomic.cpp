@@ -2,6 +2,7 @@
 #include "equations/nonholonomic.hpp"
 
 #include "equations/constrained_model.hpp"
+#include "equations/given_blocks.hpp"
 #include "model/form.hpp"
 
 namespace lagen {
@@ -15,6 +16,8 @@ class NonholonomicDerivation : ConstrainedModel {
     EquationSet derive()
     {
         EquationSet set = symbolic_.empty_set(entry_of(FormKind::lagrange).name);
+        set.given =
+            given_blocks({lagrangian_block(symbolic_, lagrangian_, "x, Y")}, constraints_and_invariants(symbolic_));
         for (EquationBlock& block : std::vector{constraints(), sections(), brackets(), velocities(), kinematics(),
                                                 symbolic_.casimirs(), momenta(), momentum_form(), acceleration_form(),
                                                 energy(), energy_balance(), moving_energy(), symbolic_.states(Y_)})

@@ -40,6 +40,9 @@ TEST_CASE("a sleigh has sections, their bracket, equations on the constraint, an
 {
     CHECK(print_text(constrained_equations("lagrange", sleigh)) == R"text(sleigh
 
+Lagrangian:  L(x, Y)
+  L = m ((a v_th sin(th) - v_x)² + (a v_th cos(th) + v_y)²)/2 + J v_th²/2
+
 sections:  e_α = A_α^a e_a
   e_u = cos(th) e_v_x + sin(th) e_v_y
   e_w = e_v_th
