@@ -81,7 +81,11 @@ void KeptSymbols::take_definitions(const std::set<std::string>& substituted)
             kept.index = entry_name("", value.shape, k);
             kept.family = value.entries.size();
             kept.tree = value.entries[k];
-            if (written_nodes(kept.tree) > short_definition) by_tree_.try_emplace(identity_(kept.tree), kept_.size());
+            if (written_nodes(kept.tree) > short_definition) {
+                by_tree_.try_emplace(identity_(kept.tree), kept_.size());
+                if (kept.tree->kind == TreeKind::negate) // whose sign may have gone into another one
+                    by_negative_.try_emplace(identity_(kept.tree->arguments[0]), kept_.size());
+            }
             kept.of_points = !holds_any(value.entries[k], moving);
             append(std::move(kept));
         }
@@ -99,23 +103,28 @@ void KeptSymbols::append(Kept kept)
     kept_.push_back(std::move(kept));
 }
 
+/// The name of the definition that a tree is, or -1 times; null where it is none but `own`, or none at all.
+Tree KeptSymbols::name_of(const Tree& tree, std::optional<std::size_t> own)
+{
+    const std::size_t identity = identity_(tree);
+    const auto found = by_tree_.find(identity), opposite = by_negative_.find(identity);
+    if (found != by_tree_.end() && own != found->second) return name(kept_[found->second].name());
+    if (opposite != by_negative_.end() && own != opposite->second) return negate(name(kept_[opposite->second].name()));
+    return {};
+}
+
 Tree KeptSymbols::folded(const Tree& tree)
 {
     if (by_tree_.empty()) return tree;
-    return rewrite_tree(tree, [&](const Tree& node) {
-        const auto found = by_tree_.find(identity_(node));
-        return found == by_tree_.end() ? Tree{} : name(kept_[found->second].name());
-    });
+    return rewrite_tree(tree, [&](const Tree& node) { return name_of(node, {}); });
 }
 
 GiNaC::ex KeptSymbols::value_of(std::size_t k)
 {
     if (!kept_[k].value) {
         const Tree root = kept_[k].tree;
-        const Tree inner = rewrite_tree(root, [&](const Tree& node) {
-            const auto found = node == root ? by_tree_.end() : by_tree_.find(identity_(node));
-            return found == by_tree_.end() ? Tree{} : name(kept_[found->second].name());
-        });
+        const Tree inner =
+            rewrite_tree(root, [&](const Tree& node) { return node == root ? Tree{} : name_of(node, k); });
         kept_[k].value = to_ginac(inner, symbols_);
     }
     return *kept_[k].value;

@@ -62,6 +62,7 @@ class KeptSymbols {
 
     void take_definitions(const std::set<std::string>& substituted);
     void append(Kept kept);
+    [[nodiscard]] Tree name_of(const Tree& tree, std::optional<std::size_t> own);
     [[nodiscard]] std::vector<std::size_t> symbols_in(const GiNaC::ex& f) const;
     [[nodiscard]] GiNaC::ex value_of(std::size_t k);
     [[nodiscard]] GiNaC::ex rate(std::size_t k, const GiNaC::ex& symbol);
@@ -84,9 +85,10 @@ class KeptSymbols {
     Order& order_;
     TreeIdentity identity_;
     std::vector<Kept> kept_;
-    std::map<std::string, std::size_t> index_;   ///< by name
-    std::map<std::size_t, std::size_t> by_tree_; ///< by the number of the definition's tree
-    std::map<std::string, GiNaC::ex> rates_;     ///< by root and symbols
+    std::map<std::string, std::size_t> index_;       ///< by name
+    std::map<std::size_t, std::size_t> by_tree_;     ///< by the number of the definition's tree
+    std::map<std::size_t, std::size_t> by_negative_; ///< by that of what the definition is -1 times
+    std::map<std::string, GiNaC::ex> rates_;         ///< by root and symbols
     std::map<std::pair<std::size_t, std::string>, Tree> slopes_;
     std::map<std::size_t, GiNaC::ex> along_fibre_;
     std::size_t derivatives_ = 0; ///< that have names

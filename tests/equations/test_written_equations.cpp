@@ -126,6 +126,14 @@ L = "sum(i, 1, n, v[i]^2)/2 - sum(i, 1, n-1, k[i]*(x[i+1] - x[i])^2)/2"
           "  v̇[6] = k[5] (x[5] - x[6])\n");
 }
 
+TEST_CASE("a definition with an entry that is 0, and one with a sign in front, stand in vectors by name")
+{
+    const EquationSet rotor = of_file("docs/cookbook/quadrotor.toml");
+    CHECK(checked_blocks(rotor) >= 6);
+    CHECK(block_text(rotor, "equations of motion (acceleration form)") ==
+          "  J ẇ = J w × w - kR tilt - kw w\n  m v̇ = m v × w - m g R[3,:] + thrust e_3\n");
+}
+
 TEST_CASE("full matrices stand beside their transposes")
 {
     const EquationSet set = of_text(body);

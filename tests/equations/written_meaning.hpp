@@ -34,6 +34,7 @@ class WrittenMeaning {
                             for (const std::string& name : names_in(entry.value)) take(name);
                 }
         for (const WhereEntry& entry : set.where) {
+            if (entry.value->kind == TreeKind::number) values_[entry.symbol] = entry.value->number.get_d();
             take(entry.symbol);
             take("'" + entry.symbol);
             for (const std::string& name : names_in(entry.value)) take(name);

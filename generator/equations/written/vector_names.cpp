@@ -23,7 +23,10 @@ class NameSearch {
     NameSearch(const EquationSet& equations, const Model& model) : equations_(equations)
     {
         for (const SymbolText& symbol : equations.symbols) add(symbol.name);
-        for (const WhereEntry& entry : equations.where) add(entry.symbol);
+        for (const WhereEntry& entry : equations.where) {
+            add(entry.symbol);
+            if (entry.value->kind == TreeKind::number && entry.value->number == 0) zeros_.insert(entry.symbol);
+        }
         for (const Parameter& parameter : model.parameters) parameters_.insert(parameter.symbol.name);
         for (const std::string& taken : symbol_names(model)) declared_.insert(taken);
         declared_.insert({"t", "pi"});
@@ -60,7 +63,10 @@ class NameSearch {
     void take_family(const std::string& stem, VectorNames& found) const
     {
         if (has(stem + "[4]") || !has(stem + "[2]") || !has(stem + "[3]")) return;
-        found.vectors.push_back({stem, {stem + "[1]", stem + "[2]", stem + "[3]"}, {}, true});
+        VectorName vector{stem, {stem + "[1]", stem + "[2]", stem + "[3]"}, {}, true};
+        for (std::string& entry : vector.entries)
+            if (zeros_.contains(entry)) entry.clear();
+        found.vectors.push_back(std::move(vector));
     }
 
     void take_matrix(const std::string& stem, VectorNames& found) const
@@ -108,7 +114,7 @@ class NameSearch {
 
     const EquationSet& equations_;
     std::vector<std::string> names_; ///< as declared
-    std::set<std::string> declared_, parameters_;
+    std::set<std::string> declared_, parameters_, zeros_;
 };
 
 } // namespace

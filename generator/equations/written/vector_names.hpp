@@ -12,9 +12,9 @@ namespace lagen {
 
 struct VectorName {
     std::string name;
-    std::array<std::string, 3> entries;
-    std::string latex = {}; ///< made of that of the entries; empty: from the name
-    bool family = false;    ///< its entries are name[1] to name[3], or those of a row
+    std::array<std::string, 3> entries; ///< empty where a definition's entry is 0
+    std::string latex = {};             ///< made of that of the entries; empty: from the name
+    bool family = false;                ///< its entries are name[1] to name[3], or those of a row
 };
 
 struct MatrixName {

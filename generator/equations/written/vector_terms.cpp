@@ -34,7 +34,8 @@ VectorTerm vector_of(const VectorName& vector)
 {
     VectorTerm term{name(vector.name), nullptr, {}};
     term.vectors.insert(vector.name);
-    for (const std::string& entry : vector.entries) term.value.push_back({{{entry}, 1}});
+    for (const std::string& entry : vector.entries)
+        term.value.push_back(entry.empty() ? Polynomial() : Polynomial{{{entry}, 1}});
     return term;
 }
 
@@ -44,7 +45,7 @@ VectorTerm times(const MatrixName& matrix, const VectorName& vector)
     term.vectors.insert(vector.name);
     (matrix.diagonal ? term.diagonals : term.vectors).insert(matrix.name);
     for (std::size_t k = 0; k < 9; ++k) {
-        if (matrix.entries[k].empty()) continue;
+        if (matrix.entries[k].empty() || vector.entries[k % 3].empty()) continue;
         Monomial monomial{matrix.entries[k], vector.entries[k % 3]};
         std::ranges::sort(monomial);
         add_to(term.value[k / 3], {{monomial, 1}}, 1);
@@ -109,6 +110,7 @@ std::set<std::string> entry_names(const VectorNames& names)
     std::set<std::string> entries;
     for (const VectorName& vector : names.vectors) entries.insert(vector.entries.begin(), vector.entries.end());
     for (const MatrixName& matrix : names.matrices) entries.insert(matrix.entries.begin(), matrix.entries.end());
+    entries.erase("");
     return entries;
 }
 
