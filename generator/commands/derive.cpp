@@ -132,8 +132,9 @@ ExitCode run_derive(Arguments arguments)
         write_standard_error(
             "warning: the discrete Lagrangian is degenerate: the arrow of a step is not determined by the equations\n");
     const bool expanded = options.has("expand") || format == "sympy";
-    const EquationSet equations = derive(form, checked.model, checked.system, checked.report, brackets,
-                                         expanded ? Definitions::expanded : Definitions::kept);
+    EquationSet equations = derive(form, checked.model, checked.system, checked.report, brackets,
+                                   expanded ? Definitions::expanded : Definitions::kept);
+    if (!expanded && format != "json") equations = with_written_blocks(std::move(equations), checked.model);
     const std::string text =
         marked(format == "text"    ? print_text(equations)
                : format == "latex" ? print_latex(equations)

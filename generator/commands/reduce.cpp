@@ -135,19 +135,22 @@ ExitCode reduce_morphism(const Options& options, const MorphismFile& file)
     warn_of_morphism(verified, file.file->name, unchecked);
     const SystemMorphism map = elaborate_whole(file);
     Sides sides;
+    const bool is_json = options.get("format") == "json";
     const auto add = [&](std::vector<EquationSet>& list, const Model& model, const System& system, const Report& known,
                          const std::vector<Check>& checks) {
         for (const std::string& warning :
              require_unrefuted("model", model.name, model.file->name, known.structure, unchecked))
             write_standard_error(fmt::format("warning: {}\n", warning));
         for (const std::string& row : rows_in(checks))
-            if (row != "constraint") list.push_back(derive(row, model, system, known, {}, Definitions::kept));
+            if (row != "constraint") {
+                EquationSet equations = derive(row, model, system, known, {}, Definitions::kept);
+                list.push_back(is_json ? std::move(equations) : with_written_blocks(std::move(equations), model));
+            }
     };
     const ReductionReport report = verify_reduction(map);
     add(sides.source, source_of(file), map.source, verified.source, report.projects.checks);
     add(sides.target, target_of(file), map.target, verified.target, report.projects.checks);
-    write_result(options, options.get("format") == "json" ? reduction_json(verified, report, sides)
-                                                          : reduction_text(verified, report, sides));
+    write_result(options, is_json ? reduction_json(verified, report, sides) : reduction_text(verified, report, sides));
     return code_of(report.projects.verdict);
 }
 

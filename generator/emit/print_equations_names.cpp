@@ -3,6 +3,7 @@
 #include "emit/print_equations_names.hpp"
 
 #include <algorithm>
+#include <set>
 
 namespace lagen {
 namespace {
@@ -70,6 +71,16 @@ std::string subscripted(const Parts& parts)
     return parts.subscript.empty() ? parts.body : parts.body + "_{" + parts.subscript + "}";
 }
 
+/// \gamma_{1,more} of \gamma_{1}.
+std::string with_subscript(const std::string& latex, const std::string& more)
+{
+    const std::size_t open = latex.find("_{");
+    if (open != std::string::npos && latex.find('}', open) == latex.size() - 1)
+        return latex.substr(0, latex.size() - 1) + "," + more + "}";
+    const bool plain = latex.find_first_of("_^ ") == std::string::npos;
+    return (plain ? latex : "{" + latex + "}") + "_{" + more + "}";
+}
+
 bool is_letter(char c)
 {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
@@ -86,48 +97,67 @@ std::size_t letter_before_subscript(const std::string& latex)
     return end > 0 && end < latex.size() && latex[end] == '_' ? end : 0;
 }
 
-/// The indices of an entry of a family, "W[1,2]": two single digits stand together, others with a comma.
-std::string entry_indices(const std::string& name, std::size_t open)
+/// Where the indices of an entry of a family begin, "W[1,2]": 1; npos: there are none at the end.
+std::size_t indices_begin(const std::string& name)
 {
+    return name.ends_with(']') ? name.rfind('[') : std::string::npos;
+}
+
+/// The indices as LaTeX has them: two single digits stand together, others with a comma.
+std::string entry_indices(const std::string& name)
+{
+    const std::size_t open = indices_begin(name);
     std::string indices = name.substr(open + 1, name.size() - open - 2);
     const bool single = indices.size() == 3 && indices[1] == ',';
     return single ? std::string{indices[0], indices[2]} : indices;
 }
 
-Parts split(const std::string& name)
+/// What stands between the '_' of a name: "V", "q[1]", "q[2]" of V_q[1]_q[2].
+std::vector<std::string> pieces_of(const std::string& name)
 {
-    Parts parts;
-    constexpr std::string_view transposed = "ᵀ"; // of a matrix in written equations
-    if (name.ends_with(transposed)) {
-        parts = split(name.substr(0, name.size() - transposed.size()));
-        return {subscripted(parts) + "^{\\mathsf{T}}", ""};
-    }
-    const std::size_t open = name.find('[');
-    if (open != std::string::npos && name.back() == ']') {
-        parts = split(name.substr(0, open));
-        parts.subscript += (parts.subscript.empty() ? "" : ",") + entry_indices(name, open);
-        return parts;
-    }
     std::vector<std::string> pieces(1);
     for (const char c : name)
         if (c == '_')
             pieces.emplace_back();
         else
             pieces.back() += c;
-    for (std::size_t k = 0; k < pieces.size(); ++k) {
-        const std::string& piece = pieces[k];
-        std::size_t digits = piece.size();
-        while (digits > 0 && is_digit(piece[digits - 1])) --digits;
-        const std::string body = digits == 0 ? "" : word(piece.substr(0, digits));
-        const std::string number = piece.substr(digits);
-        if (parts.body.empty()) {
-            parts.body = body;
-            if (!body.empty() && !number.empty()) parts.subscript = number;
-            continue;
+    return pieces;
+}
+
+constexpr std::string_view next = "_next";   ///< of a coordinate, of an arrow one step on
+constexpr std::string_view transposed = "ᵀ"; ///< of a matrix in written equations
+constexpr const char* transposed_latex = "^{\\mathsf{T}}";
+
+Parts split(const std::string& name)
+{
+    Parts parts;
+    if (name.ends_with(transposed))
+        return {subscripted(split(name.substr(0, name.size() - transposed.size()))) + transposed_latex, ""};
+    const std::size_t open = indices_begin(name);
+    if (open != std::string::npos && name.find('[') == open) { // the only ones
+        parts = split(name.substr(0, open));
+        parts.subscript += (parts.subscript.empty() ? "" : ",") + entry_indices(name);
+        return parts;
+    }
+    for (const std::string& piece : pieces_of(name)) {
+        std::string inner;
+        if (indices_begin(piece) != std::string::npos && !parts.body.empty()) {
+            inner = subscripted(split(piece));
+        } else {
+            std::size_t digits = piece.size();
+            while (digits > 0 && is_digit(piece[digits - 1])) --digits;
+            const std::string body = digits == 0 ? "" : word(piece.substr(0, digits));
+            const std::string number = piece.substr(digits);
+            if (parts.body.empty()) {
+                parts.body = body;
+                if (!body.empty() && !number.empty()) parts.subscript = number;
+                continue;
+            }
+            inner = body.empty() ? number : subscripted({body, number});
         }
-        const std::string inner = body.empty() ? number : subscripted({body, number});
         if (!inner.empty()) parts.subscript += (parts.subscript.empty() ? "" : ",") + inner;
     }
+    if (name.ends_with('_')) parts.subscript += "\\_"; // another quantity than the name without it
     if (parts.body.empty()) return {"\\mathit{" + escape_latex(name) + "}", ""};
     return parts;
 }
@@ -136,25 +166,63 @@ Parts split(const std::string& name)
 
 LatexNames::LatexNames(const std::vector<SymbolText>& symbols)
 {
-    for (const SymbolText& symbol : symbols)
+    std::set<std::string> uneven;
+    for (const SymbolText& symbol : symbols) {
         if (!symbol.latex.empty()) given_.emplace(symbol.name, symbol.latex);
+        const std::size_t open = indices_begin(symbol.name);
+        if (open == std::string::npos) continue;
+        const std::string indices = "_{" + entry_indices(symbol.name) + "}";
+        const std::size_t at = symbol.latex.find(indices);
+        const std::string stem = symbol.name.substr(0, open);
+        if (at == std::string::npos) {
+            uneven.insert(stem);
+            continue;
+        }
+        const FamilyLatex latex{symbol.latex.substr(0, at), symbol.latex.substr(at + indices.size())};
+        if (families_.emplace(stem, latex).first->second != latex) uneven.insert(stem);
+    }
+    for (const std::string& stem : uneven) families_.erase(stem);
+}
+
+/// Of an entry or, without indices, of the whole family.
+std::string LatexNames::family_symbol(const std::string& name) const
+{
+    const std::size_t open = indices_begin(name);
+    const auto family = families_.find(name.substr(0, open));
+    if (family == families_.end()) return {};
+    const std::string indices = open == std::string::npos ? "" : "_{" + entry_indices(name) + "}";
+    return family->second.before + indices + family->second.after;
+}
+
+std::string LatexNames::given(const std::string& name) const
+{
+    if (name.ends_with(transposed)) {
+        const std::string latex = given(name.substr(0, name.size() - transposed.size()));
+        return latex.empty() ? latex : latex + transposed_latex;
+    }
+    const auto known = given_.find(name);
+    if (known != given_.end()) return known->second;
+    const std::size_t open = std::min(indices_begin(name), name.size());
+    if (const std::string stem = name.substr(0, open); stem.ends_with(next)) {
+        const std::string latex = given(stem.substr(0, stem.size() - next.size()) + name.substr(open));
+        return latex.empty() ? latex : with_subscript(latex, "\\mathit{next}");
+    }
+    return family_symbol(name);
 }
 
 std::string LatexNames::symbol(const std::string& name) const
 {
-    const auto given = given_.find(name);
-    return given != given_.end() ? given->second : subscripted(split(name));
+    const std::string latex = given(name);
+    return latex.empty() ? subscripted(split(name)) : latex;
 }
 
 std::string LatexNames::dotted(const std::string& name) const
 {
-    const auto given = given_.find(name);
-    if (given != given_.end()) {
-        if (given->second.starts_with("\\dot") && given->second.size() > 4 && !is_letter(given->second[4]))
-            return "\\ddot" + given->second.substr(4);
-        const std::size_t letter = letter_before_subscript(given->second);
-        if (letter == 0) return "\\dot{" + given->second + "}";
-        return "\\dot{" + given->second.substr(0, letter) + "}" + given->second.substr(letter);
+    if (const std::string latex = given(name); !latex.empty()) {
+        if (latex.starts_with("\\dot") && latex.size() > 4 && !is_letter(latex[4])) return "\\ddot" + latex.substr(4);
+        const std::size_t letter = letter_before_subscript(latex);
+        if (letter == 0) return "\\dot{" + latex + "}";
+        return "\\dot{" + latex.substr(0, letter) + "}" + latex.substr(letter);
     }
     const Parts parts = split(name);
     return subscripted({"\\dot{" + parts.body + "}", parts.subscript});
@@ -162,8 +230,8 @@ std::string LatexNames::dotted(const std::string& name) const
 
 std::string LatexNames::raisable(const std::string& name) const
 {
-    const auto given = given_.find(name);
-    return given != given_.end() ? "{" + given->second + "}" : subscripted(split(name));
+    const std::string latex = given(name);
+    return latex.empty() ? subscripted(split(name)) : "{" + latex + "}";
 }
 
 std::string escape_latex(std::string_view text)

@@ -17,7 +17,18 @@ class LatexNames {
     [[nodiscard]] std::string raisable(const std::string& name) const; ///< in front of an exponent
 
   private:
+    /// What stands before and behind the index of each entry: "p_{\omega" and "}" of p_{\omega_{1}}.
+    struct FamilyLatex {
+        std::string before, after;
+
+        friend bool operator==(const FamilyLatex&, const FamilyLatex&) = default;
+    };
+
+    [[nodiscard]] std::string given(const std::string& name) const; ///< empty: it is made from the name
+    [[nodiscard]] std::string family_symbol(const std::string& name) const;
+
     std::map<std::string, std::string> given_;
+    std::map<std::string, FamilyLatex> families_; ///< by their names, where all entries are alike
 };
 
 /// Plain text for LaTeX: \ { } $ & # _ % ^ ~ as themselves.

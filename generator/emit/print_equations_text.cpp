@@ -72,6 +72,7 @@ class TextWriter {
         case TreeKind::call: return write_call(tree);
         case TreeKind::solve: return write_solve(tree);
         case TreeKind::apply: return write_vector_product(tree);
+        case TreeKind::compare: return write_comparison(tree);
         default: break;
         }
         return {to_text(tree), TextHold::sum};
@@ -172,6 +173,14 @@ class TextWriter {
         }
         const std::string component = Rational(tree->number + 1).get_str();
         return {"([" + matrix + "]⁻¹ [" + right + "])" + lowered_digits(component), TextHold::atom};
+    }
+
+    TextPiece write_comparison(const Tree& tree)
+    {
+        static constexpr const char* signs[] = {" < ", " ≤ ", " > ", " ≥ ", " = ", " ≠ "};
+        return {write(tree->arguments[0], TextHold::sum) + signs[static_cast<std::size_t>(tree->comparison)] +
+                    write(tree->arguments[1], TextHold::sum),
+                TextHold::sum};
     }
 
     std::size_t written_ = 0;

@@ -42,8 +42,10 @@ EquationSet derive_constrained(const std::string& form, const Model& model, cons
                            "lagrange, hamilton, poisson, reaction and projected are");
 }
 
-EquationSet derive_components(const std::string& form, const Model& model, const System& system, const Report& report,
-                              const std::vector<Tree>& brackets, Definitions definitions)
+} // namespace
+
+EquationSet derive(const std::string& form, const Model& model, const System& system, const Report& report,
+                   const std::vector<Tree>& brackets, Definitions definitions)
 {
     const WrittenAlgebroid& algebroid = system.written.algebroid;
     if (system.distribution) return derive_constrained(form, model, system, brackets, definitions);
@@ -70,15 +72,10 @@ EquationSet derive_components(const std::string& form, const Model& model, const
     throw InternalError("a form without equations");
 }
 
-} // namespace
-
-EquationSet derive(const std::string& form, const Model& model, const System& system, const Report& report,
-                   const std::vector<Tree>& brackets, Definitions definitions)
+EquationSet with_written_blocks(EquationSet equations, const Model& model)
 {
-    EquationSet equations = derive_components(form, model, system, report, brackets, definitions);
-    if (definitions == Definitions::expanded) return equations;
     write_vectors(equations, model);
-    write_by_index(equations);
+    write_by_index(equations, model);
     return equations;
 }
 

@@ -14,10 +14,13 @@ namespace lagen {
 [[nodiscard]] std::vector<std::string> derivation_names();
 
 /// `form` is one of derivation_names(); `brackets`: functions on E* by pairs, for "poisson". Throws MathematicsError
-/// where the model has no equations of that form. With definitions kept, blocks are also written by vectors and by
-/// indices (vector_equations.hpp, indexed_equations.hpp).
+/// where the model has no equations of that form.
 [[nodiscard]] EquationSet derive(const std::string& form, const Model& model, const System& system,
                                  const Report& report, const std::vector<Tree>& brackets = {},
                                  Definitions definitions = Definitions::expanded);
+
+/// The equations with blocks also written by vectors and by indices (vector_equations.hpp, indexed_equations.hpp), as
+/// text and LaTeX show them.
+[[nodiscard]] EquationSet with_written_blocks(EquationSet equations, const Model& model);
 
 } // namespace lagen

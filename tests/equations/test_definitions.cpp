@@ -26,7 +26,8 @@ struct Elaborated {
 
     [[nodiscard]] EquationSet operator()(const std::string& form, Definitions definitions) const
     {
-        return derive(form, model, system, report, {}, definitions);
+        EquationSet equations = derive(form, model, system, report, {}, definitions);
+        return definitions == Definitions::kept ? with_written_blocks(std::move(equations), model) : equations;
     }
 };
 

@@ -60,7 +60,8 @@ TEST_CASE("equations by vectors and indices are equal to their components in eve
         for (const char* form : {"lagrange", "hamilton", "pontryagin", "discrete"}) {
             INFO(form);
             try {
-                blocks += checked_blocks(derive(form, model, system, report, {}, Definitions::kept));
+                blocks += checked_blocks(
+                    with_written_blocks(derive(form, model, system, report, {}, Definitions::kept), model));
             } catch (const MathematicsError&) { // the model has no such form
             }
         }

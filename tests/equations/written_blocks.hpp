@@ -20,7 +20,7 @@ inline EquationSet kept_equations(Model model, std::string form = {})
 {
     if (form.empty()) form = default_form(model);
     const System system = elaborate(model);
-    return derive(form, model, system, verify(system), {}, Definitions::kept);
+    return with_written_blocks(derive(form, model, system, verify(system), {}, Definitions::kept), model);
 }
 
 inline EquationSet of_file(const std::string& path)

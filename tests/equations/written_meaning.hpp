@@ -96,23 +96,20 @@ class WrittenMeaning {
     /// The name with indices for letters: a[i+1] at i = 2 is a[3].
     static std::string at(const std::string& name, const Letters& letters)
     {
-        std::string result = name.substr(0, name.find('['));
-        if (result.size() == name.size()) return name;
-        std::string index;
-        result += '[';
-        for (std::size_t k = result.size(); k < name.size(); ++k) {
-            if (name[k] != ',' && name[k] != ']') {
-                index += name[k];
-                continue;
-            }
-            const auto letter = letters.find(index.substr(0, index.find_first_of("+-")));
-            if (letter != letters.end()) {
+        std::string result, index;
+        bool inside = false;
+        for (const char c : name) {
+            const bool ends = inside && (c == ',' || c == ']');
+            if (ends) {
                 const std::size_t sign = index.find_first_of("+-");
-                const long offset = sign == std::string::npos ? 0 : std::stol(index.substr(sign));
-                index = std::to_string(static_cast<long>(letter->second) + offset);
+                if (const auto letter = letters.find(index.substr(0, sign)); letter != letters.end()) {
+                    const long offset = sign == std::string::npos ? 0 : std::stol(index.substr(sign));
+                    index = std::to_string(static_cast<long>(letter->second) + offset);
+                }
+                result += std::exchange(index, {});
             }
-            result += index + name[k];
-            index.clear();
+            (inside && !ends ? index : result) += c;
+            inside = c == '[' || (inside && c != ']');
         }
         return result;
     }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <utility>
 
 namespace lagen {
 namespace {
@@ -16,17 +17,14 @@ using IndexMap = std::function<std::string(const IndexSlot&)>;
 
 std::string mapped_name(const std::string& name, const IndexMap& map)
 {
-    const std::size_t open = name.find('[');
-    if (open == std::string::npos || name.back() != ']') return name;
-    std::string result = name.substr(0, open + 1), index;
+    std::string result, index;
     std::size_t place = 1;
-    for (std::size_t k = open + 1; k < name.size(); ++k) {
-        if (name[k] != ',' && name[k] != ']') {
-            index += name[k];
-            continue;
-        }
-        result += map({index, place++}) + name[k];
-        index.clear();
+    bool inside = false;
+    for (const char c : name) {
+        const bool ends = inside && (c == ',' || c == ']');
+        if (ends) result += map({std::exchange(index, {}), place++});
+        (inside && !ends ? index : result) += c;
+        inside = c == '[' || (inside && c != ']');
     }
     return result;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "equations/written/indexed_equations.hpp"
 
+#include "equations/written/equation_tree.hpp"
 #include "equations/written/indexed_sums.hpp"
 
 #include <algorithm>
@@ -9,69 +10,9 @@
 namespace lagen {
 namespace {
 
-constexpr std::size_t fewest = 3;       ///< equations that are worth one with an index
+constexpr std::size_t fewest = 3;       ///< equations that are worth one with indices
 constexpr std::size_t most_indices = 2; ///< of a name that run
-
-bool is_plain(const Equation& equation)
-{
-    return (equation.left == LeftSide::time_derivative || equation.left == LeftSide::symbol) &&
-           equation.relation == Relation::equal &&
-           std::ranges::all_of(equation.groups, [](const TermGroup& group) { return group.basis.empty(); });
-}
-
-Tree array_of(std::vector<Tree> entries)
-{
-    TreeNode node;
-    node.kind = TreeKind::array;
-    node.arguments = std::move(entries);
-    return std::make_shared<const TreeNode>(std::move(node));
-}
-
-Tree times_rate(const Tree& value, const Tree& rate)
-{
-    return value->kind == TreeKind::number && value->number == 1 ? rate : multiply({value, rate});
-}
-
-bool is_rate(const Tree& tree)
-{
-    return tree->kind == TreeKind::name && tree->name.starts_with(rate_mark);
-}
-
-bool is_mass_times_rate(const Tree& tree)
-{
-    return tree->kind == TreeKind::multiply && tree->arguments.size() == 2 && is_rate(tree->arguments[1]);
-}
-
-/// An equation as one tree: [symbol, [mass * rate, ..], [group, ..]].
-Tree tree_of(const Equation& equation)
-{
-    std::vector<Tree> mass, groups;
-    for (const TermGroup& entry : equation.mass)
-        mass.push_back(entry.label.empty() ? entry.value : times_rate(entry.value, name(rate_mark + entry.label)));
-    for (const TermGroup& group : equation.groups) groups.push_back(group.value);
-    return array_of({name(equation.symbol), array_of(mass), array_of(groups)});
-}
-
-/// The equation with what such a tree has.
-Equation with_tree(Equation equation, const Tree& tree)
-{
-    equation.symbol = tree->arguments[0]->name;
-    equation.mass.clear();
-    for (const Tree& entry : tree->arguments[1]->arguments) {
-        if (is_mass_times_rate(entry))
-            equation.mass.push_back({entry->arguments[1]->name.substr(1), entry->arguments[0]});
-        else if (is_rate(entry))
-            equation.mass.push_back({entry->name.substr(1), number(1)});
-        else
-            equation.mass.push_back({"", entry});
-    }
-    std::vector<TermGroup> groups;
-    const std::vector<Tree>& values = tree->arguments[2]->arguments;
-    for (std::size_t k = 0; k < values.size(); ++k)
-        groups.push_back({values.size() == equation.groups.size() ? equation.groups[k].label : "", values[k]});
-    equation.groups = std::move(groups);
-    return equation;
-}
+constexpr std::size_t guessed_from = 3; ///< equations: that of i = 1 does not show that j != i is left out of a sum
 
 /// An equation on its way: the letters of its ranges are "$1", "$2" for the first, the second index of the left side.
 struct Draft {
@@ -81,9 +22,10 @@ struct Draft {
 
 class Joining {
   public:
-    explicit Joining(const EquationSet& equations) : sums_(names_of(equations))
+    Joining(const EquationSet& equations, const Model& model) : sums_(names_of(equations))
     {
         std::set<std::string> taken;
+        for (const Size& size : model.sizes) taken.insert(size.name);
         for (const SymbolText& symbol : equations.symbols) taken.insert(symbol.name);
         for (const std::string& each : names_of(equations)) taken.insert(each.substr(0, each.find('[')));
         for (const char* letter : {"i", "j", "k", "l", "n", "p", "q", "r", "s", "a", "b", "c", "d"})
@@ -95,10 +37,7 @@ class Joining {
     {
         std::vector<Draft> drafts;
         for (const Equation& equation : equations) drafts.push_back(draft_of(equation));
-        for (std::size_t before = 0; before != drafts.size();) { // once more where families have two indices
-            before = drafts.size();
-            drafts = joined_once(drafts);
-        }
+        drafts = joined_runs(drafts);
         std::vector<Equation> result;
         bool any = drafts.size() < equations.size();
         for (const Draft& draft : drafts) {
@@ -130,6 +69,7 @@ class Joining {
     {
         const Tree tree = tree_of(equation);
         if (!is_plain(equation)) return {equation, tree};
+        sums_.begin_equation();
         std::vector<Tree> mass, terms;
         for (const Tree& entry : tree->arguments[1]->arguments) mass.push_back(sums_.joined(entry));
         mass = joined_mass(mass);
@@ -162,47 +102,87 @@ class Joining {
         return parts.size() < whole.size() ? parts : whole;
     }
 
-    std::vector<Draft> joined_once(const std::vector<Draft>& drafts)
+    /// Runs along one index, and those of these along another. Rows of two are joined where their columns are.
+    std::vector<Draft> joined_runs(const std::vector<Draft>& drafts)
     {
-        std::vector<Draft> result;
-        for (std::size_t first = 0; first < drafts.size();) {
+        std::vector<Draft> best = joined_runs(drafts, fewest);
+        const auto has_rows = [](const Draft& draft) { return shape_of(draft.tree->arguments[0]).slots.size() == 2; };
+        const auto stands_for = [](const Draft& draft) {
             std::size_t count = 1;
-            std::optional<Draft> run = longest_run(drafts, first, count);
-            result.push_back(run ? std::move(*run) : drafts[first]);
-            first += count;
+            for (const IndexRange& range : draft.equation.ranges) count *= range.to - range.from + 1;
+            return count;
+        };
+        if (std::ranges::none_of(best, has_rows)) return best;
+        std::vector<Draft> pairs = joined_runs(drafts, 2);
+        const bool shorter = pairs.size() < best.size() && std::ranges::none_of(pairs, [&](const Draft& draft) {
+                                 return stands_for(draft) > 1 && stands_for(draft) < fewest;
+                             });
+        return shorter ? pairs : best;
+    }
+
+    std::vector<Draft> joined_runs(std::vector<Draft> drafts, std::size_t least)
+    {
+        for (std::size_t before = 0; before != drafts.size();) {
+            before = drafts.size();
+            std::vector<Draft> result;
+            for (std::size_t first = 0; first < drafts.size();) {
+                std::size_t count = 1;
+                std::optional<Draft> run = longest_run(drafts, first, least, count);
+                result.push_back(run ? std::move(*run) : drafts[first]);
+                first += count;
+            }
+            drafts = std::move(result);
         }
+        return drafts;
+    }
+
+    std::optional<Draft> longest_run(const std::vector<Draft>& drafts, std::size_t first, std::size_t least,
+                                     std::size_t& count)
+    {
+        if (first + least > drafts.size() || !is_plain(drafts[first].equation)) return std::nullopt;
+        std::optional<IndexPattern> longest;
+        std::size_t length = 1;
+        const std::vector<std::optional<long>> indices = running_indices(drafts[first], drafts[first + 1]);
+        for (std::size_t slot = 0; slot < std::min(indices.size(), letters_.size()); ++slot)
+            for (std::size_t from = 0; from < guessed_from; ++from) {
+                if (!indices[slot] || first + length == drafts.size() || first + from + 1 >= drafts.size()) continue;
+                const long value = *indices[slot] + static_cast<long>(from);
+                for (IndexPattern& pattern :
+                     patterns_of(drafts, first + from, "$" + std::to_string(slot + 1), value, slot + 1)) {
+                    pattern.value = *indices[slot];
+                    std::size_t reached = 0;
+                    while (first + reached < drafts.size() &&
+                           fits(pattern, drafts[first], drafts[first + reached], reached))
+                        ++reached;
+                    if (reached <= length) continue;
+                    length = reached;
+                    longest = std::move(pattern);
+                }
+            }
+        if (length < least) return std::nullopt;
+        Draft result{drafts[first].equation, longest->tree};
+        const auto from = static_cast<std::size_t>(longest->value);
+        result.equation.ranges.insert(result.equation.ranges.begin(), {longest->letter, from, from + length - 1});
+        count = length;
         return result;
     }
 
-    std::optional<Draft> longest_run(const std::vector<Draft>& drafts, std::size_t first, std::size_t& count)
+    /// The indices of the left side that are greater by one in the next equation, in their places; of "0 = .." that in
+    /// which the right sides differ.
+    static std::vector<std::optional<long>> running_indices(const Draft& draft, const Draft& next)
     {
-        if (first + fewest > drafts.size() || !is_plain(drafts[first].equation)) return std::nullopt;
-        std::optional<IndexPattern> longest;
-        std::string letter;
-        std::size_t length = 1;
-        const std::vector<IndexSlot> left = shape_of(drafts[first].tree->arguments[0]).slots;
-        const std::vector<IndexSlot> next = shape_of(drafts[first + 1].tree->arguments[0]).slots;
-        for (std::size_t slot = 0; slot < left.size() && left.size() == next.size() && slot < most_indices; ++slot) {
-            const std::optional<long> value = index_number(left[slot].text);
-            if (!value || index_number(next[slot].text) != *value + 1 || slot >= letters_.size()) continue;
-            const std::string running = "$" + std::to_string(slot + 1);
-            for (const IndexPattern& pattern : patterns_of(drafts, first, running, *value, slot + 1)) {
-                std::size_t reached = 0;
-                while (first + reached < drafts.size() &&
-                       fits(pattern, drafts[first], drafts[first + reached], reached))
-                    ++reached;
-                if (reached <= length) continue;
-                length = reached;
-                longest = pattern;
-                letter = running;
-            }
+        if (draft.equation.left == LeftSide::zero) {
+            const auto common = common_pattern(draft.tree, shape_of(draft.tree), shape_of(next.tree), "$1");
+            return {common ? common->value : 1};
         }
-        if (length < fewest) return std::nullopt;
-        Draft result{drafts[first].equation, longest->tree};
-        const auto from = static_cast<std::size_t>(longest->value);
-        result.equation.ranges.insert(result.equation.ranges.begin(), {letter, from, from + length - 1});
-        count = length;
-        return result;
+        const std::vector<IndexSlot> here = shape_of(draft.tree->arguments[0]).slots;
+        const std::vector<IndexSlot> there = shape_of(next.tree->arguments[0]).slots;
+        std::vector<std::optional<long>> indices;
+        for (std::size_t slot = 0; slot < here.size() && here.size() == there.size() && slot < most_indices; ++slot) {
+            const std::optional<long> value = index_number(here[slot].text);
+            indices.push_back(value && index_number(there[slot].text) == *value + 1 ? value : std::nullopt);
+        }
+        return indices;
     }
 
     /// What the first equation may be with a letter for the index of its left side that has this value.
@@ -349,9 +329,9 @@ class Joining {
 
 } // namespace
 
-void write_by_index(EquationSet& equations)
+void write_by_index(EquationSet& equations, const Model& model)
 {
-    Joining joining(equations);
+    Joining joining(equations, model);
     for (auto* blocks : {&equations.given, &equations.blocks})
         for (EquationBlock& block : *blocks) {
             std::vector<Equation> joined = joining.joined(block.written.empty() ? block.equations : block.written);

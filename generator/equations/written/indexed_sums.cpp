@@ -9,10 +9,11 @@ namespace {
 
 constexpr std::size_t most_joined = 200;      ///< terms of a sum that is looked at
 constexpr std::size_t most_in_vain = 150'000; ///< characters of terms that were expanded for guesses that failed
-constexpr std::size_t worth = 10;             ///< of such characters to each that is joined
-constexpr long most_values = 1000;            ///< of an index, on either side of one that is known
-constexpr std::size_t sign_length = 11;       ///< characters of "sum_{i=1..3} "
-constexpr std::size_t fewest_terms = 3;       ///< of a sum that is written over an index
+constexpr std::size_t of_each_equation = most_in_vain / 10;
+constexpr std::size_t worth = 10;       ///< of such characters to each that is joined
+constexpr long most_values = 1000;      ///< of an index, on either side of one that is known
+constexpr std::size_t sign_length = 11; ///< characters of "sum_{i=1..3} "
+constexpr std::size_t fewest_terms = 3; ///< of a sum that is written over an index
 
 std::size_t height_of(const Tree& tree)
 {
@@ -101,6 +102,11 @@ bool SumWriting::knows_names(const Tree& tree) const
     if (tree->kind == TreeKind::sum_over)
         if (const auto terms = terms_of(indexed_sum(tree)); terms && !std::ranges::all_of(*terms, known)) return false;
     return std::ranges::all_of(tree->arguments, known);
+}
+
+void SumWriting::begin_equation()
+{
+    in_vain_ = std::min(in_vain_, most_in_vain - of_each_equation);
 }
 
 Tree SumWriting::joined(const Tree& tree)

@@ -13,6 +13,9 @@ class SumWriting {
     /// `names` are all that there are: no index runs on to others.
     explicit SumWriting(std::set<std::string> names) : names_(std::move(names)) {}
 
+    /// From here on some guesses are made, whatever those before have cost.
+    void begin_equation();
+
     /// Every sum in the tree with what can be joined joined, even two terms; finished() writes out again what is no
     /// shorter. Letters are "#1", "#2", .., of an inner sum smaller than of the one around it. Every sum that is
     /// written is tried: at each value of its index its terms are some of the given ones, and each is taken once.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "equations/written/vector_equations.hpp"
 
+#include "equations/written/equation_tree.hpp"
 #include "equations/written/hidden_roots.hpp"
 #include "equations/written/vector_terms.hpp"
 #include "symbolic/shortest_form.hpp"
@@ -116,7 +117,7 @@ class VectorWriting {
     /// The vector whose entries the left sides of three equations are.
     [[nodiscard]] const VectorName* left_vector(const std::vector<Equation>& equations, std::size_t first) const
     {
-        if (first + 3 > equations.size()) return nullptr;
+        if (first + 3 > equations.size() || equations[first].symbol.empty()) return nullptr;
         const auto known = std::ranges::find_if(
             names_.vectors, [&](const VectorName& vector) { return vector.entries[0] == equations[first].symbol; });
         if (known == names_.vectors.end()) return nullptr;
@@ -126,13 +127,6 @@ class VectorWriting {
                 return nullptr;
         }
         return &*known;
-    }
-
-    static bool is_plain(const Equation& equation)
-    {
-        return (equation.left == LeftSide::time_derivative || equation.left == LeftSide::symbol) &&
-               equation.relation == Relation::equal &&
-               std::ranges::all_of(equation.groups, [](const TermGroup& group) { return group.basis.empty(); });
     }
 
     std::optional<Equation> vector_equation(const std::vector<Equation>& equations, std::size_t first)
@@ -177,7 +171,11 @@ class VectorWriting {
             if (!split(group.value, 0, 1, value)) return std::nullopt;
         ByFactor products;
         GiNaC::ex rest = 0;
-        for (const auto& [text, part] : value) {
+        for (auto& [text, part] : value) {
+            if (const auto constant = part.value[0].find(Monomial()); constant != part.value[0].end()) { // g . g - 1
+                rest += part.factor * to_number(constant->second);
+                part.value[0].erase(constant);
+            }
             if (VectorTerms(names_, part.value).sum_of(part.value))
                 products.emplace(text, part);
             else

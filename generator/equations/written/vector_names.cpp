@@ -14,8 +14,15 @@ std::string without_numbers(const std::string& first, const std::string& second)
         const std::size_t at = text.find(number);
         return at == std::string::npos ? std::string() : text.erase(at, number.size());
     };
-    const std::string stem = without(first, "_1");
-    return stem == without(second, "_2") ? stem : std::string();
+    for (const auto& [one, two] : {std::pair("_1", "_2"), std::pair("_{1}", "_{2}")})
+        if (const std::string stem = without(first, one); !stem.empty() && stem == without(second, two)) return stem;
+    return {};
+}
+
+/// Whether a name would be taken for a basis vector: e, e3, e_3, e[3].
+bool looks_like_basis(const std::string& name)
+{
+    return name == "e" || (name.starts_with('e') && name.find_first_of("_[0123456789") == 1);
 }
 
 class NameSearch {
@@ -27,6 +34,9 @@ class NameSearch {
             add(entry.symbol);
             if (entry.value->kind == TreeKind::number && entry.value->number == 0) zeros_.insert(entry.symbol);
         }
+        for (const EquationBlock& block : equations.given) // claimed invariants
+            for (const Equation& equation : block.equations)
+                if (equation.left == LeftSide::symbol) add(equation.symbol);
         for (const Parameter& parameter : model.parameters) parameters_.insert(parameter.symbol.name);
         for (const std::string& taken : symbol_names(model)) declared_.insert(taken);
         declared_.insert({"t", "pi"});
@@ -46,8 +56,8 @@ class NameSearch {
             } else if (name.ends_with('1'))
                 take_numbered(name.substr(0, name.size() - 1), found);
         }
-        if (!has("e") && std::ranges::find(found.vectors, "e", &VectorName::name) == found.vectors.end() &&
-            !has("e_1") && !has("e_2") && !has("e_3"))
+        if (std::ranges::none_of(declared_, looks_like_basis) &&
+            std::ranges::find(found.vectors, "e", &VectorName::name) == found.vectors.end())
             found.basis = {"e_1", "e_2", "e_3"};
         return found;
     }
