@@ -49,9 +49,8 @@
 ///                                                                    - mgl e1 sin(th) cos(ps) + I3 dph dth sin(th)
 ///
 ///   energy:  E = y^a p_a - L
-///     E = I1 dph² sin²(th) sin²(ps)/2 + I1 dth² cos²(ps)/2 + I2 dph² sin²(th) cos²(ps)/2 + I2 dth² sin²(ps)/2
-///         + I3 dph² cos²(th)/2 + I3 dph dps cos(th) + I3 dps²/2 + mgl e1 sin(th) sin(ps) + mgl e2 sin(th) cos(ps)
-///         + mgl e3 cos(th) + (I1 - I2) dph dth sin(th) sin(ps) cos(ps)
+///     E = I1 (dph sin(th) sin(ps) + dth cos(ps))²/2 + I2 (dph sin(th) cos(ps) - dth sin(ps))²/2 + I3 (dph cos(th) + dps)²/2
+///         + mgl (e1 sin(th) sin(ps) + e2 sin(th) cos(ps) + e3 cos(th))
 ///
 /// Operations (with shared terms computed once; "written out" without sharing):
 ///   kernel            + -      *      /  functions  solves  written out

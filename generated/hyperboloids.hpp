@@ -26,8 +26,7 @@
 ///                                    - 3 m y⁴ z b² - m y² z³ b² - k x² z - k y² z - c x z
 ///
 ///   energy:  E = y^a p_a - L
-///     E = m x⁴ b²/2 + m x² y² b² + m x² z² b²/2 + m x² a²/2 + m y⁴ b²/2 + m y² z² b²/2 + m y² a²/2 + k z²/2 - k z + k/2
-///         + c x
+///     E = m (b² (x² + y²)² + (x z b - y a)² + (x a + y z b)²)/2 + k (z - 1)²/2 + c x
 ///
 /// Operations (with shared terms computed once; "written out" without sharing):
 ///   kernel            + -      *      /  functions  solves  written out

@@ -27,7 +27,7 @@
 ///     I3 ẇ3 = 0
 ///
 ///   energy:  E = y^a p_a - L
-///     E = I1 w1²/2 + I1 w2²/2 + I3 w3²/2 + mgl g3
+///     E = I1 (w1² + w2²)/2 + I3 w3²/2 + mgl g3
 ///
 /// Operations (with shared terms computed once; "written out" without sharing):
 ///   kernel            + -      *      /  functions  solves  written out

@@ -29,8 +29,7 @@
 ///        -m d0 s ẇ2 + (J3 + m d0²) ẇ3 = m d0 s w1 w3 + 2 m d0 v w2 + (J1 - J2 + m d0²) w1 w2
 ///
 ///   energy:  E = y^a p_a - L
-///     E = J2 w2²/2 - m d0 s w2 w3 + m d0 v w1 + m s² w1²/2 + m s² w2²/2 + m v²/2 + k s²/2 - k s + k/2 + (J1 + m d0²) w1²/2
-///         + (J3 + m d0²) w3²/2
+///     E = J1 w1²/2 + J2 w2²/2 + J3 w3²/2 + m (s² w1² + (d0 w1 + v)² + (d0 w3 - s w2)²)/2 + k (s - 1)²/2
 ///
 /// Operations (with shared terms computed once; "written out" without sharing):
 ///   kernel            + -      *      /  functions  solves  written out

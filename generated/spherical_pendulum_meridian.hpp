@@ -24,7 +24,7 @@
 ///     m (x² + y²) (x² + y² + z²) ḃ = m (g x² + g y² - x⁴ z b² - 2 x² y² z b² - x² z³ b² + x² z a² - y⁴ z b² - y² z³ b² + y² z a²)
 ///
 ///   energy:  E = y^a p_a - L
-///     E = m (2 g z + x⁴ b² + 2 x² y² b² + x² z² b² + x² a² + y⁴ b² + y² z² b² + y² a²)/2
+///     E = m g z + m (b² (x² + y²)² + (x z b - y a)² + (x a + y z b)²)/2
 ///
 /// Operations (with shared terms computed once; "written out" without sharing):
 ///   kernel            + -      *      /  functions  solves  written out

@@ -25,7 +25,7 @@
 ///     m x y ȧ + (m y² + m z²) ḃ = m (g y + x z a b - y z a²)
 ///
 ///   energy:  E = y^a p_a - L
-///     E = m (2 g z + x² a² + 2 x y a b + y² b² + z² a² + z² b²)/2
+///     E = m g z + m (z² a² + z² b² + (x a + y b)²)/2
 ///
 /// Operations (with shared terms computed once; "written out" without sharing):
 ///   kernel            + -      *      /  functions  solves  written out

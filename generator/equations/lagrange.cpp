@@ -4,6 +4,7 @@
 #include "equations/given_blocks.hpp"
 #include "expression/parse.hpp"
 #include "model/form.hpp"
+#include "symbolic/shortest_form.hpp"
 
 #include <fmt/core.h>
 
@@ -106,11 +107,31 @@ class LagrangeDerivation {
 
     [[nodiscard]] EquationBlock energy() const
     {
-        const Sum terms{symbolic_.along_fibre(lagrangian_), -lagrangian_};
         return {"energy",
                 "E = y^a p_a - L",
                 R"(E = y^a p_a - L)",
-                {symbolic_.equation(LeftSide::symbol, energy_name(), terms)}};
+                {symbolic_.equation(LeftSide::symbol, energy_name(), energy_terms())}};
+    }
+
+    /// y^a p_a - L term by term of L: one that is homogeneous of degree k in y, k - 1 times as it is.
+    [[nodiscard]] Sum energy_terms() const
+    {
+        Sum terms;
+        const auto append = [&](const GiNaC::ex& term) {
+            const GiNaC::ex rate = symbolic_.along_fibre(term);
+            for (const int degree : {0, 1, 2})
+                if (expanded_length(rate - degree * term) == std::optional<std::size_t>(0)) {
+                    if (degree != 1) terms.push_back((degree - 1) * term);
+                    return;
+                }
+            terms.push_back(rate);
+            terms.push_back(-term);
+        };
+        if (GiNaC::is_a<GiNaC::add>(lagrangian_))
+            for (const GiNaC::ex& term : lagrangian_) append(term);
+        else
+            append(lagrangian_);
+        return terms;
     }
 
     [[nodiscard]] EquationBlock energy_balance()

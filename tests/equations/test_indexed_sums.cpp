@@ -159,6 +159,17 @@ TEST_CASE("an index that a sum leaves out is found where the first equation does
           "  v̇[i] = -Σ_{j=1..5, j≠i} Σ_{k=j+1..5, k≠i} x[j] x[k]   (i = 1..5)\n");
 }
 
+TEST_CASE("the energy has the form of L, whatever divides it")
+{
+    const std::string metric =
+        "0 - sum(i, 1, n, x[i]^2*v[i]^2/(1 + x[i]^2)) + sum(i, 1, n, v[i])^2/(1 + sum(i, 1, n, x[i]^2))^2 "
+        "- sum(i, 1, n, i*v[i]) - sum(i, 1, n, x[i]^4)";
+    const EquationSet set = of_text(points(metric));
+    CHECK(block_text(set, "energy") ==
+          "  E = Σ_{i=1..5} x[i]⁴ - Σ_{i=1..5} x[i]² v[i]²/(x[i]² + 1) + Σ_{i=1..5} v[i]²/2\n"
+          "      + (Σ_{i=1..5} v[i])²/(Σ_{i=1..5} x[i]² + 1)²\n");
+}
+
 TEST_CASE("discrete equations without a left side have indices too")
 {
     std::string text = replaced(springs, "kind = \"tangent\"", "");
