@@ -78,8 +78,7 @@ std::string equation_text(const Check& check)
     if (check.name == "legendre") return "H at mu = dL/dy less y dL/dy - L";
     if (check.name == "maximum") return "H = mu_a sigma^a - cost is largest at the controls of Pontryagin's equations";
     if (check.name == "symmetry" && !k.empty())
-        return fmt::format("the derivative of {} along the complete lift of {}",
-                           k.size() > 1 ? "the discrete Lagrangian" : "the Lagrangian (Hamiltonian)", k[0]);
+        return fmt::format("the derivative of the Lagrangian (Hamiltonian) along the complete lift of {}", k[0]);
     if (check.name == "invariant" && k.size() == 1)
         return fmt::format("the rate of {} along the equations of motion", k[0]);
     return "";

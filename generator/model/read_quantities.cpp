@@ -128,6 +128,11 @@ void explain_arrows(Scope& scope, const Model& model)
         for (const std::string& symbol : declared_names(*symbols))
             scope.explain(symbol, "coordinates of an arrow stand in the discrete Lagrangian, the action (the element "
                                   "alone), observables and columns of discrete scenes only");
+    if (model.discrete)
+        scope.explain(model.discrete->step.name,
+                      fmt::format("the step stands in the discrete Lagrangian and in "
+                                  "observables; everywhere where it is a parameter, {} = 0.1",
+                                  model.discrete->step.name));
     if (!model.groupoid->has_targets())
         for (const std::string& each : declared_names(model.base.coordinates))
             scope.explain(each + "_next", "of a groupoid of kind \"action\" the target is computed by the action");

@@ -41,6 +41,7 @@ void Claims::decide_along_steps(Report& report, const std::vector<NamedTree>& cl
     Lowering lower(graph_);
     for (const NamedTree& claim : claims) {
         Check check{"invariant", {claim.name}, {}, {}, {}};
+        check.meaning = fmt::format("the change of {} over a step", claim.name);
         if (has_motions()) check.indices.emplace_back("discrete");
         if (const std::string name = foreign_name(system_, claim.value); !name.empty()) {
             if (has_motions()) continue; // a claim about those alone

@@ -9,24 +9,29 @@ namespace lagen {
 
 void Claims::decide_symmetries(StructureReport& structure)
 {
-    const auto append = [&](std::vector<std::string> indices, NodeId residual, auto decide) {
-        Check check{"symmetry", std::move(indices), decide(residual), {}, {}};
-        if (check.decision.status == ProofStatus::refuted)
-            check.hint = "the residual is the rate of the momentum p_a s^a along motions without forces";
+    const auto append = [&](Check check, const char* hint) {
+        if (check.decision.status == ProofStatus::refuted) check.hint = hint;
         structure.checks.push_back(std::move(check));
     };
+    const char* const rate = "the residual is the rate of the momentum p_a s^a along motions without forces";
     for (const SymmetryClaim& claim : system_.symmetries) {
-        const auto judge = [&](NodeId residual) { return judge_->decide(residual); };
         if (lagrangian_)
-            append({claim.name}, lift_of_lagrangian(graph_, system_, *lagrangian_, claim.s), judge);
+            append({"symmetry",
+                    {claim.name},
+                    judge_->decide(lift_of_lagrangian(graph_, system_, *lagrangian_, claim.s)),
+                    {},
+                    {}},
+                   rate);
         else if (system_.hamiltonian)
-            append({claim.name}, lift_of_hamiltonian(graph_, system_, claim.s), judge);
-        if (system_.discrete && system_.discrete->written)
-            append(lagrangian_ || system_.hamiltonian ? std::vector<std::string>{claim.name, "discrete"}
-                                                      : std::vector<std::string>{claim.name},
-                   lift_of_discrete_lagrangian(graph_, system_, claim.s), [&](NodeId residual) {
-                       return decide_on_arrows(graph_, system_, residual, judge_->decider().budget());
-                   });
+            append({"symmetry", {claim.name}, judge_->decide(lift_of_hamiltonian(graph_, system_, claim.s)), {}, {}},
+                   rate);
+        if (!system_.discrete || !system_.discrete->written) continue;
+        const NodeId residual = lift_of_discrete_lagrangian(graph_, system_, claim.s);
+        Check steps{
+            "symmetry", {claim.name}, decide_on_arrows(graph_, system_, residual, judge_->decider().budget()), {}, {}};
+        if (lagrangian_ || system_.hamiltonian) steps.indices.emplace_back("discrete");
+        steps.meaning = "the derivative of the discrete Lagrangian along the complete lift of " + claim.name;
+        append(std::move(steps), "the residual is the change of the momentum p_a s^a over a step without forces");
     }
 }
 

@@ -32,6 +32,32 @@ std::vector<NodeId> slopes(Graph& graph, const Groupoid& groupoid, NodeId f)
     return out;
 }
 
+/// What vanishes where the work of forces is undone. With a logarithm the part of it along xi goes by D^-T to the
+/// momenta at both ends, so that it is its sum with f^+- that has to vanish, multiplied by D(-xi)^T here; with a
+/// connection, which takes it to the base as well, each part is asked to vanish by itself.
+std::vector<NodeId> work_defects(Graph& graph, const System& system)
+{
+    const DiscreteSystem& discrete = *system.discrete;
+    std::vector<NodeId> defects = reversed(graph, system, discrete.work.source);
+    for (std::size_t a = 0; a < defects.size(); ++a) defects[a] = graph.add(defects[a], discrete.work.target[a]);
+    std::vector<NodeId> along = reversed(graph, system, discrete.work.inner);
+    for (std::size_t k = 0; k < along.size(); ++k) along[k] = graph.subtract(discrete.work.inner[k], along[k]);
+    if (defects.empty() || !discrete.logarithm || !system.groupoid->connection.empty()) {
+        defects.insert(defects.end(), along.begin(), along.end());
+        return defects;
+    }
+    const std::size_t horizontal = system.groupoid->horizontal(), m = along.size();
+    Replacements back;
+    for (const NodeId xi : discrete.inner) back.emplace_back(xi, graph.negate(xi));
+    const std::vector<NodeId> D = substitute(graph, discrete.logarithm->differential, back);
+    for (std::size_t k = 0; k < m; ++k)
+        for (std::size_t c = 0; c < m; ++c)
+            along[k] = graph.add(along[k], graph.multiply(D[c * m + k], defects[horizontal + c]));
+    defects.resize(horizontal);
+    defects.insert(defects.end(), along.begin(), along.end());
+    return defects;
+}
+
 } // namespace
 
 Decision decide_self_adjoint(Graph& graph, const System& system, const ProofBudget& budget)
@@ -51,12 +77,7 @@ Decision decide_self_adjoint(Graph& graph, const System& system, const ProofBudg
     if (decision.status != ProofStatus::proved && !discrete.logarithm)
         decision = first_open(slopes(graph, *system.groupoid, difference));
     if (decision.status != ProofStatus::proved) return decision;
-    std::vector<NodeId> residuals = reversed(graph, system, discrete.work.source);
-    for (std::size_t a = 0; a < residuals.size(); ++a) residuals[a] = graph.add(residuals[a], discrete.work.target[a]);
-    const std::vector<NodeId> inner = reversed(graph, system, discrete.work.inner);
-    for (std::size_t k = 0; k < inner.size(); ++k)
-        residuals.push_back(graph.subtract(inner[k], discrete.work.inner[k]));
-    return first_open(residuals);
+    return first_open(work_defects(graph, system));
 }
 
 } // namespace lagen

@@ -44,7 +44,31 @@ vertical = { w1 = "G[1]", w2 = "G[2]", w3 = "G[3]" }
 )toml",
                                     "{ G = [0.6, 0, 0.8], w1 = 0.4, w2 = 0.9, w3 = -0.3 }"};
 
+/// Its forces have a part along the logarithm, which is undone together with those at the ends.
+constexpr SchemeModel braked_body{"braked_body", R"toml(
+[fibre]
+coordinates = ["w1", "w2", "w3"]
+[groupoid]
+kind = "group"
+group = "SO(3)"
+[lagrangian]
+L = "(1.1*w1^2 + 1.9*w2^2 + 2.6*w3^2)/2"
+[forces]
+w1 = "-0.3*w1 + w2*w3"
+)toml",
+                                  "{ w1 = 0.4, w2 = -0.3, w3 = 0.8 }"};
+
 } // namespace
+
+TEST_CASE("forces on a group are composed by exp, and refused by Cayley's map", "[run]")
+{
+    require_composed(braked_body, "midpoint", "exp", {{"discrete4", 4, "0.2", "0.1"}});
+    const Outcome refused = call({"run", scheme_file(braked_body, "midpoint", "cayley"), "--method", "discrete4",
+                                  "--step", "0.1", "--t-end", "1"});
+    CHECK(refused.code == 4);
+    CHECK_THAT(refused.err, Catch::Contains("with symmetric forces, f^+(g, h) = -f^-(g^-1, -h), which those of model "
+                                            "'braked_body' are not: at "));
+}
 
 TEST_CASE("a composition on an action groupoid keeps momenta and Casimirs, and its arrows lead from row to row",
           "[run]")

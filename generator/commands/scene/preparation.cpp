@@ -156,8 +156,13 @@ std::optional<Obstacle> obstacle_to_composition(const MethodEntry& method, const
     const Decision decision = decide_self_adjoint(graph, system, composition_budget);
     if (decision.status == ProofStatus::proved) return std::nullopt;
     const bool refuted = decision.status == ProofStatus::refuted;
-    return Obstacle{fmt::format("{} composes steps of {}, which the discrete Lagrangian of model '{}' is not{}",
-                                method.name, "a symmetric L, L(g, h) = -L(g^-1, -h) up to a constant", system.name,
+    const bool forced = !system.discrete->work.source.empty();
+    return Obstacle{fmt::format("{} composes steps of a symmetric L, L(g, h) = -L(g^-1, -h) up to a constant, {} of "
+                                "model '{}' {} not{}",
+                                method.name,
+                                forced ? "with symmetric forces, f^+(g, h) = -f^-(g^-1, -h), which those"
+                                       : "which the discrete Lagrangian",
+                                system.name, forced ? "are" : "is",
                                 refuted ? fmt::format(": at {} they differ by {:.3g}",
                                                       point_text(decision.witness->point), decision.witness->value)
                                         : fmt::format(" shown to be: {}", decision.evidence)),

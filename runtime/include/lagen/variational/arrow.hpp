@@ -11,137 +11,12 @@
 #pragma once
 
 #include "lagen/group/eliminate.hpp"
-#include "lagen/group/retraction.hpp"
+#include "lagen/variational/arrow_parts.hpp"
 
 #include <algorithm>
 #include <cstddef>
 
 namespace lagen {
-
-namespace detail {
-
-/// Where the parts of the state of a discrete motion stand: x, x_next - x, W - 1 by rows, w, mu.
-template <DiscreteMotion M>
-struct ArrowLanes {
-    static constexpr int n = M::base_dimension;
-    static constexpr int horizontal = M::horizontal;
-    static constexpr int order = M::group_order;
-    static constexpr int inner = M::inner_dimension;
-    static constexpr int rank = M::fibre_dimension;
-    static constexpr int unknowns = rank + inner;
-    static constexpr int next = n, element = n + horizontal, within = element + order * order, momenta = within + inner;
-    static_assert(momenta + rank == M::dimension);
-};
-
-/// W - 1, by rows behind lane `element`.
-template <DiscreteMotion M>
-[[nodiscard]] auto group_part(const typename M::State& s) noexcept
-{
-    using Lanes = ArrowLanes<M>;
-    GroupMatrix<typename M::Scalar, Lanes::order> V;
-    for (int i = 0; i < Lanes::order; ++i)
-        for (int j = 0; j < Lanes::order; ++j) V(i, j) = s[Lanes::element + i * Lanes::order + j];
-    return V;
-}
-
-template <DiscreteMotion M>
-void set_group_part(typename M::State& s, const GroupMatrix<typename M::Scalar, ArrowLanes<M>::order>& V) noexcept
-{
-    using Lanes = ArrowLanes<M>;
-    for (int i = 0; i < Lanes::order; ++i)
-        for (int j = 0; j < Lanes::order; ++j) s[Lanes::element + i * Lanes::order + j] = V(i, j);
-}
-
-/// Whether h is the step of the model, up to what times of the size of t are rounded by.
-template <DiscreteMotion M>
-[[nodiscard]] bool is_own_step(const M& model, const step_time_t<M>& t, const step_time_t<M>& h) noexcept
-{
-    using std::abs;
-    using Real = step_time_t<M>;
-    const Real length(model.step()), slack = Real(64) * std::numeric_limits<Real>::epsilon();
-    return abs(h - length) <= slack * (abs(t) + length);
-}
-
-/// The arrow of s moved along its source fibre, h <- h eta(d), and w by the rest of d; false where eta has no value.
-template <DiscreteMotion M>
-[[nodiscard]] bool move_arrow(const M& model, const typename M::Scalar& t, typename M::State& s,
-                              const Eigen::Matrix<typename M::Scalar, ArrowLanes<M>::unknowns, 1>& d) noexcept
-{
-    using S = typename M::Scalar;
-    using Lanes = ArrowLanes<M>;
-    if constexpr (Lanes::order > 0) {
-        GroupMatrix<S, Lanes::order> step;
-        if constexpr (M::cayley)
-            step = model.cayley_step(t, s, d.template head<Lanes::rank>());
-        else
-            step = exp_less_one<S, Lanes::order>(model.algebra_matrix(t, s, d.template head<Lanes::rank>()));
-        if (!step.allFinite()) return false;
-        const GroupMatrix<S, Lanes::order> V = group_part<M>(s);
-        set_group_part<M>(s, V + step + V * step);
-    }
-    for (int i = 0; i < Lanes::horizontal; ++i) s[Lanes::next + i] += d[i];
-    for (int k = 0; k < Lanes::inner; ++k) s[Lanes::within + k] += d[Lanes::rank + k];
-    return true;
-}
-
-/// W - 1 of the element of the group that the coordinates of W around 1 lead to; false where they have no value.
-template <DiscreteMotion M>
-[[nodiscard]] bool element_of_coordinates(const M& model, const typename M::Scalar& t, const typename M::State& s,
-                                          GroupMatrix<typename M::Scalar, ArrowLanes<M>::order>& renewed) noexcept
-{
-    using S = typename M::Scalar;
-    using Lanes = ArrowLanes<M>;
-    if constexpr (M::cayley) {
-        renewed = model.cayley_step(t, s, model.cayley_coordinates(t, s));
-    } else {
-        GroupMatrix<S, Lanes::order> A;
-        if (!log_of_one_and<S, Lanes::order>(group_part<M>(s), A)) return false;
-        renewed = exp_less_one<S, Lanes::order>(model.algebra_matrix(t, s, model.in_algebra(A)));
-    }
-    return true;
-}
-
-/// Takes W back to its group, from which products of many steps lead away by their rounding. Where the chart around 1
-/// does not reach W it stays as it is.
-template <DiscreteMotion M>
-void renew_group_part(const M& model, const typename M::Scalar& t, typename M::State& s) noexcept
-{
-    using S = typename M::Scalar;
-    using Lanes = ArrowLanes<M>;
-    if constexpr (Lanes::order > 0) {
-        GroupMatrix<S, Lanes::order> renewed;
-        if (!element_of_coordinates(model, t, s, renewed)) return;
-        // Beside the edge of the chart it is worse than what it renews.
-        using std::sqrt;
-        const S near = S(sqrt(std::numeric_limits<real_t<S>>::epsilon()));
-        if ((renewed - group_part<M>(s)).cwiseAbs().maxCoeff() <= near) set_group_part<M>(s, renewed);
-    }
-}
-
-/// Whether W is plainly no element of the group: what its coordinates around 1 lead to is another matrix. Where the
-/// chart does not reach W, or hardly, nothing is said.
-template <DiscreteMotion M>
-[[nodiscard]] bool is_off_group(const M& model, const typename M::Scalar& t, const typename M::State& s) noexcept
-{
-    using S = typename M::Scalar;
-    using Lanes = ArrowLanes<M>;
-    if constexpr (Lanes::order > 0) {
-        constexpr double tolerance = 1e-6, far = 1e3;
-        const GroupMatrix<S, Lanes::order> V = group_part<M>(s);
-        if constexpr (M::cayley) {
-            const auto d = model.cayley_coordinates(t, s);
-            if (!d.allFinite() || d.cwiseAbs().maxCoeff() > S(far)) return false;
-        } else if (V.cwiseAbs().maxCoeff() > S(1)) {
-            return false;
-        }
-        GroupMatrix<S, Lanes::order> renewed;
-        return element_of_coordinates(model, t, s, renewed) && (renewed - V).cwiseAbs().maxCoeff() > S(tolerance);
-    } else {
-        return false;
-    }
-}
-
-} // namespace detail
 
 template <DiscreteMotion M>
 class ArrowSolver {
@@ -202,25 +77,26 @@ class ArrowSolver {
         return detail::eliminate(N, right);
     }
 
-    /// Of momenta F^-L(h) of the size N (h - 1), and of mu.
+    /// Of momenta F^-L(h) of the size N (h - 1), and of mu. Where N (h - 1) is so large that it hides what is left, h
+    /// is none: W of 1e18 has the momenta of any.
     [[nodiscard]] bool is_rounding(const State& z) const noexcept
     {
         using std::abs;
-        const Scalar length = largest(z);
-        for (int a = 0; a < rank; ++a) {
-            Scalar size = a < M::fibre_dimension ? abs(z[Lanes::momenta + a]) : Scalar(0);
-            for (int b = 0; b < rank; ++b) size += abs(N_(a, b)) * length;
-            if (!(abs(residual_[a]) <= Scalar(epsilon) * size)) return false;
-        }
+        using std::sqrt;
+        const Scalar visible = Scalar(Real(sqrt(epsilon))) * scale_;
+        for (int a = 0; a < rank; ++a)
+            if (!(abs(residual_[a]) <= std::min<Scalar>(Scalar(epsilon) * detail::size_of_terms<M>(N_, z, a), visible)))
+                return false;
         return true;
     }
 
-    [[nodiscard]] static Scalar largest(const State& z) noexcept
+    /// What is seen of momenta at the guess.
+    void take_scale(const State& z) noexcept
     {
         using std::abs;
-        Scalar most(0);
-        for (int k = Lanes::next; k < Lanes::momenta; ++k) most = std::max<Scalar>(most, abs(z[k]));
-        return most;
+        scale_ = Scalar(0);
+        for (int a = 0; a < rank; ++a)
+            scale_ = std::max<Scalar>(scale_, abs(residual_[a]) + detail::size_of_terms<M>(N_, z, a));
     }
 
     /// Undamped steps that shrink; with `follows`, det N has the sign that it had. newton_diverged where they do not
@@ -232,6 +108,7 @@ class ArrowSolver {
         Column first_residual, first_step;
         for (int k = 0; k < most_steps; ++k) {
             if (!evaluate(model, t, z)) return Status::non_finite;
+            if (k == 0) take_scale(z);
             if (k == 1 && wide && !is_alike(first_residual, first_step)) return Status::branch_lost;
             const bool found = is_rounding(z), known = k > 0 || follows;
             if (found && known) return settle(negative);
@@ -241,11 +118,13 @@ class ArrowSolver {
             if (found) return settle(negative);
             if (sign == 0) return Status::singular_mass_matrix;
             if ((sign < 0) != negative) return Status::branch_lost;
-            const Scalar length = d.cwiseAbs().maxCoeff(), noise = Scalar(Real(4) * epsilon) * largest(z);
+            const Scalar length = d.cwiseAbs().maxCoeff();
             if (!(length - length == Scalar(0))) return Status::newton_diverged;
-            if (k > 0 && length <= noise) return settle(negative);
-            if (k > 0 && !(length <= Scalar(Real(0.25)) * before)) return Status::newton_diverged;
-            wide = k == 0 && !(length <= Scalar(Real(0.0625)) * largest(z));
+            if (k > 0 && detail::is_part<M>(d, z, Scalar(Real(4) * epsilon))) return settle(negative);
+            const bool rounds = length <= Scalar(Real(256) * epsilon) * detail::size_of_ends<M>(z);
+            if (k > 0 && !(length <= Scalar(Real(0.25)) * before))
+                return rounds ? settle(negative) : Status::newton_diverged;
+            wide = k == 0 && !rounds && !(length <= Scalar(Real(0.0625)) * detail::largest_part<M>(z));
             if (wide) {
                 first_residual = residual_;
                 first_step = d;
@@ -256,7 +135,8 @@ class ArrowSolver {
             // What the next step would be, by quadratic convergence.
             if (k > 0) {
                 const Scalar rate = length / before;
-                if (length * rate * rate <= Scalar(Real(0.125) * epsilon) * largest(z)) return settle(negative);
+                if (detail::is_part<M>(Column(rate * rate * d), z, Scalar(Real(0.125) * epsilon)))
+                    return settle(negative);
             }
             before = length;
         }
@@ -324,7 +204,8 @@ class ArrowSolver {
             }
             moved_ = kept;
             part /= Real(2);
-            const bool is_short = part < shortest && Scalar(part) * first <= Scalar(shortest) * largest(z);
+            const bool is_short =
+                part < shortest && Scalar(part) * first <= Scalar(shortest) * detail::largest_part<M>(z);
             if (is_short || part < least || !(done + part > done))
                 return verdict(model, t, z, way, Scalar(Real(folded)) * first, reason);
         }
@@ -344,6 +225,7 @@ class ArrowSolver {
     Column residual_, moved_ = Column::Zero(),
                       shift_ = Column::Zero(); ///< shift_: of a way that is not at its end
     Eigen::Matrix<Scalar, rank, rank> N_;
+    Scalar scale_{0};          ///< of the equations at the guess
     bool negative_ = false;    ///< the sign of det N on the branch
     int points_ = most_points; ///< on the way of a first step, where det N is looked at
     std::size_t evaluations_ = 0, decompositions_ = 0;

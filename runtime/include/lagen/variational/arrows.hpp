@@ -55,6 +55,8 @@ class ArrowSearch {
     /// Distances are those from the arrow that the one in s leads to, or from the one in s itself.
     [[nodiscard]] std::vector<FoundArrow<M>> found(bool from_given = false)
     {
+        length_ = natural_length();
+        scale_ = natural_scale();
         if (std::optional<FoundArrow<M>> first = arrow_from(start_)) {
             if (!from_given) {
                 predictor_ = first->state;
@@ -62,7 +64,6 @@ class ArrowSearch {
             }
             add(*first);
         }
-        length_ = natural_length();
         look_around(start_);
         for (const FoundArrow<M>& first : std::vector<FoundArrow<M>>(found_)) look_around(first.state);
         return std::move(found_);
@@ -72,9 +73,11 @@ class ArrowSearch {
     using Lanes = ArrowLanes<M>;
     using Real = real_t<Scalar>;
     using Column = Eigen::Matrix<Scalar, Lanes::unknowns, 1>;
+    using Square = Eigen::Matrix<Scalar, Lanes::unknowns, Lanes::unknowns>;
     using Direction = std::vector<std::pair<int, int>>; ///< sections and signs
     static constexpr int scales = 6, most_together = 3, most_starts = 2500;
-    static constexpr Real relative = Real(1e-12);     ///< residual of a solution
+    static constexpr Real relative = Real(1e-12);     ///< residual of a solution, of its terms
+    static constexpr Real visible = Real(1e-9);       ///< and of the momenta: where terms are huge it may be anything
     static constexpr Real same = Real(1e-6);          ///< arrows, near a fold too
     static constexpr Real same_distance = Real(1e-9); ///< of two arrows that lie opposite
 
@@ -91,12 +94,29 @@ class ArrowSearch {
     {
         using std::abs;
         Column R;
-        Eigen::Matrix<Scalar, Lanes::unknowns, Lanes::unknowns> N;
+        Square N;
         model_.arrow_equation(t_, start_, R, N);
         if (eliminate(N, R) == 0 || !R.allFinite()) return Scalar(1);
         Scalar most(0);
         for (int i = 0; i < Lanes::horizontal; ++i) most = std::max<Scalar>(most, abs(R[i]));
         return most > Scalar(0) ? most : Scalar(1);
+    }
+
+    /// Of momenta: of the given ones and of those of arrows of this length, or turned by 1.
+    [[nodiscard]] Scalar natural_scale() const
+    {
+        using std::abs;
+        Column R;
+        Square N;
+        model_.arrow_equation(t_, start_, R, N);
+        Scalar most(0);
+        for (int a = 0; a < Lanes::unknowns; ++a) {
+            Scalar size = abs(R[a]) + (a < Lanes::rank ? abs(start_[Lanes::momenta + a]) : Scalar(0));
+            for (int b = 0; b < Lanes::unknowns; ++b)
+                size += abs(N(a, b)) * (b < Lanes::horizontal ? length_ : Scalar(1));
+            most = std::max<Scalar>(most, size);
+        }
+        return most;
     }
 
     void look_around(const State& arrow)
@@ -155,14 +175,11 @@ class ArrowSearch {
         using std::abs;
         if (solver_.solve(model_, t_, z) != Status::ok) return std::nullopt;
         Column R;
-        Eigen::Matrix<Scalar, Lanes::unknowns, Lanes::unknowns> N;
+        Square N;
         model_.arrow_equation(t_, z, R, N);
-        Scalar length(0);
-        for (int k = Lanes::next; k < Lanes::momenta; ++k) length = std::max<Scalar>(length, abs(z[k]));
         for (int a = 0; a < Lanes::unknowns; ++a) {
-            Scalar size = a < Lanes::rank ? abs(z[Lanes::momenta + a]) : Scalar(0);
-            for (int b = 0; b < Lanes::unknowns; ++b) size += abs(N(a, b)) * length;
-            if (!(abs(R[a]) <= Scalar(relative) * size)) return std::nullopt;
+            const Scalar rounding = Scalar(relative) * size_of_terms<M>(N, z, a);
+            if (!(abs(R[a]) <= std::min<Scalar>(rounding, Scalar(visible) * scale_))) return std::nullopt;
         }
         const int sign = eliminate(N, R);
         if (sign == 0) return std::nullopt;
@@ -204,7 +221,7 @@ class ArrowSearch {
     const M& model_;
     Scalar t_;
     State start_, predictor_, center_;
-    Scalar length_ = Scalar(1);
+    Scalar length_ = Scalar(1), scale_ = Scalar(0);
     ArrowSolver<M> solver_;
     std::vector<FoundArrow<M>> found_;
 };
