@@ -78,25 +78,16 @@ class ArrowSolver {
     }
 
     /// Of momenta F^-L(h) of the size N (h - 1), and of mu. Where N (h - 1) is so large that it hides what is left, h
-    /// is none: W of 1e18 has the momenta of any.
-    [[nodiscard]] bool is_rounding(const State& z) const noexcept
+    /// is none: W of 1e18 has the momenta of any. `first`: z is the guess, by whose terms that is judged.
+    [[nodiscard]] bool is_rounding(const State& z, const Column& sizes, bool first) noexcept
     {
         using std::abs;
         using std::sqrt;
-        const Scalar visible = Scalar(Real(sqrt(epsilon))) * scale_;
+        const Column terms = detail::sizes_of_terms<M>(N_, sizes, z);
+        if (first) visible_ = Scalar(Real(sqrt(epsilon))) * (residual_.cwiseAbs() + terms).maxCoeff();
         for (int a = 0; a < rank; ++a)
-            if (!(abs(residual_[a]) <= std::min<Scalar>(Scalar(epsilon) * detail::size_of_terms<M>(N_, z, a), visible)))
-                return false;
+            if (!(abs(residual_[a]) <= std::min<Scalar>(Scalar(epsilon) * terms[a], visible_))) return false;
         return true;
-    }
-
-    /// What is seen of momenta at the guess.
-    void take_scale(const State& z) noexcept
-    {
-        using std::abs;
-        scale_ = Scalar(0);
-        for (int a = 0; a < rank; ++a)
-            scale_ = std::max<Scalar>(scale_, abs(residual_[a]) + detail::size_of_terms<M>(N_, z, a));
     }
 
     /// Undamped steps that shrink; with `follows`, det N has the sign that it had. newton_diverged where they do not
@@ -108,9 +99,9 @@ class ArrowSolver {
         Column first_residual, first_step;
         for (int k = 0; k < most_steps; ++k) {
             if (!evaluate(model, t, z)) return Status::non_finite;
-            if (k == 0) take_scale(z);
             if (k == 1 && wide && !is_alike(first_residual, first_step)) return Status::branch_lost;
-            const bool found = is_rounding(z), known = k > 0 || follows;
+            const Column sizes = detail::sizes_along<M>(z);
+            const bool found = is_rounding(z, sizes, k == 0), known = k > 0 || follows;
             if (found && known) return settle(negative);
             Column d = residual_;
             const int sign = solved(d);
@@ -120,11 +111,11 @@ class ArrowSolver {
             if ((sign < 0) != negative) return Status::branch_lost;
             const Scalar length = d.cwiseAbs().maxCoeff();
             if (!(length - length == Scalar(0))) return Status::newton_diverged;
-            if (k > 0 && detail::is_part<M>(d, z, Scalar(Real(4) * epsilon))) return settle(negative);
-            const bool rounds = length <= Scalar(Real(256) * epsilon) * detail::size_of_ends<M>(z);
+            if (k > 0 && detail::is_part<M>(d, sizes, Scalar(Real(4) * epsilon))) return settle(negative);
+            const auto rounds = [&] { return length <= Scalar(Real(256) * epsilon) * detail::size_of_ends<M>(z); };
             if (k > 0 && !(length <= Scalar(Real(0.25)) * before))
-                return rounds ? settle(negative) : Status::newton_diverged;
-            wide = k == 0 && !rounds && !(length <= Scalar(Real(0.0625)) * detail::largest_part<M>(z));
+                return rounds() ? settle(negative) : Status::newton_diverged;
+            wide = k == 0 && !(length <= Scalar(Real(0.0625)) * detail::largest_part<M>(z)) && !rounds();
             if (wide) {
                 first_residual = residual_;
                 first_step = d;
@@ -135,7 +126,7 @@ class ArrowSolver {
             // What the next step would be, by quadratic convergence.
             if (k > 0) {
                 const Scalar rate = length / before;
-                if (detail::is_part<M>(Column(rate * rate * d), z, Scalar(Real(0.125) * epsilon)))
+                if (detail::is_part<M>(Column(rate * rate * d), sizes, Scalar(Real(0.125) * epsilon)))
                     return settle(negative);
             }
             before = length;
@@ -225,7 +216,7 @@ class ArrowSolver {
     Column residual_, moved_ = Column::Zero(),
                       shift_ = Column::Zero(); ///< shift_: of a way that is not at its end
     Eigen::Matrix<Scalar, rank, rank> N_;
-    Scalar scale_{0};          ///< of the equations at the guess
+    Scalar visible_{0};        ///< what is left of momenta may not be larger, whatever terms they have
     bool negative_ = false;    ///< the sign of det N on the branch
     int points_ = most_points; ///< on the way of a first step, where det N is looked at
     std::size_t evaluations_ = 0, decompositions_ = 0;

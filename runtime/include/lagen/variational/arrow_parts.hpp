@@ -138,53 +138,54 @@ template <DiscreteMotion M>
 template <DiscreteMotion M>
 [[nodiscard]] typename M::Scalar largest_part(const typename M::State& z) noexcept
 {
-    using std::abs;
-    using S = typename M::Scalar;
-    S most(0);
-    for (int k = ArrowLanes<M>::next; k < ArrowLanes<M>::momenta; ++k) most = std::max<S>(most, abs(z[k]));
-    return most;
-}
-
-/// Of the arrow along unknown b: that of its largest part, but of x_next - x no more than |x| there, so that a slow
-/// coordinate beside a fast one is found as well; of W - 1 no more than 1. `most` is largest_part.
-template <DiscreteMotion M>
-[[nodiscard]] typename M::Scalar size_along(const typename M::State& z, int b, const typename M::Scalar& most) noexcept
-{
-    using std::abs;
-    using S = typename M::Scalar;
     using Lanes = ArrowLanes<M>;
-    if (b >= Lanes::rank) return most;
-    if (b < Lanes::horizontal) return std::max<S>(abs(z[Lanes::next + b]), std::min<S>(most, abs(z[b])));
-    S turn = std::min<S>(most, S(1));
-    for (int k = Lanes::element; k < Lanes::within; ++k) turn = std::max<S>(turn, abs(z[k]));
-    return turn;
+    return z.template segment<Lanes::momenta - Lanes::next>(Lanes::next).cwiseAbs().maxCoeff();
 }
 
-/// Whether a step of Newton's method is so small a part of the arrow, along each unknown.
 template <DiscreteMotion M>
-[[nodiscard]] bool is_part(const Eigen::Matrix<typename M::Scalar, ArrowLanes<M>::unknowns, 1>& d,
-                           const typename M::State& z, const typename M::Scalar& part) noexcept
-{
-    using std::abs;
-    const typename M::Scalar most = largest_part<M>(z);
-    for (int b = 0; b < ArrowLanes<M>::unknowns; ++b)
-        if (!(abs(d[b]) <= part * size_along<M>(z, b, most))) return false;
-    return true;
-}
+using ArrowColumn = Eigen::Matrix<typename M::Scalar, ArrowLanes<M>::unknowns, 1>;
 
-/// Of the terms of equation a, mu and N (h - 1): what it is rounded by are parts of these.
+/// Of the arrow along each unknown: that of its largest part, but of x_next - x no more than |x| there, so that a slow
+/// coordinate beside a fast one is found as well; of W - 1 no more than 1.
 template <DiscreteMotion M>
-[[nodiscard]] typename M::Scalar
-size_of_terms(const Eigen::Matrix<typename M::Scalar, ArrowLanes<M>::unknowns, ArrowLanes<M>::unknowns>& N,
-              const typename M::State& z, int a) noexcept
+[[nodiscard]] ArrowColumn<M> sizes_along(const typename M::State& z) noexcept
 {
     using std::abs;
     using S = typename M::Scalar;
     using Lanes = ArrowLanes<M>;
     const S most = largest_part<M>(z);
-    S size = a < Lanes::rank ? S(abs(z[Lanes::momenta + a])) : S(0);
-    for (int b = 0; b < Lanes::unknowns; ++b) size += abs(N(a, b)) * size_along<M>(z, b, most);
-    return size;
+    ArrowColumn<M> sizes = ArrowColumn<M>::Constant(most);
+    for (int b = 0; b < Lanes::horizontal; ++b)
+        sizes[b] = std::max<S>(abs(z[Lanes::next + b]), std::min<S>(most, abs(z[b])));
+    if constexpr (Lanes::horizontal + Lanes::inner > 0 && Lanes::order > 0) {
+        const S turn = z.template segment<Lanes::within - Lanes::element>(Lanes::element).cwiseAbs().maxCoeff();
+        for (int b = Lanes::horizontal; b < Lanes::rank; ++b) sizes[b] = std::max<S>(turn, std::min<S>(most, S(1)));
+    }
+    return sizes;
+}
+
+/// Whether a step of Newton's method is so small a part of the arrow, along each unknown.
+template <DiscreteMotion M>
+[[nodiscard]] bool is_part(const ArrowColumn<M>& d, const ArrowColumn<M>& sizes,
+                           const typename M::Scalar& part) noexcept
+{
+    using std::abs;
+    for (int b = 0; b < ArrowLanes<M>::unknowns; ++b)
+        if (!(abs(d[b]) <= part * sizes[b])) return false;
+    return true;
+}
+
+/// Of the terms of the equations, mu and N (h - 1): what they are rounded by are parts of these.
+template <DiscreteMotion M>
+[[nodiscard]] ArrowColumn<M>
+sizes_of_terms(const Eigen::Matrix<typename M::Scalar, ArrowLanes<M>::unknowns, ArrowLanes<M>::unknowns>& N,
+               const ArrowColumn<M>& sizes, const typename M::State& z) noexcept
+{
+    using std::abs;
+    using Lanes = ArrowLanes<M>;
+    ArrowColumn<M> terms = N.cwiseAbs() * sizes;
+    for (int a = 0; a < Lanes::rank; ++a) terms[a] += abs(z[Lanes::momenta + a]);
+    return terms;
 }
 
 /// Of x_next, W and w themselves, which at rest is all that there is: x_next - x and W - 1 are 0 there, and what is

@@ -105,18 +105,12 @@ class ArrowSearch {
     /// Of momenta: of the given ones and of those of arrows of this length, or turned by 1.
     [[nodiscard]] Scalar natural_scale() const
     {
-        using std::abs;
         Column R;
         Square N;
         model_.arrow_equation(t_, start_, R, N);
-        Scalar most(0);
-        for (int a = 0; a < Lanes::unknowns; ++a) {
-            Scalar size = abs(R[a]) + (a < Lanes::rank ? abs(start_[Lanes::momenta + a]) : Scalar(0));
-            for (int b = 0; b < Lanes::unknowns; ++b)
-                size += abs(N(a, b)) * (b < Lanes::horizontal ? length_ : Scalar(1));
-            most = std::max<Scalar>(most, size);
-        }
-        return most;
+        Column lengths = Column::Ones();
+        lengths.template head<Lanes::horizontal>().setConstant(length_);
+        return (R.cwiseAbs() + sizes_of_terms<M>(N, lengths, start_)).maxCoeff();
     }
 
     void look_around(const State& arrow)
@@ -177,10 +171,10 @@ class ArrowSearch {
         Column R;
         Square N;
         model_.arrow_equation(t_, z, R, N);
-        for (int a = 0; a < Lanes::unknowns; ++a) {
-            const Scalar rounding = Scalar(relative) * size_of_terms<M>(N, z, a);
-            if (!(abs(R[a]) <= std::min<Scalar>(rounding, Scalar(visible) * scale_))) return std::nullopt;
-        }
+        const Column terms = sizes_of_terms<M>(N, sizes_along<M>(z), z);
+        for (int a = 0; a < Lanes::unknowns; ++a)
+            if (!(abs(R[a]) <= std::min<Scalar>(Scalar(relative) * terms[a], Scalar(visible) * scale_)))
+                return std::nullopt;
         const int sign = eliminate(N, R);
         if (sign == 0) return std::nullopt;
         return FoundArrow<M>{z, arrow_distance<M>(predictor_, z), sign < 0};
