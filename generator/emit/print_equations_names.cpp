@@ -182,6 +182,18 @@ LatexNames::LatexNames(const std::vector<SymbolText>& symbols)
         if (families_.emplace(stem, latex).first->second != latex) uneven.insert(stem);
     }
     for (const std::string& stem : uneven) families_.erase(stem);
+    tell_apart(symbols);
+}
+
+/// k1 beside k[1], whose LaTeX is k_{1}, is spelled out.
+void LatexNames::tell_apart(const std::vector<SymbolText>& symbols)
+{
+    std::map<std::string, std::string> names;
+    for (const bool entries : {true, false})
+        for (const SymbolText& each : symbols)
+            if ((indices_begin(each.name) != std::string::npos) == entries &&
+                names.emplace(symbol(each.name), each.name).first->second != each.name && each.latex.empty())
+                given_.emplace(each.name, "\\mathit{" + escape_latex(each.name) + "}");
 }
 
 /// Of an entry or, without indices, of the whole family.

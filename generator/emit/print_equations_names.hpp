@@ -24,6 +24,7 @@ class LatexNames {
         friend bool operator==(const FamilyLatex&, const FamilyLatex&) = default;
     };
 
+    void tell_apart(const std::vector<SymbolText>& symbols);
     [[nodiscard]] std::string given(const std::string& name) const; ///< empty: it is made from the name
     [[nodiscard]] std::string family_symbol(const std::string& name) const;
 

@@ -6,6 +6,8 @@
 #include "symbolic/shortest_form.hpp"
 
 #include <algorithm>
+#include <cstdlib>
+#include <tuple>
 
 namespace lagen {
 
@@ -16,6 +18,21 @@ bool is_rough(const TreeNode& node)
 }
 
 namespace {
+
+/// 1 and 10 of "[1,10]".
+std::vector<long> indices_of(const std::string& index)
+{
+    std::vector<long> indices;
+    for (std::size_t k = index.find_first_of("[,"); k < index.size() - 1; k = index.find_first_of("[,", k + 1))
+        indices.push_back(std::strtol(index.c_str() + k + 1, nullptr, 10));
+    return indices;
+}
+
+/// In braces where it has a subscript or an exponent of its own.
+std::string raisable(const std::string& latex)
+{
+    return latex.find_first_of("_^") == std::string::npos ? latex : "{" + latex + "}";
+}
 
 constexpr std::size_t short_definition = 8;  ///< nodes of what is not worth a name
 constexpr std::size_t short_derivative = 12; ///< likewise
@@ -313,7 +330,9 @@ std::vector<WhereEntry> KeptSymbols::where(const EquationSet& equations)
     for (const auto& [k, value] : values) entries.push_back({kept_[k].name(), value, kept_[k].family});
     std::ranges::stable_sort(entries, {}, [&](const WhereEntry& entry) {
         const Kept& kept = kept_[index_.at(entry.symbol)];
-        return std::pair(!kept.by.empty(), kept.by.empty() ? std::string() : kept.stem);
+        if (kept.by.empty()) return std::tuple(false, std::string(), std::vector<long>());
+        const std::size_t open = std::min(entry.symbol.find('['), entry.symbol.size());
+        return std::tuple(true, entry.symbol.substr(0, open), indices_of(entry.symbol.substr(open)));
     });
     return entries;
 }
@@ -339,7 +358,7 @@ void KeptSymbols::append_latex(EquationSet& equations) const
         const std::string latex = latex_of_name(kept_[kept.root].stem);
         const std::string& stem = kept_[kept.root].stem;
         if (given && (!latex.empty() || stem.size() == 1))
-            equations.symbols.push_back({kept.name(), (latex.empty() ? stem : latex) + "_{" + below + "}"});
+            equations.symbols.push_back({kept.name(), raisable(latex.empty() ? stem : latex) + "_{" + below + "}"});
     }
 }
 

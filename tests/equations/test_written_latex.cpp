@@ -78,3 +78,37 @@ TEST_CASE("a name that ends in a mark has the mark in LaTeX")
 {
     CHECK(latex_of(add({name("V_x"), name("V_x_")}), EquationSet{}) == "V_{x} + V_{x\\_}");
 }
+
+TEST_CASE("names that LaTeX would show alike are told apart, and no index has the letter of a symbol")
+{
+    const std::string head = "[sizes]\nn = 4\n[parameters]\n\"k[1..n]\" = 1\nk1 = 2\nkappa = 1\n"
+                             "[base]\ncoordinates = [\"x[1..n]\"]\n[algebroid]\nkind = \"tangent\"\n[lagrangian]\n"
+                             "L = \"sum(i, 1, n, v_x[i]^2 - k[i]*x[i]^2)/2 - k1*x[1] - kappa*x[2]\"\n";
+    const std::string latex = print_latex(of_text(head));
+    has(latex, "- \\mathit{k1}\\, x_{1}");
+    has(latex, "\\sum_{i=1}^{4} \\frac{k_{i}\\, x_{i}^{2}}{2}");
+    const std::string lettered = print_latex(of_text(head + "[about]\nkappa = { latex = \"i\" }\n"));
+    has(lettered, "\\sum_{j=1}^{4}");
+    CHECK(lettered.find("_{i=") == std::string::npos);
+}
+
+TEST_CASE("the derivative of a definition with a subscript of its own has it in braces")
+{
+    const std::string latex = print_latex(of_text(R"toml(
+[parameters]
+k = 1
+[base]
+coordinates = ["r", "z"]
+domain = ["r > 0"]
+[algebroid]
+kind = "tangent"
+[definitions]
+U = "k*exp(-2*r^2*z)*(1 + r*z + r^2*sin(z)) + sqrt(1 + r^2 + z^2) + k*r*z^3"
+[lagrangian]
+L = "(v_r^2 + v_z^2)/2 - U + U*v_z"
+[about]
+U = { latex = "V_{\\mathrm{eff}}" }
+)toml"));
+    has(latex, "{V_{\\mathrm{eff}}}_{r}");
+    CHECK(latex.find("V_{\\mathrm{eff}}_{") == std::string::npos);
+}

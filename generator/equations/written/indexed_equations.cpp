@@ -26,7 +26,10 @@ class Joining {
     {
         std::set<std::string> taken;
         for (const Size& size : model.sizes) taken.insert(size.name);
-        for (const SymbolText& symbol : equations.symbols) taken.insert(symbol.name);
+        for (const SymbolText& symbol : equations.symbols) {
+            taken.insert(symbol.name);
+            taken.insert(symbol.latex.substr(0, symbol.latex.find('_'))); // k of kappa = { latex = "k" }
+        }
         for (const std::string& each : names_of(equations)) taken.insert(each.substr(0, each.find('[')));
         for (const char* letter : {"i", "j", "k", "l", "n", "p", "q", "r", "s", "a", "b", "c", "d"})
             if (!taken.contains(letter)) letters_.emplace_back(letter);
