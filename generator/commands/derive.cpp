@@ -100,6 +100,12 @@ std::vector<Tree> bracket_functions(const Options& options, const Model& model, 
     return functions;
 }
 
+/// The model's default form; of a discrete Lagrangian that a scheme makes, which is not written out, that of its L.
+std::string form_to_derive(const Model& model)
+{
+    return model.discrete && !model.discrete->lagrangian ? "lagrange" : default_form(model);
+}
+
 /// Forms of sections and functions of arrows have no module.
 void require_module_form(const std::string& form)
 {
@@ -120,7 +126,7 @@ ExitCode run_derive(Arguments arguments)
     // A refuted model has equations too, and reading them may show why; they come with the warning.
     const CheckedModel checked = load(model_path(options.positional()[0]), options.settings(), true);
     require_apart(options, checked.model);
-    const std::string form = options.has("form") ? options.get("form") : default_form(checked.model);
+    const std::string form = options.has("form") ? options.get("form") : form_to_derive(checked.model);
     if (format == "sympy") require_module_form(form);
     const std::vector<Tree> brackets = bracket_functions(options, checked.model, form);
     const std::vector<std::string> warnings = warnings_of(checked, form);

@@ -213,6 +213,9 @@ ExitCode reduce_by_routh(const Options& options, const std::string& path)
     for (std::size_t j = 0; j < cyclic.size(); ++j)
         said += fmt::format("  {} = {}\n", model.fibre.coordinates[cyclic[j]].name, to_text(text.velocities[j]));
     said += fmt::format("  R = {}\n", to_text(text.value));
+    for (const Check& check : report.checks) // where momenta do not jump
+        for (const std::string& each : check.where)
+            if (std::ranges::find(where, each) == where.end()) where.push_back(each);
     if (!where.empty()) said += fmt::format("  where {}\n", fmt::join(where, " and "));
     said += failures_text(report);
     return write_reduced(options, model.name, {"routhian", to_text(text.value)}, document, said, report);

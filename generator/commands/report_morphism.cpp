@@ -48,7 +48,9 @@ std::vector<Consequence> consequences(const VerifiedMorphism& verified)
     const auto reduces = [](const VerifiedMorphism& stage) {
         return stage.map.theorems.reduction || stage.map.theorems.discrete;
     };
-    return {{"reduction", theorems.reduction, "solutions of the source project to solutions of the target"},
+    return {{"reduction", theorems.reduction,
+             theorems.of_pulled_momenta ? "solutions of the source with momenta Φ*μ' project to solutions of the target"
+                                        : "solutions of the source project to solutions of the target"},
             {"reconstruction", theorems.reconstruction,
              "admissible curves over solutions of the target are solutions of the source"},
             {"discrete", theorems.discrete,
@@ -79,9 +81,9 @@ std::string extent_text(const MorphismReport& map)
         text += fmt::format("  {:<15} {}\n", name, words);
     };
     if (!map.reach.obstacle.empty())
-        line("domain", "a part of the source: there the map is defined and reaches the target's domain");
+        line("domain", "a part of the source: there the map is continuous and reaches the target's domain");
     else if (!map.reach.where.empty())
-        line("domain", fmt::format("where {}: there the map is defined and reaches the target's domain",
+        line("domain", fmt::format("where {}: there the map is continuous and reaches the target's domain",
                                    fmt::join(map.reach.where, " and ")));
     if (!map.compares_motions)
         line("motions",

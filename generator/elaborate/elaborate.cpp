@@ -6,6 +6,7 @@
 #include "elaborate/build_algebroid.hpp"
 #include "elaborate/build_distribution.hpp"
 #include "elaborate/build_groupoid.hpp"
+#include "elaborate/cancelled_time.hpp"
 #include "elaborate/lower_forms.hpp"
 #include "elaborate/model_trees.hpp"
 #include "elaborate/require_values.hpp"
@@ -99,8 +100,9 @@ class Elaboration {
             const auto delta = sigma + static_cast<std::ptrdiff_t>(system_.r());
             system_.jacobi_field = {{sigma, delta}, {delta, delta + static_cast<std::ptrdiff_t>(system_.r())}};
         }
-        if (model_.lagrangian) system_.lagrangian = lower_(model_.lagrangian);
-        if (model_.hamiltonian) system_.hamiltonian = lower_(model_.hamiltonian);
+        if (model_.lagrangian) system_.lagrangian = without_cancelled_time(graph_, system_, lower_(model_.lagrangian));
+        if (model_.hamiltonian)
+            system_.hamiltonian = without_cancelled_time(graph_, system_, lower_(model_.hamiltonian));
         if (model_.forces.empty() && !model_.dissipation) return;
         system_.forces.assign(system_.r(), graph_.constant(0));
         for (const ComponentEntry& entry : model_.forces) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Equations as LaTeX (amsmath), and names as LaTeX symbols.
 #include "emit/print_equations.hpp"
-#include "emit/print_equations_names.hpp"
 #include "emit/print_equations_terms.hpp"
 #include "emit/text_block.hpp"
+#include "notation/latex_names.hpp"
 
 #include <algorithm>
 

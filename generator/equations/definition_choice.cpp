@@ -2,6 +2,8 @@
 /// Uses of names are counted in what was derived with them.
 #include "equations/definition_choice.hpp"
 
+#include "equations/rewrite_tree.hpp"
+
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -97,37 +99,73 @@ std::size_t written_length(const EquationSet& set)
 }
 
 /// Derived again without the names that do not pay, until all do.
-EquationSet with_symbols(const std::function<EquationSet(const DefinitionChoice&)>& derivation)
+EquationSet with_symbols(const std::function<EquationSet(const DefinitionChoice&)>& derivation, DefinitionChoice choice)
 {
-    DefinitionChoice choice{true, {}};
     for (;;) {
         EquationSet set = derivation(choice);
-        const std::set<std::string> more = needless(set);
-        if (more.empty()) return set;
-        choice.dropped.insert(more.begin(), more.end());
+        const std::size_t before = choice.dropped.size();
+        choice.dropped.merge(needless(set));
+        if (choice.dropped.size() == before) return set;
     }
+}
+
+/// Whether it has a sine or a cosine, or one of the names.
+bool is_circular(const Tree& tree, const std::set<std::string>& names)
+{
+    bool found = false;
+    (void)rewrite_tree(tree, [&](const Tree& node) {
+        found = found || (node->kind == TreeKind::name && names.contains(stem_of(node->name))) ||
+                (node->kind == TreeKind::call && (node->function == Function::sin || node->function == Function::cos));
+        return Tree{};
+    });
+    return found;
+}
+
+/// Those of the definitions that are made of sines and cosines, the places of joints: written out, sin^2 + cos^2 and
+/// the addition theorems may leave less than their names do.
+std::set<std::string> circular_definitions(const EquationSet& set, const Model& model)
+{
+    std::set<std::string> definitions, circular;
+    for (const Definition& each : model.definitions) definitions.insert(each.name);
+    for (std::size_t before = 1; before != circular.size();) {
+        before = circular.size();
+        for (const WhereEntry& entry : set.where)
+            if (definitions.contains(stem_of(entry.symbol)) && is_circular(entry.value, circular))
+                circular.insert(stem_of(entry.symbol));
+    }
+    return circular;
 }
 
 } // namespace
 
-EquationSet with_definitions(Definitions definitions,
+EquationSet with_definitions(const Model& model, Definitions definitions,
                              const std::function<EquationSet(const DefinitionChoice&)>& derivation)
 {
     if (definitions == Definitions::expanded) return derivation({});
     std::optional<EquationSet> set;
     try {
-        set = with_symbols(derivation);
-    } catch (const TooManyNames&) {
+        set = with_symbols(derivation, {.kept = true});
+    } catch (const TooMuchToRead&) {
     } catch (const MathematicsError&) { // in symbols something divides by what is zero
     }
     if (!set) return derivation({});
-    if (set->where.empty() || written_length(*set) <= one_page) return *set;
-    try {
-        const EquationSet flat = derivation({});
-        return written_length(flat) < written_length(*set) ? flat : *set;
-    } catch (const MathematicsError&) { // too large without symbols
-        return *set;
-    }
+    std::size_t length = written_length(*set);
+    // Names that the user gave stay unless much is gained.
+    const auto take_shorter = [&](DefinitionChoice choice) {
+        try {
+            EquationSet written_out = choice.kept ? with_symbols(derivation, choice) : derivation(choice);
+            const std::size_t shorter = written_length(written_out);
+            if (shorter > choice.longest) return;
+            set = std::move(written_out);
+            length = shorter;
+        } catch (const TooMuchToRead&) {
+        } catch (const MathematicsError&) { // too large without symbols
+        }
+    };
+    if (const std::set<std::string> circular = circular_definitions(*set, model); !circular.empty())
+        take_shorter({.kept = true, .dropped = circular, .longest = length * 2 / 3});
+    if (!set->where.empty() && length > one_page) take_shorter({.longest = length - 1});
+    return std::move(*set);
 }
 
 } // namespace lagen

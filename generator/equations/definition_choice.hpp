@@ -2,6 +2,7 @@
 /// Which definitions of a model stay symbols in its derived equations.
 #pragma once
 
+#include "model/model.hpp"
 #include "notation/equation_set.hpp"
 
 #include <exception>
@@ -18,17 +19,18 @@ enum class Definitions {
 
 /// Which definitions stay symbols.
 struct DefinitionChoice {
-    bool kept = false;             ///< false: none, everything is written out in coordinates and parameters
-    std::set<std::string> dropped; ///< names that are written out all the same
+    bool kept = false;                       ///< false: none, everything is written out in coordinates and parameters
+    std::set<std::string> dropped = {};      ///< names that are written out all the same
+    std::size_t longest = std::string::npos; ///< characters of equations, above which the derivation is given up
 };
 
-/// What a derivation throws that would need more names than anybody reads.
-class TooManyNames : public std::exception {};
+/// What a derivation throws that would need more names than anybody reads, or grows above its `longest`.
+class TooMuchToRead : public std::exception {};
 
 /// `derivation` with the definitions that pay for their names: those that stand twice in one block or three times in
-/// all, or are long. Others are written out; all are where that is shorter than a long form with symbols, and where the
-/// derivation does not go through with them.
-[[nodiscard]] EquationSet with_definitions(Definitions definitions,
+/// all, or are long. Others are written out; so are those made of sines and cosines where that leaves less than two
+/// thirds, and all where that is shorter than a long form with symbols or the derivation does not go through with them.
+[[nodiscard]] EquationSet with_definitions(const Model& model, Definitions definitions,
                                            const std::function<EquationSet(const DefinitionChoice&)>& derivation);
 
 /// Nodes of a tree when it is written out, counted to some thousand.

@@ -30,6 +30,8 @@ std::vector<std::string> derivation_names()
 
 namespace {
 
+constexpr std::size_t most_written = 50'000; ///< nodes of equations that sums and vectors are sought in
+
 EquationSet derive_constrained(const std::string& form, const Model& model, const System& system,
                                const std::vector<Tree>& brackets, Definitions definitions)
 {
@@ -74,6 +76,10 @@ EquationSet derive(const std::string& form, const Model& model, const System& sy
 
 EquationSet with_written_blocks(EquationSet equations, const Model& model)
 {
+    std::size_t nodes = 0;
+    for (const EquationBlock& block : equations.blocks)
+        for_each_tree(block, [&](const Tree& tree) { nodes += written_nodes(tree); });
+    if (nodes > most_written) return equations; // minutes for what nobody reads
     write_vectors(equations, model);
     write_by_index(equations, model);
     return equations;

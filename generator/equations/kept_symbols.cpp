@@ -3,6 +3,7 @@
 #include "equations/kept_symbols.hpp"
 
 #include "equations/rewrite_tree.hpp"
+#include "notation/latex_names.hpp"
 #include "symbolic/shortest_form.hpp"
 
 #include <algorithm>
@@ -28,13 +29,7 @@ std::vector<long> indices_of(const std::string& index)
     return indices;
 }
 
-/// In braces where it has a subscript or an exponent of its own.
-std::string raisable(const std::string& latex)
-{
-    return latex.find_first_of("_^") == std::string::npos ? latex : "{" + latex + "}";
-}
-
-constexpr std::size_t short_definition = 8;  ///< nodes of what is not worth a name
+constexpr std::size_t short_definition = 7;  ///< nodes of what is not worth a name
 constexpr std::size_t short_derivative = 12; ///< likewise
 constexpr std::size_t most_derivatives = 40; ///< with names: more take long, and nobody reads them
 
@@ -174,7 +169,9 @@ const Tree& KeptSymbols::slope_of(std::size_t k, const GiNaC::ex& symbol)
 {
     const std::pair key(k, GiNaC::ex_to<GiNaC::symbol>(symbol).get_name());
     if (const auto known = slopes_.find(key); known != slopes_.end()) return known->second;
-    const Tree slope = shortest_form(derivative(value_of(k), symbol), symbols_, order_);
+    Tree slope = shortest_form(derivative(value_of(k), symbol), symbols_, order_);
+    if (const Tree in_names = folded(slope); in_names != slope) // x/r of r = sqrt(x^2 + y^2)
+        slope = shortest_form(to_ginac(in_names, symbols_), symbols_, order_);
     return slopes_.emplace(key, slope).first->second;
 }
 
@@ -219,7 +216,7 @@ GiNaC::ex KeptSymbols::rate(std::size_t k, const GiNaC::ex& symbol)
         next.family = root.family;
         next.behind = kept_[k].name();
         if (!choice_.dropped.contains(next.stem)) {
-            if (++derivatives_ > most_derivatives) throw TooManyNames();
+            if (++derivatives_ > most_derivatives) throw TooMuchToRead();
             next.of_points = kept_[k].of_points;
             append(std::move(next));
             result = kept_.back().symbol;
@@ -339,26 +336,14 @@ std::vector<WhereEntry> KeptSymbols::where(const EquationSet& equations)
 
 void KeptSymbols::append_latex(EquationSet& equations) const
 {
-    const auto latex_of_name = [&](const std::string& name) {
-        const auto known = std::ranges::find(equations.symbols, name, &SymbolText::name);
-        return known == equations.symbols.end() ? std::string() : known->latex;
-    };
     for (const Symbol& note : model_.notes)
         if (!note.latex.empty() && index_.contains(note.name)) equations.symbols.push_back({note.name, note.latex});
+    const LatexNames names(equations.symbols);
     for (const Kept& kept : kept_) {
         if (kept.by.empty() || !kept.index.empty()) continue;
         std::string below;
-        bool given = !latex_of_name(kept_[kept.root].stem).empty();
-        for (const std::string& each : kept.by) {
-            const std::string latex = latex_of_name(each);
-            given = given || !latex.empty();
-            below += (below.empty() ? "" : " ") +
-                     (latex.empty() ? each.size() == 1 ? each : "\\mathit{" + each + "}" : latex);
-        }
-        const std::string latex = latex_of_name(kept_[kept.root].stem);
-        const std::string& stem = kept_[kept.root].stem;
-        if (given && (!latex.empty() || stem.size() == 1))
-            equations.symbols.push_back({kept.name(), raisable(latex.empty() ? stem : latex) + "_{" + below + "}"});
+        for (const std::string& each : kept.by) below += (below.empty() ? "" : ",") + names.symbol(each);
+        equations.symbols.push_back({kept.name(), with_below(names.symbol(kept_[kept.root].stem), below)});
     }
 }
 

@@ -269,7 +269,7 @@ EquationSet derive_poisson(const Model& model, const System& system, const Regul
                            const std::vector<Tree>& brackets, Definitions definitions)
 {
     return derived(model, "the Poisson brackets", [&] {
-        EquationSet set = with_definitions(definitions, [&](const DefinitionChoice& choice) {
+        EquationSet set = with_definitions(model, definitions, [&](const DefinitionChoice& choice) {
             return PoissonDerivation(model, system, regularity, brackets, choice).run();
         });
         set.statements = PoissonDerivation(model, system, regularity, brackets, {}).statements();

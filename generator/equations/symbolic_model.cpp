@@ -3,6 +3,7 @@
 
 #include "equations/rewrite_tree.hpp"
 #include "model/total_cost.hpp"
+#include "notation/latex_names.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -31,14 +32,16 @@ void append_right_side(EquationBlock& block, const std::vector<FormulaTerm>& ter
         const bool negative = term.starts_with('-');
         formula += first ? " = " + term : (negative ? " - " : " + ") + term.substr(negative ? 1 : 0);
     };
-    const bool any = std::ranges::any_of(terms, [&](const FormulaTerm& term) { return occurs(term.label); });
     bool first = true;
     for (const FormulaTerm& term : terms) {
-        if (any && !occurs(term.label)) continue;
+        if (!occurs(term.label)) continue;
         append(block.formula, term.label, first);
         append(block.latex_formula, term.latex, first);
         first = false;
     }
+    if (!first) return;
+    append(block.formula, "0", true);
+    append(block.latex_formula, "0", true);
 }
 
 GiNaC::ex total(const Sum& terms)
@@ -55,7 +58,7 @@ std::set<std::string> name_set(const std::vector<Symbol>& symbols)
 
 SymbolicModel::SymbolicModel(const Model& model, const WrittenAlgebroid& algebroid, const std::vector<Tree>& functions,
                              const DefinitionChoice& choice, const std::set<std::string>& substituted)
-    : model_(model), algebroid_(algebroid),
+    : model_(model), algebroid_(algebroid), longest_(choice.longest),
       kept_(std::make_unique<KeptSymbols>(
           model, DefinitionChoice{}, substituted, [](const Tree& tree) { return tree; }, symbols_, order_))
 {
@@ -315,7 +318,11 @@ std::vector<TermGroup> SymbolicModel::simplified(std::vector<Group> groups) cons
         }
     std::vector<TermGroup> result;
     for (const Group& group : groups)
-        if (Tree value = shortest(group.value); !is_zero(value)) result.push_back({group.label, std::move(value)});
+        if (Tree value = shortest(group.value); !is_zero(value)) {
+            written_ += to_text(value).size();
+            if (written_ > longest_) throw TooMuchToRead();
+            result.push_back({group.label, std::move(value)});
+        }
     return result;
 }
 
@@ -345,9 +352,7 @@ EquationBlock SymbolicModel::casimirs()
 
 std::string SymbolicModel::fibre_latex(std::size_t a) const
 {
-    const Symbol& symbol = algebroid_.fibre[a];
-    if (!symbol.latex.empty()) return symbol.latex;
-    return symbol.name.size() == 1 ? symbol.name : R"(\mathit{)" + symbol.name + "}";
+    return LatexNames(empty_set({}).symbols).symbol(algebroid_.fibre[a].name);
 }
 
 EquationSet SymbolicModel::empty_set(const std::string& form) const
@@ -388,7 +393,7 @@ EquationSet SymbolicModel::closed(EquationSet set) const
 EquationSet derived(const Model& model, const char* equations, Definitions definitions,
                     const std::function<EquationSet(const DefinitionChoice&)>& derivation)
 {
-    return derived(model, equations, [&] { return with_definitions(definitions, derivation); });
+    return derived(model, equations, [&] { return with_definitions(model, definitions, derivation); });
 }
 
 EquationSet derived(const Model& model, const char* equations, const std::function<EquationSet()>& derivation)

@@ -121,6 +121,8 @@ class SymbolicModel {
 
     const Model& model_;
     const WrittenAlgebroid& algebroid_;
+    std::size_t longest_;             ///< characters of equations
+    mutable std::size_t written_ = 0; ///< so far
     SymbolTable symbols_;
     Order order_;
     Sum x_, y_, mu_, controls_;

@@ -42,7 +42,6 @@ class VariationsDerivation {
         EquationSet set = symbolic_.empty_set("variations");
         for (std::size_t a = 0; a < system_.r(); ++a) {
             set.symbols.push_back({graph_.input_name(s_.value[a]), R"(\sigma^{)" + symbolic_.fibre_latex(a) + "}"});
-            set.symbols.push_back({graph_.input_name(named_.y[a]), R"(\delta )" + symbolic_.fibre_latex(a)});
             set.symbols.push_back({graph_.input_name(s_.rate[a]), R"(\dot\sigma^{)" + symbolic_.fibre_latex(a) + "}"});
         }
         set.blocks = {curves(), momenta(), jacobi(), second()};

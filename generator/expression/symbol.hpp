@@ -15,6 +15,13 @@ struct Symbol {
     std::string latex;
 };
 
+/// The LaTeX symbol with something below it: in braces where it has a subscript, an exponent or a space of its own.
+[[nodiscard]] inline std::string with_below(const std::string& latex, const std::string& below)
+{
+    const bool plain = latex.find_first_of("_^ ") == std::string::npos;
+    return (plain ? latex : "{" + latex + "}") + "_{" + below + "}";
+}
+
 /// A name with a closed tree: an observable, an invariant, a Casimir, an initial value.
 struct NamedTree {
     std::string name;

@@ -11,6 +11,42 @@ namespace lagen {
 
 namespace {
 
+/// What keeps a text from standing inside a formula, and where; npos: nothing does.
+struct LatexDefect {
+    std::size_t at = std::string::npos;
+    const char* what = "";
+};
+
+LatexDefect latex_defect(const std::string& text)
+{
+    std::vector<std::size_t> open;
+    for (std::size_t k = 0; k < text.size(); ++k) {
+        if (text[k] == '\\' && k + 1 == text.size()) return {k, "ends in the middle of a command"};
+        if (text[k] == '\\')
+            ++k;
+        else if (text[k] == '{')
+            open.push_back(k);
+        else if (text[k] == '}' && open.empty())
+            return {k, "closes a brace that it does not open"};
+        else if (text[k] == '}')
+            open.pop_back();
+        else if (std::string_view("$%&#").find(text[k]) != std::string_view::npos)
+            return {k, "has a character that no formula may have"};
+    }
+    return open.empty() ? LatexDefect{} : LatexDefect{open.back(), "opens a brace that it does not close"};
+}
+
+std::string read_latex(const TomlValue& value, const std::string& name)
+{
+    std::string text = read_text(value, fmt::format("the latex of '{}'", name));
+    const LatexDefect defect = latex_defect(text);
+    if (defect.at != std::string::npos)
+        throw ModelError(fmt::format("the latex of '{}' {}", name, defect.what),
+                         value.text.range(defect.at, defect.at + 1),
+                         "write it as it stands between two $ in LaTeX, for instance '\\dot{\\theta}_1'");
+    return text;
+}
+
 Symbol read_entry(const TomlEntry& entry)
 {
     TableReader table(entry.value, fmt::format("'{}' of [about]", entry.name()),
@@ -22,20 +58,19 @@ Symbol read_entry(const TomlEntry& entry)
     };
     take("text", about.text);
     take("unit", about.unit);
-    take("latex", about.latex);
+    if (const TomlEntry* latex = table.take("latex")) about.latex = read_latex(latex->value, entry.name());
     table.finish();
     return about;
 }
 
-/// The LaTeX of an entry: the family's, with the indices below. Braces keep a subscript of the family's own.
+/// The LaTeX of an entry: the family's, with the indices below.
 std::string entry_latex(const std::string& family, const std::string& name)
 {
     if (family.empty()) return {};
     const std::size_t open = name.find('[') + 1;
     std::string indices = name.substr(open, name.size() - 1 - open);
     if (indices.size() == 3) std::erase(indices, ','); // two digits need no comma
-    const bool plain = family.find_first_of("_^ ") == std::string::npos;
-    return fmt::format("{}_{{{}}}", plain ? family : "{" + family + "}", indices);
+    return with_below(family, indices);
 }
 
 /// What `about` says, for one of the symbols that its key names.

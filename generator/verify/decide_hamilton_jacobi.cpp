@@ -4,6 +4,9 @@
 #include "verify/claims.hpp"
 #include "verify/proof_setting.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 namespace lagen {
 
 void Claims::decide_hamilton_jacobi(StructureReport& structure, const Regularity& regularity)
@@ -27,6 +30,7 @@ void Claims::decide_hamilton_jacobi(StructureReport& structure, const Regularity
             if (!graph_.is_constant(node)) setting.defined.push_back(node);
     Judge judge(graph_, setting, accessory_inputs(system_), points_, judge_->decider().budget());
     const auto name_of = [&](std::size_t a) { return graph_.input_name(system_.algebroid.y[a]); };
+    std::vector<Check> checks;
     const auto append = [&](const char* name, std::vector<std::string> indices, NodeId value, ProofStatus& status) {
         if (graph_.is_zero(value)) {
             ++structure.trivial;
@@ -34,7 +38,7 @@ void Claims::decide_hamilton_jacobi(StructureReport& structure, const Regularity
         }
         Check check{name, std::move(indices), judge.decide(value), {}, judge.reevaluate(value)};
         status = both(status, check.decision.status);
-        structure.checks.push_back(std::move(check));
+        checks.push_back(std::move(check));
     };
     // Where nothing has terms there may still be no point at which the candidate is defined.
     const ProofStatus defined = judge.decide(graph_.constant(0)).status;
@@ -46,6 +50,11 @@ void Claims::decide_hamilton_jacobi(StructureReport& structure, const Regularity
     for (const NodeId value : nodes.lift)
         if (!graph_.is_zero(value)) report.lifts = both(report.lifts, judge.decide(value).status);
     if (nodes.action) report.action = both(defined, judge.decide(*nodes.action).status);
+    WhereConstant where = along_anchor();
+    std::vector<NodeId> functions = system_.hamilton_jacobi->alpha;
+    functions.insert(functions.end(), system_.hamilton_jacobi->parts.begin(), system_.hamilton_jacobi->parts.end());
+    say_where(where, functions, checks, {"hamilton_jacobi", {}, {}, {}, {}});
+    std::ranges::move(checks, std::back_inserter(structure.checks));
     if (defined != ProofStatus::proved)
         structure.checks.push_back({"hamilton_jacobi", {}, judge.decide(graph_.constant(0)), {}, {}});
 }

@@ -14,17 +14,18 @@ void Claims::decide_symmetries(StructureReport& structure)
         structure.checks.push_back(std::move(check));
     };
     const char* const rate = "the residual is the rate of the momentum p_a s^a along motions without forces";
+    WhereConstant where = along_anchor();
     for (const SymmetryClaim& claim : system_.symmetries) {
-        if (lagrangian_)
-            append({"symmetry",
-                    {claim.name},
-                    judge_->decide(lift_of_lagrangian(graph_, system_, *lagrangian_, claim.s)),
-                    {},
-                    {}},
-                   rate);
-        else if (system_.hamiltonian)
-            append({"symmetry", {claim.name}, judge_->decide(lift_of_hamiltonian(graph_, system_, claim.s)), {}, {}},
-                   rate);
+        if (lagrangian_ || system_.hamiltonian) {
+            const NodeId change = lagrangian_ ? lift_of_lagrangian(graph_, system_, *lagrangian_, claim.s)
+                                              : lift_of_hamiltonian(graph_, system_, claim.s);
+            Check check{"symmetry", {claim.name}, judge_->decide(change), {}, {}};
+            if (check.decision.status == ProofStatus::proved)
+                WhereConstant::restrict(
+                    check,
+                    where.of({contraction(graph_, lagrangian_ ? lagrangian_->fibre.momenta : system_.mu, claim.s)}));
+            append(std::move(check), rate);
+        }
         if (!system_.discrete || !system_.discrete->written) continue;
         const NodeId residual = lift_of_discrete_lagrangian(graph_, system_, claim.s);
         Check steps{

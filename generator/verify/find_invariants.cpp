@@ -46,15 +46,17 @@ class InvariantSearch {
     }
 
   private:
-    /// Factors of monomials: the momenta first, how many of them `momenta_` says.
+    /// Factors of monomials, none of them over t: the momenta first, how many of them `momenta_` says.
     [[nodiscard]] std::vector<NodeId> generators()
     {
         std::vector<NodeId> out = system_.mu;
         momenta_ = out.size();
         const NodeId only[] = {phase_.hamiltonian};
         std::set<NodeId> inside; // coordinates under functions of angles and the like
-        std::vector<NodeId> functions;
-        for (const NodeId node : reachable(graph_, only)) {
+        std::vector<NodeId> functions, parts;
+        for (const NodeId node : reachable(graph_, only))
+            if (!depends_on_any(graph_, std::vector{node}, std::vector{system_.time})) parts.push_back(node);
+        for (const NodeId node : parts) {
             const NodeId self[] = {node};
             if (depends_on_any(graph_, self, system_.mu) || !depends_on_any(graph_, self, system_.algebroid.x))
                 continue;
@@ -76,7 +78,7 @@ class InvariantSearch {
         const auto is_parameter = [&](NodeId node) {
             return !is_of(node, system_.mu) && !is_of(node, system_.algebroid.x) && is_of(node, system_.parameters);
         };
-        for (const NodeId node : reachable(graph_, only)) {
+        for (const NodeId node : parts) {
             const Op op = graph_.op(node);
             if (op != Op::divide && op != Op::multiply) continue;
             const NodeId a = graph_.operands(node)[0], b = graph_.operands(node)[1];

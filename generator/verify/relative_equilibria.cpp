@@ -35,6 +35,7 @@ const char* to_text(Stability stability)
 namespace {
 
 constexpr slong search_bits = 64;
+constexpr long near_bits = 20; ///< 1e-6, by which roots are told apart
 
 class EquilibriumFinder {
   public:
@@ -74,13 +75,14 @@ class EquilibriumFinder {
             return largest > 0 ? largest : 1.0;
         };
         const double sizes[] = {std::max(size(0, base), 2.0), size(base, n)}; // whole turns of angles
+        for (std::size_t i = 0; i < n; ++i) sizes_.push_back(sizes[i < base ? 0 : 1]);
         std::mt19937_64 random(search.seed);
         std::vector<Doubles> points{z0};
         for (std::size_t k = 0; k < search.starts; ++k) {
             Doubles& z = points.emplace_back();
             for (std::size_t i = 0; i < n; ++i) {
                 const double part = static_cast<double>(random() >> 11U) * 0x1p-53;
-                z.push_back(2 * (2 * part - 1) * sizes[i < base ? 0 : 1]);
+                z.push_back(2 * (2 * part - 1) * sizes_[i]);
             }
         }
         for (const Doubles& z : points)
@@ -248,21 +250,33 @@ class EquilibriumFinder {
         EquilibriumCertificate certificate(graph_, *energy_, out_.conserved, commuting_,
                                            [this](NodeId node) { return is_proved_zero(node); });
         const RelativeEquilibrium found = certificate.judged(z, lambda);
-        if (!is_new(found.z, found.energy)) return; // near a singular level the search ends less near
+        if (!found.certified && is_far(found.z)) return; // dH and dF may tend to zero at infinity
+        if (!is_new(found.z, found.energy)) return;      // near a singular level the search ends less near
         out_.found.push_back(found);
         std::map<std::string, double> inputs;
         for (std::size_t k = 0; k < n; ++k) inputs[graph_.input_name(out_.coordinates[k])] = out_.found.back().z[k];
         if (!cyclic_rates_.empty()) out_.found.back().cyclic = evaluate<double>(graph_, cyclic_rates_, inputs);
     }
 
+    /// With all that is as near as two roots that are told apart: a point of the boundary is outside.
     [[nodiscard]] bool is_in_domain(const Doubles& z) const
     {
-        std::map<std::string, double> inputs = start_;
-        for (std::size_t k = 0; k < z.size(); ++k) inputs[graph_.input_name(out_.coordinates[k])] = z[k];
+        proof::BallInputs inputs;
+        for (const auto& [node, value] : at_start_)
+            inputs.emplace(node, exact_balls({start_.at(graph_.input_name(node))})[0]);
         for (const auto& [parameter, value] : system_.parameter_values)
-            inputs[graph_.input_name(parameter)] = graph_.value(value).get_d();
-        return std::ranges::all_of(evaluate<double>(graph_, system_.domain, inputs),
-                                   [](double holds) { return holds != 0; });
+            inputs.emplace(parameter, Ball(graph_.value(value), search_bits));
+        for (std::size_t k = 0; k < z.size(); ++k)
+            inputs.insert_or_assign(out_.coordinates[k], proof::widened(exact_balls({z[k]})[0], near_bits));
+        return std::ranges::all_of(proof::Evaluation(graph_, system_.domain).enclose(inputs, search_bits),
+                                   &Ball::is_positive);
+    }
+
+    [[nodiscard]] bool is_far(const Doubles& z) const
+    {
+        for (std::size_t k = 0; k < z.size(); ++k)
+            if (std::fabs(z[k]) > 16 * sizes_[k]) return true;
+        return false;
     }
 
     /// One of each family: another energy, or other coordinates that no flow moves. What is not certified may be one of
@@ -294,6 +308,7 @@ class EquilibriumFinder {
     std::unique_ptr<ZeroDecider> decider_;
     std::size_t constraints_ = 0; ///< the first of the F are base constraints, which are 0
     std::vector<bool> is_angle_;  ///< of each coordinate, proved
+    Doubles sizes_;               ///< of the coordinates at the starts
     double slope_ = 0;            ///< the largest component of dH at the starts
     bool commuting_ = false;      ///< all {F_i, F_j} are proved to vanish
 };

@@ -47,9 +47,7 @@ std::vector<NodeId> work_defects(Graph& graph, const System& system)
         return defects;
     }
     const std::size_t horizontal = system.groupoid->horizontal(), m = along.size();
-    Replacements back;
-    for (const NodeId xi : discrete.inner) back.emplace_back(xi, graph.negate(xi));
-    const std::vector<NodeId> D = substitute(graph, discrete.logarithm->differential, back);
+    const std::vector<NodeId> D = reversed(graph, system, discrete.logarithm->differential); // over xi alone
     for (std::size_t k = 0; k < m; ++k)
         for (std::size_t c = 0; c < m; ++c)
             along[k] = graph.add(along[k], graph.multiply(D[c * m + k], defects[horizontal + c]));

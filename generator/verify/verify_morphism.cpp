@@ -216,11 +216,26 @@ class MorphismClaims {
         structure.verdict = verdict_of(structure);
         if (structure.verdict != Verdict::valid) return;
         const bool both = from_.lagrangian && to_.lagrangian;
+        const bool on_duals =
+            !both && !both_.is_constrained() &&
+            ((from_.hamiltonian && to_.hamiltonian) || (from_.control && to_.control && is_submersive()));
         const bool everywhere = report_.rank.surjective && report_.rank.where.empty(); // at every point
         const bool surjective = both_.is_constrained() ? reaches_all_ : everywhere;
-        report_.theorems.reduction = both && surjective;
-        report_.theorems.reconstruction = both && everywhere && report_.rank.injective;
+        report_.theorems.reduction = (both || on_duals) && surjective;
+        report_.theorems.reconstruction = (both || on_duals) && everywhere && report_.rank.injective;
+        report_.theorems.of_pulled_momenta = on_duals && !report_.theorems.reconstruction;
         report_.theorems.discrete = morphism_.of_groupoids && from_.discrete && to_.discrete && surjective;
+    }
+
+    /// Whether psi reaches all rates of the target's controls, so that dH'/du' vanishes where dH/du does.
+    [[nodiscard]] bool is_submersive()
+    {
+        const std::vector<NodeId>& u = from_.control->u;
+        std::vector<NodeId> slopes;
+        for (const std::vector<NodeId>& row : jacobian(graph_, morphism_.controls, u))
+            slopes.insert(slopes.end(), row.begin(), row.end());
+        const FibreRank rank = fibre_rank(graph_, slopes, morphism_.controls.size(), u.size(), judge_->decider());
+        return rank.surjective && rank.where.empty();
     }
 
     MappedSystems both_;

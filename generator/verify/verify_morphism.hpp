@@ -24,11 +24,13 @@
 
 namespace lagen {
 
-/// What follows from the claims.
+/// What follows from the claims. Of H and of control problems: along a solution (x, mu = Phi^* mu'), where x' = phi(x),
+/// H(x, Phi^* mu') = H'(x', mu') gives Phi dH/dmu = dH'/dmu' and, the map being a morphism, mudot = Phi^* mu'dot.
 struct MorphismTheorems {
-    bool reduction = false;      ///< solutions of the source project to solutions of the target
-    bool reconstruction = false; ///< admissible curves over solutions of the target are solutions of the source
-    bool discrete = false;       ///< arrows solve the discrete equations exactly where their images do
+    bool reduction = false;         ///< solutions of the source project to solutions of the target
+    bool of_pulled_momenta = false; ///< those of momenta Phi^* mu' alone
+    bool reconstruction = false;    ///< admissible curves over solutions of the target are solutions of the source
+    bool discrete = false;          ///< arrows solve the discrete equations exactly where their images do
 };
 
 /// Where the map is defined and takes its point into the target's domain.

@@ -8,6 +8,7 @@
 #include "verify/judge.hpp"
 #include "verify/proof_setting.hpp"
 #include "verify/reduced_fraction.hpp"
+#include "verify/where_constant.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -97,9 +98,14 @@ StructureReport verify_routh(Graph& graph, const System& system, const Routhian&
     const auto append = [&](const char* name, NodeId about, NodeId residual) -> Check& {
         return report.checks.emplace_back(Check{name, {name_of(about)}, judge.decide(residual), {}, {}});
     };
+    // The momenta are constant where they do not jump.
+    WhereConstant jumps(graph, setting, budget,
+                        [&](NodeId f) { return !depends_on_any(graph, std::vector{f}, setting.variables); });
+    WhereConstant::Conditions conditions = jumps.of(routhian.momenta);
+    for (const std::string& each : where)
+        if (std::ranges::find(conditions.texts, each) == conditions.texts.end()) conditions.texts.push_back(each);
     const auto append_at_velocities = [&](const char* name, NodeId about, NodeId residual) {
-        Check& check = append(name, about, residual);
-        if (check.decision.status == ProofStatus::proved) check.where = where;
+        WhereConstant::restrict(append(name, about, residual), conditions);
     };
 
     // On the level set: velocities Theta, and the accelerations that follow from them.

@@ -227,7 +227,7 @@ WhereConstant::Conditions WhereConstant::reaching(const std::vector<NodeId>& fun
 {
     conditions_.clear();
     obstacle_.clear();
-    for (const NodeId node : reachable(graph_, functions)) require_defined(node);
+    for (const NodeId node : reachable(graph_, functions)) require(node);
     for (const NodeId comparison : domain) {
         if (graph_.is_constant(comparison)) continue;
         const NodeId difference = condition_of(graph_, comparison);

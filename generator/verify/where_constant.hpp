@@ -35,7 +35,7 @@ class WhereConstant {
     /// `functions`: a function whose rate vanishes and what else must be defined of it; `divisors`: of its rate.
     [[nodiscard]] Conditions of(const std::vector<NodeId>& functions, const std::vector<NamedNode>& divisors = {});
 
-    /// Where the functions are defined (they may jump) and the comparisons `domain` hold.
+    /// Where the functions are defined and do not jump and the comparisons `domain` hold.
     [[nodiscard]] Conditions reaching(const std::vector<NodeId>& functions, const std::vector<NodeId>& domain);
 
     /// Of a check that is proved because the rate vanishes: `Check::where`. It becomes `undecided` where there is an

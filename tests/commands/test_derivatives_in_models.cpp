@@ -2,6 +2,9 @@
 /// Models that are written by Dt, by rates and by H = p.X, from the file to the numbers.
 #include "program.hpp"
 
+#include "support/golden.hpp"
+#include "support/json.hpp"
+
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -51,4 +54,29 @@ TEST_CASE("a body by its pose is pushed along its own axis while it turns about 
     CHECK(row[10] == Approx(1).epsilon(1e-10));              // x[1] = thrust t^2/(2m)
     CHECK(row[13] == Approx(std::exp(-2 * rate)).epsilon(1e-10));
     CHECK(row[16] == Approx(1).epsilon(1e-10)); // v[1] = thrust t/m
+}
+
+TEST_CASE("time that cancels is no explicit time: a hoop that turns steadily has equilibria", "[run]")
+{
+    const std::string hoop = fresh_folder() + "/hoop.toml";
+    write_text(hoop, R"toml([parameters]
+O = 2
+[base]
+coordinates = ["q"]
+[algebroid]
+kind = "tangent"
+[definitions]
+P = "[sin(q)*cos(O*t), sin(q)*sin(O*t), cos(q)]"
+[lagrangian]
+L = "dot(Dt(P), Dt(P))/2 + P[3]"
+[scene.default]
+initial = { q = 1, v_q = 0 }
+duration = 1
+)toml");
+    // cos q = 1/O^2
+    const lagen::json::Value found = lagen::json::parse(call({"linearize", hoop, "--format", "json"}).out);
+    CHECK(found["equilibrium"]["q"].number() == Approx(std::acos(0.25)).epsilon(1e-12));
+    CHECK(finished_run({hoop})["invariants"]["energy"]["max_drift"].number() < 1e-8L);
+    CHECK(call({"run", hoop}).out.find("not conserved") == std::string::npos);
+    CHECK(call({"generate", hoop}).out.find("power") == std::string::npos);
 }

@@ -11,14 +11,11 @@ using namespace lagen::testing;
 
 namespace {
 
-/// What two fresh processes print as equations of a model: of L, where a scheme makes a discrete Lagrangian of it that
-/// is not written out.
+/// What two fresh processes print as equations of a model.
 void check_equations(const std::string& name, const std::string& format)
 {
     INFO(name << " as " << format);
-    std::vector<std::string> arguments{"derive", name + ".toml", "--format", format};
-    if (read_text(LAGEN_SOURCE_DIR "/models/" + name + ".toml").find("\nscheme = ") != std::string::npos)
-        arguments.insert(arguments.end(), {"--form", "lagrange"});
+    const std::vector<std::string> arguments{"derive", name + ".toml", "--format", format};
     const Outcome first = call(arguments);
     CHECK(first.code == 0);
     CHECK(first.err.empty());

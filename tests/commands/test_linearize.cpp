@@ -143,6 +143,36 @@ TEST_CASE("inputs are held at what the scene gives at its start")
     CHECK(found["eigenvalues"][1][1].number() == Approx(std::sqrt(2.0)).epsilon(1e-15));
 }
 
+TEST_CASE("inputs made of parameters are exactly what these make them: a quadrotor hovers at m g/2")
+{
+    const std::string path = fresh_folder() + "/quadrotor.toml";
+    write_text(path, R"toml([parameters]
+m = 0.5
+g = 9.81
+[base]
+coordinates = ["y", "z", "phi"]
+[algebroid]
+kind = "tangent"
+[lagrangian]
+L = "m*(v_y^2 + v_z^2)/2 + 0.01*v_phi^2/2 - m*g*z"
+[inputs]
+"f[1..2]" = "m*g/2"
+[forces]
+v_y = "-(f[1] + f[2])*sin(phi)"
+v_z = "(f[1] + f[2])*cos(phi)"
+v_phi = "0.2*(f[1] - f[2])"
+[scene.default]
+initial = { z = 1, y = 0, phi = 0.1, v_y = 0, v_z = 0, v_phi = 0 }
+duration = 1
+)toml");
+    const json::Value found = linearised({path});
+    CHECK(found["inputs_moved"].text == "false");
+    CHECK(found["certified"].text == "true");
+    CHECK(found["equilibrium"]["phi"].text == "0");
+    CHECK(found["equilibrium"]["f[1]"].text == "2.4525");
+    CHECK(matrix_entry(found["A"], 3, 2) == -9.81L);
+}
+
 TEST_CASE("where they have no equilibrium they move as little as possible, and the text says so")
 {
     const json::Value found = linearised({"loaded.toml"});

@@ -53,9 +53,10 @@ TEST_CASE("a map that is not defined everywhere, or leaves the target's domain, 
                        line_of("Q", "domain = [\"Q > 0\"]\n[lagrangian]\nL = \"v_Q^2/2 + sqrt(Q^2)\"\n"), same);
     CHECK(kept.checked()["verdict"].text == "valid");
     CHECK(kept.checked()["domain"]["where"].texts() == std::vector<std::string>{"q > 0"});
-    CHECK(call({"check", kept.path()})
-              .out.find("  domain          where q > 0: there the map is defined and reaches the target's domain\n") !=
-          std::string::npos);
+    CHECK(
+        call({"check", kept.path()})
+            .out.find("  domain          where q > 0: there the map is continuous and reaches the target's domain\n") !=
+        std::string::npos);
 
     const LineMap logarithm(line_of("q", "[lagrangian]\nL = \"v_q^2/(2*q^2)\"\n"),
                             line_of("Q", "[lagrangian]\nL = \"v_Q^2/2\"\n"),
@@ -65,6 +66,43 @@ TEST_CASE("a map that is not defined everywhere, or leaves the target's domain, 
     const LineMap inside(line_of("q", "domain = [\"q > 1\"]\n[lagrangian]\nL = \"v_q^2/2\"\n"),
                          line_of("Q", "domain = [\"Q > 0\"]\n[lagrangian]\nL = \"v_Q^2/2\"\n"), same);
     CHECK_FALSE(inside.checked().has("domain"));
+}
+
+TEST_CASE("a map that jumps says where it does not")
+{
+    const LineMap turned(line_of("q", "[lagrangian]\nL = \"v_q^2/2\"\n"),
+                         line_of("Q", "[lagrangian]\nL = \"v_Q^2/2\"\n"),
+                         "base = { Q = \"q + atan2(q, -1) + atan(q)\" }\nfibre = { v_Q = \"v_q\" }\n");
+    CHECK(turned.checked()["verdict"].text == "valid");
+    CHECK(turned.checked()["domain"]["where"].texts() == std::vector<std::string>{"q != 0"});
+}
+
+TEST_CASE("what follows of maps between Hamiltonians and between control problems")
+{
+    const auto follows = [](const LineMap& map) { return map.checked()["follows"].texts(); };
+    using Names = std::vector<std::string>;
+    const std::string twice = "base = { Q = \"2*q\" }\nfibre = { v_Q = \"2*v_q\" }\n";
+    CHECK(follows({line_of("q", "[hamiltonian]\nH = \"p_v_q^2/2\"\n"),
+                   line_of("Q", "[hamiltonian]\nH = \"2*p_v_Q^2\"\n"), twice}) == Names{"reduction", "reconstruction"});
+    const auto control = [](const std::string& q, const std::string& u, const std::string& sigma) {
+        return line_of(q, "[control]\ncontrols = [\"" + u + "\"]\nsigma = { v_" + q + " = \"" + sigma +
+                              "\" }\ncost = \"" + u + "^2/2\"\n");
+    };
+    CHECK(follows({control("q", "u", "u"), control("Q", "w", "2*w"), twice + "controls = { w = \"u\" }\n"}) ==
+          Names{"reduction", "reconstruction"});
+    // dH/du = dH'/dw dw/du vanishes at u = 0 too, whatever H' is.
+    CHECK(follows({line_of("q", "[control]\ncontrols = [\"u\"]\nsigma = { v_q = \"u^3\" }\ncost = \"u^6/2\"\n"),
+                   control("Q", "w", "2*w"), twice + "controls = { w = \"u^3\" }\n"})
+              .empty());
+    // Not onto the momenta: those Phi* mu' alone.
+    const LineMap pressed("[base]\ncoordinates = [\"q\", \"r\"]\n[hamiltonian]\nH = \"(p_v_q^2 + p_v_r^2)/2\"\n",
+                          line_of("Q", "[hamiltonian]\nH = \"p_v_Q^2/2\"\n"),
+                          "base = { Q = \"q\" }\nfibre = { v_Q = \"v_q\" }\n");
+    CHECK(follows(pressed) == Names{"reduction"});
+    CHECK(call({"check", pressed.path()})
+              .out.find(
+                  "  reduction       solutions of the source with momenta Φ*μ' project to solutions of the target\n") !=
+          std::string::npos);
 }
 
 TEST_CASE("forces of Hamiltonian models are compared")

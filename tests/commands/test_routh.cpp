@@ -184,6 +184,20 @@ duration = 1
     CHECK(call({"reduce", whole, "--routh", "th", "--set", "k=2"}).code == 1);
 }
 
+TEST_CASE("a momentum that jumps is constant where it does not")
+{
+    const std::string whole = model_file("jumping.toml", R"toml([base]
+coordinates = ["x", "a"]
+[algebroid]
+kind = "tangent"
+[lagrangian]
+L = "v_x^2/2 + v_a^2/2 + v_a*abs(x)/x"
+)toml");
+    const Outcome outcome = call({"reduce", whole, "--routh", "a", "-o", fresh_folder() + "/reduced.toml"});
+    CHECK(outcome.code == 0);
+    CHECK(outcome.err.ends_with("\n  where x != 0\n"));
+}
+
 TEST_CASE(
     "a determinant that has velocities or the time stands in a comment, and one that algebra finds to be 0 is refused")
 {

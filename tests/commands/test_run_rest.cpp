@@ -158,7 +158,7 @@ scheme = "midpoint"
     // F^-L of AFF(1) by Cayley's map is bounded on the branch of 1; W of 1e18 has any momenta, to 1e-16 of N W.
     const Rest none = rest_of(line + scene);
     CHECK(none.value["status"].text == "no_solution");
-    CHECK(none.told.find("branch N") == std::string::npos);
+    CHECK(none.value["branches"].size() == 0);
     CHECK(none.told.find("e+1") == std::string::npos);
     CHECK(rest_of(line + scene, {"--step", "0.05", "--t-end", "0.2"}).value["status"].text == "ok");
     CHECK(rest_of(line + "retraction = \"exp\"\n" + scene).value["status"].text == "ok");

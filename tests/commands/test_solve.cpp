@@ -185,6 +185,24 @@ TEST_CASE("a circular orbit of Kepler's is one of a family that the rotations ma
     CHECK(circles[0]["multipliers"].entries[0].number() == Approx(0.8 / (0.64 * 0.64)).epsilon(1e-12));
 }
 
+TEST_CASE("neither the boundary of the domain nor infinity is an equilibrium")
+{
+    const auto of = [](const std::string& base, const std::string& L, const std::string& start) {
+        const std::string path = fresh_folder() + "/model.toml";
+        write_text(path, "[base]\n" + base + "[algebroid]\nkind = \"tangent\"\n[lagrangian]\nL = \"" + L +
+                             "\"\n[scene.default]\ninitial = { " + start + " }\n");
+        return equilibria_of({path});
+    };
+    const auto hoop = of("coordinates = [\"th\", \"ph\"]\ndomain = [\"sin(th) > 0\"]\n",
+                         "(v_th^2 + sin(th)^2*v_ph^2)/2 + v_ph^2/5 + 9*cos(th)", "th = 1, ph = 0, v_th = 0, v_ph = 4");
+    REQUIRE(hoop.size() == 1); // and not th = 0
+    CHECK(hoop[0]["state"]["th"].number() == Approx(0.987399350133L));
+    const auto orbit = of("coordinates = [\"r\", \"th\"]\ndomain = [\"r > 0\"]\n", "(v_r^2 + r^2*v_th^2)/2 + 1/r",
+                          "r = 1, th = 0, v_r = 0.1, v_th = 1");
+    REQUIRE(orbit.size() == 1); // dH tends to 0 far away
+    CHECK(orbit[0]["state"]["r"].number() == Approx(1));
+}
+
 TEST_CASE("a cyclic coordinate moves at a constant rate", "[run]")
 {
     const auto cones = equilibria_of({"spherical_pendulum.toml"});

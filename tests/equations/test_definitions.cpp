@@ -356,3 +356,31 @@ TEST_CASE("names that are used once are written out, and names of the model are 
     const std::string text = print_text(load_text(taken)("lagrange", Definitions::kept));
     CHECK(text.find("     I ẇ = -I_x_ u w\n") != std::string::npos);
 }
+
+TEST_CASE("places of joints are written out where sines and cosines leave little of them")
+{
+    const Elaborated derived = load_text(R"toml(
+[parameters]
+m1 = 1
+m2 = 1
+l1 = 1
+l2 = 0.8
+g = 9.81
+[base]
+coordinates = ["q1", "q2"]
+[algebroid]
+kind = "tangent"
+[definitions]
+P1 = "[l1*cos(q1), l1*sin(q1)]"
+P2 = "P1 + [l2*cos(q1 + q2), l2*sin(q1 + q2)]"
+[lagrangian]
+L = "m1*dot(Dt(P1), Dt(P1))/2 + m2*dot(Dt(P2), Dt(P2))/2 - m1*g*P1[2] - m2*g*P2[2]"
+)toml");
+    const std::string text = print_text(derived("lagrange", Definitions::kept));
+    INFO(text);
+    CHECK(text.find("  ṗ_v_q1 = -m2 l2 g cos(q1 + q2) - l1 g (m1 + m2) cos(q1)\n") != std::string::npos);
+    CHECK(text.find("P2") == std::string::npos);
+    const EquationSet hamilton = derived("hamilton", Definitions::kept);
+    const std::string where = print_text(hamilton);
+    CHECK(where.find("  W_v_q1_v_q2 = m2 l2 (l1 cos(q2) + l2)\n") != std::string::npos); // other names stay
+}

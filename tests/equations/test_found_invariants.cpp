@@ -90,6 +90,12 @@ TEST_CASE("where L has explicit time, invariants without t are found")
     CHECK(found_of_text(plane("t*x^2/2")) == Lines{"F1 = p_v"});
     CHECK(found_of_text(plane("cos(t)*(x^2 + y^2)")) == Lines{"F1 = x p_v - y p_u"});
     CHECK(found_of_text(plane("t*x*y")).empty());
+    // sin(O t) and its multiples are no factors of what is sought: their rates are not those of x and p alone.
+    const std::string turning = "[parameters]\nO = 2\n[base]\ncoordinates = [\"q\"]\n[fibre]\ncoordinates = [\"w\"]\n"
+                                "[algebroid]\nkind = \"tangent\"\n[definitions]\n"
+                                "P = \"[sin(q)*cos(O*t), sin(q)*sin(O*t), cos(q)]\"\n[lagrangian]\n";
+    CHECK(found_of_text(turning + "L = \"dot(Dt(P), Dt(P))/2\"\n").empty());
+    CHECK(found_of_text(turning + "L = \"dot(Dt(P), Dt(P))/2 + O*sin(O*t)*sin(q)*O*sin(O*t)*sin(q)\"\n").empty());
 }
 
 TEST_CASE("without a Hamiltonian in closed form or with forces none are sought")

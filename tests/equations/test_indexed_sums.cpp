@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Sums over indices of families in derived equations: equal to their terms, exact texts; what the model gives.
+#include "equations/written/index_pattern.hpp"
 #include "equations/written_blocks.hpp"
 
 using namespace lagen;
@@ -240,4 +241,15 @@ TEST_CASE("what the model gives stands before its equations")
     const EquationSet planets = of_file("models/outer_solar_system.toml");
     CHECK(block_text(planets, "claimed invariants") == "          momentum = Σ_{i=1..6} m[i] V[i,:]\n"
                                                        "  angular_momentum = Σ_{i=1..6} m[i] Q[i,:] × V[i,:]\n");
+}
+
+TEST_CASE("what is too large to be looked at stays as it is")
+{
+    std::vector<Tree> terms;
+    for (std::size_t k = 1; k <= 2000; ++k) terms.push_back(multiply({number(k), name("x[1]")}));
+    const Tree large = add(terms);
+    const std::vector<Tree> guesses = lifted(large, "i", 1, 0);
+    REQUIRE(guesses.size() == 1);
+    CHECK(to_text(guesses[0]) == to_text(large));
+    CHECK(lifted_patterns(large, "i").empty());
 }

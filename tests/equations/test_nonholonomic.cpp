@@ -75,7 +75,7 @@ equations of motion (acceleration form):  W_αβ ẏ^β = -P_a [e_α, Y]^a
 energy:  E = Y^a P_a - L
   E = m u²/2 + (m a² + J) w²/2
 
-energy balance:  Ė = Q_a Y^a - ∂L/∂t
+energy balance:  Ė = 0
   Ė = 0
 )text");
 }

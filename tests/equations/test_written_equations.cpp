@@ -104,7 +104,7 @@ TEST_CASE("families are written once, in LaTeX too")
     const EquationSet set = of_file("models/outer_solar_system.toml");
     CHECK(block_text(set, "equations of motion (acceleration form)") ==
           "  m[i] V̇[i,:] = -potential_Q[i,:]   (i = 1..6)\n");
-    CHECK(print_latex(set).find("p_{V,i:} &= m_{i}\\, V_{i:} \\qquad (i = 1, \\dots, 6)") != std::string::npos);
+    CHECK(print_latex(set).find("p_{V_{i:}} &= m_{i}\\, V_{i:} \\qquad (i = 1, \\dots, 6)") != std::string::npos);
     const EquationSet chain = of_text(R"toml(
 [sizes]
 n = 6

@@ -70,7 +70,7 @@ TEST_CASE("entries of a Hessian have their indices below them")
     const Model model =
         read_model(LAGEN_SOURCE_DIR "/models/chain.toml", {{"n", whole_text("--set", "3")}}, choosers());
     const std::string latex = print_latex(kept_equations(model, "hamilton"));
-    has(latex, "  W_{w_{1},w_{2}} &= ");
+    has(latex, "  W_{\\omega_{2},\\omega_{3}} &= ");
     CHECK(latex.find("]") == std::string::npos);
 }
 

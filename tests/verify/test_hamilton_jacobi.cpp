@@ -115,6 +115,18 @@ TEST_CASE("a closed section that is no differential is a candidate, and H o alph
     CHECK(candidate_statuses(leaves + "[hamilton_jacobi]\nalpha = { u = \"sin(x)\" }\n") == Names{is_so, fails, fails});
 }
 
+TEST_CASE("a candidate that jumps says where it holds")
+{
+    for (const char* candidate : {"alpha = { u = \"2 + abs(x)/x\" }\n", "S = \"2*x + abs(x)\"\n"}) {
+        INFO(candidate);
+        const Report report =
+            verified_text(moving_plane + "[lagrangian]\nL = \"(u^2 + v^2)/2\"\n[hamilton_jacobi]\n" + candidate);
+        CHECK(report.structure.verdict == Verdict::valid);
+        REQUIRE(!report.structure.checks.empty());
+        CHECK(report.structure.checks.back().where == std::vector<std::string>{"x != 0"});
+    }
+}
+
 TEST_CASE("forces push the momenta off the graph, and an L without closed velocities is undecided")
 {
     const std::string free = moving_plane + "[lagrangian]\nL = \"(u^2 + v^2)/2\"\n[forces]\nu = \"-u\"\n";

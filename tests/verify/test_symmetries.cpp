@@ -53,6 +53,21 @@ TEST_CASE("Kepler's problem is invariant under rotations and not under translati
     CHECK(symmetries_of(flat_plane(kepler, "u = 1")) == Lines{"symmetry(s) refuted"});
 }
 
+TEST_CASE("a symmetry whose momentum jumps says where it holds")
+{
+    const auto where_of = [](const std::string& L, const std::string& symmetry) {
+        std::vector<Lines> found;
+        for (const Check& check :
+             verified_text(flat_plane("[lagrangian]\nL = \"" + L + "\"\n", symmetry)).structure.checks)
+            if (check.name == "symmetry") found.push_back(check.where);
+        return found.at(0);
+    };
+    CHECK(where_of("(u^2 + v^2)/2", "u = \"2 + abs(x)/x\"") == Lines{"x != 0"});
+    CHECK(where_of("(u^2 + v^2)/2", "u = \"1 + atan2(x, -1) + atan(x)\"") == Lines{"x != 0"});
+    CHECK(where_of("(u^2 + v^2)/2 + v*abs(x)/x", "v = 1") == Lines{"x != 0"});
+    CHECK(where_of("(u^2 + v^2)/2", "u = \"-y\", v = \"x\"").empty());
+}
+
 TEST_CASE("a symmetry of H is one of its L")
 {
     const std::string H = "[hamiltonian]\nH = \"(p^2 + q^2)/2 - 1/sqrt(x^2 + y^2)\"\n";

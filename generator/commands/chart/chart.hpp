@@ -38,7 +38,7 @@ struct Chart {
     std::vector<double> times;   ///< of the samples
     std::string shortened;       ///< why it ends before the scene does; empty where it does not
     bool ended_by_event = false; ///< that is why
-    bool energy_changes = false; ///< forces or explicit time
+    bool energy_changes = false; ///< forces, explicit time, a drift of constraints or jumps
     std::vector<std::string> reference_methods;
     double reference_error = 0; ///< the largest distance of the two references, in the norm of the points
     std::string machine, compiler;

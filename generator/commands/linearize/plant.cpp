@@ -75,13 +75,29 @@ class PlantMaker {
         Lowering lower(out_.graph, form.binding);
         for (const Input& input : model_.inputs) {
             const auto given = std::ranges::find(scene_.inputs, input.symbol.name, &NamedTree::name);
-            const NodeId node[] = {lower(given != scene_.inputs.end() ? given->value : input.value)};
+            const Tree& tree = given != scene_.inputs.end() ? given->value : input.value;
+            const NodeId node[] = {lower(tree)};
             const double value = evaluate<double>(out_.graph, node, known)[0];
             if (!std::isfinite(value))
                 throw MathematicsError(fmt::format("the input '{}' is no finite number at the start of scene '{}'",
                                                    input.symbol.name, scene_.name));
             for (MotionPoint& each : out_.starts) each.inputs.push_back(value);
+            keep_rest(input, tree, node[0], value);
         }
+    }
+
+    /// An input of parameters alone is exactly what they make it: u + m g/2 - value stands for u, which is `value`.
+    void keep_rest(const Input& input, const Tree& tree, NodeId node, double value)
+    {
+        std::map<std::string, Rational> known;
+        for (const auto& [parameter, constant] : system_.parameter_values)
+            known[out_.graph.input_name(parameter)] = out_.graph.value(constant);
+        const std::vector<std::string> names = names_in(tree);
+        if (!std::ranges::all_of(names, [&](const std::string& name) { return known.contains(name); })) return;
+        const std::vector<Rational> exact = evaluate_exactly(out_.graph, std::vector{node}, known);
+        if (exact.empty() || exact[0] == Rational(value)) return;
+        const NodeId u = out_.graph.input(input.symbol.name);
+        rests_.emplace_back(u, out_.graph.add(u, out_.graph.constant(exact[0] - Rational(value))));
     }
 
     /// Without inputs; by names what is known there.
@@ -132,7 +148,7 @@ class PlantMaker {
     void insert_parameters()
     {
         const auto insert = [this](std::vector<NodeId>& nodes) {
-            nodes = substitute(out_.graph, nodes, system_.parameter_values);
+            nodes = substitute(out_.graph, substitute(out_.graph, nodes, system_.parameter_values), rests_);
         };
         insert(out_.equations.rates);
         insert(out_.equations.constraints);
@@ -158,6 +174,7 @@ class PlantMaker {
     const Scene& scene_;
     SceneValues values_;
     Plant out_;
+    Replacements rests_; ///< of inputs that are no floating-point numbers
 };
 
 } // namespace

@@ -127,7 +127,9 @@ bool takes(const std::string& text, const std::vector<std::string>& arguments)
     std::vector<std::string> command = compile_command();
     command.insert(command.end(), {scratch.file("look.cpp"), "-o", scratch.file("look")});
     command.insert(command.end(), arguments.begin(), arguments.end());
-    return run_process(command).exit_code == 0;
+    const ProcessResult result = run_process(command);
+    if (result.interrupted) throw Error(ExitCode::interrupted, "lagen: interrupted while compiling");
+    return result.exit_code == 0;
 }
 
 } // namespace

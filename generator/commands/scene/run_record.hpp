@@ -17,7 +17,7 @@ struct RunRecord {
     std::string program;               ///< path of the executable
     std::vector<std::string> warnings; ///< of the model
     TableNames names;
-    bool energy_changes = false; ///< forces or explicit time
+    bool energy_changes = false; ///< forces, explicit time, a drift of constraints or jumps
     bool searches = false;       ///< controls are searched for, and followed
     /// What was decided of d2L/dy2 for `decided_for`, in a line; empty where it was decided for all values.
     std::string regularity;

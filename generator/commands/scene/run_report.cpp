@@ -80,14 +80,13 @@ std::string brief(const std::string& number, int digits)
 
 bool changes_by_itself(const RunOutcome& outcome, const Drift& drift)
 {
-    return outcome.energy_changes && (drift.name == "energy" || drift.name == "hamiltonian");
+    return outcome.energy_changes && is_energy(drift);
 }
 
 /// Whether the equations keep it. The energy of discrete motions, -dL/dh, swings.
 bool is_exact(const RunOutcome& outcome, const Drift& drift)
 {
-    const bool energy = drift.name == "energy" || drift.name == "hamiltonian";
-    return !energy || !(outcome.energy_changes || form_named(outcome.form).steps);
+    return !changes_by_itself(outcome, drift) && !(is_energy(drift) && form_named(outcome.form).steps);
 }
 
 std::string slope_json(const Drift& drift)
@@ -158,7 +157,7 @@ std::string figures_text(const RunOutcome& outcome)
                 text += fmt::format(
                     "  {}: {} at the start, largest drift {} at t = {}{}{}\n", drift.name, brief(drift.initial, 9),
                     brief(drift.max_drift, 3), brief(drift.time, 6), slope_text(drift),
-                    changes_by_itself(outcome, drift) ? " (not conserved: forces or explicit time)" : "");
+                    changes_by_itself(outcome, drift) ? " (not conserved: forces, time, a drift or jumps)" : "");
         }
     for (const Drift& drift : outcome.constraints)
         text += fmt::format("  {} = 0: at most {} off at t = {}{}\n", drift.name, brief(drift.max_drift, 3),
@@ -302,6 +301,11 @@ const char* start_hint(const RunOutcome& outcome)
 }
 
 } // namespace
+
+bool is_energy(const Drift& drift)
+{
+    return drift.name == "energy" || drift.name == "hamiltonian";
+}
 
 bool succeeded(const std::string& status)
 {

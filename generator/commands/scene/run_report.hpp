@@ -32,6 +32,9 @@ struct Drift {
     std::string size{}, moved_at{}; ///< of f, and when it first moved by more than 1e-3 of that
 };
 
+/// Whether it is followed without being claimed: E, or H.
+[[nodiscard]] bool is_energy(const Drift& drift);
+
 /// The action over a run, its first variations as their two parts, its second variations, and for each the square of a
 /// bound of the integrals of |term| of the terms of the first variation. Numbers as printed.
 struct ActionReport {
@@ -61,7 +64,7 @@ struct RunOutcome {
     std::string manifold, manifold_time; ///< largest distance from it, where there are constraints
     std::optional<ActionReport> action{};
     std::vector<std::string> left_out{}; ///< claims and first-order states that have no value in the form
-    bool energy_changes = false;         ///< forces or explicit time: the energy is not conserved
+    bool energy_changes = false;         ///< forces, explicit time, a drift or jumps: the energy is not conserved
     Table table;
 };
 

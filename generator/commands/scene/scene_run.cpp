@@ -56,6 +56,8 @@ RunOutcome SceneRun::integrate()
     for (const std::string& lane : record().names.lanes) outcome.state.emplace_back(lane, "");
     outcome.left_out = names_without_values(checked_.model, form_);
     integrate_scene(record().program, input_, outcome);
+    if (is_nonholonomic(checked_.model) && outcome.energy_changes) // reactions and drifts work on it: no invariant
+        std::erase_if(outcome.invariants, is_energy);
     call_walls(outcome);
     if (!options_.has("bind") && !is_branch_missing(outcome))
         outcome.largest_step = largest_step(checked_.model, scene_, record().program, input_, *start_, outcome);

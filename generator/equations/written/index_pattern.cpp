@@ -49,6 +49,7 @@ std::optional<IndexPattern> common_pattern(const Tree& a, const IndexShape& firs
 std::vector<Tree> lifted(const Tree& tree, const std::string& letter, long value, std::size_t place)
 {
     const IndexShape shape = shape_of(tree);
+    if (shape.form.empty()) return {tree}; // too large to be looked at
     std::vector<std::vector<std::string>> choices{texts_of(shape)};
     for (std::size_t k = 0; k < shape.slots.size(); ++k) {
         const IndexSlot& slot = shape.slots[k];

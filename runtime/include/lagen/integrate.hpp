@@ -22,6 +22,7 @@
 #include "lagen/integrate/tsit5.hpp"
 #include "lagen/integrate/verner.hpp"
 #include "lagen/ode.hpp"
+#include "lagen/print_status.hpp"
 #include "lagen/variational/arrows.hpp"
 #include "lagen/variational/composition.hpp"
 #include "lagen/variational/discrete.hpp"

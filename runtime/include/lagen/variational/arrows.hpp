@@ -55,8 +55,7 @@ class ArrowSearch {
     /// Distances are those from the arrow that the one in s leads to, or from the one in s itself.
     [[nodiscard]] std::vector<FoundArrow<M>> found(bool from_given = false)
     {
-        length_ = natural_length();
-        scale_ = natural_scale();
+        measure_start();
         if (std::optional<FoundArrow<M>> first = arrow_from(start_)) {
             if (!from_given) {
                 predictor_ = first->state;
@@ -89,28 +88,24 @@ class ArrowSearch {
         return scales * sum;
     }
 
-    /// Of Newton's step from the start along x_next; 1 where there is none.
-    [[nodiscard]] Scalar natural_length() const
+    /// The length of Newton's step from the start along x_next, 1 where there is none; the size of the given momenta
+    /// and of those of arrows of this length, or turned by 1.
+    void measure_start()
     {
         using std::abs;
         Column R;
         Square N;
         model_.arrow_equation(t_, start_, R, N);
-        if (eliminate(N, R) == 0 || !R.allFinite()) return Scalar(1);
-        Scalar most(0);
-        for (int i = 0; i < Lanes::horizontal; ++i) most = std::max<Scalar>(most, abs(R[i]));
-        return most > Scalar(0) ? most : Scalar(1);
-    }
-
-    /// Of momenta: of the given ones and of those of arrows of this length, or turned by 1.
-    [[nodiscard]] Scalar natural_scale() const
-    {
-        Column R;
-        Square N;
-        model_.arrow_equation(t_, start_, R, N);
+        Column step = R;
+        Square decomposed = N;
+        if (eliminate(decomposed, step) != 0 && step.allFinite()) {
+            Scalar most(0);
+            for (int i = 0; i < Lanes::horizontal; ++i) most = std::max<Scalar>(most, abs(step[i]));
+            if (most > Scalar(0)) length_ = most;
+        }
         Column lengths = Column::Ones();
         lengths.template head<Lanes::horizontal>().setConstant(length_);
-        return (R.cwiseAbs() + sizes_of_terms<M>(N, lengths, start_)).maxCoeff();
+        scale_ = (R.cwiseAbs() + sizes_of_terms<M>(N, lengths, start_)).maxCoeff();
     }
 
     void look_around(const State& arrow)

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// LaTeX symbols from identifiers.
-#include "emit/print_equations_names.hpp"
+#include "notation/latex_names.hpp"
+
+#include "expression/symbol.hpp"
 
 #include <algorithm>
-#include <set>
+#include <utility>
 
 namespace lagen {
 namespace {
@@ -34,6 +36,15 @@ bool is_digit(char c)
     return c >= '0' && c <= '9';
 }
 
+/// Null: none begins there.
+const GreekLetter* greek_letter_at(std::string_view text, std::size_t at)
+{
+    const auto found = std::find_if(std::begin(greek_letters), std::end(greek_letters), [&](const GreekLetter& entry) {
+        return text.substr(at).starts_with(entry.letter);
+    });
+    return found == std::end(greek_letters) ? nullptr : found;
+}
+
 /// A word without digits or '_'.
 std::string word(const std::string& text)
 {
@@ -43,13 +54,15 @@ std::string word(const std::string& text)
     if (ascii) return text.size() == 1 ? text : "\\mathit{" + text + "}";
     std::string latex;
     for (std::size_t k = 0; k < text.size();) {
-        const auto found =
-            std::find_if(std::begin(greek_letters), std::end(greek_letters), [&](const GreekLetter& entry) {
-                return text.compare(k, std::string_view(entry.letter).size(), entry.letter) == 0;
-            });
-        if (found != std::end(greek_letters)) {
-            latex += std::string(latex.empty() ? "" : " ") + found->latex;
+        if (const GreekLetter* found = greek_letter_at(text, k)) {
             k += std::string_view(found->letter).size();
+            std::string letter = found->latex;
+            for (const auto& [mark, command] : {std::pair("̇", "\\dot{"), std::pair("̈", "\\ddot{")})
+                if (std::string_view(text).substr(k).starts_with(mark)) {
+                    letter = command + letter + "}";
+                    k += std::string_view(mark).size();
+                }
+            latex += (latex.empty() ? "" : " ") + letter;
             continue;
         }
         std::size_t end = k + 1;
@@ -60,25 +73,13 @@ std::string word(const std::string& text)
     return latex;
 }
 
-/// Body and subscript of an identifier; the subscript may be empty.
-struct Parts {
-    std::string body;
-    std::string subscript;
-};
-
-std::string subscripted(const Parts& parts)
-{
-    return parts.subscript.empty() ? parts.body : parts.body + "_{" + parts.subscript + "}";
-}
-
 /// \gamma_{1,more} of \gamma_{1}.
 std::string with_subscript(const std::string& latex, const std::string& more)
 {
     const std::size_t open = latex.find("_{");
     if (open != std::string::npos && latex.find('}', open) == latex.size() - 1)
         return latex.substr(0, latex.size() - 1) + "," + more + "}";
-    const bool plain = latex.find_first_of("_^ ") == std::string::npos;
-    return (plain ? latex : "{" + latex + "}") + "_{" + more + "}";
+    return with_below(latex, more);
 }
 
 bool is_letter(char c)
@@ -124,15 +125,48 @@ std::vector<std::string> pieces_of(const std::string& name)
     return pieces;
 }
 
+/// A name as it is, in a formula.
+std::string spelled_out(const std::string& name)
+{
+    std::string latex = escape_latex(name);
+    std::erase(latex, '$'); // around Greek letters; no name has one
+    return "\\mathit{" + latex + "}";
+}
+
 constexpr std::string_view next = "_next";   ///< of a coordinate, of an arrow one step on
 constexpr std::string_view transposed = "ᵀ"; ///< of a matrix in written equations
+constexpr std::string_view variation = "δ";  ///< of a coordinate, of a momentum
+constexpr std::string_view second = "δ²";    ///< of a Lagrangian
 constexpr const char* transposed_latex = "^{\\mathsf{T}}";
+constexpr const char* variation_latex = "\\delta ";
+constexpr const char* second_latex = "\\delta^{2} ";
 
-Parts split(const std::string& name)
+/// What is varied: "x" of "δx"; nothing of "δ", "δ_1" and "δ[1]", which are names of their own.
+std::string varied_name(const std::string& name, std::string_view mark)
+{
+    const bool more = name.starts_with(mark) && name.size() > mark.size();
+    return more && std::string_view("_[0123456789").find(name[mark.size()]) == std::string_view::npos
+               ? name.substr(mark.size())
+               : "";
+}
+
+} // namespace
+
+std::string LatexNames::subscripted(const Parts& parts)
+{
+    return parts.subscript.empty() ? parts.body : parts.body + "_{" + parts.subscript + "}";
+}
+
+/// What stands behind a '_' and is the name of another quantity has its LaTeX.
+LatexNames::Parts LatexNames::split(const std::string& name) const
 {
     Parts parts;
     if (name.ends_with(transposed))
         return {subscripted(split(name.substr(0, name.size() - transposed.size()))) + transposed_latex, ""};
+    const std::size_t first = name.find('_', 1);
+    const std::string rest = first == std::string::npos ? "" : name.substr(first + 1);
+    if (indices_begin(rest) == rest.find('[') && known_.contains(rest.substr(0, rest.find('['))))
+        return {subscripted(split(name.substr(0, first))), symbol(rest)}; // p_v_x is the momentum of v_x
     const std::size_t open = indices_begin(name);
     if (open != std::string::npos && name.find('[') == open) { // the only ones
         parts = split(name.substr(0, open));
@@ -141,8 +175,8 @@ Parts split(const std::string& name)
     }
     for (const std::string& piece : pieces_of(name)) {
         std::string inner;
-        if (indices_begin(piece) != std::string::npos && !parts.body.empty()) {
-            inner = subscripted(split(piece));
+        if (!parts.body.empty() && (indices_begin(piece) != std::string::npos || !given(piece).empty())) {
+            inner = symbol(piece);
         } else {
             std::size_t digits = piece.size();
             while (digits > 0 && is_digit(piece[digits - 1])) --digits;
@@ -158,11 +192,9 @@ Parts split(const std::string& name)
         if (!inner.empty()) parts.subscript += (parts.subscript.empty() ? "" : ",") + inner;
     }
     if (name.ends_with('_')) parts.subscript += "\\_"; // another quantity than the name without it
-    if (parts.body.empty()) return {"\\mathit{" + escape_latex(name) + "}", ""};
+    if (parts.body.empty()) return {spelled_out(name), ""};
     return parts;
 }
-
-} // namespace
 
 LatexNames::LatexNames(const std::vector<SymbolText>& symbols)
 {
@@ -170,30 +202,37 @@ LatexNames::LatexNames(const std::vector<SymbolText>& symbols)
     for (const SymbolText& symbol : symbols) {
         if (!symbol.latex.empty()) given_.emplace(symbol.name, symbol.latex);
         const std::size_t open = indices_begin(symbol.name);
+        known_.insert(symbol.name.substr(0, open));
         if (open == std::string::npos) continue;
-        const std::string indices = "_{" + entry_indices(symbol.name) + "}";
-        const std::size_t at = symbol.latex.find(indices);
         const std::string stem = symbol.name.substr(0, open);
-        if (at == std::string::npos) {
-            uneven.insert(stem);
-            continue;
-        }
-        const FamilyLatex latex{symbol.latex.substr(0, at), symbol.latex.substr(at + indices.size())};
-        if (families_.emplace(stem, latex).first->second != latex) uneven.insert(stem);
+        const std::optional<FamilyLatex> latex = family_of(symbol.latex, entry_indices(symbol.name));
+        if (!latex || families_.emplace(stem, *latex).first->second != *latex) uneven.insert(stem);
     }
     for (const std::string& stem : uneven) families_.erase(stem);
     tell_apart(symbols);
 }
 
-/// k1 beside k[1], whose LaTeX is k_{1}, is spelled out.
+std::optional<LatexNames::FamilyLatex> LatexNames::family_of(const std::string& latex, const std::string& indices)
+{
+    for (const std::string opens : {"_{", ","})
+        if (const std::size_t at = latex.find(opens + indices + "}"); at != std::string::npos)
+            return FamilyLatex{latex.substr(0, at), opens, latex.substr(at + opens.size() + indices.size() + 1)};
+    return {};
+}
+
+/// k1 beside k[1], whose LaTeX is k_{1}, is spelled out; and the second of two that [about] gives the same.
 void LatexNames::tell_apart(const std::vector<SymbolText>& symbols)
 {
     std::map<std::string, std::string> names;
-    for (const bool entries : {true, false})
-        for (const SymbolText& each : symbols)
-            if ((indices_begin(each.name) != std::string::npos) == entries &&
-                names.emplace(symbol(each.name), each.name).first->second != each.name && each.latex.empty())
-                given_.emplace(each.name, "\\mathit{" + escape_latex(each.name) + "}");
+    for (const bool given : {true, false})
+        for (const bool entries : {true, false})
+            for (const SymbolText& each : symbols) {
+                const std::size_t open = indices_begin(each.name);
+                if (each.latex.empty() == given || (open != std::string::npos) != entries) continue;
+                if (names.emplace(symbol(each.name), each.name).first->second == each.name) continue;
+                given_.insert_or_assign(each.name, spelled_out(each.name));
+                if (open != std::string::npos) families_.erase(each.name.substr(0, open));
+            }
 }
 
 /// Of an entry or, without indices, of the whole family.
@@ -202,8 +241,10 @@ std::string LatexNames::family_symbol(const std::string& name) const
     const std::size_t open = indices_begin(name);
     const auto family = families_.find(name.substr(0, open));
     if (family == families_.end()) return {};
-    const std::string indices = open == std::string::npos ? "" : "_{" + entry_indices(name) + "}";
-    return family->second.before + indices + family->second.after;
+    const auto& [before, opens, after] = family->second;
+    const bool own = opens == "_{"; // a subscript of the indices alone
+    if (open == std::string::npos) return before + (own ? "" : "}") + after;
+    return before + opens + entry_indices(name) + "}" + after;
 }
 
 std::string LatexNames::given(const std::string& name) const
@@ -219,6 +260,8 @@ std::string LatexNames::given(const std::string& name) const
         const std::string latex = given(stem.substr(0, stem.size() - next.size()) + name.substr(open));
         return latex.empty() ? latex : with_subscript(latex, "\\mathit{next}");
     }
+    if (const std::string twice = varied_name(name, second); !twice.empty()) return second_latex + symbol(twice);
+    if (const std::string once = varied_name(name, variation); !once.empty()) return variation_latex + symbol(once);
     return family_symbol(name);
 }
 
@@ -232,6 +275,7 @@ std::string LatexNames::dotted(const std::string& name) const
 {
     if (const std::string latex = given(name); !latex.empty()) {
         if (latex.starts_with("\\dot") && latex.size() > 4 && !is_letter(latex[4])) return "\\ddot" + latex.substr(4);
+        if (latex.starts_with(variation_latex)) return "\\frac{d}{dt} " + latex;
         const std::size_t letter = letter_before_subscript(latex);
         if (letter == 0) return "\\dot{" + latex + "}";
         return "\\dot{" + latex.substr(0, letter) + "}" + latex.substr(letter);
@@ -249,7 +293,13 @@ std::string LatexNames::raisable(const std::string& name) const
 std::string escape_latex(std::string_view text)
 {
     std::string escaped;
-    for (const char c : text) {
+    for (std::size_t k = 0; k < text.size(); ++k) {
+        if (const GreekLetter* greek = greek_letter_at(text, k)) {
+            escaped += std::string("$") + greek->latex + "$";
+            k += std::string_view(greek->letter).size() - 1;
+            continue;
+        }
+        const char c = text[k];
         switch (c) {
         case '\\': escaped += "\\textbackslash{}"; break;
         case '^': escaped += "\\textasciicircum{}"; break;
