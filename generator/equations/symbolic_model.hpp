@@ -3,6 +3,7 @@
 /// brought to its own shortest form, in an order and with signs of our own, so that the text is the same on every run.
 #pragma once
 
+#include "equations/formula_term.hpp"
 #include "equations/kept_symbols.hpp"
 #include "equations/label_casimirs.hpp"
 #include "mechanics/written_algebroid.hpp"
@@ -25,16 +26,6 @@ struct Group {
     std::string label;
     GiNaC::ex value;
 };
-
-/// A group of terms in the formula over a block: its label, which begins with '-' where it is subtracted, and LaTeX for
-/// the same.
-struct FormulaTerm {
-    std::string label, latex;
-};
-
-/// Appends " = " and the groups to the block's formula, the left side so far: those that occur in its equations, or 0
-/// where none does.
-void append_right_side(EquationBlock& block, const std::vector<FormulaTerm>& terms);
 
 class SymbolicModel {
   public:

@@ -170,7 +170,7 @@ duration = 1
     CHECK(found["certified"].text == "true");
     CHECK(found["equilibrium"]["phi"].text == "0");
     CHECK(found["equilibrium"]["f[1]"].text == "2.4525");
-    CHECK(matrix_entry(found["A"], 3, 2) == -9.81L);
+    CHECK(matrix_entry(found["A"], 3, 2) == Approx(-9.81));
 }
 
 TEST_CASE("where they have no equilibrium they move as little as possible, and the text says so")
