@@ -9,6 +9,7 @@ namespace lagen {
 
 void Claims::decide_symmetries(StructureReport& structure)
 {
+    if (system_.symmetries.empty()) return;
     const auto append = [&](Check check, const char* hint) {
         if (check.decision.status == ProofStatus::refuted) check.hint = hint;
         structure.checks.push_back(std::move(check));
