@@ -53,7 +53,8 @@ void Claims::decide_hamilton_jacobi(StructureReport& structure, const Regularity
     WhereConstant where = along_anchor();
     std::vector<NodeId> functions = system_.hamilton_jacobi->alpha;
     functions.insert(functions.end(), system_.hamilton_jacobi->parts.begin(), system_.hamilton_jacobi->parts.end());
-    say_where(where, functions, checks, {"hamilton_jacobi", {}, {}, {}, {}});
+    if (where.of(functions).obstacle.empty()) // what is proved is proved of each point where alpha is defined
+        say_where(where, functions, checks, {"hamilton_jacobi", {}, {}, {}, {}});
     std::ranges::move(checks, std::back_inserter(structure.checks));
     if (defined != ProofStatus::proved)
         structure.checks.push_back({"hamilton_jacobi", {}, judge.decide(graph_.constant(0)), {}, {}});

@@ -21,10 +21,10 @@ void Claims::decide_symmetries(StructureReport& structure)
             const NodeId change = lagrangian_ ? lift_of_lagrangian(graph_, system_, *lagrangian_, claim.s)
                                               : lift_of_hamiltonian(graph_, system_, claim.s);
             Check check{"symmetry", {claim.name}, judge_->decide(change), {}, {}};
+            const NodeId momentum = contraction(graph_, lagrangian_ ? lagrangian_->fibre.momenta : system_.mu, claim.s);
             if (check.decision.status == ProofStatus::proved)
-                WhereConstant::restrict(
-                    check,
-                    where.of({contraction(graph_, lagrangian_ ? lagrangian_->fibre.momenta : system_.mu, claim.s)}));
+                if (WhereConstant::Conditions found = where.of({momentum}); found.obstacle.empty())
+                    check.where = std::move(found.texts);
             append(std::move(check), rate);
         }
         if (!system_.discrete || !system_.discrete->written) continue;

