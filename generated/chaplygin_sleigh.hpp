@@ -41,7 +41,7 @@
 ///   energy:  E = Y^a P_a - L
 ///     E = m u²/2 + (m a² + J) w²/2
 ///
-///   energy balance:  Ė = Q_a Y^a - ∂L/∂t
+///   energy balance:  Ė = 0
 ///     Ė = 0
 ///
 /// Operations (with shared terms computed once; "written out" without sharing):

@@ -49,7 +49,7 @@
 ///   energy:  E = Y^a P_a - L
 ///     E = m l² q² cos²(ph)/2 + Jr a²/2 + Jr a q sin(ph) + Jw b² - kr cos(ps) + kr + kf ph²/2 + (J + Jr) q² sin²(ph)/2
 ///
-///   energy balance:  Ė = Q_a Y^a - ∂L/∂t
+///   energy balance:  Ė = 0
 ///     Ė = 0
 ///
 /// Operations (with shared terms computed once; "written out" without sharing):

@@ -34,7 +34,7 @@
 ///   energy:  E = Y^a P_a - L
 ///     E = I11 w1²/2 + I22 w2²/2 + I12 w1 w2
 ///
-///   energy balance:  Ė = Q_a Y^a - ∂L/∂t
+///   energy balance:  Ė = 0
 ///     Ė = 0
 ///
 /// Operations (with shared terms computed once; "written out" without sharing):

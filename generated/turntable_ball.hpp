@@ -36,7 +36,7 @@
 ///     p_v = m v - J Om x/r² + J v/r²
 ///     p_n = J n
 ///
-///   equations of motion (momentum form):  ṗ_α = ρ(e_α)(l) - P_a [e_α, Y]^a + P_a ∂A_α^a/∂t + Q_α,  P_a = ∂L/∂Y^a
+///   equations of motion (momentum form):  ṗ_α = 0,  P_a = ∂L/∂Y^a
 ///     ṗ_u = 0
 ///     ṗ_v = 0
 ///     ṗ_n = 0

@@ -42,7 +42,7 @@
 ///   energy:  E = Y^a P_a - L
 ///     E = J v_ph²/2 + k x²/2 + k y²/2 + (m R² + Ir) v_th²/2
 ///
-///   energy balance:  Ė = Q_a Y^a - ∂L/∂t
+///   energy balance:  Ė = 0
 ///     Ė = 0
 ///
 /// Operations (with shared terms computed once; "written out" without sharing):
