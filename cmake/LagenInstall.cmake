@@ -21,7 +21,8 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/lagenConfigVersion.cmake 
 install(FILES ${PROJECT_BINARY_DIR}/lagenConfig.cmake ${PROJECT_BINARY_DIR}/lagenConfigVersion.cmake
               cmake/LagenGenerate.cmake DESTINATION ${LAGEN_INSTALL_CMAKE})
 
-install(DIRECTORY runtime/include/lagen DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
+install(DIRECTORY runtime/include/lagen DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h"
+  PATTERN "README.md")
 if(TARGET lagen)
   install(DIRECTORY runtime/program/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lagen/program FILES_MATCHING PATTERN "*.hpp")
   install(DIRECTORY python/lagen DESTINATION ${LAGEN_INSTALL_PYTHON} FILES_MATCHING PATTERN "*.py" PATTERN __pycache__ EXCLUDE)

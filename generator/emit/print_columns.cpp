@@ -99,7 +99,7 @@ std::vector<std::string> print_columns(TextBlock& out, const KernelModule& modul
     const std::string known = fmt::format("std::array<S, {}>", sweep.known.size());
     const std::string point = kernel.name + "_point", columns = kernel.name + "_sweep";
     const auto add = [&](const Body& body) { includes.merge(includes_of(body)); };
-    includes.insert("lagen/columns.hpp");
+    includes.insert("lagen/lanes/columns.hpp");
 
     const Body before =
         write_body({*module.graph, names.locals, sweep.known, {}, names.moving, Checking::none, {}, longest_part});

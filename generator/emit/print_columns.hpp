@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Kernels that are computed by columns, as a Jacobian is of directional derivatives: what is free of the direction
-/// once (NAME_point), the rest for several unit vectors at a time (NAME_sweep), by runtime/include/lagen/columns.hpp.
+/// once (NAME_point), the rest for several unit vectors at a time (NAME_sweep), by
+/// runtime/include/lagen/lanes/columns.hpp.
 #pragma once
 
 #include "emit/print_function.hpp"

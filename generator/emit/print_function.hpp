@@ -29,7 +29,7 @@ struct FunctionRequest {
 };
 
 /// For the documentation of a function with groups of terms.
-inline constexpr const char* about_terms = "v0, v1, ..: terms that are alike, a lane each (lagen/terms.hpp).";
+inline constexpr const char* about_terms = "v0, v1, ..: terms that are alike, a lane each (lagen/lanes/terms.hpp).";
 
 [[nodiscard]] bool reads(const Body& body, NodeId id);
 [[nodiscard]] bool reads(const Body& body, const KernelInput& input);

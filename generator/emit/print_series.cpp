@@ -81,7 +81,7 @@ class SeriesPrinter {
         close_block(out_);
         Includes includes = includes_of(body);
         includes.insert("lagen/series.hpp");
-        if (!term_sums_.empty()) includes.insert("lagen/terms.hpp");
+        if (!term_sums_.empty()) includes.insert("lagen/lanes/terms.hpp");
         return includes;
     }
 

@@ -246,7 +246,7 @@ std::set<std::string> includes_of(const Body& body)
     if (of_terms || contains(body, Kind::factor)) includes.insert("lagen/linear.hpp");
     if (operators.contains(Op::sqrt) || contains(body, Kind::roots) || contains(body, Kind::reciprocals))
         includes.insert("lagen/roots.hpp");
-    if (contains(body, Kind::terms)) includes.insert("lagen/terms.hpp");
+    if (contains(body, Kind::terms)) includes.insert("lagen/lanes/terms.hpp");
     if (contains(body, Kind::angles)) includes.insert("lagen/sincos.hpp");
     if (operators.contains(Op::stumpff) || contains(body, Kind::stumpff)) includes.insert("lagen/stumpff.hpp");
     return includes;

@@ -3,13 +3,13 @@
 
 #include "stability/one_step.hpp"
 
-#include "lagen/integrate/dop853.hpp"
-#include "lagen/integrate/dopri5.hpp"
-#include "lagen/integrate/fixed_step.hpp"
-#include "lagen/integrate/nystrom.hpp"
-#include "lagen/integrate/symplectic.hpp"
-#include "lagen/integrate/tsit5.hpp"
-#include "lagen/integrate/verner.hpp"
+#include "lagen/dop853.hpp"
+#include "lagen/dopri5.hpp"
+#include "lagen/fixed_step.hpp"
+#include "lagen/nystrom.hpp"
+#include "lagen/splittings.hpp"
+#include "lagen/tsit5.hpp"
+#include "lagen/verner.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Trajectories a second on one core: `integrate`, and 4, 8 and, of float, 16 of them on the lanes of packs
-/// (lagen/integrate/abreast.hpp), in float and double, by adaptive methods and with a fixed step. Compiled by
+/// (lagen/lanes/abreast.hpp), in float and double, by adaptive methods and with a fixed step. Compiled by
 /// scripts/lanes-table with -D MODEL=heavy_top; the header has the kernel `taylor`. Prints a line a method and scalar:
 /// thousands of trajectories a second at 1, 4, 8 and 16 lanes, the least time of interleaved rounds, the ratios, and
 /// how many lanes' runs differ in a bit from those of `integrate`. An argument "double taylor" measures this alone.
@@ -9,7 +9,7 @@
 #include MODEL_HEADER(MODEL)
 
 #include "lagen/integrate.hpp"
-#include "lagen/integrate/abreast.hpp"
+#include "lagen/lanes/abreast.hpp"
 
 #include <algorithm>
 #include <array>

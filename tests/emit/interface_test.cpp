@@ -27,7 +27,7 @@ KernelModule module_with_jacobian()
 const char* const program = R"(#include "pendulum.hpp"
 #include "product.hpp"
 
-#include "lagen/ensemble/pack.hpp"
+#include "lagen/lanes/pack.hpp"
 
 #include <cstdio>
 #include <cstring>

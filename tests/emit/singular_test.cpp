@@ -34,7 +34,7 @@ const char* const singular_program = R"(#include "closed.hpp"
 #include "ldlt.hpp"
 #include "pivoted.hpp"
 
-#include "lagen/ensemble/pack.hpp"
+#include "lagen/lanes/pack.hpp"
 
 #include <cmath>
 #include <cstdio>

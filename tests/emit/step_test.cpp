@@ -66,7 +66,7 @@ KernelModule step_module()
 }
 
 const char* const step_program = R"(#include "stepped.hpp"
-#include "lagen/ensemble/pack.hpp"
+#include "lagen/lanes/pack.hpp"
 
 #include <cstdio>
 

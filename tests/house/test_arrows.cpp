@@ -99,6 +99,23 @@ Arrows actual_arrows(const std::vector<SourceText>& files)
     return arrows;
 }
 
+/// The headers of the runtime that a header includes, through others too, itself among them.
+std::set<std::string> reached_headers(const std::vector<SourceText>& files, const std::string& header)
+{
+    std::set<std::string> reached{header};
+    std::vector<std::string> next{header};
+    while (!next.empty()) {
+        const std::string path = "runtime/include/" + next.back();
+        next.pop_back();
+        for (const SourceText& file : files) {
+            if (file.path != path) continue;
+            for (const Include& include : includes_of(file))
+                if (include.quoted && reached.insert(include.target).second) next.push_back(include.target);
+        }
+    }
+    return reached;
+}
+
 } // namespace
 
 TEST_CASE("every include between rooms follows an arrow of the house")
@@ -187,6 +204,36 @@ TEST_CASE("the runtime includes nothing but itself, Eigen, the standard library 
             }
         }
     CHECK(own > 0);
+}
+
+TEST_CASE("a header of a method brings integrate(), and nothing that methods are made of knows a method")
+{
+    const std::vector<SourceText> files = cpp_files(read_tree({"runtime"}));
+    const std::string run = "lagen/run.hpp", umbrella = "lagen/integrate.hpp";
+    const std::set<std::string> no_methods{"lagen/ode.hpp", "lagen/print_status.hpp"};
+    std::size_t methods = 0, parts = 0;
+    for (const SourceText& file : files) {
+        INFO(file.path);
+        if (!file.path.starts_with("runtime/include/")) continue;
+        const std::string header = file.path.substr(std::string("runtime/include/").size());
+        for (const char* room : {"lagen/lanes/", "lagen/integrate/", "lagen/newton/"})
+            if (header.starts_with(room)) {
+                CHECK_FALSE(reached_headers(files, header).contains(run));
+                ++parts;
+            }
+        if (header == umbrella || header == "lagen/ensemble.hpp" || header == "lagen/lagen.hpp") continue;
+        CHECK_FALSE(reached_headers(files, header).contains(umbrella));
+    }
+    for (const SourceText& file : files)
+        if (file.path == "runtime/include/" + umbrella)
+            for (const Include& include : includes_of(file)) {
+                INFO(include.target);
+                if (no_methods.contains(include.target)) continue;
+                CHECK(reached_headers(files, include.target).contains(run));
+                ++methods;
+            }
+    CHECK(methods > 10);
+    CHECK(parts > 40);
 }
 
 TEST_CASE("the libraries of the build are linked along the arrows of the house")

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Roots between bounds: ends, open intervals, functions on which Newton's method alone goes astray, packs.
 #include <lagen/bracket.hpp>
-#include <lagen/ensemble/pack.hpp>
+#include <lagen/lanes/pack.hpp>
 
 #include "support/tolerances.hpp"
 

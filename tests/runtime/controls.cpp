@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Angles in closed form, the watch over maxima that are not proved, and runs of models that follow their controls.
 #include <lagen/controls.hpp>
-#include <lagen/ensemble/pack.hpp>
 #include <lagen/integrate.hpp>
+#include <lagen/lanes/pack.hpp>
 #include <lagen/newton.hpp>
-#include <lagen/variational.hpp>
+#include <lagen/tangents.hpp>
 
 #include "support/tolerances.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// lagen::Integrator: steps by hand, forwards and backwards, values inside them, failures.
-#include "lagen/ensemble/pack.hpp"
 #include "lagen/integrate.hpp"
+#include "lagen/lanes/pack.hpp"
 #include "runtime/pendulum.hpp"
 #include "support/tolerances.hpp"
 

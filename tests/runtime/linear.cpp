@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// PivotedLu: solutions, what counts as singular, and that units do not matter.
 #include "lagen/linear.hpp"
-#include "lagen/ensemble/pack.hpp"
+#include "lagen/lanes/pack.hpp"
 
 #include <catch2/catch.hpp>
 #include <random>

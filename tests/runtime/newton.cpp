@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Newton's method for the unknowns of kernels: what it calls converged, and what not.
 #include "lagen/newton.hpp"
-#include "lagen/ensemble/pack.hpp"
+#include "lagen/lanes/pack.hpp"
 #include "support/tolerances.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include <lagen/ensemble/pack.hpp>
+#include <lagen/lanes/pack.hpp>
 #include <lagen/roots.hpp>
 
 #include <catch2/catch.hpp>

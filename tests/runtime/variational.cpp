@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "lagen/variational.hpp"
 #include "lagen/integrate.hpp"
+#include "lagen/tangents.hpp"
 #include "support/tolerances.hpp"
 
 #include <catch2/catch.hpp>

@@ -104,7 +104,7 @@ inline std::string program_text(const std::vector<CompiledCase>& cases, const st
 {
     std::string text;
     for (const CompiledCase& one : cases) text += fmt::format("#include \"{}.hpp\"\n", one.module.name);
-    text += "#include \"lagen/ensemble/pack.hpp\"\n";
+    text += "#include \"lagen/lanes/pack.hpp\"\n";
     text += program_start();
     std::string calls;
     for (const CompiledCase& one : cases) {

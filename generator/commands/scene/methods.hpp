@@ -45,7 +45,7 @@ struct MethodEntry {
 [[nodiscard]] std::string system_of(const MethodEntry& method);
 /// Whether its steps may have a time scale (`lagen::Reversible`).
 [[nodiscard]] bool is_symmetric_splitting(const MethodEntry& method);
-/// Several trajectories at a time, on the lanes of packs (lagen/integrate/abreast.hpp)?
+/// Several trajectories at a time, on the lanes of packs (lagen/lanes/abreast.hpp)?
 [[nodiscard]] bool goes_abreast(const MethodEntry& method);
 /// Every method name, in the order of the table.
 [[nodiscard]] std::span<const std::string> method_names();

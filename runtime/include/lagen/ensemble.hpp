@@ -9,7 +9,7 @@
 
 #include "lagen/ensemble/in_order.hpp"
 #include "lagen/integrate.hpp"
-#include "lagen/integrate/abreast.hpp"
+#include "lagen/lanes/abreast.hpp"
 
 #include <algorithm>
 #include <array>
@@ -116,7 +116,7 @@ void integrate_blocks(const M& model, MakeState& make_state, Interval<real_t<typ
 ///                   be moved from. It may be called by any of the threads.
 /// The runs are those of `integrate`, with the same bits, whatever the number of threads. Where the model can be had
 /// over packs (a generated one, or one that says so by a member `takes_packs`) and the method is an explicit
-/// Runge-Kutta or Nystrom method or Taylor's, trajectories go by the lanes of packs: integrate/abreast.hpp says when
+/// Runge-Kutta or Nystrom method or Taylor's, trajectories go by the lanes of packs: lanes/abreast.hpp says when
 /// the bits depend on the compiler's options. What make_state or take throws ends the work and is thrown to the caller;
 /// those of the blocks before it were handed over. At most 4 blocks a thread exist at a time, and as many more as the
 /// lanes take.

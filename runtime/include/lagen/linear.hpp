@@ -56,7 +56,7 @@ class PivotedLu {
         return singular;
     }
 
-    /// x with A x = b; the entries of b may be several right-hand sides each (lagen/columns.hpp).
+    /// x with A x = b; the entries of b may be several right-hand sides each (lagen/lanes/columns.hpp).
     template <class Entry = S>
     [[nodiscard]] std::array<Entry, size> solve(std::array<Entry, size> b) const noexcept
     {

@@ -5,7 +5,7 @@
 /// lane, two accumulators by turns. Other scalars, packs among them, take them one by one in the same order.
 #pragma once
 
-#include "lagen/registers.hpp"
+#include "lagen/lanes/registers.hpp"
 #include "lagen/scalar.hpp"
 
 #include <array>

@@ -12,7 +12,7 @@
 /// Numbers are decimals with the digits of a double.
 #pragma once
 
-#include "lagen/integrate/run.hpp"
+#include "lagen/integrate/options.hpp"
 
 #include <cstddef>
 #include <fstream>

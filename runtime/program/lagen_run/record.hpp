@@ -2,7 +2,7 @@
 /// What the program behind `lagen run` writes: rows while the run goes on, figures for the report at its end.
 #pragma once
 
-#include "lagen/integrate/run.hpp"
+#include "lagen/integrate/options.hpp"
 #include "lagen_run/figures.hpp"
 
 #include <cmath>

@@ -23,7 +23,7 @@
 #pragma once
 
 #include "lagen/ensemble/in_order.hpp"
-#include "lagen/integrate/abreast.hpp"
+#include "lagen/lanes/abreast.hpp"
 #include "lagen_run/driver.hpp"
 #include "lagen_sweep/record.hpp"
 

@@ -3,7 +3,7 @@
 /// the number of entries that are not those of their lane's scalar, bit for bit.
 #pragma once
 
-#include "lagen/ensemble/pack.hpp"
+#include "lagen/lanes/pack.hpp"
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/multiprecision/eigen.hpp>

@@ -3,8 +3,8 @@
 /// other routes, in long double. Prints for each model: the size of what the flow changes, |V - 1|; the largest
 /// difference of V from central differences of the flow, from dV/dt = J V with the kernel `jacobian`; and that of the
 /// volume from the one that the motion keeps, det(V) det(W) / det(W at the start) - 1.
+#include "lagen/tangents.hpp"
 #include "lagen/integrate.hpp"
-#include "lagen/variational.hpp"
 
 #include "double_pendulum.hpp"
 #include "heavy_top.hpp"

@@ -6,8 +6,8 @@
 #include "outer_solar_system.hpp"
 #include "pleiades.hpp"
 
-#include "lagen/ensemble/pack.hpp"
 #include "lagen/integrate.hpp"
+#include "lagen/lanes/pack.hpp"
 
 #include <algorithm>
 #include <cmath>

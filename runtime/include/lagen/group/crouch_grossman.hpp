@@ -6,6 +6,7 @@
 
 #include "lagen/group/algebra_action.hpp"
 #include "lagen/integrate/stages.hpp"
+#include "lagen/run.hpp"
 
 namespace lagen {
 

@@ -12,6 +12,7 @@
 
 #include "lagen/group/algebra_action.hpp"
 #include "lagen/integrate/convergence.hpp"
+#include "lagen/run.hpp"
 
 #include <cmath>
 

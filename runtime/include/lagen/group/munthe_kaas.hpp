@@ -9,10 +9,11 @@
 /// are carried along [Kahan 1965]. A step that turns by more than 2.5 or so is refused with branch_lost.
 #pragma once
 
+#include "lagen/dop853.hpp"
+#include "lagen/fixed_step.hpp"
+#include "lagen/gauss.hpp"
 #include "lagen/group/exponential_chart.hpp"
-#include "lagen/integrate/dop853.hpp"
-#include "lagen/integrate/fixed_step.hpp"
-#include "lagen/integrate/gauss.hpp"
+#include "lagen/run.hpp"
 
 namespace lagen {
 

@@ -3,8 +3,8 @@
 /// step.
 #pragma once
 
-#include "lagen/integrate/lanes.hpp"
 #include "lagen/integrate/step_power.hpp"
+#include "lagen/lanes/lanes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -220,7 +220,7 @@ class Controller {
         return h / Real(2);
     }
 
-    // ---- of packs whose lanes are trajectories: integrate/abreast.hpp ----
+    // ---- of packs whose lanes are trajectories: lanes/abreast.hpp ----
 
     /// The step counts in these lanes.
     void accept(const Where& where, const ErrorPowers<Real>& error) noexcept requires(is_pack<Real>)

@@ -3,7 +3,7 @@
 /// error of that lane is.
 #pragma once
 
-#include "lagen/integrate/lanes.hpp"
+#include "lagen/lanes/lanes.hpp"
 
 #include <algorithm>
 #include <cmath>

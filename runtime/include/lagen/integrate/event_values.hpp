@@ -2,8 +2,9 @@
 /// Event functions at a state, their rates along the motion, and the rounding errors of both.
 #pragma once
 
+#include "lagen/integrate/options.hpp"
 #include "lagen/integrate/retract.hpp"
-#include "lagen/integrate/run.hpp"
+#include "lagen/lanes/lanes.hpp"
 
 #include <algorithm>
 #include <limits>

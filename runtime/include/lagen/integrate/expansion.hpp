@@ -107,7 +107,7 @@ class Expansion {
         return true;
     }
 
-    // ---- of packs whose lanes are trajectories: integrate/abreast.hpp ----
+    // ---- of packs whose lanes are trajectories: lanes/abreast.hpp ----
 
     /// Lane `lane` becomes `own`.
     template <class Own>

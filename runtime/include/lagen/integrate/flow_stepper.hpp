@@ -9,9 +9,9 @@
 /// 151]; what rests on an affine x' has none, and splits x and y.
 #pragma once
 
-#include "lagen/integrate/lanes.hpp"
 #include "lagen/integrate/retract.hpp"
 #include "lagen/integrate/tableau.hpp"
+#include "lagen/lanes/lanes.hpp"
 
 #include <utility>
 
@@ -42,7 +42,7 @@ constexpr auto times_of_sweeps() noexcept
 } // namespace splitting
 
 /// The stepper: see integrate/integrator.hpp for what is asked of it. It is a Poisson map where each flow is, and
-/// compensates its sums as that of two parts does (integrate/symplectic.hpp).
+/// compensates its sums as that of two parts does (splittings.hpp).
 template <class Splitting, class M>
 class FlowStepper {
     static_assert(HasFlows<M> && moves_by_sums<M>, "flows add increments to a vector");

@@ -10,11 +10,11 @@
 #include "lagen/integrate/control.hpp"
 #include "lagen/integrate/creeping.hpp"
 #include "lagen/integrate/follow.hpp"
-#include "lagen/integrate/lanes.hpp"
 #include "lagen/integrate/retract.hpp"
 #include "lagen/integrate/states.hpp"
 #include "lagen/integrate/stepper.hpp"
 #include "lagen/integrate/way.hpp"
+#include "lagen/lanes/lanes.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -5,7 +5,7 @@
 /// sign, so that no change of sign of the polynomial is missed.
 #pragma once
 
-#include "lagen/integrate/lanes.hpp"
+#include "lagen/lanes/lanes.hpp"
 
 #include <algorithm>
 #include <array>

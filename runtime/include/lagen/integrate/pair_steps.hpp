@@ -51,7 +51,7 @@ class PairSteps {
 
     [[nodiscard]] std::size_t calls() const noexcept { return calls_; }
 
-    // ---- of packs whose lanes are trajectories: integrate/abreast.hpp ----
+    // ---- of packs whose lanes are trajectories: lanes/abreast.hpp ----
 
     /// Can a trajectory of `own` go on a lane beside the others?
     template <class Own>

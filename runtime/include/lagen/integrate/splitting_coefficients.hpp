@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Drifts and kicks in turn; what is said of them stands in symplectic.hpp.
+/// Drifts and kicks in turn; what is said of them stands in splittings.hpp.
 /// Written by scripts/tableaus from scripts/coefficients.
 #pragma once
 

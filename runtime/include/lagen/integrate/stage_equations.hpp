@@ -6,8 +6,8 @@
 
 #include "lagen/integrate/band_matrix.hpp"
 #include "lagen/integrate/collocation.hpp"
-#include "lagen/integrate/lanes.hpp"
 #include "lagen/integrate/retract.hpp"
+#include "lagen/lanes/lanes.hpp"
 
 #include <limits>
 

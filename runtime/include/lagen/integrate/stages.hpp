@@ -4,9 +4,9 @@
 /// where "s + .." is the retraction of the model (retract.hpp) if it has one.
 #pragma once
 
-#include "lagen/integrate/lanes.hpp"
 #include "lagen/integrate/retract.hpp"
 #include "lagen/integrate/tableau.hpp"
+#include "lagen/lanes/lanes.hpp"
 
 namespace lagen::detail {
 

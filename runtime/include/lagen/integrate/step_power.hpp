@@ -5,7 +5,7 @@
 /// other scalars call their own pow.
 #pragma once
 
-#include "lagen/ensemble/pack.hpp"
+#include "lagen/lanes/pack.hpp"
 
 #include <bit>
 #include <cmath>

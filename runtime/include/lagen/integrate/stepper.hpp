@@ -7,7 +7,7 @@
 ///   calls()                                   of the right-hand side so far
 /// Adaptive ones may choose their steps themselves: after_accepted(h, error), after_rejected(h, error),
 /// after_failure(h). Implicit ones count newton_iterations() and decompositions().
-/// One whose lanes can be trajectories of their own (integrate/abreast.hpp) says so by `abreast`, and over packs offers
+/// One whose lanes can be trajectories of their own (lanes/abreast.hpp) says so by `abreast`, and over packs offers
 ///   suits(own)                a trajectory of `own`, the stepper of it alone, can go on a lane beside the others
 ///   adopt(lane, own)          it begins there
 ///   accept(where)             the step counts in these lanes

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "lagen/integrate/control.hpp"
-#include "lagen/integrate/lanes.hpp"
 #include "lagen/integrate/states.hpp"
+#include "lagen/lanes/lanes.hpp"
 #include "lagen/series.hpp"
 
 #include <algorithm>

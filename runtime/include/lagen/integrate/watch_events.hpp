@@ -4,7 +4,7 @@
 
 #include "lagen/integrate/event_values.hpp"
 #include "lagen/integrate/locate.hpp"
-#include "lagen/integrate/run.hpp"
+#include "lagen/integrate/options.hpp"
 
 #include <algorithm>
 #include <limits>

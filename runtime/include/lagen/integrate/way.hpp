@@ -2,7 +2,7 @@
 /// Where steps go, and how long the next one is.
 #pragma once
 
-#include "lagen/integrate/lanes.hpp"
+#include "lagen/lanes/lanes.hpp"
 
 #include <algorithm>
 #include <cstddef>

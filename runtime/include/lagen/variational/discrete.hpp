@@ -6,6 +6,7 @@
 #pragma once
 
 #include "lagen/newton.hpp"
+#include "lagen/run.hpp"
 #include "lagen/variational/arrow.hpp"
 
 namespace lagen {

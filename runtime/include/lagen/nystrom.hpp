@@ -17,6 +17,7 @@
 #include "lagen/integrate/pair_steps.hpp"
 #include "lagen/integrate/retract.hpp"
 #include "lagen/integrate/stages.hpp"
+#include "lagen/run.hpp"
 
 #include "lagen/integrate/rkn1210_coefficients.hpp"
 #include "lagen/integrate/rkn64_coefficients.hpp"

@@ -19,6 +19,7 @@
 #include "lagen/integrate/verner76_coefficients.hpp"
 #include "lagen/integrate/verner87_coefficients.hpp"
 #include "lagen/integrate/verner98_coefficients.hpp"
+#include "lagen/run.hpp"
 
 namespace lagen {
 

@@ -3,8 +3,8 @@
 /// that counts and of the next one, which is not the last, for all lanes at once and with the same bits.
 #pragma once
 
-#include "lagen/ensemble/pack.hpp"
 #include "lagen/integrate/way.hpp"
+#include "lagen/lanes/pack.hpp"
 
 #include <array>
 #include <cstddef>

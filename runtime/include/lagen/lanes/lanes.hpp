@@ -4,7 +4,7 @@
 #pragma once
 
 #include "lagen/kernel.hpp"
-#include "lagen/registers.hpp"
+#include "lagen/lanes/registers.hpp"
 
 #include <cmath>
 #include <cstddef>

@@ -8,6 +8,7 @@
 #include "lagen/integrate/expansion.hpp"
 #include "lagen/integrate/states.hpp"
 #include "lagen/integrate/taylor_polynomial.hpp"
+#include "lagen/run.hpp"
 
 #include <algorithm>
 #include <array>
@@ -193,7 +194,7 @@ class TaylorStepper {
     [[nodiscard]] std::size_t calls() const noexcept { return calls_; }
     [[nodiscard]] int order() const noexcept { return order_; }
 
-    // ---- of packs whose lanes are trajectories: integrate/abreast.hpp ----
+    // ---- of packs whose lanes are trajectories: lanes/abreast.hpp ----
 
     /// Can a trajectory of `own` go on a lane beside the others?
     template <class One>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-/// The stepper of one trajectory on a lane: integrate/abreast.hpp. The steps are those of all lanes.
+/// The stepper of one trajectory on a lane: lanes/abreast.hpp. The steps are those of all lanes.
 #pragma once
 
 #include "lagen/integrate/control.hpp"
-#include "lagen/integrate/shared_steps.hpp"
+#include "lagen/lanes/shared_steps.hpp"
 
 #include <cstddef>
 

@@ -8,7 +8,7 @@
 /// up. An iteration that converges slowly gets the Jacobian at an estimate of the step's middle; a step whose iteration
 /// does not converge is tried once more from there, then fails with `newton_diverged`. Methods of more than four stages
 /// (of four with packs) iterate Z_i = h sum_j a_ij f(s + Z_j) without a Jacobian first, to rounding too, all stages of
-/// a generated model in the lanes of packs (packed_stages.hpp); a step in which that is slow is left to Newton's
+/// a generated model in the lanes of packs (lanes/packed_stages.hpp); a step in which that is slow is left to Newton's
 /// method, and so are some steps behind it. Where the method is `compensated`, the rounding error of the sum s1 = s +
 /// .. enters the next step [Kahan 1965], so that errors grow as Brouwer's law says [Hairer, McLachlan, Razakarivony,
 /// BIT 48 (2008) 231]. A value inside a step is a shorter step of the same method, begun with this step's collocation
@@ -17,8 +17,9 @@
 #pragma once
 
 #include "lagen/integrate/convergence.hpp"
-#include "lagen/integrate/packed_stages.hpp"
 #include "lagen/integrate/stage_equations.hpp"
+#include "lagen/lanes/packed_stages.hpp"
+#include "lagen/run.hpp"
 
 namespace lagen {
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "lagen/integrate/embedded.hpp"
+#include "lagen/run.hpp"
 
 namespace lagen {
 

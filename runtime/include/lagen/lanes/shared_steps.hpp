@@ -2,11 +2,11 @@
 /// What trajectories abreast share: a model and a stepper over packs whose lanes have times of their own.
 #pragma once
 
-#include "lagen/ensemble/pack.hpp"
 #include "lagen/integrate/control.hpp"
-#include "lagen/integrate/packed_stages.hpp"
-#include "lagen/integrate/quiet_ways.hpp"
 #include "lagen/integrate/states.hpp"
+#include "lagen/lanes/pack.hpp"
+#include "lagen/lanes/packed_stages.hpp"
+#include "lagen/lanes/quiet_ways.hpp"
 
 #include <array>
 #include <cstddef>

@@ -8,8 +8,8 @@
 /// has ended takes the next one.
 #pragma once
 
-#include "lagen/integrate/lane_stepper.hpp"
 #include "lagen/integrate/march.hpp"
+#include "lagen/lanes/lane_stepper.hpp"
 #include "lagen/series.hpp"
 
 #include <algorithm>

@@ -10,7 +10,7 @@
 #pragma once
 
 #include "lagen/integrate/control.hpp"
-#include "lagen/integrate/symplectic.hpp"
+#include "lagen/splittings.hpp"
 
 namespace lagen {
 

@@ -10,6 +10,7 @@
 
 #include "lagen/integrate/control.hpp"
 #include "lagen/integrate/stage_equations.hpp"
+#include "lagen/run.hpp"
 
 #include <algorithm>
 #include <limits>

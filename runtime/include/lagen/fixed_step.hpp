@@ -5,6 +5,7 @@
 #pragma once
 
 #include "lagen/integrate/stages.hpp"
+#include "lagen/run.hpp"
 
 namespace lagen {
 
@@ -130,7 +131,7 @@ class FixedStepper {
 
     [[nodiscard]] std::size_t calls() const noexcept { return calls_; }
 
-    // ---- of packs whose lanes are trajectories: integrate/abreast.hpp ----
+    // ---- of packs whose lanes are trajectories: lanes/abreast.hpp ----
 
     /// Can a trajectory of `own` go on a lane beside the others?
     template <class Own>

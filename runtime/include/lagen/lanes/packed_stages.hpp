@@ -4,10 +4,10 @@
 /// does of one stage after another is done here of one lane of the state after another.
 #pragma once
 
-#include "lagen/ensemble/pack.hpp"
 #include "lagen/integrate/collocation.hpp"
-#include "lagen/integrate/lanes.hpp"
 #include "lagen/integrate/retract.hpp"
+#include "lagen/lanes/lanes.hpp"
+#include "lagen/lanes/pack.hpp"
 
 #include <algorithm>
 #include <array>

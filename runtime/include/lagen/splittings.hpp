@@ -21,9 +21,10 @@
 #pragma once
 
 #include "lagen/integrate/flow_stepper.hpp"
-#include "lagen/integrate/lanes.hpp"
 #include "lagen/integrate/retract.hpp"
 #include "lagen/integrate/splitting_coefficients.hpp"
+#include "lagen/lanes/lanes.hpp"
+#include "lagen/run.hpp"
 
 namespace lagen {
 

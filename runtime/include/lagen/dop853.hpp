@@ -8,6 +8,7 @@
 #include "lagen/integrate/dop853_coefficients.hpp"
 #include "lagen/integrate/pair_steps.hpp"
 #include "lagen/integrate/stages.hpp"
+#include "lagen/run.hpp"
 
 namespace lagen {
 
