@@ -8,7 +8,6 @@
 
 #include <array>
 #include <csignal>
-#include <cstdio>
 #include <fcntl.h>
 #include <new>
 #include <unistd.h>
@@ -47,10 +46,11 @@ constexpr const char* closing = R"(
 
 void print_help()
 {
-    fmt::print("lagen: mechanics and control on Lie algebroids, from a model file to proved equations and fast C++\n\n"
-               "usage: lagen COMMAND MODEL [options]\n\n");
-    for (const CommandEntry& entry : commands) fmt::print("  {:<10}{}\n", entry.name, entry.purpose);
-    fmt::print("{}", closing);
+    std::string text =
+        "lagen: mechanics and control on Lie algebroids, from a model file to proved equations and fast C++\n\n"
+        "usage: lagen COMMAND MODEL [options]\n\n";
+    for (const CommandEntry& entry : commands) text += fmt::format("  {:<10}{}\n", entry.name, entry.purpose);
+    write_standard_output(text + closing);
 }
 
 ExitCode dispatch(const std::vector<std::string>& arguments)
@@ -60,7 +60,7 @@ ExitCode dispatch(const std::vector<std::string>& arguments)
         return arguments.empty() ? ExitCode::usage : ExitCode::done;
     }
     if (arguments[0] == "--version") {
-        fmt::print("lagen {}\n", LAGEN_VERSION);
+        write_standard_output(fmt::format("lagen {}\n", LAGEN_VERSION));
         return ExitCode::done;
     }
     std::vector<std::string> names;
@@ -82,7 +82,6 @@ extern "C" void on_interrupt(int)
 
 int report(const std::string& text, ExitCode code)
 {
-    std::fflush(stdout);
     write_standard_error(text + (text.ends_with('\n') ? "" : "\n"));
     return static_cast<int>(code);
 }
@@ -106,13 +105,10 @@ int main(int argc, char** argv)
     std::signal(SIGINT, on_interrupt);
     std::signal(SIGTERM, on_interrupt);
     std::signal(SIGHUP, on_interrupt);
-    std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGPIPE, SIG_IGN); // a reader who went away: write says so
     std::signal(SIGXFSZ, SIG_IGN); // a file at its limit: write says so
     try {
-        const ExitCode code = dispatch(std::vector<std::string>(argv + 1, argv + argc));
-        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-            return report("error: cannot write to standard output", ExitCode::machine);
-        return static_cast<int>(code);
+        return static_cast<int>(dispatch(std::vector<std::string>(argv + 1, argv + argc)));
     } catch (const Error& error) {
         return report(error.what(), error.code());
     } catch (const InternalError& error) {

@@ -4,12 +4,16 @@
 #include "commands/line/command.hpp"
 #include "commands/line/options.hpp"
 #include "commands/machine/places.hpp"
+#include "commands/machine/temporary_folder.hpp"
 #include "commands/machine/write_file.hpp"
 #include "commands/plot/overlay.hpp"
 #include "commands/run_morphism.hpp"
+#include "commands/scene/integrate_scene.hpp"
+#include "commands/scene/partial_rows.hpp"
 #include "commands/scene/range.hpp"
 #include "commands/scene/scene_options.hpp"
 #include "commands/scene/scene_run.hpp"
+#include "commands/scene/second_run.hpp"
 #include "commands/variations/variation_states.hpp"
 #include "elaborate/bind_parameters.hpp"
 #include "elaborate/elaborate.hpp"
@@ -68,6 +72,11 @@ const CommandSyntax run_syntax{
      {"sphere", nullptr, "curves in space lie on a sphere around the origin"},
      {"like", "NAME", "--plot draws what [scene.NAME.plot] says"},
      {"overlay", "NAME,..", "scenes that --plot draws as well, in the same panels (may be repeated)"},
+     {"second-run", nullptr,
+      "say what the state is worth, by a second run at a tenth of the tolerance or with half the step, however long "
+      "the "
+      "first one took; without it where that took at most 5 s"},
+     {"no-second-run", nullptr, "say nothing of it"},
      {"reconstruct", nullptr,
       "of a morphism that is bijective on the fibres: lift the motion of the target to the source too"},
      {"unchecked", nullptr, "go on although the model is refuted"},
@@ -112,7 +121,7 @@ void tell(const Options& options, const RunOutcome& outcome, const std::string& 
             write_standard_error(fmt::format("  picture in {}: {}{}\n", options.get("plot"), picture,
                                              spared ? "; the rows as CSV: -o FILE.csv, or into a pipe" : ""));
     }
-    write_standard_error(drift_warnings(outcome));
+    write_standard_error(run_warnings(outcome));
 }
 
 /// What --plot draws, told; `whole` becomes false where one of the runs drawn beside did not come to its end.
@@ -126,7 +135,7 @@ std::string draw(const Options& options, const SceneRun& run, const RunOutcome& 
         const OverlaidRun& other = others.emplace_back(options, run.checked(), run.scene(), name);
         runs.push_back(other.plotted());
         whole = whole && succeeded(other.outcome().status);
-        write_standard_error(report_text(other.outcome()) + drift_warnings(other.outcome()));
+        write_standard_error(report_text(other.outcome()) + run_warnings(other.outcome()));
     }
     return draw_scene(runs, options.get("plot"));
 }
@@ -144,6 +153,7 @@ ExitCode run_run(Arguments arguments)
     for (const char* word : {"curves", "equal", "points", "sphere", "like", "overlay"})
         if (options.has(word) && !options.has("plot"))
             throw UsageError(fmt::format("lagen run: --{} says what --plot draws: give --plot FILE.svg as well", word));
+    (void)second_run_of(options);
     for (const char* file : {"output", "plot"})
         if (options.has(file)) require_writable(options.get(file));
 
@@ -181,12 +191,16 @@ ExitCode run_run(Arguments arguments)
 
     bool whole = !accurate || confirm_accuracy(*accurate, run.record(), run.input());
 
+    const InterruptsHeld held; // between programs, which they reach: rows are written first
     RunOutcome outcome = run.integrate();
+    if (is_interrupted(outcome)) return leave_rows(options, outcome.table, report_json(outcome), outcome.time);
     outcome.action = action_report(outcome, variations);
     if (const std::string file = options.get("output"); !file.empty())
         write_file(file, file.ends_with(".json") ? report_json(outcome) : to_csv(outcome.table));
-    const std::string picture = draw(options, run, outcome, overlaid, whole);
+    std::string picture;
+    const bool drawn = is_uninterrupted([&] { picture = draw(options, run, outcome, overlaid, whole); });
     tell(options, outcome, picture, as_json);
+    if (!drawn) throw Error(ExitCode::interrupted, "lagen: interrupted while drawing");
     return succeeded(outcome.status) && whole ? ExitCode::done : ExitCode::refuted;
 }
 

@@ -87,7 +87,6 @@ constexpr std::array of_the_machine{
     "error: cannot read '{}': {}",
     "error: cannot wait for a child process: {}",
     "error: gnuplot failed with exit code {}\n{}",
-    "error: no folder for compiled scenes can be written (tried {} and '{}')\nhint: set LAGEN_CACHE",
     "error: the C++ compiler '{}' could not be started: {}",
     "error: the C++ compiler failed with exit code {}\n{}\n{}{}",
     "error: the compiled scene could not be started: {}\nhint: remove '{}' to have it compiled again",
@@ -98,7 +97,9 @@ constexpr std::array of_the_machine{
     "error: the runtime's headers (lagen/kernel.hpp) were not found\nhint: set LAGEN_INCLUDE to the folder that holds "
     "lagen/",
     "error: there is nothing to plot: the run gave no rows",
+    "error: {}\nand neither is '{}': {}\nhint: set LAGEN_CACHE",
     "lagen: interrupted while drawing",
+    "lagen: interrupted, nothing was written",
 };
 
 } // namespace

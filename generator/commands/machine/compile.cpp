@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
+#include <sys/utsname.h>
 #include <thread>
 
 namespace lagen {
@@ -76,6 +77,8 @@ void add_compiler(ContentHash& hash, const std::vector<std::string>& command)
     hash.add(program.string()).add(std::to_string(fs::file_size(program, ignored)));
     hash.add(std::to_string(fs::last_write_time(program, ignored).time_since_epoch().count()));
     for (const std::string& word : command) hash.add(word);
+    utsname machine{};
+    if (::uname(&machine) == 0) hash.add(machine.machine); // several of them may see the same cache
 }
 
 std::string line_of(const std::vector<std::string>& command)
@@ -188,11 +191,7 @@ std::vector<std::string> compile_programs(const std::vector<ProgramText>& progra
     const std::vector<ProcessResult> results = run_processes(commands, std::thread::hardware_concurrency());
     for (std::size_t k = 0; k < missing.size(); ++k) {
         require_success(commands[k], results[k]);
-        // Renamed into place whole: two runs at once may both compile, neither sees half a program.
-        const std::string& program = paths[missing[k]];
-        std::error_code error;
-        fs::rename(scratch.file(std::to_string(missing[k])) + "/program", program, error);
-        if (error) throw MachineError(fmt::format("error: cannot write '{}': {}", program, error.message()));
+        keep_program(scratch.file(std::to_string(missing[k])) + "/program", paths[missing[k]]);
     }
     trim_cache(cache);
     return paths;

@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 namespace lagen {
 
 namespace {
@@ -34,7 +36,27 @@ void use_folder(const TemporaryFolder& folder, ProgramInput& input)
     write_file(input.at_file, times);
 }
 
+/// What an interrupted program left: whole rows, and its report, unless it was killed.
+void take_what_is_left(const std::string& report_file, RunOutcome& outcome)
+{
+    std::string& rows = outcome.table.rows;
+    rows.erase(rows.rfind('\n') + 1); // npos + 1 is 0
+    outcome.table.count = outcome.table.lines().size();
+    std::error_code ignored;
+    if (std::filesystem::exists(report_file, ignored)) read_report(content_of_file(report_file), outcome);
+    outcome.status = "interrupted";
+}
+
 } // namespace
+
+bool is_uninterrupted(const std::function<void()>& work)
+try {
+    work();
+    return true;
+} catch (const Error& error) {
+    if (error.code() != ExitCode::interrupted) throw;
+    return false;
+}
 
 void integrate_scene(const std::string& program, ProgramInput input, RunOutcome& outcome)
 {
@@ -48,8 +70,10 @@ void integrate_scene(const std::string& program, ProgramInput input, RunOutcome&
         });
     progress.clear();
     require_started(result, program);
-    if (result.interrupted || result.exit_code == static_cast<int>(ExitCode::interrupted))
+    if (result.interrupted || result.exit_code == static_cast<int>(ExitCode::interrupted)) {
+        take_what_is_left(input.report_file, outcome);
         throw Error(ExitCode::interrupted, "lagen: interrupted, nothing was written");
+    }
     if (result.exit_code != 0 && result.exit_code != 1) refuse_end(result);
     read_report(content_of_file(input.report_file), outcome);
     outcome.table.count = outcome.table.lines().size();

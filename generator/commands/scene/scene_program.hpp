@@ -53,6 +53,7 @@ struct ProgramInput {
     std::optional<std::uint64_t> branch; ///< of one that starts from momenta: the number of its first arrow
     SampleTimes times;
     std::optional<long double> step, relative, absolute;
+    std::optional<std::uint64_t> most_steps;      ///< without it the runtime's
     std::string at_file;                          ///< path of the file with the times
     std::vector<std::vector<double>> held_inputs; ///< rows t, u_1, u_2, .. of a table; empty: none
     std::string inputs_file;                      ///< path of the file with them

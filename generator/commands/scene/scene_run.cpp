@@ -6,6 +6,7 @@
 #include "commands/scene/domain_walls.hpp"
 #include "commands/scene/integrate_scene.hpp"
 #include "commands/scene/largest_step.hpp"
+#include "commands/scene/second_run.hpp"
 #include "model/scene_form.hpp"
 #include "scene/read_input_table.hpp"
 
@@ -51,16 +52,22 @@ RunOutcome SceneRun::integrate()
     outcome.energy_changes = record().energy_changes;
     outcome.searches = record().searches;
     outcome.branch = input_.branch.value_or(0);
+    if (method_->adaptive && input_.absolute)
+        outcome.absolute = fmt::format("{}", static_cast<double>(*input_.absolute));
     outcome.table.columns = {"t"};
     for (const TableColumn& column : input_.columns) outcome.table.columns.push_back(column.name);
     for (const std::string& lane : record().names.lanes) outcome.state.emplace_back(lane, "");
     outcome.left_out = names_without_values(checked_.model, form_);
-    integrate_scene(record().program, input_, outcome);
+    if (!is_uninterrupted([&] { integrate_scene(record().program, input_, outcome); })) return outcome;
     if (is_nonholonomic(checked_.model) && outcome.energy_changes) // reactions and drifts work on it: no invariant
         std::erase_if(outcome.invariants, is_energy);
     call_walls(outcome);
     if (!options_.has("bind") && !is_branch_missing(outcome))
-        outcome.largest_step = largest_step(checked_.model, scene_, record().program, input_, *start_, outcome);
+        (void)is_uninterrupted([&] {
+            outcome.largest_step = largest_step(checked_.model, scene_, record().program, input_, *start_, outcome);
+        });
+    if (const SecondRun second = second_run_of(options_); second != SecondRun::none)
+        judge_state({checked_.model, scene_, *method_, record().program, input_, *start_}, second, outcome);
     return outcome;
 }
 

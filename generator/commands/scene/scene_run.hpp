@@ -19,8 +19,9 @@ class SceneRun {
     /// sample_times.
     void prepare(Scene scene, const MethodEntry& method, bool stretch);
 
-    /// After `prepare`: runs the program. Of a discrete motion that failed the largest step that goes on is sought,
-    /// unless parameters are bound.
+    /// After `prepare`: runs the program, and a second time for what its state is worth (second_run.hpp). Of a discrete
+    /// motion that failed the largest step that goes on is sought, unless parameters are bound. An interrupt leaves the
+    /// rows so far, with the status "interrupted".
     [[nodiscard]] RunOutcome integrate();
 
     [[nodiscard]] const CheckedModel& checked() const { return checked_; }

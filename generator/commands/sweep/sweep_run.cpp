@@ -157,6 +157,14 @@ const std::string& SweepRun::failed_status(const std::string& number) const
     return failures_[static_cast<std::size_t>(*place - 1)];
 }
 
+/// "<LANE>" before the row.
+void SweepRun::take_small_lanes(std::string& line)
+{
+    if (line.starts_with('<')) ++rows_below_absolute_;
+    for (; line.starts_with('<'); line.erase(0, line.find('>') + 1))
+        lanes_below_absolute_.insert(setting_.record.names.lanes.at(std::strtoull(line.c_str() + 1, nullptr, 10)));
+}
+
 void SweepRun::take(const char* bytes, std::size_t count)
 {
     unfinished_.append(bytes, count);
@@ -165,6 +173,7 @@ void SweepRun::take(const char* bytes, std::size_t count)
     for (std::size_t end = 0; (end = unfinished_.find('\n', begin)) != std::string::npos; begin = end + 1) {
         if (pending_.empty()) throw InternalError("the program of a sweep gave a row too many");
         std::string line = unfinished_.substr(begin, end - begin);
+        take_small_lanes(line);
         if (line.starts_with('#'))
             line = std::string(inner_fields(input_.columns.size(), setting_.scene.events.size()), ',') +
                    failed_status(line.substr(1));

@@ -48,6 +48,7 @@
 ///                         figures.hpp and where it first was more than 1e-3 of that ("nan" where there is none).
 ///                         balance: the energy less the work, which is the integral of the power up to the end
 ///   [manifold=DISTANCE,T] the largest distance from where the constraints hold, to first order, and where that was
+///   [below=LANE:MOST]     one line a lane that moved and never exceeded --absolute, with its largest |s_i|
 ///   [branches=d,d,..]     distances of the arrows that are found with the momenta of a discrete start: with --branch,
 ///                         and where no step leads on (no_solution, branch_lost, newton_diverged) from momenta
 ///   [others=d,d,..]       of those with the momenta of the step that failed, from the arrow before
@@ -236,6 +237,14 @@ Complaint plan_method(const DriveArguments& given, Method& method)
     return {};
 }
 
+/// The absolute tolerance; 0 of fixed steps.
+template <class Method>
+double absolute_of(const Method& method) noexcept
+{
+    if constexpr (requires { method.absolute; }) return method.absolute;
+    return 0;
+}
+
 template <class M, class Method>
 Complaint make_plan(const DriveArguments& given, DrivePlan<M>& plan, Method& method)
 {
@@ -308,7 +317,8 @@ try {
 
     std::signal(SIGINT, detail::lagen_drive_interrupt);
     std::signal(SIGTERM, detail::lagen_drive_interrupt);
-    detail::DriveRecord<M> record(plan.model, plan.columns, given.format == "binary", stdout, given.every.value_or(0));
+    detail::DriveRecord<M> record(plan.model, plan.columns, given.format == "binary", stdout, given.every.value_or(0),
+                                  detail::absolute_of(method));
     detail::Branches<M> branches(plan.model, plan.span.start, given.from_arrow);
     const Status start = branches.begin(plan.initial, given.branch);
     Options<M> options{.at = plan.times, .events = plan.events, .signal = &detail::drive_interrupted};

@@ -4,6 +4,7 @@
 
 #include "lagen/integrate/options.hpp"
 #include "lagen_run/figures.hpp"
+#include "lagen_run/small_lanes.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -27,8 +28,10 @@ class DriveRecord {
     using State = typename M::State;
 
     /// `every`: rows at the start and behind every so many steps; 0 where row(t, s) is told of all of them.
-    DriveRecord(const M& model, std::vector<Column> columns, bool binary, std::FILE* out, std::size_t every = 0)
-        : model_(model), columns_(std::move(columns)), binary_(binary), out_(out), every_(every)
+    /// `absolute`: the tolerance of the method, or 0.
+    DriveRecord(const M& model, std::vector<Column> columns, bool binary, std::FILE* out, std::size_t every = 0,
+                double absolute = 0)
+        : model_(model), columns_(std::move(columns)), binary_(binary), out_(out), every_(every), small_(absolute)
     {
     }
 
@@ -54,6 +57,7 @@ class DriveRecord {
         follow(t, s);
         if (every_ > 0 && seen_++ % every_ == 0) row(t, s);
         figures_.see(model_, t, s);
+        small_.see(s);
     }
 
     void jump(double t, const State& from, const State& to) { figures_.jump(model_, t, from, to); }
@@ -79,7 +83,13 @@ class DriveRecord {
     [[nodiscard]] double last_time() const noexcept { return last_time_; }
 
     /// The lines of the report that this record knows.
-    [[nodiscard]] std::string report() const { return figures_.report(model_); }
+    [[nodiscard]] std::string report() const
+    {
+        std::string text = figures_.report(model_);
+        for (Eigen::Index i = 0; i < small_.size(); ++i)
+            if (small_.is_small(i)) text += "below=" + std::to_string(i) + ':' + number_text(small_.most(i)) + '\n';
+        return text;
+    }
 
   private:
     /// Rows and steps come in the order of time, so that what the model follows is continuous in the rows. A failure
@@ -106,6 +116,7 @@ class DriveRecord {
     std::FILE* out_;
     std::size_t every_ = 0, seen_ = 0;
     Figures<M> figures_;
+    SmallLanes<State> small_;
     std::size_t rows_ = 0;
     double last_time_ = std::numeric_limits<double>::quiet_NaN();
 };
