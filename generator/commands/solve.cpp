@@ -13,6 +13,7 @@
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/evaluate.hpp"
 #include "graph/core/lower.hpp"
+#include "model/scene_form.hpp"
 #include "pipeline.hpp"
 #include "verify/relative_equilibria.hpp"
 

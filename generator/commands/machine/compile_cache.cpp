@@ -34,10 +34,11 @@ struct Program {
     fs::path path;
 };
 
-/// A program, or the record of a run.
+/// A program, the record of a run, or a precompiled header.
 bool is_key(std::string name)
 {
-    if (name.ends_with(".run")) name.resize(name.size() - 4);
+    for (const std::string_view ending : {".run", ".so", ".gch", ".hpp"})
+        if (name.ends_with(ending)) name.resize(name.size() - ending.size());
     return name.size() == 32 && name.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 

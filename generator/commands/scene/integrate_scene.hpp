@@ -11,7 +11,7 @@ namespace lagen {
 /// Runs the program; the rows and the report go into `outcome`, whose state has its names. Throws where the program did
 /// not come to a report. Where it is interrupted `outcome` has the rows so far, and the status "interrupted", and the
 /// Error of an interrupt is thrown.
-void integrate_scene(const std::string& program, ProgramInput input, RunOutcome& outcome);
+void integrate_scene(const std::string& program, const ProgramInput& input, RunOutcome& outcome);
 
 /// False where the Error of an interrupt ended `work`.
 [[nodiscard]] bool is_uninterrupted(const std::function<void()>& work);

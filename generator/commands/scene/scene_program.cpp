@@ -168,6 +168,13 @@ std::string program_text(const Driver& driver, const std::string& name, const Me
         driver.folder, driver.function, cpp_names({name})[0], type);
 }
 
+std::string model_text(const std::string& name)
+{
+    return fmt::format(
+        "#include \"lagen/export_model.hpp\"\n#include \"model.hpp\"\nLAGEN_EXPORT_MODEL(lagen::models::{})\n",
+        cpp_names({name})[0]);
+}
+
 TableNames names_of(const Model& model, const KernelModule& module)
 {
     TableNames names{{}, entries_of(module, "observables"), state_names(model, module.form)};

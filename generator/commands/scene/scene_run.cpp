@@ -30,6 +30,7 @@ void SceneRun::prepare(Scene scene, const MethodEntry& method, bool stretch)
     if (!values_.discrete) add_walls(scene_, checked_.model);
     parameters_ = finite_numbers(values_.parameters, scene_);
     input_.events = &scene_.events;
+    input_.method_type = method.type;
     const auto decided = [this](bool needed) -> const CheckedModel& {
         return preparation_.checked(parameters_, needed);
     };

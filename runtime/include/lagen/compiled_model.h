@@ -4,8 +4,8 @@
  *     const lagen_compiled_model* lagen_compiled_model_of(void);
  * Numbers are doubles, angles radians, units those of the model. A state is `dimension` numbers: base coordinates, then
  * the others. Arrays that a kernel reads or writes begin at multiples of 16 bytes, as malloc's do. Kernels take no
- * memory and lock nothing; they answer a number of lagen::Status (lagen/status.hpp), 0 where all is well. A pointer to a
- * function that the model does not have is 0.
+ * memory and lock nothing; they answer a number of lagen::Status (lagen/status.hpp), 0 where all is well. A pointer to
+ * a function that the model does not have is 0.
  *
  * An instance holds the parameters, the inputs and what a search begins with: `instance_size` bytes that begin at a
  * multiple of 64 and may be copied byte by byte. */
@@ -37,7 +37,8 @@ extern "C" {
 #define LAGEN_COMPILED_MODEL_MACHINE "base"
 #endif
 
-/* A function of time and state with `rows` x `columns` values, stored column by column; `names` of its entries, or 0. */
+/* A function of time and state with `rows` x `columns` values, stored column by column; `names` of its entries, or 0.
+ */
 typedef struct lagen_values {
     const char* name; /* of the kernel: "energy", "observables", "events", "jumps", .. */
     int32_t rows;

@@ -71,6 +71,7 @@ class CompiledModel {
     using State = Eigen::VectorXd;
     using Values = Eigen::Map<const Eigen::VectorXd>; ///< until the same kernel is asked again
     static constexpr int dimension = Eigen::Dynamic;
+    static constexpr SecondOrder second_order = SecondOrder::velocity_free; ///< at most: order_of_system() tells
 
     /// The kernels that are functions of time and state.
     enum class Function {
@@ -103,6 +104,10 @@ class CompiledModel {
 
     [[nodiscard]] Eigen::Index lanes() const noexcept { return lanes_; }
     [[nodiscard]] Eigen::Index base_lanes() const noexcept { return parts_.front().table->base_dimension; }
+    [[nodiscard]] SecondOrder order_of_system() const noexcept
+    {
+        return static_cast<SecondOrder>(parts_.front().table->second_order);
+    }
     [[nodiscard]] const char* name() const noexcept { return parts_.front().table->name; }
     [[nodiscard]] std::span<const char* const> state_names() const noexcept
     {
@@ -139,9 +144,15 @@ class CompiledModel {
     {
         return one(Function::hamiltonian, t, s);
     }
-    [[nodiscard]] Values observables(double t, const State& s) const noexcept { return all(Function::observables, t, s); }
+    [[nodiscard]] Values observables(double t, const State& s) const noexcept
+    {
+        return all(Function::observables, t, s);
+    }
     [[nodiscard]] Values invariants(double t, const State& s) const noexcept { return all(Function::invariants, t, s); }
-    [[nodiscard]] Values constraints(double t, const State& s) const noexcept { return all(Function::constraints, t, s); }
+    [[nodiscard]] Values constraints(double t, const State& s) const noexcept
+    {
+        return all(Function::constraints, t, s);
+    }
     [[nodiscard]] Values casimirs(double t, const State& s) const noexcept { return all(Function::casimirs, t, s); }
     [[nodiscard]] Values events(double t, const State& s) const noexcept { return all(Function::events, t, s); }
     [[nodiscard]] Values domain(double t, const State& s) const noexcept { return all(Function::domain, t, s); }
@@ -165,8 +176,9 @@ class CompiledModel {
         if (found == nullptr || found->names == nullptr) return {};
         return {found->names, static_cast<std::size_t>(function == Function::jumps ? found->columns : found->rows)};
     }
-    std::span<const char* const> events_names; ///< as the kernel contract has them, with jumps_names
-    std::span<const char* const> jumps_names;
+    /// As the kernel contract has them.
+    std::span<const char*const> observables_names, invariants_names, constraints_names, casimirs_names, events_names,
+        jumps_names;
 
     [[nodiscard]] Status follow(double t, const State& s) noexcept
     {
@@ -270,8 +282,8 @@ class CompiledModel {
     void look_up()
     {
         static constexpr std::array<std::string_view, functions> kernels = {
-            "energy",      "power",    "hamiltonian", "lagrangian", "momentum", "mass_matrix", "observables",
-            "invariants",  "constraints", "casimirs", "events",     "jumps",    "domain"};
+            "energy",     "power",       "hamiltonian", "lagrangian", "momentum", "mass_matrix", "observables",
+            "invariants", "constraints", "casimirs",    "events",     "jumps",    "domain"};
         if (parts_.empty()) return;
         lanes_ = parts_.front().table->dimension;
         rhs_ = parts_.front().table->rhs;
@@ -281,11 +293,16 @@ class CompiledModel {
             follows_ = follows_ || part.table->follow != nullptr;
             if (part.table->jacobian.values != nullptr) jacobian_ = &part;
             if (part.table->series.motion != nullptr) series_ = &part;
-            for (const lagen_values& each : std::span(part.table->function, static_cast<std::size_t>(part.table->functions)))
+            for (const lagen_values& each :
+                 std::span(part.table->function, static_cast<std::size_t>(part.table->functions)))
                 for (std::size_t k = 0; k < kernels.size(); ++k)
                     if (kernels[k] == each.name)
                         slots_[k] = {&each, part.instance.get(), Eigen::VectorXd::Zero(each.rows * each.columns)};
         }
+        observables_names = names(Function::observables);
+        invariants_names = names(Function::invariants);
+        constraints_names = names(Function::constraints);
+        casimirs_names = names(Function::casimirs);
         events_names = names(Function::events);
         jumps_names = names(Function::jumps);
     }

@@ -8,11 +8,11 @@
 #pragma once
 
 #include "lagen/compiled_model.h"
-#include "lagen/ensemble/pack.hpp"
-#include "lagen/integrate/packed_stages.hpp"
 #include "lagen/integrate/retract.hpp"
 #include "lagen/integrate/taylor_order.hpp"
 #include "lagen/kernel.hpp"
+#include "lagen/lanes/pack.hpp"
+#include "lagen/lanes/packed_stages.hpp"
 
 #include <array>
 #include <cstddef>
@@ -117,23 +117,24 @@ class ModelExport {
     static void add(std::array<lagen_values, 16>& list, std::int32_t& count, const char* name,
                     const char* const* names) noexcept
     {
-        using Found = std::remove_cvref_t<decltype(Kernel::of(std::declval<const M&>(), 0.0, std::declval<const State&>()))>;
+        using Found =
+            std::remove_cvref_t<decltype(Kernel::of(std::declval<const M&>(), 0.0, std::declval<const State&>()))>;
         const auto [rows, columns] = shape_of<Found>();
-        list[static_cast<std::size_t>(count++)] = {
-            name, rows, columns, names, [](const void* instance, double t, const double* s, double* values) {
-                put(Kernel::of(model(instance), t, state(s)), values);
-            }};
+        list[static_cast<std::size_t>(count++)] = {name, rows, columns, names,
+                                                   [](const void* instance, double t, const double* s, double* values) {
+                                                       put(Kernel::of(model(instance), t, state(s)), values);
+                                                   }};
     }
 
 // A kernel that the class has, with the names of its entries where it has them.
-#define LAGEN_ADD_KERNEL(KERNEL, NAMES)                                                                               \
-    if constexpr (requires(const M& m, const State& s) { m.KERNEL(0.0, s); }) {                                       \
-        struct Kernel {                                                                                               \
-            static auto of(const M& m, double t, const State& s) { return m.KERNEL(t, s); }                           \
-        };                                                                                                            \
-        const char* const* names = nullptr;                                                                           \
-        if constexpr (requires { M::NAMES; }) names = data_of(M::NAMES);                                              \
-        add<Kernel>(list, count, #KERNEL, names);                                                                     \
+#define LAGEN_ADD_KERNEL(KERNEL, NAMES)                                                                                \
+    if constexpr (requires(const M& m, const State& s) { m.KERNEL(0.0, s); }) {                                        \
+        struct Kernel {                                                                                                \
+            static auto of(const M& m, double t, const State& s) { return m.KERNEL(t, s); }                            \
+        };                                                                                                             \
+        const char* const* names = nullptr;                                                                            \
+        if constexpr (requires { M::NAMES; }) names = data_of(M::NAMES);                                               \
+        add<Kernel>(list, count, #KERNEL, names);                                                                      \
     }
 
     static std::pair<std::array<lagen_values, 16>, std::int32_t> list_functions() noexcept
@@ -177,21 +178,25 @@ class ModelExport {
                                double* x)
     {
         auto& series = *reinterpret_cast<Series<M::dimension>*>(x);
-        return in_units(unit, [&](const auto&... units) requires requires {
-            model(instance).taylor(t, state(s), order, series, units...);
-        } { return model(instance).taylor(t, state(s), order, series, units...); });
+        return in_units(
+            unit,
+            [&](const auto&... units) requires requires {
+                model(instance).taylor(t, state(s), order, series, units...);
+            } { return model(instance).taylor(t, state(s), order, series, units...); });
     }
 
 // The series of the functions of one kernel along the motion.
-#define LAGEN_SERIES_ALONG(FUNCTION, KERNEL, COUNT)                                                                   \
-    static std::int32_t FUNCTION(const void* instance, double t, const double* s, std::int32_t order, double unit,    \
-                                 const double* x, double* e)                                                          \
-    {                                                                                                                 \
-        const auto& series = *reinterpret_cast<const Series<M::dimension>*>(x);                                       \
-        auto& along = *reinterpret_cast<Series<COUNT<M>()>*>(e);                                                      \
-        return in_units(unit, [&](const auto&... units) requires requires {                                           \
-            model(instance).KERNEL(t, state(s), order, series, along, units...);                                      \
-        } { return model(instance).KERNEL(t, state(s), order, series, along, units...); });                           \
+#define LAGEN_SERIES_ALONG(FUNCTION, KERNEL, COUNT)                                                                    \
+    static std::int32_t FUNCTION(const void* instance, double t, const double* s, std::int32_t order, double unit,     \
+                                 const double* x, double* e)                                                           \
+    {                                                                                                                  \
+        const auto& series = *reinterpret_cast<const Series<M::dimension>*>(x);                                        \
+        auto& along = *reinterpret_cast<Series<COUNT<M>()>*>(e);                                                       \
+        return in_units(                                                                                               \
+            unit,                                                                                                      \
+            [&](const auto&... units) requires requires {                                                              \
+                model(instance).KERNEL(t, state(s), order, series, along, units...);                                   \
+            } { return model(instance).KERNEL(t, state(s), order, series, along, units...); });                        \
     }
     LAGEN_SERIES_ALONG(events_along, event_series, event_count)
     LAGEN_SERIES_ALONG(domain_along, domain_series, condition_count)
@@ -201,7 +206,10 @@ class ModelExport {
     {
         if constexpr (HasTaylor<M>) {
             series.highest_order = highest;
-            series.has_unit = requires(const M& m, const State& s, Series<M::dimension>& x) { m.taylor(0.0, s, 8, x, 1.0); };
+            series.has_unit = requires(const M& m, const State& s, Series<M::dimension>& x)
+            {
+                m.taylor(0.0, s, 8, x, 1.0);
+            };
             if constexpr (requires { M::taylor_sums; }) series.sums = M::taylor_sums;
             series.motion = motion;
             if constexpr (HasEventSeries<M>) series.events = events_along;
@@ -245,7 +253,8 @@ class ModelExport {
         all.instance_size = sizeof(M);
         all.construct = construct;
         if constexpr (HasParameters<M>)
-            all.parameters = {static_cast<std::int32_t>(M::parameter_names.size()), data_of(M::parameter_names), parameter};
+            all.parameters = {static_cast<std::int32_t>(M::parameter_names.size()), data_of(M::parameter_names),
+                              parameter};
         if constexpr (requires { M::input_names; })
             all.inputs = {static_cast<std::int32_t>(M::input_names.size()), data_of(M::input_names), input};
         if constexpr (HasParameterStatus<M>)
@@ -273,10 +282,10 @@ class ModelExport {
 } // namespace lagen::detail
 
 /// The symbols of a compiled model.
-#define LAGEN_EXPORT_MODEL(MODEL)                                                                                     \
-    extern "C" __attribute__((visibility("default"))) const char lagen_compiled_model_machine[] =                     \
-        LAGEN_COMPILED_MODEL_MACHINE;                                                                                 \
-    extern "C" __attribute__((visibility("default"))) const lagen_compiled_model* lagen_compiled_model_of(void)      \
-    {                                                                                                                 \
-        return lagen::detail::ModelExport<MODEL<double>>::table();                                                    \
+#define LAGEN_EXPORT_MODEL(MODEL)                                                                                      \
+    extern "C" __attribute__((visibility("default"))) const char lagen_compiled_model_machine[] =                      \
+        LAGEN_COMPILED_MODEL_MACHINE;                                                                                  \
+    extern "C" __attribute__((visibility("default"))) const lagen_compiled_model* lagen_compiled_model_of(void)        \
+    {                                                                                                                  \
+        return lagen::detail::ModelExport<MODEL<double>>::table();                                                     \
     }

@@ -83,7 +83,7 @@ template <class M>
 consteval SecondOrder second_order_of() noexcept
 {
     if constexpr (NamesSecondOrder<M>) {
-        static_assert(M::dimension % 2 == 0, "positions and as many rates");
+        static_assert(M::dimension < 0 || M::dimension % 2 == 0, "positions and as many rates");
         return M::second_order;
     } else {
         return SecondOrder::no;

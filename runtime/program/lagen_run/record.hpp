@@ -7,19 +7,23 @@
 #include "lagen_run/small_lanes.hpp"
 
 #include <cmath>
-#include <cstdio>
+#include <functional>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
 namespace lagen::detail {
 
 /// A column: state lane or entry of observables().
-struct Column {
+struct DriveColumn {
     bool observable = false;
     Eigen::Index index = 0;
 };
+
+/// Takes the rows of a run, one after another.
+using RowSink = std::function<void(std::string_view)>;
 
 /// The observer of a run: row(t, s) writes, operator() follows what should be constant.
 template <class M>
@@ -29,9 +33,10 @@ class DriveRecord {
 
     /// `every`: rows at the start and behind every so many steps; 0 where row(t, s) is told of all of them.
     /// `absolute`: the tolerance of the method, or 0.
-    DriveRecord(const M& model, std::vector<Column> columns, bool binary, std::FILE* out, std::size_t every = 0,
+    DriveRecord(const M& model, std::vector<DriveColumn> columns, bool binary, RowSink out, std::size_t every = 0,
                 double absolute = 0)
-        : model_(model), columns_(std::move(columns)), binary_(binary), out_(out), every_(every), small_(absolute)
+        : model_(model), columns_(std::move(columns)), binary_(binary), out_(std::move(out)), every_(every),
+          figures_(model), small_(absolute)
     {
     }
 
@@ -39,15 +44,17 @@ class DriveRecord {
     {
         follow(t, s);
         last_time_ = t;
-        write(t, true);
+        line_.clear();
+        write(t);
         if constexpr (requires { model_.observables(t, s); }) {
             const auto observables = model_.observables(t, s);
-            for (const Column& column : columns_)
-                write(column.observable ? observables[column.index] : s[column.index], false);
+            for (const DriveColumn& column : columns_)
+                write(column.observable ? observables[column.index] : s[column.index]);
         } else {
-            for (const Column& column : columns_) write(s[column.index], false);
+            for (const DriveColumn& column : columns_) write(s[column.index]);
         }
-        if (!binary_) std::fputc('\n', out_);
+        if (!binary_) line_.back() = '\n';
+        out_(line_);
         ++rows_;
     }
 
@@ -99,21 +106,22 @@ class DriveRecord {
         if constexpr (Follows<M>) static_cast<void>(model_.follow(t, s));
     }
 
-    /// As append_number.
-    void write(double value, bool first)
+    /// A field and a comma; native doubles have none.
+    void write(double value)
     {
         if (binary_) {
-            std::fwrite(&value, sizeof value, 1, out_);
+            line_.append(reinterpret_cast<const char*>(&value), sizeof value);
             return;
         }
-        if (!first) std::fputc(',', out_);
-        if (std::isfinite(value)) std::fputs(number_text(value).c_str(), out_);
+        append_number(line_, value);
+        line_ += ',';
     }
 
     std::conditional_t<Follows<M>, M, const M&> model_; ///< a copy where it learns what it follows
-    std::vector<Column> columns_;
+    std::vector<DriveColumn> columns_;
     bool binary_;
-    std::FILE* out_;
+    RowSink out_;
+    std::string line_;
     std::size_t every_ = 0, seen_ = 0;
     Figures<M> figures_;
     SmallLanes<State> small_;

@@ -15,11 +15,11 @@ class SweepRecord {
     using State = typename M::State;
 
     /// `absolute`: the tolerance of the method, or 0.
-    SweepRecord(const M& model, const std::vector<Column>& columns, double absolute = 0)
+    SweepRecord(const M& model, const std::vector<DriveColumn>& columns, double absolute = 0)
         : model_(model), columns_(columns), values_(columns.size(), nothing), least_(values_), most_(values_),
           small_(absolute)
     {
-        for (const Column& column : columns) observes_ = observes_ || column.observable;
+        for (const DriveColumn& column : columns) observes_ = observes_ || column.observable;
     }
 
     void row(double t, const State& s) { (*this)(t, s); }
@@ -30,12 +30,12 @@ class SweepRecord {
         if constexpr (requires { model_.observables(t, s); }) {
             if (observes_) {
                 const auto observables = model_.observables(t, s);
-                return see([&](const Column& column) {
+                return see([&](const DriveColumn& column) {
                     return column.observable ? observables[column.index] : s[column.index];
                 });
             }
         }
-        see([&](const Column& column) { return s[column.index]; });
+        see([&](const DriveColumn& column) { return s[column.index]; });
     }
 
     /// At the last step; NaN where there was none.
@@ -58,7 +58,7 @@ class SweepRecord {
     }
 
     std::conditional_t<Follows<M>, M, const M&> model_; ///< a copy where it learns what it follows
-    const std::vector<Column>& columns_;
+    const std::vector<DriveColumn>& columns_;
     bool observes_ = false;
     std::vector<double> values_, least_, most_;
     SmallLanes<State> small_;
