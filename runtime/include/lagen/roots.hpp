@@ -14,8 +14,10 @@
 #include <type_traits>
 #include <utility>
 
-#if defined(__SSE2__)
+#if defined(__AVX__)
 #include <immintrin.h>
+#elif defined(__SSE2__)
+#include <emmintrin.h> // the other one has 30 thousand lines
 #elif defined(__aarch64__)
 #include <arm_neon.h>
 #endif

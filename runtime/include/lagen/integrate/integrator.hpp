@@ -18,7 +18,7 @@
 
 #include <algorithm>
 #include <limits>
-#include <memory>
+#include <new>
 #include <utility>
 
 namespace lagen {
@@ -84,8 +84,8 @@ class Integrator {
     Status restart(const State& s, const Real& t)
     {
         work_ = work_.with(stepper_);
-        std::destroy_at(&stepper_);
-        std::construct_at(&stepper_, method_);
+        stepper_.~Stepper();
+        ::new (static_cast<void*>(&stepper_)) Stepper(method_);
         s_ = from_ = s;
         t_ = t_from_ = failed_at_ = t;
         h_ = lost_ = failed_length_ = Real(0);
@@ -119,7 +119,7 @@ class Integrator {
     [[nodiscard]] std::size_t decompositions() const noexcept { return work_.with(stepper_).decompositions; }
 
   private:
-    template <class, class, class>
+    template <class, class, class, class>
     friend class detail::March;
     template <class, class, int, class>
     friend class detail::Abreast;

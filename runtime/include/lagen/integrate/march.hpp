@@ -15,7 +15,9 @@
 
 namespace lagen::detail {
 
-template <class M, class Method, class Observer>
+/// `Asked` is Options<M>, or NoOptions<M> where nothing is asked for: what rows, events and solutions take is then left
+/// out by the compiler.
+template <class M, class Method, class Observer, class Asked>
 class March {
   public:
     using Steps = Integrator<M, Method>;
@@ -27,24 +29,25 @@ class March {
     /// Adaptive steps are long and their interpolants cheap: events are looked for in so many pieces of each.
     static constexpr int pieces = Stepper::adaptive ? 4 : 1;
     static constexpr int nodes = (Stepper::dense_order + 3) / 2;
-    static constexpr bool can_jump = RightHandSide<M> && !is_pack<Scalar> && std::is_copy_assignable_v<Stepper>;
+    static constexpr bool asks = std::is_same_v<Asked, Options<M>>;
+    static constexpr bool can_jump = asks && RightHandSide<M> && !is_pack<Scalar> && std::is_copy_assignable_v<Stepper>;
     static constexpr bool sums = requires(Observer observer, Real t, const State& (*inside)(const Real&))
     {
         observer.template sum<nodes>(t, t, inside);
     };
 
-    March(const M& model, const State& s, Interval<Real> span, const Method& method, const Options<M>& options,
+    March(const M& model, const State& s, Interval<Real> span, const Method& method, const Asked& options,
           Observer& observer)
         : steps_(model, s, span.start, method), span_(span), options_(options), observer_(observer),
           watch_(steps_.model(), options.events), last_jumps_(options.events.size()),
           forward_(!(span.end - span.start < Real(0))),
           looks_(!options.at.empty() || !options.events.empty() || options.dense),
-          limit_(options.cancel == nullptr && options.signal == nullptr && !options.progress ? options.max_steps : 0)
+          limit_(options.has_company() ? 0 : options.max_steps)
     {
     }
 
     /// Whether some event asks for a jump.
-    static bool jumps(const Options<M>& options)
+    static bool jumps(const Asked& options)
     {
         return std::any_of(options.events.begin(), options.events.end(), [](const auto& each) { return !!each.jump; });
     }
@@ -91,17 +94,19 @@ class March {
     Status begin()
     {
         const Real length = span_.end - span_.start;
-        if (length - length != Real(0) || !watch_.is_valid() || !rows_are_in_order()) return Status::invalid_input;
+        if (length - length != Real(0) || !watch_.is_valid() || !are_in_order(options_.at, forward_))
+            return Status::invalid_input;
         if (is_pack<Scalar> && !watch_.empty()) return Status::invalid_input;
         if (!can_jump && jumps(options_)) return Status::invalid_input;
         if (!moves_by_sums<M> && options_.dense) return Status::invalid_input;
         if (steps_.status() != Status::ok) return steps_.status();
-        if (!watch_.empty()) watch_.begin(steps_.t(), steps_.state(), length), parts_.reserve(16);
+        if constexpr (asks)
+            if (!watch_.empty()) watch_.begin(steps_.t(), steps_.state(), length), parts_.reserve(16);
         steps_.aim(span_.end);
-        if constexpr (moves_by_sums<M>)
+        if constexpr (asks && moves_by_sums<M>)
             if (options_.dense) run_.solution.begin(steps_.t(), steps_.state(), Stepper::dense_order);
         while (row_ < options_.at.size() && is_after(span_.start, options_.at[row_])) ++row_;
-        rows_until(span_.start, [&](Real) { return &steps_.state(); });
+        if constexpr (asks) rows_until(span_.start, [&](Real) { return &steps_.state(); });
         show();
         return Status::ok;
     }
@@ -116,8 +121,7 @@ class March {
         const std::size_t tried = steps_.steps() + steps_.rejected();
         if (tried < limit_) return Status::ok;
         steps_.failed_at_ = steps_.t_;
-        if (options_.cancel != nullptr && options_.cancel->load(std::memory_order_relaxed)) return Status::interrupted;
-        if (options_.signal != nullptr && *options_.signal != 0) return Status::interrupted;
+        if (options_.is_cancelled()) return Status::interrupted;
         if (tried >= options_.max_steps) return Status::too_many_steps;
         if (options_.progress && tried % 256 == 255)
             options_.progress(
@@ -160,7 +164,7 @@ class March {
 
     Status look(Status ending)
     {
-        ending = commit(ending);
+        if constexpr (asks || HasDomain<M>) ending = commit(ending);
         show();
         return ending;
     }
@@ -186,7 +190,8 @@ class March {
         if (ending != Status::ok) ++steps_.steps_;
         bool jumps = false, stops = false;
         const Real width = theta_width(t0, h);
-        if (!watch_.empty()) {
+        if constexpr (!asks) {
+        } else if (!watch_.empty()) {
             const bool known = find_parts(theta, h);
             refined_.theta = Real(-1);
             for (const auto& crossed : watch_.look(parts_, width, Stepper::adaptive && !known, at)) {
@@ -344,16 +349,6 @@ class March {
     static Real size(const Real& x) noexcept { return Steps::size(x); }
     bool is_after(const Real& a, const Real& b) const noexcept { return forward_ ? a > b : a < b; }
 
-    /// In the direction of the run, and none of them NaN.
-    [[nodiscard]] bool rows_are_in_order() const noexcept
-    {
-        for (std::size_t k = 0; k < options_.at.size(); ++k) {
-            if (options_.at[k] != options_.at[k]) return false;
-            if (k > 0 && is_after(options_.at[k - 1], options_.at[k])) return false;
-        }
-        return true;
-    }
-
     /// Rows at the times up to `end`, rounding included.
     template <class At>
     void rows_until(const Real& end, const At& at)
@@ -380,9 +375,9 @@ class March {
 
     Steps steps_;
     Interval<Real> span_;
-    const Options<M>& options_;
+    const Asked& options_;
     Observer& observer_;
-    EventWatch<M> watch_;
+    std::conditional_t<asks, EventWatch<M>, NoOptions<M>> watch_;
     Run<M> run_;
     std::vector<Real> parts_; ///< of a step
     struct {

@@ -51,6 +51,8 @@ struct EventFound {
     State after;
 };
 
+inline constexpr std::size_t usual_max_steps = 100'000'000;
+
 /// Everything optional of a run. Rows at `at`: sorted in the direction of the run (invalid_input otherwise), equal ones
 /// as often as they stand there; those outside the interval are left out.
 template <class M>
@@ -60,14 +62,64 @@ struct Options {
 
     std::span<const Real> at{};
     std::span<const EventRequest<Real, State>> events{};
-    std::size_t max_steps = 100'000'000; ///< accepted and rejected together; rows do not count
-    std::size_t max_jumps = 1'000'000;   ///< more of them end the run with too_many_steps
-    bool dense = false;                  ///< keep every step for Run::solution
+    std::size_t max_steps = usual_max_steps; ///< accepted and rejected together; rows do not count
+    std::size_t max_jumps = 1'000'000;       ///< more of them end the run with too_many_steps
+    bool dense = false;                      ///< keep every step for Run::solution
     const std::atomic<bool>* cancel = nullptr;
     const volatile std::sig_atomic_t* signal = nullptr; ///< as cancel, for a signal handler: not zero ends the run
     /// Called every 256 steps with the fraction of the interval that is done.
     std::function<void(double)> progress{};
+
+    /// Somebody outside may end the run, or follows it.
+    [[nodiscard]] bool has_company() const noexcept { return cancel != nullptr || signal != nullptr || progress; }
+    [[nodiscard]] bool is_cancelled() const noexcept
+    {
+        return (cancel != nullptr && cancel->load(std::memory_order_relaxed)) || (signal != nullptr && *signal != 0);
+    }
 };
+
+namespace detail {
+
+/// Options of a run that asks for its end alone, and what its events are watched by: all of it is known when it is
+/// compiled.
+template <class M>
+struct NoOptions {
+    using Real = real_t<typename M::Scalar>;
+    struct Crossed {
+        Real theta;
+        std::size_t request;
+    };
+
+    static constexpr std::span<const Real> at{};
+    static constexpr std::span<const EventRequest<Real, typename M::State>> events{};
+    static constexpr std::size_t max_steps = usual_max_steps;
+    static constexpr bool dense = false;
+    static constexpr void (*progress)(double) = nullptr;
+    static constexpr bool has_company() noexcept { return false; }
+    static constexpr bool is_cancelled() noexcept { return false; }
+
+    NoOptions() = default;
+    template <class Events>
+    NoOptions(const M&, const Events&) noexcept
+    {
+    }
+    static constexpr bool empty() noexcept { return true; }
+    static constexpr bool is_valid() noexcept { return true; }
+    static constexpr std::span<const Crossed> crossed() noexcept { return {}; }
+};
+
+/// Times that go in the direction of the run, none of them NaN.
+template <class Real>
+[[nodiscard]] bool are_in_order(std::span<const Real> times, bool forward) noexcept
+{
+    for (std::size_t k = 0; k < times.size(); ++k) {
+        if (times[k] != times[k]) return false;
+        if (k > 0 && (forward ? times[k - 1] > times[k] : times[k - 1] < times[k])) return false;
+    }
+    return true;
+}
+
+} // namespace detail
 
 /// What a run found. Converts to true where it ended as asked.
 template <class M>
