@@ -63,7 +63,7 @@ class Instant {
     {
         if (places_[r].due) return false;
         const Real side = side_before<Real>(requests_[r].direction), size = size_of(value_[r]);
-        if (side == Real(0)) return size <= values_.noise(r);
+        if (side == Real(0)) return size <= values_.noise(r) || (size <= tolerance_ && value_[r] * rate_[r] > Real(0));
         const bool leaves = is_sure(r) && rate_[r] * side > Real(0);
         if (value_[r] * side > values_.noise(r) || leaves) return false;
         const bool near = size <= std::max<Real>(values_.noise(r), tolerance_);
