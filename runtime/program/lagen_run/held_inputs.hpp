@@ -89,7 +89,7 @@ Run<M> integrate_held(const HeldInputs& inputs, M& model, const typename M::Stat
         part.events = events;
         part.max_steps -= run.steps + run.rejected;
         const std::size_t found = run.events.size();
-        part.continues = found > 0 && run.events.back().t == run.t;
+        if (!first) part.continues = &run;
         Run<M> next = integrate(model, run.state, {run.t, end}, method, part, observer);
         if (first) run.starts_on = next.starts_on;
         append(run, std::move(next));

@@ -95,6 +95,8 @@ class Instant {
         }
     }
 
+    void leave_out(std::size_t r) noexcept { places_[r].due = false; }
+
     [[nodiscard]] bool is_due() const noexcept
     {
         return std::any_of(places_.begin(), places_.end(), [](const Place& place) { return place.due; });

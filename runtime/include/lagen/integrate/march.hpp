@@ -115,13 +115,16 @@ class March {
         using std::sqrt;
         const Real t = steps_.t_, h = sqrt(epsilon()) * length;
         parts_.reserve(16);
-        watch_.begin(t, steps_.s_, h);
+        watch_.begin(t, steps_.s_, h, options_.continues != nullptr);
         if (length == Real(0)) return Status::ok;
         instant_.begin(t, steps_.s_, h);
         for (std::size_t r = 0; r < options_.events.size(); ++r)
-            if (!options_.continues && instant_.is_passed_over(r)) run_.starts_on.push_back(r);
+            if (instant_.is_passed_over(r)) run_.starts_on.push_back(r);
+        if (options_.continues != nullptr)
+            for (const auto& found : options_.continues->events)
+                if (found.t == t) instant_.leave_out(found.request);
         if constexpr (can_jump)
-            if (!options_.continues && instant_.is_due()) return land(h, Real(0), epsilon(), steps_.s_);
+            if (instant_.is_due()) return land(h, Real(0), epsilon(), steps_.s_);
         return Status::ok;
     }
 

@@ -54,6 +54,9 @@ struct EventFound {
     State after;
 };
 
+template <class M>
+struct Run;
+
 /// Everything optional of a run. Rows at `at`: sorted in the direction of the run (invalid_input otherwise), equal ones
 /// as often as they stand there; those outside the interval are left out.
 template <class M>
@@ -65,7 +68,7 @@ struct Options {
     std::span<const EventRequest<Real, State>> events{};
     std::size_t max_steps = 100'000'000; ///< accepted and rejected together; rows do not count
     std::size_t max_jumps = 1'000'000;   ///< more of them end the run with too_many_steps
-    bool continues = false;              ///< from a run that ended at a jump: no event happens at the start
+    const Run<M>* continues = nullptr;   ///< a run that this one goes on from: its events do not happen again
     bool dense = false;                  ///< keep every step for Run::solution
     const std::atomic<bool>* cancel = nullptr;
     const volatile std::sig_atomic_t* signal = nullptr; ///< as cancel, for a signal handler: not zero ends the run

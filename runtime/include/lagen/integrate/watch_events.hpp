@@ -54,13 +54,15 @@ class EventWatch {
         });
     }
 
-    /// At the start of a run, h being a time in its direction.
-    void begin(Real t, const State& s, Real h)
+    /// At the start of a run, h being a time in its direction, or where one goes on: then what is still before its zero
+    /// by a rounding error crosses it.
+    void begin(Real t, const State& s, Real h, bool goes_on)
     {
         values_.evaluate(t, s, before_);
         values_.find_rates(t, s, h, rate_);
         for (std::size_t r = 0; r < requests_.size(); ++r)
-            set_side(r, values_.noise(r), values_.rate_noise(r), !!requests_[r].jump);
+            if (!goes_on || before_[r] * rate_[r] >= Real(0))
+                set_side(r, values_.noise(r), values_.rate_noise(r), false, !!requests_[r].jump);
     }
 
     /// Behind the jumps of an instant, at theta of the last step, of the signed length h, where theta is known to
@@ -79,11 +81,9 @@ class EventWatch {
             const Real near = std::max<Real>(Real(8) * width * size_of(h) * rate, Real(4) * size_of(after_[r]));
             const Real level = std::max<Real>(here ? near : Real(0), values_.noise(r));
             const Real least = std::max<Real>(Real(1e-8) * rate, values_.rate_noise(r));
-            set_side(r, level, least, !here && !own);
-            Side& side = sides_[r];
-            if (!(size_of(before_[r]) <= level) || size_of(rate_[r]) > least) continue;
-            if (here) side.side = crossed->side;
-            if (here || own) side.at_once = own && side.side != Real(0);
+            set_side(r, level, least, own, !here && !own);
+            const bool known = size_of(rate_[r]) > least;
+            if (here && !known && size_of(before_[r]) <= level) sides_[r].side = crossed->side;
         }
     }
 
@@ -194,25 +194,17 @@ class EventWatch {
         };
     }
 
-    /// Of function r, which has the value before_ and the rate rate_, known to `least`, on the side to which it goes
-    /// where it is zero to `level`; where that is not known, on the side from which it may cross, which `happens` where
-    /// its first change is to the other one.
-    void set_side(std::size_t r, const Real& level, const Real& least, bool happens)
+    /// Of function r, which has the value before_ and the rate rate_, known to `least`: the side to which it goes where
+    /// it is zero to `level`; where that is not known, the side from which it may cross. The rest as in Side.
+    void set_side(std::size_t r, const Real& level, const Real& least, bool at_once, bool happens)
     {
         const Real from = side_before<Real>(requests_[r].direction), size = size_of(before_[r]);
         const Real goes = size_of(rate_[r]) > least ? sign(rate_[r]) : Real(0);
+        const Real side = goes != Real(0) ? goes : from;
+        const bool on = size <= level, beyond = size <= tolerance_ && goes == from && before_[r] * from < Real(0);
         sides_[r] = {};
-        if (size <= level) {
-            if (goes != Real(0))
-                sides_[r] = {goes, level};
-            else if (happens)
-                sides_[r] = {from, level, false, from != Real(0)};
-            else
-                sides_[r] = {from, level};
-            if (sides_[r].side == Real(0)) before_[r] = Real(0);
-        } else if (size <= tolerance_ && goes == from && before_[r] * from < Real(0)) {
-            sides_[r] = {goes, size};
-        }
+        if (on || beyond) sides_[r] = {side, std::max<Real>(level, size), at_once, happens && from != Real(0)};
+        if (on && side == Real(0)) before_[r] = Real(0);
     }
 
     /// A place of (0, last] where function r is on its side by more than its rounding errors, which would cross again:
