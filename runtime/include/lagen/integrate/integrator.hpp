@@ -359,8 +359,7 @@ class Integrator {
         return reason == Status::non_finite && imprecise_ ? Status::step_too_small : reason;
     }
 
-    /// Where t is in the last step, which goes from t_from_ - lost_from_ (0) to t_ - lost_ (1); the time at `length` in
-    /// it.
+    /// Where t is in the last step, from t_from_ - lost_from_ (0) to t_ - lost_ (1); the time at `length` in it.
     [[nodiscard]] Real place_of(const Real& t) const noexcept { return ((t - t_from_) + lost_from_) / length_; }
     [[nodiscard]] Real time_behind(const Real& length) const noexcept { return t_from_ + (length - lost_from_); }
     /// What is nearer to the end of a step is the end: as little as the errors of all steps so far.

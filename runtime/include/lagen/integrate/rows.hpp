@@ -2,6 +2,7 @@
 /// The rows of a run, in the direction of the run: to the observer where it takes them, else into the result.
 #pragma once
 
+#include "lagen/integrate/lanes.hpp"
 #include "lagen/integrate/run.hpp"
 
 #include <cstddef>
