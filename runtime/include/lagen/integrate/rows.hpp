@@ -2,8 +2,8 @@
 /// The rows of a run, in the direction of the run: to the observer where it takes them, else into the result.
 #pragma once
 
-#include "lagen/integrate/lanes.hpp"
-#include "lagen/integrate/run.hpp"
+#include "lagen/integrate/options.hpp"
+#include "lagen/lanes/lanes.hpp"
 
 #include <cstddef>
 
