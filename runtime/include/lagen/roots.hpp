@@ -8,6 +8,8 @@
 /// two to eight numbers they take about as long as on one. Every result is rounded correctly, one by one or together.
 #pragma once
 
+#include "lagen/requirements.hpp"
+
 #include <array>
 #include <cmath>
 #include <cstddef>

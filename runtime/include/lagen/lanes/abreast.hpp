@@ -177,7 +177,7 @@ class Abreast {
         steps.stepper_.take_back();
         steps.t_ = steps.t_from_ = shared_->times[at(lane)];
         steps.h_ = shared_->quiet.asked[lane];
-        steps.lost_ = shared_->quiet.lost[lane];
+        steps.lost_ = steps.lost_from_ = shared_->quiet.lost[lane];
         steps.steps_ += made;
         steps.failed_length_ = 0;
         steps.imprecise_ = steps.retry_ = false;
