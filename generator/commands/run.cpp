@@ -121,7 +121,7 @@ void tell(const Options& options, const RunOutcome& outcome, const std::string& 
             write_standard_error(fmt::format("  picture in {}: {}{}\n", options.get("plot"), picture,
                                              spared ? "; the rows as CSV: -o FILE.csv, or into a pipe" : ""));
     }
-    write_standard_error(run_warnings(outcome));
+    write_standard_error(start_note(outcome) + run_warnings(outcome));
 }
 
 /// What --plot draws, told; `whole` becomes false where one of the runs drawn beside did not come to its end.

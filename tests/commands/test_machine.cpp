@@ -6,6 +6,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -86,6 +87,30 @@ TEST_CASE("CXXFLAGS is part of the key and reaches the compiler", "[run]")
     const Outcome outcome = call(short_run, {.environment = {{"CXXFLAGS", "--no-such-flag"}}});
     CHECK(outcome.code == 5);
     CHECK(outcome.err.find("--no-such-flag") != std::string::npos);
+}
+
+TEST_CASE("flags under which numbers are taken for finite, or sums reordered, are refused: the last one given wins")
+{
+    const std::string broken = script("exit 3\n"); // a compiler that shows that it was called
+    const auto with = [&](const std::string& flags) {
+        return call(short_run, {.environment = {{"CXXFLAGS", flags}, {"CXX", broken}}});
+    };
+    for (const std::string flags :
+         {"-ffast-math", "-Ofast", "-O2 -ffinite-math-only", "-funsafe-math-optimizations", "-fassociative-math",
+          "-fno-fast-math -ffast-math", "-Ofast -fno-finite-math-only"}) {
+        const Outcome refused = with(flags);
+        INFO(flags << '\n' << refused.err);
+        CHECK(refused.code == 5);
+        CHECK(refused.out.empty());
+        CHECK_THAT(refused.err, Catch::StartsWith("error: CXXFLAGS holds -"));
+        CHECK(refused.err.find("with which a program cannot see that a number is not finite") != std::string::npos);
+        CHECK(std::count(refused.err.begin(), refused.err.end(), '\n') == 2);
+    }
+    for (const std::string flags : {"-O3 -march=native", "-Ofast -fno-fast-math", "-Ofast -O2", "-fno-fast-math",
+                                    "-ffast-math -fno-finite-math-only -fno-unsafe-math-optimizations"}) {
+        INFO(flags);
+        CHECK_THAT(with(flags).err, Catch::StartsWith("error: the C++ compiler failed with exit code 3\n"));
+    }
 }
 
 TEST_CASE("without a compiler the run says which was looked for")

@@ -243,3 +243,39 @@ TEST_CASE("rows of a sweep with jumps are those of `run`, zeno included", "[swee
         CHECK(value["events"].entries.back()["t"].text == table.at(k, "event.bounce.t"));
     }
 }
+
+TEST_CASE("a ball on its floor is thrown back there, and a run says on which events it starts that do not happen",
+          "[run]")
+{
+    const json::Value thrown = run_of_events({"bouncing_ball.toml", "--initial", "x=0", "--initial", "v=-1"});
+    const std::vector<json::Value>& events = thrown["events"].entries;
+    REQUIRE(events.size() > 5);
+    CHECK(event_number(events[0]["t"]) == 0);
+    CHECK(event_number(events[0]["after"]["v"]) == 0.9);
+    CHECK(event_number(thrown["state"]["x"]) > -1e-12);
+    const std::string stop = fresh_folder() + "/stop.toml";
+    write_text(stop, R"toml(
+[base]
+coordinates = ["x"]
+[algebroid]
+kind = "tangent"
+[lagrangian]
+L = "v_x^2/2 - 9.81*x"
+[scene.default]
+initial = { x = 0, v_x = -1 }
+duration = 1
+[scene.default.events]
+floor = { when = "x", direction = "falling", stop = true }
+)toml");
+    const std::string note = "note: the run starts on event 'floor', or beyond it, and it does not happen there: ";
+    for (const std::string x : {"0", "-1e-18"}) {
+        const Outcome run = call({"run", stop, "--initial", "x=" + x, "--at", "1"});
+        CHECK(run.code == 0);
+        CHECK_THAT(run.err, Contains(note));
+    }
+    CHECK_THAT(call({"run", stop, "--initial", "x=1", "--at", "1"}).err, !Contains(note));
+    const Outcome sweep = call({"sweep", stop, "--initial", "x=0:1:3", "-o", fresh_folder() + "/x.csv"});
+    CHECK(sweep.code == 0);
+    CHECK_THAT(sweep.err,
+               Contains("note: 1 row starts on event 'floor', or beyond it, and it does not happen there\n"));
+}

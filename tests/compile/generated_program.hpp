@@ -12,9 +12,9 @@
 namespace lagen::testing {
 
 /// Generates a header of every model (paths from the root of the sources) with `options`, compiles
-/// tests/compile/programs/NAME.cpp with all warnings as errors, runs it: what it prints.
+/// NAME.cpp of `programs`, a folder of tests/compile, with all warnings as errors, runs it: what it prints.
 inline std::string run_on_headers(const std::string& name, const std::vector<std::string>& models,
-                                  const std::string& options = "")
+                                  const std::string& options = "", const std::string& programs = "programs/")
 {
     const std::string source = LAGEN_SOURCE_DIR;
     const std::string folder = std::string(LAGEN_BINARY_DIR) + "/compiled/" + name;
@@ -31,8 +31,8 @@ inline std::string run_on_headers(const std::string& name, const std::vector<std
         run_shell(std::string(chosen == nullptr ? "c++" : chosen) +
                   " -std=c++20 -O1 -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror -I'" +
                   folder + "' -I'" + source + "/runtime/include' -I'" + source +
-                  "/tests' $(pkg-config --cflags eigen3 | sed s/-I/-isystem/) '" + source + "/tests/compile/programs/" +
-                  name + ".cpp' -o '" + folder + "/program'");
+                  "/tests' $(pkg-config --cflags eigen3 | sed s/-I/-isystem/) '" + source + "/tests/compile/" +
+                  programs + name + ".cpp' -o '" + folder + "/program'");
     INFO(build.output);
     REQUIRE(build.status == 0);
     const Shell run = run_shell("'" + folder + "/program'");

@@ -68,3 +68,26 @@ TEST_CASE("README's stepper, dense solution and lambda do what it says")
     CHECK(std::stod(lambda[2]) < 1e-5);
     CHECK(std::abs(std::stod(lambda[1])) > 0.1);
 }
+
+TEST_CASE("a run without options is compiled without events, rows and dense output, from few headers")
+{
+    CHECK(run_on_headers("readme_1", {"models/heavy_top.toml"}, "", "") == "top energy 5.966000 status ok\n");
+    const std::string folder = std::string(LAGEN_BINARY_DIR) + "/compiled/";
+    const std::string symbols = run_shell("nm -C '" + folder + "readme_1/program'").output;
+    CHECK(symbols.find("lagen::detail::March<") != std::string::npos);
+    for (const char* part : {"EventWatch", "locate_crossing", "rows_until", "::inside(", "::interpolate("}) {
+        INFO(part);
+        CHECK(symbols.find(part) == std::string::npos);
+    }
+
+    const std::string source = LAGEN_SOURCE_DIR;
+    const Shell headers =
+        run_shell("c++ -std=c++20 -M -I'" + source + "/runtime/include' " + "$(pkg-config --cflags eigen3) -x c++ '" +
+                  source + "/runtime/include/lagen/integrate.hpp'");
+    REQUIRE(headers.status == 0);
+    CHECK(headers.output.find("Eigen/Core") != std::string::npos);
+    for (const char* header : {"/immintrin.h", "/avx512fintrin.h", "/shared_ptr.h", "/iostream"}) {
+        INFO(header);
+        CHECK(headers.output.find(header) == std::string::npos);
+    }
+}

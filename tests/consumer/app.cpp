@@ -2,7 +2,7 @@
 // A user's program: the heavy top for one second.
 #include "heavy_top.hpp"
 
-#include <lagen/integrate.hpp>
+#include <lagen/dop853.hpp> // lagen/integrate.hpp has every method
 
 #include <cstdio>
 

@@ -196,7 +196,8 @@ TEST_CASE("the runtime includes nothing but itself, Eigen, the standard library 
                                               (program ? "runtime/program" : "runtime/include") / include.target));
                 ++own;
             } else {
-                const bool instructions = include.target == "immintrin.h" || include.target == "arm_neon.h";
+                const bool instructions = include.target == "immintrin.h" || include.target == "emmintrin.h" ||
+                                          include.target == "arm_neon.h";
                 const bool standard = include.target.find('.') == std::string::npos;
                 const bool peer = file.path.starts_with("runtime/program/lagen_chart/") &&
                                   peers.contains(std::filesystem::path(file.path).stem().string());

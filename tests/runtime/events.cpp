@@ -125,6 +125,7 @@ TEST_CASE("A start on an event is not a crossing")
     const auto run = integrate(Pendulum{}, State(0, 1), {0.0, 1.0}, Dop853{}, {.events = bottom});
     CHECK(run.status() == Status::ok);
     CHECK(run.events.empty());
+    CHECK(run.starts_on == std::vector<std::size_t>{0});
 }
 
 TEST_CASE("A gap where an event's function is not a number hides no crossing")

@@ -172,3 +172,52 @@ TEST_CASE("an Integrator of a fixed step holds inputs from where it stands")
     CHECK(integrator.state()[0] == Approx(1).epsilon(1e-14));
     CHECK(integrator.state()[1] == Approx(0).margin(1e-14));
 }
+
+TEST_CASE("what an observer sums along a run goes over all of it, whatever rows are asked for")
+{
+    /// The work of u, by the midpoint of each part: exact, as v is linear there.
+    struct Work {
+        const HeldMass& model;
+        double time = 0, work = 0;
+        template <int nodes, class Inside>
+        void sum(double, double h, const Inside& inside)
+        {
+            time += h;
+            work += h * model.inputs.u * inside(0.5)[1];
+        }
+    };
+    const std::vector<double> last{3}, none;
+    const std::array<EventRequest<double, HeldMass::State>, 1> never{{{.index = 0, .direction = Crossing::rising}}};
+    for (const std::vector<double>* at : {&last, &none})
+        for (const bool watched : {false, true}) {
+            HeldMass model;
+            Work work{model};
+            Options<HeldMass> options{.at = *at};
+            if (watched) options.events = never;
+            const auto run = detail::integrate_held(steps, model, {0, 0.1}, {0, 3}, Rk4{.step = 0.4}, options, work);
+            REQUIRE(run);
+            CHECK(work.time == Approx(3).epsilon(1e-14));
+            // from v = 0.1 to 1.1 and back
+            CHECK(work.work == Approx(0).margin(1e-14));
+            CHECK(run.state[0] == Approx(1.3).epsilon(1e-14));
+        }
+    HeldMass model;
+    Work work{model};
+    REQUIRE(detail::integrate_held(steps, model, {0, 0.1}, {0, 1.5}, Dop853{}, {}, work));
+    CHECK(work.work == Approx((1.1 * 1.1 - 0.1 * 0.1) / 2 - (1.1 * 1.1 - 0.6 * 0.6) / 2).epsilon(1e-12));
+}
+
+TEST_CASE("an event that jumps at the time of a row of a table happens once")
+{
+    HeldMass model;
+    HeldRows rows{model, {}};
+    const std::array<EventRequest<double, HeldMass::State>, 1> surface{
+        {{.direction = Crossing::rising,
+          .when = [](double, const HeldMass::State& s) { return s[0] - 0.5; },
+          .jump = [](double, const HeldMass::State& s) { return HeldMass::State(s[0], s[1] / 2); }}}};
+    Options<HeldMass> options{.events = surface};
+    const auto run = detail::integrate_held(steps, model, {0, 0}, {0, 3}, Rk4{.step = 0.25}, options, rows);
+    CHECK(run.events.size() == 1);
+    CHECK(run.events[0].t == Approx(1).epsilon(1e-14));
+    CHECK(run.starts_on.empty());
+}

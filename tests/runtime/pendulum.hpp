@@ -8,6 +8,9 @@
 #define LAGEN_PENDULUM_RUN(linkage, Method)                                                                            \
     linkage template lagen::Run<lagen::problems::Pendulum<double>> lagen::integrate(                                   \
         const lagen::problems::Pendulum<double>&, const lagen::problems::Pendulum<double>::State&,                     \
+        lagen::Interval<double>, const lagen::Method&);                                                                \
+    linkage template lagen::Run<lagen::problems::Pendulum<double>> lagen::integrate(                                   \
+        const lagen::problems::Pendulum<double>&, const lagen::problems::Pendulum<double>::State&,                     \
         lagen::Interval<double>, const lagen::Method&, const lagen::Options<lagen::problems::Pendulum<double>>&);
 
 #define LAGEN_PENDULUM_RUNS(linkage)                                                                                   \

@@ -49,6 +49,39 @@ std::vector<std::string> find_compiler()
                        "header; install g++ or set CXX");
 }
 
+/// The last of these options under which a compiler takes every number for finite, or sums in another order than is
+/// written: checks of finiteness and compensated sums are then optimised away. Empty: none is in force.
+std::string unsafe_option(const std::vector<std::string>& options)
+{
+    const std::vector<std::string> finite{"-ffinite-math-only"},
+        order{"-funsafe-math-optimizations", "-fassociative-math"};
+    std::string finite_by, order_by;
+    for (const std::string& option : options) {
+        const bool off = option.starts_with("-fno-");
+        const std::string name = off ? "-f" + option.substr(5) : option, by = off ? "" : option;
+        // Another level of optimisation takes back what -Ofast asked for.
+        const bool level = option.starts_with("-O"), all = level || name == "-ffast-math";
+        for (std::string* found : {&finite_by, &order_by}) {
+            const bool own = std::ranges::count(found == &finite_by ? finite : order, name) > 0;
+            if (level && option != "-Ofast" && *found == "-Ofast") found->clear();
+            if (own || (all && (!level || option == "-Ofast"))) *found = by;
+        }
+    }
+    return finite_by.empty() ? order_by : finite_by;
+}
+
+/// CXXFLAGS, refused where no program made with them can be trusted.
+std::vector<std::string> flags_of_user()
+{
+    std::vector<std::string> flags = words(std::getenv("CXXFLAGS"));
+    if (const std::string option = unsafe_option(flags); !option.empty())
+        throw MachineError(fmt::format("error: CXXFLAGS holds {}, with which a program cannot see that a number is not "
+                                       "finite and loses its compensated sums\nhint: leave it out; -O3 -march=native "
+                                       "is as fast here",
+                                       option));
+    return flags;
+}
+
 /// The compiler with all that it is told besides its files.
 std::vector<std::string> compile_command(const std::vector<std::string>& options = {})
 {
@@ -56,7 +89,7 @@ std::vector<std::string> compile_command(const std::vector<std::string>& options
     command.insert(command.end(), {"-std=c++20", "-O2", "-pthread", "-I" + runtime_folder(), "-I" + program_folder(),
                                    "-isystem", eigen_folder()});
     command.insert(command.end(), options.begin(), options.end());
-    for (const std::string& flag : words(std::getenv("CXXFLAGS"))) command.push_back(flag);
+    for (std::string& flag : flags_of_user()) command.push_back(std::move(flag));
     return command;
 }
 

@@ -405,6 +405,16 @@ std::string report_text(const RunOutcome& outcome)
     return text + accuracy_line(outcome) + action_text(outcome) + figures_text(outcome);
 }
 
+std::string start_note(const RunOutcome& outcome)
+{
+    const std::vector<std::string>& names = outcome.starts_on;
+    if (names.empty()) return "";
+    const bool one = names.size() == 1;
+    return fmt::format("note: the run starts on event{} '{}', or beyond {}, and {} not happen there: at a start only "
+                       "events with a direction and a jump do, whose function is 0 to the tolerance\n",
+                       one ? "" : "s", fmt::join(names, "', '"), one ? "it" : "them", one ? "it does" : "they do");
+}
+
 std::string run_warnings(const RunOutcome& outcome)
 {
     std::string text;

@@ -63,6 +63,7 @@ struct RunOutcome {
     std::string newton, decompositions; ///< Newton iterations and factorisations of implicit methods; else empty
     bool searches = false;              ///< controls are searched for, and followed
     std::vector<EventReport> events;
+    std::vector<std::string> starts_on{}; ///< events on or beyond whose zero the run starts, and that do not happen there
     std::vector<Drift> invariants, casimirs, constraints; ///< the first of the invariants is the energy
     std::vector<Drift> balance; ///< of the energy less the work, where forces or explicit time change the energy
     std::string work;           ///< of them, over the run
@@ -92,6 +93,9 @@ struct RunOutcome {
 
 /// A few lines for standard error: status, steps, events, drift of what should be constant.
 [[nodiscard]] std::string report_text(const RunOutcome& outcome);
+
+/// A line for standard error where the run starts on events that do not happen there, or beyond them; else nothing.
+[[nodiscard]] std::string start_note(const RunOutcome& outcome);
 
 /// What the equations conserve and this run did not, and lanes below the absolute tolerance: a line "warning: ..."
 /// each.

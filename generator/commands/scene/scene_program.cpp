@@ -112,6 +112,7 @@ void read_line(const std::string& key, const std::string& value, RunOutcome& out
     if (key == "decompositions") outcome.decompositions = value;
     if (key == "seconds") outcome.seconds = value;
     if (key == "event") outcome.events.push_back(event_of(value));
+    if (key == "starts_on") outcome.starts_on.push_back(value);
     if (key == "balance") outcome.balance.push_back(drift_of("energy less work", value));
     if (key == "work") outcome.work = value;
     if (key == "energy" || key == "hamiltonian") outcome.invariants.push_back(drift_of(key, value));

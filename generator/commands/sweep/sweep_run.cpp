@@ -3,6 +3,7 @@
 /// has the same bits.
 #include "commands/sweep/sweep_run.hpp"
 
+#include "commands/machine/write_file.hpp"
 #include "commands/sweep/sweep_rows.hpp"
 #include "diagnostic.hpp"
 #include "model/families.hpp"
@@ -197,7 +198,7 @@ void SweepRun::run()
         [this] { return next_starts(); });
     progress_.clear();
     require_started(result, setting_.record.program);
-    if (file_.rows() == wanted && result.exit_code == 0) return;
+    if (file_.rows() == wanted && result.exit_code == 0) return write_standard_error(result.error);
     if (result.interrupted)
         throw Error(ExitCode::interrupted,
                     fmt::format("lagen: interrupted, {} of {} rows are done; --resume goes on with them", file_.rows(),

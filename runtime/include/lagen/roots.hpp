@@ -8,14 +8,18 @@
 /// two to eight numbers they take about as long as on one. Every result is rounded correctly, one by one or together.
 #pragma once
 
+#include "lagen/requirements.hpp"
+
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <type_traits>
 #include <utility>
 
-#if defined(__SSE2__)
+#if defined(__AVX__)
 #include <immintrin.h>
+#elif defined(__SSE2__)
+#include <emmintrin.h> // the other one has 30 thousand lines
 #elif defined(__aarch64__)
 #include <arm_neon.h>
 #endif

@@ -33,17 +33,35 @@ Run<M> integrate(const M& model, const std::type_identity_t<typename M::State>& 
                  std::type_identity_t<Interval<real_t<typename M::Scalar>>> span, const Method& method,
                  const std::type_identity_t<Options<M>>& options, Observer&& observer)
 {
-    return detail::March<M, Method, std::remove_reference_t<Observer>>(model, s, span, method, options, observer).run();
+    return detail::March<M, Method, std::remove_reference_t<Observer>, Options<M>>(model, s, span, method, options,
+                                                                                   observer)
+        .run();
 }
+
+namespace detail {
+
+/// An observer that is told of nothing.
+struct Nobody {};
+
+} // namespace detail
 
 template <Motion M, class Method>
 Run<M> integrate(const M& model, const std::type_identity_t<typename M::State>& s,
                  std::type_identity_t<Interval<real_t<typename M::Scalar>>> span, const Method& method,
-                 const std::type_identity_t<Options<M>>& options = {})
+                 const std::type_identity_t<Options<M>>& options)
 {
-    struct Nobody {
-    } nobody;
+    detail::Nobody nobody;
     return integrate(model, s, span, method, options, nobody);
+}
+
+/// A run that asks for its end alone: events, rows and dense output are not even compiled.
+template <Motion M, class Method>
+Run<M> integrate(const M& model, const std::type_identity_t<typename M::State>& s,
+                 std::type_identity_t<Interval<real_t<typename M::Scalar>>> span, const Method& method)
+{
+    detail::Nobody nobody;
+    const detail::NoOptions<M> none;
+    return detail::March<M, Method, detail::Nobody, detail::NoOptions<M>>(model, s, span, method, none, nobody).run();
 }
 
 } // namespace lagen

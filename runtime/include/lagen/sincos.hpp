@@ -12,6 +12,8 @@
 /// std::cos. float: the same in double with shorter polynomials, below 0.54 ulp.
 #pragma once
 
+#include "lagen/requirements.hpp"
+
 #include <array>
 #include <bit>
 #include <cmath>

@@ -2,6 +2,8 @@
 /// What a step or a kernel answers instead of throwing.
 #pragma once
 
+#include "lagen/requirements.hpp"
+
 #include <cstdint>
 
 namespace lagen {

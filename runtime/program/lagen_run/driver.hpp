@@ -41,6 +41,8 @@
 ///   methods
 ///   event=NAME@T@v,v,..   one line an event found, in the order of the run, with the state there; with @v,v,.. more
 ///                         where it jumps: the state behind all jumps of that instant
+///   starts_on=NAME        one line an event on or beyond whose zero the run starts, and which for that reason does not
+///                         happen there
 ///   [energy= or hamiltonian=]  [balance=, work=]  [invariant:NAME=]  [constraint:NAME=]  [casimir:NAME=]
 ///                         INITIAL,MOST,T,SLOPE,ERROR,SIZE,MOVED_AT, over the steps that figures.hpp names: the first
 ///                         value; the largest distance from it (from 0, of constraints) and where that was; slope and
@@ -274,6 +276,7 @@ std::string report_text(const DrivePlan<M>& plan, const Run<M>& run, const Drive
         if (plan.events[found.request].jump) text += '@', put(found.after);
         text += '\n';
     }
+    for (const std::size_t request : run.starts_on) text += "starts_on=" + plan.event_names[request] + '\n';
     text += record.report() + branches + "state=";
     put(run.state);
     return text + '\n';

@@ -46,6 +46,7 @@ void append(Run<M>& run, Run<M>&& next)
     next.decompositions += run.decompositions;
     run.events.insert(run.events.end(), next.events.begin(), next.events.end());
     next.events = std::move(run.events);
+    next.starts_on = std::move(run.starts_on);
     run = std::move(next);
 }
 
@@ -84,7 +85,10 @@ Run<M> integrate_held(const HeldInputs& inputs, M& model, const typename M::Stat
         part.events = events;
         part.max_steps -= run.steps + run.rejected;
         const std::size_t found = run.events.size();
-        append(run, integrate(model, run.state, {run.t, end}, method, part, observer));
+        if (!first) part.continues = &run;
+        Run<M> next = integrate(model, run.state, {run.t, end}, method, part, observer);
+        if (first) run.starts_on = next.starts_on;
+        append(run, std::move(next));
         for (std::size_t k = found; k < run.events.size(); ++k)
             if (auto& event = events[run.events[k].request]; event.stop && event.count > 1) --event.count;
     }

@@ -79,6 +79,7 @@ class Sweep {
     Sweep(const SweepArguments& given, const DrivePlan<M>& plan) : given_(given), plan_(plan)
     {
         if constexpr (HasParameters<M>) parameters_ = M::parameter_names.size();
+        starts_on_ = std::vector<std::atomic<std::size_t>>(plan.events.size());
         length_ = 1 + parameters_ + static_cast<std::size_t>(M::dimension) + 6 + given.times;
     }
 
@@ -96,10 +97,20 @@ class Sweep {
         InOrder<SweepBlock, decltype(begin), decltype(work), decltype(deliver)> pieces(slots * threads, begin, work,
                                                                                        deliver);
         pieces.run(threads);
+        tell_starts();
         return cut_ ? complain("the trajectories could not be read or written to their end", 5) : 0;
     }
 
   private:
+    /// A line on standard error for each event on which trajectories start, and that does not happen there.
+    void tell_starts() const
+    {
+        for (std::size_t k = 0; k < starts_on_.size(); ++k)
+            if (const std::size_t count = starts_on_[k]; count > 0)
+                std::fprintf(stderr, "note: %zu row%s on event '%s', or beyond it, and it does not happen there\n",
+                             count, count == 1 ? " starts" : "s start", plan_.event_names[k].c_str());
+    }
+
     /// As many trajectories as take about a millisecond: finished ones are written soon, short ones cost no locks.
     std::size_t block_size() const noexcept
     {
@@ -218,6 +229,7 @@ class Sweep {
 
     std::string line_of(const SweepRecord<M>& record, const Run<M>& run) const
     {
+        for (const std::size_t request : run.starts_on) ++starts_on_[request];
         std::string line;
         const auto& small = record.small_lanes();
         for (Eigen::Index i = 0; i < small.size(); ++i)
@@ -277,8 +289,9 @@ class Sweep {
     const SweepArguments& given_;
     const DrivePlan<M>& plan_;
     std::size_t parameters_ = 0, length_ = 0;
-    mutable std::atomic<double> seconds_ = 1; ///< of a trajectory of the last block
-    std::atomic<bool> cut_ = false;           ///< what is read or written ended early
+    mutable std::vector<std::atomic<std::size_t>> starts_on_; ///< of each event, how many trajectories start on it
+    mutable std::atomic<double> seconds_ = 1;                 ///< of a trajectory of the last block
+    std::atomic<bool> cut_ = false;                           ///< what is read or written ended early
 };
 
 } // namespace detail

@@ -2,6 +2,8 @@
 /// Work by several threads on pieces that begin and end in their order.
 #pragma once
 
+#include "lagen/requirements.hpp"
+
 #include <condition_variable>
 #include <cstddef>
 #include <exception>

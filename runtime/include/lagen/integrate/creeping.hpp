@@ -3,6 +3,8 @@
 /// at every length, between lengths that are still accepted.
 #pragma once
 
+#include "lagen/requirements.hpp"
+
 #include <cstddef>
 
 namespace lagen::detail {

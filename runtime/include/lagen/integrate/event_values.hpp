@@ -23,7 +23,7 @@ class EventValues {
 
     EventValues(const M& model, std::span<const Request> requests)
         : model_(model), requests_(requests), back_(requests.size()), ahead_(requests.size()), aside_(requests.size()),
-          noise_(requests.size()), rate_noise_(requests.size())
+          reached_(requests.size()), noise_(requests.size()), rate_noise_(requests.size())
     {
     }
 
@@ -59,6 +59,7 @@ class EventValues {
             tangent_t<M> slope;
             if constexpr (std::is_same_v<State, tangent_t<M>>) slope = s;
             std::fill(rate_noise_.begin(), rate_noise_.end(), Real(0));
+            std::fill(reached_.begin(), reached_.end(), Real(0));
             if (model_.rhs(Scalar(t), s, slope) != Status::ok) return;
             find_noise(t, s, slope, quarter * h);
             find_differences(t, s, slope, quarter * h, rates);
@@ -73,6 +74,8 @@ class EventValues {
     /// Rounding errors where rates were found last: of function r, and of its rate.
     [[nodiscard]] const Real& noise(std::size_t r) const noexcept { return noise_[r]; }
     [[nodiscard]] const Real& rate_noise(std::size_t r) const noexcept { return rate_noise_[r]; }
+    /// The value a little ahead, from where its rate was found: behind a kink the rate is that of neither side.
+    [[nodiscard]] const Real& reached(std::size_t r) const noexcept { return reached_[r]; }
 
   private:
     static Real sign(const Real& x) noexcept { return x > Real(0) ? Real(1) : x < Real(0) ? Real(-1) : Real(0); }
@@ -84,13 +87,15 @@ class EventValues {
         const auto difference = [&](Real length) {
             evaluate(t - length, retracted(model_, s, tangent_t<M>(Scalar(-length) * slope)), back_);
             evaluate(t + length, retracted(model_, s, tangent_t<M>(Scalar(length) * slope)), ahead_);
-            for (std::size_t r = 0; r < rates.size(); ++r) ahead_[r] -= back_[r];
         };
         difference(Real(2) * part);
-        aside_.swap(ahead_);
+        for (std::size_t r = 0; r < rates.size(); ++r) aside_[r] = ahead_[r] - back_[r];
         difference(part);
         for (std::size_t r = 0; r < rates.size(); ++r) {
+            const Real ahead = ahead_[r];
+            ahead_[r] -= back_[r];
             if (rates[r] != Real(0) || !(size_of(ahead_[r]) > noise_[r])) continue;
+            reached_[r] = ahead;
             const Real twice = is_number(aside_[r]) ? aside_[r] : Real(2) * ahead_[r];
             rates[r] = (Real(8) * ahead_[r] - twice) / (Real(12) * size_of(part));
         }
@@ -125,7 +130,7 @@ class EventValues {
 
     const M& model_;
     std::span<const Request> requests_;
-    std::vector<Real> back_, ahead_, aside_;
+    std::vector<Real> back_, ahead_, aside_, reached_;
     std::vector<Real> noise_, rate_noise_;
 };
 

@@ -18,7 +18,7 @@
 
 #include <algorithm>
 #include <limits>
-#include <memory>
+#include <new>
 #include <utility>
 
 namespace lagen {
@@ -38,7 +38,7 @@ class Integrator {
     /// answers) is the status(), and that of every step.
     Integrator(const M& model, const State& s, const Real& t, const Method& method)
         : model_(model), method_(method), stepper_(method), s_(s), from_(s), inner_(s), t_(t), t_from_(t),
-          failed_at_(t), way_(t), creeping_(t)
+          failed_at_(t), origin_(t), way_(t), creeping_(t)
     {
         status_ = begin();
     }
@@ -84,24 +84,25 @@ class Integrator {
     Status restart(const State& s, const Real& t)
     {
         work_ = work_.with(stepper_);
-        std::destroy_at(&stepper_);
-        std::construct_at(&stepper_, method_);
+        stepper_.~Stepper();
+        ::new (static_cast<void*>(&stepper_)) Stepper(method_);
         s_ = from_ = s;
-        t_ = t_from_ = failed_at_ = t;
-        h_ = lost_ = failed_length_ = Real(0);
+        t_ = t_from_ = failed_at_ = origin_ = t;
+        h_ = lost_ = lost_from_ = length_ = failed_length_ = Real(0);
         fresh_ = retry_ = imprecise_ = way_.bounded = false;
         return status_ = begin();
     }
 
-    /// The state inside the last step by dense output or a shorter step; elsewhere, and behind a failed one, NaN.
+    /// The state inside the last step, at its ends and, within the rounding of time, just beyond them; elsewhere, and
+    /// behind a failed step, NaN.
     [[nodiscard]] State at(const Real& t)
     {
-        const Real h = t_ - t_from_, slack = Real(4) * epsilon() * std::max<Real>(size(t_from_), size(t_));
-        if (t == t_ || size(t - t_) <= slack) return s_;
-        if (t == t_from_ || size(t - t_from_) <= slack) return from_;
-        const Real theta = (t - t_from_) / h;
-        if (theta > Real(0) && theta < Real(1)) return inside(theta);
-        return detail::no_state<Scalar>(s_);
+        const Real nearly = Real(4) * epsilon() * std::max<Real>(size(t_from_), size(t_)), theta = place_of(t);
+        const bool stays = (t_from_ <= t && t <= t_) || (t_ <= t && t <= t_from_);
+        if (t == t_ || (!stays && size(t - t_) <= nearly)) return s_;
+        if (t == t_from_ || (!stays && size(t - t_from_) <= nearly)) return from_;
+        if (!stays) return detail::no_state<Scalar>(s_);
+        return theta <= Real(0) ? from_ : theta < Real(1) ? inside(theta) : s_;
     }
 
     [[nodiscard]] const Real& t() const noexcept { return t_; }
@@ -119,7 +120,7 @@ class Integrator {
     [[nodiscard]] std::size_t decompositions() const noexcept { return work_.with(stepper_).decompositions; }
 
   private:
-    template <class, class, class>
+    template <class, class, class, class>
     friend class detail::March;
     template <class, class, int, class>
     friend class detail::Abreast;
@@ -157,8 +158,7 @@ class Integrator {
         }
     }
 
-    /// The next steps go to `end`. False where that is no number.
-    bool aim(const Real& end)
+    bool aim(const Real& end) ///< the next steps go there; false where it is no number
     {
         if (way_.bounded && end == way_.end) return true;
         const Real length = end - t_;
@@ -169,8 +169,7 @@ class Integrator {
         return true;
     }
 
-    /// The first step's length, `most` being the way to go.
-    void prepare(const Real& most)
+    void prepare(const Real& most) ///< the first step's length, `most` being the way to go
     {
         if constexpr (adaptive) {
             if (h_ != Real(0) || most == Real(0) || status_ != Status::ok) return;
@@ -248,6 +247,7 @@ class Integrator {
                 return fail(detail::loss_of_maximum(verdict, model_, t_from_, from_, made.h), t1);
         }
         t_ = t1;
+        length_ = made.h;
         if constexpr (StaysOnGroups<M>) model_.stay_on_groups(from_, s_);
         const auto ending = accepted();
         if constexpr (is_pack<Scalar>) {
@@ -270,6 +270,7 @@ class Integrator {
         fresh_ = false;
         from_ = s_;
         t_from_ = t_;
+        lost_from_ = lost_;
     }
 
     /// What is asked at the start and behind every accepted step, at t_ and s_.
@@ -331,14 +332,13 @@ class Integrator {
             if (failed_length_ == Real(0)) failed_length_ = h;
             h_ = lengths().after_failure(size(h));
         }
-        using std::sqrt;
         const Status verdict = creeping_.creeps(t_, way_.length, steps_, rejected_) ? status : size_verdict(status, t1);
+        using std::sqrt;
         const Real ahead = sqrt(epsilon()) * way_.directed(way_.length);
         return is_imprecise ? verdict : detail::loss_of_maximum(verdict, model_, t_from_, from_, ahead);
     }
 
-    /// Whose lengths the next steps have.
-    auto& lengths() noexcept
+    auto& lengths() noexcept ///< whose lengths the next steps have
     {
         if constexpr (chooses_lengths)
             return stepper_;
@@ -359,16 +359,18 @@ class Integrator {
         return reason == Status::non_finite && imprecise_ ? Status::step_too_small : reason;
     }
 
-    /// The state at t_from_ + theta h, 0 < theta < 1; where it cannot be computed, on the chord of the step.
+    /// Where t is in the last step, from t_from_ - lost_from_ (0) to t_ - lost_ (1); the time at `length` in it.
+    [[nodiscard]] Real place_of(const Real& t) const noexcept { return ((t - t_from_) + lost_from_) / length_; }
+    [[nodiscard]] Real time_behind(const Real& length) const noexcept { return t_from_ + (length - lost_from_); }
+    /// What is nearer to the end of a step is the end: as little as the errors of all steps so far.
+    Real slack() const noexcept { return Real(4) * epsilon() * std::max<Real>(size(t_ - origin_), size(length_)); }
+
+    /// The state at the place theta of the last step, or beside its end by the rounding of time; where it cannot be
+    /// computed, on the chord of the step.
     const State& inside(const Real& theta) noexcept
     {
-        const auto status = stepper_.interpolate(model_, t_from_, from_, Real(t_ - t_from_), s_, theta, inner_);
-        if (!is_pack<Scalar> && !StatusOf<Scalar>::all_good(status)) {
-            if constexpr (moves_by_sums<M>)
-                inner_ = from_ + theta * (s_ - from_);
-            else
-                inner_ = theta < Real(0.5) ? from_ : s_;
-        }
+        const auto status = stepper_.interpolate(model_, t_from_, from_, length_, s_, theta, inner_);
+        if (!is_pack<Scalar> && !StatusOf<Scalar>::all_good(status)) detail::go_straight<M>(from_, s_, theta, inner_);
         if constexpr (StaysOnGroups<M>) model_.stay_on_groups(from_, inner_);
         detail::freeze<Scalar>(lanes_, from_, inner_);
         return inner_;
@@ -377,10 +379,10 @@ class Integrator {
     M model_;
     Method method_;
     Stepper stepper_;
-    State s_, from_, inner_; ///< at the end and at the beginning of the last step; a value inside it
-    Real t_, t_from_, failed_at_;
+    State s_, from_, inner_;               ///< at the end and at the beginning of the last step; a value inside it
+    Real t_, t_from_, failed_at_, origin_; ///< origin_: where the first step began
     detail::Way<Real> way_;
-    Real lost_ = Real(0);          ///< the rounding error of t_
+    Real lost_ = Real(0), lost_from_ = Real(0), length_ = Real(0); ///< t_ - lost_ is t_from_ - lost_from_ + length_
     Real h_ = Real(0);             ///< positive: the length that the method or the controller asks for
     Real failed_length_ = Real(0); ///< of the first of a series of steps that could not be evaluated
     detail::Controller<Real> controller_{StepControl{}, 5, Real(0)};

@@ -36,9 +36,10 @@ Real end_of_defined(Real a, Real b, Real width, const Function& value) noexcept
     return locate_boundary(a, b, width, [&](Real x) { return is_number(value(x)); }).before;
 }
 
-/// The crossing of `value` between a (value ga) and b (value gb of the other sign, or zero): the Illinois variant of
-/// regula falsi [Dowell and Jarratt 1971], every third trial a bisection, so that the bracket shrinks at least by 2 in
-/// three trials. Where a trial is not a number the crossing is looked for before that gap, else behind it.
+/// The crossing of `value` between a (value ga) and b (value gb of the other sign, or zero), where it leaves zero: the
+/// Illinois variant of regula falsi [Dowell and Jarratt 1971], every third trial a bisection, so that the bracket
+/// shrinks at least by 2 in three trials. Where a trial is not a number the crossing is looked for before that gap,
+/// else behind it.
 template <class Real, class Function>
 Bracket<Real> locate_crossing(Real a, Real ga, Real b, Real gb, Real width, const Function& value) noexcept
 {
@@ -62,7 +63,7 @@ Bracket<Real> locate_crossing(Real a, Real ga, Real b, Real gb, Real width, cons
                 g = at_end;
             }
         }
-        const bool crossed = rising ? g >= Real(0) : g <= Real(0);
+        const bool crossed = rising ? g > Real(0) : g < Real(0);
         if (crossed) {
             b = x;
             gb = g;

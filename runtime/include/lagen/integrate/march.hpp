@@ -3,7 +3,9 @@
 /// dense solutions, caps. Nothing in a step allocates; rows, solutions and lists of events found grow outside of it.
 #pragma once
 
+#include "lagen/integrate/instant.hpp"
 #include "lagen/integrate/integrator.hpp"
+#include "lagen/integrate/rows.hpp"
 #include "lagen/integrate/watch_events.hpp"
 
 #include <algorithm>
@@ -15,7 +17,8 @@
 
 namespace lagen::detail {
 
-template <class M, class Method, class Observer>
+/// `Asked` is Options<M>, or NoOptions<M>: then nothing is compiled of rows, events and solutions.
+template <class M, class Method, class Observer, class Asked>
 class March {
   public:
     using Steps = Integrator<M, Method>;
@@ -27,24 +30,25 @@ class March {
     /// Adaptive steps are long and their interpolants cheap: events are looked for in so many pieces of each.
     static constexpr int pieces = Stepper::adaptive ? 4 : 1;
     static constexpr int nodes = (Stepper::dense_order + 3) / 2;
-    static constexpr bool can_jump = RightHandSide<M> && !is_pack<Scalar> && std::is_copy_assignable_v<Stepper>;
+    static constexpr bool asks = std::is_same_v<Asked, Options<M>>;
+    static constexpr bool can_jump = asks && RightHandSide<M> && !is_pack<Scalar> && std::is_copy_assignable_v<Stepper>;
     static constexpr bool sums = requires(Observer observer, Real t, const State& (*inside)(const Real&))
     {
         observer.template sum<nodes>(t, t, inside);
     };
 
-    March(const M& model, const State& s, Interval<Real> span, const Method& method, const Options<M>& options,
+    March(const M& model, const State& s, Interval<Real> span, const Method& method, const Asked& options,
           Observer& observer)
         : steps_(model, s, span.start, method), span_(span), options_(options), observer_(observer),
-          watch_(steps_.model(), options.events), last_jumps_(options.events.size()),
-          forward_(!(span.end - span.start < Real(0))),
-          looks_(!options.at.empty() || !options.events.empty() || options.dense),
-          limit_(options.cancel == nullptr && options.signal == nullptr && !options.progress ? options.max_steps : 0)
+          rows_(options.at, span, observer), watch_(steps_.model(), options.events, zero_tolerance<Real>(method)),
+          instant_(steps_.model(), options.events, zero_tolerance<Real>(method)), last_jumps_(options.events.size()),
+          looks_(sums || !options.at.empty() || !options.events.empty() || options.dense),
+          limit_(options.has_company() ? 0 : options.max_steps)
     {
     }
 
     /// Whether some event asks for a jump.
-    static bool jumps(const Options<M>& options)
+    static bool jumps(const Asked& options)
     {
         return std::any_of(options.events.begin(), options.events.end(), [](const auto& each) { return !!each.jump; });
     }
@@ -59,6 +63,8 @@ class March {
   private:
     template <class, class, int, class>
     friend class Abreast;
+
+    static Real size(const Real& x) noexcept { return Steps::size(x); }
 
     /// Is there another step to make, where the last one ended with `status`?
     bool goes_on(Status& status)
@@ -91,18 +97,36 @@ class March {
     Status begin()
     {
         const Real length = span_.end - span_.start;
-        if (length - length != Real(0) || !watch_.is_valid() || !rows_are_in_order()) return Status::invalid_input;
-        if (is_pack<Scalar> && !watch_.empty()) return Status::invalid_input;
-        if (!can_jump && jumps(options_)) return Status::invalid_input;
+        if (length - length != Real(0) || !watch_.is_valid() || !rows_.are_in_order()) return Status::invalid_input;
+        if ((is_pack<Scalar> && !watch_.empty()) || (!can_jump && jumps(options_))) return Status::invalid_input;
         if (!moves_by_sums<M> && options_.dense) return Status::invalid_input;
         if (steps_.status() != Status::ok) return steps_.status();
-        if (!watch_.empty()) watch_.begin(steps_.t(), steps_.state(), length), parts_.reserve(16);
         steps_.aim(span_.end);
-        if constexpr (moves_by_sums<M>)
+        if constexpr (asks && moves_by_sums<M>)
             if (options_.dense) run_.solution.begin(steps_.t(), steps_.state(), Stepper::dense_order);
-        while (row_ < options_.at.size() && is_after(span_.start, options_.at[row_])) ++row_;
-        rows_until(span_.start, [&](Real) { return &steps_.state(); });
+        if constexpr (asks)
+            rows_.begin(), rows_.until(span_.start, Real(0), run_, [&](Real) { return &steps_.state(); });
         show();
+        if constexpr (asks) return watch_.empty() ? Status::ok : begin_events(length);
+        return Status::ok;
+    }
+
+    /// The start of a run of this signed length: requests with jumps may happen there.
+    Status begin_events(const Real& length)
+    {
+        using std::sqrt;
+        const Real t = steps_.t_, h = sqrt(epsilon()) * length;
+        parts_.reserve(16);
+        watch_.begin(t, steps_.s_, h, options_.continues != nullptr);
+        if (length == Real(0)) return Status::ok;
+        instant_.begin(t, steps_.s_, h);
+        for (std::size_t r = 0; r < options_.events.size(); ++r)
+            if (instant_.is_passed_over(r)) run_.starts_on.push_back(r);
+        if (options_.continues != nullptr)
+            for (const auto& found : options_.continues->events)
+                if (found.t == t) instant_.leave_out(found.request);
+        if constexpr (can_jump)
+            if (instant_.is_due()) return land(h, Real(0), epsilon(), steps_.s_);
         return Status::ok;
     }
 
@@ -116,8 +140,7 @@ class March {
         const std::size_t tried = steps_.steps() + steps_.rejected();
         if (tried < limit_) return Status::ok;
         steps_.failed_at_ = steps_.t_;
-        if (options_.cancel != nullptr && options_.cancel->load(std::memory_order_relaxed)) return Status::interrupted;
-        if (options_.signal != nullptr && *options_.signal != 0) return Status::interrupted;
+        if (options_.is_cancelled()) return Status::interrupted;
         if (tried >= options_.max_steps) return Status::too_many_steps;
         if (options_.progress && tried % 256 == 255)
             options_.progress(
@@ -160,7 +183,7 @@ class March {
 
     Status look(Status ending)
     {
-        ending = commit(ending);
+        if constexpr (asks || HasDomain<M>) ending = commit(ending);
         show();
         return ending;
     }
@@ -171,38 +194,38 @@ class March {
     Status commit(Status ending)
     {
         Real theta = Real(1);
-        const Real t0 = steps_.t_from_, h = steps_.t_ - t0;
-        const auto at = [&](const Real& x) { return inside(x, t0, h); };
+        const Real h = steps_.length_, width = theta_width(h);
+        const auto at = [&](const Real& x) { return inside(x, h); };
         if constexpr (HasDomain<M> && !is_pack<Scalar>) {
             if (ending == Status::left_domain) {
-                const auto edge = locate_boundary(Real(0), Real(1), theta_width(t0, h), [&](Real x) {
+                const auto edge = locate_boundary(Real(0), Real(1), width, [&](Real x) {
                     const auto [t, s] = at(x);
                     return domain_status(steps_.model_, t, *s) == Status::ok;
                 });
                 theta = edge.before;
-                steps_.failed_at_ = t0 + edge.after * h;
+                steps_.failed_at_ = steps_.time_behind(edge.after * h);
             }
         }
         if (ending != Status::ok) ++steps_.steps_;
         bool jumps = false, stops = false;
-        const Real width = theta_width(t0, h);
-        if (!watch_.empty()) {
-            const bool known = find_parts(theta, h);
+        if constexpr (!asks) {
+        } else if (!watch_.empty()) {
+            const bool known = watch_.find_parts(steps_.stepper_, h, theta, pieces, parts_);
             refined_.theta = Real(-1);
-            for (const auto& crossed : watch_.look(parts_, width, Stepper::adaptive && !known, at)) {
+            for (const auto& crossed : watch_.look(parts_, width, h, Stepper::adaptive && !known, at)) {
                 jumps = jumps || options_.events[crossed.request].jump;
                 stops = stops || crossed.stop;
             }
             if (stops || jumps) theta = watch_.crossed().back().theta;
             if constexpr (can_jump)
-                if (jumps && !stops) refine(theta, t0, h);
+                if (jumps && !stops) refine(theta, h);
             for (const auto& crossed : watch_.crossed()) {
                 const auto [t, s] = at(crossed.theta);
                 run_.events.push_back({crossed.request, t, *s, *s});
                 stops = stops || crossed.stop;
             }
         }
-        move(theta, t0, h);
+        move(theta, h);
         if (stops) return Status::stopped_by_event;
         if constexpr (can_jump)
             if (jumps) return jump(theta, h, width);
@@ -211,17 +234,19 @@ class March {
 
     /// A run goes on from the state at a jump, and values inside a step are less precise than steps, times less than
     /// their lengths: a step is made that ends where the function of the event is zero by it.
-    void refine(const Real& theta, const Real& t0, const Real& h)
+    void refine(const Real& theta, const Real& h)
     {
+        if (theta == Real(0)) return;
         Stepper stepper = steps_.stepper_;
         const std::size_t r = watch_.crossed().back().request;
         Real length = theta * h, most = size(length) / Real(2);
         bool finer = true;
         for (int round = 0; round < 2 && finer; ++round) {
             refined_.s = steps_.from_;
-            finer = stepper.attempt(steps_.model_, t0, steps_.from_, length, refined_.s) == Status::ok;
+            finer = stepper.attempt(steps_.model_, steps_.t_from_, steps_.from_, length, refined_.s) == Status::ok;
             if constexpr (StaysOnGroups<M>) steps_.model_.stay_on_groups(steps_.from_, refined_.s);
-            refined_.t = t0 + length;
+            refined_.t = steps_.time_behind(length);
+            refined_.length = length;
             const Real missing = finer ? watch_.time_to_zero(r, refined_.t, refined_.s, h) : h;
             finer = size(missing) <= most;
             most = std::max<Real>(size(missing) / Real(16), Real(8) * epsilon() * size(length));
@@ -229,17 +254,18 @@ class March {
         }
         steps_.work_.calls += stepper.calls() - steps_.stepper_.calls();
         if (finer) refined_.theta = theta;
-        const auto [t, s] = inside(theta, t0, h);
+        const auto [t, s] = inside(theta, h);
         watch_.settle(t, *s, theta);
     }
 
-    /// Behind all jumps of this instant, in the order of the requests, the run goes on as from a start.
+    /// Makes the jumps of the requests that have crossed at theta of the last step, in their order.
     Status jump(const Real& theta, const Real& h, const Real& width)
     {
         const Real t = steps_.t_;
         const State from = steps_.s_;
         State to = from;
         steps_.failed_at_ = t;
+        instant_.arrive(t, from, h);
         for (const auto& crossed : watch_.crossed()) {
             const auto& request = options_.events[crossed.request];
             if (!request.jump) continue;
@@ -248,7 +274,25 @@ class March {
             if (crossed.at_once || (count++ > 0 && fast)) return Status::zeno;
             last = t;
             to = request.jump(t, to);
+            instant_.jumped(crossed.request, t, to, h);
         }
+        return land(h, theta, width, to);
+    }
+
+    /// Behind all jumps of this instant the run goes on as from a start, `to` being the state behind the first ones.
+    Status land(const Real& h, const Real& theta, const Real& width, State to)
+    {
+        const Real t = steps_.t_, lost = steps_.lost_, origin = steps_.origin_;
+        const State from = steps_.s_;
+        const std::size_t found_before = run_.events.size();
+        steps_.failed_at_ = t;
+        const Status rounds = instant_.take_rounds(t, h, to, [&](std::size_t r) {
+            run_.events.push_back({r, t, to, to});
+            if (options_.events[r].row) rows_.put(t, to, run_);
+            ++last_jumps_[r].first, last_jumps_[r].second = t;
+            return watch_.stops(r);
+        });
+        if (rounds == Status::zeno) return run_.events.resize(found_before, {0, t, from, from}), rounds;
         if (++jumps_ > options_.max_jumps) return Status::too_many_steps;
         show();
         for (auto found = run_.events.rbegin(); found != run_.events.rend() && found->t == t; ++found)
@@ -258,141 +302,97 @@ class March {
             if (options_.dense) run_.solution.jump(to);
         const Status status = steps_.restart(to, t);
         if (status != Status::ok) return steps_.s_ = from, status;
+        steps_.lost_ = lost;
+        steps_.origin_ = origin;
+        if (rounds != Status::ok) return rounds;
         steps_.aim(span_.end);
         if (Stepper::adaptive && steps_.h_ > Real(0)) steps_.h_ = std::max<Real>(steps_.h_, steps_.way_.shortest(t));
-        watch_.restart(t, from, to, h, theta, width);
+        watch_.restart(instant_, t, from, to, h, theta, width);
         return status;
     }
 
-    /// For an observer that integrates along the motion: the part of the step that counts, from t0 on and theta h long,
+    /// For an observer that integrates along the motion: the part of the step that counts, which is theta h long,
     /// the state at each fraction x of it, and how many of Gauss' nodes an integral needs to have the order of the
     /// method. A collocation polynomial gives integrals over whole steps that order too.
-    void sum(const Real& theta, const Real& t0, const Real& h)
+    void sum(const Real& theta, const Real& h)
     {
         if constexpr (sums)
-            observer_.template sum<nodes>(t0, Real(theta * h), [&](const Real& x) -> const State& {
+            observer_.template sum<nodes>(steps_.t_from_, Real(theta * h), [&](const Real& x) -> const State& {
                 if constexpr (requires { steps_.stepper_.polynomial(x, steps_.inner_); })
                     if (theta == Real(1)) {
                         steps_.stepper_.polynomial(x, steps_.inner_);
                         return steps_.inner_ += steps_.from_;
                     }
-                return *inside(Real(x * theta), t0, h).second;
+                return *inside(Real(x * theta), h).second;
             });
     }
 
-    /// The ends of the parts of (0, theta] in which events are looked for: where the stepper knows between which times
-    /// they change their signs, those, and true; else equal ones.
-    bool find_parts(const Real& theta, const Real& h)
+    Real theta_width(const Real& h) const noexcept
     {
-        parts_.clear();
-        bool known = false;
-        if constexpr (requires(void (*found)(Real)) { steps_.stepper_.split(h, theta, found); })
-            known = watch_.all_named() &&
-                    steps_.stepper_.split(h, theta, [this](const Real& end) { parts_.push_back(end); });
-        for (int piece = 1; piece < pieces && !known; ++piece) parts_.push_back(theta * Real(piece) / Real(pieces));
-        if (known) std::sort(parts_.begin(), parts_.end());
-        if (parts_.empty() || parts_.back() != theta) parts_.push_back(theta);
-        return known;
+        return std::max<Real>(Real(2) * epsilon(), steps_.slack() / (Real(4) * size(h)));
     }
 
-    Real theta_width(const Real& t0, const Real& h) const noexcept
+    Real length_to(const Real& theta, const Real& h) const noexcept
     {
-        return std::max<Real>(Real(2) * epsilon(), epsilon() * std::max<Real>(size(t0), size(t0 + h)) / size(h));
+        return theta == refined_.theta ? refined_.length : Real(theta * h);
+    }
+    Real time_at(const Real& theta, const Real& h) const noexcept
+    {
+        return theta == Real(1) ? steps_.t_ : steps_.time_behind(length_to(theta, h));
     }
 
-    Real time_at(const Real& theta, const Real& t0, const Real& h) const noexcept
+    std::pair<Real, const State*> inside(const Real& theta, const Real& h) noexcept
     {
-        return theta == Real(1) ? steps_.t_ : theta == refined_.theta ? refined_.t : Real(t0 + theta * h);
-    }
-
-    std::pair<Real, const State*> inside(const Real& theta, const Real& t0, const Real& h) noexcept
-    {
-        const Real t = time_at(theta, t0, h);
+        const Real t = time_at(theta, h);
         if (theta == Real(1)) return {t, &steps_.s_};
         if (theta == Real(0)) return {t, &steps_.from_};
         return {t, theta == refined_.theta ? &refined_.s : &steps_.inside(theta)};
     }
 
-    void move(const Real& theta, const Real& t0, const Real& h)
+    void move(const Real& theta, const Real& h)
     {
-        const Real end = time_at(theta, t0, h);
-        sum(theta, t0, h);
+        const Real end = time_at(theta, h);
+        sum(theta, h);
         const auto at = [&](const Real& time) {
-            // A row within rounding of the step's end is the step's end.
-            Real x = (time - t0) / h;
-            if (x > theta || size(time - end) <= Real(4) * epsilon() * steps_.way_.reach) x = theta;
-            return inside(x, t0, h).second;
+            // A row within rounding of where the motion ends is there.
+            Real x = steps_.place_of(time);
+            if ((theta < Real(1) && x > theta) || size((x - theta) * h) <= steps_.slack()) x = theta;
+            return inside(x, h).second;
         };
         for (const auto& crossed : watch_.crossed()) {
             if (!options_.events[crossed.request].row) continue;
-            const Real time = time_at(crossed.theta, t0, h);
-            rows_until(time, at);
-            put_row(time, *inside(crossed.theta, t0, h).second);
+            const Real time = time_at(crossed.theta, h);
+            rows_.until(time, steps_.slack(), run_, at);
+            rows_.put(time, *inside(crossed.theta, h).second, run_);
         }
-        rows_until(end, at);
+        rows_.until(end, steps_.slack(), run_, at);
+        const Real length = length_to(theta, h);
         if constexpr (moves_by_sums<M>)
             if (options_.dense && theta > Real(0))
-                run_.solution.add(end, [&](const Real& x) { return *inside(Real(x * theta), t0, h).second; });
+                run_.solution.add(end, length, steps_.lost_from_,
+                                  [&](const Real& x) { return *inside(Real(x * theta), h).second; });
         if (theta == Real(1)) return;
-        const State last = *inside(theta, t0, h).second;
+        const State last = *inside(theta, h).second;
         steps_.s_ = last;
         steps_.t_ = end;
-    }
-
-    // ---- rows ----
-
-    static Real size(const Real& x) noexcept { return Steps::size(x); }
-    bool is_after(const Real& a, const Real& b) const noexcept { return forward_ ? a > b : a < b; }
-
-    /// In the direction of the run, and none of them NaN.
-    [[nodiscard]] bool rows_are_in_order() const noexcept
-    {
-        for (std::size_t k = 0; k < options_.at.size(); ++k) {
-            if (options_.at[k] != options_.at[k]) return false;
-            if (k > 0 && is_after(options_.at[k - 1], options_.at[k])) return false;
-        }
-        return true;
-    }
-
-    /// Rows at the times up to `end`, rounding included.
-    template <class At>
-    void rows_until(const Real& end, const At& at)
-    {
-        const Real slack = Real(4) * epsilon() * steps_.way_.reach;
-        while (row_ < options_.at.size()) {
-            const Real time = options_.at[row_];
-            if (is_after(time, end) && size(time - end) > slack) return;
-            if (is_after(time, span_.end)) return;
-            put_row(time, *at(time));
-            ++row_;
-        }
-    }
-
-    void put_row(const Real& time, const State& state)
-    {
-        if constexpr (requires { observer_.row(time, state); }) {
-            observer_.row(time, state);
-        } else {
-            run_.times.push_back(time);
-            run_.states.push_back(state);
-        }
+        steps_.lost_ = (end - steps_.t_from_) - (length - steps_.lost_from_);
     }
 
     Steps steps_;
     Interval<Real> span_;
-    const Options<M>& options_;
+    const Asked& options_;
     Observer& observer_;
-    EventWatch<M> watch_;
+    Rows<M, Observer> rows_;
+    std::conditional_t<asks, EventWatch<M>, NoOptions<M>> watch_;
+    std::conditional_t<asks, Instant<M>, NoOptions<M>> instant_;
     Run<M> run_;
     std::vector<Real> parts_; ///< of a step
     struct {
-        Real theta = Real(-1), t;
+        Real theta = Real(-1), t, length;
         State s;
     } refined_; ///< of the last step, at a jump
-    std::size_t row_ = 0;
     std::size_t jumps_ = 0;
     std::vector<std::pair<std::size_t, Real>> last_jumps_; ///< of each request: how many there were, and when
-    bool forward_;
     bool looks_;        ///< into every step: there are integrals, rows, events or a solution
     std::size_t limit_; ///< tries up to which nothing has to be looked at
 };

@@ -4,6 +4,8 @@
 /// converge; what it converges to does not depend on them.
 #pragma once
 
+#include "lagen/requirements.hpp"
+
 #include <array>
 #include <cmath>
 #include <cstddef>

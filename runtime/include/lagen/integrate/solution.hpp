@@ -27,7 +27,7 @@ class Solution {
             const std::size_t middle = first + (last - first) / 2;
             (before_or_at(t, ends_[middle]) ? last : first) = middle;
         }
-        return interpolated(first * degree(), (t - ends_[first]) / (ends_[first + 1] - ends_[first]));
+        return interpolated(first * degree(), place_of(t, first));
     }
 
     [[nodiscard]] bool empty() const noexcept { return ends_.empty(); }
@@ -50,12 +50,14 @@ class Solution {
         values_.push_back(s);
     }
 
-    /// A step that ends at t1; inside(theta) are its states, 0 < theta <= 1.
+    /// A step that ends at t1; inside(theta) are its states, 0 < theta <= 1. It is `length` long and begins earlier by
+    /// `lost` than the last one ended, whose time is rounded.
     template <class Inside>
-    void add(const Real& t1, const Inside& inside)
+    void add(const Real& t1, const Real& length, const Real& lost, const Inside& inside)
     {
         for (std::size_t k = 1; k < nodes_.size(); ++k) values_.push_back(inside(nodes_[k]));
         ends_.push_back(t1);
+        steps_.push_back({length, lost});
     }
 
     /// The next step begins at s: a step of no length, within which nothing is asked for.
@@ -63,9 +65,24 @@ class Solution {
     {
         values_.insert(values_.end(), degree(), s);
         ends_.push_back(ends_.back());
+        steps_.push_back({Real(0), Real(0)});
     }
 
   private:
+    struct Step {
+        Real length, lost;
+    };
+
+    /// Where t is in a step, which goes from 0 to 1; its end is what is nearer to it than the rounding errors of times.
+    [[nodiscard]] Real place_of(const Real& t, std::size_t step) const noexcept
+    {
+        using std::abs;
+        const auto& [length, lost] = steps_[step];
+        const Real way = abs(Real(ends_[step + 1] - ends_.front())), passed = (t - ends_[step]) + lost;
+        const bool ends = abs(Real(passed - length)) <= Real(4) * std::numeric_limits<Real>::epsilon() * way;
+        return ends ? Real(1) : Real(passed / length);
+    }
+
     [[nodiscard]] std::size_t degree() const noexcept { return nodes_.size() - 1; }
     [[nodiscard]] bool before_or_at(const Real& a, const Real& b) const noexcept
     {
@@ -99,6 +116,7 @@ class Solution {
     }
 
     std::vector<Real> nodes_, ends_;
+    std::vector<Step> steps_;
     std::vector<State> values_; ///< those of the start, then degree() of every step
 };
 

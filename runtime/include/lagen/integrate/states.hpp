@@ -2,6 +2,7 @@
 /// Whole states: inside the domain or not, lanes of packs that failed, and no state at all.
 #pragma once
 
+#include "lagen/integrate/retract.hpp"
 #include "lagen/kernel.hpp"
 
 #include <algorithm>
@@ -74,6 +75,16 @@ template <class Scalar, class State>
         return State::Constant(s.size(), Scalar(std::numeric_limits<real_t<Scalar>>::quiet_NaN()));
     else
         return s;
+}
+
+/// The place theta on the chord from a to b; of states without sums the nearer end.
+template <class M, class State, class Real>
+void go_straight(const State& a, const State& b, const Real& theta, State& out) noexcept
+{
+    if constexpr (moves_by_sums<M>)
+        out = a + theta * (b - a);
+    else
+        out = theta < Real(0.5) ? a : b;
 }
 
 } // namespace lagen::detail

@@ -53,7 +53,7 @@ template <class M, class Method>
         return method.step;
 }
 
-template <class M, class Method, class Observer>
+template <class M, class Method, class Observer, class Asked>
 class March;
 
 template <class M, class Method, int N, class Observer>

@@ -17,6 +17,8 @@
 /// interpolant is that of x', and its integral that of x.
 #pragma once
 
+#include "lagen/requirements.hpp"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>

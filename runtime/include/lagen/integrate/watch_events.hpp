@@ -2,7 +2,7 @@
 /// Looks for the zero crossings of event functions in one accepted step after another.
 #pragma once
 
-#include "lagen/integrate/event_values.hpp"
+#include "lagen/integrate/instant.hpp"
 #include "lagen/integrate/locate.hpp"
 #include "lagen/integrate/options.hpp"
 
@@ -29,10 +29,10 @@ class EventWatch {
         bool stop = false;
     };
 
-    EventWatch(const M& model, std::span<const Request> requests)
-        : values_(model, requests), requests_(requests), before_(requests.size()), after_(requests.size()),
-          rate_before_(requests.size()), rate_(requests.size()), there_(requests.size()), from_(requests.size()),
-          sides_(requests.size()), seen_(requests.size(), 0)
+    EventWatch(const M& model, std::span<const Request> requests, const Real& tolerance)
+        : values_(model, requests), requests_(requests), tolerance_(tolerance), before_(requests.size()),
+          after_(requests.size()), rate_before_(requests.size()), rate_(requests.size()), there_(requests.size()),
+          from_(requests.size()), sides_(requests.size()), seen_(requests.size(), 0)
     {
         crossed_.reserve(2 * requests.size());
     }
@@ -54,20 +54,20 @@ class EventWatch {
         });
     }
 
-    /// At the start of a run of this signed length.
-    void begin(Real t, const State& s, Real length)
+    /// At the start of a run, h being a time in its direction, or where one goes on: then what is still before its zero
+    /// by a rounding error crosses it.
+    void begin(Real t, const State& s, Real h, bool goes_on)
     {
-        using std::sqrt;
         values_.evaluate(t, s, before_);
-        if (std::find(before_.begin(), before_.end(), Real(0)) == before_.end()) return;
-        values_.find_rates(t, s, sqrt(std::numeric_limits<Real>::epsilon()) * length, rate_);
+        values_.find_rates(t, s, h, rate_);
         for (std::size_t r = 0; r < requests_.size(); ++r)
-            if (before_[r] == Real(0)) sides_[r] = {sign(rate_[r]), values_.noise(r)};
+            if (!goes_on || before_[r] * rate_[r] >= Real(0))
+                set_side(r, values_.noise(r), values_.rate_noise(r), false, !!requests_[r].jump);
     }
 
-    /// Behind the jumps at theta of the last step, of the signed length h, where theta is known to `width`: they led at
-    /// time t from a state to another one. Functions that are zero to rounding there are on the side to which they go.
-    void restart(Real t, const State& from, const State& to, Real h, Real theta, Real width)
+    /// Behind the jumps of an instant, at theta of the last step, of the signed length h, where theta is known to
+    /// `width`: they led at time t from a state to another one.
+    void restart(const Instant<M>& instant, Real t, const State& from, const State& to, Real h, Real theta, Real width)
     {
         values_.evaluate(t, from, after_);
         values_.find_rates(t, from, h, rate_before_);
@@ -76,22 +76,30 @@ class EventWatch {
         for (std::size_t r = 0; r < requests_.size(); ++r) {
             const auto same = [&](const Crossed& each) { return each.request == r && each.theta == theta; };
             const auto crossed = std::find_if(crossed_.begin(), crossed_.end(), same);
-            const bool here = crossed != crossed_.end(), jumps = !!requests_[r].jump;
-            const Real rate = std::max<Real>(size_of(rate_[r]), size_of(rate_before_[r])), size = size_of(before_[r]);
+            const bool here = crossed != crossed_.end(), own = instant.has_jumped(r);
+            const Real rate = std::max<Real>(size_of(rate_[r]), size_of(rate_before_[r]));
             const Real near = std::max<Real>(Real(8) * width * size_of(h) * rate, Real(4) * size_of(after_[r]));
             const Real level = std::max<Real>(here ? near : Real(0), values_.noise(r));
-            const bool sure = size_of(rate_[r]) > std::max<Real>(Real(1e-8) * rate, values_.rate_noise(r));
-            const Real side = sure    ? sign(rate_[r])
-                              : here  ? crossed->side
-                              : jumps ? side_before(requests_[r].direction)
-                                      : Real(0);
-            after_[r] = side;
-            const bool soon = size <= std::max<Real>(level, Real(1e-6) * size_of(h) * size_of(rate_[r]));
-            if (!here && soon && side != Real(0) && crosses(r))
-                sides_[r] = {side, level, true, false};
-            else
-                sides_[r] = size <= level ? Side{side, level, false, jumps} : Side{};
+            const Real least = std::max<Real>(Real(1e-8) * rate, values_.rate_noise(r));
+            set_side(r, level, least, own, !here && !own);
+            const bool known = size_of(rate_[r]) > least;
+            if (here && !known && size_of(before_[r]) <= level) sides_[r].side = crossed->side;
         }
+    }
+
+    /// The ends of the parts of (0, theta] in which events are looked for: where the stepper knows between which times
+    /// they change their signs, those, and true; else `pieces` equal ones.
+    template <class Stepper>
+    bool find_parts(const Stepper& stepper, const Real& h, const Real& theta, int pieces, std::vector<Real>& parts)
+    {
+        parts.clear();
+        bool known = false;
+        if constexpr (requires(void (*found)(Real)) { stepper.split(h, theta, found); })
+            known = all_named() && stepper.split(h, theta, [&](const Real& end) { parts.push_back(end); });
+        for (int piece = 1; piece < pieces && !known; ++piece) parts.push_back(theta * Real(piece) / Real(pieces));
+        if (known) std::sort(parts.begin(), parts.end());
+        if (parts.empty() || parts.back() != theta) parts.push_back(theta);
+        return known;
     }
 
     /// Crossings in (0, last] of a step, in order; those after a stop or a jump are left out. `at(theta)` answers the
@@ -99,13 +107,13 @@ class EventWatch {
     /// crossings in one step can be told; where it `turns`, turning points are looked for inside them. Where a function
     /// is not a number its last value stands, so that no gap hides a crossing.
     template <class At>
-    const std::vector<Crossed>& look(std::span<const Real> ends, Real width, bool turns, const At& at)
+    const std::vector<Crossed>& look(std::span<const Real> ends, Real width, Real h, bool turns, const At& at)
     {
         crossed_.clear();
+        h_ = h;
         std::fill(from_.begin(), from_.end(), Real(0));
         for (std::size_t r = 0; r < requests_.size(); ++r)
-            if (const Side& side = sides_[r]; side.side != Real(0))
-                find_side(r, side.crosses ? ends.front() : ends.back(), width, value_of(r, at));
+            if (const Side& side = sides_[r]; side.side != Real(0)) find_side(r, ends.back(), width, value_of(r, at));
         Real begin = Real(0);
         std::size_t found = 0;
         bool cut = false;
@@ -113,7 +121,7 @@ class EventWatch {
             if (cut) break;
             const auto [t, s] = at(end);
             values_.evaluate(t, *s, after_);
-            for (std::size_t r = 0; r < requests_.size(); ++r) look_at(r, begin, end, width, turns, value_of(r, at));
+            for (std::size_t r = 0; r < requests_.size(); ++r) look_at(r, begin, end, width, turns, at);
             cut = order_and_count(found);
             piece_ = found;
             found = crossed_.size();
@@ -144,7 +152,11 @@ class EventWatch {
     void settle(Real t, const State& s, Real theta)
     {
         values_.evaluate(t, s, there_);
+        values_.find_rates(t, s, h_, rate_);
         for (std::size_t r = 0; r < requests_.size(); ++r) {
+            // Where it is zero to rounding, it is where it goes.
+            if (size_of(there_[r]) <= values_.noise(r))
+                there_[r] = size_of(rate_[r]) > values_.rate_noise(r) ? rate_[r] : after_[r];
             const auto own = [r](const Crossed& each) { return each.request == r; };
             const auto piece = crossed_.begin() + static_cast<std::ptrdiff_t>(piece_);
             if (!(from_[r] < theta) || !crosses(r, after_[r], there_[r]) || std::any_of(piece, crossed_.end(), own))
@@ -155,6 +167,9 @@ class EventWatch {
         std::sort(crossed_.begin() + static_cast<std::ptrdiff_t>(piece_), crossed_.end(), is_before);
     }
 
+    /// One event more of request r: whether the run ends there.
+    [[nodiscard]] bool stops(std::size_t r) { return ++seen_[r] >= requests_[r].count && requests_[r].stop; }
+
     /// Those of the last step.
     [[nodiscard]] const std::vector<Crossed>& crossed() const noexcept { return crossed_; }
 
@@ -163,15 +178,11 @@ class EventWatch {
     struct Side {
         Real side = Real(0);
         Real level = Real(0); ///< what its values there are rounding errors of
-        bool crosses = false; ///< it may have that much of the other side before it
         bool at_once = false; ///< one that goes to the other side has crossed again
+        bool happens = false; ///< one that goes to the other side crosses where it is
     };
 
-    static Real side_before(Crossing direction) noexcept
-    {
-        return direction == Crossing::falling ? Real(1) : direction == Crossing::rising ? Real(-1) : Real(0);
-    }
-    static Real sign(const Real& x) noexcept { return x > Real(0) ? Real(1) : x < Real(0) ? Real(-1) : Real(0); }
+    static Real sign(const Real& x) noexcept { return sign_of(x); }
     static Real size_of(const Real& x) noexcept { return detail::size_of(x); }
 
     template <class At>
@@ -181,6 +192,19 @@ class EventWatch {
             const auto [time, state] = at(theta);
             return values_.evaluate_one(r, time, *state);
         };
+    }
+
+    /// Of function r, which has the value before_ and the rate rate_, known to `least`: the side to which it goes where
+    /// it is zero to `level`; where that is not known, the side from which it may cross. The rest as in Side.
+    void set_side(std::size_t r, const Real& level, const Real& least, bool at_once, bool happens)
+    {
+        const Real from = side_before<Real>(requests_[r].direction), size = size_of(before_[r]);
+        const Real goes = size_of(rate_[r]) > least ? sign(rate_[r]) : Real(0);
+        const Real side = goes != Real(0) ? goes : from;
+        const bool on = size <= level, beyond = size <= tolerance_ && goes == from && before_[r] * from < Real(0);
+        sides_[r] = {};
+        if (on || beyond) sides_[r] = {side, std::max<Real>(level, size), at_once, happens && from != Real(0)};
+        if (on && side == Real(0)) before_[r] = Real(0);
     }
 
     /// A place of (0, last] where function r is on its side by more than its rounding errors, which would cross again:
@@ -196,47 +220,69 @@ class EventWatch {
             after_[r] = value(x);
             beyond = -after_[r] * side.side > side.level;
             if (after_[r] * side.side > side.level) {
-                if (side.crosses && crosses(r)) add(r, Real(0), x, width, value);
                 before_[r] = after_[r];
                 from_[r] = x;
                 sides_[r] = {};
                 return;
             }
-            if (!(x < last) || (beyond && side.at_once)) break;
-        }
-        if (side.crosses) {
-            sides_[r] = {};
-            return;
+            if (!(x < last) || (beyond && (side.at_once || side.happens))) break;
         }
         from_[r] = x;
         if (!beyond) return; // it has not left its zero yet
         before_[r] = side.side;
         if (side.at_once && crosses(r)) crossed_.push_back({first, r, side.side, true});
+        if (side.happens && crosses(r)) crossed_.push_back({Real(0), r, side.side});
         before_[r] = after_[r];
         sides_[r] = {};
     }
 
     /// In the piece from begin to end, where the function has the values before_ and after_.
-    template <class Function>
-    void look_at(std::size_t r, Real begin, Real end, Real width, bool turns, const Function& value)
+    template <class At>
+    void look_at(std::size_t r, Real begin, Real end, Real width, bool turns, const At& at)
     {
         if (!(from_[r] < end)) {
             after_[r] = before_[r];
             return;
         }
+        const auto value = value_of(r, at);
         begin = std::max<Real>(begin, from_[r]);
         const Real known = is_number(after_[r]) ? end : last_defined(r, begin, end, width, value);
-        if (crosses(r)) return add(r, begin, known, width, value);
+        if (before_[r] * after_[r] <= Real(0) && before_[r] != Real(0)) {
+            if (is_shallow(r, known, size_of(before_[r]), after_[r], at))
+                after_[r] = before_[r]; // the next look decides
+            else if (crosses(r))
+                add(r, begin, known, width, value);
+            return;
+        }
         if (!turns) return;
         const auto turn = locate_turn(begin, before_[r], known, after_[r], width, value);
         if (!turn) return;
         const Real first = before_[r], last = after_[r], middle = value(*turn);
+        if (is_shallow(r, *turn, std::max<Real>(size_of(first), size_of(last)), middle, at)) return;
         after_[r] = middle;
         if (crosses(r)) add(r, begin, *turn, width, value);
         before_[r] = middle;
         after_[r] = last;
         if (crosses(r)) add(r, *turn, known, width, value);
         before_[r] = first;
+    }
+
+    /// Whether function r, which comes from values of this size, does not certainly cross its zero where it has got to
+    /// `value` beyond it, at theta: what lies within rounding errors, or is less than the tolerance and 1e-6 of the
+    /// size, may be a touch. One that goes on as fast as functions of this size do near no turning point is none: the
+    /// value d of c x^2, which is S where x = 1, has the rate 2 sqrt(d S).
+    template <class At>
+    [[nodiscard]] bool is_shallow(std::size_t r, const Real& theta, const Real& size, const Real& value, const At& at)
+    {
+        using std::max;
+        if (size_of(value) > Real(1e-3) * size) return false;
+        const auto [t, s] = at(theta);
+        values_.find_rates(t, *s, h_, rate_);
+        const Real level = max<Real>(values_.noise(r), std::min<Real>(tolerance_, Real(1e-6) * size));
+        if (size_of(value) > level) return false;
+        if (before_[r] * rate_[r] >= Real(0) || before_[r] * values_.reached(r) >= Real(0)) return true;
+        const Real move = rate_[r] * h_, scale = max<Real>(size, size_of(value_of(r, at)(Real(1))));
+        return !(move * move > Real(64) * level * scale);
     }
 
     /// The crossing between two places where the function has the values before_ and after_.
@@ -275,11 +321,7 @@ class EventWatch {
         return a.theta < b.theta || (a.theta == b.theta && a.request < b.request);
     }
 
-    void count(Crossed& crossed)
-    {
-        const Request& request = requests_[crossed.request];
-        crossed.stop = ++seen_[crossed.request] >= request.count && request.stop;
-    }
+    void count(Crossed& crossed) { crossed.stop = stops(crossed.request); }
 
     /// Sorts the crossings of one piece by time (requests in their order where times agree), counts, and cuts after the
     /// instant of a stop or of a jump.
@@ -304,6 +346,8 @@ class EventWatch {
 
     EventValues<M> values_;
     std::span<const Request> requests_;
+    Real tolerance_;   ///< of the state: a function of its size may not have crossed
+    Real h_ = Real(0); ///< of the last step
     std::vector<Real> before_, after_;
     std::vector<Real> rate_before_, rate_; ///< along the motion, by time
     std::vector<Real> there_;              ///< where the last step jumps

@@ -86,7 +86,7 @@ class Abreast {
 
   private:
     using Shared = SharedSteps<M, Method, N>;
-    using March = detail::March<M, OnLane<Method, Shared, N>, Observer>;
+    using March = detail::March<M, OnLane<Method, Shared, N>, Observer, Options<M>>;
     using Where = Mask<typename M::Scalar, N>;
     static constexpr bool adaptive = Shared::Stepper::adaptive;
     static constexpr bool shows = requires(Observer observer, typename M::Scalar t, const typename M::State& s)
@@ -127,8 +127,8 @@ class Abreast {
         march.emplace(*given.model, *given.start, given.span, method, *given.options, *given.observer);
         if (!march->steps_.stepper_.suits() || March::jumps(*given.options)) {
             march.reset();
-            detail::March<M, Method, Observer> alone(*given.model, *given.start, given.span, *given.method,
-                                                     *given.options, *given.observer);
+            detail::March<M, Method, Observer, Options<M>> alone(*given.model, *given.start, given.span, *given.method,
+                                                                 *given.options, *given.observer);
             done(lane, alone.run());
             return;
         }
@@ -177,7 +177,7 @@ class Abreast {
         steps.stepper_.take_back();
         steps.t_ = steps.t_from_ = shared_->times[at(lane)];
         steps.h_ = shared_->quiet.asked[lane];
-        steps.lost_ = shared_->quiet.lost[lane];
+        steps.lost_ = steps.lost_from_ = shared_->quiet.lost[lane];
         steps.steps_ += made;
         steps.failed_length_ = 0;
         steps.imprecise_ = steps.retry_ = false;

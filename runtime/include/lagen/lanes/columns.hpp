@@ -3,6 +3,8 @@
 /// Of float and double there are as many as a register holds; any other scalar takes one column at a time.
 #pragma once
 
+#include "lagen/requirements.hpp"
+
 #include <array>
 #include <cstddef>
 #include <cstring>

@@ -2,6 +2,8 @@
 /// Vector registers: how many bytes the widest one holds that the compiler may use, how many numbers, and their types.
 #pragma once
 
+#include "lagen/requirements.hpp"
+
 #include <cstddef>
 #include <type_traits>
 
