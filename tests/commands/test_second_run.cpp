@@ -39,16 +39,22 @@ std::string written(const std::string& name, const std::string& text)
 }
 
 /// A pendulum that swings by a nanoradian, far below the absolute tolerance.
-std::string nanoradian(const std::string& scene = ""){
-    return written("nanoradian", R"([base]
+std::string nanoradian(const std::string& scene = "")
+{
+    return written("nanoradian", R"-([base]
 coordinates = ["th"]
 [fibre]
 coordinates = ["w"]
 [algebroid]
 kind = "tangent"
 [lagrangian]
-L = "w^2/2 + cos(th)"[scene.default] initial = {th = 1e-9,
-                                                w = 0} duration = 20 samples = 3 tolerance = 1e-8) " + scene);
+L = "w^2/2 + cos(th)"
+[scene.default]
+initial = { th = 1e-9, w = 0 }
+duration = 20
+samples = 3
+tolerance = 1e-8
+)-" + scene);
 }
 
 /// A compiler whose program gives two rows, and where it is told the tolerance 1e-11 waits for an end.

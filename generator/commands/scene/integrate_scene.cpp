@@ -53,8 +53,7 @@ bool is_uninterrupted(const std::function<void()>& work)
 try {
     work();
     return true;
-} catch (const Error& error) {
-    if (error.code() != ExitCode::interrupted) throw;
+} catch (const InterruptedError&) {
     return false;
 }
 
@@ -72,7 +71,7 @@ void integrate_scene(const std::string& program, ProgramInput input, RunOutcome&
     require_started(result, program);
     if (result.interrupted || result.exit_code == static_cast<int>(ExitCode::interrupted)) {
         take_what_is_left(input.report_file, outcome);
-        throw Error(ExitCode::interrupted, "lagen: interrupted, nothing was written");
+        throw InterruptedError("lagen: interrupted, nothing was written");
     }
     if (result.exit_code != 0 && result.exit_code != 1) refuse_end(result);
     read_report(content_of_file(input.report_file), outcome);

@@ -48,7 +48,9 @@ std::optional<ProgramInput> with_half_of_own_step(const RunSetting& run, std::st
         input.parameters = finite_numbers(values.parameters, half);
         input.initial = run.start(values);
         if (values.own_step) input.parameters.push_back(*values.step);
-    } catch (const Error&) {
+    } catch (const ModelError&) {
+        return cannot("the start is none for it");
+    } catch (const MathematicsError&) {
         return cannot("the start is none for it");
     }
     if (input.parameters == run.input.parameters) return cannot("the model fixes its step");

@@ -199,9 +199,8 @@ void SweepRun::run()
     require_started(result, setting_.record.program);
     if (file_.rows() == wanted && result.exit_code == 0) return;
     if (result.interrupted)
-        throw Error(ExitCode::interrupted,
-                    fmt::format("lagen: interrupted, {} of {} rows are done; --resume goes on with them", file_.rows(),
-                                wanted));
+        throw InterruptedError(fmt::format("lagen: interrupted, {} of {} rows are done; --resume goes on with them",
+                                           file_.rows(), wanted));
     refuse_end(result, fmt::format("hint: {} of {} rows are done; --resume goes on with them", file_.rows(), wanted));
 }
 
