@@ -200,7 +200,7 @@ ExitCode run_run(Arguments arguments)
     std::string picture;
     const bool drawn = is_uninterrupted([&] { picture = draw(options, run, outcome, overlaid, whole); });
     tell(options, outcome, picture, as_json);
-    if (!drawn) throw Error(ExitCode::interrupted, "lagen: interrupted while drawing");
+    if (!drawn) throw InterruptedError("lagen: interrupted while drawing");
     return succeeded(outcome.status) && whole ? ExitCode::done : ExitCode::refuted;
 }
 

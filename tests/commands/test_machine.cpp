@@ -145,11 +145,13 @@ TEST_CASE("a compiler that fails is quoted, and leaves nothing in the cache")
 TEST_CASE("a cache that cannot be used is replaced by a temporary folder, which is said once and serves the next run")
 {
     const std::string temporary = fresh_folder(), witness = fresh_folder() + "/called";
+    const std::string file = fresh_folder() + "/file", unusable = file + "/cache";
+    write_text(file, "");
     const std::string own = temporary + "/lagen-" + std::to_string(::getuid());
     const Surroundings around{
-        .environment = {{"LAGEN_CACHE", "/dev/null/cache"}, {"TMPDIR", temporary}, {"CXX", quick_compiler(witness)}}};
+        .environment = {{"LAGEN_CACHE", unusable}, {"TMPDIR", temporary}, {"CXX", quick_compiler(witness)}}};
     const std::string note =
-        "note: '/dev/null/cache' is no folder for compiled scenes: Not a directory; they go to '" + own + "'\n";
+        "note: '" + unusable + "' is no folder for compiled scenes: Not a directory; they go to '" + own + "'\n";
     for (int k = 0; k < 2; ++k) {
         const Outcome outcome = call(short_run, around);
         CHECK(outcome.code == 0);
@@ -162,10 +164,10 @@ TEST_CASE("a cache that cannot be used is replaced by a temporary folder, which 
 
     const std::string taken = fresh_folder();
     write_text(taken + "/lagen-" + std::to_string(::getuid()), "somebody's");
-    const Outcome nowhere = call(short_run, {.environment = {{"LAGEN_CACHE", "/dev/null/cache"}, {"TMPDIR", taken}}});
+    const Outcome nowhere = call(short_run, {.environment = {{"LAGEN_CACHE", unusable}, {"TMPDIR", taken}}});
     CHECK(nowhere.code == 5);
-    CHECK_THAT(nowhere.err, Catch::StartsWith("error: '/dev/null/cache' is no folder for compiled scenes: Not a "
-                                              "directory\nand neither is '" +
+    CHECK_THAT(nowhere.err, Catch::StartsWith("error: '" + unusable +
+                                              "' is no folder for compiled scenes: Not a directory\nand neither is '" +
                                               taken + "/lagen-"));
 }
 

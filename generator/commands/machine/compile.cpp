@@ -125,7 +125,7 @@ std::string line_of(const std::vector<std::string>& command)
 
 void require_success(const std::vector<std::string>& command, const ProcessResult& result)
 {
-    if (result.interrupted) throw Error(ExitCode::interrupted, "lagen: interrupted while compiling");
+    if (result.interrupted) throw InterruptedError("lagen: interrupted while compiling");
     if (!result.started)
         throw MachineError(
             fmt::format("error: the C++ compiler '{}' could not be started: {}", command[0], result.error));
@@ -187,7 +187,7 @@ bool takes(const std::string& text, const std::vector<std::string>& arguments)
     command.insert(command.end(), {scratch.file("look.cpp"), "-o", scratch.file("look")});
     command.insert(command.end(), arguments.begin(), arguments.end());
     const ProcessResult result = run_process(command);
-    if (result.interrupted) throw Error(ExitCode::interrupted, "lagen: interrupted while compiling");
+    if (result.interrupted) throw InterruptedError("lagen: interrupted while compiling");
     return result.exit_code == 0;
 }
 

@@ -44,7 +44,7 @@ void use_folder(const TemporaryFolder& folder, ProgramInput& input)
     rows.erase(rows.rfind('\n') + 1); // npos + 1 is 0
     outcome.table.count = outcome.table.lines().size();
     outcome.status = "interrupted";
-    throw Error(ExitCode::interrupted, "lagen: interrupted, nothing was written");
+    throw InterruptedError("lagen: interrupted, nothing was written");
 }
 
 /// Runs a program that was compiled around its model; its rows go to `take`. False where it was interrupted.
@@ -71,8 +71,7 @@ bool is_uninterrupted(const std::function<void()>& work)
 try {
     work();
     return true;
-} catch (const Error& error) {
-    if (error.code() != ExitCode::interrupted) throw;
+} catch (const InterruptedError&) {
     return false;
 }
 

@@ -9,11 +9,11 @@
 namespace lagen {
 
 /// Runs the program; the rows and the report go into `outcome`, whose state has its names. Throws where the program did
-/// not come to a report. Where it is interrupted `outcome` has the rows so far, and the status "interrupted", and the
-/// Error of an interrupt is thrown.
+/// not come to a report. Where it is interrupted `outcome` has the rows so far, and the status "interrupted", and
+/// InterruptedError is thrown.
 void integrate_scene(const std::string& program, const ProgramInput& input, RunOutcome& outcome);
 
-/// False where the Error of an interrupt ended `work`.
+/// False where InterruptedError ended `work`.
 [[nodiscard]] bool is_uninterrupted(const std::function<void()>& work);
 
 } // namespace lagen

@@ -200,9 +200,8 @@ void SweepRun::run()
     require_started(result, setting_.record.program);
     if (file_.rows() == wanted && result.exit_code == 0) return write_standard_error(result.error);
     if (result.interrupted)
-        throw Error(ExitCode::interrupted,
-                    fmt::format("lagen: interrupted, {} of {} rows are done; --resume goes on with them", file_.rows(),
-                                wanted));
+        throw InterruptedError(fmt::format("lagen: interrupted, {} of {} rows are done; --resume goes on with them",
+                                           file_.rows(), wanted));
     refuse_end(result, fmt::format("hint: {} of {} rows are done; --resume goes on with them", file_.rows(), wanted));
 }
 
