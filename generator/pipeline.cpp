@@ -10,6 +10,7 @@
 #include "graph/core/lower.hpp"
 #include "graph/simplify/simplify.hpp"
 #include "model/scene_form.hpp"
+#include "stage.hpp"
 #include "verify/control_maximum.hpp"
 
 #include <fmt/format.h>
@@ -54,8 +55,9 @@ std::vector<std::string> readable_equations(const CheckedModel& checked, const s
                                             const std::string& command)
 {
     if (!is_readable(checked.system))
-        return {fmt::format("The equations are too long to be written out here: {} prints them.", command)};
+        return {fmt::format("The equations are too long to be written out here: {} -o FILE writes them.", command)};
     try {
+        const Stage stage("equations for the reader of the header");
         EquationSet equations = derive(form, checked.model, checked.system, checked.report);
         equations.given.clear(); // the model stands in the header too
         return lines_of(print_text(equations, LongLines::whole));
@@ -257,6 +259,7 @@ Generated generate(const CheckedModel& checked, const GenerateRequest& request)
         module.equations = readable_equations(checked, kernels.form, module.derive);
     else
         forget_values(module);
+    const Stage stage("writing the header");
     generated.header = print_header(module);
     return generated;
 }

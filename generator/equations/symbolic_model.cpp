@@ -4,6 +4,7 @@
 #include "equations/rewrite_tree.hpp"
 #include "model/total_cost.hpp"
 #include "notation/latex_names.hpp"
+#include "stage.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -372,6 +373,7 @@ EquationSet derived(const Model& model, const char* equations, Definitions defin
 
 EquationSet derived(const Model& model, const char* equations, const std::function<EquationSet()>& derivation)
 {
+    const Stage stage(fmt::format("deriving {}", equations));
     return with_ginac(fmt::format("{} of model '{}' could not be derived", equations, model.name), derivation);
 }
 

@@ -6,6 +6,7 @@
 #include "graph/core/evaluate.hpp"
 #include "mechanics/symplectic.hpp"
 #include "proof/least_squares.hpp"
+#include "stage.hpp"
 #include "verify/augmented_energy.hpp"
 #include "verify/energy_momentum.hpp"
 #include "verify/find_invariants.hpp"
@@ -88,7 +89,11 @@ class EquilibriumFinder {
         for (const Doubles& z : points)
             for (const double slope : middles(energy_->at(exact_balls(z), search_bits)[0].slope))
                 if (std::isfinite(slope)) slope_ = std::max(slope_, std::fabs(slope));
-        for (const Doubles& z : points) consider(z);
+        Stage stage("searching from starts", points.size());
+        for (const Doubles& z : points) {
+            stage.next();
+            consider(z);
+        }
         std::ranges::stable_sort(out_.found, {}, &RelativeEquilibrium::energy);
         return std::move(out_);
     }

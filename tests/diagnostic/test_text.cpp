@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// UTF-8 and the search for the name that was meant.
 #include "diagnostic.hpp"
+#include "stage.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -57,4 +58,26 @@ TEST_CASE("a name that shares nothing is not proposed")
     CHECK(nearest("ab", {"cd"}).empty());
     CHECK(nearest("anything", {}).empty());
     CHECK(nearest(std::string(100000, 'a'), {std::string(100000, 'b')}).empty());
+}
+
+TEST_CASE("the name that was refused is never proposed")
+{
+    CHECK(nearest("x", {"x"}).empty());
+    CHECK(nearest("mass", {"mass", "m"}).empty());
+    CHECK(nearest("mass", {"mass", "masses"}) == "masses");
+    CHECK(nearest("mas", {"mas", "mass"}) == "mass");
+}
+
+TEST_CASE("stages that last are told from the outside in, with what is done of each")
+{
+    CHECK(lagen::stages_text().empty());
+    {
+        const lagen::Stage whole("deciding top");
+        lagen::Stage part("equations", 3);
+        CHECK(lagen::stages_text() == "deciding top: equations");
+        part.next();
+        part.next();
+        CHECK(lagen::stages_text() == "deciding top: equations, 2 of 3");
+    }
+    CHECK(lagen::stages_text().empty());
 }
