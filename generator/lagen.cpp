@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// main: options to a command, errors to standard error and an exit code. No mathematics.
+#include "activity.hpp"
 #include "commands/line/command.hpp"
 #include "commands/line/options.hpp"
-#include "commands/machine/stage_watch.hpp"
+#include "commands/machine/activity_watch.hpp"
 #include "commands/machine/write_file.hpp"
-#include "stage.hpp"
 
 #include <fmt/core.h>
 
@@ -70,8 +70,8 @@ ExitCode dispatch(const std::vector<std::string>& arguments)
     std::vector<std::string> names;
     for (const CommandEntry& entry : commands) {
         if (arguments[0] == entry.name) {
-            std::optional<Stage> stage;
-            if (!entry.follows_itself) stage.emplace(entry.name);
+            std::optional<Activity> activity;
+            if (!entry.follows_itself) activity.emplace(entry.name);
             return entry.run(Arguments(arguments).subspan(1));
         }
         names.emplace_back(entry.name);
@@ -117,7 +117,7 @@ int main(int argc, char** argv)
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN); // a file at its limit: write says so
     try {
-        const StageWatch watch;
+        const ActivityWatch watch;
         const ExitCode code = dispatch(std::vector<std::string>(argv + 1, argv + argc));
         if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
             return report("error: cannot write to standard output", ExitCode::machine);

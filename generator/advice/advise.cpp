@@ -19,13 +19,13 @@ constexpr const char* casimir_hint =
     "What holds on M alone, as a joint of a linkage does, is one of [base] constraints; kind = \"level_set\" takes any";
 
 /// "R" of R[2,3], with the place; nothing of a name that is no entry of a matrix.
-struct MatrixEntry {
+struct MatrixPlace {
     std::string family;
     std::size_t row = 0, column = 0;
 };
-std::optional<MatrixEntry> matrix_entry(const std::string& name)
+std::optional<MatrixPlace> matrix_entry(const std::string& name)
 {
-    MatrixEntry entry;
+    MatrixPlace entry;
     const std::size_t open = name.find('['), comma = name.find(','), close = name.find(']');
     if (open == std::string::npos || comma == std::string::npos || close != name.size() - 1) return std::nullopt;
     entry.family = name.substr(0, open);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "equations/hamilton.hpp"
 
+#include "activity.hpp"
 #include "equations/given_blocks.hpp"
 #include "equations/legendre.hpp"
 #include "equations/poisson.hpp"
 #include "model/form.hpp"
-#include "stage.hpp"
 #include "verify/legendre_obstacle.hpp"
 
 namespace lagen {
@@ -115,9 +115,9 @@ class HamiltonDerivation {
                 : FormulaTerm{"-μ_c C^c_ab ∂H/∂μ_b", R"(-\mu_c\, C^c_{ab}\, \frac{\partial H}{\partial \mu_b})"};
         const FormulaTerm force{"Q_a", "Q_a"};
         EquationBlock block{"equations of motion", "μ̇_a", R"(\dot \mu_a)", {}};
-        Stage stage("equations of motion", r());
+        Activity activity("equations of motion", r());
         for (std::size_t a = 0; a < r(); ++a) {
-            stage.next();
+            activity.next();
             Equation next{LeftSide::time_derivative, symbolic_.momentum_name(a), {}, {}};
             next.groups = symbolic_.simplified(
                 {{anchor.label, in_velocities_ ? total(symbolic_.along_anchor(a, lagrangian_))

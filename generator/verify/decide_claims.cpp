@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// The claims of a model, one kind after another, with names for people.
+#include "activity.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "proof/partial_parts.hpp"
-#include "stage.hpp"
 #include "verify/claims.hpp"
 #include "verify/construction.hpp"
 #include "verify/control_maximum.hpp"
@@ -48,9 +48,9 @@ void Claims::decide_by_construction(const ResidualList& list)
     const ZeroDecider quick(graph_, setting_, smaller(judge_->decider().budget(), quick_budget));
     bool tried = false, constructed = false, refuted = false;
     std::map<NodeId, Decision> open;
-    Stage stage("quick proofs", list.residuals.size());
+    Activity activity("quick proofs", list.residuals.size());
     for (const Residual& residual : list.residuals) {
-        stage.next();
+        activity.next();
         if (is_of_function(residual)) continue;
         Decision decision;
         if (!constructed) decision = quick.decide(residual.value);
@@ -76,9 +76,9 @@ void Claims::decide_structure(StructureReport& structure)
     structure.note = note_;
     structure.trivial += list.trivial;
     decide_by_construction(list);
-    Stage stage("equations", list.residuals.size());
+    Activity activity("equations", list.residuals.size());
     const auto append_check = [&](std::vector<Check>& checks, const Residual& residual) {
-        stage.next();
+        activity.next();
         checks.push_back(check_of(residual));
     };
     for (const Residual& residual : list.residuals)
@@ -168,9 +168,9 @@ void Claims::decide_along_motions(Report& report, const std::vector<NamedTree>& 
     const Binding names = motion->names();
     Lowering lower(graph_, names);
     const bool everywhere = motions_fill(report.mechanics.regularity);
-    Stage stage("functions", claims.size());
+    Activity activity("functions", claims.size());
     for (const NamedTree& claim : claims) {
-        stage.next();
+        activity.next();
         Check check{"invariant", {claim.name}, {}, {}, {}};
         const NodeId f = lower(claim.value);
         const Rate rate = motion->rate(momentum_in(f, names).value_or(f));

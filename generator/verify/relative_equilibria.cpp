@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "verify/relative_equilibria.hpp"
 
+#include "activity.hpp"
 #include "algebra/orthonormal_span.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/evaluate.hpp"
 #include "mechanics/symplectic.hpp"
 #include "proof/least_squares.hpp"
-#include "stage.hpp"
 #include "verify/augmented_energy.hpp"
 #include "verify/energy_momentum.hpp"
 #include "verify/find_invariants.hpp"
@@ -89,9 +89,9 @@ class EquilibriumFinder {
         for (const Doubles& z : points)
             for (const double slope : middles(energy_->at(exact_balls(z), search_bits)[0].slope))
                 if (std::isfinite(slope)) slope_ = std::max(slope_, std::fabs(slope));
-        Stage stage("searching from starts", points.size());
+        Activity activity("searching from starts", points.size());
         for (const Doubles& z : points) {
-            stage.next();
+            activity.next();
             consider(z);
         }
         std::ranges::stable_sort(out_.found, {}, &RelativeEquilibrium::energy);

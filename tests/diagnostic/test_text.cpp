@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// UTF-8 and the search for the name that was meant.
+#include "activity.hpp"
 #include "diagnostic.hpp"
-#include "stage.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -70,14 +70,14 @@ TEST_CASE("the name that was refused is never proposed")
 
 TEST_CASE("stages that last are told from the outside in, with what is done of each")
 {
-    CHECK(lagen::stages_text().empty());
+    CHECK(lagen::activities_text().empty());
     {
-        const lagen::Stage whole("deciding top");
-        lagen::Stage part("equations", 3);
-        CHECK(lagen::stages_text() == "deciding top: equations");
+        const lagen::Activity whole("deciding top");
+        lagen::Activity part("equations", 3);
+        CHECK(lagen::activities_text() == "deciding top: equations");
         part.next();
         part.next();
-        CHECK(lagen::stages_text() == "deciding top: equations, 2 of 3");
+        CHECK(lagen::activities_text() == "deciding top: equations, 2 of 3");
     }
-    CHECK(lagen::stages_text().empty());
+    CHECK(lagen::activities_text().empty());
 }

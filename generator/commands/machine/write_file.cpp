@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/machine/write_file.hpp"
 
-#include "commands/machine/stage_watch.hpp"
+#include "commands/machine/activity_watch.hpp"
 #include "diagnostic.hpp"
 
 #include <fmt/core.h>
@@ -115,7 +115,7 @@ void require_writable(const std::string& path)
 
 void write_standard_output(std::string_view content)
 {
-    wipe_stage_line();
+    wipe_activity_line();
     std::fflush(stdout);
     const int error = write_all(STDOUT_FILENO, content);
     if (error != 0) throw MachineError(fmt::format("error: cannot write to standard output: {}", std::strerror(error)));
@@ -123,7 +123,7 @@ void write_standard_output(std::string_view content)
 
 void write_standard_error(std::string_view text)
 {
-    wipe_stage_line();
+    wipe_activity_line();
     (void)write_all(STDERR_FILENO, text);
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// A thread that wakes now and then: a single decision may take minutes, in which nobody else could write.
-#include "commands/machine/stage_watch.hpp"
+#include "commands/machine/activity_watch.hpp"
 
-#include "stage.hpp"
+#include "activity.hpp"
 
 #include <fmt/format.h>
 
@@ -19,7 +19,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds quiet{2000}, interval{200};
+constexpr std::chrono::milliseconds before_shown{2000}, between_looks{200};
 constexpr std::size_t line_width = 78;
 
 std::mutex line_mutex;
@@ -53,20 +53,20 @@ void watch()
 {
     std::unique_lock lock(watch_mutex);
     Clock::time_point begin = Clock::now();
-    while (!watch_ends.wait_for(lock, interval, [] { return !watching; })) {
-        const std::string text = stages_text();
+    while (!watch_ends.wait_for(lock, between_looks, [] { return !watching; })) {
+        const std::string text = activities_text();
         if (text.empty()) begin = Clock::now();
         if (text.empty())
-            wipe_stage_line();
-        else if (Clock::now() - begin >= quiet)
+            wipe_activity_line();
+        else if (Clock::now() - begin >= before_shown)
             show_line(text, Clock::now() - begin);
     }
-    wipe_stage_line();
+    wipe_activity_line();
 }
 
 } // namespace
 
-StageWatch::StageWatch()
+ActivityWatch::ActivityWatch()
 {
     if (::isatty(STDERR_FILENO) == 0) return;
     watching = true;
@@ -78,7 +78,7 @@ StageWatch::StageWatch()
     pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
 
-StageWatch::~StageWatch()
+ActivityWatch::~ActivityWatch()
 {
     if (!watcher.joinable()) return;
     {
@@ -89,7 +89,7 @@ StageWatch::~StageWatch()
     watcher.join();
 }
 
-void wipe_stage_line()
+void wipe_activity_line()
 {
     const std::lock_guard lock(line_mutex);
     if (line_is_shown) write_line(fmt::format("\r{:{}}\r", "", line_width));

@@ -4,17 +4,17 @@
 
 namespace lagen {
 
-/// Looks at the stages of what this process computes while it lives; one at a time.
-class StageWatch {
+/// Looks at the activities of what this process computes while it lives; one at a time.
+class ActivityWatch {
   public:
     /// Nothing is shown where standard error is no terminal.
-    StageWatch();
-    ~StageWatch();
-    StageWatch(const StageWatch&) = delete;
-    StageWatch& operator=(const StageWatch&) = delete;
+    ActivityWatch();
+    ~ActivityWatch();
+    ActivityWatch(const ActivityWatch&) = delete;
+    ActivityWatch& operator=(const ActivityWatch&) = delete;
 };
 
 /// Wipes the line, if there is one: something else is written now.
-void wipe_stage_line();
+void wipe_activity_line();
 
 } // namespace lagen
