@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// main: options to a command, errors to standard error and an exit code. No mathematics.
+#include "activity.hpp"
 #include "commands/line/command.hpp"
 #include "commands/line/options.hpp"
+#include "commands/machine/activity_watch.hpp"
 #include "commands/machine/write_file.hpp"
 
 #include <fmt/core.h>
@@ -10,6 +12,7 @@
 #include <csignal>
 #include <fcntl.h>
 #include <new>
+#include <optional>
 #include <unistd.h>
 
 namespace {
@@ -20,15 +23,16 @@ struct CommandEntry {
     const char* name;
     const char* purpose;
     ExitCode (*run)(Arguments);
+    bool follows_itself = false; ///< shows its own progress
 };
 
 constexpr std::array commands{
     CommandEntry{"check", "prove or refute the structure equations and the other claims of a model", run_check},
     CommandEntry{"derive", "print the equations of motion", run_derive},
     CommandEntry{"generate", "write the C++ header of a model", run_generate},
-    CommandEntry{"run", "generate, compile and integrate a scene of a model", run_run},
-    CommandEntry{"sweep", "integrate a scene for many parameters and initial values", run_sweep},
-    CommandEntry{"chart", "chart what accuracy costs by every method", run_chart},
+    CommandEntry{"run", "generate, compile and integrate a scene of a model", run_run, true},
+    CommandEntry{"sweep", "integrate a scene for many parameters and initial values", run_sweep, true},
+    CommandEntry{"chart", "chart what accuracy costs by every method", run_chart, true},
     CommandEntry{"reduce", "prove that a morphism projects the equations of motion; list cyclic coordinates",
                  run_reduce},
     CommandEntry{"solve", "find relative equilibria, with what is proved of their stability", run_solve},
@@ -65,7 +69,11 @@ ExitCode dispatch(const std::vector<std::string>& arguments)
     }
     std::vector<std::string> names;
     for (const CommandEntry& entry : commands) {
-        if (arguments[0] == entry.name) return entry.run(Arguments(arguments).subspan(1));
+        if (arguments[0] == entry.name) {
+            std::optional<Activity> activity;
+            if (!entry.follows_itself) activity.emplace(entry.name);
+            return entry.run(Arguments(arguments).subspan(1));
+        }
         names.emplace_back(entry.name);
     }
     const std::string nearest = nearest_name(arguments[0], names);
@@ -108,6 +116,7 @@ int main(int argc, char** argv)
     std::signal(SIGPIPE, SIG_IGN); // a reader who went away: write says so
     std::signal(SIGXFSZ, SIG_IGN); // a file at its limit: write says so
     try {
+        const ActivityWatch watch;
         return static_cast<int>(dispatch(std::vector<std::string>(argv + 1, argv + argc)));
     } catch (const Error& error) {
         return report(error.what(), error.code());

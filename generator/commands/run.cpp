@@ -82,13 +82,13 @@ const CommandSyntax run_syntax{
      {"unchecked", nullptr, "go on although the model is refuted"},
      {"format,f", "FORMAT", "text or json", "text"}}};
 
-/// Of the variational method that is asked for; empty where it is another one.
-const char* scheme_of(const Options& options, const Model& model)
+/// The variational method that is asked for; null where it is another one.
+const MethodEntry* variational_method(const Options& options, const Model& model)
 {
     const std::string asked = options.get("method");
-    if (asked.empty() && model.scenes.empty()) return "";
+    if (asked.empty() && model.scenes.empty()) return nullptr;
     const MethodEntry* method = find_method(asked.empty() ? find_scene(model, options.get("scene")).method : asked);
-    return method == nullptr ? "" : method->scheme;
+    return method != nullptr && *method->scheme != '\0' ? method : nullptr;
 }
 
 /// The number of the first arrow that is asked for, which only a discrete motion from momenta has.
@@ -163,8 +163,8 @@ ExitCode run_run(Arguments arguments)
     if (options.has("reconstruct"))
         throw UsageError("lagen run: --reconstruct is of a morphism, and " + quote(path) + " is a model");
     CheckedModel checked = read(path, options.settings(), options.has("unchecked"));
-    if (const char* scheme = scheme_of(options, checked.model); *scheme != '\0')
-        checked.model = variational_model(std::move(checked.model), scheme);
+    if (const MethodEntry* method = variational_method(options, checked.model))
+        checked.model = variational_model(std::move(checked.model), method->scheme, method->name);
     const Model& model = checked.model;
     require_apart(options, model);
     // What a chart chooses is chosen for the equations that it ran: those of the values.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "kernels/form_kernels.hpp"
 
+#include "activity.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/unknowns/tangent_size.hpp"
 #include "kernels/algebra_action.hpp"
@@ -110,6 +111,7 @@ class ModuleBuilder {
     [[nodiscard]] Kernel simplified(Kernel kernel) { return simplified(std::move(kernel), point_inputs(module_)); }
     [[nodiscard]] Kernel simplified(Kernel kernel, const std::vector<KernelInput>& inputs)
     {
+        const Activity activity("simplifying the kernel " + kernel.name);
         kernel.inputs.insert(kernel.inputs.begin(), inputs.begin(), inputs.end());
         std::vector<NodeId> none;
         std::vector<NodeId>& pivots = kernel.checks ? kernel.checks->pivots : none;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "verify/relative_equilibria.hpp"
 
+#include "activity.hpp"
 #include "algebra/orthonormal_span.hpp"
 #include "graph/calculus/differentiate.hpp"
 #include "graph/core/evaluate.hpp"
@@ -88,7 +89,11 @@ class EquilibriumFinder {
         for (const Doubles& z : points)
             for (const double slope : middles(energy_->at(exact_balls(z), search_bits)[0].slope))
                 if (std::isfinite(slope)) slope_ = std::max(slope_, std::fabs(slope));
-        for (const Doubles& z : points) consider(z);
+        Activity activity("searching from starts", points.size());
+        for (const Doubles& z : points) {
+            activity.next();
+            consider(z);
+        }
         std::ranges::stable_sort(out_.found, {}, &RelativeEquilibrium::energy);
         return std::move(out_);
     }

@@ -2,6 +2,8 @@
 /// What the machine may lack: a compiler, room on a disk, somebody who reads, patience.
 #include "program.hpp"
 
+#include "activity.hpp"
+#include "commands/machine/activity_watch.hpp"
 #include "support/golden.hpp"
 
 #include <catch2/catch.hpp>
@@ -10,7 +12,9 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <fcntl.h>
 #include <filesystem>
+#include <pty.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -424,4 +428,38 @@ TEST_CASE("an interrupt while compiling stops the compiler and its children")
     CHECK(outcome.err == "lagen: interrupted while compiling\n");
     CHECK(names_in(cache).empty());
     CHECK_FALSE(alive("31.4159"));
+}
+
+namespace {
+
+/// What reaches standard error, a terminal or a pipe, while a activity lasts for so many milliseconds.
+std::string told_in(int milliseconds, bool terminal)
+{
+    int ends[2] = {-1, -1};
+    REQUIRE((terminal ? ::openpty(&ends[0], &ends[1], nullptr, nullptr, nullptr) : ::pipe(ends)) == 0);
+    const int before = ::dup(STDERR_FILENO);
+    ::dup2(ends[1], STDERR_FILENO);
+    {
+        const lagen::ActivityWatch watch;
+        lagen::Activity activity("deciding top", 7);
+        activity.next();
+        std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+    }
+    ::dup2(before, STDERR_FILENO);
+    ::fcntl(ends[0], F_SETFL, O_NONBLOCK);
+    std::string text(4096, ' ');
+    const ssize_t count = ::read(ends[0], text.data(), text.size());
+    for (const int file : {before, ends[0], ends[1]}) ::close(file);
+    return text.substr(0, count < 0 ? 0 : static_cast<std::size_t>(count));
+}
+
+} // namespace
+
+TEST_CASE("what lasts longer than two seconds is told on a terminal alone, and wiped where it ends")
+{
+    const std::string told = told_in(2600, true);
+    CHECK(told.find("2 s  deciding top, 1 of 7") != std::string::npos);
+    CHECK(told.ends_with(" \r"));
+    CHECK(told_in(500, true).empty());
+    CHECK(told_in(2600, false).empty());
 }

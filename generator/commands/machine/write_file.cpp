@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/machine/write_file.hpp"
 
+#include "commands/machine/activity_watch.hpp"
 #include "diagnostic.hpp"
 
 #include <fmt/core.h>
@@ -114,6 +115,7 @@ void require_writable(const std::string& path)
 
 void write_standard_output(std::string_view content)
 {
+    wipe_activity_line();
     const int error = write_all(STDOUT_FILENO, content);
     if (error != 0 && error != EPIPE)
         throw MachineError(fmt::format("error: cannot write to standard output: {}", std::strerror(error)));
@@ -121,6 +123,7 @@ void write_standard_output(std::string_view content)
 
 void write_standard_error(std::string_view text)
 {
+    wipe_activity_line();
     (void)write_all(STDERR_FILENO, text);
 }
 

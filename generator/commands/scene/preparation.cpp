@@ -21,7 +21,7 @@ std::string point_text(const NamedPoint& point)
     std::string text;
     for (const auto& [name, value] : point)
         text += fmt::format("{}{} = {:.6g}", text.empty() ? "" : ", ", name, to_double(value));
-    return text;
+    return text.empty() ? "every point" : text;
 }
 
 /// Kernels of a header that explicit methods, events, rows and what is followed along a run do without.

@@ -151,6 +151,7 @@ std::string figures_text(const RunOutcome& outcome)
     std::string text;
     for (const auto* drifts : {&outcome.invariants, &outcome.balance, &outcome.casimirs})
         for (const Drift& drift : *drifts) {
+            if (is_energy(drift) && drift.initial == "0" && drift.max_drift == "0") continue; // costates that are 0
             if (!is_number(drift.initial))
                 text += fmt::format("  {}: no finite number at the start\n", drift.name);
             else
