@@ -2,6 +2,7 @@
 /// Forward and reverse sweeps by the rules of the operator table, and the rules of linear solves.
 #include "graph/calculus/differentiate.hpp"
 
+#include "graph/calculus/limits.hpp"
 #include "graph/core/operators.hpp"
 
 #include <algorithm>
@@ -56,13 +57,14 @@ std::vector<NodeId> solve_tangent(Graph& graph, const LinearSystem& system, cons
 }
 
 /// The scalar rule: sum over the operands of (d node / d operand) * tangent.
-NodeId node_tangent(Graph& graph, NodeId id, const std::vector<NodeId>& tangents)
+NodeId node_tangent(Graph& graph, NodeId id, const std::vector<NodeId>& tangents, Limits* limits)
 {
     const auto rule = operator_of(graph.op(id)).contribution;
     NodeId sum = graph.constant(0);
     for (std::size_t k = 0; k < graph.operands(id).size(); ++k) {
         const NodeId tangent = tangents[graph.operands(id)[k]];
-        if (!graph.is_zero(tangent)) sum = graph.add(sum, rule(graph, id, k, tangent));
+        if (graph.is_zero(tangent)) continue;
+        sum = graph.add(sum, limits != nullptr ? limits->contribution(id, k, tangent) : rule(graph, id, k, tangent));
     }
     return sum;
 }
@@ -137,10 +139,10 @@ class ReverseSweep {
     std::map<NodeId, std::vector<NodeId>> solve_adjoints_;
 };
 
-} // namespace
+enum class AtZeros { chain_rule, limits };
 
 std::vector<NodeId> directional(Graph& graph, std::span<const NodeId> outputs,
-                                std::span<const std::pair<NodeId, NodeId>> seeds)
+                                std::span<const std::pair<NodeId, NodeId>> seeds, AtZeros at_zeros)
 {
     const auto nodes = reachable(graph, outputs);
     const NodeId zero = graph.constant(0);
@@ -149,6 +151,8 @@ std::vector<NodeId> directional(Graph& graph, std::span<const NodeId> outputs,
     for (const auto& [input, tangent] : seeds) inputs.push_back(input);
     const auto active = dependent_nodes(graph, nodes, inputs);
     std::map<NodeId, std::vector<NodeId>> solutions;
+    std::optional<Limits> limits;
+    if (at_zeros == AtZeros::limits) limits.emplace(graph, outputs, nodes, active);
     for (const auto& [input, tangent] : seeds)
         if (input < tangents.size()) tangents[input] = tangent;
     for (const NodeId id : nodes) {
@@ -159,11 +163,25 @@ std::vector<NodeId> directional(Graph& graph, std::span<const NodeId> outputs,
         else if (op == Op::component)
             tangents[id] = solutions.at(graph.operands(id)[0])[graph.payload(id)];
         else if (op != Op::factor)
-            tangents[id] = node_tangent(graph, id, tangents);
+            tangents[id] = node_tangent(graph, id, tangents, limits ? &*limits : nullptr);
     }
     std::vector<NodeId> result;
     for (const NodeId output : outputs) result.push_back(tangents[output]);
     return result;
+}
+
+} // namespace
+
+std::vector<NodeId> directional(Graph& graph, std::span<const NodeId> outputs,
+                                std::span<const std::pair<NodeId, NodeId>> seeds)
+{
+    return directional(graph, outputs, seeds, AtZeros::chain_rule);
+}
+
+std::vector<NodeId> directional_with_limits(Graph& graph, std::span<const NodeId> outputs,
+                                            std::span<const std::pair<NodeId, NodeId>> seeds)
+{
+    return directional(graph, outputs, seeds, AtZeros::limits);
 }
 
 std::vector<NodeId> gradient(Graph& graph, NodeId output, std::span<const NodeId> inputs)
@@ -187,15 +205,31 @@ std::vector<NodeId> joined_rows(const std::vector<std::vector<NodeId>>& rows)
     return entries;
 }
 
-std::vector<std::vector<NodeId>> jacobian(Graph& graph, std::span<const NodeId> outputs, std::span<const NodeId> inputs)
+namespace {
+
+std::vector<std::vector<NodeId>> jacobian(Graph& graph, std::span<const NodeId> outputs, std::span<const NodeId> inputs,
+                                          AtZeros at_zeros)
 {
     std::vector<std::vector<NodeId>> result(outputs.size());
     for (const NodeId input : inputs) {
         const std::pair<NodeId, NodeId> seed[] = {{input, graph.constant(1)}};
-        const auto column = directional(graph, outputs, seed);
+        const auto column = directional(graph, outputs, seed, at_zeros);
         for (std::size_t r = 0; r < outputs.size(); ++r) result[r].push_back(column[r]);
     }
     return result;
+}
+
+} // namespace
+
+std::vector<std::vector<NodeId>> jacobian(Graph& graph, std::span<const NodeId> outputs, std::span<const NodeId> inputs)
+{
+    return jacobian(graph, outputs, inputs, AtZeros::chain_rule);
+}
+
+std::vector<std::vector<NodeId>> jacobian_with_limits(Graph& graph, std::span<const NodeId> outputs,
+                                                      std::span<const NodeId> inputs)
+{
+    return jacobian(graph, outputs, inputs, AtZeros::limits);
 }
 
 } // namespace lagen

@@ -2,6 +2,7 @@
 /// Sums, products, quotients and integer powers, with their local rules. Every rule is exact in floating point too, or
 /// folds exact constants.
 #include "graph/core/graph.hpp"
+#include "graph/core/special_values.hpp"
 
 #include <algorithm>
 
@@ -105,6 +106,11 @@ NodeId Graph::divide(NodeId a, NodeId b)
     if (is_negative(*this, a)) return negate(divide(constant(Rational(-value(a))), b));
     if (ops_[a] == Op::negate) return negate(divide(operands(a)[0], b));
     if (ops_[b] == Op::negate) return negate(divide(a, operands(b)[0]));
+    // 0/b is 0 where it stands alone, and so it is as a choice.
+    if (ops_[a] == Op::select && (is_zero(operands(a)[1]) || is_zero(operands(a)[2]))) {
+        const NodeId of[] = {operands(a)[0], operands(a)[1], operands(a)[2]};
+        return select(of[0], divide(of[1], b), divide(of[2], b));
+    }
     // Both overflow where their quotient does not.
     if (ops_[a] == Op::sinh && ops_[b] == Op::cosh && operands(a)[0] == operands(b)[0])
         return apply(Op::tanh, operands(a)[0]);
@@ -127,6 +133,8 @@ NodeId Graph::power(NodeId a, int exponent)
         return exponent % 2 == 0 ? positive : negate(positive);
     }
     if (ops_[a] == Op::sqrt && exponent % 2 == 0) return power(operands(a)[0], exponent / 2);
+    if (exponent % 2 == 0 && (ops_[a] == Op::divide || ops_[a] == Op::multiply))
+        if (const auto square = rules::special_square(*this, a)) return power(constant(*square), exponent / 2);
     if (ops_[a] == Op::power) {
         const std::int64_t product = std::int64_t{exponent} * static_cast<std::int32_t>(payloads_[a]);
         if (product > -INT32_MAX && product < INT32_MAX) return power(operands(a)[0], static_cast<int>(product));
