@@ -23,19 +23,6 @@ bool is_negative(const Graph& graph, NodeId id)
     return graph.is_constant(id) && sgn(graph.value(id)) < 0;
 }
 
-/// value^exponent, exponent != 0.
-Rational exact_power(const Rational& value, std::int64_t exponent)
-{
-    const auto n = static_cast<unsigned long>(exponent < 0 ? -exponent : exponent);
-    mpz_class numerator;
-    mpz_class denominator;
-    mpz_pow_ui(numerator.get_mpz_t(), value.get_num_mpz_t(), n);
-    mpz_pow_ui(denominator.get_mpz_t(), value.get_den_mpz_t(), n);
-    Rational result = exponent < 0 ? Rational(denominator, numerator) : Rational(numerator, denominator);
-    result.canonicalize();
-    return result;
-}
-
 } // namespace
 
 NodeId Graph::add(NodeId a, NodeId b)
@@ -127,7 +114,7 @@ NodeId Graph::power(NodeId a, int exponent)
     const auto magnitude = static_cast<std::size_t>(exponent < 0 ? -std::int64_t{exponent} : std::int64_t{exponent});
     if (is_zero(a) || is_one(a)) return a;
     if (is_constant(a) && bits_of(value(a)) <= folded_bits / magnitude)
-        return constant(exact_power(value(a), exponent));
+        return constant(*rules::exact_power(value(a), exponent, folded_bits));
     if (ops_[a] == Op::negate) {
         const NodeId positive = power(operands(a)[0], exponent);
         return exponent % 2 == 0 ? positive : negate(positive);
