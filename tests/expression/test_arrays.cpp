@@ -152,12 +152,12 @@ TEST_CASE("a range of indices picks a vector or a matrix")
     CHECK(closed_text(scope, "R[2..2,:]") == "[[R[2,1], R[2,2], R[2,3]]]");
     CHECK(closed_text(scope, "x[2..3]") == "[x[2], x[3]]");
     CHECK(closed_text(scope, "x[:]") == closed_text(scope, "x"));
-    CHECK(closed_text(scope, "[a, b, c][2..3]*p") == "2 x 1");
+    CHECK(closed_text(scope, "dot([a, b, c][2..3], p)") == "b*p[1] + c*p[2]");
     CHECK(closed_text(scope, "dot(A[2,:], A[:,1])") == "A[2,1]*A[1,1] + A[2,2]*A[2,1] + A[2,3]*A[3,1]");
-    CHECK(closed_text(scope, "sum(i, 1, 2, dot(x[i..i + 1], p))") == "x[1]*p[1] + x[2]*p[2] + (x[2]*p[1] + x[3]*p[2])");
-    CHECK(closed_text(scope, "grad(norm(A[1,:])^2, A[1,:])").substr(0, 4) == "[2*s");
+    CHECK(closed_text(scope, "sum(i, 1, 2, dot(x[i..i + 1], p))") == "x[1]*p[1] + x[2]*p[2] + x[2]*p[1] + x[3]*p[2]");
+    CHECK(closed_text(scope, "grad(a*A[1,2], A[1,:])") == "[0, a, 0]");
     CHECK(to_text(parse("A[2,:] + A[1..n-1,3]")) == "A[2,:] + A[1..n - 1,3]");
-    CHECK(same_tree(parse(to_text(parse("x[2..n][1] + A[:,:]"))), parse("x[2..n][1] + A[:,:]")));
+    CHECK(same_tree(parse(to_text(parse("(x[2..n])[1] + A[:,:]"))), parse("(x[2..n])[1] + A[:,:]")));
     Scope functions = array_scope();
     functions.define(definition("tail", "q[2..3]", {"q"}));
     functions.define(definition("head", "q[1..k]", {"q", "k"}));
@@ -173,7 +173,7 @@ TEST_CASE("a range that picks nothing is refused where it stands")
     CHECK(closing_error(scope, "A[1..a,1]") == "the index 'a' is not an integer constant");
     CHECK(closing_error(scope, "x[u..2]") == "an index is a vector of 3");
     CHECK(closing_error(scope, "A[:]") == "'A' is a 3 x 3 matrix and takes two indices, and one is given");
-    CHECK(closing_error(scope, "a[:]") == "'a[:]'");
+    CHECK(closing_error(scope, "a[:]") == "'a' is a scalar and has no entries");
 }
 
 TEST_CASE("a name is read as equations print it")

@@ -145,7 +145,9 @@ bool Limits::needs_limit(NodeId node, std::size_t k) const
         return k == 0 && q <= 1 && (q == 1 || (p && *p * q > 1));
     }
     case Op::sqrt:
-    case Op::abs: return false;
+    case Op::abs:
+    case Op::minimum:
+    case Op::maximum: return false;
     default: return q <= 1 && 2 * q > 1 && kind_of(graph_.op(node)) == OpKind::function;
     }
 }

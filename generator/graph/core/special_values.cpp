@@ -10,7 +10,7 @@ namespace lagen::rules {
 namespace {
 
 constexpr std::size_t longest_power = std::size_t{1} << 16U; ///< bits
-constexpr int deepest_constant = 32;                         ///< constants are short; a longer one stays a call
+constexpr int deepest_constant = 12;                         ///< constants are short; a longer one stays a call
 
 /// q of the node q pi, made of pi and rational numbers.
 std::optional<Rational> turn_of(const Graph& graph, NodeId id, int depth = deepest_constant)
