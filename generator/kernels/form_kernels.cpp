@@ -3,6 +3,7 @@
 
 #include "activity.hpp"
 #include "graph/calculus/differentiate.hpp"
+#include "graph/calculus/limits.hpp"
 #include "graph/unknowns/tangent_size.hpp"
 #include "kernels/algebra_action.hpp"
 #include "kernels/describe_module.hpp"
@@ -312,7 +313,7 @@ class ModuleBuilder {
         seeds = seeds_through(*graph_, form_.implicit, std::move(seeds));
         const bool eliminated = is_eliminated();
         const std::vector<NodeId> tangent =
-            directional(*graph_, eliminated ? nodes_of(right_hand_side()) : form_.derivative, seeds);
+            directional_with_limits(*graph_, eliminated ? nodes_of(right_hand_side()) : form_.derivative, seeds);
         Kernel kernel = table_kernel(form_, "variational", column("dv", tangent));
         kernel.inputs = {std::move(along)};
         if (eliminated) kernel.checks->pivots = right_hand_side().checks->pivots;

@@ -317,7 +317,8 @@ const char* start_hint(const RunOutcome& outcome)
                "says where it begins\n";
     if (status == "non_finite" && outcome.method == "taylor")
         return "hint: the right-hand side or its Taylor series is no finite number at the start: the model is not "
-               "defined there, overflows, or raises 0 to a power whose exponent is a parameter; `--bind` makes it a "
+               "defined there, overflows, takes a root of 0, or raises 0 to a power whose exponent is a parameter; "
+               "`--bind` makes it a "
                "number, other methods such as dop853 take no series\n";
     if (status == "non_finite")
         return "hint: the right-hand side is no finite number at the start: the model is not defined there, or "
@@ -400,6 +401,10 @@ std::string report_text(const RunOutcome& outcome)
     else if (failed && outcome.steps != "0")
         text += last_state(outcome);
     text += branches_text(outcome);
+    if (!outcome.not_finite.empty())
+        text += fmt::format("  {} is no finite number there: {} needs the Jacobian; explicit methods such as dop853 do "
+                            "not\n",
+                            outcome.not_finite, outcome.method);
     if (!outcome.largest_step.empty())
         text += fmt::format("  the largest step near it that goes on there: {}\n", outcome.largest_step);
     if (failed && outcome.steps == "0") return text + start_hint(outcome);

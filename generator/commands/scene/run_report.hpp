@@ -53,6 +53,7 @@ struct RunOutcome {
     std::string time;   ///< of the last good state
     std::vector<std::pair<std::string, std::string>> state; ///< the last good state: lanes by name, base first
     std::string failed_at;    ///< time at which the run met what ended it; `time` where nothing failed
+    std::string not_finite{}; ///< what of the equations is no finite number at the last good state, or ""
     std::string largest_step; ///< near that of a discrete motion that failed, which would have gone on; or ""
     /// Distances of the arrows that are found with the momenta of a discrete start, where they were looked for; of
     /// those with the momenta of the step that failed; and the number of the one that was asked for, 0 where none was.

@@ -7,6 +7,8 @@
 #include "commands/scene/integrate_scene.hpp"
 #include "commands/scene/largest_step.hpp"
 #include "commands/scene/second_run.hpp"
+#include "kernels/form_kernels.hpp"
+#include "kernels/non_finite.hpp"
 #include "model/scene_form.hpp"
 #include "scene/read_input_table.hpp"
 
@@ -43,6 +45,23 @@ void SceneRun::prepare(Scene scene, const MethodEntry& method, bool stretch)
     });
 }
 
+std::string SceneRun::not_finite(const RunOutcome& outcome)
+{
+    const bool fails =
+        outcome.status == "non_finite" || outcome.status == "step_too_small" || outcome.status == "newton_diverged";
+    if (!fails || method_->kind != MethodKind::implicit_stages || values_.discrete) return {};
+    const CheckedModel& checked = preparation_.checked(parameters_, true);
+    KernelRequest request;
+    request.form = form_;
+    request.only = {"rhs"};
+    request.scene = &scene_;
+    std::map<std::string, double> at{{"t", std::strtod(outcome.time.c_str(), nullptr)}};
+    for (const auto& [name, value] : outcome.state) at[name] = std::strtod(value.c_str(), nullptr);
+    for (const auto* numbers : {&values_.parameters, &values_.inputs})
+        for (const auto& [name, value] : *numbers) at[name] = static_cast<double>(value);
+    return non_finite_entry(form_kernels(checked.model, checked.system, checked.report, request), at);
+}
+
 RunOutcome SceneRun::integrate()
 {
     RunOutcome outcome;
@@ -63,6 +82,7 @@ RunOutcome SceneRun::integrate()
     if (is_nonholonomic(checked_.model) && outcome.energy_changes) // reactions and drifts work on it: no invariant
         std::erase_if(outcome.invariants, is_energy);
     call_walls(outcome);
+    outcome.not_finite = not_finite(outcome);
     if (!options_.has("bind") && !is_branch_missing(outcome))
         (void)is_uninterrupted([&] {
             outcome.largest_step = largest_step(checked_.model, scene_, record().program, input_, *start_, outcome);

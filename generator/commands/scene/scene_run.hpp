@@ -35,6 +35,9 @@ class SceneRun {
     [[nodiscard]] ProgramInput& input() { return input_; }
 
   private:
+    /// What of the equations is no finite number where an implicit method ended.
+    [[nodiscard]] std::string not_finite(const RunOutcome& outcome);
+
     const Options& options_;
     CheckedModel& checked_;
     Preparation preparation_;
