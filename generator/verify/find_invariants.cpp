@@ -23,7 +23,7 @@ using Flow = Replacements;                ///< the rates of coordinates of E*
 constexpr long double negligible_part = 1e-10L; ///< of what is 0 but for rounding
 constexpr std::size_t more_points = 16;         ///< than unknowns
 
-constexpr std::size_t rank_points = 3;
+constexpr std::size_t rank_points = 5;
 
 /// Factors of monomials, none of them over t: `momenta` first.
 class Generators {
@@ -381,9 +381,12 @@ std::vector<NodeId> find_constants(Graph& graph, const System& system, const std
     const ProofSetting setting = setting_at_values(graph, proof_setting(graph, system), system.parameter_values);
     const std::vector<NodeId> generators = Generators(graph, system, {}).of_fields(joined_rows(fields));
     std::vector<NodeId> found, all = known;
+    std::size_t count = 0;
     for (std::size_t degree = 1; degree <= InvariantAnsatz().degree && found.size() < wanted; ++degree) {
+        std::vector<NodeId> now = monomials(graph, generators, 0, {degree});
         ConstantSearch search(graph, setting, x, {});
-        if (!search.prepare(monomials(graph, generators, 0, {degree}), all)) break;
+        if (now.size() == count || !search.prepare(now, all)) break; // more of that degree are too many
+        count = now.size();
         for (const NodeId each : search.search(flows)) {
             found.push_back(each);
             all.push_back(each);

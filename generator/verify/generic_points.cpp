@@ -48,13 +48,15 @@ GenericSpan::GenericSpan(Graph& graph, const std::vector<NamedNumbers>& points)
 
 bool GenericSpan::add(const std::vector<NodeId>& vector)
 {
-    bool is_new = false;
+    std::size_t rank = size_;
     for (std::size_t k = 0; k < points_->size(); ++k) {
         const std::vector<long double> numbers = evaluate<long double>(*graph_, vector, (*points_)[k]);
-        if (std::ranges::all_of(numbers, [](long double each) { return std::isfinite(each); }))
-            is_new = spans_[k].add(numbers) || is_new;
+        if (!std::ranges::all_of(numbers, [](long double each) { return std::isfinite(each); })) continue;
+        (void)spans_[k].add(numbers);
+        rank = std::max(rank, spans_[k].size());
     }
-    if (is_new) ++size_;
+    const bool is_new = rank > size_;
+    size_ = rank;
     return is_new;
 }
 

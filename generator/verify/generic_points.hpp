@@ -19,8 +19,8 @@ using NamedNumbers = std::map<std::string, long double>;
 [[nodiscard]] std::vector<NamedNumbers> generic_points(const Graph& graph, const ProofSetting& setting,
                                                        std::size_t count);
 
-/// Vectors of functions, one after the other, of which each is kept that at some point is no combination of those
-/// before. With differentials: functions of which none is locally a function of those before.
+/// The rank of vectors of functions, one after the other: the largest at some points. A vector is new that makes it
+/// larger. With differentials: functions of which none is locally a function of those before.
 class GenericSpan {
   public:
     /// Keeps references.
@@ -36,7 +36,7 @@ class GenericSpan {
     Graph* graph_;
     const std::vector<NamedNumbers>* points_;
     std::vector<OrthonormalSpan> spans_; ///< one a point
-    std::size_t size_ = 0;
+    std::size_t size_ = 0;               ///< the rank
 };
 
 } // namespace lagen

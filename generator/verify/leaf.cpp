@@ -20,7 +20,7 @@ namespace {
 using Fields = std::vector<std::vector<NodeId>>;
 using Numbers = std::vector<long double>;
 
-constexpr std::size_t leaf_points = 3;
+constexpr std::size_t leaf_points = 5;
 constexpr long double dependent_fields = 1e-9L;
 constexpr long double settled = 1e-15L; ///< of a position, relative to its largest entry: rounding takes over below
 

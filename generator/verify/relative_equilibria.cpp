@@ -130,7 +130,7 @@ class EquilibriumFinder {
         ProofSetting setting = setting_at_values(graph_, proof_setting(graph_, system_), system_.parameter_values);
         for (const NodeId mu : system_.mu)
             if (std::ranges::find(setting.variables, mu) == setting.variables.end()) setting.variables.push_back(mu);
-        const std::vector<NamedNumbers> points = generic_points(graph_, setting, 3);
+        const std::vector<NamedNumbers> points = generic_points(graph_, setting, 5);
         GenericSpan differentials(graph_, points);
         for (std::size_t k = 0; k < candidates.size(); ++k) {
             const NodeId value = fixed(candidates[k]);

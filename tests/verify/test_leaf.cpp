@@ -2,8 +2,8 @@
 /// Leaves of the base: the functions that are constant on them, and steps that stay on them.
 #include "verify/leaf.hpp"
 
+#include "algebra/matrix_logarithm.hpp"
 #include "checking.hpp"
-#include "expression/linear_algebra.hpp"
 #include "graph/core/evaluate.hpp"
 #include "verify/equilibrium.hpp"
 
@@ -101,14 +101,13 @@ TEST_CASE("a step along the leaf is the group's, in all digits of a double")
     const Leafed model(action("\"R[1..3,1..3]\"", "so(3)", "R = \"R*hat(w)\""));
     const std::vector<double> c{0.3, -2, 1.1}, found = model.moved(crooked, c);
     // R exp(hat(c)) = R (1 + sin|c|/|c| hat(c) + (1 - cos|c|)/|c|^2 hat(c)^2)  [Rodrigues]
-    const double a = std::hypot(c[0], c[1], c[2]);
-    const std::vector<double> hat{0, -c[2], c[1], c[2], 0, -c[0], -c[1], c[0], 0};
-    const std::vector<double> square = times(hat, hat, 3);
-    std::vector<double> turn(9);
+    const long double a = std::hypot(c[0], c[1], c[2]);
+    const RealMatrix hat{0, -c[2], c[1], c[2], 0, -c[0], -c[1], c[0], 0}, square = times(hat, hat, 3);
+    RealMatrix turn(9);
     for (std::size_t k = 0; k < 9; ++k)
         turn[k] = (k % 4 == 0 ? 1 : 0) + std::sin(a) / a * hat[k] + (1 - std::cos(a)) / (a * a) * square[k];
-    const std::vector<double> wanted = times(crooked, turn, 3);
-    for (std::size_t k = 0; k < 9; ++k) CHECK(found[k] == Approx(wanted[k]).margin(4e-16));
+    const RealMatrix wanted = times({crooked.begin(), crooked.end()}, turn, 3);
+    for (std::size_t k = 0; k < 9; ++k) CHECK(found[k] == Approx(static_cast<double>(wanted[k])).margin(4e-16));
 }
 
 TEST_CASE("leaves without a function that is found are known by their fields")
