@@ -86,8 +86,8 @@ TEST_CASE("Jordan blocks in any frame are found with their multiplicities")
         Count known;
         while (J.size() < 4 + random() % 6) {
             const std::size_t size = 1 + random() % 5;
-            const Rational a(static_cast<int>(random() % 9) - 4, trial % 3 == 0 ? 10 : 1),
-                b = trial % 2 * (random() % 3);
+            const Rational a = Rational(static_cast<int>(random() % 9) - 4) / (trial % 3 == 0 ? 10 : 1);
+            const Rational b = trial % 2 * (random() % 3);
             const std::size_t rows = size * (b == 0 ? 1 : 2), at = J.size();
             J.resize(at + rows);
             for (auto& row : J) row.resize(at + rows);
@@ -108,7 +108,7 @@ TEST_CASE("nilpotent tables have 0 alone, as often as they have rows")
     for (std::size_t n = 1; n <= 14; ++n) {
         Table N = zeros(n);
         for (std::size_t i = 0; i < n; ++i)
-            for (std::size_t j = i + 1; j < n; ++j) N[i][j] = Rational(static_cast<int>(random() % 199) - 99, 7);
+            for (std::size_t j = i + 1; j < n; ++j) N[i][j] = Rational(static_cast<int>(random() % 199) - 99) / 7;
         for (const Table& table : {N, turned(N, random, 6)})
             CHECK(counted(proof::eigenvalues(balls(table), bits, rounding)) == Count{{{0.0, 0.0}, n}});
     }
