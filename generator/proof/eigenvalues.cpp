@@ -109,7 +109,7 @@ double norm_of(const BallMatrix& A)
     return largest * static_cast<double>(A.rows);
 }
 
-/// Of an irreducible block.
+/// The eigenvalues of an irreducible block.
 std::vector<Approximation> approximations(BallMatrix A, slong precision)
 {
     balance(A);
@@ -184,7 +184,7 @@ class Clusters {
         return sum;
     }
 
-    /// Whether prod (x + m - lambda_i) is x^k but for rounding, in units of the largest norm of their blocks.
+    /// True where prod (x + m - lambda_i) is x^k but for rounding, in units of the largest norm of their blocks.
     [[nodiscard]] bool is_one(const Places& members, const ComplexBall& mean) const
     {
         const double size = size_of(members);

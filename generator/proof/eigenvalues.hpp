@@ -19,8 +19,8 @@ struct Eigenvalue {
     double least = 0, most = 0;
 };
 
-/// Of a square matrix of real entries, by real parts, then imaginary ones; those that are not real in pairs. `rounding`
-/// is how well A is known, in units of its norm: parts below 16 times that are 0.
+/// All of a square matrix of real entries, by real parts, then imaginary ones; those that are not real in pairs.
+/// `rounding` is how well A is known, in units of its norm: parts below 16 times that are 0.
 [[nodiscard]] std::vector<Eigenvalue> eigenvalues(const BallMatrix& A, slong precision, double rounding);
 
 } // namespace lagen::proof

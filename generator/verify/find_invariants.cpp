@@ -33,7 +33,7 @@ class Generators {
     {
     }
 
-    /// Of the coordinates outside of functions, and of functions, roots and divisors in `roots`.
+    /// Coordinates outside of functions, and the functions, roots and divisors in `roots`.
     [[nodiscard]] std::vector<NodeId> of_energy(const std::vector<NodeId>& roots)
     {
         const std::vector<NodeId> parts = parts_of(roots), functions = functions_in(parts);
@@ -91,7 +91,7 @@ class Generators {
         return functions;
     }
 
-    /// What is divided by, and functions with the parameters that they are multiplied by.
+    /// Divisors, and functions with the parameters that they are multiplied by.
     void add_factors(std::vector<NodeId>& out, const std::vector<NodeId>& parts, const std::vector<NodeId>& functions)
     {
         const auto is_parameter = [&](NodeId node) {
@@ -266,7 +266,7 @@ class ConstantSearch {
         return sum;
     }
 
-    /// Whether it is a function of the parameters alone.
+    /// True of a function of the parameters alone.
     [[nodiscard]] bool is_constant(NodeId f)
     {
         const long double size = length_of(at_points(fixed({f}))[0]);
@@ -293,7 +293,7 @@ class InvariantSearch {
     {
     }
 
-    /// Those with coefficients that no parameter changes first, then those for the values of the file.
+    /// Invariants with coefficients that no parameter changes first, then those for the values of the file.
     std::vector<FoundInvariant> run()
     {
         std::vector<NodeId> z = system_.algebroid.x, known = system_.functions.constraints;
@@ -324,8 +324,8 @@ class InvariantSearch {
         return flow;
     }
 
-    /// Those of the coordinates of E*, along which Casimirs are constant: {mu_a, x^i} = rho^i_a, {mu_a, mu_b} = C^c_ab
-    /// mu_c. A function that is constant along those of the mu_a and that of the x^i is one.
+    /// The flows of the coordinates of E*, along which Casimirs are constant: {mu_a, x^i} = rho^i_a, {mu_a, mu_b} =
+    /// C^c_ab mu_c. A function that is constant along those of the mu_a and that of the x^i is one.
     [[nodiscard]] std::vector<Flow> coordinate_flows()
     {
         const Algebroid& algebroid = system_.algebroid;

@@ -26,7 +26,7 @@ class GenericSpan {
     /// Keeps references.
     GenericSpan(Graph& graph, const std::vector<NamedNumbers>& points);
 
-    /// Whether it was new.
+    /// True where it was new.
     bool add(const std::vector<NodeId>& vector);
     /// df by the inputs z.
     bool add_differential(NodeId f, const std::vector<NodeId>& z);

@@ -38,7 +38,7 @@ class LeafSteps {
     [[nodiscard]] std::vector<double>
     least_squares(const std::vector<double>& z,
                   const std::function<proof::Residual(const std::vector<double>&)>& residual) const;
-    /// Of the leaf at x, and unit vectors that are orthogonal to it.
+    /// The directions of the leaf at x, and unit vectors that are orthogonal to it.
     [[nodiscard]] OrthonormalSpan tangent(const std::vector<double>& z) const;
     [[nodiscard]] std::vector<std::vector<double>> normals(const std::vector<double>& z) const;
 
