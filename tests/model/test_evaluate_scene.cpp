@@ -70,6 +70,27 @@ TEST_CASE("project = true moves the start to the nearest point of the constraint
     CHECK(std::fabs(found.base[1].second - 0.8L) <= 4 * epsilon);
 }
 
+TEST_CASE("a start that is moved onto the constraints stays on the level of a declared Casimir")
+{
+    const Model model = read_model_text("bowl.toml", R"(
+[base]
+coordinates = ["x", "y", "z"]
+constraints = ["z - x^2 - y^2"]
+casimirs = { height = "z^3" }
+[fibre]
+coordinates = ["w"]
+[algebroid.anchor]
+w = { x = "-y", y = "x" }
+[scene.default]
+initial = { x = 3, y = 4, z = 1, w = 1 }
+project = true
+)");
+    const SceneValues found = evaluate_scene(model, model.scenes[0]);
+    CHECK(std::fabs(found.base[0].second - 0.6L) <= 4 * epsilon);
+    CHECK(std::fabs(found.base[1].second - 0.8L) <= 4 * epsilon);
+    CHECK(std::fabs(found.base[2].second - 1) <= 4 * epsilon);
+}
+
 TEST_CASE("a start within 1e-10 of the constraints is left as it is")
 {
     const SceneValues found = values("initial = { x = 0.6, y = 0.80000000001, w = 1 }\n");
