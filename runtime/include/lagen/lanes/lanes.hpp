@@ -6,6 +6,7 @@
 #include "lagen/kernel.hpp"
 #include "lagen/lanes/registers.hpp"
 
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -73,7 +74,7 @@ struct SliceOf<S, 1> {
 };
 template <int width>
 requires(width > 1) struct SliceOf<double, width> {
-    using type = typename RegisterOf<double, width>::type;
+    using type = typename RegisterOf<double, static_cast<std::size_t>(width)>::type;
 };
 
 /// One lane of a column, or several.
@@ -157,7 +158,7 @@ template <class Vector>
 requires(doubles_in<Vector> > 0) [[gnu::always_inline]] inline Vector size_of(const Vector& x) noexcept
 {
     using Bits = typename RegisterOf<long long, doubles_in<Vector>>::type;
-    return (Vector)((Bits)x & ~(Bits)-Vector{});
+    return std::bit_cast<Vector>(std::bit_cast<Bits>(x) & ~std::bit_cast<Bits>(-Vector{}));
 }
 
 template <class S>
