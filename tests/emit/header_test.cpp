@@ -4,6 +4,8 @@
 #include "../support/golden.hpp"
 #include "hand_built.hpp"
 
+#include <cstdio>
+
 using namespace lagen;
 using namespace lagen::testing;
 

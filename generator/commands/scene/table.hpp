@@ -13,6 +13,7 @@ struct Table {
     std::vector<std::string> columns; ///< "t", then states and observables
     std::string rows;                 ///< CSV lines without the heading, '\n' after each
     std::size_t count = 0;            ///< of rows
+    std::vector<std::string> known{}; ///< what the model calls anything: headings are plain_names(columns, known)
 
     /// The lines of `rows`.
     [[nodiscard]] std::vector<std::string_view> lines() const;
@@ -21,11 +22,7 @@ struct Table {
 /// The fields of one CSV line of numbers; an empty one stands for what is no finite number.
 [[nodiscard]] std::vector<std::string_view> fields(std::string_view line);
 
-/// Names of columns as identifiers, all different: x[1] is x_1, W[1,1] is W_1_1; one that was there before gets a
-/// number.
-[[nodiscard]] std::vector<std::string> csv_names(const std::vector<std::string>& names);
-
-/// RFC 4180: a heading of `csv_names`, then the rows, CRLF line ends.
+/// RFC 4180: a heading of plain_names, then the rows, CRLF line ends.
 [[nodiscard]] std::string to_csv(const Table& table);
 
 } // namespace lagen
