@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// Trajectories on the lanes of packs: each has the bits of `integrate`, whatever the others do.
-#include "cart_pole.hpp"
 #include "heavy_top.hpp"
-#include "heisenberg.hpp"
 #include "lagen/ensemble.hpp"
 #include "lagen/lagen.hpp"
 #include "support/problems.hpp"
@@ -90,32 +88,6 @@ struct Swing {
         return StatusOf<S>::good();
     }
 };
-
-/// x' = u - x, as a header without parameters.
-template <class S>
-struct Pushed {
-    using Scalar = S;
-    using State = Eigen::Matrix<S, 1, 1>;
-    static constexpr int dimension = 1;
-    static constexpr bool takes_packs = true;
-    static constexpr std::array<const char*, 1> input_names{"u"};
-    struct Parameters {
-    } parameters;
-    struct Inputs {
-        S u = S(0);
-    } inputs;
-
-    S& input(std::size_t) noexcept { return inputs.u; }
-    status_t<S> rhs(S, const State& s, State& ds) const noexcept
-    {
-        ds[0] = inputs.u - s[0];
-        return StatusOf<S>::good();
-    }
-};
-
-static_assert(detail::GoesAbreast<models::heavy_top<double>, Dop853>);
-static_assert(detail::GoesAbreast<models::heisenberg<double>, Taylor>, "without parameters");
-static_assert(detail::GoesAbreast<models::cart_pole<float>, Rk4>, "with inputs");
 
 /// x' = 1; counts its calls.
 template <class S>
@@ -292,17 +264,6 @@ TEMPLATE_LIST_TEST_CASE("A trajectory on a lane has the bits of one alone, by me
     check_abreast<4>(tops(), std::vector<TestType>{TestType{.step = 0.01, .compensated = true}}, {});
     check_abreast<4>(tops(), std::vector<TestType>{TestType{.step = 0.01, .compensated = true}, TestType{.step = 0.01}},
                      {});
-}
-
-TEST_CASE("Lanes have inputs of their own, and need no parameters")
-{
-    std::vector<Task<Pushed<double>>> tasks(9);
-    for (std::size_t k = 0; k < tasks.size(); ++k) {
-        tasks[k].model.inputs.u = 0.1 * double(k);
-        tasks[k].start[0] = 1;
-        tasks[k].end = 2;
-    }
-    check_abreast<4>(tasks, std::vector<Rk4>{{.step = 0.01}}, {});
 }
 
 TEST_CASE("Nystrom methods go on lanes")

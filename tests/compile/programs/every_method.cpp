@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// Every kind of method on a header, for scripts/headers: no compiler warns of what a user includes and instantiates.
 #include "cart_pole.hpp"
 #include "heavy_top.hpp"
