@@ -6,7 +6,6 @@
 #include "lagen/kernel.hpp"
 #include "lagen/lanes/registers.hpp"
 
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -158,7 +157,7 @@ template <class Vector>
 requires(doubles_in<Vector> > 0) [[gnu::always_inline]] inline Vector size_of(const Vector& x) noexcept
 {
     using Bits = typename RegisterOf<long long, doubles_in<Vector>>::type;
-    return std::bit_cast<Vector>(std::bit_cast<Bits>(x) & ~std::bit_cast<Bits>(-Vector{}));
+    return reinterpret_cast<Vector>(reinterpret_cast<Bits>(x) & ~reinterpret_cast<Bits>(-Vector{}));
 }
 
 template <class S>

@@ -195,7 +195,7 @@ class PackedStages {
     }
     static Vector absolute(const Vector& x) noexcept
     {
-        return std::bit_cast<Vector>(std::bit_cast<Bits>(x) & ~std::bit_cast<Bits>(-Vector{}));
+        return reinterpret_cast<Vector>(reinterpret_cast<Bits>(x) & ~reinterpret_cast<Bits>(-Vector{}));
     }
     static Real largest(const Vector& x) noexcept
     {
