@@ -108,7 +108,7 @@ std::string object_json(const RunOutcome& outcome)
 
 void tell(const Options& options, const RunOutcome& source, const RunOutcome& target, const RunComparison& comparison)
 {
-    const std::string csv = to_csv(comparison.table);
+    const std::string csv = to_csv(comparison.table, {});
     const std::string lift =
         options.has("reconstruct") ? fmt::format(",\n \"reconstruction\": {}", defect_json(comparison, true)) : "";
     const std::string report =

@@ -6,7 +6,6 @@
 #include "commands/scene/domain_walls.hpp"
 #include "commands/scene/integrate_scene.hpp"
 #include "commands/scene/largest_step.hpp"
-#include "model/plain_names.hpp"
 #include "model/scene_form.hpp"
 #include "scene/read_input_table.hpp"
 
@@ -53,7 +52,6 @@ RunOutcome SceneRun::integrate()
     outcome.searches = record().searches;
     outcome.branch = input_.branch.value_or(0);
     outcome.table.columns = {"t"};
-    outcome.table.known = all_names(checked_.model);
     for (const TableColumn& column : input_.columns) outcome.table.columns.push_back(column.name);
     for (const std::string& lane : record().names.lanes) outcome.state.emplace_back(lane, "");
     outcome.left_out = names_without_values(checked_.model, form_);

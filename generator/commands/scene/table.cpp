@@ -32,10 +32,10 @@ std::vector<std::string_view> fields(std::string_view line)
     return pieces(line, ',');
 }
 
-std::string to_csv(const Table& table)
+std::string to_csv(const Table& table, const std::vector<std::string>& known)
 {
     std::string text;
-    for (const std::string& column : plain_names(table.columns, table.known))
+    for (const std::string& column : plain_names(table.columns, known))
         text += (text.empty() ? "" : ",") + column;
     text += "\r\n";
     text.reserve(text.size() + table.rows.size() + table.count);

@@ -13,7 +13,6 @@ struct Table {
     std::vector<std::string> columns; ///< "t", then states and observables
     std::string rows;                 ///< CSV lines without the heading, '\n' after each
     std::size_t count = 0;            ///< of rows
-    std::vector<std::string> known{}; ///< what the model calls anything: headings are plain_names(columns, known)
 
     /// The lines of `rows`.
     [[nodiscard]] std::vector<std::string_view> lines() const;
@@ -22,7 +21,7 @@ struct Table {
 /// The fields of one CSV line of numbers; an empty one stands for what is no finite number.
 [[nodiscard]] std::vector<std::string_view> fields(std::string_view line);
 
-/// RFC 4180: a heading of plain_names, then the rows, CRLF line ends.
-[[nodiscard]] std::string to_csv(const Table& table);
+/// RFC 4180: a heading, plain_names(columns, known), then the rows, CRLF line ends. `known`: the names of the model.
+[[nodiscard]] std::string to_csv(const Table& table, const std::vector<std::string>& known);
 
 } // namespace lagen
