@@ -18,6 +18,7 @@
 #include "elaborate/bind_parameters.hpp"
 #include "elaborate/elaborate.hpp"
 #include "elaborate/variational_model.hpp"
+#include "model/plain_names.hpp"
 #include "model/read_file.hpp"
 #include "model/scene_form.hpp"
 
@@ -109,13 +110,14 @@ std::uint64_t branch_of(const Options& options, const Scene& scene, const SceneV
 }
 
 /// `picture`: what was drawn, or "". Where there is one a terminal is spared the rows.
-void tell(const Options& options, const RunOutcome& outcome, const std::string& picture, bool as_json)
+void tell(const Options& options, const RunOutcome& outcome, const std::vector<std::string>& known,
+          const std::string& picture, bool as_json)
 {
     if (as_json) {
         write_standard_output(report_json(outcome));
     } else {
         const bool spared = !picture.empty() && !options.has("output") && ::isatty(STDOUT_FILENO) == 1;
-        if (!options.has("output") && !spared) write_standard_output(to_csv(outcome.table));
+        if (!options.has("output") && !spared) write_standard_output(to_csv(outcome.table, known));
         write_standard_error(report_text(outcome));
         if (!picture.empty())
             write_standard_error(fmt::format("  picture in {}: {}{}\n", options.get("plot"), picture,
@@ -195,11 +197,12 @@ ExitCode run_run(Arguments arguments)
     RunOutcome outcome = run.integrate();
     if (is_interrupted(outcome)) return leave_rows(options, outcome.table, report_json(outcome), outcome.time);
     outcome.action = action_report(outcome, variations);
+    const std::vector<std::string> known = all_names(model);
     if (const std::string file = options.get("output"); !file.empty())
-        write_file(file, file.ends_with(".json") ? report_json(outcome) : to_csv(outcome.table));
+        write_file(file, file.ends_with(".json") ? report_json(outcome) : to_csv(outcome.table, known));
     std::string picture;
     const bool drawn = is_uninterrupted([&] { picture = draw(options, run, outcome, overlaid, whole); });
-    tell(options, outcome, picture, as_json);
+    tell(options, outcome, known, picture, as_json);
     if (!drawn) throw InterruptedError("lagen: interrupted while drawing");
     return succeeded(outcome.status) && whole ? ExitCode::done : ExitCode::refuted;
 }

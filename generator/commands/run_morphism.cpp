@@ -125,7 +125,7 @@ std::string report_of_source(const RunOutcome& source)
 
 void tell(const Options& options, const RunOutcome& source, const RunOutcome& target, const RunComparison& comparison)
 {
-    const std::string csv = to_csv(comparison.table);
+    const std::string csv = to_csv(comparison.table, {});
     const std::string report = report_of(options, source, target, comparison);
     if (options.has("output"))
         write_file(options.get("output"), options.get("output").ends_with(".json") ? report : csv);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "commands/machine/interrupt_flag.hpp"
 
+#include "commands/machine/temporary_folder.hpp"
+
 namespace lagen {
 
 namespace {
@@ -23,10 +25,13 @@ InterruptFlag::InterruptFlag()
     action.sa_handler = raise_interrupt_flag;
     sigemptyset(&action.sa_mask);
     for (std::size_t k = 0; k < watched_signals.size(); ++k) ::sigaction(watched_signals[k], &action, &before_[k]);
+    const sigset_t signals = interrupt_signals();
+    sigprocmask(SIG_UNBLOCK, &signals, &mask_before_);
 }
 
 InterruptFlag::~InterruptFlag()
 {
+    sigprocmask(SIG_SETMASK, &mask_before_, nullptr);
     for (std::size_t k = 0; k < watched_signals.size(); ++k) ::sigaction(watched_signals[k], &before_[k], nullptr);
 }
 

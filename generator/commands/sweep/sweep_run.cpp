@@ -7,6 +7,7 @@
 #include "commands/sweep/sweep_rows.hpp"
 #include "diagnostic.hpp"
 #include "model/families.hpp"
+#include "model/plain_names.hpp"
 
 #include <fmt/core.h>
 
@@ -44,13 +45,16 @@ std::string sweep_heading(const SweepSetting& setting, const SweepRows& rows)
 {
     std::vector<std::string> names{"index", "status", "t"};
     for (const TableColumn& column : columns_of(setting.record.names, setting.scene)) names.push_back(column.name);
-    const std::vector<std::string> columns = csv_names(names);
+    const std::vector<std::string> known = all_names(setting.model), columns = plain_names(names, known);
+    std::vector<std::string> swept;
+    for (const SweptName& name : rows.names) swept.push_back(name.name);
+    swept = plain_names(swept, known);
     std::string text = columns[0];
     const auto put = [&](const std::string& name) { text += ',' + name; };
-    for (const SweptName& name : rows.names) put(name.option + '.' + csv_names({name.name})[0]);
+    for (std::size_t k = 0; k < swept.size(); ++k) put(rows.names[k].option + '.' + swept[k]);
     for (std::size_t k = 2; k < columns.size(); ++k) put(columns[k]);
     for (const Event& event : setting.scene.events) {
-        const std::string name = "event." + csv_names({event.name})[0];
+        const std::string name = "event." + plain_name(event.name);
         put(name + ".count");
         put(name + ".t");
     }

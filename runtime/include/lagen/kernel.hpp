@@ -206,6 +206,14 @@ concept HasParameters = requires(M& model)
     model.parameter(std::size_t{0});
 };
 
+/// Inputs by number: input(k), k < input_names.size().
+template <class M>
+concept HasInputs = requires(M& model)
+{
+    M::input_names;
+    model.input(std::size_t{0});
+};
+
 template <class M>
 concept HasParameterStatus = requires(const M& model)
 {

@@ -74,7 +74,7 @@ struct SliceOf<S, 1> {
 };
 template <int width>
 requires(width > 1) struct SliceOf<double, width> {
-    using type = typename RegisterOf<double, width>::type;
+    using type = typename RegisterOf<double, static_cast<std::size_t>(width)>::type;
 };
 
 /// One lane of a column, or several.
@@ -200,7 +200,7 @@ template <class Vector>
 requires(doubles_in<Vector> > 0) [[gnu::always_inline]] inline Vector size_of(const Vector& x) noexcept
 {
     using Bits = typename RegisterOf<long long, doubles_in<Vector>>::type;
-    return (Vector)((Bits)x & ~(Bits)-Vector{});
+    return reinterpret_cast<Vector>(reinterpret_cast<Bits>(x) & ~reinterpret_cast<Bits>(-Vector{}));
 }
 
 template <class S>
