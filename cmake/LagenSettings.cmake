@@ -4,7 +4,8 @@
 #     [SEPARATE]         its files are never united
 #     [TEMPLATES]        its files instantiate the runtime, which is compiled with some optimisation
 #     [UNSANITIZED]      left out of builds with sanitizers: its tests compile programs of their own, or look at digits
-#     [COMPUTES]         left out of them too, but for scripts/test --all: its tests print, or compute again what is proved
+#     [PARSES]           in every build with sanitizers: its tests read what a user wrote, or decide; the others are there
+#                        for scripts/test --all
 #     [APART tags]       its tests of each tag are a test by themselves, NAME_tag; those of the tag `all` are for
 #                        scripts/test --all only (LAGEN_ALL_TESTS)
 #     [LATER files..]    these of its files are compiled for scripts/test --all only
@@ -41,7 +42,7 @@ endif()
 # of another file's constant, so that -Wshadow is left to the builds that are not united and to scripts/tidy.
 function(lagen_unite target)
   if(LAGEN_UNITY)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 24)
   endif()
 endfunction()
 
@@ -60,6 +61,9 @@ function(lagen_room name)
     if(LAGEN_SANITIZE AND NOT name IN_LIST lagen_busy_rooms)
       target_compile_options(lagen_${name} PRIVATE -O0)
     endif()
+    if(ROOM_DEPENDS) # fmt comes with them
+      lagen_share_headers(lagen_${name} rooms)
+    endif()
   else()
     add_library(lagen_${name} INTERFACE)
     target_include_directories(lagen_${name} INTERFACE ${CMAKE_CURRENT_SOURCE_DIR})
@@ -67,24 +71,32 @@ function(lagen_room name)
   endif()
 endfunction()
 
-# What every test reads is read once for all tests that are compiled alike: Catch2, and for those that instantiate the
-# runtime (KIND templates) the runtime. Only united builds do so; the others show which file forgets to include something.
+# What nearly every file reads is read once for all that is compiled alike: by the rooms the standard library and fmt, by the
+# tests Catch2, and by those that instantiate the runtime the runtime. Only united builds do so; the others show which file
+# forgets to include something. KIND names the headers and the optimisation: rooms, tests, templates.
+set(lagen_headers_rooms <algorithm> <array> <cmath> <filesystem> <functional> <map> <memory> <numeric> <optional> <set> <span> <sstream>
+                        <string> <unordered_map> <variant> <vector> <fmt/format.h> <gmpxx.h>)
+set(lagen_headers_tests <catch2/catch.hpp> <filesystem> <functional> <map> <set>)
+set(lagen_headers_templates <catch2/catch.hpp> <lagen/lagen.hpp>)
+set(lagen_libraries_rooms fmt::fmt)
+set(lagen_libraries_tests Catch2::Catch2)
+set(lagen_libraries_templates Catch2::Catch2 lagen_runtime)
+
 function(lagen_share_headers target kind)
   if(NOT LAGEN_UNITY)
     return()
   endif()
-  set(shared test_headers_${kind})
+  get_target_property(options ${target} COMPILE_OPTIONS)
+  if(NOT options)
+    set(options "")
+  endif()
+  string(MAKE_C_IDENTIFIER "shared_headers_${kind}${options}" shared)
   if(NOT TARGET ${shared})
     file(CONFIGURE OUTPUT ${shared}.cpp CONTENT "")
-    add_library(${shared} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/${shared}.cpp)
-    target_compile_options(${shared} PRIVATE $<TARGET_PROPERTY:${target},COMPILE_OPTIONS>)
-    target_link_libraries(${shared} PRIVATE Catch2::Catch2 lagen_settings)
-    if(kind STREQUAL "templates")
-      target_link_libraries(${shared} PRIVATE lagen_runtime)
-      target_precompile_headers(${shared} PRIVATE <catch2/catch.hpp> <lagen/lagen.hpp>)
-    else()
-      target_precompile_headers(${shared} PRIVATE <catch2/catch.hpp> <filesystem> <functional> <map> <set>)
-    endif()
+    add_library(${shared} OBJECT EXCLUDE_FROM_ALL ${CMAKE_CURRENT_BINARY_DIR}/${shared}.cpp)
+    target_compile_options(${shared} PRIVATE ${options})
+    target_link_libraries(${shared} PRIVATE ${lagen_libraries_${kind}} lagen_settings)
+    target_precompile_headers(${shared} PRIVATE ${lagen_headers_${kind}})
     lagen_cache_shared_headers(${shared})
   endif()
   target_precompile_headers(${target} REUSE_FROM ${shared})
@@ -113,14 +125,14 @@ function(lagen_timed_test name seconds)
 endfunction()
 
 function(lagen_test_room name)
-  cmake_parse_arguments(PARSE_ARGV 1 ROOM "SEPARATE;TEMPLATES;UNSANITIZED;COMPUTES" "" "LIBRARIES;APART;LATER;SECONDS;SANITIZED")
+  cmake_parse_arguments(PARSE_ARGV 1 ROOM "SEPARATE;TEMPLATES;UNSANITIZED;PARSES" "" "LIBRARIES;APART;LATER;SECONDS;SANITIZED")
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
   # Unoptimised templates take an hour for these with sanitizers.
   if(ROOM_LATER AND (NOT LAGEN_ALL_TESTS OR (ROOM_TEMPLATES AND LAGEN_SANITIZE)))
     list(TRANSFORM ROOM_LATER REPLACE "(.+)" "${CMAKE_CURRENT_SOURCE_DIR}/${name}/\\1.cpp")
     list(REMOVE_ITEM sources ${ROOM_LATER})
   endif()
-  if(NOT sources OR (LAGEN_SANITIZE AND (ROOM_UNSANITIZED OR (ROOM_COMPUTES AND NOT LAGEN_ALL_TESTS))))
+  if(NOT sources OR (LAGEN_SANITIZE AND (ROOM_UNSANITIZED OR NOT (ROOM_PARSES OR LAGEN_ALL_TESTS))))
     return()
   endif()
   add_executable(test_${name} ${sources})
