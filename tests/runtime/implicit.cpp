@@ -5,12 +5,15 @@
 #include "support/sanitized.hpp"
 #include "support/tolerances.hpp"
 
-#include <boost/multiprecision/cpp_bin_float.hpp>
-#include <boost/multiprecision/eigen.hpp>
 #include <catch2/catch.hpp>
 
 #include <limits>
 #include <type_traits>
+
+#ifdef LAGEN_ALL_TESTS
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <boost/multiprecision/eigen.hpp>
+#endif
 
 using namespace lagen;
 using Pendulum = problems::Pendulum<double>;
