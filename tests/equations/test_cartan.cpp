@@ -19,7 +19,7 @@ using Lines = std::vector<std::string>;
 
 namespace {
 
-const std::string planar_body =
+const std::string body =
     "[parameters]\nJ = 1.3\nm1 = 1\nm2 = 2\n[groupoid]\nkind = \"group\"\ngroup = \"SE(2)\"\n[fibre]\n"
     "coordinates = [\"w\", \"u\", \"v\"]\n[discrete]\nstep = \"h\"\nL = \"J*(1 - (W[1,1] + "
     "W[2,2])/2)/h + (m1*W[1,3]^2 + m2*W[2,3]^2)/(2*h)\"\n";
@@ -100,15 +100,15 @@ TEST_CASE("a wrong sign, side or bracket is refuted")
     const std::string yes = "proved", no = "refuted";
     std::string printed;
     CHECK(statuses(
-              planar_body, [](System&) {}, &printed) == Lines{yes, yes, yes, yes});
+              body, [](System&) {}, &printed) == Lines{yes, yes, yes, yes});
     CHECK(printed.find("residual") == std::string::npos);
     // ->e_a with the other sign: its momenta are not those of the product, and -[->e_a, ->e_b] not ->[e_a, e_b].
-    CHECK(statuses(planar_body, [](System& system) { negate(system.graph, system.groupoid->right); }) ==
+    CHECK(statuses(body, [](System& system) { negate(system.graph, system.groupoid->right); }) ==
           Lines{no, yes, no, yes});
-    CHECK(statuses(planar_body, [](System& system) { system.groupoid->left = system.groupoid->right; }) ==
+    CHECK(statuses(body, [](System& system) { system.groupoid->left = system.groupoid->right; }) ==
           Lines{no, no, yes, no});
     CHECK(statuses(
-              planar_body, [](System& system) { negate(system.graph, system.algebroid.bracket); }, &printed) ==
+              body, [](System& system) { negate(system.graph, system.algebroid.bracket); }, &printed) ==
           Lines{yes, yes, no, no});
     for (const char* part :
          {"\n  refuted    -dΘ⁻ = Ω_L\n             residual(E⁻_w, E⁻_u) ", "\n             at ",
@@ -121,8 +121,8 @@ TEST_CASE("a wrong sign, side or bracket is refuted")
 TEST_CASE("an algebroid that is not that of the groupoid beside it is refuted by the Cartan sections")
 {
     const auto beside = [](const char* sign) {
-        return statuses(planar_body + "[algebroid]\nkind = \"lie_algebra\"\n[algebroid.bracket]\n\"w,u\" = { v = \"" +
-                            sign + "1\" }\n\"w,v\" = { u = \"-1\" }\n",
+        return statuses(body + "[algebroid]\nkind = \"lie_algebra\"\n[algebroid.bracket]\n\"w,u\" = { v = \"" + sign +
+                            "1\" }\n\"w,v\" = { u = \"-1\" }\n",
                         [](System&) {});
     };
     CHECK(beside("") == Lines{"proved", "proved", "proved", "proved"});

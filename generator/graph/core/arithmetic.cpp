@@ -23,7 +23,7 @@ bool is_negative(const Graph& graph, NodeId id)
 }
 
 /// value^exponent, exponent != 0.
-Rational exact_power(const Rational& value, std::int64_t exponent)
+Rational number_to_power(const Rational& value, std::int64_t exponent)
 {
     const auto n = static_cast<unsigned long>(exponent < 0 ? -exponent : exponent);
     mpz_class numerator;
@@ -121,7 +121,7 @@ NodeId Graph::power(NodeId a, int exponent)
     const auto magnitude = static_cast<std::size_t>(exponent < 0 ? -std::int64_t{exponent} : std::int64_t{exponent});
     if (is_zero(a) || is_one(a)) return a;
     if (is_constant(a) && bits_of(value(a)) <= folded_bits / magnitude)
-        return constant(exact_power(value(a), exponent));
+        return constant(number_to_power(value(a), exponent));
     if (ops_[a] == Op::negate) {
         const NodeId positive = power(operands(a)[0], exponent);
         return exponent % 2 == 0 ? positive : negate(positive);
