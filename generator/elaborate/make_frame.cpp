@@ -14,7 +14,7 @@ namespace lagen {
 
 namespace {
 
-constexpr std::size_t most_minors_together = 64; ///< of which a common zero is looked for
+constexpr std::size_t most_minors = 64; ///< of which a common zero is looked for
 
 /// A matrix that is symmetric says most of its entries twice: those that are another one, up to sign, or 0.
 std::vector<std::size_t> without_repetitions(const Model& model)
@@ -84,9 +84,9 @@ std::string conditions_of(const Tree& minor)
     return text;
 }
 
-class LevelSetFrameBuilder {
+class FrameBuilder {
   public:
-    LevelSetFrameBuilder(const Model& model, const LevelSetRequest& request)
+    FrameBuilder(const Model& model, const LevelSetRequest& request)
         : model_(model), request_(request), n_(model.base.coordinates.size()), m_(model.base.constraints.size())
     {
         require_numbers();
@@ -220,11 +220,11 @@ class LevelSetFrameBuilder {
         do {
             const NodeId minor = rows_.minor(graph, kept);
             if (!graph.is_zero(minor)) functions.push_back(minor);
-        } while (functions.size() <= most_minors_together && next_places(kept, n_));
+        } while (functions.size() <= most_minors && next_places(kept, n_));
         std::map<NodeId, Rational> fixed;
         for (const auto& [name, value] : parameter_values(graph, model_)) {
             const auto exact = proof::Evaluation(graph, {value}).exactly({});
-            if (!exact || functions.size() > most_minors_together) return;
+            if (!exact || functions.size() > most_minors) return;
             fixed[graph.input(name)] = (*exact)[0];
         }
         const auto point = common_zero(graph, functions, x_, work_->setting().domain, fixed);
@@ -287,7 +287,7 @@ LevelSetFrame make_frame(const Model& model, const LevelSetRequest& request)
 {
     const std::vector<std::size_t> places = without_repetitions(model);
     const Model own = with_constraints(model, places);
-    LevelSetFrame frame = LevelSetFrameBuilder(own, request).make();
+    LevelSetFrame frame = FrameBuilder(own, request).make();
     frame.constraints = places;
     return frame;
 }
