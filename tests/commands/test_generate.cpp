@@ -55,7 +55,8 @@ TEST_CASE("twenty fresh processes (five for a long header) write the same bytes,
     check_fresh_processes(20);
 }
 
-// Where and with what environment the committed headers were written nobody knows: equal bytes say that it changes nothing.
+// Where and with what environment the committed headers were written nobody knows: equal bytes say that it changes
+// nothing.
 TEST_CASE("generated/ is what the models give today, from another folder and with a long environment", "[long]")
 {
     const std::string elsewhere = fresh_folder();
