@@ -193,11 +193,11 @@ ExitCode run_run(Arguments arguments)
 
     bool whole = !accurate || confirm_accuracy(*accurate, run.record(), run.input());
 
+    const std::vector<std::string> known = all_names(model);
     const InterruptsHeld held; // between programs, which they reach: rows are written first
     RunOutcome outcome = run.integrate();
-    if (is_interrupted(outcome)) return leave_rows(options, outcome.table, report_json(outcome), outcome.time);
+    if (is_interrupted(outcome)) return leave_rows(options, outcome.table, known, report_json(outcome), outcome.time);
     outcome.action = action_report(outcome, variations);
-    const std::vector<std::string> known = all_names(model);
     if (const std::string file = options.get("output"); !file.empty())
         write_file(file, file.ends_with(".json") ? report_json(outcome) : to_csv(outcome.table, known));
     std::string picture;

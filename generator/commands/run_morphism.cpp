@@ -200,7 +200,7 @@ ExitCode run_morphism(const Options& options, const std::shared_ptr<const Source
     const InterruptsHeld held; // between programs, which they reach: rows are written first
     const WholeRun here = run_of(source, asked);
     if (is_interrupted(here.outcome))
-        return leave_rows(options, here.outcome.table, report_of_source(here.outcome), here.outcome.time);
+        return leave_rows(options, here.outcome.table, {}, report_of_source(here.outcome), here.outcome.time);
     if (here.whole.count == 0) return tell_alone(options, here.outcome);
 
     LiftedTarget lifted;
@@ -218,7 +218,7 @@ ExitCode run_morphism(const Options& options, const std::shared_ptr<const Source
 
     const RunComparison comparison = compare(projection, here.whole, there.whole);
     if (is_interrupted(there.outcome))
-        return leave_rows(options, comparison.table, report_of(options, here.outcome, there.outcome, comparison),
+        return leave_rows(options, comparison.table, {}, report_of(options, here.outcome, there.outcome, comparison),
                           there.outcome.time);
     tell(options, here.outcome, there.outcome, comparison);
     const bool done = succeeded(here.outcome.status) && succeeded(there.outcome.status);

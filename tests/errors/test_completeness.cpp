@@ -118,9 +118,9 @@ TEST_CASE("the literals of a source are found with the calls around them")
 
 TEST_CASE("an example is known by the parts of its format, in their order")
 {
-    CHECK(is_made_from("error: the size 'n' is 5000, where", "the size {} is {}, where"));
-    CHECK_FALSE(is_made_from("is 5000, where the size", "the size {} is {}, where"));
-    CHECK(is_made_from("x = { y }", "x = {{ {} }}"));
+    CHECK(is_made_from("error: the size 'n' is 5000, where", fixed_parts("the size {} is {}, where")));
+    CHECK_FALSE(is_made_from("is 5000, where the size", fixed_parts("the size {} is {}, where")));
+    CHECK(is_made_from("x = { y }", fixed_parts("x = {{ {} }}")));
     CHECK(word_count("{} is {:02x} bytes, at most") == 4);
 }
 
@@ -133,7 +133,8 @@ TEST_CASE("every message of the generator has an example")
         for (const SourceText& literal : string_literals(lagen::testing::read_text(path))) {
             if (!is_message(path, literal)) continue;
             ++messages;
-            if (std::ranges::none_of(shown, [&](const std::string& text) { return is_made_from(text, literal.text); }))
+            const std::vector<std::string> parts = fixed_parts(literal.text);
+            if (std::ranges::none_of(shown, [&](const std::string& text) { return is_made_from(text, parts); }))
                 found.push_back(literal.text);
         }
     }

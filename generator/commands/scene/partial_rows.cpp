@@ -23,17 +23,18 @@ std::string partial_place(const std::string& output)
 
 } // namespace
 
-ExitCode leave_rows(const Options& options, const Table& rows, const std::string& report, const std::string& time)
+ExitCode leave_rows(const Options& options, const Table& rows, const std::vector<std::string>& known,
+                    const std::string& report, const std::string& time)
 {
     const std::string output = options.get("output");
     const bool as_json = options.get("format") == "json";
     std::string place = "on standard output";
     if (!output.empty()) {
         const std::string file = partial_place(output);
-        write_file(file, output.ends_with(".json") ? report : to_csv(rows));
+        write_file(file, output.ends_with(".json") ? report : to_csv(rows, known));
         place = fmt::format("in '{}'", file);
     }
-    if (as_json || output.empty()) write_standard_output(as_json ? report : to_csv(rows));
+    if (as_json || output.empty()) write_standard_output(as_json ? report : to_csv(rows, known));
     const std::string when = time.empty() ? "" : fmt::format(" at t = {:.9g}", std::strtod(time.c_str(), nullptr));
     write_standard_error(fmt::format("lagen: interrupted{}; {} so far {} {}\n", when,
                                      rows.count == 1 ? "the row" : fmt::format("the {} rows", rows.count),

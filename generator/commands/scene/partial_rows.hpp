@@ -8,7 +8,8 @@
 namespace lagen {
 
 /// Writes the rows where the run would have written them, but for a file, which is FILE.partial: what was there before
-/// stays. `report` is the object of JSON, `time` the last one of the run.
-ExitCode leave_rows(const Options& options, const Table& rows, const std::string& report, const std::string& time);
+/// stays. `known` as for to_csv, `report` is the object of JSON, `time` the last one of the run.
+ExitCode leave_rows(const Options& options, const Table& rows, const std::vector<std::string>& known,
+                    const std::string& report, const std::string& time);
 
 } // namespace lagen
